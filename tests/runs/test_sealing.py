@@ -84,7 +84,7 @@ def test_a_failed_run_leaves_its_rows_open(tmp_path: Path, monkeypatch: pytest.M
     def interrupted(*arguments: Any) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("uwsim.runs.executors.executor._miss_what_is_gone", interrupted)
+    monkeypatch.setattr("uwsim.runs.executors.executor._check_journals", interrupted)
     with pytest.raises(KeyboardInterrupt):
         run_each([run])
     assert b'"row"' in (run.out / "units" / "00000.jsonl").read_bytes()

@@ -211,11 +211,11 @@ def search_and_write(
     """Search, write and print the result."""
     from ..envelope.find import find, max_runs
     from ..envelope.plot import draw
-    from ..runs.execute import begun
+    from ..runs.execute import begin_runs
 
     [run], directory = execution.runs, options.directory
     asked = request.settings(options.seeds, options.search.confidence)
-    with begun(
+    with begin_runs(
         execution, prepare_directory(directory, resume=options.resume, overwrite=options.overwrite)
     ):
         title, most = f"{execution.title}, at most", max_runs(asked)
@@ -223,7 +223,7 @@ def search_and_write(
             envelope = find(run, request, asked, execution.executor, on_run)
         envelope.save(directory)
         draw(envelope, directory)
-        execution.save_provenance(run, {"wall_s": execution.stopwatch.passed()})
+        execution.save_provenance(run, {"wall_s": execution.stopwatch.elapsed_time()})
     tell(envelope, directory)
 
 

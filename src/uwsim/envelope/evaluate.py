@@ -135,9 +135,9 @@ class _JobQueue(JobQueue):
         """The result of the strategy; None until it ends."""
         self._start_tasks(next(strategy))
 
-    def done(self, job: Job) -> None:
+    def report_finish(self, job: Job) -> None:
         """Resume the task that waits for the run."""
-        super().done(job)
+        super().report_finish(job)
         values = dict(job.trial.levels[0].values)
         key = (job.trial.seed, values[self._runs.parameter])
         answer = self._runs.is_broken(*key)

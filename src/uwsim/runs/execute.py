@@ -1,7 +1,7 @@
 """Executing runs: requests -> plans -> runs -> rows, controls, provenance and reports.
 
 ``uwsim bench`` and `uwsim.bench` execute their runs here: `plan_all`, `prepare_execution`,
-`execute`. ``uwsim envelope`` executes the runs of its search within `begun`.
+`execute`. ``uwsim envelope`` executes the runs of its search within `begin_runs`.
 """
 
 from __future__ import annotations
@@ -25,9 +25,9 @@ from .executors.background import Jobs
 from .executors.choose import executor_of
 from .executors.executor import Executor, OnLevel, Outcome, run_each
 from .failed_algorithms import (
-    refuse_if_a_process_ended,
-    refuse_if_a_simulation_failed,
-    refuse_if_all_broke,
+    raise_if_all_failed,
+    raise_if_process_ended,
+    raise_if_simulation_failed,
 )
 from .foreign_code import announce_code
 from .planning.make_plan import make_plan, print_scene_warnings
@@ -40,40 +40,40 @@ from .sealing import is_foreign
 PACKAGES = ("mujoco", "numpy", "numba", "moderngl", "opencv-python-headless", "rosbags")
 """Packages whose versions are recorded."""
 Progress = Callable[[str, int, int], AbstractContextManager[OnLevel]]
-"""Shows how far runs are; takes their title, the number of levels, and how many are finished."""
+"""A function that shows progress, with title, number of levels, and number of finished ones."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Stopwatch:
-    """When a run began, and how long it has taken since.
+    """The start of a run, and the time since.
 
     The time of day may be set while a run lasts; durations are measured by a monotonic clock.
     """
 
-    began: float = field(default_factory=time.time)
-    """Time of day [s since 1970]."""
+    start_date: float = field(default_factory=time.time)
+    """The time of day at the start [s since 1970]."""
     start: float = field(default_factory=time.monotonic)
-    """The same moment on the clock that only runs [s]."""
+    """The same moment on the monotonic clock [s]."""
 
-    def passed(self) -> float:
-        """How long ago that was [s]."""
+    def elapsed_time(self) -> float:
+        """Return the time since the start [s]."""
         return time.monotonic() - self.start
 
 
 @dataclass(frozen=True, kw_only=True)
 class Execution:
-    """Runs that are executed together, and what is recorded of it."""
+    """Runs that are executed together, with the facts to record."""
 
     runs: Sequence[Run]
     """The runs of one benchmark, an algorithm each."""
     executor: Executor
-    """Who executes the trials."""
+    """The executor of the trials."""
     workers: str
-    """The same, as the command names it."""
+    """The executor, as the command names it."""
     command: Sequence[str] = ()
-    """What was typed behind ``uwsim``; nothing if a program runs it."""
+    """The arguments of ``uwsim``; empty if a program executes the runs."""
     stopwatch: Stopwatch = field(default_factory=Stopwatch)
-    """Runs since the files were read."""
+    """The clock, which runs since the files were read."""
 
     @property
     def title(self) -> str:
@@ -82,26 +82,27 @@ class Execution:
         return f"{Path(self.runs[0].plan.benchmark.path).stem} ({names})"
 
     def timing(self) -> dict[str, object]:
-        """Return when and how fast the runs were executed until now."""
-        wall, simulated = self.stopwatch.passed(), sum(run.simulated_s for run in self.runs)
-        began = datetime.datetime.fromtimestamp(self.stopwatch.began, datetime.UTC)
+        """Return the date and the speed of the runs until now."""
+        wall_time = self.stopwatch.elapsed_time()
+        simulated_time = sum(run.simulated_s for run in self.runs)
+        start_date = datetime.datetime.fromtimestamp(self.stopwatch.start_date, datetime.UTC)
         return {
-            "began": began.isoformat(),
+            "began": start_date.isoformat(),
             "algorithms": [run.plan.algorithm.name for run in self.runs],
-            "wall_s": wall,
-            "simulated_s": simulated,
-            "real_time_factor": simulated / wall if wall > 0.0 else None,
+            "wall_s": wall_time,
+            "simulated_s": simulated_time,
+            "real_time_factor": simulated_time / wall_time if wall_time > 0.0 else None,
             "workers": int(self.workers) if self.workers.isdigit() else self.workers,
         }
 
     def save_provenance(self, run: Run, facts: Mapping[str, object]) -> None:
-        """Write facts, command, machine and packages; none of it enters a score."""
-        own = {
+        """Write facts, command, machine and packages, which affect no score."""
+        environment = {
             "command": list(self.command),
             **machine(),
             "packages": {name: version(name) for name in PACKAGES},
         }
-        save_provenance({**facts, **own, **lasting_provenance(run.out)}, run.out)
+        save_provenance({**facts, **environment, **lasting_provenance(run.out)}, run.out)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -109,30 +110,30 @@ class Callbacks:
     """The functions that are called while runs are executed."""
 
     progress: Progress
-    """Shows how many levels are finished."""
+    """The display of the number of finished levels."""
     on_rows: Callable[[Run, Result], None] = lambda run, result: None
-    """Called when the rows of a run are complete, and its report is being drawn."""
+    """The callback when the rows of a run are complete, and its report is being drawn."""
     on_report: Callable[[Run, Result], None] = lambda run, result: None
-    """Called when the report of a run is drawn."""
+    """The callback when the report of a run is drawn."""
 
 
 def plan_all(
-    requests: Sequence[PlanRequest], workers: str, callback_limit: float, wrong: ErrorCollector
+    requests: Sequence[PlanRequest], workers: str, callback_limit: float, errors: ErrorCollector
 ) -> tuple[Executor | None, list[Plan]]:
-    """Choose the executor and make the plans; collects all errors.
+    """Choose the executor and make the plans; collect all errors.
 
     Args:
-        requests: what is asked for of each algorithm.
-        workers: how many, or ``ray``.
-        callback_limit: how long a call into an algorithm may take [s]; 0 for ever.
-        wrong: keeps what is wrong.
+        requests: the request for each algorithm.
+        workers: the number of workers, or ``ray``.
+        callback_limit: the longest call into an algorithm [s]; 0 for no limit.
+        errors: the collection of errors.
     """
     executor: Executor | None = None
-    with wrong.collect():
+    with errors.collect():
         executor = executor_of(workers, callback_limit)
     plans = []
     for request in requests:
-        with wrong.collect():
+        with errors.collect():
             plans.append(make_plan(request))
     return executor, plans
 
@@ -146,18 +147,18 @@ def prepare_execution(
     folders: Sequence[str] = (),
     command: Sequence[str] = (),
 ) -> Execution:
-    """Open the scene once and hash its files; prints its code and what in it is unlikely.
+    """Open the scene once and hash its files; print its code and warnings of unlikely values.
 
     Args:
         plans: plans of `plan_all` without an error, which differ in the algorithm alone.
-        executor: that of `plan_all`.
+        executor: the executor of `plan_all`.
         out: the result directory.
         workers: the executor, as the command names it.
-        folders: of each algorithm's result in ``out``; none where there is one algorithm.
-        command: what was typed behind ``uwsim``.
+        folders: the folders of the results in ``out``; none where there is one algorithm.
+        command: the arguments of ``uwsim``.
 
     Raises:
-        UwsimError: a file, a body, a camera or a service that is not there.
+        UwsimError: a file, a body, a camera or a service does not exist.
     """
     assert executor is not None
     stopwatch = Stopwatch()
@@ -170,12 +171,12 @@ def prepare_execution(
 
 
 @contextmanager
-def begun(execution: Execution, directory: AbstractContextManager[None]) -> Iterator[None]:
-    """Take the directory for the runs, and record in it that they have begun.
+def begin_runs(execution: Execution, directory: AbstractContextManager[None]) -> Iterator[None]:
+    """Lock the directory for the runs, and record their start in it.
 
     Args:
-        execution: what runs in this block; a system error there is a `RunFailed`.
-        directory: locks and empties the directory.
+        execution: the execution in this block; a system error there is a `RunFailed`.
+        directory: the context that locks and empties the directory.
     """
     with convert_to_run_failed(), directory:
         for run in execution.runs:
@@ -193,17 +194,17 @@ def execute(
     """Run one benchmark with each algorithm, and write all results.
 
     Args:
-        execution: what runs.
-        directory: locks and empties the result directory.
-        open_jobs: opens what makes controls and reports; None: there are none.
-        callbacks: called meanwhile.
+        execution: the runs to execute.
+        directory: the context that locks and empties the result directory.
+        open_jobs: returns the executor of controls and reports; None: there are none.
+        callbacks: the functions that are called meanwhile.
 
     Raises:
         UwsimError: the first failure; the other algorithms are run and written.
-        RunFailed: a simulation failed, or an algorithm broke in every row.
+        RunFailed: a simulation failed, or an algorithm failed in every row.
     """
     runs = execution.runs
-    with begun(execution, directory):
+    with begin_runs(execution, directory):
         if open_jobs is None:
             outcome = _run(execution, callbacks.progress)
             _save_provenances(execution, outcome)
@@ -211,16 +212,16 @@ def execute(
             with open_jobs() as jobs:
                 outcome = _run_with_controls(execution, jobs, callbacks.progress)
                 _save_provenances(execution, outcome)
-                for run, result in outcome.finished(runs):
-                    jobs.ask(run.out)
+                for run, result in outcome.finished_runs(runs):
+                    jobs.submit(run.out)
                     callbacks.on_rows(run, result)
                     jobs.wait()
                     callbacks.on_report(run, result)
         for _, error in outcome.failures:
             raise error
-        refuse_if_a_simulation_failed(runs, outcome.results)
-        refuse_if_a_process_ended(runs, outcome.results)
-        refuse_if_all_broke(runs, outcome.results)
+        raise_if_simulation_failed(runs, outcome.results)
+        raise_if_process_ended(runs, outcome.results)
+        raise_if_all_failed(runs, outcome.results)
         return outcome.results
 
 
@@ -228,8 +229,8 @@ def _run(execution: Execution, progress: Progress) -> Outcome:
     """Run all trials that are not finished."""
     runs = execution.runs
     total = sum(len(trial.levels) for run in runs for trial in run.plan.trials())
-    done = sum(run.n_finished() for run in runs)
-    with progress(execution.title, total, done) as on_level:
+    n_finished = sum(run.n_finished() for run in runs)
+    with progress(execution.title, total, n_finished) as on_level:
         return run_each(runs, execution.executor, on_level=on_level)
 
 
@@ -241,16 +242,16 @@ def _run_with_controls(execution: Execution, jobs: Jobs, progress: Progress) -> 
     """
     runs = execution.runs
     controls = [control_of(run) for run in runs if needs_control(run.plan)]
-    is_here = execution.workers in ("0", "1") and len(runs) == 1
-    waits = any(is_foreign(run.plan) for run in runs)
-    if is_here and not waits:
-        jobs, waits = jobs.local_jobs(), True
-    if controls and not waits:
-        jobs.ask(controls[0])
+    is_local = execution.workers in ("0", "1") and len(runs) == 1
+    must_wait = any(is_foreign(run.plan) for run in runs)
+    if is_local and not must_wait:
+        jobs, must_wait = jobs.local_jobs(), True
+    if controls and not must_wait:
+        jobs.submit(controls[0])
     outcome = _run(execution, progress)
-    if controls and outcome.finished(runs):
-        if waits:
-            jobs.ask(controls[0])
+    if controls and outcome.finished_runs(runs):
+        if must_wait:
+            jobs.submit(controls[0])
         _wait_for_controls(jobs, controls)
     return outcome
 
@@ -259,7 +260,7 @@ def _wait_for_controls(jobs: Jobs, controls: Sequence[Run]) -> None:
     """Wait for the control of a run; the results are complete without it."""
     try:
         jobs.wait()
-        for other in controls[1:]:  # the control looks at nothing: it is the same for all
+        for other in controls[1:]:  # the control uses no image: it is the same for all
             shutil.copytree(controls[0].out, other.out, dirs_exist_ok=True)
     except (RunFailed, OSError) as error:
         warn(f"the report lacks the control {CONTROL!r}, which failed: {error}")
@@ -268,6 +269,6 @@ def _wait_for_controls(jobs: Jobs, controls: Sequence[Run]) -> None:
 def _save_provenances(execution: Execution, outcome: Outcome) -> None:
     """Write the provenance of every run that is finished."""
     timing = execution.timing()
-    for run, _ in outcome.finished(execution.runs):
-        own = {"lost_workers": run.n_lost, "resumed": run.n_resumed}
-        execution.save_provenance(run, {**timing, **own})
+    for run, _ in outcome.finished_runs(execution.runs):
+        losses = {"lost_workers": run.n_lost, "resumed": run.n_resumed}
+        execution.save_provenance(run, {**timing, **losses})

@@ -12,7 +12,7 @@ from .trial.status import SIMULATION_ERROR, ended_its_process
 ALGORITHM_ERROR = "algorithm error"
 
 
-def refuse_if_a_simulation_failed(runs: Sequence[Run], results: Sequence[Result]) -> None:
+def raise_if_simulation_failed(runs: Sequence[Run], results: Sequence[Result]) -> None:
     """Raise an error if the simulation of a row failed; all files are written by then.
 
     Raises:
@@ -31,7 +31,7 @@ def refuse_if_a_simulation_failed(runs: Sequence[Run], results: Sequence[Result]
         )
 
 
-def refuse_if_all_broke(runs: Sequence[Run], results: Sequence[Result]) -> None:
+def raise_if_all_failed(runs: Sequence[Run], results: Sequence[Result]) -> None:
     """Raise an error if an algorithm failed in every row; all files are written by then.
 
     Raises:
@@ -46,7 +46,7 @@ def refuse_if_all_broke(runs: Sequence[Run], results: Sequence[Result]) -> None:
         raise RunFailed(f"Every row ended in {ALGORITHM_ERROR!r}: {'; '.join(texts)}.")
 
 
-def refuse_if_a_process_ended(runs: Sequence[Run], results: Sequence[Result]) -> None:
+def raise_if_process_ended(runs: Sequence[Run], results: Sequence[Result]) -> None:
     """Raise an error if an algorithm ended its process.
 
     Raises:

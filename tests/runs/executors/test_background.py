@@ -29,7 +29,7 @@ def test_draws_reports_and_says_in_a_line_what_it_cannot_do_and_goes_on(
     (tmp_path / "blocked" / "report.html").mkdir()
     with BackgroundProcess(load_reporter) as background:
         for name in ("nowhere", "blocked", "good"):
-            background.ask(tmp_path / name)
+            background.submit(tmp_path / name)
         with pytest.raises(RunFailed, match="no result here"):
             background.wait()
         with pytest.raises(RunFailed, match=r"^The report failed: .*Finished rows are kept"):
@@ -67,11 +67,11 @@ def test_what_it_was_asked_is_done_here_if_it_dies(tmp_path: Path) -> None:
         save(one_level(), tmp_path / name)
     with BackgroundProcess(load_reporter) as background:
         os.kill(background._process.pid or 0, signal.SIGSTOP)  # asked, and never answers
-        background.ask(tmp_path / "before")
+        background.submit(tmp_path / "before")
         background._process.kill()
         background._process.join()
-        background.ask(tmp_path / "after")
-        background.ask(tmp_path / "nowhere")
+        background.submit(tmp_path / "after")
+        background.submit(tmp_path / "nowhere")
         background.wait()
         assert not (tmp_path / "after" / "report.html").exists()
         background.wait()
@@ -86,7 +86,7 @@ def test_a_control_whose_process_died_on_the_way_has_the_same_bytes(tmp_path: Pa
     run(benchmark, tmp_path / "whole", algorithm="frozen")
     bench = bench_of(benchmark, tmp_path / "out", algorithm="frozen")
     with BackgroundProcess(load_reporter) as background:
-        background.ask(bench)
+        background.submit(bench)
         file = journal.path_of(bench.out, 0)
         while not file.exists() or len(file.read_text().splitlines()) < 2:
             time.sleep(0.01)

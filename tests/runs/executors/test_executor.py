@@ -19,7 +19,7 @@ from uwsim.results.journal import Journal
 from uwsim.results.result_file import load
 from uwsim.runs.executors import executor
 from uwsim.runs.executors.executor import Job, JobQueue, SerialExecutor, run_all
-from uwsim.runs.executors.processes import ProcessExecutor, picklable
+from uwsim.runs.executors.processes import ProcessExecutor, make_picklable
 from uwsim.simulation import Cut
 
 ALGORITHMS = "tests.runs.executors.algorithms"
@@ -114,10 +114,10 @@ def test_a_lost_unit_is_the_next_to_be_played_and_three_times_at_most(tmp_path: 
     first = queue.take()
     assert first is not None
     for _ in range(3):
-        queue.lost(first, "killed by SIGSEGV")
+        queue.report_loss(first, "killed by SIGSEGV")
         assert queue.take() is first
         assert queue.failure is None
-    queue.lost(first, "killed by SIGSEGV")
+    queue.report_loss(first, "killed by SIGSEGV")
     assert str(queue.failure) == (
         "trial 0 (esm, seed 0, fog=0.5) lost its worker 4 times, the last time killed by SIGSEGV. "
         "Finished rows are kept; continue with --resume."
@@ -131,10 +131,10 @@ def test_a_unit_that_is_lost_twice_in_one_call_is_played_without_it(tmp_path: Pa
     first = queue.take()
     assert first is not None
     for call in (7, None, 8):
-        queue.lost(first, "with exit status 0", call)
+        queue.report_loss(first, "with exit status 0", call)
         assert queue.take() is first
         assert first.cut is None
-    queue.lost(first, "with exit status 0", 7)
+    queue.report_loss(first, "with exit status 0", 7)
     assert queue.take() is first
     assert first.cut == Cut(7, "its process ended (with exit status 0)")
     assert queue.failure is None
@@ -209,10 +209,10 @@ def test_every_level_is_reported_once(tmp_path: Path) -> None:
     queue = JobQueue(jobs(tmp_path, 3), lambda: told.append(None))
     job = queue.take()
     assert job is not None
-    queue.level(job)
-    queue.lost(job, "killed by SIGKILL")  # with a second level on disk that it did not tell
-    queue.level(job)
-    queue.done(job)
+    queue.report_level(job)
+    queue.report_loss(job, "killed by SIGKILL")  # with a second level on disk that it did not tell
+    queue.report_level(job)
+    queue.report_finish(job)
     assert len(told) == 3
 
 
@@ -246,7 +246,7 @@ def test_an_error_that_cannot_be_pickled_is_reported_all_the_same() -> None:
     try:
         raise Odd("out of focus")
     except Odd as error:
-        back = picklable(error)
+        back = make_picklable(error)
     assert str(back) == "Odd: out of focus"
     assert "test_executor.py" in back.__notes__[-1]
 

@@ -1,7 +1,7 @@
 """A background process of a run: it draws the report, and runs the control of workers' trials.
 
-Both need no image and no OpenGL, and a run in one process leaves a core half idle. Started early,
-this one has loaded what reports need by the time it is asked. Should it die, the run does its jobs.
+Both need no image and no OpenGL, and a run in one process leaves a core half idle. It starts early
+and loads the code of reports before the first job. If it ends, the run executes its jobs.
 """
 
 from __future__ import annotations
@@ -26,15 +26,15 @@ if TYPE_CHECKING:
 Job: TypeAlias = Union["Run", Path]
 """A run to execute, or a result directory whose report is drawn."""
 Reporter = Callable[[], Callable[[Path], object]]
-"""Loads what draws the report of a result directory, which is heavy; returns it."""
+"""A function that imports and returns the function that draws a report; the import is slow."""
 
 
 class Jobs:
-    """Executes jobs one after the other in this process, each when it is waited for."""
+    """An executor of jobs in this process, each when `wait` is called."""
 
     def __init__(self, reporter: Reporter) -> None:
         self._reporter = reporter
-        self._asked: deque[Job] = deque()
+        self._queue: deque[Job] = deque()
 
     def __enter__(self) -> Self:
         return self
@@ -45,46 +45,46 @@ class Jobs:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
-        """Hold nothing."""
+        """Release nothing: jobs in this process hold no resource."""
 
     def local_jobs(self) -> Jobs:
-        """Return what executes such jobs in this process."""
+        """Return an executor of such jobs in this process."""
         return Jobs(self._reporter)
 
-    def ask(self, job: Job) -> None:
-        """Give it something to do."""
-        self._asked.append(job)
+    def submit(self, job: Job) -> None:
+        """Submit a job."""
+        self._queue.append(job)
 
     def wait(self) -> None:
-        """Wait until the oldest job that was not waited for is done.
+        """Wait for the oldest job that `wait` has not returned yet.
 
         Raises:
-            RunFailed: it could not be done.
+            RunFailed: the job failed.
         """
-        why = self._execute(self._asked.popleft())
-        if why is not None:
-            raise RunFailed(why)
+        reason = self._execute(self._queue.popleft())
+        if reason is not None:
+            raise RunFailed(reason)
 
     def _execute(self, job: Job) -> str | None:
-        """Do a job; returns why it could not be done."""
-        return _done(job, self._reporter)
+        """Execute a job; return the reason of a failure, else None."""
+        return _run_job(job, self._reporter)
 
 
 class BackgroundProcess(Jobs):
-    """Executes jobs one after the other in its own process, which ends with this one.
+    """An executor of jobs in its own process, which ends with this one.
 
-    A context manager: whatever the process was about when the block is left, it is stopped. The
-    main module of a program that starts one is imported there again.
+    A context manager: the process is killed at the end of the block. It imports the main module of
+    the program that starts it again.
     """
 
     def __init__(self, reporter: Reporter) -> None:
         super().__init__(reporter)
         context = multiprocessing.get_context("spawn")
-        self._here, there = context.Pipe()
+        self._pipe, child = context.Pipe()
         parent, self._parent = context.Pipe(duplex=False)
-        self._process = context.Process(target=_serve, args=(there, parent, reporter), daemon=True)
+        self._process = context.Process(target=_serve, args=(child, parent, reporter), daemon=True)
         start_ignoring_interrupts(self._process)
-        there.close()
+        child.close()
         parent.close()
 
     def __exit__(
@@ -95,42 +95,42 @@ class BackgroundProcess(Jobs):
     ) -> None:
         self._process.kill()
         self._process.join()
-        self._here.close()
+        self._pipe.close()
         self._parent.close()
 
-    def ask(self, job: Job) -> None:
-        """Give it something to do."""
-        super().ask(job)
-        with suppress(OSError):  # it is gone: `wait` sees to the job
-            self._here.send(job)
+    def submit(self, job: Job) -> None:
+        """Submit a job."""
+        super().submit(job)
+        with suppress(OSError):  # it has ended: `wait` executes the job
+            self._pipe.send(job)
 
     def _execute(self, job: Job) -> str | None:
-        """Wait for a job; do it here if the process is lost."""
+        """Wait for a job; execute it in this process if the other one is lost."""
         try:
-            return cast("str | None", self._here.recv())
-        except (EOFError, OSError):  # the process died
+            return cast("str | None", self._pipe.recv())
+        except (EOFError, OSError):  # the process has ended
             return super()._execute(job)
 
 
-def _serve(there: Connection, parent: Connection, reporter: Reporter) -> None:
+def _serve(pipe: Connection, parent: Connection, reporter: Reporter) -> None:
     """Execute jobs until the parent has ended or closes the pipe."""
     exit_with_parent(parent)
     ignore_casts()
-    with suppress(Exception):  # heavy, and loaded while the levels run; errors are reported below
+    with suppress(Exception):  # slow, so done while the levels run; errors are reported below
         reporter()
-    gc.freeze()  # what is loaded stays
-    with suppress(EOFError, OSError):  # the parent has gone
+    gc.freeze()  # loaded modules remain
+    with suppress(EOFError, OSError):  # the parent has ended
         while True:
-            there.send(_done(there.recv(), reporter))
+            pipe.send(_run_job(pipe.recv(), reporter))
 
 
-def _done(job: Job, reporter: Reporter) -> str | None:
-    """Do it; returns why it could not be done."""
+def _run_job(job: Job, reporter: Reporter) -> str | None:
+    """Execute a job; return the reason of a failure, else None."""
     try:
         if isinstance(job, Path):
             reporter()(job)
         else:
-            from .executor import run_all  # heavy, and needless for reports
+            from .executor import run_all  # slow to import, and not needed for reports
 
             run_all([job])
     except UwsimError as error:
@@ -138,6 +138,6 @@ def _done(job: Job, reporter: Reporter) -> str | None:
     except Exception as error:  # a full disk, a number that no plot can show
         from ...benchmark.plugin import raised
 
-        what = "The report" if isinstance(job, Path) else "The control"
-        return f"{what} failed: {raised(error)}. Finished rows are kept; continue with --resume."
+        name = "The report" if isinstance(job, Path) else "The control"
+        return f"{name} failed: {raised(error)}. Finished rows are kept; continue with --resume."
     return None

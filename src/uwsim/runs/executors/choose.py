@@ -1,4 +1,4 @@
-"""Choosing the executor of a run: ``--workers`` and ``--callback-limit``."""
+"""The choice of the executor of a run: ``--workers`` and ``--callback-limit``."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ if TYPE_CHECKING:
 
 RAY = "ray"
 MAX_WORKERS = 1024
-"""More processes than this on one machine are taken for a typing error."""
+"""The greatest number of processes; a greater one is taken for a typing error."""
 
 CALLBACK_LIMIT = 600.0
-"""Default of the longest call into an algorithm [s]."""
+"""The default of the longest call into an algorithm [s]."""
 
 
 def n_at_once(workers: str) -> int:
@@ -25,14 +25,14 @@ def n_at_once(workers: str) -> int:
 
 
 def executor_of(workers: str, callback_limit: float) -> Executor:
-    """Return who executes the trials.
+    """Return the executor of the trials.
 
     Args:
-        workers: how many, or ``ray``.
-        callback_limit: how long a call into an algorithm may take [s]; 0 for ever.
+        workers: the number of workers, or ``ray``.
+        callback_limit: the longest call into an algorithm [s]; 0 for no limit.
 
     Raises:
-        BadSetting: neither a number nor ``ray``, or no time.
+        BadSetting: the value is neither a number nor ``ray``, or not a time.
         MissingExtra: Ray is not installed.
     """
     from .executor import SerialExecutor

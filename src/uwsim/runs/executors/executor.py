@@ -1,8 +1,7 @@
 """The queue of trials, and the protocol of the executors that run them.
 
-An executor takes trials from the queue and tells it what became of them. The queue knows how often
-a trial has lost its worker, and whose trials are not worth running any more; an executor knows
-processors.
+An executor takes trials from the queue and reports their outcomes to it. The queue counts how often
+a trial has lost its worker, and skips the trials of failed runs; an executor manages processors.
 """
 
 from __future__ import annotations
@@ -28,16 +27,16 @@ from ..planning.trial_cache import TrialCache
 from ..run import Run
 from ..sealing import seal_runs
 from ..trial.trial_observer import TrialObserver
-from .worker import Event, JournalWriter, picklable, run_trial
+from .worker import Event, JournalWriter, make_picklable, run_trial
 
 OnLevel = Callable[[], None]
-KEPT = "Finished rows are kept; continue with --resume."
-"""What to do about a run that has failed."""
+RESUME_HINT = "Finished rows are kept; continue with --resume."
+"""The option that continues a failed run."""
 MAX_RETRIES = 3
-"""How often a trial is repeated after it has lost its worker."""
+"""The greatest number of repetitions of a trial that has lost its worker."""
 ENVIRONMENT = {"LP_NUM_THREADS": "0", "NUMBA_NUM_THREADS": "1"}
-"""Environment of a worker, unless the user has set it: one thread only, for there is one
-worker a core."""
+"""The environment of a worker, unless the user has set it: one thread only, as there is a worker
+for each core."""
 
 
 @dataclass(eq=False)
@@ -45,32 +44,32 @@ class Job:
     """A trial of one of the runs that are executed together."""
 
     run: Run
-    """Whose trial it is."""
+    """The run of the trial."""
     trial: Trial
     """The trial."""
     cut: Cut | None = None
-    """The call into the algorithm that it did not survive, or did not come back from."""
+    """The call into the algorithm that ended its process, or did not return."""
 
     def __str__(self) -> str:
         levels = self.trial.levels
-        which = ", ".join(f"{name}={value:g}" for name, value in levels[0].values)
-        levels_text = which if len(levels) == 1 else f"{len(levels)} levels"
+        level_text = ", ".join(f"{name}={value:g}" for name, value in levels[0].values)
+        levels_text = level_text if len(levels) == 1 else f"{len(levels)} levels"
         name = self.run.plan.algorithm.name
         return f"trial {self.trial.index} ({name}, seed {self.trial.seed}, {levels_text})"
 
 
 class Executor(Protocol):
-    """Executes trials."""
+    """The protocol of an executor of trials."""
 
     def execute(self, queue: JobQueue) -> None:
         """Take jobs from the queue until there are none, and report each."""
 
 
 class JobQueue:
-    """Waiting jobs, in order, and the outcomes of the finished ones.
+    """The queue of waiting jobs, in order, with the outcomes of the finished ones.
 
-    Where a trial fails, the rest of its run is skipped: it would fail alike. The other
-    benchmarks go on.
+    Where a trial fails, the rest of its run is skipped, as it would fail, too. The other runs
+    continue.
 
     Args:
         jobs: the trials to run.
@@ -79,12 +78,12 @@ class JobQueue:
 
     def __init__(self, jobs: Sequence[Job], on_level: OnLevel = lambda: None) -> None:
         self.failures: list[tuple[Run, Exception]] = []
-        """What went wrong first with whom, in that order."""
-        self._waiting = deque(jobs)
+        """The first failure of each run, in their order."""
+        self._jobs = deque(jobs)
         self._on_level = on_level
         self._losses: Counter[Job] = Counter()
-        self._calls_lost: set[tuple[Job, int]] = set()
-        self._to_come = {job: len(job.trial.levels) - job.run.n_rows(job.trial) for job in jobs}
+        self._lost_calls: set[tuple[Job, int]] = set()
+        self._n_open = {job: len(job.trial.levels) - job.run.n_rows(job.trial) for job in jobs}
 
     @property
     def failure(self) -> Exception | None:
@@ -93,106 +92,106 @@ class JobQueue:
 
     def add(self, job: Job) -> None:
         """Append a job; jobs may add others."""
-        self._waiting.append(job)
-        self._to_come[job] = len(job.trial.levels) - job.run.n_rows(job.trial)
+        self._jobs.append(job)
+        self._n_open[job] = len(job.trial.levels) - job.run.n_rows(job.trial)
 
     def __len__(self) -> int:
-        """How many jobs are waiting."""
-        return len(self._waiting)
+        """Return the number of waiting jobs."""
+        return len(self._jobs)
 
     def plans(self) -> tuple[Plan, ...]:
-        """Whose jobs are waiting."""
-        return tuple({id(job.run): job.run.plan for job in self._waiting}.values())
+        """Return the plans of the waiting jobs."""
+        return tuple({id(job.run): job.run.plan for job in self._jobs}.values())
 
     @property
     def is_sealed(self) -> bool:
-        """Whether a job that waits is of a run whose rows its algorithm must not read."""
-        return any(job.run.seal is not None for job in self._waiting)
+        """A flag: a waiting job belongs to a run whose rows its algorithm must not read."""
+        return any(job.run.seal is not None for job in self._jobs)
 
     def take(self) -> Job | None:
         """Take the next job; None when there is none now."""
-        return self._waiting.popleft() if self._waiting else None
+        return self._jobs.popleft() if self._jobs else None
 
-    def level(self, job: Job) -> None:
+    def report_level(self, job: Job) -> None:
         """Report a level that was not on disk before."""
-        if self._to_come[job] > 0:
-            self._to_come[job] -= 1
+        if self._n_open[job] > 0:
+            self._n_open[job] -= 1
             self._on_level()
 
-    def done(self, job: Job) -> None:
-        """It is finished and on disk."""
-        while self._to_come[job] > 0:
-            self.level(job)
+    def report_finish(self, job: Job) -> None:
+        """Report that a job is finished and on disk."""
+        while self._n_open[job] > 0:
+            self.report_level(job)
 
-    def lost(self, job: Job, why: str, call: int | None = None) -> None:
-        """Its worker is gone: repeat it next, unless that has happened too often.
+    def report_loss(self, job: Job, reason: str, call: int | None = None) -> None:
+        """Report the loss of a job's worker: repeat the job next, up to `MAX_RETRIES` times.
 
-        Where it goes in the same ``call`` once more that is the algorithm's doing: from then on the
-        trial is run without that call.
+        A second loss in the same ``call`` is due to the algorithm: from then on the trial is run
+        without that call.
         """
-        if call is not None and (job, call) in self._calls_lost:
-            self.stopped(job, Cut(call, f"{PROCESS_ENDED} ({why})"))
+        if call is not None and (job, call) in self._lost_calls:
+            self.report_stop(job, Cut(call, f"{PROCESS_ENDED} ({reason})"))
             return
         if call is not None:
-            self._calls_lost.add((job, call))
+            self._lost_calls.add((job, call))
         job.run.n_lost += 1
         self._losses[job] += 1
         if self._losses[job] <= MAX_RETRIES:
-            self._waiting.appendleft(job)
+            self._jobs.appendleft(job)
             return
-        times = self._losses[job]
-        self.failed(
+        n = self._losses[job]
+        self.report_failure(
             job,
-            RunFailed(f"{job} lost its worker {times} times, the last time {why}. {KEPT}"),
+            RunFailed(f"{job} lost its worker {n} times, the last time {reason}. {RESUME_HINT}"),
         )
 
-    def stopped(self, job: Job, cut: Cut) -> None:
-        """A call into the algorithm did not return: repeat the trial without it."""
+    def report_stop(self, job: Job, cut: Cut) -> None:
+        """Report a call into the algorithm that did not return: repeat the trial without it."""
         job.run.n_lost += 1
         job.cut = cut
-        self._waiting.appendleft(job)
+        self._jobs.appendleft(job)
 
-    def failed(self, job: Job, error: Exception) -> None:
-        """It failed."""
+    def report_failure(self, job: Job, error: Exception) -> None:
+        """Report the failure of a job."""
         if all(run is not job.run for run, _ in self.failures):
-            found = found_by_running(error)
-            if isinstance(found, ClientLost) or (
-                isinstance(found, NeverStarted) and job.run.n_finished() > 0
+            run_error = convert_run_error(error)
+            if isinstance(run_error, ClientLost) or (
+                isinstance(run_error, NeverStarted) and job.run.n_finished() > 0
             ):
-                found = type(found)(f"{found} {KEPT}")
-            self.failures.append((job.run, found))
-        self._waiting = deque(other for other in self._waiting if other.run is not job.run)
+                run_error = type(run_error)(f"{run_error} {RESUME_HINT}")
+            self.failures.append((job.run, run_error))
+        self._jobs = deque(other for other in self._jobs if other.run is not job.run)
 
 
-def found_by_running(error: Exception) -> Exception:
+def convert_run_error(error: Exception) -> Exception:
     """Return an exception of a job as a `RunFailed`, because all inputs were checked before.
 
-    All files were read, and all names looked up, before the first job; an error of the same kind
-    that comes now is one of the run (exit status 3, not 2).
+    All files were read, and all names resolved, before the first job; a later error of the same
+    kind is one of the run (exit status 3, not 2).
     """
     if isinstance(error, UwsimError) and not isinstance(error, RUN_ERRORS):
-        failed = RunFailed(str(error))
+        run_error = RunFailed(str(error))
     elif isinstance(error, OSError) and error.filename is not None:
-        failed = RunFailed(system_error_text(error))
+        run_error = RunFailed(system_error_text(error))
     else:
         return error
-    failed.__cause__ = error
-    return failed
+    run_error.__cause__ = error
+    return run_error
 
 
 class SerialExecutor:
-    """This process, one trial after the other.
+    """An executor in this process, one trial after the other.
 
     Args:
-        onlooker: looks on at each trial.
-        callback_limit: how long a call into an algorithm in a process of its own may take [s of
-            wall time]; None: for ever.
+        observer: the observer of each trial.
+        callback_limit: the longest call into an algorithm in a process of its own [s of wall
+            time]; None: no limit.
     """
 
     def __init__(
-        self, onlooker: TrialObserver | None = None, *, callback_limit: float | None = None
+        self, observer: TrialObserver | None = None, *, callback_limit: float | None = None
     ) -> None:
-        self._onlooker, self._limit = onlooker, callback_limit
+        self._observer, self._limit = observer, callback_limit
 
     def execute(self, queue: JobQueue) -> None:
         """Execute all jobs."""
@@ -201,38 +200,38 @@ class SerialExecutor:
             while (job := queue.take()) is not None:
                 calls = Calls(limit=self._limit)
                 try:
-                    for _ in run_and_record(job, cache, calls, self._onlooker):
-                        queue.level(job)
+                    for _ in run_and_record(job, cache, calls, self._observer):
+                        queue.report_level(job)
                 except Exception as error:
                     raise_if_interrupted()
-                    queue.failed(job, error)
+                    queue.report_failure(job, error)
                 except BaseException as error:
                     if is_user_interrupt(error):
                         raise
-                    queue.failed(job, picklable(error))
+                    queue.report_failure(job, make_picklable(error))
                 else:
-                    queue.done(job)
+                    queue.report_finish(job)
         finally:
             cache.close()
 
 
 def run_and_record(
-    job: Job, cache: TrialCache, calls: Calls, onlooker: TrialObserver | None = None
+    job: Job, cache: TrialCache, calls: Calls, observer: TrialObserver | None = None
 ) -> Iterator[Event]:
-    """Run a trial and write its journal; yields the levels that were not on disk before."""
+    """Run a trial and write its journal; yield for each level that was not on disk before."""
     if job.run.seal is not None:
         deny_access_to_memory()  # of this process, which may be a worker
     writer = JournalWriter(job.run, job.trial)
-    here = Path.cwd()  # an algorithm may go elsewhere
+    directory = Path.cwd()  # an algorithm may change the directory
     try:
-        for event in run_trial(job.run.plan, job.trial, cache, calls, onlooker, job.run.recorder):
+        for event in run_trial(job.run.plan, job.trial, cache, calls, observer, job.run.recorder):
             raise_if_interrupted()
-            with chdir(here):
-                is_new = writer.keep(event)
+            with chdir(directory):
+                is_new = writer.write(event)
             if is_new:
                 yield event
     finally:
-        os.chdir(here)
+        os.chdir(directory)
         writer.close()
 
 
@@ -241,15 +240,15 @@ class Outcome:
     """The outcome of runs that were executed together."""
 
     results: tuple[Result, ...]
-    """One each, as far as it ran; also on disk."""
+    """The results, one for each run, as far as it ran; also on disk."""
     failures: tuple[tuple[Run, Exception], ...]
-    """Runs that failed, and why, in the order in which it happened."""
+    """The failed runs with their errors, in the order of the failures."""
 
-    def finished(self, runs: Sequence[Run]) -> list[tuple[Run, Result]]:
-        """Return those of the runs that did not fail, with their results."""
-        failed = {id(run) for run, _ in self.failures}
+    def finished_runs(self, runs: Sequence[Run]) -> list[tuple[Run, Result]]:
+        """Return the runs that did not fail, with their results."""
+        failed_ids = {id(run) for run, _ in self.failures}
         pairs = zip(runs, self.results, strict=True)
-        return [(run, result) for run, result in pairs if id(run) not in failed]
+        return [(run, result) for run, result in pairs if id(run) not in failed_ids]
 
 
 def run_each(
@@ -258,8 +257,8 @@ def run_each(
     """Execute the unfinished trials of some runs, and write their results.
 
     Args:
-        runs: what to execute; their trials share the same workers.
-        executor: who executes the trials; without one, this process.
+        runs: the runs to execute; their trials share the same workers.
+        executor: the executor of the trials; None for this process.
         on_level: called for every level that was not on disk before.
     """
     jobs = [Job(run, trial) for run in runs for trial in run.begin()]
@@ -267,32 +266,32 @@ def run_each(
     with seal_runs(runs):
         try:
             (executor or SerialExecutor()).execute(queue)
-            _miss_what_is_gone(runs, queue)
+            _check_journals(runs, queue)
         finally:
             results = tuple(run.write() for run in runs)
     return Outcome(results=results, failures=tuple(queue.failures))
 
 
-def _miss_what_is_gone(runs: Sequence[Run], queue: JobQueue) -> None:
+def _check_journals(runs: Sequence[Run], queue: JobQueue) -> None:
     """Fail a run if a finished trial is not on disk any more."""
     for run in runs:
         for trial in run.unfinished_trials()[:1]:
             name = path_of(run.out, trial.index)
             message = "was run, but its file is incomplete now. Continue with --resume."
             job = Job(run, trial)
-            queue.failed(job, RunFailed(f"{name}: {job} {message}"))
+            queue.report_failure(job, RunFailed(f"{name}: {job} {message}"))
 
 
 def run_all(
     runs: Sequence[Run], executor: Executor | None = None, *, on_level: OnLevel = lambda: None
 ) -> tuple[Result, ...]:
-    """As `run_each`; raises the first failure.
+    """Execute runs as `run_each` does, and raise the first failure.
 
     Raises:
         NeverStarted: a start trigger never went on.
-        ResultError: what is stored belongs to another run, or cannot be reproduced.
+        ResultError: a stored trial belongs to another run, or cannot be reproduced.
         RunFailed: a trial lost its worker too often.
-        UwsimError: whatever else was the first to go wrong. What is finished is kept, and written.
+        UwsimError: the first other failure. Finished rows are kept, and written.
     """
     outcome = run_each(runs, executor, on_level=on_level)
     for _, error in outcome.failures:

@@ -1,7 +1,7 @@
-"""Ending a process when its parent ends, however that happens.
+"""The end of a process when its parent ends, for any reason.
 
-The employer holds one end of a pipe that nobody writes into. The system closes it with the
-employer, and the process at the other end notices at once.
+The parent holds one end of a pipe that has no writer. The system closes it with the parent, and the
+process at the other end detects this at once.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from ...base.interrupts import block_interrupts
 
 def start_ignoring_interrupts(process: BaseProcess) -> None:
     """Start a process that ignores Ctrl-C, which its parent handles."""
-    resource_tracker.ensure_running()  # else it starts with the process, and lets Ctrl-C through
+    resource_tracker.ensure_running()  # else it starts with the process, and Ctrl-C reaches it
     with block_interrupts():
         process.start()
 

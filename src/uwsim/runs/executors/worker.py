@@ -1,7 +1,7 @@
-"""Executing a trial in a worker, and writing its journal next to the result.
+"""The execution of a trial in a worker, and the writing of its journal next to the result.
 
-The two may be on different machines: what goes from one to the other is numbers, text and the bytes
-of images, never a path.
+The two may be on different machines, which exchange numbers, text and the bytes of images, never a
+path.
 """
 
 from __future__ import annotations
@@ -35,32 +35,32 @@ IMAGES = "pictures"
 
 @dataclass(frozen=True, kw_only=True)
 class LevelEnded:
-    """A level is over: its row as it is stored, and its images."""
+    """The end of a level, with its row to store and its images."""
 
     row: StoredRow
     """The row."""
     images: tuple[tuple[str, bytes], ...]
-    """Name in the result directory, and PNG."""
+    """The name in the result directory and the PNG of each image."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class TrialEnded:
-    """A trial is over."""
+    """The end of a trial."""
 
     end: StoredEnd
-    """Its end."""
+    """The record of the end."""
     motion: bytes = b""
     """The file of its motion track."""
     inputs: bytes = b""
-    """What a pilot did; empty where nobody pilots."""
+    """The inputs of a pilot; empty without a pilot."""
 
 
 @dataclass(frozen=True)
 class TrialFailed:
-    """A trial could not be run."""
+    """The failure of a trial."""
 
     error: Exception
-    """Why, as it was raised over there."""
+    """The error, as the worker raised it."""
 
 
 Event = LevelEnded | TrialEnded
@@ -71,23 +71,23 @@ def run_trial(
     trial: Trial,
     cache: TrialCache,
     calls: Calls | None = None,
-    onlooker: TrialObserver | None = None,
+    observer: TrialObserver | None = None,
     recorder: TrialRecorder | None = None,
 ) -> Iterator[Event]:
-    """Run a trial; yields each level as it ends, and finally the end of the trial.
+    """Run a trial; yield each level as it ends, and finally the end of the trial.
 
     Args:
         plan: the benchmark to run.
         trial: one of its trials.
-        cache: keeps what does not change from trial to trial.
-        calls: counts those into the algorithm.
-        onlooker: looks on between the steps.
-        recorder: writes down the messages.
+        cache: the cache of scenes and renderers.
+        calls: the counter of calls into the algorithm.
+        observer: the observer between the steps.
+        recorder: the recorder of the messages.
 
     Raises:
         NeverStarted: the start trigger did not go on within the benchmark's patience.
     """
-    outcomes = execute(plan, trial, cache=cache, calls=calls, observer=onlooker, recorder=recorder)
+    outcomes = execute(plan, trial, cache=cache, calls=calls, observer=observer, recorder=recorder)
     for n, outcome in enumerate(outcomes):
         if isinstance(outcome, TrialEnd):
             yield TrialEnded(end=_end(outcome), motion=outcome.motion, inputs=outcome.inputs)
@@ -105,7 +105,7 @@ def run_trial(
 
 
 class JournalWriter:
-    """Writes the events of a trial to its journal; compares them with rows already there.
+    """A writer of the events of a trial to its journal; rows already there are compared.
 
     Raises:
         ReplayDiffers: a repeated row differs from the stored one.
@@ -119,15 +119,15 @@ class JournalWriter:
         self._seal = run.seal
         self._file = journal.Journal(run.out, trial.index, run.head(trial), run.seal)
 
-    def keep(self, event: Event) -> bool:
-        """Write it; returns whether it is a level that was not on disk before."""
+    def write(self, event: Event) -> bool:
+        """Write an event; return whether it is a level that was not on disk before."""
         self._watch.check()
         if isinstance(event, TrialEnded):
             with atomic_write(self._track) as draft:
-                draft.write_bytes(self._sealed(event.motion))
+                draft.write_bytes(self._seal_data(event.motion))
             if event.inputs:
                 with atomic_write(self._track.with_suffix(journal.INPUTS)) as draft:
-                    draft.write_bytes(self._sealed(event.inputs))
+                    draft.write_bytes(self._seal_data(event.inputs))
             self._file.finish(event.end)
             return False
         for name, png in event.images:
@@ -137,20 +137,20 @@ class JournalWriter:
         return self._file.add(event.row)
 
     def close(self) -> None:
-        """Close the trial's file; what was kept is on disk."""
+        """Close the trial's file; written events are on disk."""
         self._file.close()
 
-    def _sealed(self, data: bytes) -> bytes:
+    def _seal_data(self, data: bytes) -> bytes:
         return data if self._seal is None else self._seal.file(data)
 
 
-def picklable(error: BaseException) -> Exception:
+def make_picklable(error: BaseException) -> Exception:
     """Return the error with its traceback as a note, or an equivalent that can be pickled."""
     error.add_note("".join(traceback.format_exception(error)).rstrip())
     try:
-        back = pickle.loads(pickle.dumps(error))
-        same = type(back) is type(error) and str(back) == str(error)
-        if same and isinstance(error, Exception):
+        copy = pickle.loads(pickle.dumps(error))
+        is_same = type(copy) is type(error) and str(copy) == str(error)
+        if is_same and isinstance(error, Exception):
             return error
     except Exception:
         pass

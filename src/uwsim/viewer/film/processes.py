@@ -16,7 +16,7 @@ from ...base.environment import set_environment
 from ...errors import RunFailed
 from ...runs.executors.executor import ENVIRONMENT
 from ...runs.executors.parent_watch import exit_with_parent, start_ignoring_interrupts
-from ...runs.executors.worker import picklable
+from ...runs.executors.worker import make_picklable
 from ...runs.own_process.process import describe_exit
 from ..recorded import RecordedTrial
 from .encoder import Chapter, Packing
@@ -134,7 +134,7 @@ def draw_blocks(
         finally:
             reel.close()
     except Exception as error:
-        frames.put(ERROR_PREFIX + pickle.dumps(picklable(error)))
+        frames.put(ERROR_PREFIX + pickle.dumps(make_picklable(error)))
     finally:
         frames.put(None)
         sender.join()

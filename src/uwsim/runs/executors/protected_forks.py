@@ -1,9 +1,9 @@
-"""Processes whose memory other processes of the user cannot open, from their beginning on.
+"""Processes whose memory is closed to the user's other processes from their start.
 
-A process that is started as a program can be opened until it denies that itself, and who has opened
-it keeps the access. A fork inherits the denial. So the workers of a sealed run are forks of a
-process, the *fork server*, that denied it before any code of an algorithm ran. Where the fork
-server has ended, no other one takes its place: an algorithm could have opened that.
+Other processes can open the memory of a program until it denies access itself, and an open handle
+remains valid. A fork inherits the denial. So the workers of a sealed run are forks of a process,
+the *fork server*, that denied access before any code of an algorithm ran. A fork server that has
+ended is not replaced, as an algorithm could open the memory of the new one.
 """
 
 from __future__ import annotations
@@ -22,30 +22,30 @@ from ...errors import RunFailed
 from .parent_watch import start_ignoring_interrupts
 
 SERVER_ENDED = (
-    "The process that starts the workers of this run has ended; those of another one could be "
-    "looked into by the algorithm. Continue with --resume."
+    "The process that starts the workers of this run has ended. The algorithm could read the "
+    "memory of other workers. Continue with --resume."
 )
-CLOSED = f"{__package__}.closed"
+PROTECTION_MODULE = f"{__package__}.protect_memory"
 """The module that the fork server imports first."""
 
 
-class ClosedForks:
-    """Makes and starts the workers of one sealed run."""
+class ProtectedForks:
+    """The processes of the workers of one sealed run."""
 
     def __init__(self) -> None:
         self._context = multiprocessing.get_context("forkserver")
-        self._context.set_forkserver_preload([CLOSED])
+        self._context.set_forkserver_preload([PROTECTION_MODULE])
         self._server: int | None = None
 
     def make(
         self, target: Callable[..., None], arguments: tuple[Any, ...], settings: Mapping[str, str]
     ) -> BaseProcess:
-        """Return a process that is to be started.
+        """Return a process that is not started yet.
 
         Args:
-            target: what it runs.
-            arguments: of the target.
-            settings: environment variables that it gets unless the user has set them.
+            target: the function that it runs.
+            arguments: the arguments of the function.
+            settings: its environment variables, unless the user has set them.
         """
         name = (target.__module__, target.__qualname__)  # imported there, in its environment
         variables = {**settings, **os.environ}  # those of the fork server may be older
@@ -55,7 +55,7 @@ class ClosedForks:
         """Start a process, as a fork of the first fork server.
 
         Raises:
-            RunFailed: that has ended; a process that another one started is killed.
+            RunFailed: the fork server has ended; a process of another fork server is killed.
         """
         try:
             start_ignoring_interrupts(process)
@@ -75,7 +75,7 @@ def begin(
     """Run a function, named by its module and its name, with these environment variables."""
     os.environ.clear()
     os.environ.update(variables)
-    importlib.import_module(CLOSED)  # where a program had started a fork server of its own before
+    importlib.import_module(PROTECTION_MODULE)  # if the program had started a fork server before
     getattr(importlib.import_module(target[0]), target[1])(*arguments)
 
 
@@ -86,6 +86,6 @@ def parent_of(pid: int | None) -> int | None:
     return None
 
 
-def closes_forks() -> bool:
-    """Whether this system has processes that can be closed."""
+def can_protect_forks() -> bool:
+    """Return whether this system has processes whose memory can be closed."""
     return sys.platform == "linux"

@@ -15,9 +15,9 @@ import pytest
 from tests.support.cheat_trials import FOLDER, Holds, bench_of
 from uwsim.base.environment import set_environment
 from uwsim.errors import RunFailed
-from uwsim.runs.executors.closed_forks import ClosedForks, parent_of
 from uwsim.runs.executors.executor import run_each
 from uwsim.runs.executors.processes import ProcessExecutor
+from uwsim.runs.executors.protected_forks import ProtectedForks, parent_of
 
 pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="prctl is Linux's")
 IS_DUMPABLE = 3
@@ -32,7 +32,7 @@ def tell(pipe: Connection) -> None:
 
 
 def test_a_worker_is_closed_before_it_runs_anything() -> None:
-    forks = ClosedForks()
+    forks = ProtectedForks()
     ours, theirs = multiprocessing.get_context("forkserver").Pipe()
     process = forks.make(tell, (theirs,), {"UWSIM_TEST_SETTING": "1"})
     forks.start(process)
@@ -43,7 +43,7 @@ def test_a_worker_is_closed_before_it_runs_anything() -> None:
 
 
 def test_a_worker_has_the_environment_of_now(monkeypatch: pytest.MonkeyPatch) -> None:
-    forks = ClosedForks()
+    forks = ProtectedForks()
     for value in ("before", "after"):
         monkeypatch.setenv("UWSIM_TEST_SETTING", value)
         ours, theirs = multiprocessing.get_context("forkserver").Pipe()
@@ -56,7 +56,7 @@ def test_a_worker_has_the_environment_of_now(monkeypatch: pytest.MonkeyPatch) ->
 
 @pytest.mark.parametrize("is_noticed", [True, False])
 def test_no_other_process_takes_the_place_of_the_one_that_starts_workers(is_noticed: bool) -> None:
-    forks = ClosedForks()
+    forks = ProtectedForks()
     ours, theirs = multiprocessing.get_context("forkserver").Pipe()
     first = forks.make(tell, (theirs,), {})
     forks.start(first)

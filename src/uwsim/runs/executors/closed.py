@@ -1,5 +1,0 @@
-"""Importing this module closes the memory of the process to others (`ClosedForks`)."""
-
-from ...results.seal import deny_access_to_memory
-
-deny_access_to_memory()
