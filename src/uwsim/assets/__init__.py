@@ -73,15 +73,12 @@ def load_model(
     path = _model_path(name, named_by, data_path)
     requested_name, name = name, plain_name(name)
     if path is not None:
-        if (in_package := package_of(requested_name)) is not None and in_package[
-            0
-        ] != UWSIM_PACKAGE:
+        in_package = package_of(requested_name)
+        if in_package is not None and in_package[0] != UWSIM_PACKAGE:
             name = "/".join(in_package)
         places = [*roots(named_by=named_by or path, data_path=data_path), *environment_folders()]
-        search_root = max(
-            places, key=lambda root: len(root.parts) if is_inside(path, [root]) else -1
-        )
-        allowed_folders = (search_root.absolute(), *data_path)
+        root = max(places, key=lambda root: len(root.parts) if is_inside(path, [root]) else -1)
+        allowed_folders = (root.absolute(), *data_path)
         return read_model(path, name=name, allowed_folders=allowed_folders)
     stand_in = _stand_in_of(requested_name, named_by, data_path)
     if stand_in is not None:

@@ -87,5 +87,4 @@ def _parse_number(text: str) -> float:
 
 
 def _tag(element: Element) -> str:
-    """Return the tag without its namespace."""
     return str(element.tag).rpartition("}")[2]

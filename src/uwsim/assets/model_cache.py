@@ -69,7 +69,6 @@ def _key() -> str:
 
 
 def _store(model: Model, file: Path) -> None:
-    """Write a model and its textures."""
     arrays: dict[str, Any] = {"sha256": np.array(model.sha256)}
     for i, mesh in enumerate(model.meshes):
         for name in _ARRAYS:
@@ -127,7 +126,6 @@ def _texture(name: str, file: Path) -> Texture:
 
 
 def _read_arrays(file: Path) -> Arrays:
-    """Read the arrays that `_write` wrote."""
     data = disk_cache.read(file)
     if data is None:
         raise CacheMiss

@@ -76,7 +76,6 @@ def location_remark(
 
 
 def _is_different_file(other: Path, path: Path) -> bool:
-    """Return whether there is another file, with other content."""
     try:
         return other != path and other.is_file() and not filecmp.cmp(other, path, shallow=False)
     except (OSError, ValueError):

@@ -20,8 +20,6 @@ class StandIn:
 
 
 def _model(module: str, maker: str) -> StandIn:
-    """Return a model by a function in ``procedural/``, imported at its first call."""
-
     def make() -> tuple[Mesh, ...]:
         from importlib import import_module
 
@@ -34,8 +32,6 @@ def _model(module: str, maker: str) -> StandIn:
 
 
 def _box(label: str, x: float, y: float, z: float) -> StandIn:
-    """Return a labelled box with these edges [m]."""
-
     def make() -> tuple[Mesh, ...]:
         from .procedural.placeholder import labelled_box
 

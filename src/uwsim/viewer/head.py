@@ -418,7 +418,6 @@ def _orbit(simulation: Simulation) -> Json:
 
 
 def _file_view(simulation: Simulation) -> Json | None:
-    """Return the viewer's camera of the file; None without one."""
     camera = simulation.world.model.scene.camera
     if camera is None or camera.position == camera.look_at:
         return None
@@ -441,5 +440,4 @@ def _mount_fields(bodies: _Bodies, name: str, world_from_part: Pose) -> Json:
 
 
 def _row_of(pose: Pose) -> list[float]:
-    """Return position and quaternion wxyz."""
     return [float(f"{value:.9g}") for value in (*pose.position, *pose.quaternion)]

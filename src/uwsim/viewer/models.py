@@ -97,7 +97,6 @@ class Models:
 
 
 def _encode_webp(pixels: npt.NDArray[np.uint8], **options: Any) -> bytes:
-    """Encode an image (h, w, 3 or 4) as WebP."""
     stream = io.BytesIO()
     Image.fromarray(pixels).save(stream, "WEBP", exact=True, **options)
     return stream.getvalue()

@@ -111,7 +111,6 @@ def _transforms(trial: RecordedTrial) -> Iterator[tuple[float, TFMessage]]:
 
 
 def _other_messages(trial: RecordedTrial, simulation: Simulation) -> Iterator[Message]:
-    """Yield the messages of the robot, the levels and the measures."""
     robots = simulation.world.model.robots
     if robots and (file := Path(robots[0].path)).is_file():
         yield 0.0, "/robot_description", String(data=file.read_text(encoding="utf-8"))

@@ -137,7 +137,6 @@ def _moved_poses(trial: RecordedTrial, initial_poses: Mapping[str, list[float]])
 
 
 def _trial(trial: RecordedTrial, blob: Blob) -> Json:
-    """Describe a trial in the format of `head`."""
     motion = journal.track_path(trial.directory, trial.index).read_bytes()
     return {
         "title": trial.title,

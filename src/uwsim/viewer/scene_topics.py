@@ -105,7 +105,6 @@ class SceneTopics:
         )
 
     def _make_latched_messages(self) -> Iterator[tuple[str, Any]]:
-        """Yield the latched messages."""
         world = self._simulation.world
         robots = world.model.robots
         if robots and (file := Path(robots[0].path)).is_file():

@@ -136,7 +136,6 @@ def _read_checked(path: Path, name: str, original: Path | None) -> bytes:
 
 
 def _limit_error(data: bytes, suffix: str) -> str:
-    """Report which limit a file exceeds, before it is loaded; empty if none."""
     if suffix == ".dae":
         return collada_limits.limit_error(data)
     return gltf_limits.limit_error(data, suffix) if suffix in (".gltf", ".glb") else ""
@@ -192,13 +191,10 @@ def _parts(
                 posed_parts, remarks = _read_by_trimesh(data, suffix, references), ()
         finally:
             references.check()
-        meshes = [
-            posed_part for posed_part in posed_parts if isinstance(posed_part[1], trimesh.Trimesh)
-        ]
+        meshes = [item for item in posed_parts if isinstance(item[1], trimesh.Trimesh)]
         _check_triangle_count(path, sum(len(part.faces) for _, part in meshes))
-        return [
-            (_transform_part(part, transform), part.visual) for transform, part in meshes
-        ], remarks
+        parts = [(_transform_part(part, transform), part.visual) for transform, part in meshes]
+        return parts, remarks
 
 
 def _read_by_trimesh(data: bytes, suffix: str, references: References) -> list[tuple[Any, Any]]:

@@ -92,5 +92,4 @@ class _Counts:
 
 
 def _tag(element: Element) -> str:
-    """Return the tag without its namespace."""
     return str(element.tag).rpartition("}")[2]

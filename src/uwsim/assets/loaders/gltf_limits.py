@@ -93,6 +93,4 @@ def _size_error(tree: dict[str, Any]) -> str:
 
 def _entries(tree: dict[str, Any], kind: str) -> list[dict[str, Any]]:
     entries = tree.get(kind)
-    return (
-        [entry for entry in entries if isinstance(entry, dict)] if isinstance(entries, list) else []
-    )
+    return [e for e in entries if isinstance(e, dict)] if isinstance(entries, list) else []

@@ -189,7 +189,6 @@ class _Rewriter:
         primitive["material"] = len(self._tree["materials"]) - 1
 
     def _set_fan(self, primitive: Tree) -> None:
-        """Write a fan as triangles."""
         if "indices" in primitive:
             corners = self._values(primitive["indices"]).astype("<u4").ravel()
         else:
@@ -258,7 +257,6 @@ class _Rewriter:
         return self._read[index]
 
     def _add(self, values: Numbers, component: int, kind: str) -> int:
-        """Add an accessor with these numbers and return its index."""
         self._has_changed = True
         data = np.ascontiguousarray(values, DTYPES[component]).tobytes()
         view = {

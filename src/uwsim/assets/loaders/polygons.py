@@ -42,7 +42,6 @@ def triangulate(points: Points, counts: Indices) -> Indices:
 
 
 def _fans(starts: Indices, counts: Indices) -> Indices:
-    """Return the triangles of each polygon from its first corner."""
     n = np.maximum(counts - 2, 0)
     owner = np.repeat(np.arange(len(counts)), n)
     fan_index = np.arange(n.sum()) - np.repeat(np.cumsum(n) - n, n)

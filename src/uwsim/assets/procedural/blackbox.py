@@ -40,7 +40,6 @@ def _paint(name: str, height: int, width: int) -> Pixels:
 
 
 def _paint_bars(image: Pixels, left: float, right: float, period: float) -> None:
-    """Paint slanted hazard bars between two fractions of the width."""
     height, width = image.shape[:2]
     x, y = np.arange(width)[None, :], np.arange(height)[:, None]
     is_ink = ((x + y) % (period * height) < 0.5 * period * height) & (x >= left * width)

@@ -34,7 +34,6 @@ def select_curves(level: RecordedLevel, names: tuple[str, ...]) -> list[Curve]:
 
 
 def _drop_empty(curves: tuple[Curve, ...]) -> list[Curve]:
-    """Return the curves that have a value."""
     return [curve for curve in curves if np.isfinite(curve.values).any()]
 
 
@@ -93,7 +92,6 @@ class CurvePanel:
             write_text(frame, value, corner, self._letter_height, GREY, right=True)
 
     def _arrange(self, curves: list[Curve]) -> list[_Cell]:
-        """Return the cells: two rows where there are more than two curves."""
         if not curves:
             return []
         n_rows = min(2, len(curves)) if len(curves) > 1 else 1

@@ -255,7 +255,6 @@ class WebpEncoder:
 
 
 def _metadata(chapters: Sequence[Chapter]) -> str:
-    """Return the chapters in the format of ffmpeg."""
     lines = [";FFMETADATA1"]
     for chapter in chapters:
         lines += ["[CHAPTER]", "TIMEBASE=1/1000", f"START={round(1000 * chapter.start)}"]

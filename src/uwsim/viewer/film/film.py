@@ -423,7 +423,6 @@ def centre_image(image: Pixels, size: tuple[int, int]) -> Pixels:
 
 
 def _check_curves(trial: RecordedTrial, spec: FilmSpec) -> None:
-    """Reject measures that have no log."""
     curves = [curve for level in trial.levels for curve in (*level.curves, *level.details)]
     measures = dict.fromkeys(curve.measure for curve in curves)
     for name in spec.curves:

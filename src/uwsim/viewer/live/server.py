@@ -300,7 +300,6 @@ def _requested_channels(message: Message, channels: frozenset[str]) -> frozenset
 
 
 def _parse_message(text: str | bytes) -> Message | None:
-    """Parse a message; None if it is invalid."""
     if not isinstance(text, str):
         return None
     try:

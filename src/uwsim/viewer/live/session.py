@@ -159,7 +159,6 @@ class LiveSession:
         self._clock.count_step()
 
     def _handle_requests(self, view: LiveView) -> None:
-        """Apply the viewers' requests, and publish what is due."""
         changes = self._requests.receive()
         if Changes.PACE in changes:
             self._publish_state()

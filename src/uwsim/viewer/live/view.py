@@ -164,7 +164,6 @@ class LiveView:
         )
 
     def _send_samples(self) -> None:
-        """Send the samples of all logs since the last time."""
         if not self._measures:
             return
         start = self._levels[-1]["start"]
@@ -192,7 +191,6 @@ class LiveView:
             self._server.publish(channel, text)
 
     def _send_markers(self) -> None:
-        """Send the spawned markers, if they have changed."""
         world = self._simulation.world
         spawned_markers = world.markers.shown
         if list(map(id, spawned_markers.values())) == list(map(id, self._markers.values())):
@@ -202,7 +200,6 @@ class LiveView:
         self._server.publish("markers", json.dumps({"type": "markers", "markers": markers}))
 
     def _send_sand(self) -> None:
-        """Send the heaps of sand that have changed."""
         for number, heap in enumerate(self._simulation.world.scenery.heaps):
             if heap.version != self._sand[number]:
                 self._sand[number] = heap.version

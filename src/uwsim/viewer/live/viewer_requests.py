@@ -87,7 +87,6 @@ class ViewerRequests:
         return Changes.NONE
 
     def _set_input(self, viewer: int, values: tuple[float, ...]) -> Changes:
-        """Store the present input of a viewer's pilot."""
         if self._inputs.get(viewer) == values:
             return Changes.NONE
         self._inputs[viewer] = values
