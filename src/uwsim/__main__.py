@@ -10,7 +10,7 @@ from .base.interrupts import exit_on_interrupt, ignore_interrupts
 
 
 def run() -> int:
-    """Run ``uwsim`` as a process of its own; returns its exit status."""
+    """Run ``uwsim`` in this process and return its exit status."""
     exit_on_interrupt()
     gc.set_threshold(50_000, 20, 20)  # libraries and scenes are many objects, which stay
     atexit.register(ignore_interrupts)  # the first registered is the last called
@@ -22,7 +22,7 @@ def run() -> int:
     except KeyboardInterrupt as error:  # a second one, while the first was handled
         return say(error)
     finally:
-        exit_on_interrupt()  # the interpreter may take a moment to leave
+        exit_on_interrupt()  # the interpreter may take some time to exit
         gc.freeze()  # its last collection would visit all objects, of which most stay
 
 

@@ -1,8 +1,8 @@
 """The functions of the Python interface that `import uwsim` offers.
 
-Files are found as the command line finds them: a path, a name in a search folder, or a bundled
-name. Everything takes `str` or `Path`, and what goes wrong is an `UwsimError` of one or more lines
-that names the file, the line and the nearest right name.
+Files are found as by the command line: a path, a name in a search folder, or a bundled name. All
+functions take `str` or `Path`. They raise an `UwsimError` of one or more lines, which states the
+file, the line and the nearest valid name.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 Setting = str | float | int
 OnProgress = Callable[[int, int], object]
-"""Takes the number of finished levels, and that of all levels."""
+"""A function of the number of finished levels and the number of all levels."""
 
 
 def load(
@@ -42,28 +42,28 @@ def load(
     udp_address: str | None = None,
     is_blind: bool = False,
 ) -> Simulation:
-    """Open a scene at step 0; its first messages go out with the first `advance`.
+    """Open a scene at step 0; the first `advance` publishes the first messages.
 
     Args:
-        scene: a scene file, a bundled name (``uwsim list scenes``), or what `read_scene` returned.
-        seed: of every random stream, and of what varies in the scene (``<u:vary>``).
-        timestep: length of a physics step [s].
+        scene: a scene file, a bundled name (``uwsim list scenes``), or the spec of `read_scene`.
+        seed: the seed of all random streams, and of the variations of the scene (``<u:vary>``).
+        timestep: the length of a physics step [s].
         settings: values of the scene to change, as ``--set`` names them:
             ``{"oceanState.fog.density": 0.4}``; ``{"xacro.depth": 3}`` is a xacro argument.
-        data_path: more folders in which files are looked for.
-        udp_address: of this computer, at which vehicles with ``<fdm>`` take UDP packets, for
-            example ``127.0.0.1``; without it they take none, and the run can be repeated.
-        is_blind: images on topics are black, and nothing is drawn for them.
+        data_path: more folders in which files are searched.
+        udp_address: the address of this computer at which vehicles with ``<fdm>`` receive UDP
+            packets, such as ``127.0.0.1``; None: they receive none, and the run can be repeated.
+        is_blind: images on topics are black, and nothing is rendered for them.
 
     Raises:
-        UwsimError: a file, a name or a setting is wrong; names all errors of the file.
+        UwsimError: a file, a name or a setting is invalid; the message has all errors of the file.
     """
     from .assets.bundled import scene_file
     from .physics.compile_scene import compile_scene
     from .scene.reader import read_scene
     from .scene.settings import apply_setting, xacro_arguments
     from .simulation import Simulation
-    from .simulation.access.arguments import checked_seed
+    from .simulation.access.arguments import check_seed
 
     folders = _folders_of(data_path)
     settings = _checked_settings(settings)
@@ -74,7 +74,7 @@ def load(
     for path, value in settings.items():
         scene = apply_setting(scene, path, str(value))
     model = compile_scene(
-        scene, seed=checked_seed(seed, "load"), timestep=timestep, data_path=folders
+        scene, seed=check_seed(seed, "load"), timestep=timestep, data_path=folders
     )
     return Simulation(model, udp_address=udp_address, is_blind=is_blind)
 
@@ -94,46 +94,46 @@ def bench(
 ) -> Result:
     """Run a benchmark as ``uwsim bench`` does.
 
-    With the same options ``out`` has the same files with the same bytes, but for what two runs of
-    the command do not share either: date, durations and load in ``provenance.json``, where the
-    typed command is empty here, and the same facts in ``report.html``. Warnings about files, and
-    the Python code that they name, are printed on standard error.
+    With the same options ``out`` has the same files with the same bytes, except for values in which
+    two runs of the command differ, too: date, durations and load in ``provenance.json`` and
+    ``report.html``. The command in ``provenance.json`` is empty. Warnings about files, and the
+    Python code that they name, are printed on standard error.
 
     Args:
         benchmark: a benchmark file or a bundled name.
-        scene: the scene; without it the one that the benchmark names.
+        scene: the scene; None: the scene that the benchmark names.
         algorithm: a name (``uwsim list algorithms``), ``module:Class``, or a class; a class runs in
             the process of the simulation, as with ``--in-process``.
-        seeds: of the repeats; consecutive, such as ``range(6)``.
-        levels: only these levels of the sweep, as numbers: ``{"fog": [0.0, 1 / 3]}``.
+        seeds: the seeds of the repeats; consecutive, such as ``range(6)``.
+        levels: the levels of the sweep to run, as numbers: ``{"fog": [0.0, 1 / 3]}``.
         settings: values to change, as ``--set`` names them; ``algorithm.kp`` is a parameter.
-        data_path: more folders in which files are looked for.
-        workers: processes to use; 0 runs everything in this process, the control and the report
-            included. A program that uses more needs ``if __name__ == "__main__":``.
-        out: the result directory, which must be empty or not there yet: it receives all files that
-            ``uwsim bench`` writes, the control and the report included. Without it nothing is kept
-            but what is returned.
-        on_progress: called with the number of finished levels and that of all levels: at the
-            beginning, and after each level.
+        data_path: more folders in which files are searched.
+        workers: the number of processes; 0 runs everything in this process, the control and the
+            report included. With more, the program needs ``if __name__ == "__main__":``.
+        out: the result directory, which is empty or does not exist. It gets all files that
+            ``uwsim bench`` writes, the control and the report included. None: only the returned
+            result remains.
+        on_progress: a function that is called with the number of finished levels and the number of
+            all levels, at the beginning and after each level.
 
     Raises:
-        UwsimError: an input is wrong, or a run failed as it does with the command: also if a
-            simulation failed, or the algorithm in every row. Finished rows are kept in ``out``.
+        UwsimError: an input is invalid, or a run failed as in the command; also if a simulation
+            failed, or the algorithm failed in every row. Finished rows remain in ``out``.
     """
     from .runs.planning.plan_request import PlanRequest
 
-    name, kind = _name_and_class(algorithm)
+    name, algorithm_class = _name_and_class(algorithm)
     if out is not None and not isinstance(out, str | os.PathLike):
         raise BadSetting(f"out={short_repr(out)}: expected a directory, as 'one.result', or None.")
     if on_progress is not None and not callable(on_progress):
         raise BadSetting(f"on_progress={short_repr(on_progress)}: expected a function, or None.")
-    first_seed = _first_of(seeds)
+    first_seed = _first_seed(seeds)
     request = PlanRequest(
         benchmark=str(benchmark),
         scene=None if scene is None else str(scene),
         algorithm=name,
-        algorithm_class=kind,
-        in_process=kind is not None,
+        algorithm_class=algorithm_class,
+        in_process=algorithm_class is not None,
         seed=first_seed,
         repeat=len(seeds),
         levels=_pairs_of({} if levels is None else levels),
@@ -146,7 +146,7 @@ def bench(
 def _execute_request(
     request: PlanRequest, workers: int, out: str | Path | None, on_progress: OnProgress | None
 ) -> Result:
-    """Run what is requested, in a result directory that is kept if ``out`` names it."""
+    """Run a request in the directory ``out``, or in a temporary one that is removed."""
     from .analysis.load_reporter import load_reporter
     from .results.directory import check as check_directory
     from .results.directory import prepare_directory
@@ -156,18 +156,18 @@ def _execute_request(
 
     with tempfile.TemporaryDirectory(prefix="uwsim-") as scratch:
         directory = Path(scratch) / "result" if out is None else Path(out)
-        wrong = ErrorCollector()
-        executor, plans = plan_all([request], str(workers), CALLBACK_LIMIT, wrong)
-        with wrong.collect():
+        errors = ErrorCollector()
+        executor, plans = plan_all([request], str(workers), CALLBACK_LIMIT, errors)
+        with errors.collect():
             check_directory(directory, resume=False, overwrite=False)
-        wrong.raise_errors()
+        errors.raise_errors()
         execution = prepare_execution(plans, executor, directory, workers=str(workers))
         open_jobs = partial(BackgroundProcess if workers else Jobs, load_reporter)
         (result,) = execute(
             execution,
             prepare_directory(directory, resume=False, overwrite=False),
             None if out is None else open_jobs,
-            Callbacks(progress=partial(_counted, on_progress)),
+            Callbacks(progress=partial(_count_levels, on_progress)),
         )
     return result
 
@@ -175,7 +175,7 @@ def _execute_request(
 def _name_and_class(
     algorithm: str | type[Algorithm] | None,
 ) -> tuple[str | None, type[Algorithm] | None]:
-    """Return the name of an algorithm, and its class if that is given; BadSetting if none is."""
+    """Return the name of an algorithm, and its class, if any; raise BadSetting for an object."""
     if algorithm is None or isinstance(algorithm, str):
         return algorithm, None
     if not isinstance(algorithm, type):
@@ -187,23 +187,23 @@ def _name_and_class(
 
 
 @contextmanager
-def _counted(
-    on_progress: OnProgress | None, title: str, total: int, done: int
+def _count_levels(
+    on_progress: OnProgress | None, title: str, total: int, n_finished: int
 ) -> Iterator[Callable[[], None]]:
-    """Call a function with the numbers of finished levels and of all levels."""
+    """Yield a function that counts a finished level and calls ``on_progress``."""
 
     def on_level() -> None:
-        nonlocal done
-        done += 1
-        report(done, total)
+        nonlocal n_finished
+        n_finished += 1
+        report(n_finished, total)
 
-    report = on_progress or (lambda done, total: None)
-    report(done, total)
+    report = on_progress or (lambda n_finished, total: None)
+    report(n_finished, total)
     yield on_level
 
 
 def _checked_settings(settings: Mapping[str, Setting] | None) -> Mapping[str, Setting]:
-    """Refuse settings that are no mapping; raises BadSetting."""
+    """Return settings as a mapping; raise BadSetting if they are none."""
     if settings is None or isinstance(settings, Mapping):
         return settings or {}
     raise BadSetting(
@@ -212,7 +212,7 @@ def _checked_settings(settings: Mapping[str, Setting] | None) -> Mapping[str, Se
 
 
 def _folders_of(data_path: Sequence[str | Path]) -> tuple[Path, ...]:
-    """Return folders in which files are looked for; BadSetting if these are none."""
+    """Return folders as paths; raise BadSetting for other values."""
     if isinstance(data_path, str) or not isinstance(data_path, Collection):
         raise BadSetting(f"data_path={short_repr(data_path)}: expected folders, as ['meshes'].")
     for folder in data_path:
@@ -222,7 +222,7 @@ def _folders_of(data_path: Sequence[str | Path]) -> tuple[Path, ...]:
 
 
 def _pairs_of(levels: Mapping[str, Sequence[float]]) -> list[tuple[str, float]]:
-    """Return the names and values of levels; BadSetting if one has none, or not a number."""
+    """Return the names and values of levels; raise BadSetting if a value is not a number."""
     pairs: list[tuple[str, float]] = []
     if not isinstance(levels, Mapping) or not all(
         isinstance(name, str) and isinstance(values, Collection) for name, values in levels.items()
@@ -242,7 +242,7 @@ def _pairs_of(levels: Mapping[str, Sequence[float]]) -> list[tuple[str, float]]:
 
 
 def _finite_number(value: object) -> float | None:
-    """Return a number as a float; None for what is none, or not finite, or too great."""
+    """Return a number as a float; None for other values, and numbers beyond its range."""
     from .base.external_values import finite_float
 
     if not isinstance(value, Real) or isinstance(value, bool):
@@ -250,26 +250,28 @@ def _finite_number(value: object) -> float | None:
     return finite_float(value)
 
 
-def _first_of(seeds: Sequence[int]) -> int:
-    """Return the first of some consecutive seeds; BadSetting if they are not."""
+def _first_seed(seeds: Sequence[int]) -> int:
+    """Return the first of consecutive seeds; raise BadSetting if they are not consecutive."""
     if isinstance(seeds, int):
-        given = short_repr(seeds)
-        raise BadSetting(f"seeds={given}: expected a sequence, such as ({given},) or range(6).")
+        seed_text = short_repr(seeds)
+        raise BadSetting(
+            f"seeds={seed_text}: expected a sequence, such as ({seed_text},) or range(6)."
+        )
     given_seeds = list(seeds) if isinstance(seeds, Collection) else []
-    are_whole = all(isinstance(s, Integral) and not isinstance(s, bool) for s in given_seeds)
-    first = int(given_seeds[0]) if given_seeds and are_whole else -1
-    if first < 0 or given_seeds != list(range(first, first + len(given_seeds))):
+    are_integers = all(isinstance(s, Integral) and not isinstance(s, bool) for s in given_seeds)
+    first_seed = int(given_seeds[0]) if given_seeds and are_integers else -1
+    if first_seed < 0 or given_seeds != list(range(first_seed, first_seed + len(given_seeds))):
         raise BadSetting(
             f"seeds={short_repr(seeds)}: expected consecutive seeds >= 0, such as (0,) or range(6)."
         )
-    return first
+    return first_seed
 
 
 def read_result(path: str | Path) -> Result:
     """Read a result: its directory or its ``result.json``, of any format version.
 
     Raises:
-        ResultError: it does not exist, is incomplete, or is not a result.
+        ResultError: the result does not exist, is incomplete, or has another format.
     """
     from .results.result_file import load as load_result
 
@@ -282,19 +284,19 @@ def compare(
     """Compare results of one experiment by the paired statistics of ``uwsim compare``.
 
     Args:
-        results: result directories, two at least.
-        column: what is compared: a column, as ``total`` or ``corners.max``; without it the score.
-        higher_is_better: more of it is better; errors are not so.
+        results: the result directories, at least two.
+        column: the column to compare, such as ``total`` or ``corners.max``; None: the score.
+        higher_is_better: a higher value is better; not so for errors.
 
     Raises:
         ResultError: a result cannot be read, or the results cannot be compared.
     """
     from .analysis.comparison import compare_files
 
-    for given in results:
-        if not isinstance(given, str | Path):
+    for result in results:
+        if not isinstance(result, str | Path):
             raise BadSetting(
-                f"compare({type(given).__name__}): expected the directories of results."
+                f"compare({type(result).__name__}): expected the directories of results."
             )
     paths = [Path(path) for path in results]
     return compare_files(paths, column=column, higher_is_better=higher_is_better)
@@ -307,22 +309,22 @@ def check(
 ) -> tuple[Diagnostic, ...]:
     """Return the errors and warnings of scene, benchmark, robot and hydrodynamics files.
 
-    Errors come with their file, line and severity; a file without any gives none.
+    Each has its file, line and severity; a valid file has none.
 
     Args:
         paths: the files, or names of bundled scenes and benchmarks.
-        data_path: more folders in which files are looked for.
-        arguments: values of their xacro arguments, by name.
+        data_path: more folders in which files are searched.
+        arguments: the values of xacro arguments by name.
     """
     from .assets.bundled import resolve_bundled
     from .checks import check_file
 
     folders = _folders_of(data_path)
-    given = {name: str(value) for name, value in (arguments or {}).items()}
+    argument_texts = {name: str(value) for name, value in (arguments or {}).items()}
     return tuple(
         diagnostic
         for path in paths
         for diagnostic in check_file(
-            resolve_bundled(Path(path)), data_path=folders, arguments=given
+            resolve_bundled(Path(path)), data_path=folders, arguments=argument_texts
         )
     )

@@ -1,4 +1,4 @@
-"""Protocols of a vehicle as topics and devices see it."""
+"""Protocols of a vehicle for topics and devices."""
 
 from __future__ import annotations
 
@@ -11,45 +11,45 @@ import numpy.typing as npt
 from .base.geometry import Array, Pose
 from .world import CompiledVehicle
 
-Numbers = npt.NDArray[np.int64]
-"""Of joints in the joint vector, each at most once, (n,)."""
+JointIndices = npt.NDArray[np.int64]
+"""The indices of joints in the joint vector, each at most once, (n,)."""
 
 
 class Autopilot(Protocol):
-    """The autopilot of a simulated vehicle; each command holds until the next of any kind."""
+    """The autopilot of a simulated vehicle; a command is active until the next of any kind."""
 
     def go_to(self, world_from_base: Pose) -> None:
-        """Go to a place and stay there."""
+        """Move to a pose and keep it."""
 
     def command(self, linear: Sequence[float], angular: Sequence[float]) -> None:
-        """Move at a twist, base axes [m/s], [rad/s]."""
+        """Move at a twist in base axes [m/s], [rad/s]."""
 
     def push(self, force: Array, torque: Array) -> None:
-        """Push with the thrusters, base axes (3,) [N], (3,) [N m]."""
+        """Apply a wrench with the thrusters in base axes, (3,) [N], (3,) [N m]."""
 
     def set_thrusters(self, commands: Array) -> None:
         """Set the commands of the thrusters, (n,) [1]."""
 
 
 class Servos(Protocol):
-    """The joint servos of a simulated vehicle; joints by their number in the joint vector."""
+    """The joint servos of a simulated vehicle; joints have their index in the joint vector."""
 
     @property
     def velocities(self) -> Array:
-        """How fast the joints move, (n,) [rad/s or m/s]."""
+        """The velocities of the joints, (n,) [rad/s or m/s]."""
 
     @property
     def efforts(self) -> Array:
-        """Forces and torques at the joints, (n,) [N m or N]."""
+        """The torques or forces at the joints, (n,) [N m or N]."""
 
-    def aim(self, joints: Numbers, targets: Array) -> None:
-        """Bring these joints to targets, (n,) [rad or m], and hold them there."""
+    def aim(self, joints: JointIndices, targets: Array) -> None:
+        """Move joints to target positions, (n,) [rad or m], and hold these."""
 
-    def drive(self, joints: Numbers, speeds: Array) -> None:
-        """Move the targets of these joints at speeds, (n,) [rad/s or m/s]."""
+    def drive(self, joints: JointIndices, speeds: Array) -> None:
+        """Move the target positions of joints at speeds, (n,) [rad/s or m/s]."""
 
-    def push(self, joints: Numbers, efforts: Array) -> None:
-        """Act on these joints with efforts, (n,) [N m or N]."""
+    def push(self, joints: JointIndices, efforts: Array) -> None:
+        """Apply efforts to joints, (n,) [N m or N]."""
 
 
 class Vehicle(Protocol):
@@ -57,74 +57,73 @@ class Vehicle(Protocol):
 
     @property
     def name(self) -> str:
-        """Its name in the scene."""
+        """The name in the scene."""
 
     @property
     def joint_names(self) -> Sequence[str]:
-        """Names of the joints of the joint vector."""
+        """The names of the joints of the joint vector."""
 
     @property
     def thrusters(self) -> tuple[str, ...]:
-        """Names of its thrusters as in its hydrodynamics file; none if it is not simulated."""
+        """The names of the thrusters in the hydrodynamics file; empty if it is not simulated."""
 
     @property
     def fins(self) -> tuple[str, ...]:
-        """Names of its fins as in its hydrodynamics file; none if it is not simulated."""
+        """The names of the fins in the hydrodynamics file; empty if it is not simulated."""
 
     def turn_fins(self, angles: Array) -> None:
-        """Let its fins turn to these angles and stay there, (n,) [rad]."""
+        """Turn the fins to angles and hold these, (n,) [rad]."""
 
     @property
     def autopilot(self) -> Autopilot | None:
-        """Its autopilot; None if it is not simulated."""
+        """The autopilot; None if the vehicle is not simulated."""
 
     @property
     def servos(self) -> Servos | None:
-        """Its joint servos; None if it is not simulated."""
+        """The joint servos; None if the vehicle is not simulated."""
 
     @property
     def world_from_base(self) -> Pose:
-        """Where its base is now."""
+        """The pose of the base."""
 
     @property
     def velocity(self) -> Array:
-        """Twist of its base over ground, base axes, (6,) [m/s, rad/s]."""
+        """The twist of the base over ground in base axes, (6,) [m/s, rad/s]."""
 
     @property
     def joints(self) -> Array:
-        """A copy of its joint vector, (n,) [rad or m]."""
+        """A copy of the joint vector, (n,) [rad or m]."""
 
     @property
-    def compiled(self) -> CompiledVehicle:
-        """The vehicle as compiled code reads it."""
+    def compiled_vehicle(self) -> CompiledVehicle:
+        """The vehicle for compiled code."""
 
     def place(self, world_from_base: Pose) -> None:
-        """Set its pose, at rest; it is displaced from there from now on."""
+        """Set the pose, at rest; later displacements are relative to this pose."""
 
     def set_joints(self, values: Array) -> None:
-        """Set its joint vector, (n,) [rad or m]; clamped to the limits."""
+        """Set the joint vector, (n,) [rad or m]; clamped to the limits."""
 
     def displacer(self, axis: int) -> Callable[[float], None]:
-        """Return a function that displaces it, at rest, from its place.
+        """Return a function that displaces the vehicle, at rest, from its last placed pose.
 
-        That is its place in the file, or where it was put last.
-
-        Along x, y, z of L [m] or about roll, pitch, yaw of its orientation [rad], by the number of
-        the ``axis``. Several add up; it moves when the last of them is set.
+        Before `place` this is the pose in the file. ``axis`` 0 to 2: x, y, z of L [m]; 3 to 5:
+        roll, pitch, yaw of its orientation [rad]. The displacements of several functions add up;
+        the vehicle moves when the last of them is set.
         """
 
     def loss_setter(self, thruster: str) -> Callable[[float], None]:
-        """Return a function that sets the share of its thrust that a thruster loses [0..1].
+        """Return a function that sets the share of the thrust that a thruster loses [0..1].
 
-        Of several setters of one thruster the greatest loss counts.
+        Of several functions for one thruster the greatest loss counts.
 
         Raises:
-            UnknownName: it has no such thruster.
+            UnknownName: the vehicle has no such thruster.
         """
 
 
 def go_or_place(vehicle: Vehicle, world_from_base: Pose) -> None:
-    """Put a vehicle somewhere, at rest; a simulated one has its autopilot bring it there."""
+    """Place a vehicle at a pose, at rest; a simulated vehicle moves there by its autopilot."""
     if (autopilot := vehicle.autopilot) is not None:
         autopilot.go_to(world_from_base)
     else:

@@ -63,7 +63,7 @@ class FakeCarrier:
 
     def __init__(self, pose: Pose | None = None) -> None:
         self.pose = pose or Pose.identity()
-        self.compiled = self
+        self.compiled_vehicle = self
 
     def base_mount(self) -> FakeBody:
         return FakeBody(tuple(self.pose.position), rotation=self.pose.rotation)

@@ -18,7 +18,7 @@ class CompiledCurrent(Current):
 
     _flow: FlowFunction
 
-    def compiled(self, vehicles: Sequence[str]) -> FlowFunction | None:
+    def flow_function(self, vehicles: Sequence[str]) -> FlowFunction | None:
         """Return its function; None of a subclass that answers in Python instead."""
         kind, own = type(self), CompiledCurrent
         is_own = kind.velocity is own.velocity and kind.acceleration is own.acceleration

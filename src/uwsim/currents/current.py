@@ -83,7 +83,7 @@ class Current(abc.ABC):
         """Whether it is the same at all times."""
         return self.is_still
 
-    def compiled(self, vehicles: Sequence[str]) -> FlowFunction | None:
+    def flow_function(self, vehicles: Sequence[str]) -> FlowFunction | None:
         """Return its function for compiled code; None where Python has to be asked in every step.
 
         Args:
@@ -122,9 +122,9 @@ class Current(abc.ABC):
         return self.velocity(points, time, vehicles), self.acceleration(points, time, vehicles)
 
 
-def compiled(flow: Flow, vehicles: Sequence[str]) -> FlowFunction | None:
-    """Return `Current.compiled` of a flow; None of one that is no `Current`."""
-    return flow.compiled(vehicles) if isinstance(flow, Current) else None
+def flow_function_of(flow: Flow, vehicles: Sequence[str]) -> FlowFunction | None:
+    """Return `Current.flow_function` of a flow; None of one that is no `Current`."""
+    return flow.flow_function(vehicles) if isinstance(flow, Current) else None
 
 
 def is_steady(flow: Flow) -> bool:

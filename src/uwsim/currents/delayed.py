@@ -12,7 +12,7 @@ from ..base.numerics.calls import FUNCTION, call
 from ..base.numerics.jit import njit
 from ..base.numerics.memory import carray, pointer
 from ..world import Flow
-from .current import Current, compiled
+from .current import Current, flow_function_of
 from .flow_function import QUERY, FlowFunction, write_everywhere
 
 
@@ -37,9 +37,9 @@ class LateCurrent(Current):
         """Whether the other one is."""
         return self._current.is_still
 
-    def compiled(self, vehicles: Sequence[str]) -> FlowFunction | None:
+    def flow_function(self, vehicles: Sequence[str]) -> FlowFunction | None:
         """Return its function; None where the other one has none."""
-        flow = compiled(self._current, vehicles)
+        flow = flow_function_of(self._current, vehicles)
         if flow is None:
             return None
         row = np.zeros(1, LATE)

@@ -11,7 +11,7 @@ from ..base.numerics.calls import FUNCTION, call
 from ..base.numerics.jit import njit
 from ..base.numerics.memory import carray, pointer, view_doubles, view_int64s
 from ..world import Flow
-from .current import Current, compiled, is_steady
+from .current import Current, flow_function_of, is_steady
 from .flow_function import QUERY, FlowFunction, Record
 
 
@@ -36,9 +36,9 @@ class TargetCurrent(Current):
         """Whether the other one is."""
         return self._current.is_still
 
-    def compiled(self, vehicles: Sequence[str]) -> FlowFunction | None:
+    def flow_function(self, vehicles: Sequence[str]) -> FlowFunction | None:
         """Return its function; None where the other one has none."""
-        flow = compiled(self._current, vehicles)
+        flow = flow_function_of(self._current, vehicles)
         if flow is None:
             return None
         row, names = np.zeros(1, TARGET), list(vehicles)

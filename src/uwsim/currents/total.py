@@ -11,7 +11,7 @@ from ..base.geometry import Array
 from ..base.numerics.calls import FUNCTION, address_of, call
 from ..base.numerics.memory import carray, pointer, view_doubles
 from ..world import Flow
-from .current import Current, CurrentSpec, Place, compiled, is_steady
+from .current import Current, CurrentSpec, Place, flow_function_of, is_steady
 from .flow_function import QUERY, FlowFunction
 
 
@@ -36,9 +36,9 @@ class TotalCurrent(Current):
         """Whether all of them are."""
         return not self._currents
 
-    def compiled(self, vehicles: Sequence[str]) -> FlowFunction | None:
+    def flow_function(self, vehicles: Sequence[str]) -> FlowFunction | None:
         """Return its function; None where one of them has none."""
-        found = [compiled(current, vehicles) for current in self._currents]
+        found = [flow_function_of(current, vehicles) for current in self._currents]
         flows = [flow for flow in found if flow is not None]
         if len(flows) < len(found):
             return None

@@ -30,27 +30,27 @@ class RenderedImage:
     """The arrays of one rendered image, row 0 at the top; None for targets not requested."""
 
     intrinsics: Intrinsics
-    """The camera's pinhole."""
+    """The pinhole of the camera."""
     colour: npt.NDArray[np.uint8] | npt.NDArray[np.uint16] | None = None
-    """Stored values before noise: (h, w, 3) uint8, or (h, w, 4) uint16 for ``linear16``."""
+    """The colours before noise: (h, w, 3) uint8, or (h, w, 4) uint16 for ``linear16``."""
     range: npt.NDArray[np.float32] | None = None
-    """Distance along the ray of each pixel (h, w) [m]; inf = nothing there."""
+    """The distance along the ray of each pixel (h, w) [m]; inf: no surface."""
     ids: npt.NDArray[np.uint16] | None = None
-    """Number of the instance seen (h, w); 0 = nothing there."""
+    """The number of the visible instance (h, w); 0: no surface."""
     names: Mapping[int, str] = field(default_factory=dict)
-    """Number in ``ids`` -> ``vehicle/link`` or object; all of the scene, seen or not. Of things of
-    one name the second has ``#2`` behind it, a vehicle behind its own name."""
+    """The names ``vehicle/link`` or object by number in ``ids``, of the whole scene. The second of
+    the same name has the suffix ``#2``, a vehicle after its own name."""
     world_from_camera: Pose | None = None
     """The pose of the camera in W, with OpenGL axes (x right, y up, looking along -z)."""
 
     @property
     def n_bytes(self) -> int:
-        """Size of its arrays [bytes]."""
+        """The size of the arrays [bytes]."""
         arrays = self.colour, self.range, self.ids
         return sum(array.nbytes for array in arrays if array is not None)
 
     def copy(self) -> RenderedImage:
-        """Return the same image with arrays of its own."""
+        """Return a copy with copied arrays."""
         return replace(
             self,
             colour=None if self.colour is None else self.colour.copy(),
@@ -60,7 +60,7 @@ class RenderedImage:
 
     @property
     def depth(self) -> npt.NDArray[np.float32]:
-        """Distance along the optical axis (h, w) [m]; inf = nothing there.
+        """The distance along the optical axis (h, w) [m]; inf: no surface.
 
         Raises:
             ValueError: the range was not requested.
@@ -68,12 +68,12 @@ class RenderedImage:
         if self.range is None:
             raise ValueError("the image was drawn without its range")
         lengths = self.intrinsics.ray_lengths
-        planar: npt.NDArray[np.float32] = (self.range / lengths).astype(np.float32)
-        return planar
+        depth: npt.NDArray[np.float32] = (self.range / lengths).astype(np.float32)
+        return depth
 
     @property
     def boxes(self) -> dict[str, PixelBox]:
-        """The least box in the image around the visible pixels of each name that is seen.
+        """The smallest box in the image around the visible pixels of each name.
 
         Raises:
             ValueError: the ids were not requested.

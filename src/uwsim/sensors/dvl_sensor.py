@@ -123,7 +123,7 @@ class Dvl(CompiledSensor):
         self, spec: DvlSensorSpec, mount: MovingBody, world: SensorWorld, vehicle: Carrier
     ) -> None:
         self._spec, self._mount, self._world, self._vehicle = spec, mount, world, vehicle
-        self._base = vehicle.compiled.base_mount()
+        self._base = vehicle.compiled_vehicle.base_mount()
         self._janus = Janus(math.radians(spec.beam_angle))
         random = world.stream(f"{vehicle.name}/{spec.name}/noise")
         scale = 1.0 + spec.scale_std * random.standard_normal(4)

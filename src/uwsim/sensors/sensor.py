@@ -90,7 +90,7 @@ class Carrier(Protocol):
         """Its name in the scene."""
 
     @property
-    def compiled(self) -> CompiledVehicle:
+    def compiled_vehicle(self) -> CompiledVehicle:
         """The vehicle as compiled code reads it."""
 
     def mount(self, spec: Mounted, *, visual: bool = False) -> Mount:

@@ -32,13 +32,13 @@ class Simulation:
     """A running scene: the clock, the step, and the attached algorithms.
 
     Args:
-        model: of the scene, from `uwsim.physics.compile_scene.compile_scene`; its seed is that of
-            every random stream.
-        stream_prefix: prefix of the name of every random stream.
-        pool: lends the renderer; without one the simulation has a renderer of its own.
-        is_blind: images on topics are black, nothing is drawn for them.
-        runs_code: let Python code that the scene names run; without it that water is still.
-        udp_address: of this computer, at which ``<fdm>`` takes packets; None: it takes none.
+        model: the model of the scene, from `uwsim.physics.compile_scene.compile_scene`; its seed is
+            the seed of every random stream.
+        stream_prefix: the prefix of the name of every random stream.
+        pool: the pool of renderers; None: the simulation has its own renderer.
+        is_blind: images on topics are black, and nothing is rendered for them.
+        runs_code: run Python code that the scene names; else the water of that code is still.
+        udp_address: the address of this computer at which ``<fdm>`` receives packets; None: none.
     """
 
     def __init__(
@@ -106,15 +106,14 @@ class Simulation:
     def reset(self, seed: int | None = None) -> None:
         """Start again at step 0, with the variations (``<u:vary>``) of a seed.
 
-        What follows has the same bytes as a simulation that is loaded with this seed. `world` is
-        another object afterwards. Topics that `latest_message` has read are read on, and `watch`
-        continues.
+        The simulation has then the same bytes as one that is loaded with this seed. `world` is
+        another object afterwards. The topics of `latest_message` and the callbacks of `watch` stay.
 
         Args:
             seed: the new seed of every random stream; None: the same seed again.
 
         Raises:
-            BadSetting: the seed is negative, or no whole number.
+            BadSetting: the seed is negative, or not a whole number.
             UwsimError: an algorithm is attached, whose state cannot be reset.
         """
         if self._nodes:
@@ -122,39 +121,39 @@ class Simulation:
             raise UwsimError(f"Cannot be reset: {names} is attached, with a state of its own.")
         model = self.world.model
         if seed is not None:
-            model = recompile(model, arguments.checked_seed(seed))
+            model = recompile(model, arguments.check_seed(seed))
         self.world.close()
-        self._open(model, self._access.read)
+        self._open(model, self._access.topics_read)
 
     @property
     def state(self) -> State:
-        """All that changes of it; it changes while the simulation runs, a ``copy()`` does not."""
+        """The state; it changes while the simulation runs, a ``copy()`` does not."""
         return self._state
 
     @property
     def bus(self) -> Bus:
-        """Its topics and services."""
+        """The topics and services."""
         return self.world.bus
 
     @property
     def step(self) -> int:
-        """Physics steps since the simulation began."""
+        """The number of physics steps since the start."""
         return self._state.bus.step
 
     @property
     def timestep(self) -> float:
-        """Length of a step [s]."""
+        """The length of a step [s]."""
         return self.world.model.timestep
 
     @property
     def time(self) -> float:
-        """``step * timestep`` [s]."""
+        """The simulation time, ``step * timestep`` [s]."""
         return self._state.bus.step * self.world.model.timestep
 
     def advance(self, seconds: float | None = None) -> None:
-        """Take one step, or as many whole steps as there are in some seconds (rounded).
+        """Take one step, or the whole number of steps nearest to a time [s].
 
-        The first call publishes the samples of step 0 before; ``advance(0.0)`` does this alone.
+        The first call also publishes the samples of step 0; ``advance(0.0)`` does only this.
 
         Raises:
             BadSetting: the time is negative or not finite.
@@ -166,7 +165,7 @@ class Simulation:
         if seconds is None:
             self._stepper.advance()
             return
-        left = arguments.whole_steps(seconds, self.timestep)
+        left = arguments.count_steps(seconds, self.timestep)
         while left > 0:
             left -= self._stepper.advance(left)
 
@@ -177,7 +176,7 @@ class Simulation:
 
     @property
     def topics(self) -> dict[str, str]:
-        """Topic name -> message type, sorted by name."""
+        """The message types by topic name, sorted by name."""
         return self.bus.topics
 
     def publish(self, topic: str, message: object) -> None:
@@ -195,8 +194,8 @@ class Simulation:
     def latest_message(self, topic: str) -> Any:
         """Return the newest message on a topic; None before the first.
 
-        The topic is read from the first call on. Sensors whose messages are costly (images) publish
-        only while somebody reads: ask once, then advance.
+        The topic is read from the first call on. Sensors with costly messages (images) publish only
+        while their topic is read: call this once, then advance.
 
         Raises:
             UnknownName: no such topic; names the nearest.
@@ -212,17 +211,17 @@ class Simulation:
         """Call a service and return its response.
 
         Raises:
-            UnknownName: it is not offered; the message has the nearest name.
+            UnknownName: the service is not offered; names the nearest.
             BadMessage: the request is of another type.
         """
         return self.bus.services.call(service, request)
 
     @renamed_parameter("of", "frame")
     def pose(self, name: str, frame: str = "L") -> Pose:
-        """Return where a body is: a vehicle, a link ``vehicle/link``, or an object.
+        """Return the pose of a body: a vehicle, a link ``vehicle/link``, or an object.
 
         Args:
-            name: of the body.
+            name: the name of the body.
             frame: ``L`` (the frame of files and topics), ``W`` (z up), or another body's name.
 
         Raises:
@@ -236,7 +235,7 @@ class Simulation:
         """Place a vehicle or an object, at rest; afterwards `pose` returns this pose.
 
         Args:
-            name: of a vehicle, or of an object that can move (with ``<physics>`` and a mass).
+            name: the name of a vehicle, or of an object that can move (``<physics>`` and a mass).
             pose: the pose of its frame in ``frame``.
             frame: the reference frame, as in `pose`.
 
@@ -246,7 +245,7 @@ class Simulation:
             UwsimError: the object is fixed, or a vehicle holds it.
         """
         world_from_frame = placing.world_from_frame(self.world, frame)
-        placing.place(self.world, name, arguments.checked_pose(name, world_from_frame, pose))
+        placing.place(self.world, name, arguments.check_pose(name, world_from_frame, pose))
 
     def velocity(self, name: str) -> Array:
         """Return the twist of a simulated vehicle over ground, in its base frame, (6,).
@@ -263,7 +262,7 @@ class Simulation:
         return vehicle.velocity
 
     def image(self, camera: str) -> RenderedImage:
-        """Render what a camera sees now, without noise: colour, range, ids and their names.
+        """Render the present image of a camera without noise: colour, range, ids and their names.
 
         Raises:
             UnknownName: there is no such camera; names the nearest.
@@ -277,7 +276,7 @@ class Simulation:
 
     @renamed_parameter("of", "frame")
     def boxes(self, frame: str = "L") -> dict[str, OrientedBox]:
-        """Return the boxes in 3-D of all links and objects, by the names that images have for them.
+        """Return the boxes in 3-D of all links and objects by name, as images name them.
 
         Args:
             frame: the frame of the boxes, as in `pose`. The frame of a camera is
@@ -291,22 +290,23 @@ class Simulation:
         )
 
     def set_fog(self, density: float) -> None:
-        """Set the density of the fog [1/m], 0 for clear water; BadSetting if it is negative."""
-        self.world.scenery.set_fog(arguments.checked_number("set_fog", density))
+        """Set the density of the fog [1/m], 0: clear water; raise BadSetting if it is negative."""
+        self.world.scenery.set_fog(arguments.check_number("set_fog", density))
 
     def set_light(self, rate: float) -> None:
-        """Scale the light of the scene, 1 by default, 0 for night; BadSetting if negative."""
-        self.world.scenery.set_light_rate(arguments.checked_number("set_light", rate))
+        """Scale the light of the scene: 1 by default, 0 at night; raise BadSetting if negative."""
+        self.world.scenery.set_light_rate(arguments.check_number("set_light", rate))
 
     def set_current(self, velocity: Sequence[float] | Flow | None) -> None:
-        """Add a current to those of the scene, in place of the one that was set before.
+        """Add a current to those of the scene; it replaces the current of an earlier call.
 
         Args:
-            velocity: of the water in the frame of the file, (3,) [m/s]; or a `Flow`; None for none.
+            velocity: the velocity of the water in the frame of the file, (3,) [m/s]; or a `Flow`;
+                None: no current.
 
         Raises:
-            BadSetting: these are not three numbers, or one exceeds the fastest current. A flow that
-                raises, or returns another shape, is one in the step that asks it.
+            BadSetting: the velocity is not three numbers, or one exceeds the fastest current. A
+                flow that raises, or returns another shape, raises it in the step that calls it.
         """
         self.world.water.set(arguments.flow_of(velocity))
 
@@ -321,13 +321,13 @@ class Simulation:
     ) -> InProcessNode:
         """Connect an algorithm to the bus and start it.
 
-        What it raises comes out here and out of `advance`; without ``raises`` it is kept in the
-        node's ``error``, and the algorithm is not called any more. ``calls`` counts those into it.
+        Its exceptions are raised here and by `advance`. Without ``raises`` an exception is stored
+        in ``error`` of the node, and the algorithm is not called again. ``calls`` counts its calls.
 
         Raises:
-            BadSetting: it is a class, or has no method ``start(node)``.
+            BadSetting: the algorithm is a class, or has no method ``start(node)``.
         """
-        arguments.checked_algorithm(algorithm)
+        arguments.check_algorithm(algorithm)
         node = InProcessNode(
             self.bus,
             name=name or type(algorithm).__name__,
@@ -343,22 +343,22 @@ class Simulation:
         return node
 
     def save(self) -> bytes:
-        """Return the state as bytes, exact to the bit: those of `state`.
+        """Return `state` as bytes, exact to the bit.
 
         Raises:
-            UwsimError: an algorithm is attached that does not offer ``save`` and ``restore``.
+            UwsimError: an attached algorithm has no ``save`` and ``restore``.
         """
         return self.state.to_bytes()
 
     def restore(self, data: bytes | State) -> None:
-        """Go back, or on, to a saved state of the same scene, seed and timestep.
+        """Set the simulation to a saved state of the same scene, seed and timestep.
 
         Args:
-            data: what `save` has returned, or a copy of `state`.
+            data: the bytes of `save`, or a copy of `state`.
 
         Raises:
-            UwsimError: the bytes are damaged, of another scene, seed or timestep, or of another
-                version; or other algorithms are attached. The simulation stays as it is.
+            UwsimError: the bytes are damaged, or of another scene, seed, timestep or version; or
+                other algorithms are attached. The simulation does not change then.
         """
         state = data if isinstance(data, State) else State.from_bytes(data)
         names, names_saved = (

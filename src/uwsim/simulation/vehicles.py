@@ -222,7 +222,7 @@ class SceneVehicle:
         self._engine.grips.let_go(object_index)
 
     @property
-    def compiled(self) -> CompiledVehicle:
+    def compiled_vehicle(self) -> CompiledVehicle:
         """The vehicle as compiled code reads it."""
         root = self._frames.robot.root
         return CompiledVehicle(

@@ -29,7 +29,9 @@ class ArmToROSJointStateSpec(VehiclePublisherSpec):
         vehicle = world.vehicle(self.vehicle_name)
         make_message = partial(joint_state, tuple(vehicle.joint_names))
         publish = world.bus.publisher(self.topic, JointState)
-        topic = SampledTopic(self.topic, vehicle.compiled.joint_sampler(), make_message, publish)
+        topic = SampledTopic(
+            self.topic, vehicle.compiled_vehicle.joint_sampler(), make_message, publish
+        )
         topic.begin(self.rate, world)
         return topic
 

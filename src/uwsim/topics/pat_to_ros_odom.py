@@ -42,7 +42,9 @@ class PATToROSOdomSpec(VehiclePublisherSpec):
         localized_from_world = world.world_from_localized.inverse()
         make_message = partial(odometry, localized_from_world, vehicle.autopilot is not None)
         publish = world.bus.publisher(self.topic, Odometry)
-        topic = SampledTopic(self.topic, vehicle.compiled.base_sampler(), make_message, publish)
+        topic = SampledTopic(
+            self.topic, vehicle.compiled_vehicle.base_sampler(), make_message, publish
+        )
         topic.begin(self.rate, world)
         return topic
 

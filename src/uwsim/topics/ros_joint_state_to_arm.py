@@ -18,7 +18,7 @@ import numpy as np
 from ..base.geometry import Array
 from ..base.message_fields import find_invalid_number
 from ..messages import JointState
-from ..vehicle import Numbers, Servos, Vehicle
+from ..vehicle import JointIndices, Servos, Vehicle
 from .interface import Interface, TopicWorld, VehicleTopicSpec
 from .ros_twist_to_pat import Gap, GapState
 
@@ -60,7 +60,7 @@ class JointCommand(Interface):
         self._vehicle, self._gap = vehicle, gap
         self._joint_names = list(vehicle.joint_names)
         self._message_names: list[str] = []  # in the newest message
-        self._joint_indices: Numbers = np.arange(len(self._joint_names))  # -1: no such joint
+        self._joint_indices: JointIndices = np.arange(len(self._joint_names))  # -1: no such joint
         self.state: GapState = gap.state
 
     def apply_command(self, message: JointState) -> None:
@@ -86,7 +86,7 @@ class JointCommand(Interface):
         else:
             servos.push(*self._select_joints(message, message.effort))
 
-    def _select_joints(self, message: JointState, commands: Array) -> tuple[Numbers, Array]:
+    def _select_joints(self, message: JointState, commands: Array) -> tuple[JointIndices, Array]:
         """Return joint indices and values, (n,) each; by name, or without names in order.
 
         Unknown joints and values that are not finite are left out; of a joint that is named twice

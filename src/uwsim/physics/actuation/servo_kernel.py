@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 
 from ...base.geometry import Array
 from ...base.numerics.jit import njit
-from ...vehicle import Numbers
+from ...vehicle import JointIndices
 from .records import GEARED, OWN
 
 INTEGRAL = 1.0
@@ -60,7 +60,7 @@ def take_aim(joints: Records, states: Records) -> None:
 
 
 @njit
-def aim_at(joints: Records, states: Records, places: Numbers, targets: Array) -> None:
+def aim_at(joints: Records, states: Records, places: JointIndices, targets: Array) -> None:
     """Let the servos of some joints go to targets, and all others on to theirs."""
     for i in range(len(places)):
         states[places[i]].wanted = targets[i]
@@ -69,7 +69,7 @@ def aim_at(joints: Records, states: Records, places: Numbers, targets: Array) ->
 
 
 @njit
-def first_off(states: Records, places: Numbers) -> int:
+def first_off(states: Records, places: JointIndices) -> int:
     """Which of some joints is the first whose servo is off; below 0 all are on."""
     for i in range(len(places)):
         if states[places[i]].is_on == 0:

@@ -21,7 +21,7 @@ from ...base.geometry import Array
 from ...base.record import Record
 from ...model.body_names import vehicle_joint
 from ...scene.urdf.robot import JointSpec, RobotSpec
-from ...vehicle import Numbers
+from ...vehicle import JointIndices
 from ..joints import servo_gains, stops
 from .records import CRANKED, GEARED, JOINT, JOINT_STATE, OWN
 
@@ -99,7 +99,7 @@ class Servos:
         self._data.qpos[self._records["place"]] = self._state["aim"]
         self._data.qvel[self._records["dof"]] = 0.0
 
-    def aim(self, joints: Numbers, targets: Array) -> None:
+    def aim(self, joints: JointIndices, targets: Array) -> None:
         """Bring these joints to targets, (n,) [rad or m], and hold them there.
 
         The others keep what they do.
@@ -109,7 +109,7 @@ class Servos:
             self._switch(int(joints[off]), is_on=True)
         self._aim_at(self._records, self._state, places, targets)
 
-    def drive(self, joints: Numbers, speeds: Array) -> None:
+    def drive(self, joints: JointIndices, speeds: Array) -> None:
         """Move the targets of these joints at speeds, (n,) [rad/s or m/s]; the others stay."""
         self._state["speed"] = 0.0
         for number, speed in zip(joints.tolist(), speeds.tolist(), strict=True):
@@ -121,7 +121,7 @@ class Servos:
         self._state["wanted"][self._vector] = np.where(own["is_on"], own["target"], self.positions)
         self._take_aim(self._records, self._state)
 
-    def push(self, joints: Numbers, efforts: Array) -> None:
+    def push(self, joints: JointIndices, efforts: Array) -> None:
         """Apply efforts, (n,) [N m or N], to these joints, limited to the strength of their servos.
 
         The others keep what they do.

@@ -1,4 +1,4 @@
-"""Checks of what a program passes to the Python interface of a simulation."""
+"""Checks of the arguments that a program passes to the Python interface of a simulation."""
 
 from __future__ import annotations
 
@@ -16,27 +16,27 @@ from ...errors import BadSetting, short_repr
 from ...world import Flow
 from .program_flow import ProgramFlow
 
-FARTHEST = 1e6
+MAX_COORDINATE = 1e6
 """The greatest coordinate at which a body is placed [m]."""
 
 
-def checked_seed(seed: int, method: str = "reset") -> int:
-    """Return a seed; BadSetting if it is not a whole number of at least 0."""
+def check_seed(seed: int, method: str = "reset") -> int:
+    """Return a seed; raise BadSetting if it is not a whole number of at least 0."""
     if isinstance(seed, bool) or not isinstance(seed, Integral) or seed < 0:
         raise BadSetting(f"{method}(seed={short_repr(seed)}): expected a whole number >= 0.")
     return int(seed)
 
 
-def whole_steps(seconds: float, timestep: float) -> int:
-    """Return the steps in a time to advance [s]; BadSetting if it is negative or not finite."""
+def count_steps(seconds: float, timestep: float) -> int:
+    """Return the steps in a time [s]; raise BadSetting if it is negative or not finite."""
     n_steps = _float_of(seconds) / timestep
     if not 0.0 <= n_steps < math.inf:
         raise BadSetting(f"advance({short_repr(seconds)}): expected a time >= 0 [s].")
     return round(n_steps)
 
 
-def checked_algorithm(algorithm: object) -> None:
-    """Refuse what has no method ``start(node)`` to be called; raises BadSetting."""
+def check_algorithm(algorithm: object) -> None:
+    """Raise BadSetting if an object is not an algorithm: it has no method ``start(node)``."""
     if isinstance(algorithm, type):
         raise BadSetting(
             f"attach({algorithm.__name__}): expected an algorithm, not its class: "
@@ -46,24 +46,24 @@ def checked_algorithm(algorithm: object) -> None:
         raise BadSetting(f"attach({short_repr(algorithm)}): it has no method start(node).")
 
 
-def checked_number(method: str, number: float) -> float:
-    """Return a number; BadSetting if it is negative or not finite."""
-    found = _float_of(number)
-    if not 0.0 <= found < math.inf:
+def check_number(method: str, number: float) -> float:
+    """Return a number; raise BadSetting if it is negative or not finite."""
+    value = _float_of(number)
+    if not 0.0 <= value < math.inf:
         raise BadSetting(f"{method}({short_repr(number)}): expected a finite number >= 0.")
-    return found
+    return value
 
 
 def _float_of(number: object) -> float:
-    """Return a finite number as a float, and NaN for all else."""
+    """Return a finite number as a float, and NaN for every other value."""
     if not isinstance(number, int | float | np.integer | np.floating):
         return math.nan
-    found = finite_float(number)
-    return math.nan if found is None else found
+    value = finite_float(number)
+    return math.nan if value is None else value
 
 
-def checked_pose(name: str, world_from_frame: Pose, frame_from_body: Pose) -> Pose:
-    """Return a pose in W; BadSetting if it is not finite or too far from the origin."""
+def check_pose(name: str, world_from_frame: Pose, frame_from_body: Pose) -> Pose:
+    """Return a pose in W; raise BadSetting if it is not finite or too far from the origin."""
     if not isinstance(frame_from_body, Pose):
         raise BadSetting(
             f"set_pose({name!r}, {short_repr(frame_from_body)}): expected a Pose, as "
@@ -71,20 +71,20 @@ def checked_pose(name: str, world_from_frame: Pose, frame_from_body: Pose) -> Po
         )
     world_from_body = world_from_frame @ frame_from_body
     position = world_from_body.position
-    if not np.isfinite(world_from_body.matrix).all() or np.abs(position).max() > FARTHEST:
+    if not np.isfinite(world_from_body.matrix).all() or np.abs(position).max() > MAX_COORDINATE:
         raise BadSetting(
             f"set_pose({name!r}): the position is {position.tolist()}; expected finite numbers, "
-            f"{FARTHEST:g} m at most from the origin."
+            f"{MAX_COORDINATE:g} m at most from the origin."
         )
     return world_from_body
 
 
 def flow_of(velocity: Sequence[float] | Flow | None) -> Flow | None:
-    """Return the flow for a velocity (3,) [m/s] in L; that of a program checks what it returns.
+    """Return the flow of a velocity (3,) [m/s] in L, or a flow of the program with checks.
 
     Raises:
-        BadSetting: these are not three numbers, or one exceeds the fastest current; or a flow does
-            not answer whether it is still.
+        BadSetting: the velocity is not three numbers, or one exceeds the fastest current; or
+            ``is_still`` of a flow raises.
     """
     if velocity is None or type(velocity) is Constant:
         return velocity

@@ -18,13 +18,13 @@ class OrientedBox:
     """A box in 3-D around a body, with the axes of the body's mesh."""
 
     pose: Pose
-    """The pose of its centre, in the frame that was asked for."""
+    """The pose of the centre in the requested frame."""
     size: Array
-    """The lengths of its edges along its axes, (3,) [m]."""
+    """The lengths of the edges along the axes, (3,) [m]."""
 
     @property
     def corners(self) -> Array:
-        """Its corners in the same frame, (8, 3) [m]: x changes first, z last."""
+        """The corners in the requested frame, (8, 3) [m]: x changes first, z last."""
         half = 0.5 * self.size
         return self.pose.transform(Box(tuple(-half), tuple(half)).corners())
 
@@ -45,13 +45,13 @@ def oriented_boxes(scenery: Scenery, frame_from_world: Pose) -> dict[str, Orient
 
 def _box(scenery: Scenery, parts: list[Part]) -> OrientedBox:
     """Return the box in W around some parts."""
-    x, y, _ = scenery.world_from_mesh(parts[0])[:3, :3].T  # its columns, with a scale in them
+    x, y, _ = scenery.world_from_mesh(parts[0])[:3, :3].T  # the columns, which include the scale
     x = x / length(x)
     y = y - dot(x, y) * x
     y = y / length(y)
     rotation = np.stack([x, y, cross(x, y)], axis=1)
     corners = np.concatenate([scenery.corners(part) for part in parts])  # (8 n, 3) [m]
-    along = product(corners, rotation)
-    low, high = along.min(axis=0), along.max(axis=0)
+    coordinates = product(corners, rotation)
+    low, high = coordinates.min(axis=0), coordinates.max(axis=0)
     centre = product(0.5 * (low + high), rotation.T)
     return OrientedBox(Pose(centre, rotation), high - low)

@@ -1,4 +1,4 @@
-"""Where bodies are, and their placement by a program that owns the simulation."""
+"""The poses of bodies, and their placement by a program that owns the simulation."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from ..live_scene import LiveScene
 
 
 def world_from_frame(scene: LiveScene, frame: str) -> Pose:
-    """Return the pose in W of the frame ``L``, ``W`` or of a body; UnknownName if there is none."""
+    """Return the pose in W of the frame ``L``, ``W`` or of a body; raises UnknownName."""
     if frame == "W":
         return Pose.identity()
     if frame == "L":
@@ -21,25 +21,25 @@ def place(scene: LiveScene, name: str, world_from_body: Pose) -> None:
 
     Args:
         scene: the scene.
-        name: of a vehicle, or of an object that can move.
-        world_from_body: the pose of its frame, as `SceneBodies.find` has it.
+        name: the name of a vehicle, or of an object that can move.
+        world_from_body: the pose of its frame, as `SceneBodies.find` defines it.
 
     Raises:
-        UnknownName: there is none of that name; names the nearest.
+        UnknownName: there is no such vehicle or object; names the nearest.
         UwsimError: the object is fixed, or a vehicle holds it.
     """
     vehicles = scene.vehicles
     if name in vehicles.names:
         vehicles.find(name).place(world_from_body)
         return
-    names = [thing.name for thing in scene.model.scene.objects]
+    names = [scene_object.name for scene_object in scene.model.scene.objects]
     if name not in names:
         raise UnknownName("vehicle or object", name, [*vehicles.names, *names])
     index, engine = names.index(name), scene.engine
     if not engine.grips.can_hold(index):
         raise UwsimError(
             f"{name!r} cannot be placed: it is fixed, or a vehicle holds it. Set "
-            f"object[{name}].position when the scene is loaded, or vary it with <u:vary>."
+            f"object[{name}].position when you load the scene, or vary it with <u:vary>."
         )
     mesh_from_world = scene.bodies.find(name).world_from_body.inverse()
     mesh_from_object = mesh_from_world @ engine.poses.object(index)

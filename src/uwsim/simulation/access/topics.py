@@ -13,12 +13,12 @@ from ...bus import Bus
 from ...errors import UnknownName
 
 
-class Newest(ExternalValue):
-    """The newest message of each topic that is read, and the step at which it came.
+class NewestMessages(ExternalValue):
+    """The newest message of each topic that is read, with the step of its delivery.
 
     Args:
         inboxes: the inbox of each topic.
-        open_inbox: opens that of another topic.
+        open_inbox: a function that opens the inbox of another topic.
     """
 
     def __init__(
@@ -27,8 +27,10 @@ class Newest(ExternalValue):
         self._inboxes, self._open_inbox = inboxes, open_inbox
 
     def value(self) -> dict[str, tuple[Any, int | None]]:
-        """Return topic -> its newest message and the step at which it came."""
-        return {topic: (box.last_message, box.last_step) for topic, box in self._inboxes.items()}
+        """Return the newest message and the step of its delivery, by topic."""
+        return {
+            topic: (inbox.last_message, inbox.last_step) for topic, inbox in self._inboxes.items()
+        }
 
     def set(self, value: object) -> None:
         """Set the newest messages; topics that are not read yet are read from now on."""
@@ -36,44 +38,44 @@ class Newest(ExternalValue):
             raise wrong_scene_error()
         for topic in (topic for topic in self._inboxes if topic not in value):
             self._inboxes[topic].clear()
-        for topic, (last, step) in value.items():
+        for topic, (message, step) in value.items():
             if topic not in self._inboxes:
                 self._inboxes[topic] = self._open_inbox(topic)
-            box = self._inboxes[topic]
-            box.clear()
-            box.last_message, box.last_step = last, step
+            inbox = self._inboxes[topic]
+            inbox.clear()
+            inbox.last_message, inbox.last_step = message, step
 
 
 @dataclass(slots=True)
 class AccessState(Record):
-    """What a program has read."""
+    """The topics that a program reads."""
 
-    newest: Newest
+    newest_messages: NewestMessages
     """The newest message of each topic that is read."""
     is_started: bool = False
-    """Whether the first samples, at step 0, are published."""
+    """The first samples, at step 0, are published."""
 
 
 class TopicAccess:
     """The topics that a program publishes and reads.
 
     Args:
-        bus: the topics of the simulation.
-        read: topics to read from the start, if they exist.
+        bus: the bus of the simulation.
+        topics_read: the topics to read from the start, if they exist.
     """
 
-    def __init__(self, bus: Bus, read: Iterable[str] = ()) -> None:
+    def __init__(self, bus: Bus, topics_read: Iterable[str] = ()) -> None:
         self._bus = bus
-        self._published: dict[str, Callable[[Any], None]] = {}
-        self._inboxes = {name: self._opened(name) for name in read if name in bus.topics}
-        self.state = AccessState(Newest(self._inboxes, self._opened))
-        """What it has read."""
+        self._publishers: dict[str, Callable[[Any], None]] = {}
+        self._inboxes = {name: self._open_inbox(name) for name in topics_read if name in bus.topics}
+        self.state = AccessState(NewestMessages(self._inboxes, self._open_inbox))
+        """The topics that the program reads."""
 
-    def _opened(self, name: str) -> Inbox[Any]:
+    def _open_inbox(self, name: str) -> Inbox[Any]:
         return self._bus.inbox(name, object, max_messages=1)
 
     @property
-    def read(self) -> tuple[str, ...]:
+    def topics_read(self) -> tuple[str, ...]:
         """The topics that are read."""
         return tuple(self._inboxes)
 
@@ -86,16 +88,20 @@ class TopicAccess:
             BadMessage: a field of the message has the wrong type or shape.
         """
         name = topic.strip().lstrip("/")
-        if name not in self._published:
-            absent = self._bus.describe_missing_subscriber(name)
-            if absent is not None and name not in self._bus.topics:
-                read = [each for each in self._bus.topics if self._bus.has_subscribers(each)]
-                raise UnknownName("topic", topic, read)
+        if name not in self._publishers:
+            missing_text = self._bus.describe_missing_subscriber(name)
+            if missing_text is not None and name not in self._bus.topics:
+                topics_read = [
+                    topic_name
+                    for topic_name in self._bus.topics
+                    if self._bus.has_subscribers(topic_name)
+                ]
+                raise UnknownName("topic", topic, topics_read)
             publish = self._bus.publisher(name, type(message))
-            if absent is not None:
-                warn(f"publish({topic!r}): the message has no effect: {absent}")
-            self._published[name] = publish
-        self._published[name](message)
+            if missing_text is not None:
+                warn(f"publish({topic!r}): the message has no effect: {missing_text}")
+            self._publishers[name] = publish
+        self._publishers[name](message)
 
     def latest_message(self, topic: str) -> Any:
         """Return the newest message; None before the first.
@@ -107,10 +113,10 @@ class TopicAccess:
         if name not in self._inboxes:
             if name not in self._bus.topics:
                 raise UnknownName("topic", topic, self._bus.topics)
-            before = self._bus.unread_message(name)
-            self._inboxes[name] = self._opened(name)
-            if before is not None:
-                self._inboxes[name].receive(before, self._bus.step)
+            unread_message = self._bus.unread_message(name)
+            self._inboxes[name] = self._open_inbox(name)
+            if unread_message is not None:
+                self._inboxes[name].receive(unread_message, self._bus.step)
         inbox = self._inboxes[name]
         inbox.take()
         return inbox.last_message

@@ -16,7 +16,7 @@ from ...base.numerics.jit import njit
 from ...base.numerics.linear import product
 from ...base.record import Record
 from ...currents import Place, TotalCurrent, bind_currents
-from ...currents.current import compiled, is_steady
+from ...currents.current import flow_function_of, is_steady
 from ...currents.flow_function import FlowFunction
 from ...model.robots import find_file
 from ...model.scene_model import SceneModel
@@ -140,7 +140,7 @@ class WaterMotion:
         flow, (for_flow, for_vehicles, compiled_flow, function) = self._flow, self._drift
         if flow is not for_flow or vehicles != for_vehicles:
             felt, names = _numbered(vehicles)
-            compiled_flow, function = compiled(flow, names), None
+            compiled_flow, function = flow_function_of(flow, names), None
             if compiled_flow is not None:
                 function = of_drift(compiled_flow, self._world_from_localized, felt, timestep)
             self._drift = flow, vehicles, compiled_flow, function
@@ -155,7 +155,7 @@ class WaterMotion:
         flow, (for_flow, for_vehicles, compiled_flow, function) = self._flow, self._felt
         if flow is not for_flow or vehicles != for_vehicles:
             felt, names = _numbered(vehicles)
-            compiled_flow, function = compiled(flow, names), None
+            compiled_flow, function = flow_function_of(flow, names), None
             if compiled_flow is not None:
                 function = of_flow(
                     compiled_flow,
@@ -232,7 +232,7 @@ class WaterMotion:
             known = {}
             self._points = flow, known
         if (vehicle, n) not in known:
-            function = None if flow.is_still else compiled(flow, (vehicle,))
+            function = None if flow.is_still else flow_function_of(flow, (vehicle,))
             is_asked = function is None and not flow.is_still
             known[vehicle, n] = (
                 None if is_asked else at_points(function, self._localized_from_world, n)
