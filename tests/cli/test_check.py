@@ -376,4 +376,4 @@ def test_a_library_with_an_error_has_that_error(
     macro = '<xacro:macro name="fin"/>\n<xacro:include filename="no.xacro"/>'
     file.write_text(f"<robot {xmlns}>{macro}</robot>")
     assert status(str(file)) == 2
-    assert "parts.xacro:2: the file 'no.xacro' is nowhere" in capsys.readouterr().out
+    assert "parts.xacro:2: the file 'no.xacro' is not found" in capsys.readouterr().out

@@ -80,7 +80,7 @@ def test_an_argument_that_is_used_and_not_declared_has_a_value_from_outside(
     robot = scene.parent / "rov.urdf.xacro"
     robot.write_text(f'<robot name="rov" {NAMESPACES}><link name="$(arg space)/hull"/></robot>')
     status, out, _ = call(capsys, "check", scene)
-    assert (status, "--xacro NAME:=VALUE gives one" in out) == (2, True)
+    assert (status, "--xacro NAME:=VALUE sets it" in out) == (2, True)
     status, out, _ = call(capsys, "check", scene, "--xacro", "space:=a")
     assert (status, "<xacro:arg>" in out) == (0, False)
 

@@ -172,14 +172,14 @@ def test_a_dictionary_is_read_from_a_yaml_file(call: str, place: str, tmp_path: 
     ("content", "message"),
     [
         ("a: [1", "not YAML"),
-        ("a: &x [*x]", "the alias *x is within what it stands for"),
+        ("a: &x [*x]", "the alias *x is within its own node"),
         ("a: *y", "found undefined alias 'y'"),
         ("a: 1\nb: : 2", "x.yaml:2: not YAML"),
         ("a: !!python/object/apply:os.system [touch /tmp/x]", "not YAML"),
         ("a: !degrees left", "'left'"),
         (b"\xff\xfe\x00", "not YAML"),
         ("[" * 200 + "]" * 200, "nested deeper"),
-        (None, "is nowhere"),
+        (None, "is not found"),
     ],
 )
 def test_a_wrong_yaml_file_is_one_error(
@@ -200,7 +200,7 @@ def test_a_yaml_file_outside_the_folders_is_not_read(
     monkeypatch.setenv("HOME", str(tmp_path / "home"))
     (tmp_path / "home" / "sea").mkdir(parents=True)
     (tmp_path / "secret.yaml").write_text("a: 1")
-    with pytest.raises(SceneError, match="outside the folders"):
+    with pytest.raises(SceneError, match="outside the searched folders"):
         text_of(tmp_path / "home" / "sea", f"<b>${{load_yaml('{tmp_path}/secret.yaml')}}</b>")
 
 
@@ -271,9 +271,9 @@ def test_loops_formats_and_parts_are_those_of_python(
 @pytest.mark.parametrize(
     ("expression", "said"),
     [
-        ("[x for x in range(3000)]", "loops of more than 2000 turns"),
-        ("[[x for x in range(100)] for y in range(100)]", "loops of more than 2000 turns"),
-        ("[list(range(1000)) for x in range(9)]", "loops of more than 2000 turns"),
+        ("[x for x in range(3000)]", "loops of more than 2000 iterations"),
+        ("[[x for x in range(100)] for y in range(100)]", "loops of more than 2000 iterations"),
+        ("[list(range(1000)) for x in range(9)]", "loops of more than 2000 iterations"),
         ("'%99999999d' % 1", "a field of more than 99 letters"),
         ("'%*d' % (99999999, 1)", "a field of more than 99 letters"),
         ("'abc' * 99999999", "longer than 4096"),

@@ -134,8 +134,8 @@ def test_what_it_expands_to(tmp_path: Path, body: str, expected: str | None) -> 
         ('<xacro:property name="x" value="${x}"/><b>${x}</b>', "defined by itself"),
         ("<b>$(env HOME)</b>", "not supported"),
         ("<b>$(arg n)</b>", "no such <xacro:arg>"),
-        ('<xacro:include filename="nowhere.xacro"/>', "is nowhere"),
-        ('<xacro:include filename="/etc/passwd"/>', "outside the folders"),
+        ('<xacro:include filename="nowhere.xacro"/>', "is not found"),
+        ('<xacro:include filename="/etc/passwd"/>', "outside the searched folders"),
         ('<xacro:include filename="../../../../../../etc/passwd"/>', ""),
         ('<xacro:include filename="a.xml"/>', "nested deeper than 60 levels"),
         ('<xacro:macro name="m"><xacro:m/><xacro:m/></xacro:macro><xacro:m/>', "60 levels"),
@@ -274,7 +274,7 @@ def test_what_is_included_may_be_in_a_folder_of_the_data_path(folder: Path) -> N
     assert [each.topic for each in scene.ros_interfaces] == ["/one", "/two"]  # type: ignore[attr-defined]
     found = [each.message for each in check_file(folder / "scene.xml", data_path=(elsewhere,))]
     assert [message for message in found if "nowhere" in message] == []
-    with pytest.raises(SceneError, match=r"'library.xacro' is nowhere; searched: "):
+    with pytest.raises(SceneError, match=r"'library.xacro' is not found; searched: "):
         read_scene(folder / "scene.xml")
 
 

@@ -95,4 +95,4 @@ def test_a_repeated_key_is_a_warning_at_its_line_once(tmp_path: Path) -> None:
     assert [node.text for node in document.root] == ["30", "30"]
     (warning,) = document.expansion.warnings
     assert (Path(str(warning.file)).name, warning.line) == ("mass.yaml", 4)
-    assert "the key 'hull' is there twice" in warning.message
+    assert "the key 'hull' occurs twice" in warning.message

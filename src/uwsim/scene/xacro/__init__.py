@@ -14,7 +14,7 @@
       <xacro:buoy name="first" x="1"/>
     </UWSimScene>
 
-Nothing is given to Python's ``eval``, so a file of somebody else runs no code.
+Python's ``eval`` is not used, so that a file of another author runs no code.
 """
 
 from __future__ import annotations

@@ -10,7 +10,7 @@ from lxml import etree
 
 from ...errors import AssetError, FileError
 from ...schema import Document, Expansion, parse
-from .expander import XACRO, XINCLUDE, Expander, NotFound, local, namespace_of
+from .expander import XACRO, XINCLUDE, Expander, NotFound, local_name, namespace_of
 from .value import ExpressionError
 
 SUFFIX = ".xacro"
@@ -25,31 +25,30 @@ def parse_expanded(
 ) -> Document:
     """Read a file as XML, with its xacro and includes expanded.
 
-    What is included is looked for as every file that a scene names, and under the same folders.
+    Included files are searched like every file that a scene names, in the same folders.
 
     Args:
         path: the file.
-        error: what is raised.
-        data_path: further folders in which files are looked for.
-        arguments: values of ``<xacro:arg>`` in place of their defaults, by name.
+        error: the type of error to raise.
+        data_path: the further folders that are searched for files.
+        arguments: the values of ``<xacro:arg>`` that replace their defaults, by name.
 
     Raises:
-        FileError: (or the ``error`` asked for) a file cannot be read, or is wrong.
+        FileError: (or the given ``error``) a file cannot be read, or is invalid.
     """
     document = parse(path, error=error)
-    given = tuple(sorted((arguments or {}).items()))
+    argument_pairs = tuple(sorted((arguments or {}).items()))
     if not _is_to_expand(document):
-        return replace(document, expansion=Expansion(arguments=given))
-    expander = Expander(path, _NamedFiles(error, data_path), dict(given))
+        return replace(document, expansion=Expansion(arguments=argument_pairs))
+    expander = Expander(path, _NamedFiles(error, data_path), dict(argument_pairs))
     try:
         expander.expand(document.root)
     except RecursionError:
         expander.error(document.root, "calls, includes and elements are nested too deeply")
     expander.check(error)
     _merge_interfaces(document.root)
-    expansion = Expansion(
-        arguments=given, declared_arguments=expander.arguments.known, warnings=expander.warnings
-    )
+    names, warnings = expander.arguments.names, expander.warnings
+    expansion = Expansion(arguments=argument_pairs, declared_arguments=names, warnings=warnings)
     return replace(document, expansion=expansion)
 
 
@@ -60,64 +59,65 @@ class _NamedFiles:
         self._error, self._data_path = error, data_path
 
     def find(self, name: str, named_by: Path) -> Path:
-        """Find a file; raises NotFound, or ExpressionError where it may not be read.
+        """Return the path of a file; raise NotFound, or ExpressionError if it may not be read.
 
-        Of a package that is not found only a file of the same path counts: the content of another
-        file of that name, or of the one that names it, would be taken without a word.
+        For a package that is not found only a file of the same path is accepted. Another file of
+        that name, or the one that names it, would be used without a warning.
         """
         from ...assets import describe_search, find
 
         try:
-            found = find(name, named_by=named_by, data_path=self._data_path)
-        except AssetError as outside:
-            raise ExpressionError(str(outside)) from None
-        if found is None or _is_guess(name, found, named_by):
-            why = describe_search(name, named_by=named_by, data_path=self._data_path)
-            raise NotFound(f"the file {name[:200]!r} is nowhere; {why}")
-        return found
+            path = find(name, named_by=named_by, data_path=self._data_path)
+        except AssetError as error:
+            raise ExpressionError(str(error)) from None
+        if path is None or _is_guess(name, path, named_by):
+            search_text = describe_search(name, named_by=named_by, data_path=self._data_path)
+            raise NotFound(f"the file {name[:200]!r} is not found; {search_text}")
+        return path
 
     def parse(self, path: Path) -> etree._Element:
-        """Read an included file; returns its root element."""
+        """Read an included file and return its root element."""
         return parse(path, error=self._error).root
 
     def location_remark(self, name: str, path: Path, named_by: Path) -> str:
-        """Say that a file was found elsewhere than its name states; empty if it is there."""
+        """Return a remark on a file at another path than its name states; else empty."""
         from ...assets import location_remark
 
         return location_remark(name, path, named_by=named_by, data_path=self._data_path)
 
 
-def _is_guess(name: str, found: Path, named_by: Path) -> bool:
-    """Whether a file of a package has another path than its name states, or names itself."""
+def _is_guess(name: str, path: Path, named_by: Path) -> bool:
+    """Return whether a file of a package has another path than its name states, or names itself."""
     from ...assets.packages import UWSIM_PACKAGE, package_of
 
     in_package = package_of(name)
     if in_package is None or in_package[0] == UWSIM_PACKAGE:
         return False
     parts = PurePosixPath(in_package[1]).parts
-    return found.parts[-len(parts) :] != parts or found.samefile(named_by)
+    return path.parts[-len(parts) :] != parts or path.samefile(named_by)
 
 
 def library_of(root: etree._Element) -> tuple[str, tuple[str, ...]] | None:
-    """Return what a library of xacro has, and the names; None for a file with other elements.
+    """Return the kind and names of a library of xacro; None for a file with other elements.
 
-    A library has macros, else properties, and besides them only arguments, includes and materials.
+    A library has macros, else properties, and otherwise only arguments, includes and materials.
     """
-    children = [child for child in root if isinstance(child.tag, str)]
+    children = [node for node in root if isinstance(node.tag, str)]
     names = {"macro", "property", "arg", "include"}
     if not all(
-        child.tag == "material" or (namespace_of(child) in XACRO and local(child) in names)
-        for child in children
+        node.tag == "material" or (namespace_of(node) in XACRO and local_name(node) in names)
+        for node in children
     ):
         return None
     for kind, plural in (("macro", "macros"), ("property", "properties")):
-        if names_of := tuple(str(each.get("name")) for each in children if local(each) == kind):
-            return plural, names_of
+        elements = [element for element in children if local_name(element) == kind]
+        if elements:
+            return plural, tuple(str(element.get("name")) for element in elements)
     return None
 
 
 def _is_to_expand(document: Document) -> bool:
-    """Whether a file is xacro, by its name or a declared namespace, or includes another."""
+    """Return whether a file is xacro, by its name or a declared namespace, or includes another."""
     return (
         document.path.suffix == SUFFIX
         or not XACRO.isdisjoint(document.root.nsmap.values())
@@ -126,8 +126,8 @@ def _is_to_expand(document: Document) -> bool:
 
 
 def _merge_interfaces(root: etree._Element) -> None:
-    """Make one ``<rosInterfaces>`` of those of a scene and of what it includes."""
-    found = root.findall("rosInterfaces")
-    for other in found[1:]:
-        found[0].extend(list(other))
+    """Merge the ``<rosInterfaces>`` of a scene and of its includes into one."""
+    interfaces = root.findall("rosInterfaces")
+    for other in interfaces[1:]:
+        interfaces[0].extend(list(other))
         root.remove(other)

@@ -7,14 +7,14 @@ import re
 from collections.abc import Callable
 from typing import Any
 
-from .value import MAX_ITEMS, MAX_LENGTH, DistinctItems, ExpressionError, Value, written
+from .value import MAX_ITEMS, MAX_LENGTH, DistinctItems, ExpressionError, Value, to_text
 
 
 def power(base: Value, exponent: Value) -> int | float:
-    """Return ``base ** exponent``; whole numbers stay whole as long as they are small."""
+    """Return ``base ** exponent``; small integers give integers."""
     for number in (base, exponent):
         if not isinstance(number, int | float):
-            raise ExpressionError(f"{written(number)[:40]!r} is not a number")
+            raise ExpressionError(f"{to_text(number)[:40]!r} is not a number")
     assert isinstance(base, int | float)
     assert isinstance(exponent, int | float)
     if isinstance(base, int) and isinstance(exponent, int) and abs(base) <= 64 >= exponent >= 0:
@@ -25,58 +25,58 @@ def power(base: Value, exponent: Value) -> int | float:
     return result
 
 
-def numbers(*bounds: Any) -> list[int]:
-    """Return the whole numbers of a range."""
-    found = range(*bounds)
-    if len(found) > MAX_ITEMS:
+def integer_range(*bounds: Any) -> list[int]:
+    """Return the integers of a range."""
+    values = range(*bounds)
+    if len(values) > MAX_ITEMS:
         raise ExpressionError(f"a range of more than {MAX_ITEMS} numbers")
-    return list(found)
+    return list(values)
 
 
-def zipped(*lists: Any) -> list[list[Any]]:
+def zip_lists(*lists: Any) -> list[list[Any]]:
     """Return the first items of all lists as a list, the second ones, ..."""
     return [list(items) for items in zip(*lists, strict=False)]
 
 
-def numbered(items: Any, start: int = 0) -> list[list[Any]]:
+def enumerate_items(items: Any, start: int = 0) -> list[list[Any]]:
     """Return each item with its number before it."""
     return [[number, item] for number, item in enumerate(items, start)]
 
 
-def formatted(pattern: str, values: Any) -> str:
+def format_pattern(pattern: str, values: Any) -> str:
     """Return ``pattern % values``, with fields of at most 99 letters."""
-    if any(int(width) > 99 for width in WIDTH.findall(pattern)) or "*" in pattern:
+    if any(int(width) > 99 for width in FIELD_WIDTH.findall(pattern)) or "*" in pattern:
         raise ExpressionError(f"{pattern[:40]!r}: a field of more than 99 letters")
     return pattern % (tuple(values) if isinstance(values, list) else values)
 
 
-def repeated(whole: Any, times: Any) -> Any:
-    """Return a text or a list several times after each other."""
-    if isinstance(whole, int):
-        whole, times = times, whole
+def repeat(sequence: Any, times: Any) -> Any:
+    """Return a text or a list, repeated."""
+    if isinstance(sequence, int):
+        sequence, times = times, sequence
     if not isinstance(times, int) or isinstance(times, bool):
-        raise ExpressionError(f"{written(times)[:40]} is no number of repetitions")
-    limit = MAX_LENGTH if isinstance(whole, str) else MAX_ITEMS
-    if len(whole) * times > limit:
+        raise ExpressionError(f"{to_text(times)[:40]} is no number of repetitions")
+    limit = MAX_LENGTH if isinstance(sequence, str) else MAX_ITEMS
+    if len(sequence) * times > limit:
         raise ExpressionError(f"a text or a list longer than {limit}")
-    return whole * times
+    return sequence * times
 
 
-def tokenized(text: Any, sep: str = ",; ", skip_empty: bool = True) -> list[str]:
+def tokenize(text: Any, sep: str = ",; ", skip_empty: bool = True) -> list[str]:
     """Return the parts of a text between characters of ``sep``."""
     parts = re.split(f"[{re.escape(sep)}]", str(text)) if sep else [str(text)]
     return [part for part in parts if part or not skip_empty]
 
 
-def dotified(entries: Any) -> Any:
-    """Return a dictionary, whose entries may be written with a dot anyway."""
+def dotify(entries: Any) -> Any:
+    """Return a dictionary, whose entries may always be written with a dot."""
     if not isinstance(entries, dict):
-        raise ExpressionError(f"{written(entries)[:40]} is no dictionary")
+        raise ExpressionError(f"{to_text(entries)[:40]} is no dictionary")
     return entries
 
 
-WIDTH = re.compile(r"\d+")
-"""Numbers in a pattern, among which are those of its fields."""
+FIELD_WIDTH = re.compile(r"\d+")
+"""A number in a pattern, such as the width of a field."""
 
 FUNCTIONS: dict[str, Callable[..., Any]] = {
     **{name: getattr(math, name) for name in ("sin", "cos", "tan", "asin", "acos", "atan")},
@@ -86,22 +86,22 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
     **{name: getattr(math, name) for name in ("log2", "log1p", "expm1", "trunc", "isfinite")},
     **{name: getattr(math, name) for name in ("asinh", "acosh", "atanh", "isnan", "isinf")},
     **{"abs": abs, "min": min, "max": max, "round": round, "sum": sum, "pow": power},
-    **{"int": int, "float": float, "bool": bool, "str": str, "len": len, "range": numbers},
+    **{"int": int, "float": float, "bool": bool, "str": str, "len": len, "range": integer_range},
     **{"list": list, "tuple": tuple, "dict": dict, "set": DistinctItems, "sorted": sorted},
-    **{"any": any, "all": all, "zip": zipped, "enumerate": numbered},
-    **{"xacro.tokenize": tokenized, "xacro.dotify": dotified, "dotify": dotified},
+    **{"any": any, "all": all, "zip": zip_lists, "enumerate": enumerate_items},
+    **{"xacro.tokenize": tokenize, "xacro.dotify": dotify, "dotify": dotify},
 }
-"""Name -> function; those of ``math`` may be written ``math.name``."""
+"""The functions by name; those of ``math`` may be written ``math.name``."""
 
 METHODS: dict[type, tuple[str, ...]] = {
     str: ("lower", "upper", "strip", "split", "startswith", "endswith", "replace", "join", "title"),
     list: ("index", "count"),
     dict: ("get", "keys", "values", "items"),
 }
-"""Methods of each kind of value."""
+"""The methods of each type of value."""
 
 
 def method(value: Value, name: str) -> Callable[..., Any] | None:
     """Return a method of a value; None if it has none of that name."""
-    known = METHODS.get(type(value), ())
-    return getattr(value, name) if name in known else None
+    names = METHODS.get(type(value), ())
+    return getattr(value, name) if name in names else None

@@ -17,25 +17,25 @@ PARAMETER = re.compile(
     r"(?:\s*(?P<colon>:?=)\s*(?P<outer>\^\|?)?"
     r"(?P<default>\$\{[^{}]*\}|\$\([^()]*\)|(?:'[^']*'|\"[^\"]*\"|[^\s'\"])*|\S*))?(?=\s|$)"
 )
-"""A parameter; its default may be texts in quotes and without, one after the other."""
+"""A parameter; its default may be a sequence of texts with and without quotes."""
 COMMAS = re.compile(r"\s*\w+\s*(,\s*\w+\s*)+")
-"""Names with commas between them, which xacro takes for parts of the names."""
+"""Names with commas between them, which xacro reads as parts of the names."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Parameter:
     """A parameter of a macro: ``name``, ``name:=default``, ``name:=^|default``, ``*block``.
 
-    The bar may be missing.
+    The bar is optional.
     """
 
     name: str
     default: str | None = None
-    """Text that is used without a value; None: there must be one."""
-    is_from_outside: bool = False
-    """Whether, without a value, a property of that name where the macro is called is used."""
+    """The default text; None: a value is required."""
+    uses_caller: bool = False
+    """A flag: without a value, the property of that name in the caller's scope is used."""
     stars: int = 0
-    """1: the next element of the call; 2: what is in it."""
+    """The kind of block, 1: the next element of the call; 2: the content of it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,34 +54,35 @@ class Macro:
 
         Args:
             texts: the attributes of the call.
-            elements: its elements, expanded.
+            elements: the elements of the call, expanded.
             call: the scope in which it is called.
 
         Raises:
-            ExpressionError: a parameter lacks its value, or there is none for a value.
+            ExpressionError: a parameter has no value, or a value no parameter.
         """
-        inner, given = call.inner(), dict(texts)
-        blocks = [each for each in elements if isinstance(each.tag, str)]
+        call_scope, arguments = call.nested_scope(), dict(texts)
+        blocks = [element for element in elements if isinstance(element.tag, str)]
         for parameter in self.parameters:
             if not parameter.stars:
-                inner.set_value(parameter.name, self._value(parameter, given, call))
+                call_scope.set_value(parameter.name, self._value(parameter, arguments, call))
             elif blocks:
                 block = blocks.pop(0)
-                inner.blocks[parameter.name] = [block] if parameter.stars == 1 else list(block)
+                call_scope.blocks[parameter.name] = [block] if parameter.stars == 1 else list(block)
             else:
                 raise ExpressionError(f"<xacro:{self.name}> lacks its block {parameter.name!r}")
-        if given:
-            name = next(iter(given))
-            near = did_you_mean(name, [each.name for each in self.parameters])
-            raise ExpressionError(f"<xacro:{self.name}> has no parameter {name[:60]!r}.{near}")
+        if arguments:
+            name = next(iter(arguments))
+            suggestion = did_you_mean(name, [element.name for element in self.parameters])
+            message = f"<xacro:{self.name}> has no parameter {name[:60]!r}."
+            raise ExpressionError(f"{message}{suggestion}")
         if blocks:
-            raise ExpressionError(f"<xacro:{self.name}> has a block too many")
-        return inner
+            raise ExpressionError(f"<xacro:{self.name}> has too many blocks")
+        return call_scope
 
-    def _value(self, parameter: Parameter, given: dict[str, str], call: Scope) -> Value:
-        """Take the value of a parameter out of the given ones, or its default."""
-        text = given.pop(parameter.name, None)
-        if text is None and parameter.is_from_outside and call.has(parameter.name):
+    def _value(self, parameter: Parameter, arguments: dict[str, str], call: Scope) -> Value:
+        """Remove the value of a parameter from the arguments and return it, or its default."""
+        text = arguments.pop(parameter.name, None)
+        if text is None and parameter.uses_caller and call.has_name(parameter.name):
             return call.value(parameter.name)
         if text is None:
             text = parameter.default
@@ -94,28 +95,28 @@ def parameters_of(text: str) -> tuple[Parameter, ...]:
     """Read the attribute ``params`` of a macro.
 
     Raises:
-        ExpressionError: something in it is no parameter, or there are two of one name.
+        ExpressionError: a part of it is no parameter, or two have one name.
     """
     parameters: dict[str, Parameter] = {}
-    last = 0
+    position = 0
     text = text.replace(",", " ") if COMMAS.fullmatch(text) else text
-    for found in PARAMETER.finditer(text):
-        if text[last : found.start()].strip():
+    for match in PARAMETER.finditer(text):
+        if text[position : match.start()].strip():
             break
-        last = found.end()
-        name, default = found["name"], found["default"]
+        position = match.end()
+        name, default = match["name"], match["default"]
         if name in parameters:
             raise ExpressionError(f"two parameters are called {name!r}")
         if default and default[0] == default[-1] and default[0] in "'\"":
             default = default[1:-1]
-        is_from_outside = found["outer"] is not None
-        has_default = found["colon"] is not None and bool(default or found["outer"] != "^")
+        uses_caller = match["outer"] is not None
+        has_default = match["colon"] is not None and bool(default or match["outer"] != "^")
         parameters[name] = Parameter(
             name=name,
             default=(default or "") if has_default else None,
-            is_from_outside=is_from_outside,
-            stars=len(found["stars"]),
+            uses_caller=uses_caller,
+            stars=len(match["stars"]),
         )
-    if rest := text[last:].strip():
+    if rest := text[position:].strip():
         raise ExpressionError(f"{rest[:40]!r} in params is no parameter, such as name or name:=1")
     return tuple(parameters.values())

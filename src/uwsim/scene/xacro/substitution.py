@@ -10,45 +10,45 @@ from ...errors import did_you_mean
 from .expression import CONSTANTS, evaluate
 from .functions import FUNCTIONS
 from .scope import literal_of
-from .value import ExpressionError, Value, written
+from .value import ExpressionError, Value, to_text
 
 
 class Arguments:
-    """The values of ``<xacro:arg>`` by name: from outside, else the defaults of the files.
+    """The values of ``<xacro:arg>`` by name: the caller's, else the defaults of the files.
 
     Args:
-        given: values from outside.
+        values: the values of the caller.
     """
 
-    def __init__(self, given: Mapping[str, str]) -> None:
-        self._values = dict(given)
-        self._known: set[str] = set()
+    def __init__(self, values: Mapping[str, str]) -> None:
+        self._values = dict(values)
+        self._names: set[str] = set()
 
     @property
-    def known(self) -> tuple[str, ...]:
-        """Names that files declare or use, sorted."""
-        return tuple(sorted(self._known))
+    def names(self) -> tuple[str, ...]:
+        """The names that files declare or use, sorted."""
+        return tuple(sorted(self._names))
 
     def declare(self, name: str, default: str | None) -> None:
-        """Add an argument; a default counts without a value from outside."""
-        self._known.add(name)
+        """Add an argument; the default applies without a value of the caller."""
+        self._names.add(name)
         if default is not None:
             self._values.setdefault(name, default)
 
     def value(self, name: str) -> str:
         """Return the value of an argument; raises ExpressionError."""
-        self._known.add(name)
+        self._names.add(name)
         if name not in self._values:
-            near = did_you_mean(name, self._values)
+            suggestion = did_you_mean(name, self._values)
             raise ExpressionError(
-                f"$(arg {name[:60]}): there is no such <xacro:arg> with a value.{near} "
-                "--xacro NAME:=VALUE gives one"
+                f"$(arg {name[:60]}): there is no such <xacro:arg> with a value.{suggestion} "
+                "--xacro NAME:=VALUE sets it"
             )
         return self._values[name]
 
 
-def substituted(text: str, arguments: Arguments, file: Path) -> str:
-    """Return what ``$(text)`` stands for in a file.
+def substitute(text: str, arguments: Arguments, file: Path) -> str:
+    """Return the substitution of ``$(text)`` in a file.
 
     Raises:
         ExpressionError: it is unknown, or not supported.
@@ -64,11 +64,11 @@ def substituted(text: str, arguments: Arguments, file: Path) -> str:
         case ["optenv", name, *default]:
             return os.environ.get(name, " ".join(default))
         case ["eval", _, *_]:
-            return _evaluated(text.strip().removeprefix("eval"), arguments)
+            return _evaluate(text.strip().removeprefix("eval"), arguments)
         case ["env" | "anon" | "cwd", *_]:
             raise ExpressionError(
-                f"$({words[0]} ...) is not supported: a scene consists of its files alone; "
-                "$(optenv NAME DEFAULT) and $(arg NAME) are"
+                f"$({words[0]} ...) is not supported, as a scene consists of its files only; "
+                "expected $(optenv NAME DEFAULT) or $(arg NAME)"
             )
     raise ExpressionError(
         f"$({text[:60]}) is unknown; expected $(arg NAME), $(find PACKAGE), $(dirname), "
@@ -76,10 +76,10 @@ def substituted(text: str, arguments: Arguments, file: Path) -> str:
     )
 
 
-def _evaluated(expression: str, arguments: Arguments) -> str:
+def _evaluate(expression: str, arguments: Arguments) -> str:
     """Return the value of an expression over the arguments, as text."""
 
-    def look_up(name: str) -> Value:
+    def resolve(name: str) -> Value:
         return CONSTANTS[name] if name in CONSTANTS else literal_of(arguments.value(name))
 
     def arg(name: str) -> Value:
@@ -88,4 +88,4 @@ def _evaluated(expression: str, arguments: Arguments) -> str:
     def find(package: str) -> str:
         return f"package://{package}"
 
-    return written(evaluate(expression, look_up, {**FUNCTIONS, "arg": arg, "find": find}))
+    return to_text(evaluate(expression, resolve, {**FUNCTIONS, "arg": arg, "find": find}))

@@ -8,18 +8,18 @@ from typing import Any
 from ...errors import UwsimError
 
 Value = int | float | bool | str | list[Any] | dict[Any, Any] | None
-"""A list holds values, a dictionary values by texts or numbers; None is YAML's null."""
+"""A value; a list contains values, a dictionary values by texts or numbers; None is YAML's null."""
 MAX_LENGTH = 4096
-"""Longest expression, and longest text it may give [characters]."""
+"""The greatest length of an expression, and of a text that it gives [characters]."""
 MAX_INTEGER = 2**63
 MAX_ITEMS = 10_000
-"""Most values in a list or a dictionary, those in their lists and dictionaries included."""
+"""The greatest number of values in a list or dictionary, nested ones included."""
 MAX_DISTINCT = 1000
-"""Most items of which a set is made: each is compared with all others."""
-LETTERS = 100
-"""Letters of the texts in a list that count as a value."""
-MAX_NESTED = 40
-"""Deepest nesting of lists and dictionaries."""
+"""The greatest number of items of a set: each is compared with all others."""
+LETTERS_PER_VALUE = 100
+"""The number of letters of the texts in a list that count as a value."""
+MAX_NESTING = 40
+"""The deepest nesting of lists and dictionaries."""
 
 
 class ExpressionError(UwsimError):
@@ -29,7 +29,7 @@ class ExpressionError(UwsimError):
 class DistinctItems(list[Any]):
     """The set of an expression: a list without equal items, in the order of their first ones.
 
-    Python's sets have another order in each process, and no file can rely on that.
+    The order of Python's sets differs in each process, and no file can rely on it.
     """
 
     def __init__(self, items: Iterable[Any] = ()) -> None:
@@ -45,19 +45,19 @@ class DistinctItems(list[Any]):
         return f"{{{', '.join(map(repr, self))}}}" if self else "set()"
 
     def __sub__(self, other: Any) -> DistinctItems:
-        return DistinctItems(item for item in self if item not in _distinct(other))
+        return DistinctItems(item for item in self if item not in _check_set(other))
 
     def __and__(self, other: Any) -> DistinctItems:
-        return DistinctItems(item for item in self if item in _distinct(other))
+        return DistinctItems(item for item in self if item in _check_set(other))
 
     def __or__(self, other: Any) -> DistinctItems:
-        return DistinctItems([*self, *_distinct(other)])
+        return DistinctItems([*self, *_check_set(other)])
 
     def __le__(self, other: Any) -> bool:
-        return not self - _distinct(other)
+        return not self - _check_set(other)
 
     def __ge__(self, other: Any) -> bool:
-        return not _distinct(other) - self
+        return not _check_set(other) - self
 
     def __lt__(self, other: Any) -> bool:
         return self <= other and len(self) < len(other)
@@ -71,19 +71,19 @@ class DistinctItems(list[Any]):
     __hash__ = None
 
 
-def _distinct(value: Any) -> DistinctItems:
+def _check_set(value: Any) -> DistinctItems:
     if not isinstance(value, DistinctItems):
         raise TypeError(f"a set and a {type(value).__name__} have no such operation")
     return value
 
 
-def written(value: Value) -> str:
-    """Return a value as it stands in a file: that of a comparison as ``True``, as xacro has it."""
+def to_text(value: Value) -> str:
+    """Return a value as text: that of a comparison as ``True``, as in xacro."""
     return str(value)
 
 
-def checked(value: Any) -> Value:
-    """Return a value within the limits; raises ExpressionError for another.
+def check_value(value: Any) -> Value:
+    """Return a value if it is within the limits; else raise ExpressionError.
 
     Tuples and views of a dictionary become lists.
     """
@@ -98,22 +98,24 @@ def checked(value: Any) -> Value:
         return value
     if isinstance(value, tuple | KeysView | ValuesView | ItemsView):
         items: list[Any] = list(value)
-        return checked([checked(item) for item in items])
+        return check_value([check_value(item) for item in items])
     raise ExpressionError("the result is no number, text, list or dictionary")
 
 
-def _check_size(whole: list[Any] | dict[Any, Any]) -> None:
-    """Count the values in a list or dictionary, however often one of them occurs."""
+def _check_size(container: list[Any] | dict[Any, Any]) -> None:
+    """Count the values in a list or dictionary, repeated ones each time."""
     n_items = 0
-    level: list[Any] = [whole]
-    for _ in range(MAX_NESTED):
-        below: list[Any] = []
-        for each in level:
-            items = list(each.values()) if isinstance(each, dict) else each
-            n_items += len(items) + sum(len(i) for i in items if isinstance(i, str)) // LETTERS
+    level: list[Any] = [container]
+    for _ in range(MAX_NESTING):
+        next_level: list[Any] = []
+        for collection in level:
+            items = list(collection.values()) if isinstance(collection, dict) else collection
+            n_items += (
+                len(items) + sum(len(i) for i in items if isinstance(i, str)) // LETTERS_PER_VALUE
+            )
             if n_items > MAX_ITEMS:
                 raise ExpressionError(f"a list or dictionary of more than {MAX_ITEMS} values")
-            below += [item for item in items if isinstance(item, list | dict)]
-        level = below
+            next_level += [item for item in items if isinstance(item, list | dict)]
+        level = next_level
     if level:
-        raise ExpressionError(f"lists are nested deeper than {MAX_NESTED} levels")
+        raise ExpressionError(f"lists are nested deeper than {MAX_NESTING} levels")

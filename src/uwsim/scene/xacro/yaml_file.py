@@ -1,7 +1,7 @@
 """YAML files of properties, read by ``xacro.load_yaml`` as PyYAML reads them for the xacro of ROS.
 
-Of a key that is there twice the last value counts, and there is a warning. What an alias
-(``*name``) stands for is shared and not copied; its size counts each time.
+Of a key that occurs twice the last value applies, with a warning. The node of an alias (``*name``)
+is shared and not copied; its size counts each time.
 """
 
 from __future__ import annotations
@@ -14,15 +14,15 @@ from typing import Any
 from ...base.files.input_files import read_bytes
 from ...errors import AssetError
 from .expression import CONSTANTS, evaluate
-from .value import MAX_ITEMS, ExpressionError, Value, checked
-from .yaml_scalar import STANDARD, scalar, tag_of, unknown_tag
+from .value import MAX_ITEMS, ExpressionError, Value, check_value
+from .yaml_scalar import STANDARD_PREFIX, parse_scalar, tag_of, unknown_tag_error
 
 Node = Any
 """A node of ruamel.yaml, whose classes have no types."""
 MAX_BYTES = 1 << 20
-"""Largest file that is read."""
+"""The size of the largest file that is read [bytes]."""
 MAX_YAML_NODES = 3 * MAX_ITEMS
-"""Most keys, values, lists, dictionaries and aliases of a file."""
+"""The greatest number of keys, values, lists, dictionaries and aliases of a file."""
 UNITS: dict[str, float] = {
     "!radians": 1.0,
     "!degrees": math.pi / 180.0,
@@ -31,9 +31,9 @@ UNITS: dict[str, float] = {
     "!foot": 0.3048,
     "!inches": 0.0254,
 }
-"""Tag of a number -> its unit [rad or m]."""
+"""The unit of a number for each tag [rad or m]."""
 Warn = Callable[[int, str], None]
-"""Takes a warning at a line."""
+"""A function that takes a warning at a line."""
 
 
 def read_yaml(path: Path, *, name: str, warn: Warn = lambda line, message: None) -> Value:
@@ -41,8 +41,8 @@ def read_yaml(path: Path, *, name: str, warn: Warn = lambda line, message: None)
 
     Args:
         path: the file.
-        name: what it is called by the file that names it.
-        warn: is called with the line of each key that is there twice.
+        name: the name of the file in the file that uses it.
+        warn: the function that is called with the line of each key that occurs twice.
 
     Raises:
         ExpressionError: it cannot be read, is no YAML, or is too large, its aliases included.
@@ -50,8 +50,8 @@ def read_yaml(path: Path, *, name: str, warn: Warn = lambda line, message: None)
     from ruamel.yaml.error import MarkedYAMLError, YAMLError
 
     try:
-        root = _composed(read_bytes(path, name=name, at_most=MAX_BYTES))
-        return None if root is None else checked(_Builder(warn).value(root))
+        root = _compose(read_bytes(path, name=name, at_most=MAX_BYTES))
+        return None if root is None else check_value(_Builder(warn).value(root))
     except (OSError, AssetError) as error:
         raise ExpressionError(f"{path}: cannot be read: {str(error)[:200]}") from None
     except ExpressionError as error:
@@ -65,8 +65,8 @@ def read_yaml(path: Path, *, name: str, warn: Warn = lambda line, message: None)
         raise ExpressionError(f"{path}: not YAML: {'; '.join(lines[:3])[:200]}") from None
 
 
-def _composed(data: bytes) -> Node:
-    """Return the nodes of a file, where an alias is the node that it stands for; None for none."""
+def _compose(data: bytes) -> Node:
+    """Return the root node of a file, where an alias is its node; None for an empty file."""
     from ruamel.yaml import YAML
     from ruamel.yaml.composer import Composer
     from ruamel.yaml.nodes import ScalarNode
@@ -74,7 +74,7 @@ def _composed(data: bytes) -> Node:
     from ruamel.yaml.tag import Tag
 
     class BoundedComposer(Composer):
-        """Counts the nodes as they are made."""
+        """A composer that limits the number of nodes."""
 
         def __init__(self, loader: Any = None) -> None:
             super().__init__(loader)
@@ -87,7 +87,7 @@ def _composed(data: bytes) -> Node:
             return super().compose_node(parent, index)
 
     class Resolver(VersionedResolver):
-        """Tells numbers from texts as YAML 1.1 does."""
+        """A resolver that separates numbers from texts as YAML 1.1 does."""
 
         def resolve(self, kind: Any, value: Any, implicit: Any) -> Any:
             if kind is ScalarNode and implicit[0]:
@@ -100,57 +100,55 @@ def _composed(data: bytes) -> Node:
 
 
 class _Builder:
-    """Makes values of the nodes of a file, one for each node, however many aliases it has."""
+    """The values of the nodes of a file, one for each node, with any number of aliases."""
 
     def __init__(self, warn: Warn) -> None:
         self._warn = warn
-        self._made: dict[Node, Value] = {}
-        self._unfinished: set[Node] = set()
+        self._values: dict[Node, Value] = {}
+        self._open_nodes: set[Node] = set()
         self._n_merged = 0
 
     def value(self, node: Node) -> Value:
         """Return the value of a node; raises ExpressionError."""
-        if node in self._made:
-            return self._made[node]
-        if node in self._unfinished:
-            raise ExpressionError(
-                f"the alias *{str(node.anchor)[:40]} is within what it stands for"
-            )
-        self._unfinished.add(node)
-        self._made[node] = self._built(node)
-        return self._made[node]
+        if node in self._values:
+            return self._values[node]
+        if node in self._open_nodes:
+            raise ExpressionError(f"the alias *{str(node.anchor)[:40]} is within its own node")
+        self._open_nodes.add(node)
+        self._values[node] = self._build(node)
+        return self._values[node]
 
-    def _built(self, node: Node) -> Value:
+    def _build(self, node: Node) -> Value:
         tag = str(node.tag)
         if node.id == "scalar":
-            return _number(node) if tag in UNITS else scalar(tag, node.value)
-        if tag == f"{STANDARD}seq" and node.id == "sequence":
-            return [self.value(each) for each in node.value]
-        if tag == f"{STANDARD}map" and node.id == "mapping":
+            return _number(node) if tag in UNITS else parse_scalar(tag, node.value)
+        if tag == f"{STANDARD_PREFIX}seq" and node.id == "sequence":
+            return [self.value(child) for child in node.value]
+        if tag == f"{STANDARD_PREFIX}map" and node.id == "mapping":
             return self._dictionary(node)
-        raise unknown_tag(tag)
+        raise unknown_tag_error(tag)
 
     def _dictionary(self, node: Node) -> dict[Any, Any]:
         """Return a dictionary: the entries that ``<<`` merges, and its own."""
-        merged: dict[Any, Any] = {}
-        own: dict[Any, Any] = {}
+        merged_entries: dict[Any, Any] = {}
+        entries: dict[Any, Any] = {}
         for key_node, value_node in node.value:
-            if str(key_node.tag) == f"{STANDARD}merge":
-                for key, value in self._merged(value_node).items():
-                    merged.setdefault(key, value)
+            if str(key_node.tag) == f"{STANDARD_PREFIX}merge":
+                for key, value in self._merge(value_node).items():
+                    merged_entries.setdefault(key, value)
                 continue
             key = self.value(key_node)
             if isinstance(key, list | dict):
                 raise ExpressionError("a key is a list or a dictionary")
-            if key in own:
-                message = f"the key {str(key)[:60]!r} is there twice; the last value counts"
+            if key in entries:
+                message = f"the key {str(key)[:60]!r} occurs twice; the last value applies"
                 self._warn(key_node.start_mark.line + 1, message)
-            own[key] = self.value(value_node)
-        return {**merged, **own}
+            entries[key] = self.value(value_node)
+        return {**merged_entries, **entries}
 
-    def _merged(self, node: Node) -> dict[Any, Any]:
-        """Return the entries of a dictionary, or of a list of them, of which the first counts."""
-        merged: dict[Any, Any] = {}
+    def _merge(self, node: Node) -> dict[Any, Any]:
+        """Return the entries of a dictionary, or of a list of them; the first takes precedence."""
+        merged_entries: dict[Any, Any] = {}
         for part in reversed(node.value if node.id == "sequence" else [node]):
             entries = self.value(part)
             if not isinstance(entries, dict):
@@ -158,8 +156,8 @@ class _Builder:
             self._n_merged += len(entries)
             if self._n_merged > MAX_ITEMS:
                 raise ExpressionError(f"<< merges more than {MAX_ITEMS} values")
-            merged.update(entries)
-        return merged
+            merged_entries.update(entries)
+        return merged_entries
 
 
 def _number(node: Node) -> float:

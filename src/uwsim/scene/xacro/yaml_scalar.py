@@ -1,6 +1,6 @@
 """Numbers, truth values and texts of YAML 1.1, as PyYAML reads them for the xacro of ROS.
 
-Two kinds of numbers that PyYAML takes for texts are numbers here: those with an exponent but
+Two kinds of numbers that PyYAML reads as texts are numbers here: those with an exponent but
 without a point or without the sign of the exponent (``1e-3``, ``1.5e3``), and ``-.5``.
 A date is a text.
 """
@@ -11,17 +11,17 @@ import re
 
 from .value import ExpressionError
 
-STANDARD = "tag:yaml.org,2002:"
-"""What the tags of YAML itself begin with."""
+STANDARD_PREFIX = "tag:yaml.org,2002:"
+"""The prefix of the tags of YAML itself."""
 MAX_NUMBER = 100
-"""Longest number [characters]; what is longer is a text."""
-TRUTH = {
+"""The length of the longest number [characters]; a longer one is a text."""
+TRUTH_VALUES = {
     **dict.fromkeys(("yes", "true", "on"), True),
     **dict.fromkeys(("no", "false", "off"), False),
 }
 DECIMAL = r"[-+]?[0-9][0-9_]*"
 PATTERNS = {
-    "bool": "|".join(form for word in TRUTH for form in (word, word.title(), word.upper())),
+    "bool": "|".join(form for word in TRUTH_VALUES for form in (word, word.title(), word.upper())),
     "int": r"[-+]?0b[01_]+|[-+]?0[0-7_]+|[-+]?(0|[1-9][0-9_]*)|[-+]?0x[0-9a-fA-F_]+"
     r"|[-+]?[1-9][0-9_]*(:[0-5]?[0-9])+",
     "float": rf"{DECIMAL}\.[0-9_]*([eE][-+]?[0-9]+)?|[-+]?\.[0-9][0-9_]*([eE][-+]?[0-9]+)?"
@@ -30,47 +30,47 @@ PATTERNS = {
     "null": "~|null|Null|NULL|",
     "merge": "<<",
 }
-"""Kind of a text without quotes -> what it looks like; the first kind that fits counts."""
-KINDS = {kind: re.compile(pattern) for kind, pattern in PATTERNS.items()}
+"""The pattern of each kind of text without quotes; the first match applies."""
+COMPILED_PATTERNS = {kind: re.compile(pattern) for kind, pattern in PATTERNS.items()}
 
 
 def tag_of(text: str) -> str:
     """Return the tag of a text without quotes and without a tag."""
     if len(text) <= MAX_NUMBER:
-        for kind, pattern in KINDS.items():
+        for kind, pattern in COMPILED_PATTERNS.items():
             if pattern.fullmatch(text):
-                return STANDARD + kind
-    return f"{STANDARD}str"
+                return STANDARD_PREFIX + kind
+    return f"{STANDARD_PREFIX}str"
 
 
-def scalar(tag: str, text: str) -> int | float | bool | str | None:
-    """Return what a text with a tag stands for.
+def parse_scalar(tag: str, text: str) -> int | float | bool | str | None:
+    """Convert a text with a tag to its value.
 
     Raises:
-        ExpressionError: the tag is unknown, or the text is nothing of its kind.
+        ExpressionError: the tag is unknown, or the text is invalid for it.
     """
-    kind = tag.removeprefix(STANDARD)
+    kind = tag.removeprefix(STANDARD_PREFIX)
     if kind in ("str", "merge", "value", "timestamp"):
         return text
     if kind == "null":
         return None
     if kind not in ("bool", "int", "float"):
-        raise unknown_tag(tag)
+        raise unknown_tag_error(tag)
     word = text.replace("_", "").lower()
-    if kind == "bool" and word in TRUTH:
-        return TRUTH[word]
+    if kind == "bool" and word in TRUTH_VALUES:
+        return TRUTH_VALUES[word]
     if kind == "bool" or not word or len(word) > MAX_NUMBER:
         raise ExpressionError(f"{text[:40]!r} is no {kind}")
-    return _whole(word) if kind == "int" else _real(word)
+    return _parse_integer(word) if kind == "int" else _parse_real(word)
 
 
-def unknown_tag(tag: str) -> ExpressionError:
-    """Return the error of a tag that is not read."""
+def unknown_tag_error(tag: str) -> ExpressionError:
+    """Return the error of a tag that is not supported."""
     return ExpressionError(f"not YAML of numbers and texts: the tag {tag[:60]} is unknown")
 
 
-def _whole(word: str) -> int:
-    """Return an integer: decimal, ``0b1``, ``0x1f``, octal ``017``, or sexagesimal ``1:30``."""
+def _parse_integer(word: str) -> int:
+    """Convert an integer: decimal, ``0b1``, ``0x1f``, octal ``017``, or sexagesimal ``1:30``."""
     sign, digits = (-1 if word[0] == "-" else 1), word.lstrip("+-")
     if digits.startswith(("0b", "0x")):
         return sign * int(digits, 0)
@@ -82,8 +82,8 @@ def _whole(word: str) -> int:
     return sign * value
 
 
-def _real(word: str) -> float:
-    """Return a real number: decimal, ``.inf``, ``.nan``, or sexagesimal ``1:30.5``."""
+def _parse_real(word: str) -> float:
+    """Convert a real number: decimal, ``.inf``, ``.nan``, or sexagesimal ``1:30.5``."""
     sign, digits = (-1.0 if word[0] == "-" else 1.0), word.lstrip("+-")
     if digits in (".inf", ".nan"):
         return sign * float(digits[1:])
