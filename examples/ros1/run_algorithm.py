@@ -22,7 +22,7 @@ from lockstep import LockStep, run
 
 from uwsim.errors import UnknownName
 from uwsim.middleware.encodings import from_ros1, to_ros1
-from uwsim.middleware.stamps import to_ros_clock, to_simulation_time
+from uwsim.middleware.stamps import to_ros_time, to_sim_time
 from uwsim.middleware.types import service_of, wire_service, wire_type
 
 PATIENCE = 10.0
@@ -86,22 +86,22 @@ class Node:
         self._lockstep.subscribe(
             slashed(topic),
             raw_type(kind),
-            lambda message: callback(to_simulation_time(from_ros1(kind, message.data))),
+            lambda message: callback(to_sim_time(from_ros1(kind, message.data))),
         )
 
     def publisher(self, topic: str, kind: type):
         """Return ``publish(message)`` for ``topic``."""
         raw = raw_type(kind)
         publish = self._lockstep.publisher(slashed(topic), raw)
-        return lambda message: publish(raw(bytes(to_ros1(to_ros_clock(message)))))
+        return lambda message: publish(raw(bytes(to_ros1(to_ros_time(message)))))
 
     def serve(self, name: str, kind: type, handler) -> None:
         """Offer a service; ``kind`` is the class of its request."""
         service = raw_service(kind)
 
         def answer(request: Raw) -> Raw:
-            response = handler(to_simulation_time(from_ros1(kind, request.data)))
-            return service._response_class(bytes(to_ros1(to_ros_clock(response))))
+            response = handler(to_sim_time(from_ros1(kind, request.data)))
+            return service._response_class(bytes(to_ros1(to_ros_time(response))))
 
         self._lockstep.serve(slashed(name), service, answer)
 
@@ -111,10 +111,10 @@ class Node:
         try:
             rospy.wait_for_service(slashed(name), timeout=PATIENCE)
             proxy = rospy.ServiceProxy(slashed(name), service)
-            response = proxy(service._request_class(bytes(to_ros1(to_ros_clock(request)))))
+            response = proxy(service._request_class(bytes(to_ros1(to_ros_time(request)))))
         except rospy.ROSException as error:
             raise UnknownName("service", name, []) from error
-        return to_simulation_time(from_ros1(service_of(type(request)).response, response.data))
+        return to_sim_time(from_ros1(service_of(type(request)).response, response.data))
 
     def create_timer(self, period_s: float, callback) -> None:
         """Have ``callback`` called every ``period_s`` of simulation time, from now on."""

@@ -25,7 +25,7 @@ from uwsim.errors import BadSetting
 from uwsim.messages import Empty, EmptyResponse
 from uwsim.middleware.encodings import from_cdr, to_cdr
 from uwsim.middleware.json_encoding import from_json, to_json
-from uwsim.middleware.stamps import to_ros_clock, to_simulation_time
+from uwsim.middleware.stamps import to_ros_time, to_sim_time
 from uwsim.middleware.types import service_of, wire_type
 
 
@@ -45,14 +45,14 @@ class Node:
         """Have ``callback`` called with every message on ``topic``."""
 
         def receive(data: bytes) -> None:
-            callback(to_simulation_time(from_cdr(type, data)))
+            callback(to_sim_time(from_cdr(type, data)))
 
         self._lockstep.subscribe(_slashed(topic), _class_of_ros(type), receive, raw=True)
 
     def publisher(self, topic: str, type: type) -> Callable[[Any], None]:
         """Return ``publish(message)`` for ``topic``."""
         publish = self._lockstep.publisher(_slashed(topic), _class_of_ros(type))
-        return lambda message: publish(bytes(to_cdr(to_ros_clock(message))))
+        return lambda message: publish(bytes(to_cdr(to_ros_time(message))))
 
     def serve(self, name: str, type: type, handler: Callable[[Any], Any]) -> None:
         """Offer a service; ``type`` is the class of its request."""
@@ -61,9 +61,7 @@ class Node:
         self._lockstep.serve(
             _slashed(name),
             service.name,
-            lambda values: to_json(
-                to_ros_clock(handler(to_simulation_time(from_json(type, values))))
-            ),
+            lambda values: to_json(to_ros_time(handler(to_sim_time(from_json(type, values))))),
         )
 
     def call(self, name: str, request: Any) -> Any:

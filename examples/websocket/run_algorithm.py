@@ -21,7 +21,7 @@ from lockstep import Client, connected
 
 from uwsim.errors import UnknownName
 from uwsim.middleware.json_encoding import from_json, to_json
-from uwsim.middleware.stamps import to_ros_clock, to_simulation_time
+from uwsim.middleware.stamps import to_ros_time, to_sim_time
 from uwsim.middleware.types import service_of, wire_type
 
 
@@ -40,13 +40,13 @@ class Node:
     def subscribe(self, topic: str, type: type, callback: Callable[[Any], None]) -> None:
         """Have ``callback`` called with every message on ``topic``."""
         self._client.subscribe(
-            _slashed(topic), lambda values: callback(to_simulation_time(from_json(type, values)))
+            _slashed(topic), lambda values: callback(to_sim_time(from_json(type, values)))
         )
 
     def publisher(self, topic: str, type: type) -> Callable[[Any], None]:
         """Return ``publish(message)`` for ``topic``."""
         publish = self._client.publisher(_slashed(topic), _wire_name(type))
-        return lambda message: publish(to_json(to_ros_clock(message)))
+        return lambda message: publish(to_json(to_ros_time(message)))
 
     def serve(self, name: str, type: type, handler: Callable[[Any], Any]) -> None:
         """Offer a service; ``type`` is the class of its request."""
@@ -55,9 +55,7 @@ class Node:
         self._client.serve(
             _slashed(name),
             service.name,
-            lambda values: to_json(
-                to_ros_clock(handler(to_simulation_time(from_json(type, values))))
-            ),
+            lambda values: to_json(to_ros_time(handler(to_sim_time(from_json(type, values))))),
         )
 
     def call(self, name: str, request: Any) -> Any:
@@ -65,10 +63,10 @@ class Node:
         service = service_of(type(request))
         assert service is not None
         try:
-            values = self._client.call(_slashed(name), to_json(to_ros_clock(request)))
+            values = self._client.call(_slashed(name), to_json(to_ros_time(request)))
         except LookupError as error:
             raise UnknownName("service", name, []) from error
-        return to_simulation_time(from_json(service.response, values))
+        return to_sim_time(from_json(service.response, values))
 
     def create_timer(self, period_s: float, callback: Callable[[], None]) -> None:
         """Have ``callback`` called every ``period_s`` of simulation time, from now on."""

@@ -62,18 +62,18 @@ def test_a_message_is_sent_only_while_somebody_reads(bus: Bus, bridge: Seen) -> 
     publish = bus.publisher("depth", Float64)
     publish(Float64(data=1.0))
     bridge.step()
-    bridge.external_subscribers.add("/depth")
+    bridge.subscribers.add("/depth")
     assert not bus.has_subscribers("depth")
     bridge.step()
     assert bus.has_subscribers("depth")
     publish(Float64(data=2.0))
     bus.deliver()
-    bridge.external_subscribers.add("depth")
-    bridge.external_subscribers.remove("depth")
+    bridge.subscribers.add("depth")
+    bridge.subscribers.remove("depth")
     bridge.step()
     publish(Float64(data=3.0))
     bus.deliver()
-    bridge.external_subscribers.remove("depth")
+    bridge.subscribers.remove("depth")
     bridge.step()
     assert not bus.has_subscribers("depth")
     assert bridge.sent == [("depth", Float64(data=2.0)), ("depth", Float64(data=3.0))]
@@ -82,7 +82,7 @@ def test_a_message_is_sent_only_while_somebody_reads(bus: Bus, bridge: Seen) -> 
 def test_its_own_ends_are_not_the_buses(bus: Bus, bridge: Seen) -> None:
     bus.subscribe("cmd", Twist, print)
     bridge.put("cmd", Twist())
-    bridge.external_subscribers.add("cmd")
+    bridge.subscribers.add("cmd")
     bridge.step()
     bridge.step()
     assert bridge.topics == {"cmd": TopicEndpoints(Twist, is_published=False, is_read=True)}
@@ -106,7 +106,7 @@ def test_messages_come_in_at_the_step_by_topic_and_in_their_order(bus: Bus, brid
 def test_a_message_from_outside_is_sent_to_other_bridges_only(bus: Bus, bridge: Seen) -> None:
     other = Seen(bus)
     for each in (bridge, other):
-        each.external_subscribers.add("cmd")
+        each.subscribers.add("cmd")
         each.step()
     bridge.put("cmd", Twist())
     bridge.step()
@@ -179,7 +179,7 @@ def test_calls_fail_when_the_simulation_ends(bridge: Seen) -> None:
 def test_a_withheld_topic_is_not_shown(bus: Bus, bridge: Seen) -> None:
     publish = bus.publisher("truth", String)
     bus.hide_topic("truth")
-    bridge.external_subscribers.add("truth")
+    bridge.subscribers.add("truth")
     bridge.step()
     publish(String(data="secret"))
     bus.deliver()

@@ -28,8 +28,5 @@ def _compress(image: Image, name: str, options: Sequence[int]) -> CompressedImag
     pixels = pixels_of(image)
     bgr_pixels = pixels if pixels.ndim == 2 else np.ascontiguousarray(pixels[..., ::-1])
     _, file_bytes = cv2.imencode(f".{name}", bgr_pixels, options)
-    return CompressedImage(
-        header=image.header,
-        format=f"{image.encoding}; {name} compressed",
-        data=file_bytes.reshape(-1),
-    )
+    text = f"{image.encoding}; {name} compressed"
+    return CompressedImage(header=image.header, format=text, data=file_bytes.reshape(-1))

@@ -78,6 +78,6 @@ GT_PUBLISH = Service("underwater_sensor_msgs/srv/GTpublish", GTpublish, GTpublis
 SPAWN_MARKER = Service("underwater_sensor_msgs/srv/SpawnMarker", SpawnMarker, SpawnMarkerResponse)
 
 SERVICES: dict[str, Service] = {
-    service.name: service for service in (EMPTY_SERVICE, GT_PUBLISH, SPAWN_MARKER)
+    kind.name: kind for kind in (EMPTY_SERVICE, GT_PUBLISH, SPAWN_MARKER)
 }
 """The service types by their names in ROS 2; ``srv/`` has the text of each."""

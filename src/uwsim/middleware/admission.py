@@ -15,15 +15,13 @@ from typing import Literal
 
 from .queues import LatestQueue
 
-MAX_HELD_MESSAGES = 100
-"""The maximum number of messages and offers held of one sender, until it is known whether it takes
-part."""
+MAX_HELD = 100
+"""The maximum number of messages and offers held of a sender that may take part later."""
 MAX_HELD_BYTES = 4 * 2**20
 MAX_SENDERS = 100
 """The maximum number of senders of which messages are held."""
 MAX_KINDS = 100
-"""The maximum number of senders and topics that are counted separately; the others share a
-count."""
+"""The maximum number of senders and topics with a count of their own; the others share one."""
 OTHER_KEY = ("other senders", "other topics and services")
 Decision = Literal["take", "hold", "refuse"]
 Accept = Callable[[], object]
@@ -41,7 +39,7 @@ class Admission(ABC):
         self._report = report
         self._lock = threading.RLock()
         self._admitted_senders: set[str] = set()
-        self._held_messages: dict[str, LatestQueue[Accept]] = {}
+        self._held_queues: dict[str, LatestQueue[Accept]] = {}
         self._refusal_counts: Counter[tuple[str, str]] = Counter()
         self._known_keys: set[tuple[str, str]] = set()
 
@@ -61,7 +59,7 @@ class Admission(ABC):
         """Admit a sender to the run, and accept what was held of it."""
         with self._lock:  # until all is accepted: messages that arrive meanwhile are newer
             self._admitted_senders.add(sender)
-            held_messages = self._held_messages.pop(sender, None)
+            held_messages = self._held_queues.pop(sender, None)
             for accept in held_messages.take() if held_messages is not None else ():
                 accept()
 
@@ -72,19 +70,17 @@ class Admission(ABC):
     def remove(self, sender: str) -> None:
         """Forget what was held of a sender that has left."""
         with self._lock:
-            self._held_messages.pop(sender, None)
+            self._held_queues.pop(sender, None)
 
     def may_publish(self, topic: str, sender: str, accept: Accept, size: int) -> bool:
         """Return whether to accept a message of ``size`` bytes now; ``accept`` does so later."""
         with self._lock:
-            return self._is_accepted(
-                f"/{topic}", sender, self._on_message(topic, sender), accept, size
-            )
+            return self._decide(f"/{topic}", sender, self._on_message(topic, sender), accept, size)
 
     def may_offer(self, name: str, sender: str, accept: Accept) -> bool:
         """Return whether to offer a service of a sender now; ``accept`` does so later."""
         with self._lock:
-            return self._is_accepted(f"/{name}", sender, self._on_offer(name, sender), accept, 0)
+            return self._decide(f"/{name}", sender, self._on_offer(name, sender), accept, 0)
 
     def may_call(self, name: str, sender: str) -> bool:
         """Return whether to answer a call of a service."""
@@ -112,9 +108,8 @@ class Admission(ABC):
             self._known_keys.add(key)
             self._refusal_counts[key] += 1
         if is_new:
-            self._report(
-                sender, f"{key[1]} of {key[0]} is refused: it does not take part in this run"
-            )
+            text = f"{key[1]} of {key[0]} is refused: it does not take part in this run"
+            self._report(sender, text)
 
     def take_refusals(self) -> tuple[Refusal, ...]:
         """Return the refusals since the last call, by sender and topic or service."""
@@ -126,7 +121,7 @@ class Admission(ABC):
         """Return whether a sender takes part, or cannot be distinguished from those that do."""
         return not sender or sender in self._admitted_senders
 
-    def _is_accepted(
+    def _decide(
         self, name: str, sender: str, decision: Decision, accept: Accept, size: int
     ) -> bool:
         if decision == "hold" and self._hold(sender, accept, size):
@@ -137,11 +132,10 @@ class Admission(ABC):
 
     def _hold(self, sender: str, accept: Accept, size: int) -> bool:
         """Hold a message or offer until its sender is admitted; return whether there is space."""
-        if sender not in self._held_messages and len(self._held_messages) >= MAX_SENDERS:
+        if sender not in self._held_queues and len(self._held_queues) >= MAX_SENDERS:
             return False
-        self._held_messages.setdefault(sender, LatestQueue(MAX_HELD_MESSAGES, MAX_HELD_BYTES)).put(
-            accept, size
-        )
+        queue = LatestQueue[Accept](MAX_HELD, MAX_HELD_BYTES)
+        self._held_queues.setdefault(sender, queue).put(accept, size)
         return True
 
 

@@ -12,11 +12,11 @@ the thread of the simulation:
 
 Any thread of the transport may call:
 
-- ``external_subscribers.add(topic)`` and ``.remove(topic)``: an external subscriber came or left.
+- ``subscribers.add(topic)`` and ``.remove(topic)``: an external subscriber came or left.
   The bridge subscribes on the bus while there is at least one, so that cameras render only for
   subscribers.
 - ``put(topic, message, sender)``: a message from outside, with stamps in simulation time
-  (`to_simulation_time`), and its sender. The caller must not use the message any more. It waits in
+  (`to_sim_time`), and its sender. The caller must not use the message any more. It waits in
   a bounded queue, which keeps the newest, for the next step boundary.
 - ``request(name, request, sender)``: call a service of the bus; returns a Future with the response,
   which comes at the next step boundary.
@@ -59,8 +59,8 @@ from .exchange.arrivals import Arrivals
 from .exchange.call_queue import CALLS_AT_ONCE, MAX_CALLS, Call, CallQueue
 from .exchange.deferred_responses import DeferredResponses, forward_result
 from .exchange.external_services import ExternalServices
-from .exchange.external_subscribers import ExternalSubscribers
 from .exchange.inbound_publisher import InboundPublisher
+from .exchange.subscribers import Subscribers
 from .exchange.work_signal import WorkSignal
 from .exposed import exposed_services, exposed_topics
 from .log import Log
@@ -106,12 +106,10 @@ class Bridge(ABC):
         self.bus, self.log = bus, log
         self._signal = WorkSignal()
         self._calls = CallQueue()
-        self._inbound_publisher = InboundPublisher(
-            bus, log, owner=self, publisher_of=self._publisher_of
-        )
+        self._inbound = InboundPublisher(bus, log, owner=self, publisher_of=self._publisher_of)
         self.arrivals = Arrivals(log, self._signal)
         """The messages from external publishers."""
-        self.external_subscribers = ExternalSubscribers(
+        self.subscribers = Subscribers(
             bus, log, self._signal, owner=self, is_forwarded=self._is_forwarded, send=self.send
         )
         """The external subscribers of each topic."""
@@ -248,7 +246,7 @@ class Bridge(ABC):
             self.arrivals.take()
         for _, _, future in requests:
             future.set_exception(UwsimError(CLOSED_ERROR))
-        self.external_subscribers.close()
+        self.subscribers.close()
         self.external_services.close()
 
     def _follow_latched(self, topic: str) -> None:
@@ -256,7 +254,7 @@ class Bridge(ABC):
         message = self.bus.unread_message(topic)
         if message is not None:
             self.send(topic, message)
-        self.external_subscribers.add(topic)
+        self.subscribers.add(topic)
 
     def _report_changes(self) -> None:
         """Report changes of topics and services on the bus to the transport."""
@@ -266,12 +264,9 @@ class Bridge(ABC):
             previous_topics, self._topics = self._topics, topics
             self.on_topics(topics)
             for name in LATCHED:
-                ends, previous_ends = topics.get(name), previous_topics.get(name)
-                if (
-                    ends is not None
-                    and ends.is_published
-                    and not (previous_ends and previous_ends.is_published)
-                ):
+                ends, old_ends = topics.get(name), previous_topics.get(name)
+                was_published = old_ends is not None and old_ends.is_published
+                if ends is not None and ends.is_published and not was_published:
                     self._follow_latched(name)
         services = exposed_services(self.bus.services)
         if services != self._services:
@@ -285,16 +280,16 @@ class Bridge(ABC):
             queues = self.arrivals.take()
         for topic in sorted(queues):
             for message, sender in queues[topic].take():
-                self._inbound_publisher.publish(topic, message, sender)
+                self._inbound.publish(topic, message, sender)
         self.bus.deliver()
-        self._inbound_publisher.forget_messages()
+        self._inbound.forget_messages()
 
     def _serve(self, limit: int | None) -> None:
         """Update external subscribers and services, and answer calls (`CallQueue`)."""
         with self._signal.lock:
-            changes, offers = self.external_subscribers.take(), self.external_services.take()
+            changes, offers = self.subscribers.take(), self.external_services.take()
             self._signal.is_urgent = False
-        self.external_subscribers.apply(changes)
+        self.subscribers.apply(changes)
         self.external_services.apply(offers)
         self._calls.serve(self._answer, limit)
         if self._calls:
@@ -303,9 +298,7 @@ class Bridge(ABC):
 
     def _is_forwarded(self, message: object) -> bool:
         """Return whether to send a message of the bus: it did not come in through this bridge."""
-        return self.traits.relays_between_clients or not self._inbound_publisher.has_published(
-            message
-        )
+        return self.traits.relays_between_clients or not self._inbound.has_published(message)
 
     def _answer(self, call: Call) -> None:
         name, request, future = call

@@ -45,11 +45,9 @@ class ConnectionSpec:
             BadSetting: a connection cannot be opened.
         """
         with ExitStack() as stack:
-            yield tuple(self._open_bridges(bus, clock, stack))
+            yield tuple(self._bridges(bus, clock, stack))
 
-    def _open_bridges(
-        self, bus: Bus, clock: Callable[[], float], stack: ExitStack
-    ) -> Iterator[Bridge]:
+    def _bridges(self, bus: Bus, clock: Callable[[], float], stack: ExitStack) -> Iterator[Bridge]:
         if self.ros1:
             from .ros1 import Ros1Options, connect
 

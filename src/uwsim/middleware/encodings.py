@@ -134,17 +134,15 @@ def _cast(message: Any, name: str) -> Any:
                 and value.ndim == 1
                 and value.flags.c_contiguous
             )
-            new_value = (
-                value if is_exact else np.ascontiguousarray(value, dtype=content).reshape(-1)
-            )
+            array = value if is_exact else np.ascontiguousarray(value, dtype=content).reshape(-1)
         elif kind == "one":
-            new_value = _cast(value, content)
+            array = _cast(value, content)
         else:
             converted_list = [_cast(element, content) for element in value]
             is_same = all(a is b for a, b in zip(converted_list, value, strict=True))
-            new_value = value if is_same else converted_list
-        if new_value is not value:
-            converted_fields[field] = new_value
+            array = value if is_same else converted_list
+        if array is not value:
+            converted_fields[field] = array
     if not converted_fields:
         return message
     return Ros1View({**vars(message), **converted_fields})

@@ -25,7 +25,7 @@ M = TypeVar("M")
 BYTE_TYPES = ("uint8", "byte", "char")
 DTYPES = {"bool": "bool_", "byte": "uint8", "char": "uint8"}
 INTEGER_TYPES = ("byte", "char", *(f"{sign}int{n}" for sign in ("", "u") for n in (8, 16, 32, 64)))
-MAX_FLOATS = {name: float(np.finfo(name).max) for name in ("float32", "float64")}
+LARGEST_FLOATS = {name: float(np.finfo(name).max) for name in ("float32", "float64")}
 """The largest numbers of the float types; JSON can have larger ones."""
 ROS1_NAMES = {"secs": "sec", "nsecs": "nanosec"}
 """The names of ROS 1 in times."""
@@ -63,29 +63,26 @@ def from_json(cls: type[M], values: object) -> M:
     Raises:
         BadMessage: it has a field that the type lacks, or a field of another type.
     """
-    return _read_message(cls, values, "")
+    return _message(cls, values, "")
 
 
-def _read_message(cls: type[M], values: object, path: str) -> M:
+def _message(cls: type[M], values: object, path: str) -> M:
     name = _name(cls)
     if not isinstance(values, Mapping):
         raise BadMessage(f"{path.rstrip('.') or name} is {_excerpt(values)}; expected an object.")
-    type_fields = {field[0]: field for field in _fields(name)}
-    if len(values) > len(type_fields) + len(ROS1_NAMES) + len(IGNORED_FIELDS):
+    specs = {field[0]: field for field in _fields(name)}
+    if len(values) > len(specs) + len(ROS1_NAMES) + len(IGNORED_FIELDS):
         raise BadMessage(
-            f"{path.rstrip('.') or name} has {len(values)} fields; {name} has "
-            f"{', '.join(type_fields)}."
+            f"{path.rstrip('.') or name} has {len(values)} fields; {name} has {', '.join(specs)}."
         )
     field_values: dict[str, object] = {}
     for key, value in values.items():
-        field = ROS1_NAMES.get(key, key) if key not in type_fields else key
-        if field in type_fields:
-            _, kind, type_name, length = type_fields[field]
-            field_values[field] = _read_value(value, kind, type_name, length, f"{path}{field}")
+        field = ROS1_NAMES.get(key, key) if key not in specs else key
+        if field in specs:
+            _, kind, type_name, length = specs[field]
+            field_values[field] = _read(value, kind, type_name, length, f"{path}{field}")
         elif key not in IGNORED_FIELDS:
-            raise BadMessage(
-                f"{name} has no field {path}{key!s:.100}; it has {', '.join(type_fields)}."
-            )
+            raise BadMessage(f"{name} has no field {path}{key!s:.100}; it has {', '.join(specs)}.")
     for field, default in _required_fields(cast(Any, cls)):
         field_values.setdefault(field, default() if callable(default) else default)
     return cls(**field_values)
@@ -109,9 +106,9 @@ def _json_value(value: Any, kind: str) -> Any:
     return list(value) if kind == "texts" else str(value)
 
 
-def _read_value(value: Any, kind: str, type_name: str, length: int, path: str) -> Any:
+def _read(value: Any, kind: str, type_name: str, length: int, path: str) -> Any:
     if kind == "message":
-        return _read_message(message_class(type_name), value, f"{path}.")
+        return _message(message_class(type_name), value, f"{path}.")
     if kind == "text":
         if not isinstance(value, str):
             raise BadMessage(f"{path} is {_excerpt(value)}; expected text.")
@@ -128,16 +125,12 @@ def _read_value(value: Any, kind: str, type_name: str, length: int, path: str) -
         raise BadMessage(f"{path} is {_excerpt(value)}; expected a list.")
     if kind == "messages":
         cls = message_class(type_name)
-        messages: list[Any] = [
-            _read_message(cls, element, f"{path}[{i}].") for i, element in enumerate(value)
-        ]
+        messages: list[Any] = [_message(cls, item, f"{path}[{i}].") for i, item in enumerate(value)]
         return _check_length(messages, length, path)
     if kind == "texts":
-        return _check_length(
-            [_read_value(element, "text", "", 0, path) for element in value], length, path
-        )
+        return _check_length([_read(item, "text", "", 0, path) for item in value], length, path)
     try:
-        numbers = [math.nan if element is None else element for element in value]
+        numbers = [math.nan if item is None else item for item in value]
         with np.errstate(over="raise", invalid="raise"):
             array = np.array(numbers, dtype=DTYPES.get(type_name, type_name))
         if array.ndim != 1 or (type_name.startswith("float") and np.isinf(array).any()):
@@ -147,23 +140,19 @@ def _read_value(value: Any, kind: str, type_name: str, length: int, path: str) -
         raise BadMessage(f"{path} is {_excerpt(value)}; expected numbers ({type_name}).") from None
 
 
-def _read_number(value: Any, type_name: str, path: str) -> Any:
-    if type_name == "bool" and isinstance(value, bool):
+def _read_number(value: Any, dtype: str, path: str) -> Any:
+    if dtype == "bool" and isinstance(value, bool):
         return value
-    if type_name.startswith("float") and value is None:
+    if dtype.startswith("float") and value is None:
         return math.nan
     is_number = isinstance(value, int | float) and not isinstance(value, bool)
-    if (
-        is_number
-        and type_name.startswith("float")
-        and not abs(value) > MAX_FLOATS.get(type_name, 0)
-    ):
+    if is_number and dtype.startswith("float") and not abs(value) > LARGEST_FLOATS.get(dtype, 0):
         return float(value)
-    if is_number and type_name in INTEGER_TYPES:
-        limits = np.iinfo(DTYPES.get(type_name, type_name))
+    if is_number and dtype in INTEGER_TYPES:
+        limits = np.iinfo(DTYPES.get(dtype, dtype))
         if limits.min <= value <= limits.max and value == int(value):
             return int(value)
-    raise BadMessage(f"{path} is {_excerpt(value)}; expected a value of type {type_name}.")
+    raise BadMessage(f"{path} is {_excerpt(value)}; expected a value of type {dtype}.")
 
 
 def _check_length(values: Any, length: int, path: str) -> Any:
@@ -214,7 +203,7 @@ def _required_fields(cls: type) -> tuple[tuple[str, Any], ...]:
 
 def _default(kind: str, type_name: str, length: int) -> Any:
     if kind == "message":
-        return _read_message(message_class(type_name), {}, "")
+        return _message(message_class(type_name), {}, "")
     if kind in ("bytes", "numbers"):
         return np.zeros(length, dtype=DTYPES.get(type_name, type_name))
     if kind == "number":

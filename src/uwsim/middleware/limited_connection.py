@@ -54,14 +54,10 @@ class ConnectionLimits:
     def add(self, connection: LimitedConnection) -> None:
         """Count a new connection; if too many wait, abort the oldest of those."""
         self._open_connections[connection] = None
-        waiting_connections = [
-            waiting_connection
-            for waiting_connection in self._open_connections
-            if waiting_connection.state is State.CONNECTING
-        ]
-        for waiting_connection in waiting_connections[: -self._max_waiting]:
-            self.discard(waiting_connection)
-            waiting_connection.transport.abort()
+        clients = [client for client in self._open_connections if client.state is State.CONNECTING]
+        for client in clients[: -self._max_waiting]:
+            self.discard(client)
+            client.transport.abort()
 
     def discard(self, connection: LimitedConnection) -> None:
         """Stop counting a connection."""

@@ -27,12 +27,12 @@ def clock_time(time: float) -> Time:
     return Time(sec=stamp.sec + CLOCK_START, nanosec=stamp.nanosec)
 
 
-def to_ros_clock(message: M) -> M:
+def to_ros_time(message: M) -> M:
     """Return a copy of a message with its stamps on the clock of ROS."""
     return shift_stamps(message, CLOCK_START * NANOSECONDS)
 
 
-def to_simulation_time(message: M) -> M:
+def to_sim_time(message: M) -> M:
     """Return a copy of a message with its stamps in simulation time; at least 0, and 0 stays."""
     return shift_stamps(message, -CLOCK_START * NANOSECONDS)
 

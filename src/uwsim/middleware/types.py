@@ -106,10 +106,7 @@ def service(name: str) -> Service:
 @functools.cache
 def service_of(request: type) -> Service | None:
     """Return the service whose requests are of this class; None if it has no definition."""
-    return next(
-        (service_type for service_type in SERVICES.values() if service_type.request is request),
-        None,
-    )
+    return next((kind for kind in SERVICES.values() if kind.request is request), None)
 
 
 @functools.cache
@@ -229,7 +226,6 @@ def _register_own_types(store: Any) -> None:
 
 
 def _read_definition(name: str) -> str:
-    """Return the definition of a type of this project."""
     package, kind, base = name.split("/")
     return (FOLDER / package / kind / f"{base}.{kind}").read_text(encoding="utf-8")
 

@@ -17,7 +17,7 @@ from uwsim.messages.simulation_control import StepSimulation
 from uwsim.middleware.admission import MAX_KINDS, SingleProgram
 from uwsim.middleware.bridge import Bridge
 from uwsim.middleware.connection import ConnectionSpec
-from uwsim.middleware.lockstep.external_client import make_external_client
+from uwsim.middleware.lockstep.external_client import make_client
 from uwsim.middleware.lockstep.spec import ClientSpec, OutputSpec, Sync
 from uwsim.middleware.lockstep.topics import ACK, JOIN, TICK
 from uwsim.middleware.log import Log
@@ -85,7 +85,7 @@ class Run:
             sync=sync,
             **more,
         )
-        self.client: Any = make_external_client(spec, [self.outside], timestep=TIMESTEP)
+        self.client: Any = make_client(spec, [self.outside], timestep=TIMESTEP)
         self.node = InProcessNode(
             self.bus, name="a", timestep=TIMESTEP, rng=np.random.default_rng(0), parameters={}
         )

@@ -243,7 +243,7 @@ def test_topics_that_a_client_publishes_itself_are_not_waited_for() -> None:
     outside = Outside(bus, is_silent)
     outside.traits = TransportTraits(needs_discovery=True)  # type: ignore[misc]
     for topic in (TICK, "depth"):  # what it reads of others
-        outside.external_subscribers.add(topic)
+        outside.subscribers.add(topic)
     (client,) = lockstep_clients([outside], ["a"], timestep=TIMESTEP, limit=60.0)
     own = {"/mine": "std_msgs/Float64"}
     outside.says(JOIN, client="a", topics=["/depth", "/mine"], publishes=own)
@@ -298,9 +298,9 @@ def test_a_client_that_leaves_ends_the_run_at_once() -> None:
 
 def test_a_client_that_leaves_without_a_word_ends_the_run_where_that_is_seen() -> None:
     bus = Bus()
-    outside = Outside(bus, lambda outside, tick: outside.external_subscribers.remove(TICK))
+    outside = Outside(bus, lambda outside, tick: outside.subscribers.remove(TICK))
     outside.traits = TransportTraits(detects_leaving=True)  # type: ignore[misc]
-    outside.external_subscribers.add(TICK)
+    outside.subscribers.add(TICK)
     kind = "underwater_sensor_msgs/srv/GTpublish"
     nodes = started(bus, outside, "a", services={"/init": kind})
     bus.publisher("depth", Float64)(Float64(data=1.0))

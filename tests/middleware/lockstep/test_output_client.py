@@ -62,7 +62,7 @@ class Outside(Bridge):
 @pytest.fixture(autouse=True)
 def _stand_for_no_time(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(output_client, "READY_WAIT_S", 0.001)
-    monkeypatch.setattr(output_client, "FIRST_OUTPUT_WAIT_S", 0.001)
+    monkeypatch.setattr(output_client, "FIRST_WAIT_S", 0.001)
 
 
 class Sea:
@@ -83,7 +83,7 @@ class Sea:
         )
 
     def start(self) -> None:
-        self.outside.external_subscribers.add("depth")
+        self.outside.subscribers.add("depth")
         self.node.run(self.client)
         assert self.node.error is None
 
@@ -218,7 +218,7 @@ def test_a_node_that_never_answers_ends_the_run() -> None:
 
 
 def test_a_slow_first_answer_delays_no_later_one(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(output_client, "FIRST_OUTPUT_WAIT_S", 0.1)
+    monkeypatch.setattr(output_client, "FIRST_WAIT_S", 0.1)
     sea = Sea(OutputSpec(topic="cmd", input_topic="depth"))
     sea.start()
     sea.say(Float64(data=1.0))

@@ -40,7 +40,7 @@ class Graph:
             node=name,
             log=self.log,
             parameters=parameters,
-            timeouts=PeerTimeouts(**{"poll": 0.05, **waits}),
+            limits=PeerTimeouts(**{"poll": 0.05, **waits}),
         )
         self.nodes.append(bridge)
         return bridge

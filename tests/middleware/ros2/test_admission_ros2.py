@@ -78,7 +78,7 @@ def test_another_participant_calls_no_service(
 
     simulator.bus.services.serve("reset", Empty, answer)
     simulator.step()
-    kind = raw_type(ros2_store(), "std_srvs/srv/Empty_Request", first_fields=CALL_FIELDS)
+    kind = raw_type(ros2_store(), "std_srvs/srv/Empty_Request", prefix=CALL_FIELDS)
     writers = [each.writer("rq/resetRequest", kind, Quality()) for each in two]
     until(lambda: all(writer.n_readers for writer in writers), simulator.step)
     admission = simulator.bridge.admission

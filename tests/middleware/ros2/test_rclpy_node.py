@@ -123,7 +123,7 @@ spin_until(lambda: False)
         got.extend(each.twist.linear.x for each in inbox.take())
 
     step()
-    assert not simulator.bridge.external_subscribers.is_read("rov/twist"), (
+    assert not simulator.bridge.subscribers.is_read("rov/twist"), (
         "the simulation's own reader is no demand"
     )
     with peer(source.replace("3.0 in got", "len(got) > 20"), simulator.domain):

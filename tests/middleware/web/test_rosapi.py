@@ -36,7 +36,7 @@ ODOMETRY = ("nav_msgs/Odometry", "nav_msgs/msg/Odometry")
 
 @pytest.fixture
 def setting(monkeypatch: pytest.MonkeyPatch) -> Iterator[Setting]:
-    monkeypatch.setattr("uwsim.middleware.web.server.CLOSING", 0.2)  # [s]
+    monkeypatch.setattr("uwsim.middleware.web.server.CLOSE_TIMEOUT", 0.2)  # [s]
     made = Setting()
     made.bus.publisher("a/odom", Odometry)
     made.bus.publisher("b/odom", Odometry)

@@ -87,7 +87,7 @@ class Setting:
 
 @pytest.fixture
 def setting(monkeypatch: pytest.MonkeyPatch) -> Iterator[Setting]:
-    monkeypatch.setattr("uwsim.middleware.web.server.CLOSING", 0.2)  # [s]
+    monkeypatch.setattr("uwsim.middleware.web.server.CLOSE_TIMEOUT", 0.2)  # [s]
     made = Setting()
     yield made
     made.close()
@@ -212,7 +212,7 @@ def test_images_come_as_json_as_png_and_as_cbor(setting: Setting) -> None:
     for compression in ("none", "png", "cbor"):
         clients[compression] = setting.client()
         send(clients[compression], op="subscribe", topic="/image", compression=compression)
-    setting.step_until(lambda: len(setting.bridge._readers.of("image")) == 3)
+    setting.step_until(lambda: len(setting.bridge._readers.readers_of("image")) == 3)
     setting.step_until(lambda: setting.bus.has_subscribers("image"))
     say(Image(height=2, width=2, encoding="rgb8", step=6, data=pixels))
     setting.bus.deliver()
@@ -248,7 +248,7 @@ def test_a_reader_that_stalls_costs_a_known_amount_of_memory(setting: Setting) -
     for _ in range(300):
         say(Image(height=480, width=640, step=1920, data=np.zeros(921_600, np.uint8)))
         setting.bus.deliver()
-    ((session, _),) = setting.bridge._readers.of("image")
+    ((session, _),) = setting.bridge._readers.readers_of("image")
     assert session._queue._n_bytes <= 64 * 2**20
     assert session._queue.n_dropped > 0
     assert any("too slowly" in line for line in setting.lines)
@@ -489,7 +489,7 @@ def test_a_message_to_one_client_reaches_no_other(setting: Setting) -> None:
     clients = [setting.client() for _ in range(2)]
     for client in clients:
         send(client, op="subscribe", topic="/tick", id="t")
-    setting.step_until(lambda: len(setting.bridge._readers.of("tick")) == 2)
+    setting.step_until(lambda: len(setting.bridge._readers.readers_of("tick")) == 2)
     name = f"client 127.0.0.1:{clients[0].local_address[1]}"
     setting.bridge.send_to(name, "tick", String(data="no"))
     setting.bridge.send("tick", String(data="all"))

@@ -20,7 +20,7 @@ from uwsim.middleware.web.server import WebBridge
 @pytest.fixture
 def unraisable(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """Record what goes wrong where no error can be raised: a transport that was never closed."""
-    monkeypatch.setattr("uwsim.middleware.web.server.CLOSING", 0.2)  # [s]
+    monkeypatch.setattr("uwsim.middleware.web.server.CLOSE_TIMEOUT", 0.2)  # [s]
     found: list[str] = []
 
     def record(unraisable: sys.UnraisableHookArgs) -> None:
@@ -54,8 +54,8 @@ def test_connections_that_are_accepted_while_it_closes_are_closed(unraisable: li
             """Connect, and end the server in the same turn of its loop."""
             for _ in range(5):
                 peers.enter_context(peer(bridge))
-            assert bridge._ended is not None
-            bridge._ended.set()
+            assert bridge._end_event is not None
+            bridge._end_event.set()
 
         bridge._loop.call_soon_threadsafe(come_and_end)
         bridge._thread.join(LIMIT)

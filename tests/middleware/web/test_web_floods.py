@@ -16,7 +16,7 @@ from uwsim.middleware.lockstep.topics import JOIN
 from uwsim.middleware.log import Log
 from uwsim.middleware.web.options import WebOptions
 from uwsim.middleware.web.queue import Lane, OutQueue
-from uwsim.middleware.web.server import PING, WebBridge
+from uwsim.middleware.web.server import PING_INTERVAL, WebBridge
 
 
 @pytest.fixture
@@ -26,7 +26,9 @@ def rests(monkeypatch: pytest.MonkeyPatch) -> list[float]:
     sleep = asyncio.sleep
 
     async def rest(seconds: float) -> None:
-        if 0.0 < seconds < 0.5 * PING:  # longer ones are the library's, between two questions
+        if (
+            0.0 < seconds < 0.5 * PING_INTERVAL
+        ):  # longer ones are the library's, between two questions
             found.append(seconds)
         await sleep(seconds)
 

@@ -35,7 +35,7 @@ def test_half_of_a_character_is_refused_where_a_frame_is_read(frame: str) -> Non
 
 @pytest.mark.parametrize("id", ["NaN", "[1, -Infinity]", '{"a": 1e999}'])
 def test_an_id_that_no_reader_of_json_takes_is_refused(id: str) -> None:
-    with pytest.raises(BadMessage, match="'id' has a number that is not finite"):
+    with pytest.raises(BadMessage, match="'id' of a frame has a number that is not finite"):
         read_frame(f'{{"op": "call_service", "service": "/x", "id": {id}}}')
 
 

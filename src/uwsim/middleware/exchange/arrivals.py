@@ -54,9 +54,8 @@ class Arrivals:
             n_dropped = 0
             taps = list(self._taps.get(name, ()))
             if not taps:
-                n_dropped = self._queues.setdefault(name, LatestQueue()).put(
-                    (message, sender), size
-                )
+                queue = self._queues.setdefault(name, LatestQueue())
+                n_dropped = queue.put((message, sender), size)
                 self.n_arrived[name] += 1
                 self._signal.has_work = True
         for receive in taps:

@@ -14,8 +14,7 @@ MAX_CALLS = 1000
 FLOOD_SHARE, FLOOD_BURST = 0.01, 0.05
 """The share of the wall time for a flood of calls, and the time at once [s]."""
 CALLS_AT_ONCE = 10
-"""The number of calls that are answered together while the simulation waits; more are a flood when
-it runs."""
+"""The number of calls answered together while the simulation waits; more are a flood later."""
 Call = tuple[str, object, "Future[object]"]
 """The service, the request, and the future of the response."""
 

@@ -21,7 +21,7 @@ from ...messages.services import Service
 from ..admission import Refusal
 from ..bridge import Bridge
 from ..json_encoding import from_json, to_json
-from ..stamps import to_ros_clock, to_simulation_time
+from ..stamps import to_ros_time, to_sim_time
 from ..types import message_class, service
 from .contract import answer_error, join_error, names_in, object_in, reply_error
 from .topics import ACK, JOIN, TICK
@@ -49,13 +49,7 @@ class LockStepClient:
     """
 
     def __init__(
-        self,
-        bridge: Bridge,
-        name: str,
-        *,
-        timestep: float,
-        limit: float,
-        secret: str | None = None,
+        self, bridge: Bridge, name: str, *, timestep: float, limit: float, secret: str | None = None
     ) -> None:
         self._bridge, self._name, self._timestep, self._limit = bridge, name, timestep, limit
         self._secret = secret
@@ -103,10 +97,8 @@ class LockStepClient:
         deadline, error = time.monotonic() + self._limit, None
         while self._bridge.wait_for(lambda: bool(self._joins), deadline - time.monotonic()):
             content, sender = self._joins.popleft()
-            if (
-                content.get("left")
-                or ({"client": content["client"], "left": True}, sender) in self._joins
-            ):
+            leave = {"client": content["client"], "left": True}
+            if content.get("left") or (leave, sender) in self._joins:
                 continue  # the sender left before it could take part
             error = join_error(content, self._bridge.bus)
             if error is None:
@@ -150,15 +142,12 @@ class LockStepClient:
         bridge.step()
         # the client has its own messages already
         own_topics = {topic.lstrip("/") for topic in (*publications, *names_in(join, "own"))}
-        read_topics = [topic.lstrip("/") for topic in topics]
-        sent_topics = [
-            TICK,
-            *filter(self._is_sent, (t for t in read_topics if t not in own_topics)),
-        ]
+        read_topics = (topic.lstrip("/") for topic in topics if topic.lstrip("/") not in own_topics)
+        awaited_topics = [TICK, *filter(self._is_sent, read_topics)]
         if not bridge.wait_for(
             lambda: (
                 not bridge.traits.needs_discovery
-                or all(map(bridge.external_subscribers.is_read, sent_topics))
+                or all(map(bridge.subscribers.is_read, awaited_topics))
             ),
             self._limit,
         ):
@@ -169,7 +158,6 @@ class LockStepClient:
             self._node.subscribe(topic, object, self._make_counter(topic))
 
     def _is_sent(self, topic: str) -> bool:
-        """Return whether the simulation publishes a topic."""
         ends = self._bridge.bus.endpoints(topic, ignored_owner=self._bridge)
         return ends is not None and ends.is_published
 
@@ -213,7 +201,6 @@ class LockStepClient:
         return self._id is not None and client_id != self._id and not is_from_connection
 
     def _has_secret(self, content: dict[str, Any]) -> bool:
-        """Return whether a join has the secret, if one is required."""
         if self._secret is None:
             return True
         secret = content.get("secret")
@@ -225,10 +212,8 @@ class LockStepClient:
         if not content.get("left"):
             if self._bridge.admission is not None:
                 self._bridge.admission.refuse(sender, f"/{topic}")
-            owner = self._sender or "another program"
-            text = (
-                f"client {self._name!r} is {owner} already; {sender or 'a second one'} is ignored"
-            )
+            owner, other = self._sender or "another program", sender or "a second one"
+            text = f"client {self._name!r} is {owner} already; {other} is ignored"
             self._bridge.log.report(text)
             self._bridge.report_error(sender, text)
 
@@ -272,14 +257,13 @@ class LockStepClient:
         bridge.step()
 
     def _call_services(self, answer: dict[str, Any]) -> None:
-        """Call the services of std_srvs/Empty in an answer."""
         for name in names_in(answer, "calls"):
             if self._bridge.bus.services.is_offered(name):
                 self._node.call(name, Empty())
             else:
                 self._bridge.log.report(f"client {self._name!r} calls {name}: nobody offers it")
 
-    def _call_client(self, name: str, service_type: Service, request: object) -> object:
+    def _call_client(self, name: str, kind: Service, request: object) -> object:
         """Call a service that the client offers by the topics of lock-step.
 
         Raises:
@@ -289,7 +273,7 @@ class LockStepClient:
         self._n_calls += 1
         number = self._n_calls
         address = {"client": self._name, "run": self._run}
-        call = {"call": number, "service": name, "args": to_json(to_ros_clock(request))}
+        call = {"call": number, "service": name, "args": to_json(to_ros_time(request))}
         self._bridge.send(TICK, String(data=json.dumps({**address, **call})))
         if not self._bridge.wait_for(lambda: self._is_replied(number), self._limit):
             raise ClientLost(
@@ -300,9 +284,7 @@ class LockStepClient:
         self._check_answer(reply_error(answer), f"answer to the call of {name}")
         self._call_services(answer)
         try:
-            response: object = to_simulation_time(
-                from_json(service_type.response, answer.get("values") or {})
-            )
+            response: object = to_sim_time(from_json(kind.response, answer.get("values") or {}))
         except BadMessage as error:
             raise BadMessage(f"Client {self._name!r}: service {name}: {error}") from None
         return response
@@ -328,12 +310,11 @@ class LockStepClient:
     def _check_presence(self) -> None:
         """Raise ClientLost if the client has left."""
         has_left = any(
-            content.get("left") and not self._is_other(content, sender)
-            for content, sender in tuple(self._joins)
+            join.get("left") and not self._is_other(join, client)
+            for join, client in tuple(self._joins)
         )
         if has_left or (
-            self._bridge.traits.detects_leaving
-            and not self._bridge.external_subscribers.is_read(TICK)
+            self._bridge.traits.detects_leaving and not self._bridge.subscribers.is_read(TICK)
         ):
             now = self._node.now
             raise ClientLost(f"Client {self._name!r} left at {now:g} s: the run is invalid.")

@@ -99,7 +99,7 @@ def _are_names(value: object) -> bool:
     return isinstance(value, list) and len(value) <= MAX_NAMES and all(map(_is_name, value))
 
 
-def _is_object_of(value: object, is_valid: Callable[[object], bool]) -> bool:
+def _is_map_of(value: object, is_valid: Callable[[object], bool]) -> bool:
     """Return whether a value is an object whose names and values are valid."""
     if not isinstance(value, dict) or len(value) > MAX_NAMES:
         return False
@@ -115,12 +115,9 @@ Rule = tuple[Callable[[object], bool], str]
 """A test of a value, and a text of what is expected."""
 TIME_RULE: Rule = (_is_time, "a time >= 0 [s], or null for none")
 NAMES_RULE: Rule = (_are_names, f"a list of at most {MAX_NAMES} names")
-TYPES_RULE: Rule = (
-    lambda value: _is_object_of(value, _is_name),
-    "an object with a type for each name",
-)
+TYPES: Rule = (lambda value: _is_map_of(value, _is_name), "an object with a type for each name")
 COUNTS_RULE: Rule = (
-    lambda value: _is_object_of(value, _is_count),
+    lambda value: _is_map_of(value, _is_count),
     "an object with a whole number >= 0 for each topic",
 )
 ID_RULE: Rule = (_is_name, "a text")
@@ -130,8 +127,8 @@ JOIN_FIELDS = {
     "topics": NAMES_RULE,
     "next": TIME_RULE,
     "own": NAMES_RULE,
-    "publishes": TYPES_RULE,
-    "services": TYPES_RULE,
+    "publishes": TYPES,
+    "services": TYPES,
 }
 ANSWER_FIELDS: Mapping[str, Rule] = {
     "tick": (_is_count, "the whole number of the tick"),

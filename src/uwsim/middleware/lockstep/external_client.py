@@ -15,9 +15,7 @@ from .spec import ClientSpec
 from .step_client import SERVICE, StepClient
 
 
-def make_external_client(
-    spec: ClientSpec, bridges: Sequence[Bridge], *, timestep: float
-) -> Algorithm:
+def make_client(spec: ClientSpec, bridges: Sequence[Bridge], *, timestep: float) -> Algorithm:
     """Make the algorithm that represents the program in the simulation; attach it.
 
     Args:

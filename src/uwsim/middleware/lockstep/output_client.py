@@ -30,7 +30,7 @@ from .spec import ClientSpec, OutputSpec
 
 READY_WAIT_S = 1.0
 """The time for a node to become ready, after both ends of all topics are there [s of wall time]."""
-FIRST_OUTPUT_WAIT_S = 0.2
+FIRST_WAIT_S = 0.2
 """The time for messages that come with the first one of an output, and for the answer of a node
 that is not initialized yet [s of wall time]."""
 CLOCK_INTERVAL_S = 0.05
@@ -54,9 +54,7 @@ class OutputClient(ExternalProgram):
         self._n_unanswered: Counter[str] = Counter()  # inputs that an output has not followed
         self._due = {output.topic: 0 for output in spec.outputs}
         self._begun_outputs: set[str] = set()  # outputs of which one was due already
-        self._wait_times: dict[str, float] = dict.fromkeys(
-            self._due, 0.0
-        )  # for first ones [s of wall]
+        self._wait_times: dict[str, float] = dict.fromkeys(self._due, 0.0)  # [s of wall time]
         self._n_called = 0  # calls of services outside before the start
         self._n_sent = 0
 
@@ -72,9 +70,7 @@ class OutputClient(ExternalProgram):
         bridge.clock_topic.period = COARSE_PERIOD  # each message waits for earlier ones to arrive
         for output in spec.outputs:
             self._subscribe(output)
-        for topic in dict.fromkeys(
-            o.input_topic for o in spec.outputs if o.input_topic is not None
-        ):
+        for topic in filter(None, dict.fromkeys(o.input_topic for o in spec.outputs)):
             node.subscribe(topic, object, self._make_counter(topic))
         self._n_called = bridge.external_services.n_called
         bridge.step()
@@ -112,21 +108,16 @@ class OutputClient(ExternalProgram):
     def _missing_ends(self) -> list[str]:
         """Describe the missing publishers and subscribers of the topics."""
         bridge, outputs = self._bridge, self._spec.outputs
-        missing_ends = [
+        faults = [
             f"nobody publishes /{o.topic}" for o in outputs if not bridge.has_publisher(o.topic)
         ]
-        inputs = dict.fromkeys(o.input_topic for o in outputs if o.input_topic is not None)
-        missing_ends += [
-            f"nobody reads /{name}"
-            for name in inputs
-            if not bridge.external_subscribers.is_read(name)
-        ]
+        is_read = bridge.subscribers.is_read
+        inputs = filter(None, dict.fromkeys(o.input_topic for o in outputs))
+        faults += [f"nobody reads /{name}" for name in inputs if not is_read(name)]
         has_timer = any(o.rate is not None for o in outputs)
         if has_timer and not bridge.clock_topic.is_read:
-            missing_ends.append(
-                "nobody reads /clock (use_sim_time must be true before the node starts)"
-            )
-        return missing_ends
+            faults.append("nobody reads /clock (use_sim_time must be true before the node starts)")
+        return faults
 
     def _barrier(self) -> None:
         """Publish the time, and wait for the outputs that are due."""
@@ -135,9 +126,9 @@ class OutputClient(ExternalProgram):
         if due == self._due and not bridge.clock_topic.is_due:
             return
         n_due_before, self._due = self._due, due
-        if bridge.external_subscribers.n_sent > self._n_sent and self._spec.settle_time:
+        if bridge.subscribers.n_sent > self._n_sent and self._spec.settle_time:
             bridge.wait_for(_return_false, self._spec.settle_time)
-        self._n_sent = bridge.external_subscribers.n_sent
+        self._n_sent = bridge.subscribers.n_sent
         bridge.clock_topic.send()
         for output in self._spec.outputs:
             topic, n = output.topic, due[output.topic]
@@ -163,7 +154,7 @@ class OutputClient(ExternalProgram):
         A timer of rospy that was created before the first ``/clock`` fires twice then.
         """
         self._begun_outputs.add(topic)
-        self._bridge.wait_for(_return_false, FIRST_OUTPUT_WAIT_S)
+        self._bridge.wait_for(_return_false, FIRST_WAIT_S)
         self._n_before[topic] = self._bridge.arrivals.n_arrived[topic] - n_due
 
     def _await_first(self, topic: str, n_inputs: int, *, has_input: bool) -> None:
@@ -184,11 +175,9 @@ class OutputClient(ExternalProgram):
         bridge, limit = self._bridge, self._spec.limit
         is_called = bridge.external_services.n_called > self._n_called
         if has_input:
-            time_left = (
-                limit if is_called else min(FIRST_OUTPUT_WAIT_S, limit - self._wait_times[topic])
-            )
+            wait_s = limit if is_called else min(FIRST_WAIT_S, limit - self._wait_times[topic])
             start_time = time.monotonic()
-            bridge.wait_for(partial(self._has_arrived, topic, 1), time_left)
+            bridge.wait_for(partial(self._has_arrived, topic, 1), wait_s)
             self._wait_times[topic] += time.monotonic() - start_time
         if self._has_arrived(topic, 1):
             self._accept_first_answers(topic, n_inputs)
@@ -200,7 +189,7 @@ class OutputClient(ExternalProgram):
         self._begun_outputs.add(topic)
         bridge, start = self._bridge, self._n_before[topic]
         while (n := bridge.arrivals.n_arrived[topic] - start) < n_inputs:
-            if not bridge.wait_for(partial(self._has_arrived, topic, n + 1), FIRST_OUTPUT_WAIT_S):
+            if not bridge.wait_for(partial(self._has_arrived, topic, n + 1), FIRST_WAIT_S):
                 break
         self._n_unanswered[topic] = max(0, n_inputs - n)
         self._n_before[topic] -= self._n_unanswered[topic]

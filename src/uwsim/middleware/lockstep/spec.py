@@ -55,8 +55,7 @@ class ClientSpec:
     speed: float = 1.0
     """The simulation time per real time (``none`` only)."""
     secret: str | None = field(default=None, repr=False)
-    """The secret that the join must have, so that no other program joins under the name (``ack``
-    only)."""
+    """The secret of the join, so that no other program joins under the name (``ack`` only)."""
 
     @property
     def transport(self) -> str:

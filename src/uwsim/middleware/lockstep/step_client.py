@@ -13,12 +13,7 @@ from concurrent.futures import Future
 
 from ...bus import Node
 from ...errors import ClientLost, NeverStarted
-from ...messages.simulation_control import (
-    MAX_STEPS,
-    Result,
-    StepSimulation,
-    StepSimulationResponse,
-)
+from ...messages.simulation_control import MAX_STEPS, Result, StepSimulation, StepSimulationResponse
 from ..bridge import Bridge
 from .external_program import ExternalProgram
 from .spec import ClientSpec
@@ -85,7 +80,6 @@ class StepClient(ExternalProgram):
         return True
 
     def _accept_call(self, request: object, answer: Future[object]) -> None:
-        """Accept a call, in the thread of the simulation."""
         assert isinstance(request, StepSimulation)
         if not 1 <= request.steps <= MAX_STEPS:
             error = f"Expected 1 to {MAX_STEPS} steps."

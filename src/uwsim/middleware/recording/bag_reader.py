@@ -86,14 +86,10 @@ class BagReader:
                 raise self._read_error(error) from error
             topic = f"/{connection.topic.strip('/')}"
             try:
-                bus_message: object = convert_to_class(self.topics[topic], message)
+                content: object = convert_to_class(self.topics[topic], message)
             except BadMessage as error:
                 raise AssetError(f"{self._name}: {topic}: {error}") from None
-            yield (
-                (time - self._origin) / NANOSECONDS,
-                topic,
-                shift_stamps(bus_message, -self._origin),
-            )
+            yield ((time - self._origin) / NANOSECONDS, topic, shift_stamps(content, -self._origin))
 
     def close(self) -> None:
         """Close the files."""
@@ -115,10 +111,8 @@ class BagReader:
         message = " ".join(str(error).split())[:200] or type(error).__name__
         suffix = find_suffix(self._path)
         if self._path.suffix in MAGIC and suffix != self._path.suffix:
-            file_suffix = self._path.suffix
-            message = (
-                f"it is not a {file_suffix} file" if suffix is None else f"it is a {suffix} file"
-            )
+            name = self._path.suffix
+            message = f"it is not a {name} file" if suffix is None else f"it is a {suffix} file"
         return AssetError(f"{self._name} cannot be read as a recording: {message}")
 
 

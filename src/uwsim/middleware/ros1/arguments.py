@@ -51,11 +51,9 @@ class Method:
             return "caller_id must be a string"
         if (error := _length_error("caller_id", caller)) is not None:
             return error
-        n_needed = sum(not allowed_parameter.is_optional for allowed_parameter in self.parameters)
+        n_needed = sum(not spec.is_optional for spec in self.parameters)
         if not n_needed <= len(values) <= len(self.parameters):
-            names = ", ".join(
-                ("caller_id", *(allowed_parameter.name for allowed_parameter in self.parameters))
-            )
+            names = ", ".join(("caller_id", *(spec.name for spec in self.parameters)))
             return f"wrong number of arguments ({len(arguments)}); expected {names}"
         for parameter, value in zip(self.parameters, values, strict=False):
             if (error := parameter.check(parameter.name, value)) is not None:
@@ -63,7 +61,7 @@ class Method:
         return None
 
 
-def check_arguments(method: Method, call: Callable[..., Answer]) -> Callable[..., Answer]:
+def validate(method: Method, call: Callable[..., Answer]) -> Callable[..., Answer]:
     """Return a method that answers invalid and failed calls with a code and a text."""
 
     def answer(*arguments: Any) -> Answer:

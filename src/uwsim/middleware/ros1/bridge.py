@@ -27,7 +27,7 @@ from ..log import Log
 from ..stamps import clock_time
 from ..types import WireService, message_class, service_of, wire_service, wire_type
 from . import services as tcp_services
-from .arguments import NODE_METHODS, check_arguments
+from .arguments import NODE_METHODS, validate
 from .listener import HEADER_TIMEOUT, Listener, Serve
 from .publication import Publication
 from .registrar import POLL, Registrar, Registrations
@@ -64,7 +64,7 @@ class Ros1Bridge(Bridge):
         node: the name of the node in the graph.
         log: the log for events.
         parameters: the parameters on the master while the node exists.
-        timeouts: the timeouts for peers.
+        limits: the timeouts for peers.
     """
 
     traits = TransportTraits(needs_discovery=True, detects_leaving=True, clock_period=ROS_PERIOD)
@@ -79,40 +79,34 @@ class Ros1Bridge(Bridge):
         node: str = NODE_NAME,
         log: Log | None = None,
         parameters: Mapping[str, Any] = USE_SIM_TIME,
-        timeouts: PeerTimeouts | None = None,
+        limits: PeerTimeouts | None = None,
     ) -> None:
         super().__init__(bus, clock, log or Log("ros1"))
         self._master, self._host, self._node = master, host, node
-        self._timeouts = timeouts = timeouts or PeerTimeouts()
+        self._timeouts = limits = limits or PeerTimeouts()
         self._publications: dict[str, Publication] = {}
         self._subscriptions: dict[str, Subscription] = {}
         self._reading_limit = ReadingLimit(self._is_waited_for)
         self._offered_types: dict[str, WireService] = {}
         self._idle_clients = tcp_services.IdleClients()
         self._clock = self._advertise("/clock", "rosgraph_msgs/Clock")
-        self._rosout = publish_log(node, self.log, clock, timeouts.send)
+        self._rosout = publish_log(node, self.log, clock, limits.send)
         self._publications["/rosout"] = self._rosout
         try:
             self._listener = Listener(
-                host, self.log, self._find_handler, header_timeout=timeouts.header
+                host, self.log, self._find_handler, header_timeout=limits.header
             )
         except OSError as error:
             raise BadSetting(f"ROS 1 cannot listen on {host}: {error.strerror or error}") from None
         methods = {
-            name: check_arguments(method, getattr(self, f"_{name}"))
+            name: validate(method, getattr(self, f"_{name}"))
             for name, method in NODE_METHODS.items()
         }
         self._server = XmlRpcServer(host, 0, methods, self.log, "node")
         self.uri = f"http://{host}:{self._server.port}/"
         """The address of the node's own XML-RPC server."""
         self._registrar = Registrar(
-            master,
-            node,
-            self.uri,
-            self.log,
-            self._update,
-            parameters=parameters,
-            poll=timeouts.poll,
+            master, node, self.uri, self.log, self._update, parameters=parameters, poll=limits.poll
         )
         self._stop_elsewhere = bus.services.add_external_services(
             self._is_offered_outside, self.external_services.call_and_wait
@@ -154,21 +148,19 @@ class Ros1Bridge(Bridge):
                 subscriptions[topic] = Subscription(
                     topic, kind, self._node, self.log, self._receiver(topic), self._reading_limit
                 )
-        removed_subscriptions = [
+        old_subscriptions = [
             subscriptions.pop(topic) for topic in self._subscriptions if topic not in to_read
         ]
         # replaced as a whole, as other nodes request them: all subscriptions precede publications
         self._subscriptions = subscriptions
         self._publications = publications
-        for subscription in removed_subscriptions:
+        for subscription in old_subscriptions:
             subscription.close()
         self._register()
 
     def on_services(self, services: Mapping[str, Service]) -> None:
         """Offer the services of the bus."""
-        self._offered_types = {
-            f"/{name}": wire_service(service_type) for name, service_type in services.items()
-        }
+        self._offered_types = {f"/{name}": wire_service(kind) for name, kind in services.items()}
         self._register()
 
     def send(self, topic: str, message: object) -> None:
@@ -247,9 +239,7 @@ class Ros1Bridge(Bridge):
             return refusal
         if publication in (self._clock, self._rosout):
             return publication.serve
-        return partial(
-            publication.serve, count=partial(self.external_subscribers.change, publication.topic)
-        )
+        return partial(publication.serve, count=partial(self.subscribers.change, publication.topic))
 
     def _find_service_handler(self, header: dict[str, str]) -> Serve | str:
         name = header["service"]
@@ -283,9 +273,8 @@ class Ros1Bridge(Bridge):
 
         def run() -> None:
             try:
-                target = tcp_services.ExternalService(
-                    f"/{name}", wire_service(kind), self._may_answer
-                )
+                service = wire_service(kind)
+                target = tcp_services.ExternalService(f"/{name}", service, self._may_answer)
                 response = tcp_services.call(uri, target, self._node, request)
             except UwsimError as error:
                 future.set_exception(error)
@@ -307,9 +296,7 @@ class Ros1Bridge(Bridge):
     def _requestTopic(self, caller: str, topic: str, protocols: list[Any]) -> Answer:  # noqa: N802
         if topic not in self._publications:
             return [-1, f"{topic} is not published here", []]
-        if not any(
-            protocol[:1] == ["TCPROS"] for protocol in protocols if isinstance(protocol, list)
-        ):
+        if not any(entry[:1] == ["TCPROS"] for entry in protocols if isinstance(entry, list)):
             return [0, "only TCPROS is spoken here", []]
         return [1, "ready", ["TCPROS", self._host, self._listener.port]]
 
@@ -331,15 +318,11 @@ class Ros1Bridge(Bridge):
 
     def _getSubscriptions(self, caller: str) -> Answer:  # noqa: N802
         subscriptions = list(self._subscriptions.items())
-        return [
-            1,
-            "",
-            [[topic, subscription.kind.ros1_name] for topic, subscription in subscriptions],
-        ]
+        return [1, "", [[topic, entry.kind.ros1_name] for topic, entry in subscriptions]]
 
     def _getPublications(self, caller: str) -> Answer:  # noqa: N802
         publications = list(self._publications.items())
-        return [1, "", [[topic, publication.kind.ros1_name] for topic, publication in publications]]
+        return [1, "", [[topic, entry.kind.ros1_name] for topic, entry in publications]]
 
     def _getArrived(self, caller: str) -> Answer:  # noqa: N802
         """Return the number of arrived messages by topic, for programs in lock-step."""

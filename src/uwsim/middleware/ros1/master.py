@@ -15,7 +15,7 @@ from functools import partial
 from typing import Any
 
 from ..log import Log
-from .arguments import MASTER_METHODS, PARAMETER_METHODS, check_arguments
+from .arguments import MASTER_METHODS, PARAMETER_METHODS, validate
 from .node_calls import NodeCalls
 from .parameters import Parameters, resolve
 from .tcpros import PeerError
@@ -50,14 +50,11 @@ class Master:
         self._parameters = Parameters()
         self._node_calls = NodeCalls()
         methods = {
-            name: check_arguments(
-                method, self._limit_registrations(name, getattr(self, f"_{_snake(name)}"))
-            )
+            name: validate(method, self._limit(name, getattr(self, f"_{_snake(name)}")))
             for name, method in MASTER_METHODS.items()
         }
         methods |= {
-            name: check_arguments(method, self._wrap_parameter_method(name))
-            for name, method in PARAMETER_METHODS.items()
+            name: validate(method, self._wrap(name)) for name, method in PARAMETER_METHODS.items()
         }
         self._server = XmlRpcServer(host, port, methods, log, "master")
         self.uri = f"http://{host}:{self._server.port}/"
@@ -68,21 +65,19 @@ class Master:
         self._server.close()
         self._node_calls.close()
 
-    def _wrap_parameter_method(self, name: str) -> Any:
+    def _wrap(self, name: str) -> Any:
         method = getattr(self._parameters, _snake(name))
 
         def answer(*arguments: Any) -> Answer:
             with self._lock:
                 result, updates = method(*arguments)
             for uri, key, value in updates:
-                self._call_later(uri, "paramUpdate", "/master", key, value)
+                self._call(uri, "paramUpdate", "/master", key, value)
             return list(result)
 
         return answer
 
-    def _limit_registrations(
-        self, name: str, method: Callable[..., Answer]
-    ) -> Callable[..., Answer]:
+    def _limit(self, name: str, method: Callable[..., Answer]) -> Callable[..., Answer]:
         """Return a method that refuses registrations beyond the limit."""
         if not name.startswith("register"):
             return method
@@ -95,8 +90,7 @@ class Master:
     def _is_full(self) -> bool:
         with self._lock:
             publishers, subscribers = (
-                sum(map(len, registrations.values()))
-                for registrations in (self._publishers, self._subscribers)
+                sum(map(len, entries.values())) for entries in (self._publishers, self._subscribers)
             )
             n = max(publishers, subscribers, len(self._services), len(self._nodes))
             return n >= MAX_ENTRIES
@@ -169,11 +163,7 @@ class Master:
 
     def _get_topic_types(self, caller: str) -> Answer:
         with self._lock:
-            return [
-                1,
-                "current topic types",
-                [list(entry) for entry in sorted(self._types.items())],
-            ]
+            return [1, "current topic types", [list(pair) for pair in sorted(self._types.items())]]
 
     def _get_system_state(self, caller: str) -> Answer:
         with self._lock:
@@ -199,9 +189,7 @@ class Master:
                     if nodes.get(caller) == old_uri:
                         del nodes[caller]
             self._services = {k: v for k, v in self._services.items() if v[2] != old_uri}
-            self._call_later(
-                old_uri, "shutdown", "/master", f"new node registered with name {caller}"
-            )
+            self._call(old_uri, "shutdown", "/master", f"new node registered with name {caller}")
         self._nodes[caller] = uri
 
     def _unregister(self, registrations: Registrations, name: str, caller: str, uri: str) -> int:
@@ -217,7 +205,6 @@ class Master:
             return 1
 
     def _remove_if_unused(self, node: str) -> None:
-        """Remove a node without registrations."""
         has_topics = any(
             node in nodes
             for registrations in (self._publishers, self._subscribers)
@@ -239,7 +226,7 @@ class Master:
             publishers = list(self._publishers.get(topic, {}).values())
         _call_node(uri, "publisherUpdate", "/master", topic, publishers)
 
-    def _call_later(self, uri: str, method: str, *arguments: Any) -> None:
+    def _call(self, uri: str, method: str, *arguments: Any) -> None:
         key = f"{method} {arguments[1]}"  # only the newest value of a parameter is sent
         self._node_calls.add(uri, key, partial(_call_node, uri, method, *arguments))
 

@@ -19,9 +19,7 @@ class NodeCalls:
     def __init__(self) -> None:
         self._lock = threading.Lock()
         self._calls: dict[str, dict[str, Callable[[], None]]] = {}  # of nodes with work, by key
-        self._ready_nodes: SimpleQueue[str | None] = (
-            SimpleQueue()
-        )  # those whose next call may begin
+        self._ready_nodes: SimpleQueue[str | None] = SimpleQueue()  # their next call may begin
         self._n_threads = 0
         self._is_closed = False
 

@@ -12,7 +12,7 @@ from ...errors import BadMessage
 from ..encodings import to_ros1
 from ..log import Log
 from ..queues import LatestQueue
-from ..stamps import to_ros_clock
+from ..stamps import to_ros_time
 from ..types import WireType
 from .tcpros import PeerError, add_length, encode_header, has_left, node_of, write
 
@@ -27,7 +27,7 @@ Encode = Callable[[Any, int], memoryview]
 
 def encode_message(message: object, seq: int) -> memoryview:
     """Encode a message of the bus for ROS 1, with stamps on the clock of ROS."""
-    return to_ros1(to_ros_clock(message), seq=seq)
+    return to_ros1(to_ros_time(message), seq=seq)
 
 
 class EncodedMessage:

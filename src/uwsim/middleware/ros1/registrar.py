@@ -66,11 +66,9 @@ class Registrar:
         self._old_parameters: dict[str, Any] = {}
         self._lock = threading.Lock()
         self._update_lock = threading.Lock()
-        self._updated_topics: set[str] = (
-            set()
-        )  # topics with updates since the start of registration
-        self._requested_items: set[tuple[str, str, str]] = set()
-        self._registered_items: set[tuple[str, str, str]] = set()
+        self._updated_topics: set[str] = set()  # since the start of their registration
+        self._targets: set[tuple[str, str, str]] = set()
+        self._entries: set[tuple[str, str, str]] = set()
         self._is_lost = self._has_given_up = False
         self._wake_event, self._stop_event = threading.Event(), threading.Event()
         self._condition = threading.Condition(self._lock)
@@ -80,17 +78,14 @@ class Registrar:
     def set_registrations(self, registrations: Registrations) -> None:
         """Set the registrations; others are removed."""
         with self._lock:
-            self._requested_items = registrations.items()
+            self._targets = registrations.items()
         self._wake_event.set()
 
     def wait(self, timeout: float) -> bool:
         """Wait until all is registered, at most ``timeout`` [s]; return whether it is."""
         with self._condition:
             return self._condition.wait_for(
-                lambda: (
-                    bool(self._requested_items) and self._requested_items == self._registered_items
-                ),
-                timeout,
+                lambda: bool(self._targets) and self._targets == self._entries, timeout
             )
 
     def update(self, topic: str, uris: list[str]) -> None:
@@ -109,7 +104,7 @@ class Registrar:
         """Register nothing more: the master has given the node's name to another."""
         with self._lock:
             self._has_given_up = True
-            self._registered_items = set()
+            self._entries = set()
             self._old_parameters = {}
 
     def call(self, method: str, *arguments: Any) -> Any:
@@ -127,10 +122,8 @@ class Registrar:
                     self._log.report(f"the master: {error}; it is tried again", kind="master lost")
                 self._is_lost = True
             except Exception as error:  # a defect here must not end the registration thread
-                text = f"{type(error).__name__}: {error}"
-                self._log.report(
-                    f"registering failed: {text}; it is tried again", kind="registering"
-                )
+                text = f"registering failed: {type(error).__name__}: {error}; it is tried again"
+                self._log.report(text, kind="registering")
             self._wake_event.wait(self._poll)
             self._wake_event.clear()
         with suppress(PeerError):
@@ -138,7 +131,7 @@ class Registrar:
 
     def _check_master(self) -> None:
         """Check that the master has this node; if it was restarted, register again."""
-        if not self._registered_items:
+        if not self._entries:
             return
         try:
             uri = self.call("lookupNode", self._caller)
@@ -150,7 +143,7 @@ class Registrar:
         elif uri != self._uri:
             self._log.report("the master was restarted; the node registers again", kind="restarted")
             with self._lock:
-                self._registered_items = set()
+                self._entries = set()
             self._old_parameters = {}
         elif self._is_lost:
             self._log.report("the master is back", kind="back")
@@ -158,15 +151,12 @@ class Registrar:
 
     def _reconcile(self) -> None:
         with self._lock:
-            requested_items, registered_items = (
-                set(self._requested_items),
-                set(self._registered_items),
-            )
-        for item in sorted(registered_items - requested_items):
+            targets, entries = (set(self._targets), set(self._entries))
+        for item in sorted(entries - targets):
             self._unregister(item)
-        for item in sorted(requested_items - registered_items):
+        for item in sorted(targets - entries):
             self._register(item)
-        if requested_items and self._parameters and not self._old_parameters:
+        if targets and self._parameters and not self._old_parameters:
             self._set_parameters()
         with self._condition:
             self._condition.notify_all()
@@ -184,7 +174,7 @@ class Registrar:
         except RefusedCall as error:
             self._log.report(f"not on the graph: {name}: {error}")
         with self._lock:
-            self._registered_items.add(item)
+            self._entries.add(item)
 
     def _subscribe(self, topic: str, kind: str) -> None:
         """Register a subscriber; an update that arrives before the answer is newer."""
@@ -207,7 +197,7 @@ class Registrar:
             else:
                 self.call("unregisterService", name, value)
         with self._lock:
-            self._registered_items.discard(item)
+            self._entries.discard(item)
 
     def _set_parameters(self) -> None:
         for name, value in self._parameters.items():
@@ -220,7 +210,7 @@ class Registrar:
     def _unregister_all(self) -> None:
         if self._is_lost:
             return
-        for item in sorted(self._registered_items):
+        for item in sorted(self._entries):
             self._unregister(item)
         for name, value in self._old_parameters.items():
             if value is None:

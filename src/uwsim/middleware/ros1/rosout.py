@@ -16,16 +16,14 @@ WARNING = 4
 """The level of the messages."""
 
 
-def publish_log(
-    node: str, log: Log, clock: Callable[[], float], send_timeout: float
-) -> Publication:
+def publish_log(node: str, log: Log, clock: Callable[[], float], timeout: float) -> Publication:
     """Publish the lines of a log on ``/rosout``.
 
     Args:
         node: the name of the node.
         log: the log to publish, from now on.
         clock: returns the simulation time [s].
-        send_timeout: the time limit for a subscriber to read a message [s].
+        timeout: the time limit for a subscriber to read a message [s].
     """
     store = ros1_store()
     definition, md5 = store.generate_msgdef(TYPE_NAME, ros_version=1)
@@ -55,6 +53,6 @@ def publish_log(
         data: memoryview = store.serialize_ros1(log_message, TYPE_NAME)
         return data
 
-    publication = Publication("/rosout", kind, node, log, send_timeout, encode=encode)
+    publication = Publication("/rosout", kind, node, log, timeout, encode=encode)
     log.add_listener(publication.send)
     return publication

@@ -17,7 +17,7 @@ from typing import Any
 
 from ...errors import BadMessage, UwsimError
 from ..encodings import from_ros1, to_ros1
-from ..stamps import to_ros_clock, to_simulation_time
+from ..stamps import to_ros_time, to_sim_time
 from ..types import WireService
 from .address import read_address
 from .tcpros import (
@@ -71,18 +71,18 @@ class IdleClients:
                 raise PeerError(f"it sent no request, as {MAX_IDLE} others; it is disconnected")
 
 
-def check(service_type: WireService, header: dict[str, str]) -> str | None:
+def check(kind: WireService, header: dict[str, str]) -> str | None:
     """Return the reason why a client with this header cannot be served; None if it can."""
     md5 = header.get("md5sum", "")
-    if md5 in ("*", service_type.md5):
+    if md5 in ("*", kind.md5):
         return None
-    return f"service is {service_type.ros1_name} (md5sum {service_type.md5}), not md5sum {md5}"
+    return f"service is {kind.ros1_name} (md5sum {kind.md5}), not md5sum {md5}"
 
 
 def serve(
     connection: socket.socket,
     header: dict[str, str],
-    service_type: WireService,
+    kind: WireService,
     caller: str,
     request: Callable[[Any], Future[object]],
     idle_clients: IdleClients,
@@ -92,7 +92,7 @@ def serve(
     Args:
         connection: the connection to the client.
         header: the header of the client.
-        service_type: the type of the service.
+        kind: the type of the service.
         caller: the name of this node.
         request: sends a request to the simulation.
         idle_clients: the clients of all services without a request.
@@ -105,10 +105,10 @@ def serve(
         encode_header(
             {
                 "callerid": caller,
-                "md5sum": service_type.md5,
-                "request_type": service_type.request.ros1_name,
-                "response_type": service_type.response.ros1_name,
-                "type": service_type.ros1_name,
+                "md5sum": kind.md5,
+                "request_type": kind.request.ros1_name,
+                "response_type": kind.response.ros1_name,
+                "type": kind.ros1_name,
             }
         ),
     )
@@ -123,18 +123,16 @@ def serve(
             connection.settimeout(timeout)  # the client must read its answer in time
         if data is None:
             return
-        write(connection, _answer(data, service_type, request))
+        write(connection, _answer(data, kind, request))
         if not is_persistent:
             return
 
 
-def _answer(
-    data: bytes, service_type: WireService, request: Callable[[Any], Future[object]]
-) -> bytes:
+def _answer(data: bytes, kind: WireService, request: Callable[[Any], Future[object]]) -> bytes:
     try:
-        bus_request: object = to_simulation_time(from_ros1(service_type.service.request, data))
+        bus_request: object = to_sim_time(from_ros1(kind.service.request, data))
         response = request(bus_request).result(timeout=ANSWER_TIMEOUT)
-        return b"\x01" + add_length(to_ros1(to_ros_clock(response)))
+        return b"\x01" + add_length(to_ros1(to_ros_time(response)))
     except FutureTimeout:
         return b"\x00" + add_length(b"the simulation does not advance")
     except UwsimError as error:
@@ -150,8 +148,7 @@ class ExternalService:
     type: WireService
     """The type of the service."""
     may_answer: Callable[[str, str], bool] = lambda name, node: True
-    """The function that returns whether a node, as named by `node_of`, may answer for the
-    service."""
+    """The function that returns whether a node, as named by `node_of`, may answer."""
 
 
 def call(uri: str, service: ExternalService, caller: str, request: object) -> object:
@@ -176,7 +173,7 @@ def call(uri: str, service: ExternalService, caller: str, request: object) -> ob
         header = read_header(connection)  # rospy loses what comes together with the header
         if "callerid" in header and not service.may_answer(name, node_of(header)):
             raise PeerError(f"service {name}: {node_of(header)} does not take part in this run")
-        write(connection, add_length(to_ros1(to_ros_clock(request))))
+        write(connection, add_length(to_ros1(to_ros_time(request))))
         success = connection.recv(1)
         data = read_frame(connection)
     except OSError as error:
@@ -187,7 +184,7 @@ def call(uri: str, service: ExternalService, caller: str, request: object) -> ob
         reason = "closed the connection" if data is None else data[:300].decode("utf-8", "replace")
         raise PeerError(f"service {name}: {reason}")
     try:
-        response: object = to_simulation_time(from_ros1(service.type.service.response, data))
+        response: object = to_sim_time(from_ros1(service.type.service.response, data))
         return response
     except BadMessage as error:
         raise PeerError(f"service {name}: {error}") from error

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable
 from ...errors import BadMessage
 from ..encodings import from_ros1
 from ..log import Log
-from ..stamps import to_simulation_time
+from ..stamps import to_sim_time
 from ..types import WireType
 from ..work_budget import WorkBudget
 from .tcpros import (
@@ -152,7 +152,7 @@ class Subscription:
     def take(self, data: bytes, sender: str) -> None:
         """Decode a message and pass it on; report an invalid one."""
         try:
-            message: object = to_simulation_time(from_ros1(self.kind.message, data))
+            message: object = to_sim_time(from_ros1(self.kind.message, data))
         except BadMessage as error:
             self._log.report(f"{self.topic}: from {sender}: {error}", kind=f"garbage {self.topic}")
         else:

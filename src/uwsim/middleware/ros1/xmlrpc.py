@@ -124,9 +124,8 @@ class XmlRpcServer(ThreadingMixIn, SimpleXMLRPCServer):
     def find_refusal(self, headers: Mapping[str, str]) -> str | None:
         """Return the reason why a request is refused by its headers; None if it is not."""
         if (reason := find_browser_sign(headers, self._hosts)) is not None:
-            self._log.report(
-                f"{self._name}: a request is refused: {reason}", kind=f"{self._name} page"
-            )
+            text = f"{self._name}: a request is refused: {reason}"
+            self._log.report(text, kind=f"{self._name} page")
         return None if reason is None else "not for pages in browsers"
 
     @property
@@ -137,9 +136,8 @@ class XmlRpcServer(ThreadingMixIn, SimpleXMLRPCServer):
     def process_request(self, request: Any, client_address: Any) -> None:
         """Handle a request in a thread, if there are not too many."""
         if not self._free_slots.acquire(blocking=False):
-            self._log.report(
-                f"{self._name}: more than {MAX_AT_ONCE} requests at once; one is refused"
-            )
+            text = f"more than {MAX_AT_ONCE} requests at once; one is refused"
+            self._log.report(f"{self._name}: {text}")
             self.shutdown_request(request)
             return
         super().process_request(request, client_address)
@@ -163,7 +161,6 @@ class XmlRpcServer(ThreadingMixIn, SimpleXMLRPCServer):
 
 
 def _lower_case_names(headers: Iterable[tuple[str, str]]) -> dict[str, str]:
-    """Return headers by their names in lower case."""
     return {name.lower(): value for name, value in headers}
 
 
@@ -250,9 +247,8 @@ def call(
         PeerError: there is no answer, or it is not one of ROS.
     """
     try:
-        with xmlrpc.client.ServerProxy(
-            uri, _Transport(timeout, max_length), allow_none=True
-        ) as proxy:
+        transport = _Transport(timeout, max_length)
+        with xmlrpc.client.ServerProxy(uri, transport, allow_none=True) as proxy:
             answer = getattr(proxy, method)(*arguments)
     except OSError as error:
         raise PeerError(f"{uri} does not answer: {error.strerror or error}") from error

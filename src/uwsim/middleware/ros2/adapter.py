@@ -21,7 +21,7 @@ from ..clock_topic import ROS_PERIOD
 from ..encodings import from_cdr, to_cdr
 from ..log import Log
 from ..queues import MAX_ITEMS, LatestQueue
-from ..stamps import clock_time, to_ros_clock, to_simulation_time
+from ..stamps import clock_time, to_ros_time, to_sim_time
 from ..types import message_class, wire_service
 from .names import MAX_NAME_LENGTH, is_legal
 from .node import BytesReader, BytesWriter, Endpoint, Ros2Node
@@ -65,18 +65,18 @@ class Ros2(Bridge):
     def on_topics(self, topics: Mapping[str, TopicEndpoints]) -> None:
         """Make writers for the published topics of the bus, readers for those that are read."""
         legal_topics = {name: ends for name, ends in topics.items() if self._is_legal(name)}
-        published_topics = {name: ends for name, ends in legal_topics.items() if ends.is_published}
-        read_topics = {name: ends for name, ends in legal_topics.items() if ends.is_read}
-        for name in sorted(set(self._writers) - set(published_topics) - {CLOCK}):
+        writer_topics = {name: ends for name, ends in legal_topics.items() if ends.is_published}
+        reader_topics = {name: ends for name, ends in legal_topics.items() if ends.is_read}
+        for name in sorted(set(self._writers) - set(writer_topics) - {CLOCK}):
             self._writers.pop(name).close()
-        for name in sorted(set(self._readers) - set(read_topics)):
+        for name in sorted(set(self._readers) - set(reader_topics)):
             self._readers.pop(name).close()
-        for name in sorted(set(published_topics) - set(self._writers)):
+        for name in sorted(set(writer_topics) - set(self._writers)):
             self._add_writer(
-                name, published_topics[name].type, _ReaderCount(self, name, self._node.lease)
+                name, writer_topics[name].type, _ReaderCount(self, name, self._node.lease)
             )
-        for name in sorted(set(read_topics) - set(self._readers)):
-            self._add_reader(name, read_topics[name].type)
+        for name in sorted(set(reader_topics) - set(self._readers)):
+            self._add_reader(name, reader_topics[name].type)
         self._node.announce_endpoints()
 
     def on_services(self, services: Mapping[str, Service]) -> None:
@@ -167,21 +167,17 @@ class Ros2(Bridge):
     def _add_reader(self, name: str, type: type) -> None:
         is_latched = name in (*LATCHED, *self._complete_topics)
         quality = Quality(depth=MAX_ITEMS, is_latched=is_latched, ignores_own=True)
-        self._readers[name] = self._node.reader(
-            name,
-            type,
-            quality,
-            partial(self._receive, name, type),
-            partial(self._report_best_effort, name),
-        )
+        receive = partial(self._receive, name, type)
+        refuse = partial(self._refuse_writer, name)
+        self._readers[name] = self._node.reader(name, type, quality, receive, refuse)
 
     def _receive(self, name: str, type: type, data: bytes, sender: str = "") -> None:
         try:
-            self.put(name, to_simulation_time(from_cdr(type, data)), sender)
+            self.put(name, to_sim_time(from_cdr(type, data)), sender)
         except BadMessage as error:
             self.log.report(f"/{name}: a message was refused: {error}", kind=f"refused {name}")
 
-    def _report_best_effort(self, name: str) -> None:
+    def _refuse_writer(self, name: str) -> None:
         self.log.report(
             f"/{name}: a publisher offers best effort only; it is not read, as commands must not "
             "be lost: set its reliability to RELIABLE",
@@ -198,7 +194,7 @@ class Ros2(Bridge):
             if writer is None:
                 continue
             try:
-                is_sent = writer.write(bytes(to_cdr(to_ros_clock(message))))
+                is_sent = writer.write(bytes(to_cdr(to_ros_time(message))))
             except UwsimError as error:
                 self.log.report(f"/{topic}: not sent: {error}", kind=f"unsent {topic}")
                 continue
@@ -217,9 +213,9 @@ class _ReaderCount:
 
     def __call__(self, n_readers: int) -> None:
         for _ in range(n_readers - self._n):
-            self._bridge.external_subscribers.add(self._topic)
+            self._bridge.subscribers.add(self._topic)
         for _ in range(self._n - n_readers):
-            self._bridge.external_subscribers.remove(self._topic)
+            self._bridge.subscribers.remove(self._topic)
         if n_readers < self._n:
             self._bridge.log.report(
                 f"/{self._topic}: a reader has left, or was not heard of {self._lease}",

@@ -15,10 +15,8 @@ VARIABLE = "UWSIM_ROS2"
 """The variable by which a user selects one of `NODES`; unset or empty: the available one."""
 REACH = {True: "for nodes on this computer", False: "its ports are open on all addresses"}
 """The texts for a node that only this computer can reach, and for one that others can reach."""
-MISSING_EXTRA = (
-    "--ros2: neither rclpy nor Cyclone DDS is installed: source a ROS 2, or pip install "
-)
-MISSING_EXTRA += "uwsim[ros2]"
+MISSING_EXTRA = "--ros2: neither rclpy nor Cyclone DDS is installed: source a ROS 2, or "
+MISSING_EXTRA += "pip install uwsim[ros2]"
 
 
 def open_node(environment: Mapping[str, str], domain: int | None, log: Log) -> Ros2Node:

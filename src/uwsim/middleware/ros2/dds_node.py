@@ -62,13 +62,10 @@ class DdsNode:
         def count_readers(entity: Any) -> None:
             on_readers(len(entity.get_matched_subscriptions()))
 
-        sample_type, user_data = self._sample_type(type)
+        kind, user_data = self._sample_type(type)
+        events = {READERS_CHANGED: count_readers}
         writer = self._participant.writer(
-            topic_name(topic),
-            sample_type,
-            quality,
-            user_data=user_data,
-            events={READERS_CHANGED: count_readers},
+            topic_name(topic), kind, quality, user_data=user_data, events=events
         )
         self._presence.add(writers=(writer.entity,))
         return DdsWriter(self, writer)
@@ -82,11 +79,11 @@ class DdsNode:
         on_refused: Callable[[], None],
     ) -> DdsReader:
         """Make a reader."""
-        sample_type, user_data = self._sample_type(type)
+        kind, user_data = self._sample_type(type)
         senders = Senders()
         entity = self._participant.reader(
             topic_name(topic),
-            sample_type,
+            kind,
             quality,
             lambda sample: receive(sample.data, senders.sender_of(entity, sample)),
             user_data=user_data,

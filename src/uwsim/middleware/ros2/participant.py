@@ -99,8 +99,7 @@ class Participant:
 
     Args:
         domain: the DDS domain.
-        configuration: the configuration of Cyclone DDS, in XML; the first one of a process for a
-            domain applies.
+        configuration: XML for Cyclone DDS; the first one of a process for a domain applies.
 
     Raises:
         UwsimError: there is no network interface, or no free port.
@@ -205,7 +204,6 @@ class Participant:
             self._waitset.attach(entity)
 
     def _run(self) -> None:
-        """Call callbacks until `close`."""
         pause = duration(milliseconds=round(WAKE_S * 1000))
         try:
             while self._is_open:

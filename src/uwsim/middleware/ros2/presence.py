@@ -40,9 +40,7 @@ class Presence:
         self._guid = participant.guid
         self._name, self._namespace = name, namespace
         self._writer = participant.writer(
-            DISCOVERY_TOPIC,
-            raw_type(self._store, PARTICIPANT),
-            Quality(depth=1, is_latched=True),
+            DISCOVERY_TOPIC, raw_type(self._store, PARTICIPANT), Quality(depth=1, is_latched=True)
         )
         self._readers: list[bytes] = []
         self._writers: list[bytes] = []

@@ -59,31 +59,27 @@ class RawSample:
         return cls(data)
 
 
-def raw_type(
-    store: Any, ros_type: str, *, first_fields: dict[str, Any] | None = None
-) -> type[RawSample]:
+def raw_type(store: Any, ros_type: str, *, prefix: dict[str, Any] | None = None) -> type[RawSample]:
     """Return the type of the samples of a ROS type.
 
     Args:
         store: the type store of rosbags that has the type.
         ros_type: ``package/msg/Name``.
-        first_fields: the fields before those of the type.
+        prefix: the fields before those of the type.
     """
     structs: dict[str, Any] = {}
-    idl = _make_struct(store, ros_type, structs, first_fields or {})
+    idl = _make_struct(store, ros_type, structs, prefix or {})
     name = idl.__idl_typename__
     return type("Raw", (RawSample,), {"__idl__": idl.__idl__, "__idl_typename__": name})
 
 
-def _make_struct(
-    store: Any, ros_type: str, structs: dict[str, Any], first_fields: dict[str, Any]
-) -> Any:
+def _make_struct(store: Any, ros_type: str, structs: dict[str, Any], prefix: dict[str, Any]) -> Any:
     if ros_type not in structs:
         _, fields = store.fielddefs[ros_type]
         kinds = {name: _idl_type(store, field, structs) for name, field in fields}
         base_name = ros_type.rsplit("/", 1)[-1]
         structs[ros_type] = make_idl_struct(
-            f"{base_name}_", type_name(ros_type).replace("::", "."), first_fields | kinds
+            f"{base_name}_", type_name(ros_type).replace("::", "."), prefix | kinds
         )
     return structs[ros_type]
 

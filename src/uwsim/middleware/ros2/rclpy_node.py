@@ -179,17 +179,13 @@ class RclpyNode:
         self._context.try_shutdown()
 
     def _n_writers(self, topic: str) -> int:
-        """Return the number of this node's writers of a topic."""
         return sum(writer.echoes is self._echoes_of(topic) for writer in self._writers)
 
     def _drop_writer(self, writer: RclpyWriter) -> None:
-        """Remove a writer from the graph."""
         self._writers.remove(writer)
         self._executor.create_task(self._node.destroy_publisher, writer.publisher)
 
     def _drop_reader(self, topic: str, subscription: Any) -> None:
-        """Remove a reader from the graph."""
-
         def drop() -> None:
             self._node.destroy_subscription(subscription)
             self._count_readers(topic, -1)
@@ -211,7 +207,6 @@ class RclpyNode:
         self._is_open = False
 
     def _spin(self) -> None:
-        """Call callbacks until `close`."""
         try:
             while self._is_open:
                 try:

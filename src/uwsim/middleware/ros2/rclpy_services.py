@@ -16,7 +16,7 @@ from rclpy.serialization import deserialize_message, serialize_message
 from ...errors import BadMessage, UwsimError
 from ..encodings import from_cdr, to_cdr
 from ..log import Log
-from ..stamps import to_ros_clock, to_simulation_time
+from ..stamps import to_ros_time, to_sim_time
 from ..types import WireService, service_of, wire_service
 from .node import Call, Endpoint
 from .rclpy_endpoints import NullEndpoint, RclpyServer
@@ -50,30 +50,27 @@ class RclpyServices:
 
     def server(self, name: str, kind: WireService, call: Call) -> Endpoint:
         """Offer a service."""
-        service_type = self._types.service(kind, name)
-        if service_type is None:
+        cls = self._types.service(kind, name)
+        if cls is None:
             return NullEndpoint()
         service = self._node.create_service(
-            service_type,
-            f"/{name}",
-            self._make_handler(name, kind, service_type, call),
-            callback_group=self._group,
+            cls, f"/{name}", self._make_handler(name, kind, cls, call), callback_group=self._group
         )
         return RclpyServer(self._drop, service)
 
-    def _make_handler(self, name: str, kind: WireService, service_type: Any, call: Call) -> Any:
+    def _make_handler(self, name: str, kind: WireService, cls: Any, call: Call) -> Any:
         """Return the coroutine function that answers a request of rclpy."""
 
-        async def answer(rclpy_request: Any, _: Any) -> Any:
+        async def answer(message: Any, _: Any) -> Any:
             try:
-                request: object = to_simulation_time(
-                    from_cdr(kind.service.request, serialize_message(rclpy_request))
+                request: object = to_sim_time(
+                    from_cdr(kind.service.request, serialize_message(message))
                 )
                 response = await self._make_awaitable(call(request))
             except UwsimError as error:
                 self._log.report(f"service /{name}: no answer: {error}", kind=name)
                 raise NoAnswer from error
-            return deserialize_message(bytes(to_cdr(to_ros_clock(response))), service_type.Response)
+            return deserialize_message(bytes(to_cdr(to_ros_time(response))), cls.Response)
 
         return answer
 
@@ -93,10 +90,7 @@ class RclpyServices:
 
     def offers(self, name: str) -> bool:
         """Return whether a service is offered on the graph, by this node or another."""
-        return any(
-            offered_name == f"/{name}"
-            for offered_name, _ in self._node.get_service_names_and_types()
-        )
+        return f"/{name}" in dict(self._node.get_service_names_and_types())
 
     def call(self, name: str, request: object) -> Future[object]:
         """Call a service of another node.
@@ -109,28 +103,26 @@ class RclpyServices:
             raise UwsimError(f"Service /{name}: {type(request).__name__} has no definition.")
         kind = wire_service(service)
         client = self._client(name, kind)
-        rclpy_request = deserialize_message(
-            bytes(to_cdr(to_ros_clock(request))), client.srv_type.Request
-        )
+        message = deserialize_message(bytes(to_cdr(to_ros_time(request))), client.srv_type.Request)
         future: Future[object] = Future()
 
         def copy_result(rclpy_future: Any) -> None:
             try:
                 data = serialize_message(rclpy_future.result())
-                future.set_result(to_simulation_time(from_cdr(kind.service.response, data)))
+                future.set_result(to_sim_time(from_cdr(kind.service.response, data)))
             except (BadMessage, RuntimeError) as error:
                 future.set_exception(UwsimError(f"Service /{name}: {error}"))
 
-        client.call_async(rclpy_request).add_done_callback(copy_result)
+        client.call_async(message).add_done_callback(copy_result)
         return future
 
     def _client(self, name: str, kind: WireService) -> Any:
         if name not in self._clients:
-            service_type = self._types.service(kind, name)
-            if service_type is None:
+            cls = self._types.service(kind, name)
+            if cls is None:
                 raise UwsimError(f"Service /{name}: rclpy has no type {kind.ros2_name}.")
             self._clients[name] = self._node.create_client(
-                service_type, f"/{name}", callback_group=self._group
+                cls, f"/{name}", callback_group=self._group
             )
         client = self._clients[name]
         end = time.monotonic() + DISCOVERY_S

@@ -25,9 +25,7 @@ class RclpyTypes:
     """The classes of rclpy for types of the bus, and a list of those that it lacks."""
 
     def __init__(self) -> None:
-        self._missing_types: defaultdict[str, set[str]] = defaultdict(
-            set
-        )  # why -> topics and services
+        self._missing_types: defaultdict[str, set[str]] = defaultdict(set)  # by reason
 
     def message(self, type: type, place: str) -> Any | None:
         """Return the class of a message for a topic, ``place``; None if there is none."""

@@ -17,7 +17,7 @@ from cyclonedds.idl import types
 from ...errors import BadMessage, UwsimError
 from ..encodings import from_cdr, to_cdr
 from ..log import Log
-from ..stamps import to_ros_clock, to_simulation_time
+from ..stamps import to_ros_time, to_sim_time
 from ..types import WireService, ros2_store
 from .names import reply_name, request_name, type_hash_data
 from .node import Call
@@ -54,13 +54,13 @@ class ServiceServer:
         store, quality = ros2_store(), Quality()
         self.writer = participant.writer(
             reply_name(name),
-            raw_type(store, kind.response.ros2_name, first_fields=CALL_FIELDS),
+            raw_type(store, kind.response.ros2_name, prefix=CALL_FIELDS),
             quality,
             user_data=hash_data,
         )
         self.reader = participant.reader(
             request_name(name),
-            raw_type(store, kind.request.ros2_name, first_fields=CALL_FIELDS),
+            raw_type(store, kind.request.ros2_name, prefix=CALL_FIELDS),
             quality,
             self._receive,
             user_data=hash_data,
@@ -90,7 +90,7 @@ class ServiceServer:
             return
         try:
             call, body = split_call(sample.data)
-            request: object = to_simulation_time(from_cdr(self._kind.service.request, body))
+            request: object = to_sim_time(from_cdr(self._kind.service.request, body))
         except (BadMessage, struct.error) as error:
             self._log.report(f"service /{self._name}: a call was refused: {error}", kind=self._name)
             return
@@ -104,7 +104,7 @@ class ServiceServer:
 
     def _reply(self, call: bytes, response: Future[object]) -> None:
         try:
-            data = bytes(to_cdr(to_ros_clock(response.result())))
+            data = bytes(to_cdr(to_ros_time(response.result())))
         except UwsimError as error:
             self._log.report(f"service /{self._name}: no answer: {error}", kind=self._name)
             return

@@ -101,11 +101,10 @@ def _is_local(environment: Mapping[str, str]) -> bool:
         return localhost_only == "1"
     if localhost_only:
         raise BadSetting(f"ROS_LOCALHOST_ONLY={localhost_only}: expected 1 or 0.")
-    discovery_range = environment.get("ROS_AUTOMATIC_DISCOVERY_RANGE", "") or "LOCALHOST"
-    if discovery_range not in RANGES:
-        near = did_you_mean(discovery_range, RANGES)
+    scope = environment.get("ROS_AUTOMATIC_DISCOVERY_RANGE", "") or "LOCALHOST"
+    if scope not in RANGES:
+        near = did_you_mean(scope, RANGES)
         raise BadSetting(
-            f"ROS_AUTOMATIC_DISCOVERY_RANGE={discovery_range}: expected "
-            f"{' or '.join(RANGES)}.{near}"
+            f"ROS_AUTOMATIC_DISCOVERY_RANGE={scope}: expected {' or '.join(RANGES)}.{near}"
         )
-    return discovery_range == "LOCALHOST"
+    return scope == "LOCALHOST"

@@ -14,11 +14,11 @@ from .contract import Client
 
 
 class ClientServices:
-    """Which clients offer a service; of several, the first is called.
+    """The clients that offer each service; of several, the first is called.
 
     Args:
-        services: those of the outside, on the bus.
-        admission: returns who may offer; None: everybody.
+        services: the external services of the bus.
+        admission: returns the rule that decides who may offer; None: everybody.
     """
 
     def __init__(
@@ -28,20 +28,20 @@ class ClientServices:
         self._offerers: dict[str, tuple[Client, ...]] = {}
 
     def offer(self, name: str, service: Service, client: Client) -> None:
-        """A client offers a service. Any thread."""
-        later = partial(self.offer, name, service, client)
+        """Offer a service of a client. Any thread."""
+        accept = partial(self.offer, name, service, client)
         admission = self._admission()
-        if admission and not admission.may_offer(name, client.name, later):
+        if admission and not admission.may_offer(name, client.name, accept):
             return
         self._offerers[name] = (*self._offerers.get(name, ()), client)
         self._services.offer(name, service)
 
     def withdraw(self, name: str, client: Client) -> None:
-        """A client offers it no more. In the thread of the server."""
+        """Withdraw a service of a client. In the thread of the server."""
         offerers = self._offerers.pop(name, ())
-        left = tuple(each for each in offerers if each is not client)
-        if left:
-            self._offerers[name] = left
+        other_offerers = tuple(offerer for offerer in offerers if offerer is not client)
+        if other_offerers:
+            self._offerers[name] = other_offerers
         elif offerers:
             self._services.withdraw(name)
 
@@ -49,5 +49,5 @@ class ClientServices:
         """Call a service of a client. In the thread of the simulation."""
         offerers = self._offerers.get(name)
         if not offerers:
-            raise UwsimError(f"Service /{name}: who offered it has left.")
+            raise UwsimError(f"Service /{name}: its server has left.")
         return offerers[0].call(name, request)

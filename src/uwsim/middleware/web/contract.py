@@ -1,4 +1,4 @@
-"""Protocols: what the session of a web client uses of the bridge, and the bridge of a session."""
+"""Protocols of the bridge for the session of a web client, and of the session for the bridge."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Protocol
 
 from ..admission import Admission
 from ..log import Log
-from .outgoing import Outgoing
+from .outgoing import EncodedMessage
 from .queue import Lane
 
 
@@ -18,43 +18,43 @@ class Subscription:
     """A topic that the client reads."""
 
     topic: str
-    """Without a leading slash."""
+    """The topic, without a leading slash."""
     lane: Lane
-    """What waits to be sent."""
+    """The messages that wait to be sent."""
     throttle: float
-    """Shortest time between two messages [s of wall time]."""
+    """The shortest time between two messages [s of wall time]."""
     ids: set[str | None] = field(default_factory=set)
     """The ids under which the client has subscribed."""
-    last: float = -math.inf
-    """When the last message was sent [s of wall time]."""
+    last_time: float = -math.inf
+    """The time at which the last message was sent [s of wall time]."""
     source: str = ""
-    """The topic of the bus that its messages are made of."""
+    """The topic of the bus from which its messages are made."""
 
     def __post_init__(self) -> None:
         self.source = self.source or self.topic
 
 
 class Client(Protocol):
-    """A client, as the bridge sees it."""
+    """A client, as the bridge uses it."""
 
     @property
     def name(self) -> str:
-        """Its name in the log."""
+        """The name of the client in the log."""
 
-    def advertises(self, topic: str) -> bool:
-        """Whether it has said that it publishes a topic. Any thread."""
+    def has_advertised(self, topic: str) -> bool:
+        """Return whether it has advertised a topic. Any thread."""
 
-    def reads(self, topic: str) -> bool:
-        """Whether it has subscribed to a topic. Any thread."""
+    def has_subscribed(self, topic: str) -> bool:
+        """Return whether it has subscribed to a topic. Any thread."""
 
-    def post(self, subscription: Subscription, message: Outgoing) -> None:
+    def post(self, subscription: Subscription, message: EncodedMessage) -> None:
         """Send a message of a subscription. Any thread."""
 
     def call(self, name: str, request: object) -> Future[object]:
-        """Call a service that it offers. Any thread."""
+        """Call a service that the client offers. Any thread."""
 
     def reply(self, content: dict[str, object]) -> None:
-        """Send an object, behind what waits already. Any thread."""
+        """Send an object, after all that waits already. Any thread."""
 
 
 class SessionBridge(Protocol):
@@ -64,7 +64,7 @@ class SessionBridge(Protocol):
     admission: Admission | None
 
     def put(self, topic: str, message: object, sender: str = "") -> None:
-        """Take in a message of a client."""
+        """Accept a message of a client."""
 
     def request(self, name: str, request: object, sender: str = "") -> Future[object]:
         """Call a service of the bus."""

@@ -1,4 +1,4 @@
-"""Where web clients are served, and which."""
+"""The options of the server for web clients."""
 
 from __future__ import annotations
 
@@ -14,22 +14,22 @@ LOOPBACK = ("127.0.0.1", "localhost", "::1")
 
 @dataclass(frozen=True, kw_only=True)
 class WebOptions:
-    """Where the server listens, and who may connect."""
+    """The address of the server, and the clients that may connect."""
 
     port: int = 9090
-    """Port; 0: one that the system chooses."""
+    """The port; 0: one that the system chooses."""
     host: str = "127.0.0.1"
-    """Address; another than this computer's own needs a token."""
+    """The address; another than this computer's own requires a token."""
     token: str | None = field(default=None, repr=False)
-    """What a client has to give: ``ws://HOST:PORT/?token=...`` or ``Authorization: Bearer``."""
+    """The token of clients: ``ws://HOST:PORT/?token=...`` or ``Authorization: Bearer``."""
     origins: tuple[str, ...] = ()
-    """Pages that may connect, as ``https://example.org``, next to those of this computer."""
+    """The pages that may connect, as ``https://example.org``, besides those of this computer."""
 
     def __post_init__(self) -> None:
         if not 0 <= self.port < 2**16:
             raise BadSetting(f"--web {self.port}: expected a port, from 0 to 65535.")
         if self.token is not None and not self.token.strip():
-            raise BadSetting("The token of --web: it is blank.")
+            raise BadSetting("The token of --web is blank.")
         for origin in self.origins:
             if not ORIGIN.fullmatch(origin):
                 raise BadSetting(
@@ -42,13 +42,13 @@ class WebOptions:
             )
 
     def check_free(self) -> None:
-        """Raise BadSetting if something listens at the port already, or nobody can."""
+        """Raise BadSetting if the port is in use, or cannot be used."""
         try:
-            found = socket.getaddrinfo(self.host, self.port, type=socket.SOCK_STREAM)
-            family, kind, protocol, _, address = found[0]
-            with socket.socket(family, kind, protocol) as tried:
-                tried.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
-                tried.bind(address)
+            addresses = socket.getaddrinfo(self.host, self.port, type=socket.SOCK_STREAM)
+            family, kind, protocol, _, address = addresses[0]
+            with socket.socket(family, kind, protocol) as test_socket:
+                test_socket.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+                test_socket.bind(address)
         except OSError as error:
             raise BadSetting(
                 f"--web {self.port}: cannot listen at {self.host}: {error.strerror or error}."

@@ -1,4 +1,4 @@
-"""A message on its way to web clients, encoded once for all who read it."""
+"""A message to web clients, encoded once for all its readers."""
 
 from __future__ import annotations
 
@@ -13,20 +13,20 @@ import numpy as np
 
 from ..encodings import to_cdr
 from ..json_encoding import to_json, to_plain
-from ..stamps import to_ros_clock
+from ..stamps import to_ros_time
 from .cbor import encode_cbor
 
 COMPRESSIONS = ("none", "png", "cbor", "cbor-raw")
 
 
-class Outgoing:
-    """One message of a topic.
+class EncodedMessage:
+    """A message of a topic, encoded once for all clients.
 
     Args:
-        topic: its name, without a leading slash.
-        message: as it is on the bus.
-        size: about how many bytes it takes.
-        convert: makes of it the message that is sent; called once, in the thread that sends.
+        topic: the name of the topic, without a leading slash.
+        message: the message on the bus.
+        size: the approximate size of the message [bytes].
+        convert: converts it to the message to send; called once, in the thread that sends.
         wrap: puts its fields into those of another message; not for ``cbor-raw``.
     """
 
@@ -39,46 +39,46 @@ class Outgoing:
         wrap: Callable[[dict[str, Any]], dict[str, Any]] = lambda fields: fields,
     ) -> None:
         self._topic, self._source, self._convert = f"/{topic}", message, convert
-        self._converted: object = None
+        self._sent_message: object = None
         self._wrap = wrap
-        self._encoded: dict[str, str | bytes] = {}
+        self._frames: dict[str, str | bytes] = {}
         self.size = size
-        """About how many bytes it takes."""
+        """The approximate size of the message [bytes]."""
 
-    def encoded(self, compression: str) -> str | bytes:
+    def frame(self, compression: str) -> str | bytes:
         """Return the frame of the protocol, in one of `COMPRESSIONS`."""
-        if compression not in self._encoded:
-            self._encoded[compression] = self._frame(compression)
-        return self._encoded[compression]
+        if compression not in self._frames:
+            self._frames[compression] = self._encode(compression)
+        return self._frames[compression]
 
     @property
     def _message(self) -> object:
-        """The message that is sent, with its stamps on the clock of ROS."""
-        if self._converted is None:
-            self._converted = to_ros_clock(self._convert(self._source))
-        return self._converted
+        """The message to send, with its stamps on the clock of ROS."""
+        if self._sent_message is None:
+            self._sent_message = to_ros_time(self._convert(self._source))
+        return self._sent_message
 
-    def _frame(self, compression: str) -> str | bytes:
+    def _encode(self, compression: str) -> str | bytes:
         if compression == "cbor":
-            plain = self._wrap(to_plain(self._message))
-            return encode_cbor({"op": "publish", "topic": self._topic, "msg": plain})
+            plain_fields = self._wrap(to_plain(self._message))
+            return encode_cbor({"op": "publish", "topic": self._topic, "msg": plain_fields})
         if compression == "cbor-raw":  # the message as CDR, as rosbridge of ROS 2 sends it
-            raw = np.frombuffer(to_cdr(self._message), np.uint8)
-            content = {"secs": 0, "nsecs": 0, "bytes": raw}
+            cdr_bytes = np.frombuffer(to_cdr(self._message), np.uint8)
+            content = {"secs": 0, "nsecs": 0, "bytes": cdr_bytes}
             return encode_cbor({"op": "publish", "topic": self._topic, "msg": content})
         if compression == "png":
-            return packed_png(str(self.encoded("none")))
+            return encode_png_frame(str(self.frame("none")))
         fields = self._wrap(to_json(self._message))
         content = {"op": "publish", "topic": self._topic, "msg": fields}
         return json.dumps(content, separators=(",", ":"), allow_nan=False)
 
 
-def packed_png(text: str) -> str:
-    """Return a frame in rosbridge's compression ``png``: the text is the pixels of an image."""
+def encode_png_frame(text: str) -> str:
+    """Encode a frame in rosbridge's compression ``png``: the text is the pixels of an image."""
     data = text.encode()
     width = max(1, math.isqrt(math.ceil(len(data) / 3)))
     height = math.ceil(len(data) / 3 / width)
     pixels = np.frombuffer(data.ljust(3 * width * height, b"\n"), np.uint8)
     _, png = cv2.imencode(".png", pixels.reshape(height, width, 3)[..., ::-1])
-    packed: dict[str, Any] = {"op": "png", "data": base64.b64encode(png.tobytes()).decode()}
-    return json.dumps(packed)
+    frame: dict[str, Any] = {"op": "png", "data": base64.b64encode(png.tobytes()).decode()}
+    return json.dumps(frame)

@@ -1,4 +1,4 @@
-"""What waits to be sent to a client: in order, bounded by number and bytes; the oldest go first."""
+"""The messages that wait to be sent to a client, limited in number and bytes; oldest first."""
 
 from __future__ import annotations
 
@@ -7,31 +7,31 @@ from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from .outgoing import Outgoing
+from .outgoing import EncodedMessage
 
 MAX_BYTES = 64 * 2**20
-"""So much may wait for one client."""
+"""The maximum size of what waits for one client [bytes]."""
 MAX_MESSAGES = 1000
-"""So many may wait of one subscription; replies of services count as one."""
+"""The maximum number of waiting messages of one subscription; replies count as one."""
 
 
 @dataclass(eq=False)
 class Lane:
-    """What waits of one subscription, or of the replies."""
+    """The messages of one subscription, or the replies, that wait to be sent."""
 
     compression: str = "none"
-    """How its messages are encoded."""
+    """The encoding of the messages."""
     length: int = MAX_MESSAGES
-    """How many of them may wait."""
-    items: deque[Outgoing | str] = field(default_factory=deque)
-    """What waits, oldest first."""
+    """The maximum number of messages."""
+    items: deque[EncodedMessage | str] = field(default_factory=deque)
+    """The messages, oldest first."""
 
 
 class OutQueue:
-    """Frames in the order in which they came; any thread may put, the writer takes.
+    """A queue of frames in order of arrival; any thread adds frames, the writer takes them.
 
     Args:
-        wake: called when something came and nothing waited.
+        wake: called when an item comes and nothing waits.
     """
 
     def __init__(self, wake: Callable[[], None]) -> None:
@@ -40,12 +40,12 @@ class OutQueue:
         self._order: deque[Lane] = deque()
         self._n_bytes = 0
         self.n_dropped = 0
-        """Messages that were dropped."""
+        """The number of messages dropped so far."""
 
-    def put(self, lane: Lane, item: Outgoing | str) -> int:
-        """Put an item at the end; returns how many messages were dropped for it."""
+    def put(self, lane: Lane, item: EncodedMessage | str) -> int:
+        """Put an item at the end; return the number of messages dropped for it."""
         with self._lock:
-            before, was_empty = self.n_dropped, not self._order
+            n_dropped_before, was_empty = self.n_dropped, not self._order
             lane.items.append(item)
             self._order.append(lane)
             self._n_bytes += size_of(item)
@@ -55,13 +55,13 @@ class OutQueue:
                 self._n_bytes -= size_of(lane.items.popleft())
                 self._order.remove(lane)  # its oldest place
                 self.n_dropped += 1
-            dropped = self.n_dropped - before
-        if was_empty:  # else the writer takes it before it waits
+            n_dropped = self.n_dropped - n_dropped_before
+        if was_empty:  # else the writer is awake already
             self._wake()
-        return dropped
+        return n_dropped
 
-    def take(self) -> tuple[Lane, Outgoing | str] | None:
-        """Take out the oldest item; None if nothing waits."""
+    def take(self) -> tuple[Lane, EncodedMessage | str] | None:
+        """Take out the oldest item; return None if nothing waits."""
         with self._lock:
             if not self._order:
                 return None
@@ -71,13 +71,13 @@ class OutQueue:
             return lane, item
 
     def forget(self, lane: Lane) -> None:
-        """Drop what waits of a lane."""
+        """Drop the messages of a lane."""
         with self._lock:
             self._n_bytes -= sum(map(size_of, lane.items))
             lane.items.clear()
-            self._order = deque(each for each in self._order if each is not lane)
+            self._order = deque(other_lane for other_lane in self._order if other_lane is not lane)
 
 
-def size_of(item: Outgoing | str) -> int:
-    """About how many bytes an item takes."""
-    return item.size if isinstance(item, Outgoing) else len(item)
+def size_of(item: EncodedMessage | str) -> int:
+    """Return the approximate size of an item [bytes]."""
+    return item.size if isinstance(item, EncodedMessage) else len(item)

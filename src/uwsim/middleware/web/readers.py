@@ -1,4 +1,4 @@
-"""Clients that read topics, and what they are sent."""
+"""The clients that read topics, and the messages to them."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from ...messages import Image
 from ...messages.compressed import as_jpeg
 from ..bridge import LATCHED
 from ..clock_topic import ClockTopic
-from ..exchange.external_subscribers import ExternalSubscribers
+from ..exchange.subscribers import Subscribers
 from .contract import Client, Subscription
-from .graph import COMPRESSED, WebGraph
-from .outgoing import Outgoing
+from .graph import COMPRESSED_SUFFIX, WebGraph
+from .outgoing import EncodedMessage
 
 CLOCK = "clock"
 Reader = tuple[Client, Subscription]
@@ -25,29 +25,23 @@ class WebReaders:
         clock_topic: sent to who has come.
     """
 
-    def __init__(
-        self, graph: WebGraph, external_subscribers: ExternalSubscribers, clock_topic: ClockTopic
-    ) -> None:
-        self._graph, self._external_subscribers, self._clock_topic = (
-            graph,
-            external_subscribers,
-            clock_topic,
-        )
+    def __init__(self, graph: WebGraph, subscribers: Subscribers, clock_topic: ClockTopic) -> None:
+        self._graph, self._subscribers, self._clock_topic = graph, subscribers, clock_topic
         self._readers: dict[str, tuple[Reader, ...]] = {}
-        self._latched: dict[str, Outgoing] = {}
+        self._latched: dict[str, EncodedMessage] = {}
 
     def __contains__(self, topic: str) -> bool:
-        """Whether a client reads a topic. Any thread."""
+        """Return whether a client reads a topic. Any thread."""
         return topic in self._readers
 
-    def of(self, topic: str) -> tuple[Reader, ...]:
-        """The clients that read a topic. Any thread."""
+    def readers_of(self, topic: str) -> tuple[Reader, ...]:
+        """Return the clients that read a topic. Any thread."""
         return self._readers.get(topic, ())
 
-    def read(self, topic: str, client: Client, subscription: Subscription) -> None:
-        """A client subscribes. In the thread of the server."""
+    def add(self, topic: str, client: Client, subscription: Subscription) -> None:
+        """Add a subscription of a client. In the thread of the server."""
         latched = self._latched.get(topic)
-        self._readers[topic] = (*self.of(topic), (client, subscription))
+        self._readers[topic] = (*self.readers_of(topic), (client, subscription))
         if latched is not None:
             client.post(subscription, latched)
         if topic == CLOCK:
@@ -55,31 +49,31 @@ class WebReaders:
         else:
             if topic not in self._graph.topics:
                 subscription.source = self._graph.image_of(topic) or topic
-            self._external_subscribers.add(subscription.source)
+            self._subscribers.add(subscription.source)
 
-    def unread(self, topic: str, subscription: Subscription) -> None:
-        """A client does so no more. In the thread of the server."""
-        left = tuple(each for each in self.of(topic) if each[1] is not subscription)
-        if left:
-            self._readers[topic] = left
+    def remove(self, topic: str, subscription: Subscription) -> None:
+        """Remove a subscription of a client. In the thread of the server."""
+        readers = tuple(entry for entry in self.readers_of(topic) if entry[1] is not subscription)
+        if readers:
+            self._readers[topic] = readers
         else:
             self._readers.pop(topic, None)
         if topic != CLOCK:
-            self._external_subscribers.remove(subscription.source)
+            self._subscribers.remove(subscription.source)
 
     def send(self, topic: str, message: object) -> None:
-        """Give a message to all who read its topic. In the thread of the simulation."""
+        """Send a message to all readers of its topic. In the thread of the simulation."""
         is_latched = topic in LATCHED
         if is_latched or topic in self:
-            outgoing = Outgoing(topic, message, size_of(message))
-            if is_latched:  # before the readers are looked at: who comes meanwhile finds it here
-                self._latched[topic] = outgoing
-            self.post(topic, outgoing)
-        if isinstance(message, Image) and (derived := topic + COMPRESSED) in self:
-            self.post(derived, Outgoing(derived, message, size_of(message), as_jpeg))
+            encoded_message = EncodedMessage(topic, message, size_of(message))
+            if is_latched:  # before the readers are read: new ones find the message here
+                self._latched[topic] = encoded_message
+            self.post(topic, encoded_message)
+        if isinstance(message, Image) and (image_topic := topic + COMPRESSED_SUFFIX) in self:
+            self.post(image_topic, EncodedMessage(image_topic, message, size_of(message), as_jpeg))
 
-    def post(self, topic: str, outgoing: Outgoing, *, only: str | None = None) -> None:
-        """Give what is sent on a topic to its readers, or to the one named ``only``. Any thread."""
-        for client, subscription in self.of(topic):
-            if only is None or client.name == only:
-                client.post(subscription, outgoing)
+    def post(self, topic: str, message: EncodedMessage, *, client_name: str | None = None) -> None:
+        """Send a message to the readers of a topic, or to the client of that name. Any thread."""
+        for client, subscription in self.readers_of(topic):
+            if client_name is None or client.name == client_name:
+                client.post(subscription, message)

@@ -1,8 +1,8 @@
-"""The services of ``rosapi`` that clients of rosbridge ask what there is with.
+"""The services of ``rosapi`` by which clients of rosbridge query topics, services and types.
 
 Types are accepted by their names in ROS 1 and ROS 2, and answered by those of ROS 2. There is one
-node, `NODE`; what clients publish and read is theirs. There are no parameters: requests for them
-are answered as those of a server without any.
+node, `NODE`; publications and subscriptions of clients are listed under their own names. There are
+no parameters: requests for them are answered as by a server without any.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from .graph import WebGraph
 
 NODE = "/uwsim"
 ROSOUT = "rosout"
-"""A topic that viewers look for: its type is how they tell ROS 2 from ROS 1."""
+"""The topic whose type tells viewers that this is ROS 2."""
 ROSOUT_TYPE = "rcl_interfaces/msg/Log"
 
 
@@ -34,9 +34,10 @@ def _topics(graph: WebGraph, args: Any) -> dict[str, Any]:
 
 
 def _topics_and_raw_types(graph: WebGraph, args: Any) -> dict[str, Any]:
-    found = _topics(graph, args)
-    wires = [wire_type(message_class(name)) for name in found["types"]]
-    return {**found, "typedefs_full_text": [wire.ros2_definition if wire else "" for wire in wires]}
+    answer = _topics(graph, args)
+    wires = [wire_type(message_class(name)) for name in answer["types"]]
+    texts = [wire.ros2_definition if wire else "" for wire in wires]
+    return {**answer, "typedefs_full_text": texts}
 
 
 def _topic_type(graph: WebGraph, args: Any) -> dict[str, Any]:
@@ -44,9 +45,9 @@ def _topic_type(graph: WebGraph, args: Any) -> dict[str, Any]:
 
 
 def _topics_for_type(graph: WebGraph, args: Any) -> dict[str, Any]:
-    requested = full_name(_text(args, "type"))
+    type_name = full_name(_text(args, "type"))
     types = _topic_types(graph).items()
-    return {"topics": [f"/{name}" for name, type in types if type == requested]}
+    return {"topics": [f"/{name}" for name, type in types if type == type_name]}
 
 
 def _services(graph: WebGraph, args: Any) -> dict[str, Any]:
@@ -54,16 +55,16 @@ def _services(graph: WebGraph, args: Any) -> dict[str, Any]:
 
 
 def _service_type(graph: WebGraph, args: Any) -> dict[str, Any]:
-    found = graph.services.get(_name(args, "service"))
-    return {"type": found.name if found else ""}
+    service_type = graph.services.get(_name(args, "service"))
+    return {"type": service_type.name if service_type else ""}
 
 
 def _services_for_type(graph: WebGraph, args: Any) -> dict[str, Any]:
-    requested = None
+    requested_kind = None
     with suppress(UnknownName):
-        requested = service(_text(args, "type"))
-    found = sorted(name for name, each in graph.services.items() if each is requested)
-    return {"services": [f"/{name}" for name in found]}
+        requested_kind = service(_text(args, "type"))
+    names = sorted(name for name, kind in graph.services.items() if kind is requested_kind)
+    return {"services": [f"/{name}" for name in names]}
 
 
 def _service_node(graph: WebGraph, args: Any) -> dict[str, Any]:
@@ -82,14 +83,14 @@ def _service_host(graph: WebGraph, args: Any) -> dict[str, Any]:
 
 def _publishers(graph: WebGraph, args: Any) -> dict[str, Any]:
     name = _name(args, "topic")
-    own = [NODE] if graph.is_published(name) or name == ROSOUT else []
-    return {"publishers": [*own, *graph.clients_publishing(name)]}
+    nodes = [NODE] if graph.is_published(name) or name == ROSOUT else []
+    return {"publishers": [*nodes, *graph.clients_publishing(name)]}
 
 
 def _subscribers(graph: WebGraph, args: Any) -> dict[str, Any]:
     name = _name(args, "topic")
-    own = [NODE] if graph.is_subscribed(name) else []
-    return {"subscribers": [*own, *graph.clients_reading(name)]}
+    nodes = [NODE] if graph.is_subscribed(name) else []
+    return {"subscribers": [*nodes, *graph.clients_reading(name)]}
 
 
 def _nodes(graph: WebGraph, args: Any) -> dict[str, Any]:
@@ -157,15 +158,15 @@ def typedefs(name: str) -> list[dict[str, Any]]:
     definitions = ros2_store().fielddefs
     if name not in definitions:
         raise BadMessage(f"There is no message type {name!r:.100}.")
-    found: dict[str, dict[str, Any]] = {}
-    pending = [name]
-    while pending:
-        current = pending.pop(0)
-        if current in found:
+    definitions_by_name: dict[str, dict[str, Any]] = {}
+    type_names = [name]
+    while type_names:
+        current = type_names.pop(0)
+        if current in definitions_by_name:
             continue
         constants, members = definitions[current]
         fields = [_field(*member) for member in members if member[0] != PLACEHOLDER]
-        found[current] = {
+        definitions_by_name[current] = {
             "type": current,
             "fieldnames": [field for field, _, _ in fields],
             "fieldtypes": [type for _, type, _ in fields],
@@ -174,22 +175,22 @@ def typedefs(name: str) -> list[dict[str, Any]]:
             "constnames": [constant for constant, _, _ in constants],
             "constvalues": [str(value) for _, _, value in constants],
         }
-        pending += [type for _, type, _ in fields if type in definitions]
-    return list(found.values())
+        type_names += [type for _, type, _ in fields if type in definitions]
+    return list(definitions_by_name.values())
 
 
 def _field(name: str, description: Any) -> tuple[str, str, int]:
-    """Name, type, and length of the array: 0 is any length, -1 is no array."""
-    node, inner = description
+    """Return name, type, and length of the array: 0 is any length, -1 is no array."""
+    node, content = description
     length = -1
     if node in (Nodetype.ARRAY, Nodetype.SEQUENCE):
-        length = int(inner[1]) if node == Nodetype.ARRAY else 0
-        node, inner = inner[0]
-    return name, str(inner) if node == Nodetype.NAME else str(inner[0]), length
+        length = int(content[1]) if node == Nodetype.ARRAY else 0
+        node, content = content[0]
+    return name, str(content) if node == Nodetype.NAME else str(content[0]), length
 
 
 def _example(type: str) -> str:
-    """A value of a type as text, in the form of rosapi."""
+    """Return a value of a type as text, in the form of rosapi."""
     if "/" in type:
         return "{}"
     if type in ("string", "wstring"):
@@ -241,4 +242,4 @@ SERVICES: dict[str, Callable[[Any, Any], dict[str, Any]]] = {
     "rosapi/topics_and_raw_types": _topics_and_raw_types,
     "rosapi/topics_for_type": _topics_for_type,
 }
-"""Name -> what answers, with the graph and the arguments."""
+"""The functions that answer requests, with the graph and the arguments, by name."""

@@ -32,61 +32,57 @@ from ..work_budget import WorkBudget
 from .client_services import ClientServices
 from .graph import WebGraph
 from .options import WebOptions
-from .outgoing import Outgoing
+from .outgoing import EncodedMessage
 from .readers import CLOCK, WebReaders
 from .republications import Republications
 from .session import Session, SessionParts
 
 LOCAL_PAGES = re.compile(r"https?://(localhost|127\.0\.0\.1|\[::1\])(:\d+)?")
-"""Origins of pages that may connect unless others are named: those of this computer."""
+"""The origins of pages on this computer, which may connect unless others are given."""
 MAX_FRAME = 16 * 2**20
-"""Longest frame of a client [bytes]."""
+"""The maximum length of a client's frame [bytes]."""
 SMALL_FRAME, N_LARGE = 2**20, 8
-"""Longest frame of clients beyond the first `N_LARGE` [bytes]: unfinished frames are kept."""
+"""The maximum frame of clients beyond the first `N_LARGE` [bytes]: unfinished frames are kept."""
 MAX_FRAMES = 2
-"""Frames of one client that may wait; beyond it, no more are read."""
+"""The maximum number of waiting frames of one client; beyond it, no more are read."""
 CLIENT_SHARE, CLIENT_BURST = 0.02, 0.05
-"""Share of the wall time in which frames of one client are read, and the time at once [s]."""
+"""The share of the wall time for reading one client, and the time at once [s]."""
 ALL_SHARE, ALL_BURST = 0.04, 0.1
-"""The same of all clients together, but for large frames and for clients that a run in lock-step
-waits for."""
+"""The same for all clients together, except large frames and clients that a run in lock-step waits
+for."""
 MAX_CLIENTS = 64
-PING, PING_LIMIT = 20.0, 300.0
-"""How often a client is asked whether it is there, and how long it may take to answer [s]."""
-CLOSING = 2.0
-"""How long closing may take [s of wall time]."""
+PING_INTERVAL, PING_TIMEOUT = 20.0, 300.0
+"""The interval of pings, and the time limit for their answers [s]."""
+CLOSE_TIMEOUT = 2.0
+"""The timeout of closing [s of wall time]."""
 
 
 class WebBridge(Bridge):
-    """Serves the topics and services of a bus to web clients.
+    """A server of the topics and services of a bus for web clients.
 
     Args:
-        bus: of the simulation.
+        bus: the bus of the simulation.
         clock: returns the simulation time [s].
-        options: where to listen.
-        log: where it reports.
+        options: the address, and the clients that may connect.
+        log: the log for events.
 
     Raises:
-        BadSetting: it cannot listen there.
+        BadSetting: it cannot listen at the address.
     """
 
     traits = TransportTraits(relays_between_clients=True)
 
     def __init__(
-        self,
-        bus: Bus,
-        clock: Callable[[], float],
-        options: WebOptions,
-        log: Log | None = None,
+        self, bus: Bus, clock: Callable[[], float], options: WebOptions, log: Log | None = None
     ) -> None:
         super().__init__(bus, clock, log or Log("web"))
         self._options = options
         self._sessions: set[Session] = set()
         self.graph = WebGraph(clock, self._sessions)
-        """What clients may ask about."""
-        self._readers = WebReaders(self.graph, self.external_subscribers, self.clock_topic)
+        """The topics and services that clients may query."""
+        self._readers = WebReaders(self.graph, self.subscribers, self.clock_topic)
         self._client_services = ClientServices(self.external_services, lambda: self.admission)
-        self._republications = Republications(self.external_subscribers, self._readers, clock)
+        self._republications = Republications(self.subscribers, self._readers, clock)
         self._parts = SessionParts(
             graph=self.graph,
             readers=self._readers,
@@ -97,14 +93,14 @@ class WebBridge(Bridge):
             CLIENT_SHARE, CLIENT_BURST, WorkBudget(ALL_SHARE, ALL_BURST)
         )
         self._loop = asyncio.new_event_loop()
-        self._listening: Future[int] = Future()
-        self._ended: asyncio.Event | None = None
-        self._begun, self._has_begun = asyncio.Event(), False
-        self._thread = threading.Thread(target=self._serve_all, name="uwsim web", daemon=True)
+        self._port_future: Future[int] = Future()
+        self._end_event: asyncio.Event | None = None
+        self._begin_event, self._has_begun = asyncio.Event(), False
+        self._thread = threading.Thread(target=self._run, name="uwsim web", daemon=True)
         self._thread.start()
         try:
-            self.port = self._listening.result()
-            """Port at which it listens."""
+            self.port = self._port_future.result()
+            """The port of the server."""
         except OSError as error:
             self._thread.join()
             raise BadSetting(
@@ -113,48 +109,47 @@ class WebBridge(Bridge):
         self.log.report(f"listening at ws://{options.host}:{self.port}", kind="listening")
 
     def on_topics(self, topics: Mapping[str, TopicEndpoints]) -> None:
-        """Note what is there; clients ask."""
+        """Store the topics, which clients query."""
         self.graph.topics = dict(topics)
 
     def on_services(self, services: Mapping[str, Service]) -> None:
-        """Note what is there; clients ask."""
+        """Store the services, which clients query."""
         self.graph.services = dict(services)
 
     def send(self, topic: str, message: object) -> None:
-        """Give a message to all who read its topic."""
+        """Send a message to all readers of its topic."""
         self._readers.send(topic, message)
         self._republications.send(topic, message)
 
     def send_to(self, sender: str, topic: str, message: object) -> None:
-        """Give a message to one client, if it reads the topic."""
-        self._readers.post(topic, Outgoing(topic, message, size_of(message)), only=sender)
+        """Send a message to one client, if it reads the topic."""
+        content = EncodedMessage(topic, message, size_of(message))
+        self._readers.post(topic, content, client_name=sender)
 
     def _tick(self) -> None:
-        """Serve those who came before the first step, and tell the time when it is due.
+        """Serve the clients that came before the first step, and publish the time if it is due.
 
-        Until then nobody knows what is on the bus.
+        Until then the topics on the bus are not known.
         """
         if not self._has_begun:
             self._has_begun = True
-            self._loop.call_soon_threadsafe(self._begun.set)
+            self._loop.call_soon_threadsafe(self._begin_event.set)
         super()._tick()
 
     def _publish_clock(self) -> None:
-        """Publish ``/clock`` for those who read it."""
         if CLOCK in self._readers and CLOCK not in self.graph.topics:
             clock = message_class("rosgraph_msgs/Clock")
             self.send(CLOCK, clock(clock=clock_time(self.clock_topic.time())))
 
     def _clock_is_read(self) -> bool:
-        """Whether a client has subscribed to ``/clock``."""
         return CLOCK in self._readers
 
     def has_publisher(self, topic: str) -> bool:
-        """Whether a client has advertised ``topic``."""
-        return any(session.advertises(topic) for session in tuple(self._sessions))
+        """Return whether a client has advertised ``topic``."""
+        return any(session.has_advertised(topic) for session in tuple(self._sessions))
 
     def report_error(self, sender: str, text: str) -> None:
-        """Send a client a status."""
+        """Send a status to a client."""
         for session in tuple(self._sessions):
             if session.name == sender:
                 session.reply({"op": "status", "level": "error", "msg": text})
@@ -165,69 +160,66 @@ class WebBridge(Bridge):
 
     def close(self) -> None:
         """Close all connections and the port."""
-        if self._ended is not None:
+        if self._end_event is not None:
             with suppress(RuntimeError):
-                self._loop.call_soon_threadsafe(self._ended.set)
-        self._thread.join(2 * CLOSING)
+                self._loop.call_soon_threadsafe(self._end_event.set)
+        self._thread.join(2 * CLOSE_TIMEOUT)
         super().close()
 
-    def _serve_all(self) -> None:
-        """Serve until `close`; the thread of the server."""
+    def _run(self) -> None:
         asyncio.set_event_loop(self._loop)
         try:
             self._loop.run_until_complete(self._listen())
         except OSError as error:
-            self._listening.set_exception(error)
+            self._port_future.set_exception(error)
         finally:
-            left = asyncio.all_tasks(self._loop)  # of clients that do not let go
-            for task in left:
+            tasks = asyncio.all_tasks(self._loop)  # of clients that do not close
+            for task in tasks:
                 task.cancel()
-            self._loop.run_until_complete(asyncio.gather(*left, return_exceptions=True))
-            self._limits.abort_all()  # of clients that take nothing, or have not asked yet
+            self._loop.run_until_complete(asyncio.gather(*tasks, return_exceptions=True))
+            self._limits.abort_all()  # of clients that do not read, or sent no request yet
             self._loop.run_until_complete(self._loop.shutdown_asyncgens())
             self._loop.close()
 
     async def _listen(self) -> None:
-        self._ended = asyncio.Event()
-        ros2_store()  # once, before there are clients whose work is limited
+        self._end_event = asyncio.Event()
+        ros2_store()  # loaded before there are clients, whose work is limited
         options = self._options
         server = await serve(
-            self._attend,
+            self._serve_client,
             options.host,
             options.port,
             origins=[None, LOCAL_PAGES, *(re.compile(re.escape(o)) for o in options.origins)],
-            process_request=self._admit,
+            process_request=self._check_request,
             create_connection=cast(Any, partial(LimitedConnection, limits=self._limits)),
             max_size=MAX_FRAME,
             max_queue=MAX_FRAMES,
-            ping_interval=PING,
-            ping_timeout=PING_LIMIT,
-            close_timeout=CLOSING,
+            ping_interval=PING_INTERVAL,
+            ping_timeout=PING_TIMEOUT,
+            close_timeout=CLOSE_TIMEOUT,
             server_header=None,
             compression=None,
         )
-        self._listening.set_result(server.sockets[0].getsockname()[1])
-        await self._ended.wait()
+        self._port_future.set_result(server.sockets[0].getsockname()[1])
+        await self._end_event.wait()
         await _stop_accepting(server)
         server.close(code=1001, reason="the simulation has ended")
-        self._begun.set()  # who came before the first step waits no longer
+        self._begin_event.set()  # clients from before the first step wait no longer
         with suppress(TimeoutError):
-            await asyncio.wait_for(server.wait_closed(), CLOSING)
+            await asyncio.wait_for(server.wait_closed(), CLOSE_TIMEOUT)
 
-    def _admit(self, connection: ServerConnection, request: Request) -> Response | None:
-        """Refuse who has no token, and more clients than are served."""
+    def _check_request(self, connection: ServerConnection, request: Request) -> Response | None:
+        """Refuse clients without a valid token, and clients beyond the maximum number."""
         if len(self._sessions) >= MAX_CLIENTS:
             self.log.report(f"more than {MAX_CLIENTS} clients; one is refused")
             return connection.respond(http.HTTPStatus.SERVICE_UNAVAILABLE, "Too many clients.\n")
         token = self._options.token
         if token and not hmac.compare_digest(_token_of(request), token.encode()):
-            self.log.report(
-                f"a client at {_peer(connection)} was refused: no token, or a wrong one"
-            )
-            return connection.respond(http.HTTPStatus.UNAUTHORIZED, "A token is needed.\n")
+            self.log.report(f"a client at {_peer(connection)} was refused: no valid token")
+            return connection.respond(http.HTTPStatus.UNAUTHORIZED, "A token is required.\n")
         return None
 
-    async def _attend(self, connection: ServerConnection) -> None:
+    async def _serve_client(self, connection: ServerConnection) -> None:
         """Serve one client until it leaves."""
         assert isinstance(connection, LimitedConnection)
         name = f"client {_peer(connection)}"
@@ -243,9 +235,9 @@ class WebBridge(Bridge):
         if len(self._sessions) > N_LARGE:
             protocol.max_message_size = min(protocol.max_message_size or MAX_FRAME, SMALL_FRAME)
         try:
-            await self._begun.wait()
-            async for raw in connection:
-                await connection.handle(raw, session.handle)
+            await self._begin_event.wait()
+            async for frame in connection:
+                await connection.handle(frame, session.handle)
         except ConnectionClosed:
             pass
         finally:
@@ -254,14 +246,14 @@ class WebBridge(Bridge):
             if self.admission is not None:
                 self.admission.remove(name)
             self._sessions.discard(session)
-            why = connection.close_reason or connection.close_code or "its connection broke"
-            self.log.report(f"{name} has left ({why})", kind="has left")
+            reason = connection.close_reason or connection.close_code or "its connection broke"
+            self.log.report(f"{name} has left ({reason})", kind="has left")
 
 
 async def _stop_accepting(server: Server) -> None:
-    """Accept no more clients, and let asyncio make the transports of those accepted just now.
+    """Accept no more clients, and let asyncio make the transports of those just accepted.
 
-    Where a server closes before that, asyncio never closes them (python/cpython#109564).
+    If a server closes before that, asyncio never closes them (python/cpython#109564).
     """
     loop = asyncio.get_running_loop()
     for listener in server.sockets:
@@ -276,13 +268,13 @@ async def _write(connection: ServerConnection, session: Session) -> None:
 
 
 def _token_of(request: Request) -> bytes:
-    """Return the token of a request; empty if it has none, or is not as it should be."""
+    """Return the token of a request; empty if it has none, or an invalid one."""
     headers: Headers = request.headers
     try:
-        given = parse_qs(urlsplit(request.path).query).get("token", [""])[0]
-        given = given or headers.get("Authorization", "").removeprefix("Bearer ").strip()
-        return given.encode(errors="surrogateescape")
-    except (ValueError, LookupError):  # an address of nonsense, two headers of one name
+        token = parse_qs(urlsplit(request.path).query).get("token", [""])[0]
+        token = token or headers.get("Authorization", "").removeprefix("Bearer ").strip()
+        return token.encode(errors="surrogateescape")
+    except (ValueError, LookupError):  # an invalid address, two headers of one name
         return b""
 
 

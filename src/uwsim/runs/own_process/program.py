@@ -8,7 +8,7 @@ from functools import partial
 
 from ...bus import Algorithm
 from ...middleware.lockstep.client import LockStepClient
-from ...middleware.lockstep.external_client import make_external_client
+from ...middleware.lockstep.external_client import make_client
 from ...middleware.lockstep.external_program import ExternalProgram
 from ...middleware.lockstep.spec import FREE_RUNNING, LOCK_STEP, ClientSpec
 from ...middleware.pacing import Pace
@@ -55,7 +55,7 @@ def _client(
     """Open the connection of an external program, until the stack is closed."""
     connection = spec.connection.open(simulation.bus, lambda: simulation.time)
     bridges = stack.enter_context(connection)
-    client = make_external_client(spec, bridges, timestep=simulation.timestep)
+    client = make_client(spec, bridges, timestep=simulation.timestep)
     for bridge in bridges:
         simulation.watch(bridge.step)
     if spec.sync == "none":

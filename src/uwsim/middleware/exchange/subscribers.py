@@ -13,7 +13,7 @@ Change = tuple[str, int]
 """A topic, and the change of its number of subscribers."""
 
 
-class ExternalSubscribers:
+class Subscribers:
     """The number of external subscribers of each topic of a bus.
 
     Args:
