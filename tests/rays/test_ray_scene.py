@@ -190,7 +190,7 @@ def test_bodies_that_follow_an_engine_are_met_where_it_has_them_now(n: int) -> N
     origins, axes = engine_at(n, seed=8)
     # body 0 is placed; the others follow, in another order
     number = np.array([-1, *random.permutation(n)], np.int32)
-    moving = RayScene(bodies).following(number, origins, axes)
+    moving = RayScene(bodies).with_engine(number, origins, axes)
     fan = np.stack(
         [np.zeros(64), np.sin(np.linspace(-1, 1, 64)), np.cos(np.linspace(-1, 1, 64))], 1
     )
@@ -232,15 +232,15 @@ def test_of_many_bodies_each_ray_meets_what_it_meets_of_them_in_one() -> None:
 def test_a_body_that_is_taken_up_is_placed_and_follows_again_when_it_is_let_go() -> None:
     origins, axes = np.array([[0.0, 0.0, 1.0]]), np.eye(3)[None].copy()
     follows, is_placed = np.array([-1, 0], np.int32), np.array([-1, -1], np.int32)
-    scene = RayScene([[], [Surface(4, square(0.5))]]).following(follows, origins, axes)
+    scene = RayScene([[], [Surface(4, square(0.5))]]).with_engine(follows, origins, axes)
     above, down = Pose(np.array([0.0, 0.0, 4.0]), np.eye(3)), np.array([[0.0, 0.0, -1.0]])
     assert scene.cast(above, down, 9.0).distance[0] == 3.0
-    scene = scene.following(is_placed, origins, axes)
+    scene = scene.with_engine(is_placed, origins, axes)
     lifted = np.eye(4)
     lifted[2, 3] = 2.5
     scene.place(1, lifted)
     assert scene.cast(above, down, 9.0).distance[0] == 1.5
-    scene = scene.following(follows, origins, axes)
+    scene = scene.with_engine(follows, origins, axes)
     assert scene.cast(above, down, 9.0).distance[0] == 3.0
     origins[0, 0] = 2.0
     assert scene.cast(above, down, 9.0).distance[0] == np.inf

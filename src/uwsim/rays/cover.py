@@ -10,31 +10,31 @@ import numpy.typing as npt
 
 from ..base.geometry import Array
 
-SLENDER = 3.0
-"""A set is long and thin if it is longer than this many of its greatest distances from its axis."""
-MAX_IN_A_ROW = 64
-"""Balls along one set of triangles at most."""
+MIN_SLENDERNESS = 3.0
+"""The ratio of length to thickness above which a set has a row of balls."""
+MAX_BALLS_IN_ROW = 64
+"""The largest number of balls along one set of triangles."""
 
 
 class Balls(NamedTuple):
-    """Balls around the surfaces of a scene, where they are now."""
+    """The balls around the surfaces of a scene at their present poses."""
 
     centre: Array
-    """In W, (n, 3) [m]."""
+    """The centres in W, (n, 3) [m]."""
     radius: Array
-    """(n,) [m]."""
+    """The radii, (n,) [m]."""
     surface: npt.NDArray[np.int32]
-    """Number of the surface that each helps to cover, (n,)."""
+    """The number of the surface that each ball covers, (n,)."""
 
 
 def covering_balls(corners: Array) -> Array:
     """Return balls that together cover triangles: centre and radius, (n, 4) [m].
 
     The axis joins the point that is farthest from the middle to the point farthest from that. A
-    set that is `SLENDER` has a row of balls along its axis, each little wider than the set.
+    set longer than `MIN_SLENDERNESS` times its thickness has a row of balls along its axis.
 
     Args:
-        corners: of the triangles, (m, 3, 3) or (m, 3) [m].
+        corners: the corners of the triangles, (m, 3, 3) or (m, 3) [m].
     """
     points = corners.reshape(-1, 3)
     if not len(points):
@@ -46,11 +46,11 @@ def covering_balls(corners: Array) -> Array:
     length = math.sqrt(float(((end - begin) ** 2).sum()))
     if length > 0.0:
         axis = (end - begin) / length
-        along = ((points - begin) * axis).sum(axis=1)
-        off_axis = points - begin - along[:, None] * axis
+        axial_positions = ((points - begin) * axis).sum(axis=1)
+        off_axis = points - begin - axial_positions[:, None] * axis
         thickness = math.sqrt(float((off_axis**2).sum(axis=1).max()))
-        if length > SLENDER * thickness:
-            n = math.ceil(length / max(2.0 * thickness, length / MAX_IN_A_ROW))
+        if length > MIN_SLENDERNESS * thickness:
+            n = math.ceil(length / max(2.0 * thickness, length / MAX_BALLS_IN_ROW))
             places = (np.arange(n) + 0.5) * (length / n)
             balls = np.empty((n, 4))
             balls[:, :3] = begin + places[:, None] * axis

@@ -1,6 +1,6 @@
 """Ray casting against triangles, compiled: the exact first hit of each ray from one point.
 
-Rays that are neighbours go together (`packet`); those that go apart search alone.
+Neighbouring rays traverse the tree together (`packet`); divergent rays traverse it alone.
 """
 
 from __future__ import annotations
@@ -12,44 +12,52 @@ import numpy as np
 
 from ..base.geometry import Array
 from ..base.numerics.jit import njit
-from .bodies import Bodies, Cone, Engine, find_near, follow, is_missed, renew_frames
+from .bodies import (
+    Bodies,
+    Cone,
+    EngineFrames,
+    find_near_bodies,
+    is_missed,
+    update_boxes,
+    update_frames,
+)
 from .packet import (
     DX,
     DY,
     DZ,
-    GROUP,
+    GROUP_SIZE,
     HIT,
-    LANES,
+    N_LANES,
     NEAR,
     Bounds,
     bounds_of,
     fill_lanes,
     find_nearest,
 )
-from .triangle import Trees, Whole, meets_triangle, placed
+from .triangle import IntArray, Trees, distance_to_triangle, transform_point
 
-CLOSE = 0.97
-"""Least cosine of the angles between rays that go together, 14 degrees."""
-DEEPEST = 128
-"""Nodes that can wait while the nearer child is looked at."""
+MIN_GROUP_COSINE = 0.97
+"""The smallest cosine of angles between rays of a group; 14 degrees."""
+STACK_SIZE = 128
+"""The largest number of nodes that wait for the nearer child."""
 
 
 class Hits(NamedTuple):
     """The first hits of rays."""
 
     distance: Array
-    """Along the ray; infinite where nothing is hit, (n,) [m]."""
+    """The distance along the ray; infinite without a hit, (n,) [m]."""
     normal: Array
-    """Unit normal in W, towards the origin of the ray; zero where nothing is hit, (n, 3)."""
-    surface: Whole
-    """Number of the surface; -1 where nothing is hit, (n,)."""
+    """The unit normal in W, towards the origin of the ray; zero without a hit, (n, 3)."""
+    surface: IntArray
+    """The number of the surface; -1 without a hit, (n,)."""
 
 
 @njit
 def cast_rays(
     trees: Trees,
     bodies: Bodies,
-    place: Engine,
+    engine_frames: EngineFrames,
     origin: Array,
     directions: Array,
     limits: tuple[Array, float],
@@ -58,75 +66,79 @@ def cast_rays(
     """Find the first hits of rays.
 
     Args:
-        trees: of the bodies.
-        bodies: where they are.
-        place: where those are that some of them follow.
-        origin: where the rays begin, in W, (3,) [m].
-        directions: of the rays in W, unit vectors, (n, 3).
-        limits: from where on each ray hits, (n,), and how far all go [m].
-        hits: for the results.
+        trees: the trees of the bodies.
+        bodies: the poses of the bodies.
+        engine_frames: the frames of the engine's bodies.
+        origin: the origin of the rays in W, (3,) [m].
+        directions: unit vectors in W, (n, 3).
+        limits: the distance from which each ray can hit, (n,), and the length of all [m].
+        hits: receives the results.
     """
-    begins, reach = limits
+    starts, reach = limits
     n = len(directions)
     hits.distance[:] = reach
-    follow(bodies, place)
-    last = np.full(n, -1)  # the triangle that a ray hits
-    whose = np.zeros(n, dtype=np.int32)
-    stack, entries = np.empty(DEEPEST, dtype=np.int32), np.empty(DEEPEST)
-    waiting = np.empty(len(bodies.links) + 1, dtype=np.int32)
-    near = np.empty(len(bodies.balls), dtype=np.int32)
-    lanes = np.empty(LANES)
-    steps = _steps(directions)
-    here = origin[0], origin[1], origin[2]
-    first = 0
-    while first < n:
-        end = min(first + steps[first // GROUP], n)
-        cone = _cone(directions, first, end)
-        beam = _bounds(directions, first, end), cone
-        n_near = find_near(bodies, place, here, beam, reach, waiting, near)
-        farthest = reach
+    update_boxes(bodies, engine_frames)
+    hit_triangles = np.full(n, -1)  # the nearest triangle of each ray
+    hit_bodies = np.zeros(n, dtype=np.int32)
+    stack, entries = np.empty(STACK_SIZE, dtype=np.int32), np.empty(STACK_SIZE)
+    node_stack = np.empty(len(bodies.links) + 1, dtype=np.int32)
+    near_bodies = np.empty(len(bodies.balls), dtype=np.int32)
+    lanes = np.empty(N_LANES)
+    steps = _group_sizes(directions)
+    origin_point = origin[0], origin[1], origin[2]
+    start = 0
+    while start < n:
+        end = min(start + steps[start // GROUP_SIZE], n)
+        cone = _cone_around(directions, start, end)
+        beam = _bounds(directions, start, end), cone
+        n_near = find_near_bodies(
+            bodies, engine_frames, origin_point, beam, reach, node_stack, near_bodies
+        )
+        max_distance = reach
         for number in range(n_near):
-            body = near[number]
-            if farthest < reach and is_missed(bodies, place, body, here, cone, farthest):
+            body = near_bodies[number]
+            if max_distance < reach and is_missed(
+                bodies, engine_frames, body, origin_point, cone, max_distance
+            ):
                 continue
-            renew_frames(bodies, place, body)
+            update_frames(bodies, engine_frames, body)
             f = bodies.body_from_world[body]
-            begin = placed(f, origin[0], origin[1], origin[2], 1.0)
-            bounds = fill_lanes(lanes, f, directions, (first, end), (begins, hits.distance))
-            rays = begin, bounds
-            find_nearest(trees, trees.roots[body], rays, lanes, end - first, stack, entries)
-            farthest = 0.0
-            for i in range(first, end):
-                k = i - first
+            local_origin = transform_point(f, origin[0], origin[1], origin[2], 1.0)
+            bounds = fill_lanes(lanes, f, directions, (start, end), (starts, hits.distance))
+            rays = local_origin, bounds
+            find_nearest(trees, trees.roots[body], rays, lanes, end - start, stack, entries)
+            max_distance = 0.0
+            for i in range(start, end):
+                k = i - start
                 triangle = int(lanes[HIT + k])
                 if triangle >= 0:
-                    ray = (lanes[DX + k], lanes[DY + k], lanes[DZ + k], begins[i])
-                    at = meets_triangle(trees.triangles[triangle], begin, ray)
-                    hits.distance[i] = at if at < np.inf else lanes[NEAR + k]
-                    last[i], whose[i] = triangle, body
-                farthest = max(farthest, hits.distance[i])
-        first = end
+                    ray = (lanes[DX + k], lanes[DY + k], lanes[DZ + k], starts[i])
+                    distance = distance_to_triangle(trees.triangles[triangle], local_origin, ray)
+                    hits.distance[i] = distance if distance < np.inf else lanes[NEAR + k]
+                    hit_triangles[i], hit_bodies[i] = triangle, body
+                max_distance = max(max_distance, hits.distance[i])
+        start = end
     for i in range(n):
-        if last[i] < 0:
+        if hit_triangles[i] < 0:
             hits.distance[i], hits.surface[i] = np.inf, -1
             hits.normal[i] = 0.0
         else:
-            hits.surface[i] = trees.surfaces[last[i], 0]
-            if i > 0 and last[i] == last[i - 1]:
+            hits.surface[i] = trees.surfaces[hit_triangles[i], 0]
+            if i > 0 and hit_triangles[i] == hit_triangles[i - 1]:
                 for k in range(3):
                     hits.normal[i, k] = hits.normal[i - 1, k]
             else:
-                f = bodies.body_from_world[whose[i]]
-                _set_normal(hits.normal[i], trees.triangles[last[i]], f)
-            _turn_towards(hits.normal[i], directions[i])
+                f = bodies.body_from_world[hit_bodies[i]]
+                _set_normal(hits.normal[i], trees.triangles[hit_triangles[i]], f)
+            _turn_against_ray(hits.normal[i], directions[i])
 
 
 @njit
-def _bounds(directions: Array, first: int, end: int) -> Bounds:
-    """Bounds of one over the directions of some rays."""
+def _bounds(directions: Array, start: int, end: int) -> Bounds:
+    """Return bounds of the inverse directions of some rays."""
     x0 = y0 = z0 = np.inf
     x1 = y1 = z1 = -np.inf
-    for i in range(first, end):
+    for i in range(start, end):
         x, y, z = directions[i, 0], directions[i, 1], directions[i, 2]
         x0, y0, z0 = min(x0, x), min(y0, y), min(z0, z)
         x1, y1, z1 = max(x1, x), max(y1, y), max(z1, z)
@@ -134,41 +146,41 @@ def _bounds(directions: Array, first: int, end: int) -> Bounds:
 
 
 @njit
-def _steps(directions: Array) -> Whole:
-    """How many rays go together in each group: all, or each alone where they go apart."""
-    steps = np.empty((len(directions) + GROUP - 1) // GROUP, dtype=np.int32)
+def _group_sizes(directions: Array) -> IntArray:
+    """Return the number of rays that traverse together in each group; 1 if they diverge."""
+    steps = np.empty((len(directions) + GROUP_SIZE - 1) // GROUP_SIZE, dtype=np.int32)
     for group in range(len(steps)):
-        first = group * GROUP
-        least = 1.0
-        for i in range(first + 1, min(first + GROUP, len(directions))):
+        start = group * GROUP_SIZE
+        min_cosine = 1.0
+        for i in range(start + 1, min(start + GROUP_SIZE, len(directions))):
             cosine = 0.0
             for axis in range(3):
-                cosine += directions[first, axis] * directions[i, axis]
-            least = min(least, cosine)
-        steps[group] = GROUP if least >= CLOSE else 1
+                cosine += directions[start, axis] * directions[i, axis]
+            min_cosine = min(min_cosine, cosine)
+        steps[group] = GROUP_SIZE if min_cosine >= MIN_GROUP_COSINE else 1
     return steps
 
 
 @njit
-def _cone(directions: Array, first: int, end: int) -> Cone:
-    """A cone around some rays."""
+def _cone_around(directions: Array, start: int, end: int) -> Cone:
+    """Return a cone around some rays."""
     x = y = z = 0.0
-    for i in range(first, end):
+    for i in range(start, end):
         x, y, z = x + directions[i, 0], y + directions[i, 1], z + directions[i, 2]
     size = math.sqrt(x * x + y * y + z * z)
-    if size <= 1e-9 * (end - first):
+    if size <= 1e-9 * (end - start):
         return Cone((x, y, z), math.pi)
     x, y, z = x / size, y / size, z / size
     cosine = 1.0
-    for i in range(first, end):
-        along = x * directions[i, 0] + y * directions[i, 1] + z * directions[i, 2]
-        cosine = min(cosine, along)
+    for i in range(start, end):
+        projection = x * directions[i, 0] + y * directions[i, 1] + z * directions[i, 2]
+        cosine = min(cosine, projection)
     return Cone((x, y, z), math.acos(max(cosine, -1.0)) + 1e-6)
 
 
 @njit
 def _set_normal(normal: Array, t: Array, f: Array) -> None:
-    """Unit normal of a triangle in W: the transpose of ``body_from_world`` takes it there."""
+    """Write the unit normal of a triangle in W, by the transpose of ``body_from_world``."""
     nx, ny, nz = t[4] * t[8] - t[5] * t[7], t[5] * t[6] - t[3] * t[8], t[3] * t[7] - t[4] * t[6]
     for axis in range(3):
         normal[axis] = f[0, axis] * nx + f[1, axis] * ny + f[2, axis] * nz
@@ -178,9 +190,9 @@ def _set_normal(normal: Array, t: Array, f: Array) -> None:
 
 
 @njit
-def _turn_towards(normal: Array, direction: Array) -> None:
-    """Let a normal point against the ray."""
-    along = normal[0] * direction[0] + normal[1] * direction[1] + normal[2] * direction[2]
-    if along > 0.0:
+def _turn_against_ray(normal: Array, direction: Array) -> None:
+    """Turn a normal against the ray."""
+    projection = normal[0] * direction[0] + normal[1] * direction[1] + normal[2] * direction[2]
+    if projection > 0.0:
         for axis in range(3):
             normal[axis] = -normal[axis]

@@ -12,7 +12,7 @@ import numpy.typing as npt
 
 from ..base.geometry import Array, Pose
 from ..base.numerics.linear import inverse, product
-from .bodies import NO_ENGINE, Engine, bodies_of, renew_all_frames
+from .bodies import NO_ENGINE_FRAMES, EngineFrames, make_bodies, update_all_frames
 from .cover import Balls, covering_balls
 from .kernel import Hits
 from .scene_record import cast_all, rays_record, scene_record
@@ -25,117 +25,123 @@ class Surface:
     """Triangles with one surface number."""
 
     number: int
-    """What `Hits.surface` says of a ray that hits them."""
+    """The value of `Hits.surface` of rays that hit them."""
     triangles: Array
-    """In the frame of their body, counter-clockwise from outside, (n, 3, 3) [m]."""
+    """The triangles in the frame of their body, counter-clockwise from outside, (n, 3, 3) [m]."""
     is_two_sided: bool = False
-    """Whether rays also hit them from behind."""
+    """True if rays also hit them from behind."""
 
 
 class RayScene:
     """A scene for ray casting. A triangle is hit on its outside, as a camera sees it.
 
     Args:
-        bodies: surfaces of each body, in the body's frame. Bodies begin in the place of W.
+        bodies: the surfaces of each body, in the body's frame. All poses begin as the identity.
     """
 
     def __init__(self, bodies: Sequence[Sequence[Surface]]) -> None:
-        built = [_tree(surfaces) for surfaces in bodies]
-        nodes = np.cumsum([0, *(len(each.boxes) for each in built)])
-        first = np.cumsum([0, *(len(each.triangles) for each in built)])
-        for each, node, triangle in zip(built, nodes[:-1], first[:-1], strict=True):
-            is_leaf = each.links[:, 1::2] > 0
-            each.links[:, ::2] += np.where(is_leaf, triangle, node).astype(np.int32)
+        trees = [_make_tree(surfaces) for surfaces in bodies]
+        nodes = np.cumsum([0, *(len(tree.boxes) for tree in trees)])
+        triangle_starts = np.cumsum([0, *(len(tree.triangles) for tree in trees)])
+        for tree, node, triangle in zip(trees, nodes[:-1], triangle_starts[:-1], strict=True):
+            is_leaf = tree.links[:, 1::2] > 0
+            tree.links[:, ::2] += np.where(is_leaf, triangle, node).astype(np.int32)
         self._trees = Trees(
-            boxes=np.concatenate([np.zeros((0, 12)), *(each.boxes for each in built)]),
-            links=np.concatenate([np.zeros((0, 4), np.int32), *(each.links for each in built)]),
-            triangles=np.concatenate([np.zeros((0, 9)), *(each.triangles for each in built)]),
+            boxes=np.concatenate([np.zeros((0, 12)), *(tree.boxes for tree in trees)]),
+            links=np.concatenate([np.zeros((0, 4), np.int32), *(tree.links for tree in trees)]),
+            triangles=np.concatenate([np.zeros((0, 9)), *(tree.triangles for tree in trees)]),
             surfaces=np.concatenate(
-                [np.zeros((0, 2), np.int32), *(each.surfaces for each in built)]
+                [np.zeros((0, 2), np.int32), *(tree.surfaces for tree in trees)]
             ),
             roots=nodes[:-1].astype(np.int32),
-            balls=np.concatenate([np.zeros((0, 4)), *(each.balls for each in built)]),
+            balls=np.concatenate([np.zeros((0, 4)), *(tree.balls for tree in trees)]),
         )
-        self._engine = NO_ENGINE
-        self._bodies = bodies_of(self._trees.balls, np.full(len(built), -1, np.int32), NO_ENGINE)
-        self._note()
+        self._engine_frames = NO_ENGINE_FRAMES
+        self._bodies = make_bodies(
+            self._trees.balls, np.full(len(trees), -1, np.int32), NO_ENGINE_FRAMES
+        )
+        self._write_records()
         covers = [
-            cover for body, surfaces in enumerate(bodies) for cover in _covers(body, surfaces)
+            cover
+            for body, surfaces in enumerate(bodies)
+            for cover in _surface_covers(body, surfaces)
         ]
-        self._cover = np.concatenate([np.zeros((0, 4)), *(balls for balls, _, _ in covers)])
+        self._cover_balls = np.concatenate([np.zeros((0, 4)), *(balls for balls, _, _ in covers)])
         sizes = [len(balls) for balls, _, _ in covers]
         self._cover_bodies = np.repeat([body for _, body, _ in covers], sizes).astype(np.int32)
         self._cover_surfaces = np.repeat([n for _, _, n in covers], sizes).astype(np.int32)
 
-    def following(self, engine: npt.NDArray[np.int32], origins: Array, axes: Array) -> RayScene:
-        """Return a scene of the same bodies that shares their triangles, and follows an engine.
+    def with_engine(
+        self, engine_body: npt.NDArray[np.int32], origins: Array, axes: Array
+    ) -> RayScene:
+        """Return a scene of the same bodies that shares their triangles and has an engine's poses.
 
         Args:
-            engine: number of the engine's body that each body is on, or below 0 for one that is
-                placed, which begins in the place of W, (b,).
-            origins: of the engine's bodies, read at each cast, (m, 3) [m].
-            axes: of them, read at each cast, (m, 3, 3).
+            engine_body: the engine's body that each body is on, (b,). Below 0, the pose is set and
+                begins as the identity.
+            origins: the origins of the engine's bodies, read at each cast, (m, 3) [m].
+            axes: the axes of the engine's bodies, read at each cast, (m, 3, 3).
         """
-        other = copy.copy(self)
-        other._engine = Engine(origins, axes)
-        other._bodies = bodies_of(self._trees.balls, engine, other._engine)
-        other._note()
-        return other
+        scene = copy.copy(self)
+        scene._engine_frames = EngineFrames(origins, axes)
+        scene._bodies = make_bodies(self._trees.balls, engine_body, scene._engine_frames)
+        scene._write_records()
+        return scene
 
-    def _note(self) -> None:
-        """Write down where its arrays are."""
-        self.record = scene_record(self._trees, self._bodies, self._engine)
-        """Its arrays for compiled code, a record of `scene_record.SCENE`, (1,)."""
+    def _write_records(self) -> None:
+        """Write the addresses of the arrays into records."""
+        self.record = scene_record(self._trees, self._bodies, self._engine_frames)
+        """The arrays for compiled code, a record of `scene_record.SCENE`, (1,)."""
         self.__dict__.pop("functions", None)
 
     @cached_property
     def functions(self) -> npt.NDArray[np.void]:
-        """What casts rays in it from compiled code, a record of `scene_record.RAYS`, (1,)."""
+        """The functions for compiled code, a record of `scene_record.RAYS`, (1,)."""
         return rays_record(self.record)
 
     @property
     def is_compiled(self) -> bool:
-        """Whether compiled code finds all bodies where they are: yes."""
+        """True if compiled code reads the present poses, as it always does."""
         return True
 
     def prepare(self) -> None:
-        """Bring what compiled code reads up to date: it is."""
+        """Do nothing: the inputs of compiled code are up to date."""
 
     def place(self, body: int, world_from_body: npt.NDArray[np.float64]) -> None:
-        """Set the pose of a body that follows nothing; the matrix (4, 4) may scale [m]."""
+        """Set the pose of a body without an engine; the matrix (4, 4) may scale [m]."""
         frame = self._bodies.world_from_body[body]
         if not np.array_equal(frame, world_from_body):
             self._bodies.body_from_world[body] = inverse(world_from_body)
             frame[:] = world_from_body
 
     def frames(self) -> Array:
-        """Return ``world_from_body`` of each body now, (b, 4, 4) [m]; not to be written to."""
-        renew_all_frames(self._bodies, self._engine)
+        """Return the present ``world_from_body`` of each body, read-only, (b, 4, 4) [m]."""
+        update_all_frames(self._bodies, self._engine_frames)
         return self._bodies.world_from_body
 
     def balls(self) -> Balls:
-        """Balls that cover each surface, where they are now."""
+        """Return balls that cover each surface at its present pose."""
         frames = self.frames()[self._cover_bodies]
-        centre = (frames[:, :3, :3] * self._cover[:, None, :3]).sum(axis=2) + frames[:, :3, 3]
+        centre = (frames[:, :3, :3] * self._cover_balls[:, None, :3]).sum(axis=2) + frames[:, :3, 3]
         scale = np.sqrt((frames[:, :3, :3] ** 2).sum(axis=1).max(axis=1))  # of the longest column
-        return Balls(centre, self._cover[:, 3] * scale, self._cover_surfaces)
+        return Balls(centre, self._cover_balls[:, 3] * scale, self._cover_surfaces)
 
     def cast(
         self,
         world_from_sensor: Pose,
         directions: Array,
         reach: float,
-        begins: Array | None = None,
+        starts: Array | None = None,
     ) -> Hits:
         """Cast rays from the origin of a sensor.
 
         Args:
-            world_from_sensor: where the sensor is.
+            world_from_sensor: the pose of the sensor.
             directions: unit vectors in its frame, (n, 3).
-            reach: how far the rays go [m].
-            begins: from where on each ray hits, (n,) [m]; without it from the origin.
+            reach: the length of the rays [m].
+            starts: the distance from which each ray can hit, (n,) [m]; None: 0.
         """
-        return cast(self.functions, world_from_sensor, directions, reach, begins)
+        return cast(self.functions, world_from_sensor, directions, reach, starts)
 
 
 def cast(
@@ -143,31 +149,35 @@ def cast(
     world_from_sensor: Pose,
     directions: Array,
     reach: float,
-    begins: Array | None,
+    starts: Array | None,
 ) -> Hits:
     """Cast rays by the first of some records of `scene_record.RAYS`; see `RayScene.cast`."""
     n = len(directions)
     hits = Hits(np.empty(n), np.empty((n, 3)), np.empty(n, dtype=np.int32))
-    along = product(directions, world_from_sensor.rotation.T)
-    starts = np.zeros(n) if begins is None else begins
-    cast_all(functions, world_from_sensor.position, along, starts, float(reach), hits)
+    world_directions = product(directions, world_from_sensor.rotation.T)
+    all_starts = np.zeros(n) if starts is None else starts
+    cast_all(
+        functions, world_from_sensor.position, world_directions, all_starts, float(reach), hits
+    )
     return hits
 
 
-def _covers(body: int, surfaces: Sequence[Surface]) -> list[tuple[Array, int, int]]:
-    """Balls around each numbered surface of a body, with the numbers of body and surface."""
-    found = []
-    for number in sorted({each.number for each in surfaces}):
-        parts = [each.triangles.reshape(-1, 3) for each in surfaces if each.number == number]
-        found.append((covering_balls(np.concatenate(parts)), body, number))
-    return found
+def _surface_covers(body: int, surfaces: Sequence[Surface]) -> list[tuple[Array, int, int]]:
+    """Return balls around each surface of a body, with the numbers of body and surface."""
+    covers = []
+    for number in sorted({surface.number for surface in surfaces}):
+        parts = [
+            surface.triangles.reshape(-1, 3) for surface in surfaces if surface.number == number
+        ]
+        covers.append((covering_balls(np.concatenate(parts)), body, number))
+    return covers
 
 
-def _tree(surfaces: Sequence[Surface]) -> Trees:
-    """The tree of one body."""
-    corners = np.concatenate([np.zeros((0, 3, 3)), *(each.triangles for each in surfaces)])
-    kinds = [(each.number, each.is_two_sided) for each in surfaces]
-    sizes = [len(each.triangles) for each in surfaces]
+def _make_tree(surfaces: Sequence[Surface]) -> Trees:
+    """Return the tree of one body."""
+    corners = np.concatenate([np.zeros((0, 3, 3)), *(surface.triangles for surface in surfaces)])
+    kinds = [(surface.number, surface.is_two_sided) for surface in surfaces]
+    sizes = [len(surface.triangles) for surface in surfaces]
     numbers = np.repeat(np.array(kinds, dtype=np.int32).reshape(-1, 2), sizes, axis=0)
     boxes, links, order = build_tree(np.ascontiguousarray(corners, dtype=np.float64))
     a, b, c = corners[order].transpose(1, 0, 2)
@@ -182,7 +192,7 @@ def _tree(surfaces: Sequence[Surface]) -> Trees:
 
 
 def _ball(corners: Array) -> Array:
-    """Centre and radius of a ball around points (n, 3) [m], (4,)."""
+    """Return centre and radius of a ball around points (n, 3) [m], (4,)."""
     if not len(corners):
         return np.array([0.0, 0.0, 0.0, 0.0])
     centre = 0.5 * (corners.min(axis=0) + corners.max(axis=0))

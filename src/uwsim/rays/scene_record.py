@@ -1,7 +1,7 @@
-"""Scenes for ray casting as compiled code reads them by their addresses.
+"""Records of scenes for ray casting, which compiled code reads by their addresses.
 
-A sensor holds a record of `RAYS`. It says where to find the function that casts rays, so that
-no sensor has that function compiled into its own.
+A sensor has a record of `RAYS` with the address of the function that casts rays. That function is
+therefore compiled once, not into each sensor.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from ..base.geometry import Array
 from ..base.numerics.calls import address_of, call, function_address
 from ..base.numerics.jit import njit
 from ..base.numerics.memory import carray, pointer
-from .bodies import Bodies, Engine
+from .bodies import Bodies, EngineFrames
 from .kernel import Hits, cast_rays
 from .triangle import Trees
 
@@ -30,7 +30,7 @@ _ARRAYS = {
     "roots": ("n_bodies", 1),
     "tree_balls": ("n_bodies", 4),
     "balls": ("n_bodies", 4),
-    "engine": ("n_bodies", 1),
+    "engine_body": ("n_bodies", 1),
     "world_from_body": ("n_bodies", 16),
     "body_from_world": ("n_bodies", 16),
     "centres": ("n_bodies", 4),
@@ -42,32 +42,32 @@ _ARRAYS = {
     "origins": ("n_engine", 3),
     "axes": ("n_engine", 9),
 }
-"""What counts the rows of each array, and how many numbers a row has."""
+"""The field with the number of rows of each array, and the length of a row."""
 _COUNTS = tuple(dict.fromkeys(count for count, _ in _ARRAYS.values()))
 SCENE = np.dtype([(name, np.int64) for name in (*_ARRAYS, *_COUNTS)])
-"""The addresses of the arrays of `Trees`, `Bodies` and `Engine`, and their lengths."""
+"""The addresses of the arrays of `Trees`, `Bodies` and `EngineFrames`, and their lengths."""
 
 REQUEST = np.dtype(
     [
-        ("origin", np.float64, 3),  # of the rays, in W [m]
-        ("reach", np.float64),  # how far they go [m]
-        ("n", np.int64),  # how many they are
+        ("origin", np.float64, 3),  # the origin of the rays in W [m]
+        ("reach", np.float64),  # the length of the rays [m]
+        ("n", np.int64),  # the number of rays
         ("directions", np.int64),  # addresses of arrays; see `kernel.cast_rays`
-        ("begins", np.int64),
+        ("starts", np.int64),
         ("distance", np.int64),
         ("normal", np.int64),
         ("surface", np.int64),
         ("n_scenes", np.int64),
     ]
 )
-"""Rays to cast, and where their hits are written."""
+"""The rays to cast, and the addresses for their hits."""
 
 Record = Any
 
 
-def scene_record(trees: Trees, bodies: Bodies, place: Engine) -> npt.NDArray[np.void]:
-    """Return the record of `SCENE` of a scene, (1,); its arrays have to live on."""
-    arrays: tuple[npt.NDArray[Any], ...] = (*trees, *bodies, *place)
+def scene_record(trees: Trees, bodies: Bodies, engine_frames: EngineFrames) -> npt.NDArray[np.void]:
+    """Return the record of `SCENE` of a scene, (1,); its arrays must stay alive."""
+    arrays: tuple[npt.NDArray[Any], ...] = (*trees, *bodies, *engine_frames)
     record = np.zeros(1, SCENE)
     for (name, (count, width)), array in zip(_ARRAYS.items(), arrays, strict=True):
         if not array.flags.c_contiguous:
@@ -77,7 +77,7 @@ def scene_record(trees: Trees, bodies: Bodies, place: Engine) -> npt.NDArray[np.
 
 
 def rays_record(scenes: npt.NDArray[np.void]) -> npt.NDArray[np.void]:
-    """Return the record of `RAYS` of some records of `SCENE`, (1,), which have to live on."""
+    """Return the record of `RAYS` of some records of `SCENE`, (1,), which must stay alive."""
     record = np.zeros(1, RAYS)
     record["cast"] = function_address(cast_request)
     record["scenes"], record["n_scenes"] = address_of(scenes), len(scenes)
@@ -86,24 +86,24 @@ def rays_record(scenes: npt.NDArray[np.void]) -> npt.NDArray[np.void]:
 
 @njit
 def cast_from(
-    rays: Record, origin: Array, directions: Array, begins: Array, reach: float, hits: Hits
+    rays: Record, origin: Array, directions: Array, starts: Array, reach: float, hits: Hits
 ) -> None:
     """Find the first hits of rays in any of some scenes.
 
     Args:
         rays: a record of `RAYS`.
-        origin: where the rays begin, in W, (3,) [m].
-        directions: of the rays in W, unit vectors, (n, 3).
-        begins: from where on each ray hits, (n,) [m].
-        reach: how far they go [m].
-        hits: for the results.
+        origin: the origin of the rays in W, (3,) [m].
+        directions: unit vectors in W, (n, 3).
+        starts: the distance from which each ray can hit, (n,) [m].
+        reach: the length of the rays [m].
+        hits: receives the results.
     """
     requests = np.zeros(1, REQUEST)
     request = requests[0]
     for k in range(3):
         request.origin[k] = origin[k]
     request.reach, request.n = reach, len(directions)
-    request.directions, request.begins = directions.ctypes.data, begins.ctypes.data
+    request.directions, request.starts = directions.ctypes.data, starts.ctypes.data
     request.distance, request.normal = hits.distance.ctypes.data, hits.normal.ctypes.data
     request.surface, request.n_scenes = hits.surface.ctypes.data, rays.n_scenes
     call(rays.cast, rays.scenes, requests.ctypes.data, 0.0)
@@ -111,10 +111,10 @@ def cast_from(
 
 @njit
 def cast_all(
-    rays: Record, origin: Array, directions: Array, begins: Array, reach: float, hits: Hits
+    rays: Record, origin: Array, directions: Array, starts: Array, reach: float, hits: Hits
 ) -> None:
     """Call `cast_from`, from Python, with the first of some records of `RAYS`."""
-    cast_from(rays[0], origin, directions, begins, reach, hits)
+    cast_from(rays[0], origin, directions, starts, reach, hits)
 
 
 def cast_request(parameters: int, values: int, time: float) -> None:
@@ -122,7 +122,7 @@ def cast_request(parameters: int, values: int, time: float) -> None:
     request = carray(pointer(values), (1,), REQUEST)[0]
     n = request.n
     directions = carray(pointer(request.directions), (n, 3), np.float64)
-    begins = carray(pointer(request.begins), (n,), np.float64)
+    starts = carray(pointer(request.starts), (n,), np.float64)
     hits = Hits(
         carray(pointer(request.distance), (n,), np.float64),
         carray(pointer(request.normal), (n, 3), np.float64),
@@ -130,21 +130,21 @@ def cast_request(parameters: int, values: int, time: float) -> None:
     )
     origin, reach = request.origin, request.reach
     scenes = carray(pointer(parameters), (request.n_scenes,), SCENE)
-    cast_in(scenes[0], origin, directions, begins, reach, hits)
+    cast_in(scenes[0], origin, directions, starts, reach, hits)
     if request.n_scenes == 1:
         return
-    others = Hits(np.empty(n), np.empty((n, 3)), np.empty(n, np.int32))
+    scene_hits = Hits(np.empty(n), np.empty((n, 3)), np.empty(n, np.int32))
     for number in range(1, request.n_scenes):
-        cast_in(scenes[number], origin, directions, begins, reach, others)
+        cast_in(scenes[number], origin, directions, starts, reach, scene_hits)
         for i in range(n):
-            if others.distance[i] < hits.distance[i]:
-                hits.distance[i], hits.surface[i] = others.distance[i], others.surface[i]
-                hits.normal[i] = others.normal[i]
+            if scene_hits.distance[i] < hits.distance[i]:
+                hits.distance[i], hits.surface[i] = scene_hits.distance[i], scene_hits.surface[i]
+                hits.normal[i] = scene_hits.normal[i]
 
 
 @njit
 def cast_in(
-    scene: Record, origin: Array, directions: Array, begins: Array, reach: float, hits: Hits
+    scene: Record, origin: Array, directions: Array, starts: Array, reach: float, hits: Hits
 ) -> None:
     """Cast rays in one scene; see `kernel.cast_rays`."""
     b, k, forks = scene.n_bodies, scene.n_nodes, scene.n_forks
@@ -158,7 +158,7 @@ def cast_in(
     )
     bodies = Bodies(
         carray(pointer(scene.balls), (b, 4), np.float64),
-        carray(pointer(scene.engine), (b,), np.int32),
+        carray(pointer(scene.engine_body), (b,), np.int32),
         carray(pointer(scene.world_from_body), (b, 4, 4), np.float64),
         carray(pointer(scene.body_from_world), (b, 4, 4), np.float64),
         carray(pointer(scene.centres), (b, 4), np.float64),
@@ -168,8 +168,8 @@ def cast_in(
         carray(pointer(scene.parents), (forks,), np.int32),
         carray(pointer(scene.leaves), (b,), np.int32),
     )
-    place = Engine(
+    engine_frames = EngineFrames(
         carray(pointer(scene.origins), (scene.n_engine, 3), np.float64),
         carray(pointer(scene.axes), (scene.n_engine, 3, 3), np.float64),
     )
-    cast_rays(trees, bodies, place, origin, directions, (begins, reach), hits)
+    cast_rays(trees, bodies, engine_frames, origin, directions, (starts, reach), hits)

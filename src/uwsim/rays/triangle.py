@@ -1,8 +1,8 @@
-"""Triangles of bodies, and where a ray meets one, compiled.
+"""Triangles of bodies, and their intersection with rays, compiled.
 
-A ray meets a triangle by T. Moller, B. Trumbore, *Fast, minimum storage ray-triangle intersection*,
-Journal of Graphics Tools 2(1), 1997. Edges belong to both of their triangles, and a little more
-(`TOUCH`): no ray passes between two triangles of one mesh.
+The intersection is that of T. Moller, B. Trumbore, *Fast, minimum storage ray-triangle
+intersection*, Journal of Graphics Tools 2(1), 1997. Edges belong to both of their triangles, with a
+tolerance (`EDGE_TOLERANCE`). No ray passes between two triangles of one mesh.
 """
 
 from __future__ import annotations
@@ -15,36 +15,36 @@ import numpy.typing as npt
 from ..base.geometry import Array
 from ..base.numerics.jit import njit
 
-Whole = npt.NDArray[np.int32]
+IntArray = npt.NDArray[np.int32]
 Point = tuple[float, float, float]
 Ray = tuple[float, float, float, float]
-"""Direction, and where it begins to hit [m]."""
-TOUCH = 1e-9
-"""How far outside of a triangle a ray still hits it, as a share of its sides."""
-TINY = 1e-300
-"""Takes the place of a component of a direction that is zero."""
+"""The direction, and the distance from which it can hit [m]."""
+EDGE_TOLERANCE = 1e-9
+"""The distance outside a triangle at which a ray still hits it, as a share of its sides."""
+MIN_COMPONENT = 1e-300
+"""The replacement of a zero component of a direction."""
 
 
 class Trees(NamedTuple):
     """The trees of all bodies, one after the other, each in the frame of its body."""
 
     boxes: Array
-    """Of both children of a node, (k, 12) [m]."""
-    links: Whole
-    """Of both children of a node: where and how many, (k, 4)."""
+    """The boxes of both children of a node, (k, 12) [m]."""
+    links: IntArray
+    """The start and the number of triangles of both children of a node, (k, 4)."""
     triangles: Array
-    """Corner and two edges, in the order of the leaves, (n, 9) [m]."""
-    surfaces: Whole
-    """Number of the surface, and whether both sides are seen, (n, 2)."""
-    roots: Whole
-    """First node of each body, (b,)."""
+    """The corner and two edges of each triangle, in the order of the leaves, (n, 9) [m]."""
+    surfaces: IntArray
+    """The number of the surface, and 1 if it is two-sided, (n, 2)."""
+    roots: IntArray
+    """The first node of each body, (b,)."""
     balls: Array
-    """Centre and radius of a ball around each body, in its frame, (b, 4) [m]."""
+    """The centre and radius of a ball around each body, in its frame, (b, 4) [m]."""
 
 
 @njit
-def placed(f: Array, x: float, y: float, z: float, w: float) -> Point:
-    """A point (w = 1) or a direction (w = 0) in another frame, by the matrix f (4, 4)."""
+def transform_point(f: Array, x: float, y: float, z: float, w: float) -> Point:
+    """Transform a point (w = 1) or a direction (w = 0) by the matrix f (4, 4)."""
     return (
         f[0, 0] * x + f[0, 1] * y + f[0, 2] * z + f[0, 3] * w,
         f[1, 0] * x + f[1, 1] * y + f[1, 2] * z + f[1, 3] * w,
@@ -54,13 +54,13 @@ def placed(f: Array, x: float, y: float, z: float, w: float) -> Point:
 
 @njit
 def inverse(component: float) -> float:
-    """One over a component of a direction; very much for zero."""
-    return 1.0 / (component if abs(component) > TINY else TINY)
+    """Return the inverse of a component of a direction; a very large number for zero."""
+    return 1.0 / (component if abs(component) > MIN_COMPONENT else MIN_COMPONENT)
 
 
 @njit
-def meets_triangle(t: Array, origin: Point, ray: Ray) -> float:
-    """Where a ray meets a triangle that is not seen from behind; infinite where it does not [m]."""
+def distance_to_triangle(t: Array, origin: Point, ray: Ray) -> float:
+    """Return the distance along a ray to a triangle; infinite without a hit [m]."""
     dx, dy, dz, begin = ray
     px, py, pz = dy * t[8] - dz * t[7], dz * t[6] - dx * t[8], dx * t[7] - dy * t[6]
     determinant = t[3] * px + t[4] * py + t[5] * pz
@@ -69,11 +69,11 @@ def meets_triangle(t: Array, origin: Point, ray: Ray) -> float:
     inverse = 1.0 / determinant
     sx, sy, sz = origin[0] - t[0], origin[1] - t[1], origin[2] - t[2]
     u = (sx * px + sy * py + sz * pz) * inverse
-    if u < -TOUCH or u > 1.0 + TOUCH:
+    if u < -EDGE_TOLERANCE or u > 1.0 + EDGE_TOLERANCE:
         return np.inf
     qx, qy, qz = sy * t[5] - sz * t[4], sz * t[3] - sx * t[5], sx * t[4] - sy * t[3]
     v = (dx * qx + dy * qy + dz * qz) * inverse
-    if v < -TOUCH or u + v > 1.0 + TOUCH:
+    if v < -EDGE_TOLERANCE or u + v > 1.0 + EDGE_TOLERANCE:
         return np.inf
-    at = (t[6] * qx + t[7] * qy + t[8] * qz) * inverse
-    return at if at > begin else np.inf
+    distance = (t[6] * qx + t[7] * qy + t[8] * qz) * inverse
+    return distance if distance > begin else np.inf

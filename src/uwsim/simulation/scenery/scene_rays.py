@@ -100,7 +100,7 @@ class SceneRays:
         if self._laid is None or self._carried != carried:
             movers = self._bodies.movers
             engine = np.array([-1, *(poses.engine_body(*each) for each in movers)], np.int32)
-            self._laid = self._bodies.scene.following(engine, poses.origins, poses.axes)
+            self._laid = self._bodies.scene.with_engine(engine, poses.origins, poses.axes)
             self._carried = carried
             self._placed = [
                 (number, self._frame(*owner))
