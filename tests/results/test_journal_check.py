@@ -71,7 +71,7 @@ def test_a_row_that_a_result_repeats_is_refused(tmp_path: Path, n: int) -> None:
     document = json.loads(path.read_text())
     document["rows"] += [document["rows"][1]] * n
     path.write_text(json.dumps(document))
-    with pytest.raises(ResultError, match=rf"seed 0, level 0\.5 is there {n + 1} times"):
+    with pytest.raises(ResultError, match=rf"seed 0, level 0\.5 occurs {n + 1} times"):
         checked(tmp_path)
 
 
@@ -79,7 +79,7 @@ def test_a_level_that_is_there_twice_is_refused(tmp_path: Path) -> None:
     path = written(tmp_path) / "units" / "00001.jsonl"
     lines = path.read_text().splitlines()
     path.write_text("".join(f"{each}\n" for each in [*lines[:2], *lines[1:]]))
-    with pytest.raises(ResultError, match=r"00001\.jsonl: level 0\.0 of seed 1 is there twice"):
+    with pytest.raises(ResultError, match=r"00001\.jsonl: level 0\.0 of seed 1 occurs twice"):
         checked(tmp_path)
 
 

@@ -48,16 +48,14 @@ class Evaluations:
     """The runs of the search, read from disk or executed.
 
     Args:
-        main_run: the run that stores them; its plan is one of `plan_for`.
+        run: the run that stores them; its plan is one of `plan_for`.
         level: the values of all swept parameters, outermost first; the search varies one.
         parameter: the swept parameter of the search.
         criterion: the criterion of a broken run.
     """
 
-    def __init__(
-        self, main_run: Run, *, level: Level, parameter: str, criterion: Criterion
-    ) -> None:
-        self.main_run = main_run
+    def __init__(self, run: Run, *, level: Level, parameter: str, criterion: Criterion) -> None:
+        self.main_run = run
         """The run that stores them."""
         self._level, self._criterion = level, criterion
         self.parameter = parameter
@@ -66,7 +64,7 @@ class Evaluations:
         self._used_indices: set[int] = set()  # indices of trial files
         self.results: dict[tuple[int, float], Evaluation] = {}
         """The evaluation of every requested run, by seed and value."""
-        for path in sorted((main_run.out / journal.FOLDER).glob("*.jsonl")):
+        for path in sorted((run.out / journal.FOLDER).glob("*.jsonl")):
             self._register(int(path.stem), journal.head_of(path))
 
     def run(self, strategy: Strategy, executor: Executor, on_run: OnLevel = lambda: None) -> Search:
@@ -113,7 +111,6 @@ class Evaluations:
         self._trials[trial.seed, tuple(v for _, v in trial.levels[0].values)] = trial
 
     def _register(self, index: int, head: Record | None) -> None:
-        """Register a stored run by its seed and its level."""
         self._used_indices.add(index)
         names = [name for name, _ in self._level.values]
         match head:

@@ -153,7 +153,6 @@ def strategy(seeds: Sequence[int], bounds: Range) -> Strategy:
 
 
 def _request(level: float) -> LevelRequests[bool]:
-    """Request one level."""
     return (yield level)
 
 

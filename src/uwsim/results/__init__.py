@@ -2,5 +2,5 @@
 
 `result` is the content of ``result.json``, which `result_file` reads and writes; `journal` keeps
 the rows of each trial while a run lasts; `provenance` has what may differ between equal runs,
-`table` what is printed.
+`table` the printed table.
 """

@@ -72,7 +72,7 @@ def resume_command(directory: Path) -> str | None:
 
 
 def _replace_output(words: list[str], directory: Path) -> list[str]:
-    """Return a command whose result goes to the directory."""
+    """Return a command with the directory as its output."""
     for i, word in enumerate(words):
         if word == "--out" and i + 1 < len(words):
             return [*words[: i + 1], str(directory), *words[i + 2 :]]
@@ -82,14 +82,12 @@ def _replace_output(words: list[str], directory: Path) -> list[str]:
 
 
 def _heads_below(directory: Path) -> dict[str, Record]:
-    """Return the heads of the journals of algorithms that ran together."""
     names = sorted(folder.parent.name for folder in directory.glob(f"*/{FOLDER}"))
     heads = {name: _head(directory / name) for name in names if name != CONTROL}
     return {name: head for name, head in heads.items() if head is not None}
 
 
 def _head(directory: Path) -> Record | None:
-    """Return the head of the first readable journal."""
     for file in sorted((directory / FOLDER).glob("*.jsonl")):
         head = head_of(file)
         if isinstance(head.get("run"), dict):

@@ -165,7 +165,6 @@ def head_of(path: Path) -> Record:
 
 
 def _kind(record: object, *, is_first: bool) -> str:
-    """Return the kind of a line; raise ResultError if it has none."""
     kinds = ("unit",) if is_first else ("row", "end")
     if isinstance(record, dict):
         for kind in kinds:
@@ -176,7 +175,6 @@ def _kind(record: object, *, is_first: bool) -> str:
 
 
 def _unseal(content: object, seal: Seal) -> str:
-    """Return the text of a sealed line; raise ResultError if it cannot be decrypted."""
     try:
         return seal.text(content)
     except ValueError as error:
@@ -261,7 +259,6 @@ class Journal:
             os.fsync(self._stream.fileno())
 
     def _possible_reason(self) -> str:
-        """Return a possible reason for a differing row."""
         codes = codes_of(load_provenance(self._path.parents[1]))
         if messages := [text for code in codes if (text := code_differences(code))]:
             return (

@@ -72,7 +72,7 @@ def _compare(result: Result, journals: Journals) -> tuple[list[str], int]:
     messages, n_without_journal = [], 0
     for (seed, *level), n in Counter(keys).items():
         if n > 1:
-            messages.append(f"seed {seed}, level {', '.join(map(str, level))} is there {n} times")
+            messages.append(f"seed {seed}, level {', '.join(map(str, level))} occurs {n} times")
     for row, key in enumerate(keys):
         entry = journals.rows.get(key)
         if entry is not None:
@@ -105,7 +105,7 @@ def read_journals(directory: Path) -> Journals:
             key = (seed, *row.values)
             if key in rows and seed is not None:
                 level = ", ".join(map(str, row.values))
-                raise ResultError(f"{path}: level {level} of seed {seed} is there twice.")
+                raise ResultError(f"{path}: level {level} of seed {seed} occurs twice.")
             rows[key] = row, elapsed_times[seed]
             if content.end is not None:
                 ended_keys.append(key)
@@ -113,7 +113,6 @@ def read_journals(directory: Path) -> Journals:
 
 
 def _n_ended(result: Result) -> int:
-    """Return the number of finished trials, according to a result."""
     return 0 if result.run.units is None else result.run.units[0]
 
 

@@ -80,7 +80,6 @@ def machine() -> dict[str, object]:
 
 
 def _cpu_name() -> str:
-    """Return the processor's name as the system gives it."""
     try:
         lines = Path("/proc/cpuinfo").read_text(encoding="utf-8", errors="replace").splitlines()
     except OSError:

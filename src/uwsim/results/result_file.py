@@ -185,7 +185,6 @@ def _take(document: dict[str, object], name: str, kind: type[T], default: T | No
 def _take_each(
     document: dict[str, object], name: str, kind: type[T], default: list[object] | None = None
 ) -> Iterator[T]:
-    """Read a list of objects as dataclasses whose fields are its keys."""
     names = {ENTRY_KEYS.get(f.name, f.name): f.name for f in fields(cast("type[Column]", kind))}
     for i, node in enumerate(_take(document, name, list, default)):
         if not isinstance(node, dict):

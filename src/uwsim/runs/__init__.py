@@ -2,8 +2,8 @@
 
 In the order of ``uwsim bench``:
 
-- `make_plan` reads and checks the files that a `plan_request` names, and gives a `plan`;
-- `prepare` looks up all names, hashes all files, and gives a `run` with its directory;
+- `make_plan` reads and checks the files that a `plan_request` names, and returns a `plan`;
+- `prepare` resolves all names, hashes all files, and returns a `run` with its directory;
 - `executors` distribute the plan's trials, and `trial.trial` executes one, level by level;
 - finished levels are written to `uwsim.results.journal`; `collect` makes the result of them.
 

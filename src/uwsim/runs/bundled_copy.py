@@ -59,7 +59,6 @@ def copy_bundled(name: str, folder: Path, *, overwrite: bool = False) -> list[Pa
 
 
 def _files_of(name: str) -> list[InputFile]:
-    """Return the bundled files that are read when a scene or benchmark is opened."""
     scenes, benchmarks = (bundled_files(kind) for kind in KINDS)
     with record_inputs() as files:
         if name in scenes:

@@ -124,7 +124,6 @@ def _logs(
     rows: Sequence[tuple[Trial, StoredRow]],
     start_times: Sequence[float],
 ) -> list[Log]:
-    """Return the log of every measure that has one; no log before the first row."""
     if not rows:
         return []
     levels = [column.label for column in columns if column.kind in ("run", "level")]

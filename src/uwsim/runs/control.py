@@ -34,7 +34,6 @@ def image_topic(plan: Plan) -> str | None:
 
 
 def _cameras(plan: Plan) -> list[str | None]:
-    """Return the cameras of the targets of trackers."""
     return [
         spec.ground_truth.camera
         for spec in plan.benchmark.measures

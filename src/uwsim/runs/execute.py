@@ -226,7 +226,6 @@ def execute(
 
 
 def _run(execution: Execution, progress: Progress) -> Outcome:
-    """Run all trials that are not finished."""
     runs = execution.runs
     total = sum(len(trial.levels) for run in runs for trial in run.plan.trials())
     n_finished = sum(run.n_finished() for run in runs)
@@ -267,7 +266,6 @@ def _wait_for_controls(jobs: Jobs, controls: Sequence[Run]) -> None:
 
 
 def _save_provenances(execution: Execution, outcome: Outcome) -> None:
-    """Write the provenance of every run that is finished."""
     timing = execution.timing()
     for run, _ in outcome.finished_runs(execution.runs):
         losses = {"lost_workers": run.n_lost, "resumed": run.n_resumed}

@@ -49,7 +49,6 @@ def plain_text(text: str) -> str:
 
 
 def _strip_tex(formula: str) -> str:
-    """Return a short formula without TeX."""
     for sign, plain_sign in SIGNS:
         formula = formula.replace(sign, plain_sign)
     return re.sub(r"\\(\w+)", r"\1", ROOT.sub(r"√(\1)", formula)).replace("_", "")

@@ -37,7 +37,7 @@ from .uwsim_files import save_dat, save_data
 
 @dataclass(kw_only=True)
 class Run:
-    """A plan and the directory its result goes to."""
+    """A plan and the directory of its result."""
 
     plan: Plan
     """The plan."""
@@ -179,7 +179,6 @@ class Run:
 
 
 def _has_motion(out: Path, trial: Trial) -> bool:
-    """Return whether the motion of a trial can be read."""
     try:
         load_track(journal.track_path(out, trial.index))
     except ResultError:

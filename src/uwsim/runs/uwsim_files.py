@@ -111,7 +111,6 @@ def _original_fields(
 
 
 def _score(expression: str, values: Mapping[str, float | None]) -> float | None:
-    """Return the score of these values; None where the function fails."""
     return finite_value(parse(expression, list(values)).evaluate(values))[0]
 
 
@@ -129,7 +128,6 @@ def save_dat(
 
 
 def _fields(result: Result, specs: Mapping[str, MeasureSpec]) -> Iterator[tuple[str, Column]]:
-    """Yield the names of the fields, and the columns that they show."""
     for kind in ("run", "level", "measure", "score", "time"):
         for column in result.columns:
             if column.kind != kind:

@@ -46,7 +46,6 @@ def contradictions(result: Result, benchmark: BenchmarkSpec) -> Iterator[Differe
 
 
 def _total(expression: Expression, row: dict[str, Cell]) -> float | None:
-    """Return the total of a row; None unless its status is ok."""
     if row.get("status") != "ok":
         return None
     values = {

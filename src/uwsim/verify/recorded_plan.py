@@ -185,7 +185,6 @@ def scene_named_by(benchmark: Path) -> list[str]:
 
 
 def _plugin_paths(result: Result, benchmark: Path) -> list[str]:
-    """Return the paths of the plugins that the benchmark names, or that are in its folder."""
     names = [*plugin_names(benchmark), *(name for name, _ in result.inputs.plugins or ())]
     return [str(benchmark.parent / name) for name in names]
 

@@ -212,7 +212,6 @@ def _head(result: Result, replayed_head: Record) -> Record:
 
 
 def _check_head(report: Verification, name: str, head: Record, expected: Record) -> None:
-    """Compare the head of a trial with result.json, a line for each value."""
     groups: set[tuple[str | int, ...]] = set()
     for path, old_text, new_text in differences.differing_leaves(head, expected):
         if path[:2] not in groups:
@@ -243,7 +242,6 @@ def _check_result(report: Verification, result: Result, written_result: Result) 
 
 
 def _check_trial(report: Verification, directory: Path, replay: Run, trial: Trial) -> None:
-    """Compare a replayed trial with the stored one, level by level."""
     old_trial, new_trial = (
         journal.read_any(journal.path_of(folder, trial.index))[1]
         for folder in (directory, replay.out)
@@ -308,7 +306,6 @@ def _check_images(report: Verification, directory: Path, replay_directory: Path)
 
 
 def _rows_by_level(result: Result, plan: Plan) -> dict[tuple[float, ...], int]:
-    """Return the row number of each repeat and level."""
     names = [c.name for c in result.columns if c.kind == "level" or c.name == "repeat"]
     columns = [result.numbers(name) for name in names]
     rows: dict[tuple[float, ...], int] = {}
@@ -319,5 +316,4 @@ def _rows_by_level(result: Result, plan: Plan) -> dict[tuple[float, ...], int]:
 
 
 def _keys(trial: Trial) -> list[tuple[float, ...]]:
-    """Return the keys of `_rows_by_level` for a trial."""
     return [(float(trial.repeat), *(value for _, value in level.values)) for level in trial.levels]

@@ -201,7 +201,6 @@ def load_track(path: Path) -> MotionTrack:
 
 
 def _decompress(data: bytes) -> bytes:
-    """Decompress gzip, up to `MAX_BYTES`."""
     stream = zlib.decompressobj(wbits=31)
     try:
         content = stream.decompress(data, MAX_BYTES)
@@ -242,12 +241,10 @@ def _track(head: dict[str, Any], rest: bytes) -> MotionTrack:
 
 
 def _signal(name: object, unit: object = "1", step: object = 1e-4) -> Signal:
-    """Return a signal of a head; raise ValueError or TypeError if it is invalid."""
     return Signal(name=_text("name", name), unit=_text("unit", unit), step=_number("step", step))
 
 
 def _level(values: object, began: object, duration: object, status: object) -> TrackLevel:
-    """Return a level of a head; raise ValueError or TypeError if it is invalid."""
     if not isinstance(values, dict):
         raise ValueError(f"the values of a level are {str(values)[:60]}; expected an object")
     return TrackLevel(

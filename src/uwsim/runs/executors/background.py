@@ -66,7 +66,6 @@ class Jobs:
             raise RunFailed(reason)
 
     def _execute(self, job: Job) -> str | None:
-        """Execute a job; return the reason of a failure, else None."""
         return _run_job(job, self._reporter)
 
 
@@ -125,7 +124,6 @@ def _serve(pipe: Connection, parent: Connection, reporter: Reporter) -> None:
 
 
 def _run_job(job: Job, reporter: Reporter) -> str | None:
-    """Execute a job; return the reason of a failure, else None."""
     try:
         if isinstance(job, Path):
             reporter()(job)

@@ -273,7 +273,6 @@ def run_each(
 
 
 def _check_journals(runs: Sequence[Run], queue: JobQueue) -> None:
-    """Fail a run if a finished trial is not on disk any more."""
     for run in runs:
         for trial in run.unfinished_trials()[:1]:
             name = path_of(run.out, trial.index)

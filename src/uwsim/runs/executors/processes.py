@@ -95,7 +95,6 @@ class ProcessExecutor:
                 worker.kill()
 
     def _wait_for_reports(self, busy_workers: list[WorkerProcess], queue: JobQueue) -> None:
-        """Wait until a worker has a report, or for a short time."""
         start = time.monotonic()
         wait([handle for worker in busy_workers for handle in worker.handles], self._poll_period)
         wait_time = time.monotonic() - start

@@ -252,7 +252,6 @@ class RayWorker:
 
 
 def _differences(actual: object, expected: object, name: str = "") -> Iterator[str]:
-    """Yield the differences between two heads."""
     if isinstance(actual, dict) and isinstance(expected, dict):
         for key in {**expected, **actual}:
             yield from _differences(actual.get(key), expected.get(key), f"{name}.{key}".lstrip("."))

@@ -10,7 +10,7 @@ It receives frames through one socket, answers each, and has no other access to 
       call  callback, now, message
       parameters  given
       names_read                          (names of parameters that it read)
-      given / refused                   (what the algorithm asked for)
+      given / refused                   (the reply to a request of the algorithm)
 
 Within a call the algorithm requests the functions of a node (`ask`): the frames nest, as the calls
 of one process do. A message that the simulation is certain to accept needs no answer: it is sent
@@ -154,7 +154,6 @@ class Child:
             self._run(*self._receive())
 
     def _run(self, kind: str, *arguments: Any) -> None:
-        """Execute the request of a frame, and answer it."""
         try:
             value = getattr(self, f"_{kind}")(*arguments)
             frame = encode(["done", self._node.take_published(), value, self._node.violation])
@@ -212,7 +211,7 @@ class Child:
         try:
             self._pipe.send_bytes(frame)
         except OSError:
-            os._exit(1)  # the simulation has gone
+            os._exit(1)  # the simulation has ended
 
     def _receive(self) -> list[Any]:
         try:
@@ -231,7 +230,6 @@ def _check_message_class(cls: type) -> type:
 
 
 def _raise(kind: str, message: str, attributes: dict[str, Any]) -> NoReturn:
-    """Raise the exception that the simulation raised."""
     cls = getattr(errors, kind, None) or getattr(builtins, kind, None)
     if not (isinstance(cls, type) and issubclass(cls, Exception)):
         raise RuntimeError(f"{kind}: {message}")

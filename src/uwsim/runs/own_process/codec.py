@@ -169,7 +169,6 @@ def _name(cls: Hashable) -> str:
 
 
 def _class_of(name: str) -> type:
-    """Return a message class by its name; raise ValueError if this process has none."""
     cls = message_class(name)
     if cls is None:
         raise ValueError(f"no message is called {name!r}")
@@ -199,7 +198,6 @@ def _path(name: str) -> tuple[str, tuple[str, ...]]:
 
 @functools.lru_cache(_MAX_NAMES)
 def _is_message(cls: Hashable, module: str) -> bool:
-    """Return whether a class of a module is a message class."""
     is_own = module.partition(".")[0] == "uwsim"
     return dataclasses.is_dataclass(cls) and (hasattr(cls, "__msgtype__") or not is_own)
 

@@ -35,7 +35,7 @@ from .codec import MAX_FRAME, FrameError, decode, encode
 PROCESS_ENDED = "its process ended"
 """The beginning of the reason of an algorithm whose process has ended."""
 CALL_TIMEOUT = "a callback took longer than --callback-limit"
-"""The reason of a row whose algorithm did not come back."""
+"""The reason of a row whose algorithm did not return."""
 CLOCK_PERIOD = 1.0
 """The longest time between two checks of the clock [s]."""
 END_TIMEOUT = 10.0
@@ -240,7 +240,6 @@ class ProcessAlgorithm:
         return self._node
 
     def _execute(self, command: list[Any]) -> object:
-        """Execute a request of the algorithm to its node."""
         node = self._attached_node
         match command:
             case ["subscribe", str(topic), type() as cls, int(number)]:

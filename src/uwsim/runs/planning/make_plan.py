@@ -162,7 +162,6 @@ def _read_files(
 
 
 def _apply_values(read: _Files, pairs: Sequence[tuple[str, str]], errors: ErrorCollector) -> _Files:
-    """Apply every ``--set`` of scene and updaters; collect errors."""
     from ...benchmark.updater_settings import (
         apply_updater_setting,
         check_begin,
@@ -185,7 +184,6 @@ def _apply_values(read: _Files, pairs: Sequence[tuple[str, str]], errors: ErrorC
 
 
 def _algorithm_name(request: PlanRequest, spec: BenchmarkSpec | None) -> str:
-    """Return the name of the algorithm; empty where there is none."""
     if request.client is not None:
         return request.client.name
     return request.algorithm or (None if spec is None else spec.algorithm) or ""

@@ -93,7 +93,6 @@ class MotionRecorder:
                 self._pack()
 
     def _pack(self) -> None:
-        """Quantise the newest rows, many at once."""
         if self._rows:
             self._tables.append(quantise(np.array(self._rows), self._steps))
             self._rows = []
@@ -142,7 +141,6 @@ def _compared_measures(measures: Sequence[MeasureSpec]) -> dict[str, str]:
 
 
 def _corner_signals(cameras: Iterable[str]) -> list[Signal]:
-    """Return the signals of the corners, in the order of `MotionRecorder._corners`."""
     return [
         Signal(name=f"{kind}/{camera}/{corner}/{axis}", unit="px", step=PIXEL)
         for camera in cameras

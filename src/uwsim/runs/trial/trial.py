@@ -245,13 +245,11 @@ class _Execution:
         return row
 
     def _base_level(self) -> Level:
-        """Return the values before the first level."""
         if self._trial.is_alone and not self._plan.benchmark.prelude:
             return self._trial.levels[0]
         return initial_level(self._updater)
 
     def _title(self) -> str:
-        """Return ``currents, pi, seed 7``."""
         name = Path(self._plan.benchmark.path).stem
         return f"{name}, {self._plan.algorithm.name}, seed {self._trial.seed}"
 
@@ -307,13 +305,11 @@ class _Execution:
         self._close_measures(measures)
 
     def _bind_measures(self) -> list[TriggeredMeasure]:
-        """Bind every measure anew."""
         return [
             TriggeredMeasure(spec, self._simulation.world.measure_view) for spec in self._measures
         ]
 
     def _close_measures(self, measures: list[TriggeredMeasure]) -> None:
-        """Close measures, and record which have initialised an algorithm."""
         self._measures = tuple(
             measure.spec.spec_once_initialised if measure.measure.has_initialised else measure.spec
             for measure in measures
@@ -329,7 +325,6 @@ class _Execution:
             apply_level(self._updaters, level, after=last_level)
 
     def _begin(self, level: Level, last_level: Level | None) -> None:
-        """Bring the scene to a level, and wait until it may begin."""
         self._step_to(level, last_level)
         from_initial = self._base_level() if self._trial.is_alone else last_level
         self._live_topics.record_change(level, last_level=from_initial)
@@ -339,7 +334,6 @@ class _Execution:
             self._triggers.arm()
 
     def _settle(self, seconds: float) -> None:
-        """Advance through the settling time, which is not measured."""
         for _ in range(round(seconds / self._plan.timestep)):
             self._simulation.advance()
             self._monitor.read_reports(self._simulation.time)
@@ -425,7 +419,6 @@ class _Execution:
 
 
 def _tick(measures: list[TriggeredMeasure]) -> None:
-    """Update every measure with the current state of the world."""
     for measure in measures:
         measure.tick()
 
@@ -440,7 +433,6 @@ def _remarks(measures: list[TriggeredMeasure]) -> tuple[str, ...]:
 
 
 def _end_of_level(measures: list[TriggeredMeasure]) -> str | None:
-    """Return the reason of a measure that ends the level now; None if it continues."""
     for measure in measures:
         if reason := measure.measure.ends_level:
             return reason
