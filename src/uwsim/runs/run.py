@@ -48,7 +48,7 @@ class Run:
     renderer: str
     """The name of the renderer (`prepare`)."""
     files: tuple[InputFile, ...] = ()
-    """Files that must not change during the run (`watchable`)."""
+    """Files that must not change during the run (`unique_files`)."""
     recorder: TrialRecorder | None = None
     """The recorder of the messages of its trials."""
     seal: Seal | None = field(default=None, repr=False)
