@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from uwsim.base.numerics.linear import (
-    compose_transforms,
+    compose,
     cross,
     determinant,
     determinants,
@@ -67,7 +67,7 @@ def test_the_quick_ones_are_numpys() -> None:
     np.testing.assert_allclose(rotate_back(rotation, vector), rotation.T @ vector, rtol=1e-13)
     expected = points @ rotation.T + vector
     np.testing.assert_allclose(transform_points(points, rotation, vector), expected, rtol=1e-13)
-    shift, turn = compose_transforms(rotation, vector, other, 2.0 * vector)
+    shift, turn = compose(rotation, vector, other, 2.0 * vector)
     np.testing.assert_allclose(turn, rotation @ other, rtol=1e-13)
     np.testing.assert_allclose(shift, rotation @ (2.0 * vector) + vector, rtol=1e-13)
     assert dot(vector, points[0]) == pytest.approx(vector @ points[0])

@@ -14,9 +14,8 @@ CLIENT_SECRET = "UWSIM_CLIENT_SECRET"
 
 def remove_secrets(variables: Mapping[str, str]) -> dict[str, str]:
     """Return the variables without those that hold secrets, for a process that needs none."""
-    return {
-        name: value for name, value in variables.items() if name not in (WEB_TOKEN, CLIENT_SECRET)
-    }
+    secrets = (WEB_TOKEN, CLIENT_SECRET)
+    return {name: value for name, value in variables.items() if name not in secrets}
 
 
 def select_unset(variables: Mapping[str, str]) -> dict[str, str]:

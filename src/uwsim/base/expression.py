@@ -164,13 +164,11 @@ class Expression:
         for number, faulty_step in operands:
             if faulty_step is not None:
                 return number, faulty_step
-        result = self._compute_step(step, [number for number, _ in operands], values)
+        result = self._compute(step, [number for number, _ in operands], values)
         return result, None if math.isfinite(result) else step
 
     @staticmethod
-    def _compute_step(
-        step: _Step, operands: list[float], values: Mapping[str, float | None]
-    ) -> float:
+    def _compute(step: _Step, operands: list[float], values: Mapping[str, float | None]) -> float:
         if step.function is not None:
             return float(step.function(*(np.float64(number) for number in operands)))
         if step.constant is not None:
@@ -223,7 +221,6 @@ def _one_line(text: str) -> str:
 
 
 def _check_depth(text: str) -> None:
-    """Raise ScoreError for brackets that are nested deeper than `MAX_DEPTH`."""
     depth = 0
     for column, letter in enumerate(text):
         depth += (letter == "(") - (letter == ")")

@@ -14,7 +14,7 @@ import numpy as np
 
 from .numerics.jit import njit
 from .numerics.linear import Array as Array
-from .numerics.linear import compose_transforms, length, product, rotate_back, transform_points
+from .numerics.linear import compose, length, product, rotate_back, transform_points
 
 Triple = tuple[float, float, float]
 ZERO: Triple = (0.0, 0.0, 0.0)
@@ -51,17 +51,9 @@ def write_rotation(roll: float, pitch: float, yaw: float, rotation: Array) -> No
     """Write the result of `rotation_from_rpy` into (3, 3)."""
     a, b, c = math.cos(roll), math.cos(pitch), math.cos(yaw)
     u, v, w = math.sin(roll), math.sin(pitch), math.sin(yaw)
-    cos_yaw_sin_pitch, sin_yaw_sin_pitch = c * v, w * v
-    rotation[0, 0], rotation[0, 1], rotation[0, 2] = (
-        c * b,
-        cos_yaw_sin_pitch * u - w * a,
-        w * u + cos_yaw_sin_pitch * a,
-    )
-    rotation[1, 0], rotation[1, 1], rotation[1, 2] = (
-        w * b,
-        c * a + sin_yaw_sin_pitch * u,
-        sin_yaw_sin_pitch * a - c * u,
-    )
+    cv, wv = c * v, w * v
+    rotation[0, 0], rotation[0, 1], rotation[0, 2] = c * b, cv * u - w * a, w * u + cv * a
+    rotation[1, 0], rotation[1, 1], rotation[1, 2] = w * b, c * a + wv * u, wv * a - c * u
     rotation[2, 0], rotation[2, 1], rotation[2, 2] = -v, b * u, b * a
     rotation += 0.0  # no zero is negative
 
@@ -180,9 +172,7 @@ class Pose:
         return matrix
 
     def __matmul__(self, other: Pose) -> Pose:
-        return Pose(
-            *compose_transforms(self.rotation, self.position, other.rotation, other.position)
-        )
+        return Pose(*compose(self.rotation, self.position, other.rotation, other.position))
 
     def copy(self) -> Pose:
         """Return a copy with copied arrays."""
@@ -195,9 +185,8 @@ class Pose:
     def transform(self, points: Array) -> Array:
         """Return the coordinates in a of points in b, (n, 3) or one (3,), same shape [m]."""
         rows = np.asarray(points, dtype=np.float64)
-        return transform_points(np.atleast_2d(rows), self.rotation, self.position).reshape(
-            rows.shape
-        )
+        coordinates = transform_points(np.atleast_2d(rows), self.rotation, self.position)
+        return coordinates.reshape(rows.shape)
 
 
 def image_centre(width: int, height: int) -> tuple[float, float]:

@@ -121,7 +121,6 @@ def _interrupt() -> None:
 
 
 def _is_unsafe(frame: FrameType | None) -> bool:
-    """Return whether code of one of the unsafe packages runs."""
     while frame is not None:
         package = str(frame.f_globals.get("__name__")).partition(".")[0]
         if package in UNSAFE_PACKAGES or package.startswith("namedtuple_"):

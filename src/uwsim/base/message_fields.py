@@ -19,7 +19,7 @@ from typing import Any, NamedTuple, TypeVar, cast
 import numpy as np
 
 M = TypeVar("M")
-_ACCEPTED_TYPES: dict[str, tuple[type, ...]] = {
+_FIELD_TYPES: dict[str, tuple[type, ...]] = {
     "float": (float, int, np.number, np.bool_),
     "int": (int, np.integer, np.bool_),
     "bool": (bool, int, np.bool_),
@@ -52,7 +52,6 @@ def find_invalid_field(message: object, prefix: str = "", *, converts: bool = Tr
 
 
 def _check_fields(message: object, prefix: str, converts: bool) -> str | None:
-    """Do the work of `find_invalid_field`, field by field."""
     for name, kind, element_type in _definition(cast(Hashable, message.__class__)):
         value = getattr(message, name)
         error: str | None = None
@@ -71,11 +70,10 @@ def _check_fields(message: object, prefix: str, converts: bool) -> str | None:
                     error = find_invalid_field(item, f"{prefix}{name}[{i}].", converts=converts)
         elif kind == "message":
             is_fit = _is_message(value, element_type)
-            error = (
-                find_invalid_field(value, f"{prefix}{name}.", converts=converts) if is_fit else None
-            )
+            if is_fit:
+                error = find_invalid_field(value, f"{prefix}{name}.", converts=converts)
         else:
-            is_fit = isinstance(value, _ACCEPTED_TYPES[kind])
+            is_fit = isinstance(value, _FIELD_TYPES[kind])
         if not is_fit:
             text = " ".join(repr(getattr(message, name)).split())
             text = text if len(text) <= 60 else text[:57] + "..."
@@ -134,14 +132,14 @@ def find_invalid_number(
     Returns:
         The number found, and the number expected with the consequence; None if all are valid.
     """
-    values = _getter(tuple(paths))(message)
+    values = _value_getter(tuple(paths))(message)
     for value in values if len(paths) > 1 else (values,):
         if isinstance(value, np.ndarray):
             is_within = are_within(value, limit)
         else:
             is_within = -limit <= value <= limit
         if not is_within:
-            return _describe_invalid_number(message, paths, limit)
+            return _invalid_number(message, paths, limit)
     return None
 
 
@@ -152,10 +150,7 @@ def are_within(values: np.ndarray[Any, Any], limit: float) -> bool:
     return bool(np.abs(values).max() <= limit)
 
 
-def _describe_invalid_number(
-    message: object, paths: Sequence[str], limit: float
-) -> tuple[str, str] | None:
-    """Do the work of `find_invalid_number` for a command with an invalid number."""
+def _invalid_number(message: object, paths: Sequence[str], limit: float) -> tuple[str, str] | None:
     excess: tuple[str, str] | None = None
     for path in paths:
         value = operator.attrgetter(path)(message)
@@ -167,17 +162,13 @@ def _describe_invalid_number(
             if not math.isfinite(number):
                 return f"{place} is {number}", "a finite number; it is not followed"
             if excess is None:
-                limit_text = f"{limit:g}"
-                excess = (
-                    f"{place} is {number:g}",
-                    f"-{limit_text} to {limit_text}; the nearest is taken",
-                )
+                bound = f"{limit:g}"
+                excess = f"{place} is {number:g}", f"-{bound} to {bound}; the nearest is taken"
     return excess
 
 
 @functools.cache
-def _getter(paths: tuple[str, ...]) -> Callable[[object], Any]:
-    """Return a function that reads the values at some paths; of one path, the value itself."""
+def _value_getter(paths: tuple[str, ...]) -> Callable[[object], Any]:
     return operator.attrgetter(*paths)
 
 
@@ -201,15 +192,15 @@ def _freeze_value(value: object) -> None:
 def copy_message(message: M) -> M:
     """Return a copy of a message that shares no array, list or message with it."""
     if hasattr(message, "__dict__"):
-        copied_message: M = object.__new__(message.__class__)
-        vars(copied_message).update(vars(message))
+        duplicate: M = object.__new__(message.__class__)
+        vars(duplicate).update(vars(message))
     else:
-        copied_message = copy.copy(message)
+        duplicate = copy.copy(message)
     for name in _field_names(cast(Hashable, message.__class__)):
         value = getattr(message, name)
         if value.__class__ not in _SCALAR_TYPES:
-            object.__setattr__(copied_message, name, _copy_value(value))  # of a frozen one, too
-    return copied_message
+            object.__setattr__(duplicate, name, _copy_value(value))  # of a frozen one, too
+    return duplicate
 
 
 def _copy_value(value: object) -> object:
@@ -252,13 +243,9 @@ def _array_fields(cls: Hashable) -> tuple[str, ...]:
     kinds = {name: kind for name, kind, _ in _definition(cls)}
     names = []
     for field in dataclasses.fields(cls):
-        message_class = (
-            _class_in(cls, str(field.type)) if kinds.get(field.name) == "message" else None
-        )
-        is_plain = kinds.get(field.name) in _ACCEPTED_TYPES or str(field.type).startswith(
-            "ClassVar"
-        )
-        if not is_plain and (message_class is None or _array_fields(cast(Hashable, message_class))):
+        part_class = _class_in(cls, str(field.type)) if kinds.get(field.name) == "message" else None
+        is_plain = kinds.get(field.name) in _FIELD_TYPES or str(field.type).startswith("ClassVar")
+        if not is_plain and (part_class is None or _array_fields(cast(Hashable, part_class))):
             names.append(field.name)
     return tuple(names)
 
@@ -287,19 +274,12 @@ def _make_getters(cls: Hashable) -> _Getters | None:
     values = [path for path, kind, _ in paths if kind not in ("array", "texts")]
     types = tuple(type_ for _, kind, type_ in paths if kind not in ("array", "texts"))
     arrays, texts, lists = (
-        [path for path, kind, _ in paths if kind == part_kind]
-        for part_kind in ("array", "texts", "list")
+        [path for path, kind, _ in paths if kind == group] for group in ("array", "texts", "list")
     )
-    return _Getters(
-        _tuple_getter(values),
-        types,
-        _tuple_getter(arrays),
-        _tuple_getter(texts),
-        _tuple_getter(lists),
-    )
+    return _Getters(_getter(values), types, _getter(arrays), _getter(texts), _getter(lists))
 
 
-def _tuple_getter(paths: Sequence[str]) -> Callable[[object], tuple[Any, ...]]:
+def _getter(paths: Sequence[str]) -> Callable[[object], tuple[Any, ...]]:
     """Return a function that reads the values at some paths as a tuple."""
     if len(paths) > 1:
         return operator.attrgetter(*paths)
@@ -317,8 +297,8 @@ def _paths(cls: Hashable) -> list[tuple[str, str, type]] | None:
     assert isinstance(cls, type)
     paths: list[tuple[str, str, type]] = []
     for name, kind, element_type in _definition(cls):
-        if kind in _ACCEPTED_TYPES:
-            paths.append((name, "", _ACCEPTED_TYPES[kind][0]))
+        if kind in _FIELD_TYPES:
+            paths.append((name, "", _FIELD_TYPES[kind][0]))
         elif kind == "array":
             paths.append((name, "array", np.ndarray))
         elif kind == "list":
@@ -349,7 +329,7 @@ def _definition(cls: Hashable) -> tuple[tuple[str, str, str], ...]:
             definition.append((field.name, "array", array_match[1]))
         elif element_match := _LIST.fullmatch(annotation):
             definition.append((field.name, "list", _message_type(cls, element_match[1])))
-        elif annotation in _ACCEPTED_TYPES:
+        elif annotation in _FIELD_TYPES:
             definition.append((field.name, annotation, ""))
         elif annotation.isidentifier():  # the name of another message
             definition.append((field.name, "message", _message_type(cls, annotation)))
@@ -365,10 +345,8 @@ def _message_type(cls: type, annotation: str) -> str:
 
 def _class_in(cls: type, annotation: str) -> type | None:
     """Return the class of a message in an annotation; None if its module does not define it."""
-    attribute = getattr(sys.modules[cls.__module__], annotation.rpartition(".")[2], None)
-    return (
-        attribute if dataclasses.is_dataclass(attribute) and isinstance(attribute, type) else None
-    )
+    value = getattr(sys.modules[cls.__module__], annotation.rpartition(".")[2], None)
+    return value if dataclasses.is_dataclass(value) and isinstance(value, type) else None
 
 
 def _array(value: object, dtype: str) -> np.ndarray[Any, Any] | None:

@@ -234,11 +234,8 @@ class Bus:
         entry = self._topics.get(strip_slash(topic))
         if entry is None:
             return None
-        message = (
-            entry.unread_message
-            if entry.make_unread_message is None
-            else entry.make_unread_message()
-        )
+        make = entry.make_unread_message
+        message = entry.unread_message if make is None else make()
         return None if message is None else freeze(message)
 
     def defer_unread_message(self, topic: str, make: Callable[[], object | None]) -> None:

@@ -48,7 +48,6 @@ def find_sources(module: str) -> dict[str, Path]:
 
 
 def _file_of(module: str) -> Path | None:
-    """Return the file of a module; None if it has none, or does not exist."""
     loaded_module = sys.modules.get(module)
     file = getattr(loaded_module, "__file__", None)
     if loaded_module is None:

@@ -48,16 +48,8 @@ def scratch_folder(prefix: str, parent: Path | None = None) -> Iterator[Path]:
     Raises:
         RunFailed: the folder cannot be created.
     """
-    command = [
-        sys.executable,
-        "-I",
-        "-S",
-        "-c",
-        REMOVER,
-        prefix,
-        str(parent or ""),
-        SCRATCH_VARIABLE,
-    ]
+    arguments = [prefix, str(parent or ""), SCRATCH_VARIABLE]
+    command = [sys.executable, "-I", "-S", "-c", REMOVER, *arguments]
     with subprocess.Popen(
         command,
         stdin=subprocess.PIPE,
@@ -71,10 +63,8 @@ def scratch_folder(prefix: str, parent: Path | None = None) -> Iterator[Path]:
         assert remover.stderr is not None
         folder = remover.stdout.readline().rstrip("\n")
         if not folder:
-            error_lines = remover.stderr.read().strip().splitlines()[-1:] or [
-                "its process was killed"
-            ]
-            raise RunFailed(f"No temporary folder can be created: {error_lines[0]}.")
+            error_text = remover.stderr.read().strip() or "its process was killed"
+            raise RunFailed(f"No temporary folder can be created: {error_text.splitlines()[-1]}.")
         try:
             yield Path(folder)
         finally:

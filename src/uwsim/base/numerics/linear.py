@@ -38,29 +38,25 @@ def product(left: npt.ArrayLike, right: npt.ArrayLike) -> Array:
 
 
 @njit
-def rotate(rotation: Array, vector_b: Array) -> Array:
-    """Return ``rotation @ vector_b`` for (3, 3) and (3,)."""
-    vector_a = np.empty(3)
+def rotate(rotation: Array, vector: Array) -> Array:
+    """Return ``rotation @ vector`` for (3, 3) and (3,)."""
+    rotated_vector = np.empty(3)
     for i in range(3):
-        vector_a[i] = (
-            rotation[i, 0] * vector_b[0]
-            + rotation[i, 1] * vector_b[1]
-            + rotation[i, 2] * vector_b[2]
+        rotated_vector[i] = (
+            rotation[i, 0] * vector[0] + rotation[i, 1] * vector[1] + rotation[i, 2] * vector[2]
         )
-    return vector_a
+    return rotated_vector
 
 
 @njit
-def rotate_back(rotation: Array, vector_a: Array) -> Array:
-    """Return ``rotation.T @ vector_a`` for (3, 3) and (3,)."""
-    vector_b = np.empty(3)
+def rotate_back(rotation: Array, vector: Array) -> Array:
+    """Return ``rotation.T @ vector`` for (3, 3) and (3,)."""
+    rotated_vector = np.empty(3)
     for i in range(3):
-        vector_b[i] = (
-            rotation[0, i] * vector_a[0]
-            + rotation[1, i] * vector_a[1]
-            + rotation[2, i] * vector_a[2]
+        rotated_vector[i] = (
+            rotation[0, i] * vector[0] + rotation[1, i] * vector[1] + rotation[2, i] * vector[2]
         )
-    return vector_b
+    return rotated_vector
 
 
 @njit
@@ -154,10 +150,7 @@ def pseudo_inverse(matrix: Array, *, rcond: float) -> Array:
 
 
 def _decompose(matrix: Array) -> tuple[Array, Array, Array]:
-    """Return left, values, right of ``matrix = left @ diag(values) @ right.T``.
-
-    The method is Jacobi's one-sided method (Hestenes 1958).
-    """
+    """Return ``matrix = left @ diag(values) @ right.T`` by Jacobi's one-sided method (Hestenes)."""
     is_wide = matrix.shape[0] < matrix.shape[1]
     columns = np.array(matrix.T if is_wide else matrix, dtype=np.float64, order="C")
     rotation = np.eye(columns.shape[1])
@@ -240,30 +233,26 @@ def _multiply_stacks(a: Array, b: Array) -> Array:
 
 
 @njit
-def compose_transforms(
-    rotation_a: Array, position_a: Array, rotation_b: Array, position_b: Array
-) -> tuple[Array, Array]:
-    """Return the position and rotation of ``a_from_b @ b_from_c``."""
+def compose(r_a: Array, p_a: Array, r_b: Array, p_b: Array) -> tuple[Array, Array]:
+    """Return the position and rotation of ``a_from_b @ b_from_c``; r: rotations, p: positions."""
     rotation, position = np.empty((3, 3)), np.empty(3)
     for i in range(3):
-        x, y, z = rotation_a[i, 0], rotation_a[i, 1], rotation_a[i, 2]
+        x, y, z = r_a[i, 0], r_a[i, 1], r_a[i, 2]
         for k in range(3):
-            rotation[i, k] = x * rotation_b[0, k] + y * rotation_b[1, k] + z * rotation_b[2, k]
-        position[i] = x * position_b[0] + y * position_b[1] + z * position_b[2] + position_a[i]
+            rotation[i, k] = x * r_b[0, k] + y * r_b[1, k] + z * r_b[2, k]
+        position[i] = x * p_b[0] + y * p_b[1] + z * p_b[2] + p_a[i]
     return position, rotation
 
 
 @njit
 def transform_points(points: Array, rotation: Array, position: Array) -> Array:
     """Return ``points @ rotation.T + position`` for (n, 3)."""
-    coordinates = np.empty((points.shape[0], 3))
+    rows = np.empty((points.shape[0], 3))
     for n in range(points.shape[0]):
         x, y, z = points[n, 0], points[n, 1], points[n, 2]
         for i in range(3):
-            coordinates[n, i] = (
-                rotation[i, 0] * x + rotation[i, 1] * y + rotation[i, 2] * z + position[i]
-            )
-    return coordinates
+            rows[n, i] = rotation[i, 0] * x + rotation[i, 1] * y + rotation[i, 2] * z + position[i]
+    return rows
 
 
 @njit

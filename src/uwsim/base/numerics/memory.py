@@ -19,8 +19,6 @@ Ints64 = npt.NDArray[np.int64]
 
 
 def _pointer(typingctx: Any, address: Any) -> Any:
-    """Return a void pointer to an address, which is an integer."""
-
     def codegen(context: Any, builder: Any, signature: Any, args: Any) -> Any:
         return builder.inttoptr(args[0], cgutils.voidptr_t)
 

@@ -14,7 +14,7 @@ import numpy as np
 
 from ...base.geometry import Array
 from ...base.numerics.jit import njit
-from ...base.numerics.linear import compose_transforms
+from ...base.numerics.linear import compose
 from ...base.numerics.memory import carray, pointer, view_doubles, view_int32s, view_int64s
 
 CHAIN = np.dtype(
@@ -73,7 +73,7 @@ def mounted_frame(mount: Record, frame: Array) -> None:
     The scale of a vehicle moves the part and does not turn it.
     """
     origin, axes = view_doubles(mount.origin, 3), view_doubles(mount.axes, 9).reshape((3, 3))
-    shift, turn = compose_transforms(axes, origin, mount.rotation, mount.position)
+    shift, turn = compose(axes, origin, mount.rotation, mount.position)
     if mount.base_axes != 0:
         base = view_doubles(mount.base_axes, 9).reshape((3, 3))
         stretched = stretch(base, axes, mount.scale)
