@@ -143,7 +143,7 @@ class Bridge(ABC):
 
     def call_external_service(self, name: str, request: object) -> Future[object]:
         """Call a service that an external program offers. In the thread of the simulation."""
-        raise UwsimError(f"{type(self).__name__} calls no services outside.")
+        raise UwsimError(f"{type(self).__name__} calls no external services.")
 
     def read_all(self, topic: str) -> None:  # noqa: B027 - others lose nothing
         """Read ``topic`` from the first message on, if the transport may lose messages."""

@@ -58,7 +58,7 @@ def from_cdr(kind: type[M], data: bytes | memoryview) -> M:
 
 
 def to_ros1(message: object, *, seq: int = 0) -> memoryview:
-    """Return a message in the encoding of ROS 1; ``seq`` goes into its header.
+    """Encode a message for ROS 1, with ``seq`` in its header.
 
     Raises:
         BadMessage: ROS 1 has no such type.

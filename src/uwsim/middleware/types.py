@@ -4,7 +4,7 @@ The source is text: ROS's own definitions, which rosbags ships, and the files of
 for each package in ``messages``. From it rosbags derives the MD5 sum by which ROS 1 compares types,
 the RIHS01 hash of ROS 2, and the definition in bags.
 
-A class of the bus is looked up by either name, ``geometry_msgs/Twist`` or
+A class of the bus is found by either name, ``geometry_msgs/Twist`` or
 ``geometry_msgs/msg/Twist``. Types that `uwsim.messages` lacks (``std_msgs/Int32``) are the classes
 of rosbags (ROS 2 Jazzy).
 """
@@ -41,7 +41,7 @@ TF_MESSAGE = "geometry_msgs/TransformStamped[] transforms"
 
 @dataclass(frozen=True, kw_only=True)
 class WireType:
-    """A message type outside the process."""
+    """A message type as ROS names and encodes it."""
 
     message: type
     """The class on the bus."""
@@ -61,7 +61,7 @@ class WireType:
 
 @dataclass(frozen=True, kw_only=True)
 class WireService:
-    """A service type outside the process."""
+    """A service type as ROS names and encodes it."""
 
     service: Service
     """The classes on the bus."""

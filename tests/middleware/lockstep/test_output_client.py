@@ -338,7 +338,7 @@ def test_a_rate_has_its_unit(text: str) -> None:
 
 @pytest.mark.parametrize(
     ("texts", "said"),
-    [(["a=1Hz", "/a=2Hz"], "/a is given twice"), (["a=/a"], "does not follow itself")],
+    [(["a=1Hz", "/a=2Hz"], "/a occurs twice"), (["a=/a"], "does not follow itself")],
 )
 def test_outputs_that_contradict_are_an_error(texts: list[str], said: str) -> None:
     with pytest.raises(BadSetting, match=said):

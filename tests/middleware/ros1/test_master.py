@@ -177,7 +177,7 @@ def test_what_is_no_answer_of_ros_is_one_clean_error(printed: list[str]) -> None
     server = XmlRpcServer("127.0.0.1", 0, odd, Log("test", printed.append), "node")
     uri = f"http://127.0.0.1:{server.port}/"
     for method in ("getUri", "getPid", "nothing"):
-        with pytest.raises(PeerError, match="gives no answer of ROS"):
+        with pytest.raises(PeerError, match="does not answer as ROS"):
             call(uri, method, "/x")
     server.close()
     with pytest.raises(PeerError, match="does not answer"):

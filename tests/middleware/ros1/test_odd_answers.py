@@ -70,7 +70,7 @@ def test_a_publisher_with_an_odd_answer_is_asked_again(
     graph.ready()
     with answering(ODD["a text of nested lists"]) as uri:
         call(graph.master.uri, "registerPublisher", "/x", "/cmd", "std_msgs/Float64", uri)
-        until(lambda: sum("gives no answer of ROS" in x for x in graph.printed) > 2, graph.step)
+        until(lambda: sum("does not answer as ROS" in x for x in graph.printed) > 2, graph.step)
     graph.close()
 
 

@@ -217,7 +217,7 @@ def test_a_reader_that_is_frozen_costs_bounded_memory_and_holds_nobody_up(
             until(partial(heard.__contains__, said), lambda: None)
         assert memory() - before < 200.0
         until(lambda: not simulator.bus.has_subscribers("camera"), step)
-    told = f"/camera: a reader has left, or was not heard of {simulator.bridge._node.lease}"
+    told = f"/camera: a reader has left, or was silent {simulator.bridge._node.lease}"
     assert any(told in line for line in simulator.lines)
 
 

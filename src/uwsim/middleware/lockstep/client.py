@@ -404,7 +404,7 @@ def lockstep_clients(
 
     for topic in (JOIN, ACK):
         bridge.read_all(topic)
-        bridge.bus.subscribe(topic, String, _ignore_message)  # so that transports subscribe outside
+        bridge.bus.subscribe(topic, String, _ignore_message)  # makes transports subscribe
         bridge.arrivals.tap(topic, partial(receive, topic))
     bridge.bus.publisher(TICK, String)
     return tuple(clients.values())

@@ -55,7 +55,7 @@ class OutputClient(ExternalProgram):
         self._due = {output.topic: 0 for output in spec.outputs}
         self._begun_outputs: set[str] = set()  # outputs of which one was due already
         self._wait_times: dict[str, float] = dict.fromkeys(self._due, 0.0)  # [s of wall time]
-        self._n_called = 0  # calls of services outside before the start
+        self._n_called = 0  # calls of external services before the start
         self._n_sent = 0
 
     def start(self, node: Node) -> None:

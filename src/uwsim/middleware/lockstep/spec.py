@@ -99,7 +99,7 @@ def read_outputs(texts: Sequence[str]) -> tuple[OutputSpec, ...]:
     for text in texts:
         output = read_output(text)
         if output.topic in outputs:
-            raise BadSetting(f"--output {text}: /{output.topic} is given twice.")
+            raise BadSetting(f"--output {text}: /{output.topic} occurs twice.")
         outputs[output.topic] = output
     return tuple(outputs.values())
 

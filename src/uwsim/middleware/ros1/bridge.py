@@ -297,7 +297,7 @@ class Ros1Bridge(Bridge):
         if topic not in self._publications:
             return [-1, f"{topic} is not published here", []]
         if not any(entry[:1] == ["TCPROS"] for entry in protocols if isinstance(entry, list)):
-            return [0, "only TCPROS is spoken here", []]
+            return [0, "this node supports TCPROS only", []]
         return [1, "ready", ["TCPROS", self._host, self._listener.port]]
 
     def _getBusStats(self, caller: str) -> Answer:  # noqa: N802

@@ -37,7 +37,7 @@ def encode_header(fields: Mapping[str, str]) -> bytes:
 
 
 def decode_header(body: bytes) -> dict[str, str]:
-    """Return the fields of a connection header, given without its length; raise PeerError."""
+    """Decode a connection header without its length; raise PeerError."""
     fields: dict[str, str] = {}
     offset = 0
     while offset < len(body):

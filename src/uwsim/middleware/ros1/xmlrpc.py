@@ -253,14 +253,14 @@ def call(
     except OSError as error:
         raise PeerError(f"{uri} does not answer: {error.strerror or error}") from error
     except Exception as error:  # the parser raises much that it does not document
-        raise PeerError(f"{uri} gives no answer of ROS: {type(error).__name__}") from error
+        raise PeerError(f"{uri} does not answer as ROS: {type(error).__name__}") from error
     match answer:
         case [1, _, value]:
             return value
         case [int(), str(text), _]:
             raise RefusedCall(f"{uri} refuses {method}: {text[:300]}")
         case _:
-            raise PeerError(f"{uri} gives no answer of ROS")
+            raise PeerError(f"{uri} does not answer as ROS")
 
 
 class RefusedCall(PeerError):

@@ -218,7 +218,7 @@ class _ReaderCount:
             self._bridge.subscribers.remove(self._topic)
         if n_readers < self._n:
             self._bridge.log.report(
-                f"/{self._topic}: a reader has left, or was not heard of {self._lease}",
+                f"/{self._topic}: a reader has left, or was silent {self._lease}",
                 kind=f"left {self._topic}",
             )
         self._n = n_readers

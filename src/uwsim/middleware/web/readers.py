@@ -20,9 +20,9 @@ class WebReaders:
     """The subscriptions of all clients, by topic.
 
     Args:
-        graph: topics of the bus.
-        demand: told which of them are read.
-        clock_topic: sent to who has come.
+        graph: the topics of the bus.
+        subscribers: the external subscribers of the bridge.
+        clock_topic: the time, which new subscribers receive.
     """
 
     def __init__(self, graph: WebGraph, subscribers: Subscribers, clock_topic: ClockTopic) -> None:

@@ -17,8 +17,8 @@ class Republications:
     """The requests of clients for transforms.
 
     Args:
-        demand: told that the topics of transforms are read.
-        readers: who are sent them.
+        subscribers: the external subscribers of the bridge.
+        readers: the readers of the transforms.
         clock: returns the simulation time [s].
     """
 

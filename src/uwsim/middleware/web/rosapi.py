@@ -20,7 +20,7 @@ from .graph import WebGraph
 
 NODE = "/uwsim"
 ROSOUT = "rosout"
-"""The topic whose type tells viewers that this is ROS 2."""
+"""The topic by whose type viewers recognize ROS 2."""
 ROSOUT_TYPE = "rcl_interfaces/msg/Log"
 
 

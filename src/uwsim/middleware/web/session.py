@@ -315,7 +315,7 @@ class Session:
             raise BadMessage(f"No call waits for the response {frame.get('id')!r:.100}.")
         if frame.get("result") is False:
             future.set_exception(
-                UwsimError(f"Service {frame.get('service')!r:.100} failed outside.")
+                UwsimError(f"External service {frame.get('service')!r:.100} failed.")
             )
             return
         try:
