@@ -29,9 +29,9 @@ def test_images_come_in_their_order_with_the_time_recorded(tmp_path: Path, kind:
         frames = list(recording.frames())
         assert [frame.time for frame in frames] == [0, 100_000_000, 250_000_000]
         for i, frame in enumerate(frames):
-            seen = frame.decode()
-            assert np.array_equal(seen.pixels, sample_pixels(i))
-            assert (seen.frame_id, seen.is_blue_first) == ("bow", False)
+            actual = frame.decode()
+            assert np.array_equal(actual.pixels, sample_pixels(i))
+            assert (actual.frame_id, actual.is_blue_first) == ("bow", False)
     recording.close()
 
 
@@ -54,8 +54,8 @@ def test_an_image_has_the_newest_info_by_then_and_the_first_before_it(
 @pytest.mark.parametrize("file", ["dive_0.mcap", "dive.mcap"])
 def test_a_storage_file_is_read_without_its_folder(tmp_path: Path, file: str) -> None:
     folder = write_bag(tmp_path, "mcap", [(time, sample_pixels(0)) for time in TIMES])
-    found = next(folder.glob("*.mcap"))
-    moved = found.rename(tmp_path / file)
+    actual = next(folder.glob("*.mcap"))
+    moved = actual.rename(tmp_path / file)
     recording = open_bag(moved)
     assert len(list(recording.frames())) == 3
     recording.close()
@@ -83,10 +83,10 @@ def test_every_encoding_is_turned_to_red_first_or_grey(
         tmp_path, "mcap", [(0.0, stored), (0.1, stored)], encoding=encoding, padding=padding
     )
     recording = open_bag(path)
-    seen = recording.first_frame.decode()
+    actual = recording.first_frame.decode()
     recording.close()
-    assert np.array_equal(seen.pixels, stored if order is None else stored[..., order])
-    assert seen.is_blue_first is (order == [2, 1, 0])
+    assert np.array_equal(actual.pixels, stored if order is None else stored[..., order])
+    assert actual.is_blue_first is (order == [2, 1, 0])
 
 
 @pytest.mark.parametrize("kind", ["ros1", "mcap"])
@@ -100,9 +100,9 @@ def test_compressed_images_are_unpacked(tmp_path: Path, kind: str, grey: bool) -
         image_type="sensor_msgs/msg/CompressedImage",
     )
     recording = open_bag(path)
-    seen = recording.first_frame.decode().pixels
+    actual = recording.first_frame.decode().pixels
     recording.close()
-    assert np.array_equal(seen, stored if grey else stored[..., ::-1])
+    assert np.array_equal(actual, stored if grey else stored[..., ::-1])
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -165,9 +165,9 @@ def test_a_file_that_is_no_bag_is_one_clean_error(
 ) -> None:
     path = tmp_path / name
     path.write_bytes(content)
-    with pytest.raises(AssetError, match=f"{name} cannot be read as a recording: .+") as caught:
+    with pytest.raises(AssetError, match=f"{name} cannot be read as a recording: .+") as excinfo:
         open_bag(path)
-    assert "\n" not in str(caught.value)
+    assert "\n" not in str(excinfo.value)
 
 
 def test_a_bag_that_was_cut_off_is_one_clean_error(tmp_path: Path) -> None:

@@ -33,8 +33,8 @@ GOLDEN: dict[str, Any] = json.loads(Path(__file__).with_name("message_classes.js
 
 def class_of(name: str) -> type:
     module, _, base = name.partition(":")
-    found: type = getattr(importlib.import_module(f"uwsim.messages.{module}"), base)
-    return found
+    actual: type = getattr(importlib.import_module(f"uwsim.messages.{module}"), base)
+    return actual
 
 
 def filled(cls: type, numbers: Iterator[int]) -> Any:
@@ -91,10 +91,10 @@ def on_the_wire(message: Any) -> str:
 
 @pytest.mark.parametrize("name", GOLDEN)
 def test_a_generated_class_is_what_the_written_one_was(name: str) -> None:
-    found, expected = described(class_of(name)), GOLDEN[name]
-    assert expected["constants"].items() <= found.pop("constants").items()
-    assert list(found["fields"]) == list(expected["fields"])
-    assert found == {key: value for key, value in expected.items() if key != "constants"}
+    actual, expected = described(class_of(name)), GOLDEN[name]
+    assert expected["constants"].items() <= actual.pop("constants").items()
+    assert list(actual["fields"]) == list(expected["fields"])
+    assert actual == {key: value for key, value in expected.items() if key != "constants"}
 
 
 @pytest.mark.parametrize("name", GOLDEN)

@@ -63,9 +63,9 @@ def cloud(
 )
 def test_a_cloud_is_read_whatever_its_layout(layout: dict[str, object]) -> None:
     places = XYZ[:, ::-1] if layout.get("names") == "zyx" else XYZ
-    found = points(cloud(places, **layout))  # type: ignore[arg-type]
-    assert found.dtype == np.float64
-    assert np.array_equal(found, XYZ, equal_nan=True)
+    actual = points(cloud(places, **layout))  # type: ignore[arg-type]
+    assert actual.dtype == np.float64
+    assert np.array_equal(actual, XYZ, equal_nan=True)
 
 
 def test_doubles_keep_all_their_digits() -> None:

@@ -50,9 +50,9 @@ print(json.dumps(found))
 
 def listed(name: str) -> list[str]:
     """The files that a variable of the CMake file lists."""
-    found = re.search(rf"set\({name} ([^)]*)\)", CMAKE)
-    assert found is not None
-    return found[1].split()
+    actual = re.search(rf"set\({name} ([^)]*)\)", CMAKE)
+    assert actual is not None
+    return actual[1].split()
 
 
 def test_every_text_is_listed_for_the_build() -> None:
@@ -62,13 +62,13 @@ def test_every_text_is_listed_for_the_build() -> None:
 
 def test_ros_2_gets_all_but_those_whose_names_it_refuses() -> None:
     left_out = re.findall(r"list\(REMOVE_ITEM \w+ (\S+)\)", CMAKE)
-    refused = []
+    refusals = []
     for path in TEXTS:
         lines = [line.partition("#")[0].split() for line in path.read_text().splitlines()]
         fields = [words[1] for words in lines if len(words) == 2]
         if not all(FIELD_OF_ROS2.fullmatch(field) for field in fields):
-            refused.append(path.name)
-    assert left_out == refused
+            refusals.append(path.name)
+    assert left_out == refusals
 
 
 def test_the_manifest_names_the_package_and_all_that_its_texts_need() -> None:
@@ -79,8 +79,8 @@ def test_the_manifest_names_the_package_and_all_that_its_texts_need() -> None:
     needed = {
         match[1] for path in TEXTS for match in re.finditer(r"^(\w+)/\w+", path.read_text(), re.M)
     }
-    assert needed <= {each.text for each in root.findall("depend")}
-    tools = {(each.text, each.get("condition")) for each in root.findall("buildtool_depend")}
+    assert needed <= {entry.text for entry in root.findall("depend")}
+    tools = {(entry.text, entry.get("condition")) for entry in root.findall("buildtool_depend")}
     assert ("catkin", "$ROS_VERSION == 1") in tools
     assert ("ament_cmake", "$ROS_VERSION == 2") in tools
     for package in needed:
@@ -94,9 +94,9 @@ def test_the_generator_of_ros_1_reads_the_texts_and_has_our_sums(tmp_path: Path)
     assert done.returncode == 0, done.stderr
     sums = json.loads(done.stdout)
     for kind in (messages.DVL, messages.LedLight, messages.Pressure):
-        found = wire_type(kind)
-        assert found is not None
-        assert sums.pop(kind.__name__) == found.md5
+        actual = wire_type(kind)
+        assert actual is not None
+        assert sums.pop(kind.__name__) == actual.md5
     for request in (GTpublish, SpawnMarker):
         service = service_of(request)
         assert service is not None

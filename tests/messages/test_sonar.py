@@ -23,8 +23,8 @@ for text in sorted(TEXTS.glob("*.msg")):
 def test_fields_are_those_of_the_definition(kind: type) -> None:
     name = f"marine_acoustic_msgs/msg/{kind.__name__}"
     assert kind.__msgtype__ == name  # type: ignore[attr-defined]
-    fields = [each for each, _ in STORE.fielddefs[name][1]]
-    assert [each.name for each in dataclasses.fields(kind)] == fields
+    fields = [entry for entry, _ in STORE.fielddefs[name][1]]
+    assert [entry.name for entry in dataclasses.fields(kind)] == fields
     assert find_invalid_field(kind()) is None
 
 

@@ -49,8 +49,8 @@ def test_a_message_is_made_without_an_argument_and_is_what_ros_reads_from_zeros(
 def test_fields_and_constants_are_those_of_the_definition(kind: typing.Any) -> None:
     constants, fields = STORE.fielddefs[kind.__msgtype__]
     assert [field.name for field in dataclasses.fields(kind)] == [name for name, _ in fields]
-    found = {name: value for name, value in vars(kind).items() if name.isupper()}
-    assert found == {name: value for name, _, value in constants}
+    actual = {name: value for name, value in vars(kind).items() if name.isupper()}
+    assert actual == {name: value for name, _, value in constants}
 
 
 def same(one: object, other: object) -> bool:
@@ -99,8 +99,8 @@ def test_every_message_type_that_is_public_has_defaults() -> None:
 def test_the_class_of_another_package_is_named_by_its_package() -> None:
     foreign = STORE.types["std_msgs/msg/Bool"]
     publish = Bus().publisher("on", messages.Bool)
-    said = r"carries std_msgs/msg/Bool, the class of uwsim\.messages\.std_msgs, not that of rosbags"
-    with pytest.raises(BadMessage, match=said):
+    text = r"carries std_msgs/msg/Bool, the class of uwsim\.messages\.std_msgs, not that of rosbags"
+    with pytest.raises(BadMessage, match=text):
         publish(typing.cast("messages.Bool", foreign(data=True)))
 
 
@@ -128,8 +128,8 @@ def test_a_message_of_another_type_in_a_message_is_named() -> None:
 
 def test_a_message_of_rosbags_own_class_fits() -> None:
     message = messages.TwistStamped()
-    own = STORE.types["geometry_msgs/msg/Vector3"](x=1.0, y=0.0, z=0.0)
-    message.twist.linear = typing.cast("messages.Vector3", own)
+    own_names = STORE.types["geometry_msgs/msg/Vector3"](x=1.0, y=0.0, z=0.0)
+    message.twist.linear = typing.cast("messages.Vector3", own_names)
     assert find_invalid_field(message) is None
 
 

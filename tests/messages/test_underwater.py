@@ -23,7 +23,7 @@ def test_fields_are_those_of_the_definition(kind: type) -> None:
     name = f"underwater_sensor_msgs/msg/{kind.__name__}"
     assert kind.__msgtype__ == name  # type: ignore[attr-defined]
     assert list(kind.__dataclass_fields__) == [  # type: ignore[attr-defined]
-        *(each for each, _ in STORE.fielddefs[name][1]),
+        *(entry for entry, _ in STORE.fielddefs[name][1]),
         "__msgtype__",
     ]
     assert find_invalid_field(kind()) is None

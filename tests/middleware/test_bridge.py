@@ -89,15 +89,15 @@ def test_its_own_ends_are_not_the_buses(bus: Bus, bridge: Seen) -> None:
 
 
 def test_messages_come_in_at_the_step_by_topic_and_in_their_order(bus: Bus, bridge: Seen) -> None:
-    found: list[object] = []
+    actual: list[object] = []
     for topic in ("b", "a"):
-        bus.subscribe(topic, Float64, lambda message, topic=topic: found.append((topic, message)))
+        bus.subscribe(topic, Float64, lambda message, topic=topic: actual.append((topic, message)))
     for i in range(2):
         bridge.put("/b", Float64(data=float(i)))
         bridge.put("/a", Float64(data=float(i)))
-    assert found == []
+    assert actual == []
     bridge.step()
-    assert [(topic, message.data) for topic, message in found] == [  # type: ignore[attr-defined]
+    assert [(topic, message.data) for topic, message in actual] == [  # type: ignore[attr-defined]
         *(("a", 0.0), ("a", 1.0)),
         *(("b", 0.0), ("b", 1.0)),
     ]
@@ -105,9 +105,9 @@ def test_messages_come_in_at_the_step_by_topic_and_in_their_order(bus: Bus, brid
 
 def test_a_message_from_outside_is_sent_to_other_bridges_only(bus: Bus, bridge: Seen) -> None:
     other = Seen(bus)
-    for each in (bridge, other):
-        each.subscribers.add("cmd")
-        each.step()
+    for entry in (bridge, other):
+        entry.subscribers.add("cmd")
+        entry.step()
     bridge.put("cmd", Twist())
     bridge.step()
     assert bridge.sent == []
@@ -122,25 +122,25 @@ def test_a_message_of_the_wrong_type_is_reported(bus: Bus, bridge: Seen) -> None
 
 
 def test_a_flood_drops_the_oldest_and_is_reported_few_times(bus: Bus, bridge: Seen) -> None:
-    found: list[float] = []
-    bus.subscribe("cmd", Float64, lambda message: found.append(message.data))
+    actual: list[float] = []
+    bus.subscribe("cmd", Float64, lambda message: actual.append(message.data))
     for i in range(100_000):
         bridge.put("cmd", Float64(data=float(i)))
     bridge.step()
-    assert found == [float(i) for i in range(99_000, 100_000)]
+    assert actual == [float(i) for i in range(99_000, 100_000)]
     assert len(bridge.printed) == MAX_LINES_OF_A_KIND + 1
     assert "dropped" in bridge.printed[0]
     assert "not shown" in bridge.printed[-1]
 
 
 def test_a_log_of_too_many_kinds_says_so_once_and_keeps_those_it_knows() -> None:
-    printed: list[str] = []
-    log = Log("test", printed.append)
+    lines: list[str] = []
+    log = Log("test", lines.append)
     for i in range(MAX_KINDS + 10):
         log.report(f"event {i}")
     log.report("event 0")
-    assert len(printed) == MAX_KINDS + 2
-    assert printed[-2:] == [
+    assert len(lines) == MAX_KINDS + 2
+    assert lines[-2:] == [
         f"uwsim: test: more than {MAX_KINDS} kinds of events; others are not shown",
         "uwsim: test: event 0",
     ]
@@ -209,22 +209,22 @@ def test_a_queue_keeps_the_newest_within_its_bytes() -> None:
 
 def test_a_queue_that_is_closed_releases_who_waits() -> None:
     queue: LatestQueue[int] = LatestQueue()
-    found: list[int | None] = []
-    waiting = threading.Thread(target=lambda: found.append(queue.get()))
+    actual: list[int | None] = []
+    waiting = threading.Thread(target=lambda: actual.append(queue.get()))
     waiting.start()
     queue.close()
     waiting.join(timeout=60)
-    assert found == [None]
+    assert actual == [None]
     assert queue.put(1) == 0
 
 
 def test_images_are_bounded_by_their_bytes(bus: Bus, bridge: Seen) -> None:
     from uwsim.messages import Image
 
-    found: list[object] = []
-    bus.subscribe("image", Image, found.append)
+    actual: list[object] = []
+    bus.subscribe("image", Image, actual.append)
     pixels = np.zeros(2**20, np.uint8)
     for _ in range(200):
         bridge.put("image", Image(data=pixels))
     bridge.step()
-    assert 50 <= len(found) <= 64
+    assert 50 <= len(actual) <= 64

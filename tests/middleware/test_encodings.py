@@ -58,11 +58,15 @@ def test_an_empty_request_is_one_byte_in_ros_2_and_none_in_ros_1() -> None:
 
 
 def test_the_header_of_ros_1_has_a_sequence_number() -> None:
-    found = get_typestore(Stores.ROS1_NOETIC).deserialize_ros1(
+    actual = get_typestore(Stores.ROS1_NOETIC).deserialize_ros1(
         to_ros1(info(), seq=7), "sensor_msgs/msg/CameraInfo"
     )
-    assert (found.header.seq, found.header.stamp.sec, found.header.frame_id) == (7, 2, "bowtech1")
-    assert found.K.tolist() == list(range(9))
+    assert (actual.header.seq, actual.header.stamp.sec, actual.header.frame_id) == (
+        7,
+        2,
+        "bowtech1",
+    )
+    assert actual.K.tolist() == list(range(9))
 
 
 def test_a_message_of_ros_1_loses_nothing_that_ros_2_has() -> None:

@@ -95,10 +95,10 @@ def test_fields_may_be_left_out_or_named_as_in_ros_1() -> None:
     ],
 )
 def test_what_does_not_fit_is_one_line(cls: type, values: object, line: str) -> None:
-    with pytest.raises(BadMessage) as caught:
+    with pytest.raises(BadMessage) as excinfo:
         from_json(cls, values)
-    assert line in str(caught.value)
-    assert "\n" not in str(caught.value)
+    assert line in str(excinfo.value)
+    assert "\n" not in str(excinfo.value)
 
 
 @pytest.mark.parametrize("text", ["1e309", "-1e309", "1" * 400, "-" + "1" * 400, "Infinity"])
@@ -115,9 +115,9 @@ def test_what_does_not_fit_is_one_line(cls: type, values: object, line: str) -> 
     ],
 )
 def test_a_number_beyond_its_type_is_one_line(cls: type, shape: str, text: str) -> None:
-    with pytest.raises(BadMessage, match="expected") as caught:
+    with pytest.raises(BadMessage, match="expected") as excinfo:
         from_json(cls, json.loads(shape % text))
-    assert "\n" not in str(caught.value)
+    assert "\n" not in str(excinfo.value)
 
 
 @pytest.mark.parametrize("value", [1e39, -3.5e38, 10**39])

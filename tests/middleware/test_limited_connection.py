@@ -68,10 +68,10 @@ def test_connections_that_say_nothing_take_few_open_files(kind: str) -> None:
         made = [
             silent.enter_context(socket.create_connection(("127.0.0.1", port))) for _ in range(n)
         ]
-        for each in made[: n - N_WAITING]:  # the oldest are broken off
-            each.settimeout(60.0)
+        for entry in made[: n - N_WAITING]:  # the oldest are broken off
+            entry.settimeout(60.0)
             with contextlib.suppress(ConnectionResetError):
-                assert each.recv(1) == b""
+                assert entry.recv(1) == b""
         assert len(limits._open_connections) <= N_WAITING
         with connect(address, open_timeout=60.0) as client:  # there is room for who asks
             assert client.ping().wait(60.0)
@@ -84,9 +84,9 @@ def test_pings_beyond_the_share_wait(impatient: WebBridge, monkeypatch: pytest.M
 
     def counted(connection: LimitedConnection) -> float:
         assert pause.fget is not None
-        found: float = pause.fget(connection)
-        pauses.extend([found] if found else [])
-        return found
+        actual: float = pause.fget(connection)
+        pauses.extend([actual] if actual else [])
+        return actual
 
     monkeypatch.setattr(LimitedConnection, "pause", property(counted))
     with connect(f"ws://127.0.0.1:{impatient.port}", ping_interval=None) as client:

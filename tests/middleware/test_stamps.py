@@ -14,15 +14,15 @@ def test_the_clock_begins_at_one_second() -> None:
 
 def test_stamps_go_out_later_and_come_back_as_they_were() -> None:
     message = messages.Odometry(header=header(2.25, "world"))
-    sent = to_ros_time(message)
-    assert sent.header.stamp == Time(sec=3, nanosec=250_000_000)
+    sent_messages = to_ros_time(message)
+    assert sent_messages.header.stamp == Time(sec=3, nanosec=250_000_000)
     assert message.header.stamp.sec == 2
-    assert to_sim_time(sent).header == message.header
+    assert to_sim_time(sent_messages).header == message.header
 
 
 def test_every_stamp_of_a_list_is_moved() -> None:
     message = TFMessage(transforms=[TransformStamped(header=header(float(i))) for i in range(3)])
-    assert [each.header.stamp.sec for each in to_ros_time(message).transforms] == [1, 2, 3]
+    assert [entry.header.stamp.sec for entry in to_ros_time(message).transforms] == [1, 2, 3]
 
 
 def test_a_stamp_that_was_not_set_stays_so_on_its_way_in() -> None:

@@ -56,8 +56,8 @@ print(name, "moved")
 
 @pytest.fixture
 def hosts() -> Iterator[tuple[Host, Host]]:
-    with two_hosts() as found:
-        yield found
+    with two_hosts() as actual:
+        yield actual
 
 
 def simulation(host: Host, *options: str, **more: str) -> None:
@@ -67,51 +67,59 @@ def simulation(host: Host, *options: str, **more: str) -> None:
         env={**os.environ, **more},
     )
     assert run.stderr is not None
-    said = ""
-    while not ("listening at" in said or "one was started at" in said):
+    text = ""
+    while not ("listening at" in text or "one was started at" in text):
         line = run.stderr.readline()
-        assert line, said
-        said += line
+        assert line, text
+        text += line
 
 
 @needs_ros1
 def test_two_nodes_of_ros_1_on_another_host_drive_a_vehicle_each(
     hosts: tuple[Host, Host], tmp_path: Path
 ) -> None:
-    here, there = hosts
-    master = f"http://{here.address}:11311"
-    simulation(here, "--ros1", "--ros1-host", here.address, ROS_MASTER_URI=master)
-    kept = {k: v for k, v in os.environ.items() if not k.startswith(("PYTHON", "VIRTUAL"))}
-    own = {"ROS_MASTER_URI": master, "ROS_IP": there.address, "ROS_LOG_DIR": str(tmp_path)}
-    environment = {**kept, **own}
+    local_host, remote_host = hosts
+    master = f"http://{local_host.address}:11311"
+    simulation(local_host, "--ros1", "--ros1-host", local_host.address, ROS_MASTER_URI=master)
+    variables = {k: v for k, v in os.environ.items() if not k.startswith(("PYTHON", "VIRTUAL"))}
+    ros_variables = {
+        "ROS_MASTER_URI": master,
+        "ROS_IP": remote_host.address,
+        "ROS_LOG_DIR": str(tmp_path),
+    }
+    environment = {**variables, **ros_variables}
     twist = str(EXAMPLES / "set_vehicle_twist.py")
-    watcher = there.start(PYTHON, "-c", ROSPY_WATCHER, env=environment)
+    watcher = remote_host.start(PYTHON, "-c", ROSPY_WATCHER, env=environment)
     for name, speed in (("first", "0.3"), ("second", "-0.3")):
         command = (PYTHON, twist, f"/{name}/twist", speed, "0", "0", "0", "0", "0")
-        there.start(*command, env=environment)
-    printed, errors = watcher.communicate(timeout=LIMIT)
-    assert printed == "both moved\n", errors
+        remote_host.start(*command, env=environment)
+    lines, errors = watcher.communicate(timeout=LIMIT)
+    assert lines == "both moved\n", errors
 
 
 def test_two_web_clients_on_another_host_drive_a_vehicle_each(hosts: tuple[Host, Host]) -> None:
-    here, there = hosts
-    simulation(here, "--web", "9090", "--web-host", here.address, UWSIM_WEB_TOKEN="secret")
-    uri = f"ws://{here.address}:9090/?token=secret"
+    local_host, remote_host = hosts
+    simulation(
+        local_host, "--web", "9090", "--web-host", local_host.address, UWSIM_WEB_TOKEN="secret"
+    )
+    uri = f"ws://{local_host.address}:9090/?token=secret"
     drivers = [
-        there.start(sys.executable, "-c", WEB_DRIVER, uri, name, speed)
+        remote_host.start(sys.executable, "-c", WEB_DRIVER, uri, name, speed)
         for name, speed in (("first", "0.3"), ("second", "-0.3"))
     ]
     for name, driver in zip(("first", "second"), drivers, strict=True):
-        printed, errors = driver.communicate(timeout=LIMIT)
-        assert printed == f"{name} moved\n", errors
+        lines, errors = driver.communicate(timeout=LIMIT)
+        assert lines == f"{name} moved\n", errors
 
 
 def test_another_host_without_the_token_is_refused(hosts: tuple[Host, Host]) -> None:
-    here, there = hosts
-    simulation(here, "--web", "9090", "--web-host", here.address, UWSIM_WEB_TOKEN="secret")
-    driver = there.start(
-        sys.executable, "-c", WEB_DRIVER, f"ws://{here.address}:9090", "first", "1"
+    local_host, remote_host = hosts
+    simulation(
+        local_host, "--web", "9090", "--web-host", local_host.address, UWSIM_WEB_TOKEN="secret"
     )
-    printed, errors = driver.communicate(timeout=LIMIT)
-    assert printed == ""
+    driver = remote_host.start(
+        sys.executable, "-c", WEB_DRIVER, f"ws://{local_host.address}:9090", "first", "1"
+    )
+    lines, errors = driver.communicate(timeout=LIMIT)
+    assert lines == ""
     assert "HTTP 401" in errors

@@ -32,25 +32,25 @@ MESSAGES = [each for each in TYPES if "/msg/" in getattr(each, "__msgtype__", ""
 
 @pytest.mark.parametrize("kind", MD5, ids=lambda kind: kind.__name__)
 def test_the_md5_sum_is_that_of_ros_1(kind: type) -> None:
-    found = wire_type(kind)
-    assert found is not None
-    assert found.md5 == MD5[kind]
+    actual = wire_type(kind)
+    assert actual is not None
+    assert actual.md5 == MD5[kind]
 
 
 @pytest.mark.parametrize("kind", HASHES, ids=lambda kind: kind.__name__)
 def test_the_hash_is_that_of_ros_2(kind: type) -> None:
-    found = wire_type(kind)
-    assert found is not None
-    assert found.type_hash == HASHES[kind]
+    actual = wire_type(kind)
+    assert actual is not None
+    assert actual.type_hash == HASHES[kind]
 
 
 @pytest.mark.parametrize("kind", MESSAGES, ids=lambda kind: kind.__name__)
 def test_every_message_has_names_and_a_definition(kind: type) -> None:
-    found = wire_type(kind)
-    assert found is not None
-    assert found.ros2_name.replace("/msg/", "/") == found.ros1_name
-    assert found.ros2_definition
-    assert bool(found.ros1_definition) == (kind not in (messages.MeshFile, messages.UVCoordinate))
+    actual = wire_type(kind)
+    assert actual is not None
+    assert actual.ros2_name.replace("/msg/", "/") == actual.ros1_name
+    assert actual.ros2_definition
+    assert bool(actual.ros1_definition) == (kind not in (messages.MeshFile, messages.UVCoordinate))
 
 
 def test_a_class_has_both_names() -> None:
@@ -80,12 +80,12 @@ def test_a_class_without_a_definition_has_no_type() -> None:
     ],
 )
 def test_a_service_has_its_name_and_sum_in_ros_1(of: messages.Service, name: str, md5: str) -> None:
-    found = wire_service(of)
-    assert (found.ros1_name, found.md5) == (name, md5)
+    actual = wire_service(of)
+    assert (actual.ros1_name, actual.md5) == (name, md5)
     assert service(name) is of
     assert service(of.name) is of
     assert service_of(of.request) is of
-    assert found.request.ros1_name == f"{name}Request"
+    assert actual.request.ros1_name == f"{name}Request"
 
 
 def test_an_unknown_service_names_the_nearest() -> None:

@@ -28,7 +28,7 @@ TIMESTEP = 0.1
 ITS, OTHER = "client 127.0.0.1:4001", "client 127.0.0.1:4002"
 
 
-class Outside(Bridge):
+class FakeBridge(Bridge):
     """A transport that tells senders apart; what it sends is kept."""
 
     def __init__(self, bus: Bus) -> None:
@@ -45,16 +45,16 @@ class Outside(Bridge):
 
     def send(self, topic: str, message: object) -> None:
         if topic == TICK and isinstance(message, String):
-            self.ticks.append(said := json.loads(message.data))
-            if "tick" in said:
-                self.answer(said)
+            self.ticks.append(text := json.loads(message.data))
+            if "tick" in text:
+                self.answer(text)
 
-    def answer(self, said: dict[str, Any]) -> None:
+    def answer(self, text: dict[str, Any]) -> None:
         """The program acknowledges; before that, it and the other publish."""
         for sender, value in ((OTHER, 99.0), (ITS, 1.0), (OTHER, 99.0)):
             self.put("estimate", Float64(data=value), sender)
-        self.says(ACK, sender=OTHER, tick=said["tick"], published={"/estimate": 3})
-        self.says(ACK, sender=ITS, tick=said["tick"], published={"/estimate": 1})
+        self.says(ACK, sender=OTHER, tick=text["tick"], published={"/estimate": 3})
+        self.says(ACK, sender=ITS, tick=text["tick"], published={"/estimate": 1})
 
     def says(self, topic: str, *, sender: str, **content: Any) -> None:
         self.put(topic, String(data=json.dumps({"client": "a", **content})), sender)
@@ -77,7 +77,7 @@ class Run:
         self.status = self.bus.inbox("status", String)
         self.n_started = 0
         self.bus.services.serve("startBench", Empty, self._start)
-        self.outside = Outside(self.bus)
+        self.outside = FakeBridge(self.bus)
         spec = ClientSpec(
             name="a",
             connection=ConnectionSpec(web=WebOptions(port=0)),
@@ -150,7 +150,7 @@ def test_answers_from_before_the_join_are_dropped(sender: str) -> None:
     run.outside.says(ACK, sender=sender, tick=1)
     run.outside.says(ACK, sender=sender, call=1, values={})
     run.outside.says(JOIN, sender=ITS, topics=["/depth"], next=0.0)
-    run.outside.answer = lambda said: None  # type: ignore[method-assign]
+    run.outside.answer = lambda text: None  # type: ignore[method-assign]
     run.start()
     run.outside.wait_for(lambda: False, 0.01)
     run.client._limit = 0.05
@@ -199,9 +199,9 @@ def test_a_join_that_is_refused_is_told_to_who_sent_it_alone(join: dict[str, Any
     run.outside.says(JOIN, sender=OTHER, id="others", next=0.0, **join)
     run.outside.says(JOIN, sender=ITS, id="its", topics=["/depth"], secret="opensesame", next=0.0)
     run.start()
-    ((sender, said),) = run.outside.alone
-    assert (sender, said["client"], said["id"]) == (OTHER, "a", "others")
-    assert "its join was refused" in said["error"]
+    ((sender, text),) = run.outside.alone
+    assert (sender, text["client"], text["id"]) == (OTHER, "a", "others")
+    assert "its join was refused" in text["error"]
     assert not any("error" in tick for tick in run.outside.ticks)
 
 
@@ -215,7 +215,7 @@ def test_with_a_secret_nobody_else_can_join() -> None:
 
 def test_a_program_that_is_known_by_an_id_alone_is_not_answered_for_without_it() -> None:
     run = Run()
-    run.outside.answer = lambda said: None  # type: ignore[method-assign]
+    run.outside.answer = lambda text: None  # type: ignore[method-assign]
     run.outside.says(JOIN, sender="", topics=["/depth"], next=0.0, id="7f")
     run.start()
     run.client._limit = 0.05
@@ -282,6 +282,6 @@ def test_a_flood_of_senders_and_topics_is_counted_without_growing() -> None:
     admission.admit(ITS)
     for n in range(10 * MAX_KINDS):
         assert not admission.may_publish(f"t{n % 333}", f"client {n}", lambda: None, 8)
-    refused = admission.take_refusals()
-    assert sum(n for _, _, n in refused) == 10 * MAX_KINDS
-    assert len(refused) == len(lines) == MAX_KINDS + 1
+    refusals = admission.take_refusals()
+    assert sum(n for _, _, n in refusals) == 10 * MAX_KINDS
+    assert len(refusals) == len(lines) == MAX_KINDS + 1

@@ -26,10 +26,10 @@ from uwsim.middleware.log import Log
 from uwsim.simulation import InProcessNode
 
 TIMESTEP = 0.1
-Answer = Callable[["Outside", dict[str, Any]], None]
+Answer = Callable[["FakeBridge", dict[str, Any]], None]
 
 
-class Outside(Bridge):
+class FakeBridge(Bridge):
     """A transport whose clients answer ticks as they are sent."""
 
     def __init__(self, bus: Bus, answer: Answer) -> None:
@@ -48,12 +48,12 @@ class Outside(Bridge):
 
     def send(self, topic: str, message: object) -> None:
         if topic == TICK and isinstance(message, String):
-            said = json.loads(message.data)
-            if "error" in said:
-                self.errors.append(said["error"])
+            text = json.loads(message.data)
+            if "error" in text:
+                self.errors.append(text["error"])
                 return
-            self.ticks.append(said)
-            self.answer(self, said)
+            self.ticks.append(text)
+            self.answer(self, text)
 
     def says(self, topic: str, *, sender: str = "", **content: Any) -> None:
         self.put(topic, String(data=json.dumps(content)), sender)
@@ -62,22 +62,22 @@ class Outside(Bridge):
         self.told.append((sender, text))
 
 
-def echoes(outside: Outside, tick: dict[str, Any]) -> None:
+def echoes(bridge: FakeBridge, tick: dict[str, Any]) -> None:
     """Answer with the time, and acknowledge."""
-    outside.put("answer", Float64(data=tick["time"]))
-    outside.says(ACK, client=tick["client"], tick=tick["tick"])
+    bridge.put("answer", Float64(data=tick["time"]))
+    bridge.says(ACK, client=tick["client"], tick=tick["tick"])
 
 
-def is_silent(outside: Outside, tick: dict[str, Any]) -> None:
+def is_silent(bridge: FakeBridge, tick: dict[str, Any]) -> None:
     """Do nothing."""
 
 
 def started(
-    bus: Bus, outside: Outside, *names: str, limit: float = 60.0, **join: Any
+    bus: Bus, bridge: FakeBridge, *names: str, limit: float = 60.0, **join: Any
 ) -> list[InProcessNode]:
-    clients = lockstep_clients([outside], names, timestep=TIMESTEP, limit=limit)
+    clients = lockstep_clients([bridge], names, timestep=TIMESTEP, limit=limit)
     for name in names:
-        outside.says(JOIN, client=name, topics=["/depth"], **join)
+        bridge.says(JOIN, client=name, topics=["/depth"], **join)
     return [node_of(bus, client) for client in clients]
 
 
@@ -100,8 +100,8 @@ def step(bus: Bus, nodes: list[InProcessNode]) -> None:
 
 def test_a_client_is_ticked_in_steps_with_messages_and_answers_in_the_same_step() -> None:
     bus = Bus()
-    outside = Outside(bus, echoes)
-    nodes = started(bus, outside, "a")
+    bridge = FakeBridge(bus, echoes)
+    nodes = started(bus, bridge, "a")
     answers = bus.inbox("answer", Float64)
     say = bus.publisher("depth", Float64)
     for n in range(6):
@@ -110,31 +110,31 @@ def test_a_client_is_ticked_in_steps_with_messages_and_answers_in_the_same_step(
             say(Float64(data=2.0))
         step(bus, nodes)
         assert len(answers.take()) == (n % 3 == 2)
-    assert [tick["tick"] for tick in outside.ticks] == [1, 2]
-    assert [tick["sent"] for tick in outside.ticks] == [{"/depth": 2}, {"/depth": 4}]
-    assert [tick["time"] for tick in outside.ticks] == pytest.approx([0.3, 0.6])
+    assert [tick["tick"] for tick in bridge.ticks] == [1, 2]
+    assert [tick["sent"] for tick in bridge.ticks] == [{"/depth": 2}, {"/depth": 4}]
+    assert [tick["time"] for tick in bridge.ticks] == pytest.approx([0.3, 0.6])
 
 
 def test_a_client_names_when_its_timers_are_due() -> None:
     bus = Bus()
 
-    def every_third(outside: Outside, tick: dict[str, Any]) -> None:
-        outside.says(ACK, client="a", tick=tick["tick"], next=tick["time"] + 3 * TIMESTEP)
+    def every_third(bridge: FakeBridge, tick: dict[str, Any]) -> None:
+        bridge.says(ACK, client="a", tick=tick["tick"], next=tick["time"] + 3 * TIMESTEP)
 
-    outside = Outside(bus, every_third)
-    nodes = started(bus, outside, "a", next=0.2)
+    bridge = FakeBridge(bus, every_third)
+    nodes = started(bus, bridge, "a", next=0.2)
     for _ in range(9):
         step(bus, nodes)
-    assert [round(tick["time"] / TIMESTEP) for tick in outside.ticks] == [2, 5, 8]
+    assert [round(tick["time"] / TIMESTEP) for tick in bridge.ticks] == [2, 5, 8]
 
 
 def test_several_clients_answer_in_the_order_of_their_names() -> None:
     bus = Bus()
-    outside = Outside(bus, echoes)
-    nodes = started(bus, outside, "b", "a")
+    bridge = FakeBridge(bus, echoes)
+    nodes = started(bus, bridge, "b", "a")
     bus.publisher("depth", Float64)(Float64(data=1.0))
     step(bus, nodes)
-    assert [tick["client"] for tick in outside.ticks] == ["a", "b"]
+    assert [tick["client"] for tick in bridge.ticks] == ["a", "b"]
 
 
 @pytest.mark.parametrize("slow", ["a", "b"])
@@ -144,10 +144,10 @@ def test_answers_of_several_clients_keep_the_order_of_their_names_whoever_is_slo
     bus = Bus()
     threads = []
 
-    def names_itself(outside: Outside, tick: dict[str, Any]) -> None:
+    def names_itself(bridge: FakeBridge, tick: dict[str, Any]) -> None:
         def answer() -> None:
-            outside.put("answer", String(data=tick["client"]))
-            outside.says(ACK, client=tick["client"], tick=tick["tick"])
+            bridge.put("answer", String(data=tick["client"]))
+            bridge.says(ACK, client=tick["client"], tick=tick["tick"])
 
         if tick["client"] != slow:
             answer()
@@ -155,8 +155,8 @@ def test_answers_of_several_clients_keep_the_order_of_their_names_whoever_is_slo
         threads.append(threading.Thread(target=answer))
         threads[-1].start()
 
-    outside = Outside(bus, names_itself)
-    nodes = started(bus, outside, "b", "a")
+    bridge = FakeBridge(bus, names_itself)
+    nodes = started(bus, bridge, "b", "a")
     answers = bus.inbox("answer", String)
     say = bus.publisher("depth", Float64)
     for _ in range(3):
@@ -170,13 +170,13 @@ def test_answers_of_several_clients_keep_the_order_of_their_names_whoever_is_slo
 def test_what_is_published_waits_for_the_ack_and_for_all_that_it_announces() -> None:
     bus = Bus()
 
-    def announces_first(outside: Outside, tick: dict[str, Any]) -> None:
-        outside.says(ACK, client="a", tick=tick["tick"], published={"/answer": 2})
+    def announces_first(bridge: FakeBridge, tick: dict[str, Any]) -> None:
+        bridge.says(ACK, client="a", tick=tick["tick"], published={"/answer": 2})
         for value in (1.0, 2.0):
-            outside.put("answer", Float64(data=value))
+            bridge.put("answer", Float64(data=value))
 
-    outside = Outside(bus, announces_first)
-    nodes = started(bus, outside, "a")
+    bridge = FakeBridge(bus, announces_first)
+    nodes = started(bus, bridge, "a")
     answers = bus.inbox("answer", Float64)
     bus.publisher("depth", Float64)(Float64(data=1.0))
     step(bus, nodes)
@@ -186,38 +186,38 @@ def test_what_is_published_waits_for_the_ack_and_for_all_that_it_announces() -> 
 def test_acks_of_other_ticks_and_nonsense_do_not_count() -> None:
     bus = Bus()
 
-    def babbles(outside: Outside, tick: dict[str, Any]) -> None:
-        outside.says(ACK, client="a", tick=99)
-        outside.says(ACK, client="stranger", tick=tick["tick"])
+    def babbles(bridge: FakeBridge, tick: dict[str, Any]) -> None:
+        bridge.says(ACK, client="a", tick=99)
+        bridge.says(ACK, client="stranger", tick=tick["tick"])
         for text in ("", "[1]", "[" * 100_000, '{"client": {}}'):
-            outside.put(ACK, String(data=text))
-        outside.put(ACK, Float64(data=1.0))
-        echoes(outside, tick)
+            bridge.put(ACK, String(data=text))
+        bridge.put(ACK, Float64(data=1.0))
+        echoes(bridge, tick)
 
-    outside = Outside(bus, babbles)
-    nodes = started(bus, outside, "a")
+    bridge = FakeBridge(bus, babbles)
+    nodes = started(bus, bridge, "a")
     bus.publisher("depth", Float64)(Float64(data=1.0))
     step(bus, nodes)
-    assert len(outside.ticks) == 1
+    assert len(bridge.ticks) == 1
 
 
 def test_a_client_offers_a_service_by_the_topics_of_lock_step() -> None:
     bus = Bus()
 
-    def replies(outside: Outside, tick: dict[str, Any]) -> None:
+    def replies(bridge: FakeBridge, tick: dict[str, Any]) -> None:
         if "call" in tick:
             assert tick["args"] == {"groundTruth": [1.5, 0.25]}
-            outside.says(ACK, client="a", call=99, values={"nonsense": 1})
-            outside.says(ACK, client="a", call=tick["call"], values={}, published={"/answer": 1})
-            outside.put("answer", Float64(data=7.0))
+            bridge.says(ACK, client="a", call=99, values={"nonsense": 1})
+            bridge.says(ACK, client="a", call=tick["call"], values={}, published={"/answer": 1})
+            bridge.put("answer", Float64(data=7.0))
 
-    outside = Outside(bus, replies)
+    bridge = FakeBridge(bus, replies)
     kind = "underwater_sensor_msgs/srv/GTpublish"
-    nodes = started(bus, outside, "a", services={"/autoInit": kind})
+    nodes = started(bus, bridge, "a", services={"/autoInit": kind})
     answers = bus.inbox("answer", Float64)
     truth = np.array([1.5, 0.25], np.float32)
     assert bus.services.call("autoInit", GTpublish(groundTruth=truth)) == GTpublishResponse()
-    outside.step()
+    bridge.step()
     step(bus, nodes)
     assert [message.data for message in answers.take()] == [7.0]
 
@@ -226,62 +226,62 @@ def test_a_service_that_is_not_answered_ends_the_run_and_a_wrong_answer_is_an_er
     bus = Bus()
     kind = "underwater_sensor_msgs/srv/GTpublish"
     request = GTpublish(groundTruth=np.zeros(8, np.float32))
-    started(bus, Outside(bus, is_silent), "a", limit=0.01, services={"/autoInit": kind})
+    started(bus, FakeBridge(bus, is_silent), "a", limit=0.01, services={"/autoInit": kind})
     with pytest.raises(ClientLost, match=r"'a' did not answer the call of /autoInit within 0.01 s"):
         bus.services.call("autoInit", request)
 
-    def wrong(outside: Outside, tick: dict[str, Any]) -> None:
-        outside.says(ACK, client="b", call=tick["call"], values={"nonsense": 1})
+    def wrong(bridge: FakeBridge, tick: dict[str, Any]) -> None:
+        bridge.says(ACK, client="b", call=tick["call"], values={"nonsense": 1})
 
-    (node,) = started(bus, Outside(bus, wrong), "b", services={"/other": kind})
+    (node,) = started(bus, FakeBridge(bus, wrong), "b", services={"/other": kind})
     assert bus.services.call("other", request) is None
     assert "Client 'b': service /other: " in str(node.error)
 
 
 def test_topics_that_a_client_publishes_itself_are_not_waited_for() -> None:
     bus = Bus()
-    outside = Outside(bus, is_silent)
-    outside.traits = TransportTraits(needs_discovery=True)  # type: ignore[misc]
+    bridge = FakeBridge(bus, is_silent)
+    bridge.traits = TransportTraits(needs_discovery=True)  # type: ignore[misc]
     for topic in (TICK, "depth"):  # what it reads of others
-        outside.subscribers.add(topic)
-    (client,) = lockstep_clients([outside], ["a"], timestep=TIMESTEP, limit=60.0)
-    own = {"/mine": "std_msgs/Float64"}
-    outside.says(JOIN, client="a", topics=["/depth", "/mine"], publishes=own)
+        bridge.subscribers.add(topic)
+    (client,) = lockstep_clients([bridge], ["a"], timestep=TIMESTEP, limit=60.0)
+    own_names = {"/mine": "std_msgs/Float64"}
+    bridge.says(JOIN, client="a", topics=["/depth", "/mine"], publishes=own_names)
     node_of(bus, client)
 
 
 def test_a_tick_says_in_which_order_the_messages_came() -> None:
     bus = Bus()
-    outside = Outside(bus, echoes)
-    (client,) = lockstep_clients([outside], ["a"], timestep=TIMESTEP, limit=60.0)
-    outside.says(JOIN, client="a", topics=["/depth", "/alarm"])
+    bridge = FakeBridge(bus, echoes)
+    (client,) = lockstep_clients([bridge], ["a"], timestep=TIMESTEP, limit=60.0)
+    bridge.says(JOIN, client="a", topics=["/depth", "/alarm"])
     nodes = [node_of(bus, client)]
     for topic in ("depth", "alarm", "depth"):
         bus.publisher(topic, Float64)(Float64(data=1.0))
     step(bus, nodes)
     bus.publisher("alarm", Float64)(Float64(data=1.0))
     step(bus, nodes)
-    orders = [tick["order"] for tick in outside.ticks]
+    orders = [tick["order"] for tick in bridge.ticks]
     assert orders == [["/depth", "/alarm", "/depth"], ["/alarm"]]
 
 
 def test_a_service_that_nobody_offers_is_reported_and_the_run_goes_on() -> None:
     bus = Bus()
 
-    def calls(outside: Outside, tick: dict[str, Any]) -> None:
-        outside.says(ACK, client="a", tick=tick["tick"], calls=["startBench"])
+    def calls(bridge: FakeBridge, tick: dict[str, Any]) -> None:
+        bridge.says(ACK, client="a", tick=tick["tick"], calls=["startBench"])
 
-    outside = Outside(bus, calls)
-    nodes = started(bus, outside, "a")
+    bridge = FakeBridge(bus, calls)
+    nodes = started(bus, bridge, "a")
     bus.publisher("depth", Float64)(Float64(data=1.0))
     step(bus, nodes)
-    assert any("startBench: nobody offers it" in line for line in outside.lines)
+    assert any("startBench: nobody offers it" in line for line in bridge.lines)
 
 
 def test_a_client_that_does_not_answer_ends_the_run() -> None:
     bus = Bus()
-    outside = Outside(bus, is_silent)
-    nodes = started(bus, outside, "a", limit=0.01)
+    bridge = FakeBridge(bus, is_silent)
+    nodes = started(bus, bridge, "a", limit=0.01)
     bus.publisher("depth", Float64)(Float64(data=1.0))
     with pytest.raises(ClientLost, match=r"'a' did not answer the tick at 0.1 s within 0.01 s"):
         step(bus, nodes)
@@ -289,8 +289,8 @@ def test_a_client_that_does_not_answer_ends_the_run() -> None:
 
 def test_a_client_that_leaves_ends_the_run_at_once() -> None:
     bus = Bus()
-    outside = Outside(bus, lambda outside, tick: outside.says(JOIN, client="a", left=True))
-    nodes = started(bus, outside, "a")
+    bridge = FakeBridge(bus, lambda bridge, tick: bridge.says(JOIN, client="a", left=True))
+    nodes = started(bus, bridge, "a")
     bus.publisher("depth", Float64)(Float64(data=1.0))
     with pytest.raises(ClientLost, match="'a' left at"):
         step(bus, nodes)
@@ -298,11 +298,11 @@ def test_a_client_that_leaves_ends_the_run_at_once() -> None:
 
 def test_a_client_that_leaves_without_a_word_ends_the_run_where_that_is_seen() -> None:
     bus = Bus()
-    outside = Outside(bus, lambda outside, tick: outside.subscribers.remove(TICK))
-    outside.traits = TransportTraits(detects_leaving=True)  # type: ignore[misc]
-    outside.subscribers.add(TICK)
+    bridge = FakeBridge(bus, lambda bridge, tick: bridge.subscribers.remove(TICK))
+    bridge.traits = TransportTraits(detects_leaving=True)  # type: ignore[misc]
+    bridge.subscribers.add(TICK)
     kind = "underwater_sensor_msgs/srv/GTpublish"
-    nodes = started(bus, outside, "a", services={"/init": kind})
+    nodes = started(bus, bridge, "a", services={"/init": kind})
     bus.publisher("depth", Float64)(Float64(data=1.0))
     with pytest.raises(ClientLost, match=r"'a' left at 0\.1 s"):
         step(bus, nodes)
@@ -313,74 +313,74 @@ def test_a_client_that_leaves_without_a_word_ends_the_run_where_that_is_seen() -
 def test_a_program_is_told_from_another_by_its_id_where_the_transport_cannot_tell() -> None:
     bus = Bus()
 
-    def answer(outside: Outside, tick: dict[str, Any]) -> None:
-        outside.says(ACK, client="a", tick=tick["tick"], id="second", next="soon")
-        outside.says(ACK, client="a", tick=tick["tick"], id="first")
+    def answer(bridge: FakeBridge, tick: dict[str, Any]) -> None:
+        bridge.says(ACK, client="a", tick=tick["tick"], id="second", next="soon")
+        bridge.says(ACK, client="a", tick=tick["tick"], id="first")
 
-    outside = Outside(bus, answer)
-    nodes = started(bus, outside, "a", id="first")
+    bridge = FakeBridge(bus, answer)
+    nodes = started(bus, bridge, "a", id="first")
     bus.publisher("depth", Float64)(Float64(data=1.0))
     step(bus, nodes)
-    assert len(outside.ticks) == 1
-    assert "client 'a' is another program already; a second one is ignored" in outside.lines[0]
+    assert len(bridge.ticks) == 1
+    assert "client 'a' is another program already; a second one is ignored" in bridge.lines[0]
 
 
 def test_a_second_program_that_joined_and_left_before_the_start_changes_nothing() -> None:
     bus = Bus()
-    outside = Outside(bus, echoes)
-    (client,) = lockstep_clients([outside], ["a"], timestep=TIMESTEP, limit=60.0)
-    outside.says(JOIN, client="a", topics=["/depth"], sender="first")
-    outside.says(JOIN, client="a", topics=["/depth"], sender="second")
-    outside.says(JOIN, client="a", left=True, sender="second")
+    bridge = FakeBridge(bus, echoes)
+    (client,) = lockstep_clients([bridge], ["a"], timestep=TIMESTEP, limit=60.0)
+    bridge.says(JOIN, client="a", topics=["/depth"], sender="first")
+    bridge.says(JOIN, client="a", topics=["/depth"], sender="second")
+    bridge.says(JOIN, client="a", left=True, sender="second")
     nodes = [node_of(bus, client)]
     bus.publisher("depth", Float64)(Float64(data=1.0))
     step(bus, nodes)
-    assert len(outside.ticks) == 1
-    assert outside.told == [("second", "client 'a' is first already; second is ignored")]
+    assert len(bridge.ticks) == 1
+    assert bridge.told == [("second", "client 'a' is first already; second is ignored")]
 
 
 def test_a_flood_of_joins_and_answers_is_bounded_and_a_huge_one_is_told() -> None:
     bus = Bus()
 
-    def floods(outside: Outside, tick: dict[str, Any]) -> None:
+    def floods(bridge: FakeBridge, tick: dict[str, Any]) -> None:
         for n in range(10_000):
-            outside.says(ACK, client="a", tick=n)
-        outside.says(ACK, client="a", tick=1, id="x" * MAX_LENGTH)
+            bridge.says(ACK, client="a", tick=n)
+        bridge.says(ACK, client="a", tick=1, id="x" * MAX_LENGTH)
         assert len(client._acks) <= MAX_WAITING
-        outside.says(ACK, client="a", tick=tick["tick"])
+        bridge.says(ACK, client="a", tick=tick["tick"])
 
-    outside = Outside(bus, floods)
-    (client,) = lockstep_clients([outside], ["a"], timestep=TIMESTEP, limit=60.0)
+    bridge = FakeBridge(bus, floods)
+    (client,) = lockstep_clients([bridge], ["a"], timestep=TIMESTEP, limit=60.0)
     for _ in range(10_000):
-        outside.says(JOIN, client="a", topics=["/depth"])
+        bridge.says(JOIN, client="a", topics=["/depth"])
     assert len(client._joins) <= MAX_WAITING
     nodes = [node_of(bus, client)]
     bus.publisher("depth", Float64)(Float64(data=1.0))
     step(bus, nodes)
-    assert any("letters; at most 1048576 are read" in line for line in outside.lines)
+    assert any("letters; at most 1048576 are read" in line for line in bridge.lines)
 
 
 def test_a_program_that_left_before_the_start_gives_way_to_the_next_of_its_name() -> None:
     bus = Bus()
-    outside = Outside(bus, echoes)
-    (client,) = lockstep_clients([outside], ["a"], timestep=TIMESTEP, limit=60.0)
-    outside.says(JOIN, client="a", topics=["/nothing"], sender="first")
-    outside.says(JOIN, client="a", left=True, sender="first")
-    outside.says(JOIN, client="a", topics=["/depth"], sender="second")
+    bridge = FakeBridge(bus, echoes)
+    (client,) = lockstep_clients([bridge], ["a"], timestep=TIMESTEP, limit=60.0)
+    bridge.says(JOIN, client="a", topics=["/nothing"], sender="first")
+    bridge.says(JOIN, client="a", left=True, sender="first")
+    bridge.says(JOIN, client="a", topics=["/depth"], sender="second")
     nodes = [node_of(bus, client)]
     bus.publisher("depth", Float64)(Float64(data=1.0))
     step(bus, nodes)
-    assert len(outside.ticks) == 1
+    assert len(bridge.ticks) == 1
 
 
 def test_a_client_that_answers_itself_without_end_is_stopped() -> None:
     bus = Bus()
 
-    def asks_again(outside: Outside, tick: dict[str, Any]) -> None:
-        outside.put("depth", Float64(data=1.0))
-        outside.says(ACK, client="a", tick=tick["tick"])
+    def asks_again(bridge: FakeBridge, tick: dict[str, Any]) -> None:
+        bridge.put("depth", Float64(data=1.0))
+        bridge.says(ACK, client="a", tick=tick["tick"])
 
-    nodes = started(bus, Outside(bus, asks_again), "a")
+    nodes = started(bus, FakeBridge(bus, asks_again), "a")
     bus.publisher("depth", Float64)(Float64(data=1.0))
     with pytest.raises(ClientLost, match="without end"):
         step(bus, nodes)
@@ -416,26 +416,26 @@ JOINS: dict[str, tuple[dict[str, Any], str]] = {
 def test_a_join_that_is_wrong_is_refused_with_the_field_and_the_client_told(case: str) -> None:
     bus = Bus()
     bus.inbox("answer", Float64)
-    outside = Outside(bus, echoes)
-    (client,) = lockstep_clients([outside], ["a"], timestep=TIMESTEP, limit=60.0)
-    wrong, said = JOINS[case]
-    outside.says(JOIN, client="a", **{"topics": ["/depth"], **wrong}, sender="who")
-    outside.says(JOIN, client="a", topics=["/depth"])
+    bridge = FakeBridge(bus, echoes)
+    (client,) = lockstep_clients([bridge], ["a"], timestep=TIMESTEP, limit=60.0)
+    wrong, text = JOINS[case]
+    bridge.says(JOIN, client="a", **{"topics": ["/depth"], **wrong}, sender="who")
+    bridge.says(JOIN, client="a", topics=["/depth"])
     nodes = [node_of(bus, client)]
-    assert said in outside.errors[0]
-    assert outside.errors[0].startswith("its join was refused: ")
-    assert outside.told == [("who", f"client 'a': {outside.errors[0]}")]
-    assert outside.lines == [f"uwsim: test: client 'a' (who): {outside.errors[0]}"]
+    assert text in bridge.errors[0]
+    assert bridge.errors[0].startswith("its join was refused: ")
+    assert bridge.told == [("who", f"client 'a': {bridge.errors[0]}")]
+    assert bridge.lines == [f"uwsim: test: client 'a' (who): {bridge.errors[0]}"]
     bus.publisher("depth", Float64)(Float64(data=1.0))
     step(bus, nodes)
-    assert len(outside.ticks) == 1
+    assert len(bridge.ticks) == 1
 
 
 def test_a_run_whose_client_does_not_join_rightly_says_what_was_wrong() -> None:
     bus = Bus()
-    outside = Outside(bus, is_silent)
-    (client,) = lockstep_clients([outside], ["a"], timestep=TIMESTEP, limit=0.05)
-    outside.says(JOIN, client="a")
+    bridge = FakeBridge(bus, is_silent)
+    (client,) = lockstep_clients([bridge], ["a"], timestep=TIMESTEP, limit=0.05)
+    bridge.says(JOIN, client="a")
     with pytest.raises(NeverStarted, match="its join was refused: topics is missing; expected a l"):
         node_of(bus, client)
 
@@ -458,28 +458,28 @@ ANSWERS: dict[str, tuple[dict[str, Any], str]] = {
 @pytest.mark.parametrize("case", ANSWERS)
 def test_an_answer_that_is_wrong_ends_the_run_at_once_and_the_client_is_told(case: str) -> None:
     bus = Bus()
-    wrong, said = ANSWERS[case]
+    wrong, text = ANSWERS[case]
 
-    def answer(outside: Outside, tick: dict[str, Any]) -> None:
-        outside.says(ACK, client="a", **{"tick": tick["tick"], **wrong})
+    def answer(bridge: FakeBridge, tick: dict[str, Any]) -> None:
+        bridge.says(ACK, client="a", **{"tick": tick["tick"], **wrong})
 
-    outside = Outside(bus, answer)
-    nodes = started(bus, outside, "a")
+    bridge = FakeBridge(bus, answer)
+    nodes = started(bus, bridge, "a")
     bus.publisher("depth", Float64)(Float64(data=1.0))
-    with pytest.raises(ClientLost) as raised:
+    with pytest.raises(ClientLost) as excinfo:
         step(bus, nodes)
-    assert f"Client 'a': at 0.1 s its answer was refused: {said}" in str(raised.value)
-    assert outside.errors[0].startswith(f"its answer was refused: {said}")
+    assert f"Client 'a': at 0.1 s its answer was refused: {text}" in str(excinfo.value)
+    assert bridge.errors[0].startswith(f"its answer was refused: {text}")
 
 
 def test_an_answer_to_a_call_that_is_wrong_ends_the_run() -> None:
     bus = Bus()
 
-    def answer(outside: Outside, tick: dict[str, Any]) -> None:
-        outside.says(ACK, client="a", call=tick["call"], values=[1])
+    def answer(bridge: FakeBridge, tick: dict[str, Any]) -> None:
+        bridge.says(ACK, client="a", call=tick["call"], values=[1])
 
-    outside = Outside(bus, answer)
-    started(bus, outside, "a", services={"/init": "underwater_sensor_msgs/srv/GTpublish"})
+    bridge = FakeBridge(bus, answer)
+    started(bus, bridge, "a", services={"/init": "underwater_sensor_msgs/srv/GTpublish"})
     with pytest.raises(
         ClientLost, match=r"call of /init was refused: values is \[1\]; expected an"
     ):
@@ -489,42 +489,42 @@ def test_an_answer_to_a_call_that_is_wrong_ends_the_run() -> None:
 def test_a_wish_may_lie_beyond_all_times() -> None:
     bus = Bus()
 
-    def answer(outside: Outside, tick: dict[str, Any]) -> None:
-        outside.says(ACK, client="a", tick=tick["tick"], next=float("inf"))
+    def answer(bridge: FakeBridge, tick: dict[str, Any]) -> None:
+        bridge.says(ACK, client="a", tick=tick["tick"], next=float("inf"))
 
-    outside = Outside(bus, answer)
-    nodes = started(bus, outside, "a", next=10**400)
+    bridge = FakeBridge(bus, answer)
+    nodes = started(bus, bridge, "a", next=10**400)
     bus.publisher("depth", Float64)(Float64(data=1.0))
     for _ in range(3):
         step(bus, nodes)
-    assert len(outside.ticks) == 1
+    assert len(bridge.ticks) == 1
 
 
 def test_another_program_of_the_same_name_is_told_and_changes_nothing() -> None:
     bus = Bus()
 
-    def answer(outside: Outside, tick: dict[str, Any]) -> None:
-        outside.says(JOIN, client="a", topics=["/depth"], sender="second")
-        outside.says(ACK, client="a", tick=99, sender="second")
-        outside.says(JOIN, client="a", left=True, sender="second")
-        outside.says(ACK, client="a", tick=tick["tick"], sender="first")
+    def answer(bridge: FakeBridge, tick: dict[str, Any]) -> None:
+        bridge.says(JOIN, client="a", topics=["/depth"], sender="second")
+        bridge.says(ACK, client="a", tick=99, sender="second")
+        bridge.says(JOIN, client="a", left=True, sender="second")
+        bridge.says(ACK, client="a", tick=tick["tick"], sender="first")
 
-    outside = Outside(bus, answer)
-    nodes = started(bus, outside, "a", sender="first")
+    bridge = FakeBridge(bus, answer)
+    nodes = started(bus, bridge, "a", sender="first")
     for _ in range(2):
         bus.publisher("depth", Float64)(Float64(data=1.0))
         step(bus, nodes)
-    assert len(outside.ticks) == 2
-    said = "client 'a' is first already; second is ignored"
-    assert outside.told == 4 * [("second", said)]
-    assert f"uwsim: test: {said}" in outside.lines
+    assert len(bridge.ticks) == 2
+    text = "client 'a' is first already; second is ignored"
+    assert bridge.told == 4 * [("second", text)]
+    assert f"uwsim: test: {text}" in bridge.lines
 
 
 def test_a_client_that_does_not_join_is_one_line() -> None:
     bus = Bus()
-    outside = Outside(bus, is_silent)
-    (client,) = lockstep_clients([outside], ["a"], timestep=TIMESTEP, limit=0.01)
-    outside.says(JOIN, client="b", topics=[])
+    bridge = FakeBridge(bus, is_silent)
+    (client,) = lockstep_clients([bridge], ["a"], timestep=TIMESTEP, limit=0.01)
+    bridge.says(JOIN, client="b", topics=[])
     with pytest.raises(NeverStarted, match=r"No client 'a' has joined within 0.01 s"):
         node_of(bus, client)
 
@@ -532,9 +532,9 @@ def test_a_client_that_does_not_join_is_one_line() -> None:
 def test_a_topic_for_observers_is_not_for_clients() -> None:
     bus = Bus()
     bus.hide_topic("depth")
-    outside = Outside(bus, is_silent)
-    (client,) = lockstep_clients([outside], ["a"], timestep=TIMESTEP, limit=60.0)
-    outside.says(JOIN, client="a", topics=["/depth"])
+    bridge = FakeBridge(bus, is_silent)
+    (client,) = lockstep_clients([bridge], ["a"], timestep=TIMESTEP, limit=60.0)
+    bridge.says(JOIN, client="a", topics=["/depth"])
     node = InProcessNode(
         bus, name="a", timestep=TIMESTEP, rng=np.random.default_rng(0), parameters={}
     )

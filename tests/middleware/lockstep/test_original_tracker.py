@@ -71,8 +71,8 @@ def scored_outside(words: list[str], environment: dict[str, str], start: Start) 
         tracker = start()
         _, errors = bench.communicate()
         tracker.kill()
-        _, said = tracker.communicate()
-        assert bench.returncode == 0, f"{errors}\nThe tracker: {said}"
+        _, text = tracker.communicate()
+        assert bench.returncode == 0, f"{errors}\nThe tracker: {text}"
     finally:
         watchdog.cancel()
         for process in (bench, tracker):
@@ -89,7 +89,7 @@ def over_ros1(benchmark: Path, out: Path, folder: Path) -> None:
     md5 = wire_service(service_of(GTpublish)).md5
     with peers(folder) as graph:
         names = ("ROS_MASTER_URI", "ROS_IP", "ROS_LOG_DIR")
-        own = {name: graph.environment[name] for name in names}
+        own_names = {name: graph.environment[name] for name in names}
 
         def start() -> subprocess.Popen[str]:
             until(lambda: call(graph.uri, "hasParam", "/test", "/use_sim_time"))
@@ -98,7 +98,7 @@ def over_ros1(benchmark: Path, out: Path, folder: Path) -> None:
 
         how = ("--ros1", "--client", "tracker", "--sync", "output", "--settle", "0.05")
         words = command(benchmark, out, *how, "--client-limit", "20", *original_tracker.OUTPUTS)
-        scored_outside(words, {**os.environ, **own}, start)
+        scored_outside(words, {**os.environ, **own_names}, start)
 
 
 def over_web(benchmark: Path, out: Path, folder: Path) -> None:

@@ -31,7 +31,7 @@ from uwsim.simulation import InProcessNode
 TIMESTEP = 0.002
 
 
-class Outside(Bridge):
+class FakeBridge(Bridge):
     """A transport with a node at its other end, which acts on the clock and on messages."""
 
     def __init__(self, bus: Bus) -> None:
@@ -70,7 +70,7 @@ class Sea:
 
     def __init__(self, *outputs: OutputSpec, limit: float = 60.0) -> None:
         self.bus = Bus()
-        self.outside = Outside(self.bus)
+        self.outside = FakeBridge(self.bus)
         self.say = self.bus.publisher("depth", Float64)
         self.commands = self.bus.inbox("cmd", Float64)
         connection = ConnectionSpec(ros1=True)
@@ -107,7 +107,7 @@ def test_a_timer_of_the_node_is_waited_for_in_the_step_in_which_it_is_due() -> N
             sea.outside.put("cmd", Float64(data=time))
 
     sea.outside.on_clock = fire
-    came = {n: found for n in range(1, 60) if (found := sea.step())}
+    came = {n: actual for n in range(1, 60) if (actual := sea.step())}
     assert came == {17: [0.034], 34: [0.068], 50: [0.1]}
 
 
@@ -275,7 +275,7 @@ def test_a_timer_of_rospy_that_fires_twice_at_first_is_waited_for_as_any_other()
             due.append(time)
 
     sea.outside.on_clock = fire
-    came = {n: len(found) for n in range(1, 20) if (found := sea.step())}
+    came = {n: len(actual) for n in range(1, 20) if (actual := sea.step())}
     assert came == {5: 2, 10: 1, 15: 1}
 
 
@@ -301,7 +301,7 @@ def test_who_is_not_there_is_named() -> None:
 
 
 @pytest.mark.parametrize(
-    ("output", "said"),
+    ("output", "text"),
     [
         (OutputSpec(topic="cmb", rate=10.0), "has the topic /cmb. Did you mean '/cmd'"),
         (
@@ -310,9 +310,9 @@ def test_who_is_not_there_is_named() -> None:
         ),
     ],
 )
-def test_a_topic_that_is_not_there_is_an_error(output: OutputSpec, said: str) -> None:
+def test_a_topic_that_is_not_there_is_an_error(output: OutputSpec, text: str) -> None:
     sea = Sea(output)
-    with pytest.raises(BadSetting, match=said):
+    with pytest.raises(BadSetting, match=text):
         sea.node.run(sea.client)
 
 
@@ -337,11 +337,11 @@ def test_a_rate_has_its_unit(text: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("texts", "said"),
+    ("texts", "text"),
     [(["a=1Hz", "/a=2Hz"], "/a occurs twice"), (["a=/a"], "does not follow itself")],
 )
-def test_outputs_that_contradict_are_an_error(texts: list[str], said: str) -> None:
-    with pytest.raises(BadSetting, match=said):
+def test_outputs_that_contradict_are_an_error(texts: list[str], text: str) -> None:
+    with pytest.raises(BadSetting, match=text):
         read_outputs(texts)
 
 
@@ -351,7 +351,7 @@ def test_what_is_waited_for_is_one_of_four() -> None:
 
 
 @pytest.mark.parametrize(
-    ("sync", "connection", "said"),
+    ("sync", "connection", "text"),
     [
         ("ack", ConnectionSpec(ros2=True), "lock-step, ros2, grade (a)"),
         ("step", ConnectionSpec(ros1=True), "lock-step, ros1, grade (b), not guaranteed"),
@@ -360,7 +360,7 @@ def test_what_is_waited_for_is_one_of_four() -> None:
     ],
 )
 def test_the_result_says_what_was_waited_for(
-    sync: str, connection: ConnectionSpec, said: str
+    sync: str, connection: ConnectionSpec, text: str
 ) -> None:
     spec = ClientSpec(name="n", connection=connection, sync=read_sync(sync))
-    assert spec.participation == said
+    assert spec.participation == text

@@ -24,7 +24,7 @@ from uwsim.simulation import InProcessNode
 TIMESTEP = 0.002
 
 
-class Outside(Bridge):
+class FakeBridge(Bridge):
     """A transport whose program acts while the simulation waits."""
 
     def __init__(self, bus: Bus) -> None:
@@ -44,16 +44,16 @@ class Outside(Bridge):
 class Program:
     """Calls for steps, each next call when the one before is answered."""
 
-    def __init__(self, outside: Outside, *calls: int) -> None:
-        self._outside, self._left = outside, list(calls)
+    def __init__(self, bridge: FakeBridge, *calls: int) -> None:
+        self._outside, self._left = bridge, list(calls)
         self.answered: list[tuple[int, int]] = []  # number of the step, code of the answer
         self.before: Callable[[], None] = lambda: None
 
     def go_on(self) -> None:
         if self._left:
             self.before()
-            asked = self._outside.request("step_simulation", StepSimulation(self._left.pop(0)))
-            asked.add_done_callback(self._answered)
+            requests = self._outside.request("step_simulation", StepSimulation(self._left.pop(0)))
+            requests.add_done_callback(self._answered)
 
     def _answered(self, answer: Future[object]) -> None:
         response = answer.result()
@@ -62,57 +62,57 @@ class Program:
         self.go_on()
 
 
-def attached(outside: Outside, limit: float = 60.0) -> InProcessNode:
+def attached(bridge: FakeBridge, limit: float = 60.0) -> InProcessNode:
     connection = ConnectionSpec(web=WebOptions(port=0))
     spec = ClientSpec(name="s", connection=connection, limit=limit, sync="step")
     node = InProcessNode(
-        outside.bus, name="s", timestep=TIMESTEP, rng=np.random.default_rng(0), parameters={}
+        bridge.bus, name="s", timestep=TIMESTEP, rng=np.random.default_rng(0), parameters={}
     )
-    node.run(StepClient(outside, spec, timestep=TIMESTEP))
+    node.run(StepClient(bridge, spec, timestep=TIMESTEP))
     assert node.error is None
     node.tick()  # step 0
     return node
 
 
-def step(outside: Outside, node: InProcessNode) -> None:
-    outside.bus.step += 1
-    outside.bus.deliver()
+def step(bridge: FakeBridge, node: InProcessNode) -> None:
+    bridge.bus.step += 1
+    bridge.bus.deliver()
     node.tick()
-    outside.bus.deliver()
+    bridge.bus.deliver()
 
 
 def test_a_call_is_answered_when_its_steps_are_done() -> None:
-    outside = Outside(Bus())
-    program = Program(outside, 3, 1, 2, 1)
+    bridge = FakeBridge(Bus())
+    program = Program(bridge, 3, 1, 2, 1)
     program.go_on()
-    node = attached(outside)
-    assert "step_simulation" in outside.services
+    node = attached(bridge)
+    assert "step_simulation" in bridge.services
     for _ in range(6):
-        step(outside, node)
+        step(bridge, node)
     assert program.answered == [(n, 1) for n in (3, 4, 6)]
 
 
 def test_what_was_published_before_a_call_is_on_the_bus_before_its_first_step() -> None:
-    outside = Outside(Bus())
-    commands = outside.bus.inbox("cmd", Float64)
-    program = Program(outside, 2, 2, 2)
-    program.before = lambda: outside.put("cmd", Float64(data=float(outside.bus.step)))
+    bridge = FakeBridge(Bus())
+    commands = bridge.bus.inbox("cmd", Float64)
+    program = Program(bridge, 2, 2, 2)
+    program.before = lambda: bridge.put("cmd", Float64(data=float(bridge.bus.step)))
     program.go_on()
-    node = attached(outside)
-    heard = [[message.data for message in commands.take()]]
+    node = attached(bridge)
+    arrivals = [[message.data for message in commands.take()]]
     for _ in range(4):
-        step(outside, node)
-        heard.append([message.data for message in commands.take()])
-    assert heard == [[0.0], [], [2.0], [], [4.0]]
+        step(bridge, node)
+        arrivals.append([message.data for message in commands.take()])
+    assert arrivals == [[0.0], [], [2.0], [], [4.0]]
 
 
 def test_calls_that_cannot_be_done_are_refused_and_time_stands() -> None:
-    outside = Outside(Bus())
-    refused = [outside.request("step_simulation", StepSimulation(n)) for n in (0, 10**8)]
-    first = outside.request("step_simulation", StepSimulation(1))
-    second = outside.request("step_simulation", StepSimulation(1))
-    attached(outside)
-    codes = [answer.result(0) for answer in (*refused, second)]
+    bridge = FakeBridge(Bus())
+    refusals = [bridge.request("step_simulation", StepSimulation(n)) for n in (0, 10**8)]
+    first = bridge.request("step_simulation", StepSimulation(1))
+    second = bridge.request("step_simulation", StepSimulation(1))
+    attached(bridge)
+    codes = [answer.result(0) for answer in (*refusals, second)]
     assert [code.result.result for code in codes] == [  # type: ignore[attr-defined]
         Result.OPERATION_FAILED,
         Result.OPERATION_FAILED,
@@ -123,13 +123,13 @@ def test_calls_that_cannot_be_done_are_refused_and_time_stands() -> None:
 
 def test_a_program_that_never_calls_is_named() -> None:
     with pytest.raises(NeverStarted, match=r"'s' has not called /step_simulation within 0\.01 s"):
-        attached(Outside(Bus()), limit=0.01)
+        attached(FakeBridge(Bus()), limit=0.01)
 
 
 def test_a_program_that_calls_no_more_ends_the_run() -> None:
-    outside = Outside(Bus())
-    program = Program(outside, 1)
+    bridge = FakeBridge(Bus())
+    program = Program(bridge, 1)
     program.go_on()
-    node = attached(outside, limit=0.01)
+    node = attached(bridge, limit=0.01)
     with pytest.raises(ClientLost, match=r"has not called /step_simulation at 0\.002 s"):
-        step(outside, node)
+        step(bridge, node)

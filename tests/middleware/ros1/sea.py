@@ -38,9 +38,9 @@ class Sea:
         """The newest odometry."""
         self.simulation.latest_message("/uwsim/girona500/odom")
         self.simulation.advance(0.2)
-        found = self.simulation.latest_message("/uwsim/girona500/odom")
-        assert isinstance(found, uwsim.messages.Odometry)
-        return found
+        actual = self.simulation.latest_message("/uwsim/girona500/odom")
+        assert isinstance(actual, uwsim.messages.Odometry)
+        return actual
 
     def output(self, program: subprocess.Popen[str]) -> str:
         """Let time go by until a program has ended, and return what it printed."""

@@ -28,17 +28,17 @@ ITS, OTHER = "node /tracker", "node /stranger"
 
 @pytest.fixture
 def graph() -> Iterator[Graph]:
-    found = Graph()
-    yield found
-    found.close()
+    actual = Graph()
+    yield actual
+    actual.close()
 
 
 @pytest.fixture
 def sim(graph: Graph) -> Ros1Bridge:
-    found = graph.node()
-    found.admission = SingleProgram(lambda sender, text: None)
-    found.admission.admit(ITS)
-    return found
+    actual = graph.node()
+    actual.admission = SingleProgram(lambda sender, text: None)
+    actual.admission.admit(ITS)
+    return actual
 
 
 def test_another_node_on_the_topic_is_not_heard(graph: Graph, sim: Ros1Bridge) -> None:
@@ -50,19 +50,19 @@ def test_another_node_on_the_topic_is_not_heard(graph: Graph, sim: Ros1Bridge) -
     graph.ready()
     until(lambda: sim.n_connected("/corners") == 2, graph.step)
     assert sim.admission is not None
-    heard: list[float] = []
-    refused: list[object] = []
+    arrivals: list[float] = []
+    refusals: list[object] = []
 
     def publish() -> None:
         for publisher, value in zip(say, (99.0, 1.0), strict=True):
             publisher(floats([value]))
         graph.step()
-        heard.extend(float(message.data[0]) for message in estimates.take())
-        refused.extend(sim.admission.take_refusals() if sim.admission is not None else ())
+        arrivals.extend(float(message.data[0]) for message in estimates.take())
+        refusals.extend(sim.admission.take_refusals() if sim.admission is not None else ())
 
-    until(lambda: heard and refused, publish)
-    assert set(heard) == {1.0}
-    assert {entry[:2] for entry in refused if isinstance(entry, tuple)} == {(OTHER, "/corners")}
+    until(lambda: arrivals and refusals, publish)
+    assert set(arrivals) == {1.0}
+    assert {entry[:2] for entry in refusals if isinstance(entry, tuple)} == {(OTHER, "/corners")}
 
 
 @pytest.mark.parametrize(("caller", "is_answered"), [("/tracker", True), ("/stranger", False)])
@@ -91,10 +91,10 @@ def test_another_node_calls_no_service(
 def test_another_node_is_not_given_the_ground_truth(
     graph: Graph, sim: Ros1Bridge, offerer: str, is_taken: bool
 ) -> None:
-    asked: list[GTpublish] = []
+    requests: list[GTpublish] = []
 
     def answer(request: GTpublish) -> GTpublishResponse:
-        asked.append(request)
+        requests.append(request)
         return GTpublishResponse()
 
     other = graph.node(offerer)
@@ -112,7 +112,7 @@ def test_another_node_is_not_given_the_ground_truth(
     thread = threading.Thread(target=call, daemon=True)
     thread.start()
     until(lambda: answers, other.step)
-    assert (answers == [GTpublishResponse()], len(asked)) == (is_taken, int(is_taken))
+    assert (answers == [GTpublishResponse()], len(requests)) == (is_taken, int(is_taken))
     assert is_taken or "/stranger does not take part" in str(answers[0])
 
 
@@ -121,15 +121,15 @@ def test_a_message_to_one_node_reaches_no_other(graph: Graph, sim: Ros1Bridge) -
     inboxes = [graph.node(name).bus.inbox("tick", String) for name in ("/stranger", "/tracker")]
     graph.ready()
     until(lambda: sim.n_connected("/tick") == 2, graph.step)
-    heard: list[list[str]] = [[], []]
+    arrivals: list[list[str]] = [[], []]
 
     def send() -> None:
         sim.send_to(OTHER, "tick", String(data="no"))
         sim.send("tick", String(data="all"))
         graph.step()
-        for texts, inbox in zip(heard, inboxes, strict=True):
+        for texts, inbox in zip(arrivals, inboxes, strict=True):
             texts.extend(message.data for message in inbox.take())
 
-    until(lambda: all("all" in texts for texts in heard), send)
-    assert "no" in heard[0]
-    assert "no" not in heard[1]
+    until(lambda: all("all" in texts for texts in arrivals), send)
+    assert "no" in arrivals[0]
+    assert "no" not in arrivals[1]

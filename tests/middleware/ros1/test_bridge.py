@@ -40,9 +40,9 @@ def graph() -> Iterator[Graph]:
 
 
 def heard_by(node: Any, topic: str, kind: type) -> list[Any]:
-    found: list[Any] = []
-    node.bus.subscribe(topic, kind, found.append)
-    return found
+    actual: list[Any] = []
+    node.bus.subscribe(topic, kind, actual.append)
+    return actual
 
 
 @pytest.mark.parametrize(
@@ -57,13 +57,13 @@ def heard_by(node: Any, topic: str, kind: type) -> list[Any]:
 def test_a_message_arrives_as_it_was_sent(graph: Graph, message: Any) -> None:
     sim, other = graph.node(), graph.node("/other")
     publish = sim.bus.publisher("/topic", type(message))
-    found = heard_by(other, "topic", type(message))
+    actual = heard_by(other, "topic", type(message))
     graph.ready()
     graph.connected("/topic")
     publish(message)
-    until(lambda: found, graph.step)
-    assert found[0].header == message.header
-    assert repr(found[0]) == repr(message)
+    until(lambda: actual, graph.step)
+    assert actual[0].header == message.header
+    assert repr(actual[0]) == repr(message)
 
 
 def test_a_topic_without_subscribers_outside_is_not_read(graph: Graph) -> None:
@@ -80,14 +80,14 @@ def test_a_topic_without_subscribers_outside_is_not_read(graph: Graph) -> None:
 
 def test_a_command_from_outside_arrives_with_its_stamp_in_simulation_time(graph: Graph) -> None:
     sim, other = graph.node(), graph.node("/other")
-    found = heard_by(sim, "twist", TwistStamped)
+    actual = heard_by(sim, "twist", TwistStamped)
     publish = other.bus.publisher("twist", TwistStamped)
     graph.ready()
     until(lambda: other.bus.has_subscribers("twist"), graph.step)
     for i in range(20):
         publish(TwistStamped(header=header(0.5 + i)))
-    until(lambda: len(found) == 20, graph.step)
-    assert [each.header.stamp for each in found] == [
+    until(lambda: len(actual) == 20, graph.step)
+    assert [entry.header.stamp for entry in actual] == [
         Time(sec=i, nanosec=500_000_000) for i in range(20)
     ]
 
@@ -95,23 +95,23 @@ def test_a_command_from_outside_arrives_with_its_stamp_in_simulation_time(graph:
 def test_the_clock_begins_at_one_second(graph: Graph) -> None:
     sim, other = graph.node(), graph.node("/other")
     clock = message_class("rosgraph_msgs/Clock")
-    found = heard_by(other, "clock", clock)
+    actual = heard_by(other, "clock", clock)
     graph.ready()
-    until(lambda: sim.n_connected("/clock") and found, graph.step)
-    assert found[0].clock.sec >= 1
+    until(lambda: sim.n_connected("/clock") and actual, graph.step)
+    assert actual[0].clock.sec >= 1
 
 
 def test_the_clock_comes_at_every_step_while_it_is_read(graph: Graph) -> None:
     """The loop of a node with a period of one step is not slowed down by the clock."""
     sim, other = graph.node(), graph.node("/other")
-    found = heard_by(other, "clock", message_class("rosgraph_msgs/Clock"))
+    actual = heard_by(other, "clock", message_class("rosgraph_msgs/Clock"))
     graph.ready()
-    until(lambda: sim.n_connected("/clock") and found, graph.step)
+    until(lambda: sim.n_connected("/clock") and actual, graph.step)
     first = sim.bus.step
     for _ in range(25):
         graph.step()
-    until(lambda: _step_of(found[-1]) >= sim.bus.step, other.step)
-    steps = [_step_of(message) for message in found]
+    until(lambda: _step_of(actual[-1]) >= sim.bus.step, other.step)
+    steps = [_step_of(message) for message in actual]
     assert steps[-25:] == list(range(first + 1, first + 26))
 
 
@@ -123,10 +123,10 @@ def _step_of(message: Any) -> int:
 
 def test_a_service_is_called_from_outside(graph: Graph) -> None:
     sim, other = graph.node(), graph.node("/other")
-    asked: list[Any] = []
+    requests: list[Any] = []
 
     def answer(request: GTpublish) -> GTpublishResponse:
-        asked.append(request)
+        requests.append(request)
         return GTpublishResponse()
 
     sim.bus.services.serve("vision/init", GTpublish, answer)
@@ -142,7 +142,7 @@ def test_a_service_is_called_from_outside(graph: Graph) -> None:
     caller.start()
     until(lambda: results, sim.step)
     assert results == [GTpublishResponse()]
-    assert asked[0].groundTruth.tolist() == list(range(8))
+    assert requests[0].groundTruth.tolist() == list(range(8))
 
 
 def test_a_service_that_fails_is_an_error_of_the_caller(graph: Graph) -> None:
@@ -255,9 +255,9 @@ def test_a_late_node_gets_the_newest_message_of_a_latched_topic(graph: Graph) ->
     graph.ready()
     say(MarkerArray(markers=[Marker(ns="second", text="x")]))
     graph.step()
-    heard = heard_by(other, "scene", MarkerArray)
-    until(lambda: heard, graph.step)
-    assert [each.ns for each in heard[-1].markers] == ["second"]
+    arrivals = heard_by(other, "scene", MarkerArray)
+    until(lambda: arrivals, graph.step)
+    assert [entry.ns for entry in arrivals[-1].markers] == ["second"]
 
 
 def test_a_topic_whose_name_is_none_of_ros_is_told_and_the_others_are_there(graph: Graph) -> None:
@@ -266,13 +266,13 @@ def test_a_topic_whose_name_is_none_of_ros_is_told_and_the_others_are_there(grap
         sim.bus.publisher(name, Float64)
         sim.bus.subscribe(f"{name}/command", Float64, print)
     publish = sim.bus.publisher("zz", Float64)
-    found = heard_by(other, "zz", Float64)
+    actual = heard_by(other, "zz", Float64)
     graph.ready()
     graph.connected("/zz")
     publish(Float64(data=1.0))
-    until(lambda: found, graph.step)
-    told = [line for line in graph.printed if "not on the graph" in line]
-    assert len(told) == 6
-    assert "uwsim: test: not on the graph: /a b: " in told[0]
-    assert "parameter [topic] contains illegal chars" in told[0]
+    until(lambda: actual, graph.step)
+    reports = [line for line in graph.printed if "not on the graph" in line]
+    assert len(reports) == 6
+    assert "uwsim: test: not on the graph: /a b: " in reports[0]
+    assert "parameter [topic] contains illegal chars" in reports[0]
     assert not any("tried again" in line for line in graph.printed)

@@ -92,10 +92,10 @@ def test_nodes_on_this_and_other_computers_are_served(host: str) -> None:
 
 
 def test_the_refusal_names_what_was_found_and_what_is_expected() -> None:
-    said = find_browser_sign({"host": "evil.example.org:11311"}, local_names("10.0.0.4"))
-    assert said is not None
+    text = find_browser_sign({"host": "evil.example.org:11311"}, local_names("10.0.0.4"))
+    assert text is not None
     for part in ("evil.example.org:11311", "10.0.0.4", "localhost"):
-        assert part in said
+        assert part in text
 
 
 def drips(connection: socket.socket, data: bytes, seconds: float) -> bool:
@@ -125,26 +125,26 @@ def test_a_header_that_comes_byte_by_byte_has_a_deadline() -> None:
         until(lambda: sim._listener.n_connections == 0)
 
 
-@pytest.mark.parametrize("sent", [b"POST / HTTP/1.0\r\nX: " + b"x" * 200, b"POST" * 50])
+@pytest.mark.parametrize("data", [b"POST / HTTP/1.0\r\nX: " + b"x" * 200, b"POST" * 50])
 def test_a_request_that_comes_byte_by_byte_has_a_deadline(
-    monkeypatch: pytest.MonkeyPatch, sent: bytes
+    monkeypatch: pytest.MonkeyPatch, data: bytes
 ) -> None:
     monkeypatch.setattr(xmlrpc, "READ_TIMEOUT", 0.2)
     made = Master(Log("test", lambda line: None))
     with closing(made):
         with socket.create_connection(("127.0.0.1", port_of(made.uri)), LIMIT) as peer:
-            assert drips(peer, sent, 0.02)
+            assert drips(peer, data, 0.02)
         assert call(made.uri, "getUri", "/x") == made.uri
 
 
 def test_a_reader_with_a_deadline_reads_what_comes_in_time_and_leaves_the_timeout() -> None:
-    here, there = socket.socketpair()
-    with here, there:
-        here.settimeout(7.0)
-        reader = DeadlineReader(here, 0.3)
-        threading.Timer(0.05, there.sendall, (b"tide",)).start()
+    local_end, remote_end = socket.socketpair()
+    with local_end, remote_end:
+        local_end.settimeout(7.0)
+        reader = DeadlineReader(local_end, 0.3)
+        threading.Timer(0.05, remote_end.sendall, (b"tide",)).start()
         assert reader.read(10) == b"tide"
-        assert here.gettimeout() == 7.0
+        assert local_end.gettimeout() == 7.0
         with pytest.raises(TimeoutError):
             reader.read(1)
 
@@ -169,11 +169,11 @@ def test_parameters_have_a_limit_on_their_total_size(
 
 def test_parameters_have_a_limit_on_their_number_and_depth(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(parameters, "MAX_VALUES", 200)
-    kept = Parameters()
-    codes = [kept.set_param("/x", f"/n/p{n}", n)[0][0] for n in range(300)]
+    kept_values = Parameters()
+    codes = [kept_values.set_param("/x", f"/n/p{n}", n)[0][0] for n in range(300)]
     assert 0 < codes.count(1) < 200
-    assert kept.get_param("/x", "/n/p0")[0][0] == 1
-    assert [kept.set_param("/x", "/n/p0", n)[0][0] for n in range(300)] == [1] * 300
+    assert kept_values.get_param("/x", "/n/p0")[0][0] == 1
+    assert [kept_values.set_param("/x", "/n/p0", n)[0][0] for n in range(300)] == [1] * 300
     deep: Any = 1.0
     for _ in range(100):
         deep = {"a": deep}

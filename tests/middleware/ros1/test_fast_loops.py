@@ -75,9 +75,9 @@ def test_the_time_that_it_integrates_is_that_of_the_simulation(
 
             graph.start(PYTHON, str(program), str(timestep))
             until(lambda: integrated() > 10 * timestep, step)
-            before = integrated()
+            value_before = integrated()
             for _ in range(N_STEPS):
                 step()
-            assert integrated() - before == pytest.approx(N_STEPS * timestep, rel=0.02)
+            assert integrated() - value_before == pytest.approx(N_STEPS * timestep, rel=0.02)
         finally:
             bridge.close()

@@ -65,10 +65,10 @@ class FakePublisher:
             "127.0.0.1", 0, {"requestTopic": request}, Log("test", print), "publisher"
         )
         uri = f"http://127.0.0.1:{self.node.port}/"
-        found = wire_type(kind)
-        assert found is not None
-        self.type = found
-        call(graph.master.uri, "registerPublisher", "/x", topic, found.ros1_name, uri)
+        actual = wire_type(kind)
+        assert actual is not None
+        self.type = actual
+        call(graph.master.uri, "registerPublisher", "/x", topic, actual.ros1_name, uri)
 
     def accept(self) -> socket.socket:
         connection, _ = self.server.accept()
@@ -84,7 +84,7 @@ class FakePublisher:
 
 
 @pytest.mark.parametrize(
-    ("sent", "said"),
+    ("data", "text"),
     [
         (b"", "without a header"),
         (b"\xde\xad\xbe\xef" * 100, "announces"),
@@ -95,16 +95,16 @@ class FakePublisher:
         (encode_header({"no": "thing"}), "is not published here"),
     ],
 )
-def test_garbage_on_the_port_is_reported(graph: Graph, sent: bytes, said: str) -> None:
+def test_garbage_on_the_port_is_reported(graph: Graph, data: bytes, text: str) -> None:
     sim = graph.node()
     sim.bus.publisher("depth", Float64)
     graph.ready()
     with connect(port_of(sim)) as peer, suppress(OSError):
-        peer.sendall(sent)  # the node may leave before all is read: broken, reset, not connected
+        peer.sendall(data)  # the node may leave before all is read: broken, reset, not connected
         peer.shutdown(socket.SHUT_WR)
         while peer.recv(4096):
             pass
-    until(lambda: any(said in line for line in graph.printed), graph.step)
+    until(lambda: any(text in line for line in graph.printed), graph.step)
     assert call(sim.uri, "getPid", "/x") > 0
 
 
@@ -165,8 +165,8 @@ def test_a_flood_of_messages_is_bounded(graph: Graph, monkeypatch: pytest.Monkey
     monkeypatch.setattr(subscription, "LINK_SHARE", 1e3)  # read as fast as it comes
     monkeypatch.setattr(subscription, "ALL_SHARE", 1e3)
     sim = graph.node()
-    found: list[Float64] = []
-    sim.bus.subscribe("cmd", Float64, found.append)
+    actual: list[Float64] = []
+    sim.bus.subscribe("cmd", Float64, actual.append)
     graph.ready()
     publisher = FakePublisher(graph, "/cmd", Float64)
     connection = publisher.accept()
@@ -175,8 +175,8 @@ def test_a_flood_of_messages_is_bounded(graph: Graph, monkeypatch: pytest.Monkey
     last = 99_999.0
     until(lambda: _newest(sim, "cmd") == last)
     graph.step()
-    assert found[-1].data == last
-    assert len(found) <= 1000
+    assert actual[-1].data == last
+    assert len(actual) <= 1000
     assert any("faster than the simulation takes them" in line for line in graph.printed)
     connection.close()
     publisher.close()
@@ -229,23 +229,23 @@ def _newest(sim: Ros1Bridge, topic: str) -> float | None:
 
 def test_garbage_from_a_publisher_is_reported_and_the_next_message_is_read(graph: Graph) -> None:
     sim = graph.node()
-    found: list[JointState] = []
-    sim.bus.subscribe("joints", JointState, found.append)
+    actual: list[JointState] = []
+    sim.bus.subscribe("joints", JointState, actual.append)
     graph.ready()
     publisher = FakePublisher(graph, "/joints", JointState)
     connection = publisher.accept()
     connection.sendall(
         add_length(b"\xff" * 100) + add_length(b"") + add_length(to_ros1(JointState(name=["a"])))
     )
-    until(lambda: found, graph.step)
-    assert found[0].name == ["a"]
+    until(lambda: actual, graph.step)
+    assert actual[0].name == ["a"]
     assert any("100 bytes are not a sensor_msgs/msg/JointState" in line for line in graph.printed)
     connection.close()
     publisher.close()
 
 
 @pytest.mark.parametrize(
-    ("sent", "said"),
+    ("data", "text"),
     [
         (b"\xff\xff\xff\x7f", "announces 2147483647 bytes"),
         (b"\x10\x00\x00\x00abc", "after 3 of 16 bytes"),
@@ -253,21 +253,21 @@ def test_garbage_from_a_publisher_is_reported_and_the_next_message_is_read(graph
     ],
 )
 def test_a_publisher_that_breaks_off_is_tried_again(
-    graph: Graph, monkeypatch: pytest.MonkeyPatch, sent: bytes, said: str
+    graph: Graph, monkeypatch: pytest.MonkeyPatch, data: bytes, text: str
 ) -> None:
     monkeypatch.setattr("uwsim.middleware.ros1.subscription.RETRY_INTERVAL", 0.05)  # [s]
     sim = graph.node()
-    found: list[Float64] = []
-    sim.bus.subscribe("cmd", Float64, found.append)
+    actual: list[Float64] = []
+    sim.bus.subscribe("cmd", Float64, actual.append)
     graph.ready()
     publisher = FakePublisher(graph, "/cmd", Float64)
     connection = publisher.accept()
-    connection.sendall(sent)
+    connection.sendall(data)
     connection.close()
-    until(lambda: any(said in line for line in graph.printed), graph.step)
+    until(lambda: any(text in line for line in graph.printed), graph.step)
     again = publisher.accept()
     again.sendall(add_length(to_ros1(Float64(data=3.0))))
-    until(lambda: found, graph.step)
+    until(lambda: actual, graph.step)
     again.close()
     publisher.close()
 
@@ -300,26 +300,26 @@ def test_a_client_of_a_service_killed_in_the_middle_of_its_request_is_forgotten(
     from uwsim.messages import GTpublish, GTpublishResponse
 
     sim = graph.node()
-    asked: list[object] = []
+    requests: list[object] = []
 
     def answer(request: object) -> GTpublishResponse:
-        asked.append(request)
+        requests.append(request)
         return GTpublishResponse()
 
     sim.bus.services.serve("init", GTpublish, answer)
     graph.ready()
     fields = encode_header({"callerid": "/x", "md5sum": "*", "service": "/init"})
     request = add_length(to_ros1(GTpublish(groundTruth=np.ones(8, np.float32))))
-    for sent in (fields[:9], fields, fields + request[:5]):
+    for data in (fields[:9], fields, fields + request[:5]):
         peer = connect(port_of(sim))
-        peer.sendall(sent)
+        peer.sendall(data)
         peer.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
         peer.close()  # with a reset
     with connect(port_of(sim)) as peer:
         peer.sendall(fields + request)
-        until(lambda: asked, graph.step)
+        until(lambda: requests, graph.step)
     until(lambda: not sim._listener.n_connections, graph.step)
-    assert len(asked) == 1
+    assert len(requests) == 1
 
 
 def ask_persistently(sim: Ros1Bridge) -> socket.socket:
@@ -332,7 +332,7 @@ def ask_persistently(sim: Ros1Bridge) -> socket.socket:
 
     def is_awaited() -> bool:
         with sim._idle_clients._lock:
-            return any(port == each.getpeername()[1] for each in sim._idle_clients._connections)
+            return any(port == entry.getpeername()[1] for entry in sim._idle_clients._connections)
 
     until(is_awaited)
     return peer
@@ -385,13 +385,13 @@ def test_many_connections_that_break_off_are_few_lines(graph: Graph) -> None:
 
 def test_a_thousand_publishers_of_a_topic_are_bounded(graph: Graph) -> None:
     sim = graph.node()
-    found: list[Float64] = []
-    sim.bus.subscribe("cmd", Float64, found.append)
+    actual: list[Float64] = []
+    sim.bus.subscribe("cmd", Float64, actual.append)
     graph.ready()
-    before = threading.active_count()
+    value_before = threading.active_count()
     many = [f"http://127.0.0.1:{port}/" for port in range(1, 1001)]
     call(sim.uri, "publisherUpdate", "/x", "/cmd", many)
     until(lambda: any("1000 publishers; 100" in line for line in graph.printed), graph.step)
-    assert threading.active_count() - before < 110
+    assert threading.active_count() - value_before < 110
     call(sim.uri, "publisherUpdate", "/x", "/cmd", [])
-    until(lambda: threading.active_count() <= before + 2, graph.step)
+    until(lambda: threading.active_count() <= value_before + 2, graph.step)

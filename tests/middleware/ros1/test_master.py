@@ -22,13 +22,13 @@ NODE = "http://127.0.0.1:1/"
 
 
 @pytest.fixture
-def printed() -> list[str]:
+def lines() -> list[str]:
     return []
 
 
 @pytest.fixture
-def master(printed: list[str]) -> Iterator[Master]:
-    made = Master(Log("test", printed.append))
+def master(lines: list[str]) -> Iterator[Master]:
+    made = Master(Log("test", lines.append))
     yield made
     made.close()
 
@@ -70,32 +70,32 @@ def test_services_are_found(master: Master) -> None:
         call(master.uri, "lookupService", "/x", "/reset")
 
 
-def test_subscribers_hear_of_new_publishers(master: Master, printed: list[str]) -> None:
-    heard: list[tuple[Any, ...]] = []
+def test_subscribers_hear_of_new_publishers(master: Master, lines: list[str]) -> None:
+    arrivals: list[tuple[Any, ...]] = []
 
     def update(*arguments: Any) -> Answer:
-        heard.append(arguments)
+        arrivals.append(arguments)
         return [1, "", 0]
 
     node = XmlRpcServer(
-        "127.0.0.1", 0, {"publisherUpdate": update}, Log("test", printed.append), "node"
+        "127.0.0.1", 0, {"publisherUpdate": update}, Log("test", lines.append), "node"
     )
     uri = f"http://127.0.0.1:{node.port}/"
     call(master.uri, "registerSubscriber", "/echo", "/odom", "*", uri)
     call(master.uri, "registerPublisher", "/sim", "/odom", "nav_msgs/Odometry", NODE)
-    until(lambda: heard)
-    assert heard[0] == ("/master", "/odom", [NODE])
+    until(lambda: arrivals)
+    assert arrivals[0] == ("/master", "/odom", [NODE])
     node.close()
 
 
-def test_a_second_node_of_the_same_name_ends_the_first(master: Master, printed: list[str]) -> None:
+def test_a_second_node_of_the_same_name_ends_the_first(master: Master, lines: list[str]) -> None:
     ended: list[tuple[Any, ...]] = []
 
     def shutdown(*arguments: Any) -> Answer:
         ended.append(arguments)
         return [1, "", 0]
 
-    node = XmlRpcServer("127.0.0.1", 0, {"shutdown": shutdown}, Log("test", printed.append), "node")
+    node = XmlRpcServer("127.0.0.1", 0, {"shutdown": shutdown}, Log("test", lines.append), "node")
     uri = f"http://127.0.0.1:{node.port}/"
     call(master.uri, "registerPublisher", "/sim", "/a", "std_msgs/String", uri)
     call(master.uri, "registerPublisher", "/sim", "/b", "std_msgs/String", NODE)
@@ -130,29 +130,25 @@ def test_parameters_are_a_tree(master: Master) -> None:
         call(uri, "searchParam", "/x", "nothing")
 
 
-def test_a_subscriber_of_a_parameter_hears_of_its_change(
-    master: Master, printed: list[str]
-) -> None:
-    heard: list[tuple[Any, ...]] = []
+def test_a_subscriber_of_a_parameter_hears_of_its_change(master: Master, lines: list[str]) -> None:
+    arrivals: list[tuple[Any, ...]] = []
 
     def update(*arguments: Any) -> Answer:
-        heard.append(arguments)
+        arrivals.append(arguments)
         return [1, "", 0]
 
-    node = XmlRpcServer(
-        "127.0.0.1", 0, {"paramUpdate": update}, Log("test", printed.append), "node"
-    )
+    node = XmlRpcServer("127.0.0.1", 0, {"paramUpdate": update}, Log("test", lines.append), "node")
     uri = f"http://127.0.0.1:{node.port}/"
     assert call(master.uri, "subscribeParam", "/x", uri, "/gain") == {}
     call(master.uri, "setParam", "/x", "/gain", 0.5)
-    until(lambda: heard)
-    assert heard[0] == ("/master", "/gain/", 0.5)
+    until(lambda: arrivals)
+    assert arrivals[0] == ("/master", "/gain/", 0.5)
     assert call(master.uri, "unsubscribeParam", "/x", uri, "/gain") == 1
     node.close()
 
 
 @pytest.mark.parametrize(
-    "sent",
+    "data",
     [
         b"\x00\xff" * 50,
         b"POST / HTTP/1.1\r\nContent-Length: 5\r\n\r\n<a><b",
@@ -162,19 +158,19 @@ def test_a_subscriber_of_a_parameter_hears_of_its_change(
         b"GET / HTTP/1.1\r\n\r\n",
     ],
 )
-def test_garbage_does_not_end_it(master: Master, sent: bytes) -> None:
+def test_garbage_does_not_end_it(master: Master, data: bytes) -> None:
     port = int(master.uri.rsplit(":", 1)[1].strip("/"))
     with socket.create_connection(("127.0.0.1", port), LIMIT) as peer, suppress(OSError):
-        peer.sendall(sent)  # the master may leave before all is read: broken, reset, not connected
+        peer.sendall(data)  # the master may leave before all is read: broken, reset, not connected
         peer.shutdown(socket.SHUT_WR)
         while peer.recv(4096):
             pass
     assert call(master.uri, "getUri", "/x") == master.uri
 
 
-def test_what_is_no_answer_of_ros_is_one_clean_error(printed: list[str]) -> None:
+def test_what_is_no_answer_of_ros_is_one_clean_error(lines: list[str]) -> None:
     odd: dict[str, Any] = {"getUri": lambda caller: "hello", "getPid": lambda caller: 1 / 0}
-    server = XmlRpcServer("127.0.0.1", 0, odd, Log("test", printed.append), "node")
+    server = XmlRpcServer("127.0.0.1", 0, odd, Log("test", lines.append), "node")
     uri = f"http://127.0.0.1:{server.port}/"
     for method in ("getUri", "getPid", "nothing"):
         with pytest.raises(PeerError, match="does not answer as ROS"):
@@ -254,8 +250,8 @@ def test_a_wrong_call_is_answered_with_a_code_and_what_was_expected(
 ) -> None:
     method, arguments, said, value = WRONG[case]
     with xmlrpc.client.ServerProxy(master.uri, allow_none=True) as proxy:
-        code, text, found = getattr(proxy, method)(*arguments)
-    assert (code, found) == (-1, value)
+        code, text, actual = getattr(proxy, method)(*arguments)
+    assert (code, actual) == (-1, value)
     assert text.startswith(said)
 
 
@@ -263,16 +259,16 @@ def test_a_method_that_is_none_is_a_fault_that_names_it(master: Master) -> None:
     with xmlrpc.client.ServerProxy(master.uri) as proxy:
         with pytest.raises(xmlrpc.client.Fault, match="method 'registerAll' is not supported"):
             proxy.registerAll("/x")
-        with pytest.raises(xmlrpc.client.Fault) as raised:
+        with pytest.raises(xmlrpc.client.Fault) as excinfo:
             proxy.registerAll("/x")
-    assert "class" not in raised.value.faultString
+    assert "class" not in excinfo.value.faultString
 
 
 def test_the_last_update_that_a_subscriber_gets_is_the_newest(
     master: Master, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """Also where the first one is slow, and another thread sends the second."""
-    sent: list[list[str]] = []
+    updates: list[list[str]] = []
     is_newest_sent = threading.Event()
 
     def slow(
@@ -280,7 +276,7 @@ def test_the_last_update_that_a_subscriber_gets_is_the_newest(
     ) -> Answer:
         if len(publishers) == 1:
             is_newest_sent.wait(0.5)
-        sent.append(publishers)
+        updates.append(publishers)
         if len(publishers) == 2:
             is_newest_sent.set()
         return [1, "", 0]
@@ -291,6 +287,6 @@ def test_the_last_update_that_a_subscriber_gets_is_the_newest(
     call(master.uri, "registerPublisher", "/one", "/corners", kind, "http://x:1/")
     time.sleep(0.1)  # the first update has begun
     call(master.uri, "registerPublisher", "/two", "/corners", kind, "http://x:2/")
-    until(lambda: sent and len(sent[-1]) == 2 and is_newest_sent.is_set())
+    until(lambda: updates and len(updates[-1]) == 2 and is_newest_sent.is_set())
     time.sleep(0.1)
-    assert sent[-1] == ["http://x:1/", "http://x:2/"]
+    assert updates[-1] == ["http://x:1/", "http://x:2/"]

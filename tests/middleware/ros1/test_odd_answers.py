@@ -56,7 +56,7 @@ def answering(value: str) -> Iterator[str]:
 
 @pytest.mark.parametrize("case", ODD)
 def test_an_odd_answer_is_an_error_of_the_peer(case: str) -> None:
-    with answering(ODD[case]) as uri, pytest.raises(PeerError, match="no answer of ROS"):
+    with answering(ODD[case]) as uri, pytest.raises(PeerError, match="does not answer as ROS"):
         call(uri, "requestTopic", "/x", timeout=LIMIT)
 
 
@@ -76,7 +76,7 @@ def test_a_publisher_with_an_odd_answer_is_asked_again(
 
 def test_registering_goes_on_after_a_master_that_answers_with_a_number_for_a_list() -> None:
     answers: list[Any] = [7, []]
-    heard: list[tuple[str, list[str]]] = []
+    arrivals: list[tuple[str, list[str]]] = []
     methods = {
         "registerSubscriber": lambda *_: [1, "", answers.pop(0)],
         "unregisterSubscriber": lambda *_: [1, "", 1],
@@ -89,12 +89,12 @@ def test_registering_goes_on_after_a_master_that_answers_with_a_number_for_a_lis
         "/sim",
         "http://127.0.0.1:1/",
         log,
-        lambda topic, uris: heard.append((topic, uris)),
+        lambda topic, uris: arrivals.append((topic, uris)),
         parameters={},
         poll=0.02,
     )
     registrar.set_registrations(Registrations(subscribers={"/cmd": "std_msgs/Float64"}))
-    until(lambda: heard)
-    assert heard == [("/cmd", [])]
+    until(lambda: arrivals)
+    assert arrivals == [("/cmd", [])]
     registrar.close()
     master.close()

@@ -21,9 +21,9 @@ pytestmark = [needs_ros1, pytest.mark.slow]
 @pytest.fixture(scope="module")
 def sea(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Sea]:
     with peers(tmp_path_factory.mktemp("ros")) as made:
-        found = Sea(made)
-        yield found
-        found.close()
+        actual = Sea(made)
+        yield actual
+        actual.close()
 
 
 def test_the_tools_see_its_topics_and_services(sea: Sea) -> None:
@@ -40,9 +40,9 @@ def test_the_tools_see_its_topics_and_services(sea: Sea) -> None:
 
 def test_rostopic_echoes_a_message(sea: Sea) -> None:
     echo = sea.peers.start("rostopic", "echo", "-n", "1", "/uwsim/girona500/odom")
-    printed = sea.output(echo)
-    assert "secs:" in printed
-    assert "orientation:" in printed
+    lines = sea.output(echo)
+    assert "secs:" in lines
+    assert "orientation:" in lines
 
 
 def test_rostopic_hz_finds_a_rate(sea: Sea) -> None:
@@ -66,14 +66,14 @@ def test_the_robot_is_told_to_a_node_that_comes_late(sea: Sea) -> None:
 
 
 def test_a_program_of_the_originals_kind_drives_the_vehicle(sea: Sea) -> None:
-    before = sea.odometry().pose.pose
+    value_before = sea.odometry().pose.pose
     program = sea.peers.start(
         "set_vehicle_velocity.py", "/dataNavigator", *("0.2", "0", "0", "0", "0", "0")
     )
 
     def moved() -> float:
         now = sea.odometry().pose.pose.position
-        return math.dist((now.x, now.y), (before.position.x, before.position.y))
+        return math.dist((now.x, now.y), (value_before.position.x, value_before.position.y))
 
     until(lambda: moved() > 0.1, sea.advance)
     assert program.poll() is None
@@ -87,8 +87,8 @@ def test_a_program_of_the_originals_kind_moves_the_arm(sea: Sea) -> None:
     sea.simulation.latest_message("/uwsim/joint_state")
 
     def slew() -> float:
-        found = sea.simulation.latest_message("/uwsim/joint_state")
-        return math.nan if found is None else float(found.position[0])
+        actual = sea.simulation.latest_message("/uwsim/joint_state")
+        return math.nan if actual is None else float(actual.position[0])
 
     until(lambda: math.isclose(slew(), 0.3, abs_tol=1e-6), sea.advance)
     program.kill()
@@ -113,9 +113,9 @@ def test_a_program_sees_the_images_of_a_camera_and_no_others_are_rendered(sea: S
 
 def test_the_sums_of_types_are_those_of_ros(sea: Sea) -> None:
     kinds = {
-        found.ros1_name: found.md5
-        for each in vars(uwsim.messages).values()
-        if isinstance(each, type) and (found := wire_type(each)) is not None and found.md5
+        actual.ros1_name: actual.md5
+        for entry in vars(uwsim.messages).values()
+        if isinstance(entry, type) and (actual := wire_type(entry)) is not None and actual.md5
     }
     known = [
         name for name in kinds if name.startswith(("std_msgs", "geometry_", "sensor_", "nav_"))

@@ -36,10 +36,10 @@ def test_a_publisher_that_comes_while_a_topic_is_registered_is_kept(graph: Graph
     publish = other.bus.publisher("topic", Float64)
     graph.ready()
     sim = graph.node()
-    found: list[Any] = []
-    sim.bus.subscribe("topic", Float64, found.append)
+    actual: list[Any] = []
+    sim.bus.subscribe("topic", Float64, actual.append)
     graph.ready()
     until(lambda: other.bus.has_subscribers("topic"), graph.step)
     publish(Float64(2.5))
-    until(lambda: found, graph.step)
-    assert found == [Float64(2.5)]
+    until(lambda: actual, graph.step)
+    assert actual == [Float64(2.5)]

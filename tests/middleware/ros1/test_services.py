@@ -19,10 +19,10 @@ from uwsim.middleware.types import service, wire_service
 
 
 def test_stamps_of_a_request_are_taken_for_times_of_the_clock_of_ros() -> None:
-    asked: list[SetEntityState] = []
+    requests: list[SetEntityState] = []
 
-    def request(each: SetEntityState) -> Future[object]:
-        asked.append(each)
+    def request(entry: SetEntityState) -> Future[object]:
+        requests.append(entry)
         answer: Future[object] = Future()
         answer.set_result(SetEntityStateResponse())
         return answer
@@ -30,7 +30,7 @@ def test_stamps_of_a_request_are_taken_for_times_of_the_clock_of_ros() -> None:
     kind = wire_service(service("simulation_interfaces/srv/SetEntityState"))
     data = bytes(to_ros1(SetEntityState(state=EntityState(header=header(1.5)))))
     assert _answer(data, kind, request)[:1] == b"\x01"
-    stamp = asked[0].state.header.stamp
+    stamp = requests[0].state.header.stamp
     assert (stamp.sec, stamp.nanosec) == (0, 500_000_000)
 
 

@@ -54,10 +54,10 @@ def test_a_call_has_a_deadline_however_slowly_the_answer_comes() -> None:
 
 
 def test_slow_subscribers_do_not_hold_up_others(monkeypatch: pytest.MonkeyPatch) -> None:
-    heard: list[list[str]] = []
+    arrivals: list[list[str]] = []
 
     def update(caller: str, topic: str, uris: list[str]) -> list[object]:
-        heard.append(uris)
+        arrivals.append(uris)
         return [1, "", 0]
 
     log = Log("test", lambda line: None)
@@ -83,10 +83,10 @@ def test_slow_subscribers_do_not_hold_up_others(monkeypatch: pytest.MonkeyPatch)
     node = f"http://127.0.0.1:{honest.port}/"
     call(master.uri, "registerSubscriber", "/honest", "/chat", KIND, node)
     call(master.uri, "registerPublisher", "/y", "/chat", KIND, NODE)
-    until(lambda: heard)
-    assert heard == [[NODE]]
+    until(lambda: arrivals)
+    assert arrivals == [[NODE]]
     master.close()
-    assert all(each.daemon for each in threading.enumerate() if "ros1-master" in each.name)
+    assert all(entry.daemon for entry in threading.enumerate() if "ros1-master" in entry.name)
     honest.close()
 
 

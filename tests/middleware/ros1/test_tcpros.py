@@ -27,16 +27,16 @@ FIELDS = {"callerid": "/echo", "md5sum": "*", "topic": "/odom", "message_definit
 
 @pytest.fixture
 def pair() -> Iterator[tuple[socket.socket, socket.socket]]:
-    here, there = socket.socketpair()
-    here.settimeout(60.0)
-    with here, there:
-        yield here, there
+    local_end, remote_end = socket.socketpair()
+    local_end.settimeout(60.0)
+    with local_end, remote_end:
+        yield local_end, remote_end
 
 
 def test_a_header_is_read_as_it_was_written(pair: tuple[socket.socket, socket.socket]) -> None:
-    here, there = pair
-    there.sendall(encode_header(FIELDS))
-    assert read_header(here) == FIELDS
+    local_end, remote_end = pair
+    remote_end.sendall(encode_header(FIELDS))
+    assert read_header(local_end) == FIELDS
 
 
 def test_a_header_of_rospy_is_read() -> None:
@@ -45,7 +45,7 @@ def test_a_header_of_rospy_is_read() -> None:
 
 
 @pytest.mark.parametrize(
-    ("sent", "error"),
+    ("data", "error"),
     [
         (b"", "without a header"),
         (b"\x01\x00", "in the middle of a length"),
@@ -59,33 +59,37 @@ def test_a_header_of_rospy_is_read() -> None:
     ],
 )
 def test_garbage_is_one_clean_error(
-    pair: tuple[socket.socket, socket.socket], sent: bytes, error: str
+    pair: tuple[socket.socket, socket.socket], data: bytes, error: str
 ) -> None:
-    here, there = pair
-    there.sendall(sent)
-    there.shutdown(socket.SHUT_WR)
+    local_end, remote_end = pair
+    remote_end.sendall(data)
+    remote_end.shutdown(socket.SHUT_WR)
     with pytest.raises(PeerError, match=error):
-        read_header(here)
+        read_header(local_end)
 
 
 def test_a_frame_is_read_and_the_end_is_none(pair: tuple[socket.socket, socket.socket]) -> None:
-    here, there = pair
-    there.sendall(add_length(b"abc") + add_length(b""))
-    there.shutdown(socket.SHUT_WR)
-    assert [read_frame(here), read_frame(here), read_frame(here)] == [b"abc", b"", None]
-    assert has_left(here)
+    local_end, remote_end = pair
+    remote_end.sendall(add_length(b"abc") + add_length(b""))
+    remote_end.shutdown(socket.SHUT_WR)
+    assert [read_frame(local_end), read_frame(local_end), read_frame(local_end)] == [
+        b"abc",
+        b"",
+        None,
+    ]
+    assert has_left(local_end)
 
 
 def test_a_peer_is_still_there_when_more_than_a_thousand_files_are_open(
     pair: tuple[socket.socket, socket.socket],
 ) -> None:
-    here, there = pair
+    local_end, remote_end = pair
     soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
     resource.setrlimit(resource.RLIMIT_NOFILE, (hard, hard))
     try:
-        with socket.socket(fileno=fcntl.fcntl(here, fcntl.F_DUPFD, 1024)) as high:
+        with socket.socket(fileno=fcntl.fcntl(local_end, fcntl.F_DUPFD, 1024)) as high:
             assert not has_left(high)
-            there.shutdown(socket.SHUT_WR)
+            remote_end.shutdown(socket.SHUT_WR)
             assert has_left(high)
     finally:
         resource.setrlimit(resource.RLIMIT_NOFILE, (soft, hard))
@@ -94,17 +98,17 @@ def test_a_peer_is_still_there_when_more_than_a_thousand_files_are_open(
 def test_a_long_frame_is_refused_before_it_is_read(
     pair: tuple[socket.socket, socket.socket],
 ) -> None:
-    here, there = pair
-    there.sendall((MAX_MESSAGE + 1).to_bytes(4, "little"))
+    local_end, remote_end = pair
+    remote_end.sendall((MAX_MESSAGE + 1).to_bytes(4, "little"))
     with pytest.raises(PeerError, match="at most"):
-        read_frame(here)
+        read_frame(local_end)
 
 
 def test_a_peer_that_does_not_read_is_an_error(pair: tuple[socket.socket, socket.socket]) -> None:
-    here, _ = pair
-    here.settimeout(0.05)
+    local_end, _ = pair
+    local_end.settimeout(0.05)
     with pytest.raises(PeerError, match="does not read"):
-        write(here, bytes(64 * 2**20))
+        write(local_end, bytes(64 * 2**20))
 
 
 def test_nobody_there_is_one_clean_error() -> None:

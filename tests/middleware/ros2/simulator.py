@@ -36,8 +36,8 @@ class Simulator:
 def running() -> Iterator[Simulator]:
     """Give one in a domain of its own."""
     with free_domain() as domain:
-        found = Simulator(domain)
+        actual = Simulator(domain)
         try:
-            yield found
+            yield actual
         finally:
-            found.bridge.close()
+            actual.bridge.close()

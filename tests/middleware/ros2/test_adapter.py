@@ -23,8 +23,8 @@ RECEIVE_BUFFER = Path("/proc/sys/net/core/rmem_max")
 
 @pytest.fixture
 def simulator() -> Iterator[Simulator]:
-    with running() as found:
-        yield found
+    with running() as actual:
+        yield actual
 
 
 def test_a_node_reads_the_odometry_with_its_stamp_on_the_clock_of_ros(simulator: Simulator) -> None:
@@ -131,7 +131,7 @@ spin_until(lambda: False)
 )
 def test_images_of_640_by_480_pixels_arrive_each_and_whole(simulator: Simulator) -> None:
     publish = simulator.bus.publisher("camera", Image)
-    seen = simulator.bus.inbox("seen", String)
+    actual = simulator.bus.inbox("seen", String)
     source = """
 from sensor_msgs.msg import Image
 from std_msgs.msg import String
@@ -143,11 +143,11 @@ node.create_subscription(Image, "/camera", look, 10)
 spin_until(lambda: False)
 """
     pixels = np.zeros((480, 640, 3), dtype=np.uint8)
-    got: list[str] = []
+    samples: list[str] = []
 
     def step() -> None:
         simulator.step()
-        got.extend(each.data for each in seen.take())
+        samples.extend(entry.data for entry in actual.take())
 
     def send(n: int) -> None:
         pixels[0, 0, 0] = n
@@ -155,11 +155,11 @@ spin_until(lambda: False)
 
     with peer(source, simulator.domain):
         small = np.zeros((1, 1, 3), dtype=np.uint8)
-        until(lambda: got, lambda: (publish(image(small.copy(), time=0.0)), step()))
+        until(lambda: samples, lambda: (publish(image(small.copy(), time=0.0)), step()))
         for n in range(1, 21):  # both ends know each other
             send(n)
-            until(lambda n=n: got[-1].startswith(f"640x480 {n} "), step)
-    large = [each for each in got if not each.startswith("1x1 ")]
+            until(lambda n=n: samples[-1].startswith(f"640x480 {n} "), step)
+    large = [entry for entry in samples if not entry.startswith("1x1 ")]
     assert large == [f"640x480 {n} 921600" for n in range(1, 21)]
 
 

@@ -24,18 +24,18 @@ from uwsim.middleware.types import ros2_store
 @pytest.fixture
 def simulator(monkeypatch: pytest.MonkeyPatch) -> Iterator[Simulator]:
     monkeypatch.setenv("UWSIM_ROS2", "dds")
-    with running() as found:
-        found.bridge.admission = SingleProgram(lambda sender, text: None)
-        yield found
+    with running() as actual:
+        actual.bridge.admission = SingleProgram(lambda sender, text: None)
+        yield actual
 
 
 @pytest.fixture
 def two(simulator: Simulator) -> Iterator[tuple[Participant, Participant]]:
     settings = Ros2Settings(domain=simulator.domain)
-    found = [Participant(settings.domain, settings.configuration()) for _ in range(2)]
-    yield found[0], found[1]
-    for each in found:
-        each.close()
+    actual = [Participant(settings.domain, settings.configuration()) for _ in range(2)]
+    yield actual[0], actual[1]
+    for entry in actual:
+        entry.close()
 
 
 def named(participant: Participant) -> str:
@@ -53,18 +53,20 @@ def test_another_participant_publishes_nothing(
     admission = simulator.bridge.admission
     assert admission is not None
     admission.admit(named(two[1]))
-    heard: list[str] = []
+    arrivals: list[str] = []
 
     def publish() -> None:
         for writer, text in zip(writers, ("falsified", "tracking"), strict=True):
             writer.write(bytes(to_cdr(String(data=text))))
         simulator.step()
-        heard.extend(message.data for message in inbox.take())
+        arrivals.extend(message.data for message in inbox.take())
 
-    refused: list[tuple[str, str, int]] = []
-    until(lambda: heard and refused, publish, lambda: refused.extend(admission.take_refusals()))
-    assert set(heard) == {"tracking"}
-    assert {entry[:2] for entry in refused} == {(named(two[0]), "/status")}
+    refusals: list[tuple[str, str, int]] = []
+    until(
+        lambda: arrivals and refusals, publish, lambda: refusals.extend(admission.take_refusals())
+    )
+    assert set(arrivals) == {"tracking"}
+    assert {entry[:2] for entry in refusals} == {(named(two[0]), "/status")}
 
 
 def test_another_participant_calls_no_service(
@@ -86,12 +88,12 @@ def test_another_participant_calls_no_service(
     admission.admit(named(two[1]))
     data = bytes(to_cdr(Empty()))
     call = data[:CDR_HEADER] + CALL_HEADER.pack(1, 1) + data[CDR_HEADER:]
-    refused: list[tuple[str, str, int]] = []
+    refusals: list[tuple[str, str, int]] = []
     until(
-        lambda: refused,
+        lambda: refusals,
         lambda: writers[0].write(call),  # again: a reader may not know the writer yet
         simulator.step,
-        lambda: refused.extend(admission.take_refusals()),
+        lambda: refusals.extend(admission.take_refusals()),
     )
-    assert (n, {entry[:2] for entry in refused}) == ([0], {(named(two[0]), "/reset")})
+    assert (n, {entry[:2] for entry in refusals}) == ([0], {(named(two[0]), "/reset")})
     until(lambda: n[0], lambda: writers[1].write(call), simulator.step)

@@ -84,13 +84,13 @@ def test_images_of_307_kb_reach_a_reader_of_best_effort(
         )
         try:
             until(lambda: simulator.bus.has_subscribers("camera"), simulator.step)
-            began = time.monotonic()
+            start_time = time.monotonic()
             for n in range(N_IMAGES):
-                until(lambda due=began + n / RATE: time.monotonic() >= due, simulator.step)
+                until(lambda due=start_time + n / RATE: time.monotonic() >= due, simulator.step)
                 publish(image(pixels, time=simulator.time))
             until(lambda: program.poll() is not None, simulator.step)
-            printed, _ = program.communicate(timeout=BOUND_S)
+            lines, _ = program.communicate(timeout=BOUND_S)
         finally:
             program.kill()
             program.wait()
-    assert int(printed) >= MIN_IMAGES
+    assert int(lines) >= MIN_IMAGES

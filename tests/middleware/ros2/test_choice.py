@@ -24,8 +24,8 @@ def no_rclpy(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def domain() -> Iterator[int]:
-    with free_domain() as found:
-        yield found
+    with free_domain() as actual:
+        yield actual
 
 
 def told(environment: dict[str, str], domain: int) -> list[str]:
@@ -53,7 +53,7 @@ def test_a_user_may_do_without_rclpy(domain: int) -> None:
 def test_an_rclpy_that_cannot_be_imported_is_told(
     monkeypatch: pytest.MonkeyPatch, tmp_path: Path, domain: int
 ) -> None:
-    for name in [each for each in sys.modules if each.partition(".")[0] == "rclpy"]:
+    for name in [entry for entry in sys.modules if entry.partition(".")[0] == "rclpy"]:
         monkeypatch.delitem(sys.modules, name)
     (tmp_path / "rclpy").mkdir()
     broken = "raise ImportError('librcl.so: cannot open shared object file\\nand so on')\n"

@@ -65,15 +65,15 @@ while True:
 def process(source: str, domain: int) -> Iterator[subprocess.Popen[bytes]]:
     """A participant in a process of its own, killed at the end."""
     command = [sys.executable, "-c", PEER + source, str(domain)]
-    found = subprocess.Popen(command, stdout=subprocess.PIPE)
-    assert found.stdout is not None
-    os.set_blocking(found.stdout.fileno(), False)
+    actual = subprocess.Popen(command, stdout=subprocess.PIPE)
+    assert actual.stdout is not None
+    os.set_blocking(actual.stdout.fileno(), False)
     try:
-        yield found
+        yield actual
     finally:
-        found.kill()
-        found.wait()
-        found.stdout.close()
+        actual.kill()
+        actual.wait()
+        actual.stdout.close()
 
 
 def memory() -> float:
@@ -84,16 +84,16 @@ def memory() -> float:
 
 @pytest.fixture
 def simulator() -> Iterator[Simulator]:
-    with running() as found:
-        yield found
+    with running() as actual:
+        yield actual
 
 
 @pytest.fixture
 def other(simulator: Simulator) -> Iterator[Participant]:
     settings = Ros2Settings(domain=simulator.domain)
-    found = Participant(simulator.domain, settings.configuration())
-    yield found
-    found.close()
+    actual = Participant(simulator.domain, settings.configuration())
+    yield actual
+    actual.close()
 
 
 def writer_to(simulator: Simulator, other: Participant, topic: str) -> Writer:
@@ -131,7 +131,7 @@ def test_a_sample_that_is_no_message_is_refused_and_reported(simulator: Simulato
         receive(garbage)
     receive(text("good"))
     simulator.step()
-    assert [each.data for each in inbox.take()] == ["good"]
+    assert [entry.data for entry in inbox.take()] == ["good"]
     assert sum("/text: a message was refused" in line for line in simulator.lines) == 3
 
 
@@ -142,7 +142,7 @@ def test_of_a_flood_the_newest_are_kept_and_it_is_reported(
     writer = writer_to(simulator, other, "text")
     for n in range(N_FLOOD):
         writer.write(text(str(n)))
-    got: list[str] = []
+    samples: list[str] = []
 
     def is_told() -> bool:
         return any("faster than the simulation" in line for line in simulator.lines)
@@ -152,11 +152,11 @@ def test_of_a_flood_the_newest_are_kept_and_it_is_reported(
 
     def step() -> None:
         simulator.step()
-        new = [each.data for each in inbox.take()]
+        new = [entry.data for entry in inbox.take()]
         assert len(new) <= MAX_KEPT
-        got.extend(new)
+        samples.extend(new)
 
-    until(lambda: got and got[-1] == "end", step)
+    until(lambda: samples and samples[-1] == "end", step)
 
 
 @needs_rclpy
@@ -168,7 +168,7 @@ node.create_subscription(Image, "/camera", lambda image: say(n=image.header.stam
 spin_until(lambda: False)
 """
     pixels = np.zeros((240, 320, 3), dtype=np.uint8)
-    got: list[int] = []
+    samples: list[int] = []
 
     def step() -> None:
         publish(image(pixels.copy(), time=simulator.time))
@@ -179,9 +179,11 @@ spin_until(lambda: False)
         first.kill()
         with peer(source, simulator.domain) as second:
             until(second.answers, step)
-            began = simulator.bus.step
-            until(lambda: got, lambda: (step(), got.extend(a["n"] for a in second.answers())))
-    assert simulator.bus.step > began
+            start_step = simulator.bus.step
+            until(
+                lambda: samples, lambda: (step(), samples.extend(a["n"] for a in second.answers()))
+            )
+    assert simulator.bus.step > start_step
 
 
 @pytest.mark.slow
@@ -191,12 +193,12 @@ def test_a_reader_that_is_frozen_costs_bounded_memory_and_holds_nobody_up(
 ) -> None:
     publish = simulator.bus.publisher("camera", Image)
     say = simulator.bus.publisher("text", String)
-    heard: list[str] = []
+    arrivals: list[str] = []
     other.reader(
         "rt/text",
         raw_type(ros2_store(), "std_msgs/msg/String"),
         Quality(depth=0),
-        lambda sample: heard.append(from_cdr(String, sample.data).data),
+        lambda sample: arrivals.append(from_cdr(String, sample.data).data),
     )
     pixels = np.zeros((960, 1280, 3), np.uint8)
 
@@ -208,17 +210,17 @@ def test_a_reader_that_is_frozen_costs_bounded_memory_and_holds_nobody_up(
     with process(READS, simulator.domain) as reader:
         assert reader.stdout is not None
         until(reader.stdout.read, step)
-        until(lambda: heard, step)
+        until(lambda: arrivals, step)
         os.kill(reader.pid, signal.SIGSTOP)
-        before = memory()
+        value_before = memory()
         for _ in range(100):  # 370 MB, of which the reader takes none
             step()
-            said = f"{simulator.time - 0.002:.3f}"
-            until(partial(heard.__contains__, said), lambda: None)
-        assert memory() - before < 200.0
+            text = f"{simulator.time - 0.002:.3f}"
+            until(partial(arrivals.__contains__, text), lambda: None)
+        assert memory() - value_before < 200.0
         until(lambda: not simulator.bus.has_subscribers("camera"), step)
-    told = f"/camera: a reader has left, or was silent {simulator.bridge._node.lease}"
-    assert any(told in line for line in simulator.lines)
+    reports = f"/camera: a reader has left, or was silent {simulator.bridge._node.lease}"
+    assert any(reports in line for line in simulator.lines)
 
 
 @pytest.mark.slow
@@ -233,7 +235,7 @@ def test_a_writer_killed_in_the_middle_of_an_image_does_no_harm(
     mine = writer_to(simulator, other, "text")
     mine.write(text("still here"))
     until(lambda: texts.last_message is not None, simulator.step)
-    assert all(each.data.size == 960 * 1280 * 3 for each in inbox.take())
+    assert all(entry.data.size == 960 * 1280 * 3 for entry in inbox.take())
 
 
 def test_names_that_are_none_of_ros_2_are_told_and_the_others_are_there(
@@ -245,13 +247,13 @@ def test_names_that_are_none_of_ros_2_are_told_and_the_others_are_there(
         bus.subscribe(f"{name}/command", String, print)
         bus.services.serve(f"{name}/reset", Empty, lambda _: EmptyResponse())
     publish = bus.publisher("zz", String)
-    got: list[bytes] = []
+    samples: list[bytes] = []
     kind = raw_type(ros2_store(), "std_msgs/msg/String")
-    other.reader("rt/zz", kind, Quality(), lambda sample: got.append(sample.data))
-    until(lambda: got, lambda: (publish(String(data="here")), simulator.step()))
-    told = [line for line in simulator.lines if "not on the graph: /" in line]
-    assert len(told) == 3 * 6
-    assert any("not on the graph: /a b. A name of ROS 2 has letters" in line for line in told)
+    other.reader("rt/zz", kind, Quality(), lambda sample: samples.append(sample.data))
+    until(lambda: samples, lambda: (publish(String(data="here")), simulator.step()))
+    reports = [line for line in simulator.lines if "not on the graph: /" in line]
+    assert len(reports) == 3 * 6
+    assert any("not on the graph: /a b. A name of ROS 2 has letters" in line for line in reports)
 
 
 @needs_rclpy

@@ -79,4 +79,4 @@ def answers_of(simulator: Simulator, n: int) -> None:
         simulator.bus.deliver()
         node.barrier()
         simulator.bus.deliver()
-        assert [each.data[0] for each in box.take()] == [k + 1.0], "stamps are on ROS's clock"
+        assert [entry.data[0] for entry in box.take()] == [k + 1.0], "stamps are on ROS's clock"

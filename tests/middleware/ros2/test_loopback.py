@@ -19,18 +19,18 @@ from uwsim.middleware.ros2.loopback import bind_to_loopback, open_sockets
 LINES = ("for nodes on this computer", "its ports are open on all addresses")
 
 
-def devices(before: set[str]) -> Iterator[tuple[str, bytes]]:
+def devices(value_before: set[str]) -> Iterator[tuple[str, bytes]]:
     """Addresses and interfaces of the UDP sockets that were opened since."""
     for number in os.listdir("/proc/self/fd"):
         try:
             name = os.readlink(f"/proc/self/fd/{number}")
         except OSError:
             continue
-        if name.startswith("socket:") and name not in before:
-            with socket.socket(fileno=os.dup(int(number))) as found:
-                if found.family == socket.AF_INET and found.type == socket.SOCK_DGRAM:
-                    device = found.getsockopt(socket.SOL_SOCKET, socket.SO_BINDTODEVICE, 16)
-                    yield found.getsockname()[0], device.rstrip(b"\0")
+        if name.startswith("socket:") and name not in value_before:
+            with socket.socket(fileno=os.dup(int(number))) as actual:
+                if actual.family == socket.AF_INET and actual.type == socket.SOCK_DGRAM:
+                    device = actual.getsockopt(socket.SOL_SOCKET, socket.SO_BINDTODEVICE, 16)
+                    yield actual.getsockname()[0], device.rstrip(b"\0")
 
 
 @pytest.mark.parametrize(
@@ -47,23 +47,23 @@ def test_ports_are_bound_to_the_loopback_interface_when_the_first_line_says_so(
 ) -> None:
     lines: list[str] = []
     with free_domain() as domain:
-        before = open_sockets()
+        value_before = open_sockets()
         with closing(open_node({"UWSIM_ROS2": "dds", **more}, domain, Log("", lines.append))):
-            found = list(devices(before))
-    assert found
-    reachable = [each for each in found if each[0] == "0.0.0.0" and each[1] != b"lo"]
+            actual = list(devices(value_before))
+    assert actual
+    reachable = [entry for entry in actual if entry[0] == "0.0.0.0" and entry[1] != b"lo"]
     assert (not reachable) == is_closed
     assert LINES[not is_closed] in lines[0]
 
 
 def test_a_socket_that_is_bound_to_loopback_still_hears_this_computer() -> None:
-    before = open_sockets()
+    value_before = open_sockets()
     with (
         socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as listens,
         socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as says,
     ):
         listens.bind(("0.0.0.0", 0))
         listens.settimeout(5.0)
-        assert bind_to_loopback(before)
+        assert bind_to_loopback(value_before)
         says.sendto(b"here", ("127.0.0.1", listens.getsockname()[1]))
         assert listens.recv(10) == b"here"

@@ -48,14 +48,14 @@ def test_bytes_go_from_one_to_the_other_as_they_are(two: tuple[Participant, Part
         Quality(),
         events={READERS_CHANGED: lambda w: n_readers.append(len(w.get_matched_subscriptions()))},
     )
-    got: list[Any] = []
-    receiver.reader("rt/a", TEXT, Quality(), got.append)
+    samples: list[Any] = []
+    receiver.reader("rt/a", TEXT, Quality(), samples.append)
     until(lambda: n_readers and n_readers[-1] == 1, nothing)
-    sent = [bytes(to_cdr(String(data="x" * n))) for n in range(5)]
-    for data in sent:
+    sent_messages = [bytes(to_cdr(String(data="x" * n))) for n in range(5)]
+    for data in sent_messages:
         assert writer.write(data)
-    until(lambda: len(got) == 5, nothing)
-    assert [from_cdr(String, each.data).data for each in got] == ["x" * n for n in range(5)]
+    until(lambda: len(samples) == 5, nothing)
+    assert [from_cdr(String, entry.data).data for entry in samples] == ["x" * n for n in range(5)]
 
 
 def test_what_is_latched_reaches_a_reader_that_comes_late(
@@ -65,10 +65,10 @@ def test_what_is_latched_reaches_a_reader_that_comes_late(
     writer = sender.writer("rt/a", TEXT, Quality(depth=2, is_latched=True))
     for text in "abc":
         writer.write(bytes(to_cdr(String(data=text))))
-    got: list[Any] = []
-    receiver.reader("rt/a", TEXT, Quality(is_latched=True), got.append)
-    until(lambda: len(got) == 2, nothing)
-    assert [from_cdr(String, each.data).data for each in got] == ["b", "c"]
+    samples: list[Any] = []
+    receiver.reader("rt/a", TEXT, Quality(is_latched=True), samples.append)
+    until(lambda: len(samples) == 2, nothing)
+    assert [from_cdr(String, entry.data).data for entry in samples] == ["b", "c"]
 
 
 def test_a_writer_that_is_forgotten_leaves_its_readers(

@@ -23,8 +23,8 @@ from uwsim.middleware.ros2.rclpy_types import RclpyTypes, has_same_fields, insta
 
 @pytest.fixture
 def simulator() -> Iterator[Simulator]:
-    with running() as found:
-        yield found
+    with running() as actual:
+        yield actual
 
 
 CALLER = """
@@ -42,17 +42,17 @@ while n < 3:
 
 
 def test_a_node_of_fast_dds_calls_a_service_of_the_simulation(simulator: Simulator) -> None:
-    asked: list[Empty] = []
+    requests: list[Empty] = []
 
     def start(request: Empty) -> EmptyResponse:
-        asked.append(request)
+        requests.append(request)
         return EmptyResponse()
 
     simulator.bus.services.serve("start", Empty, start)
     with peer(CALLER, simulator.domain) as node:
         answers: list[dict[str, int]] = []
         until(lambda: len(answers) == 3, lambda: (simulator.step(), answers.extend(node.answers())))
-    assert asked == [Empty()] * 3
+    assert requests == [Empty()] * 3
     assert simulator.lines == []
 
 
@@ -110,7 +110,7 @@ spin_until(lambda: 3.0 in got)
 out.publish(TwistStamped())
 spin_until(lambda: False)
 """
-    got: list[float] = []
+    samples: list[float] = []
     n = 0
 
     def step() -> None:
@@ -120,17 +120,17 @@ spin_until(lambda: False)
         message.twist.linear.x = 3.0 + n
         publish(message)
         simulator.step()
-        got.extend(each.twist.linear.x for each in inbox.take())
+        samples.extend(entry.twist.linear.x for entry in inbox.take())
 
     step()
     assert not simulator.bridge.subscribers.is_read("rov/twist"), (
         "the simulation's own reader is no demand"
     )
     with peer(source.replace("3.0 in got", "len(got) > 20"), simulator.domain):
-        until(lambda: 0.0 in got, step)
+        until(lambda: 0.0 in samples, step)
         for _ in range(20):
             step()
-    assert sorted(got) == [0.0, *(3.0 + each for each in range(1, n + 1))]
+    assert sorted(samples) == [0.0, *(3.0 + entry for entry in range(1, n + 1))]
 
 
 def test_types_that_rclpy_lacks_are_told_a_package_a_line_and_the_rest_goes_on(
@@ -217,11 +217,18 @@ def test_a_type_with_other_fields_than_ours_is_not_taken(monkeypatch: pytest.Mon
 
 
 def test_all_types_of_the_packages_that_rclpy_has_have_our_fields() -> None:
-    here = ("std_msgs", "sensor_msgs", "geometry_msgs", "nav_msgs", "std_srvs", "rosgraph_msgs")
+    packages = (
+        "std_msgs",
+        "sensor_msgs",
+        "geometry_msgs",
+        "nav_msgs",
+        "std_srvs",
+        "rosgraph_msgs",
+    )
     names = [
         name
         for name in ros2_store().fielddefs
-        if name.startswith(here) and "_Event" not in name and name.count("/") == 2
+        if name.startswith(packages) and "_Event" not in name and name.count("/") == 2
     ]
     wrong = [name for name in names if name not in SERVICES and not has_same_fields(name)]
     assert len(names) > 90

@@ -49,21 +49,21 @@ def setting(monkeypatch: pytest.MonkeyPatch) -> Iterator[Setting]:
 
 @pytest.mark.parametrize("type", ODOMETRY)
 def test_topics_for_a_type_by_either_spelling(setting: Setting, type: str) -> None:
-    asked = {"service": "/rosapi/topics_for_type", "args": {"type": type}}
-    assert setting.ask(setting.client(), **asked)["values"] == {"topics": ["/a/odom", "/b/odom"]}
+    requests = {"service": "/rosapi/topics_for_type", "args": {"type": type}}
+    assert setting.ask(setting.client(), **requests)["values"] == {"topics": ["/a/odom", "/b/odom"]}
 
 
 @pytest.mark.parametrize("type", ["std_srvs/Empty", "std_srvs/srv/Empty"])
 def test_services_for_a_type_by_either_spelling(setting: Setting, type: str) -> None:
-    asked = {"service": "/rosapi/services_for_type", "args": {"type": type}}
-    assert setting.ask(setting.client(), **asked)["values"]["services"] == ["/reset"]
+    requests = {"service": "/rosapi/services_for_type", "args": {"type": type}}
+    assert setting.ask(setting.client(), **requests)["values"]["services"] == ["/reset"]
 
 
 @pytest.mark.parametrize("type", ODOMETRY)
 def test_the_details_of_a_message_have_all_types_inside_it(setting: Setting, type: str) -> None:
-    asked = {"service": "/rosapi/message_details", "args": {"type": type}}
-    typedefs = setting.ask(setting.client(), **asked)["values"]["typedefs"]
-    by_name = {each["type"]: each for each in typedefs}
+    requests = {"service": "/rosapi/message_details", "args": {"type": type}}
+    typedefs = setting.ask(setting.client(), **requests)["values"]["typedefs"]
+    by_name = {entry["type"]: entry for entry in typedefs}
     assert typedefs[0]["fieldnames"] == ["header", "child_frame_id", "pose", "twist"]
     assert typedefs[0]["fieldarraylen"] == [-1, -1, -1, -1]
     covariance = by_name["geometry_msgs/msg/PoseWithCovariance"]
@@ -118,9 +118,9 @@ def test_a_message_is_sent_as_cdr(setting: Setting) -> None:
     frame = client.recv(timeout=LIMIT)
     assert isinstance(frame, bytes)
     start = frame.index(b"\x00\x01\x00\x00")  # CDR, little-endian
-    found = from_cdr(TwistStamped, frame[start:])
-    assert found.twist.angular.z == 1.0 / 3.0
-    assert (found.header.stamp.sec, found.header.stamp.nanosec) == (1, 250_000_000)
+    actual = from_cdr(TwistStamped, frame[start:])
+    assert actual.twist.angular.z == 1.0 / 3.0
+    assert (actual.header.stamp.sec, actual.header.stamp.nanosec) == (1, 250_000_000)
 
 
 @pytest.mark.parametrize("encoding", ["rgb8", "mono8"])
@@ -131,9 +131,9 @@ def test_every_topic_of_images_has_one_of_compressed_images(
     say = setting.bus.publisher(name, Image)
     setting.bridge.step()
     client = setting.client()
-    found = setting.ask(client, service="/rosapi/topics")["values"]
-    number = found["topics"].index(f"/{name}/compressed")
-    assert found["types"][number] == CompressedImage.__msgtype__
+    actual = setting.ask(client, service="/rosapi/topics")["values"]
+    number = actual["topics"].index(f"/{name}/compressed")
+    assert actual["types"][number] == CompressedImage.__msgtype__
     assert not setting.bus.has_subscribers(name)
     kind = "sensor_msgs/CompressedImage"
     send(client, op="subscribe", topic=f"/{name}/compressed", type=kind, compression="cbor")

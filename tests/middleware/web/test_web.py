@@ -67,17 +67,17 @@ class Setting:
     def ask(self, client: ClientConnection, **frame: Any) -> Any:
         """Call a service of the simulation and return the response."""
         send(client, op="call_service", id="c", **frame)
-        heard: list[Any] = []
+        arrivals: list[Any] = []
 
         def is_answered() -> bool:
             try:
-                heard.append(json.loads(client.recv(timeout=0.001)))
+                arrivals.append(json.loads(client.recv(timeout=0.001)))
             except TimeoutError:
                 return False
-            return heard[-1].get("op") == "service_response"
+            return arrivals[-1].get("op") == "service_response"
 
         self.step_until(is_answered)
-        return heard[-1]
+        return arrivals[-1]
 
     def close(self) -> None:
         self.bridge.close()
@@ -139,14 +139,14 @@ def test_a_client_calls_services_and_asks_what_there_is(setting: Setting) -> Non
     setting.bus.services.serve("reset", Empty, lambda request: EmptyResponse())
     setting.bridge.step()
     client = setting.client()
-    found = setting.ask(client, service="/rosapi/topics")
-    assert found["values"] == {
+    actual = setting.ask(client, service="/rosapi/topics")
+    assert actual["values"] == {
         "topics": ["/rosout", "/twist"],
         "types": ["rcl_interfaces/msg/Log", "geometry_msgs/msg/TwistStamped"],
     }
     assert "/reset" in setting.ask(client, service="/rosapi/services")["values"]["services"]
-    asked = {"service": "/rosapi/service_type", "args": {"service": "/reset"}}
-    assert setting.ask(client, **asked)["values"] == {"type": "std_srvs/srv/Empty"}
+    requests = {"service": "/rosapi/service_type", "args": {"service": "/reset"}}
+    assert setting.ask(client, **requests)["values"] == {"type": "std_srvs/srv/Empty"}
     answer = setting.ask(client, service="/reset")
     assert (answer["result"], answer["values"], answer["id"]) == (True, {}, "c")
     wrong = setting.ask(client, service="/rest")
@@ -177,11 +177,11 @@ def test_the_simulation_calls_a_service_of_a_client(setting: Setting) -> None:
     kind = "underwater_sensor_msgs/GTpublish"
     send(client, op="advertise_service", service="/autoInit", type=kind)
     setting.step_until(lambda: setting.bus.services.is_offered("autoInit"))
-    asked: list[Any] = []
+    requests: list[Any] = []
 
     def answer() -> None:
         frame = heard(client)
-        asked.append(frame)
+        requests.append(frame)
         send(client, op="service_response", id=frame["id"], service="/autoInit", result=True)
 
     outside = threading.Thread(target=answer)
@@ -191,7 +191,7 @@ def test_the_simulation_calls_a_service_of_a_client(setting: Setting) -> None:
     )
     outside.join()
     assert isinstance(response, GTpublishResponse)
-    assert (asked[0]["op"], asked[0]["args"]) == ("call_service", {"groundTruth": [1.0, 2.0]})
+    assert (requests[0]["op"], requests[0]["args"]) == ("call_service", {"groundTruth": [1.0, 2.0]})
 
 
 def test_a_service_whose_client_leaves_fails_and_is_withdrawn(setting: Setting) -> None:
@@ -318,8 +318,8 @@ def test_of_a_flood_of_100_000_the_newest_are_kept_and_the_log_says_so(
 ) -> None:
     limits = setting.bridge._limits  # read as fast as it can be
     limits.share, limits.work = 1e3, None
-    found: list[String] = []
-    setting.bus.subscribe("text", String, found.append)
+    actual: list[String] = []
+    setting.bus.subscribe("text", String, actual.append)
     setting.bridge.step()
     flooder = setting.client()
     n = 100_000
@@ -340,7 +340,7 @@ def test_of_a_flood_of_100_000_the_newest_are_kept_and_the_log_says_so(
     assert any("faster than the simulation takes them" in line for line in setting.lines)
     assert len(setting.lines) < 20
     setting.bridge.step()
-    assert [int(each.data) for each in found] == list(range(n - 1000, n))
+    assert [int(entry.data) for entry in actual] == list(range(n - 1000, n))
     assert setting.ask(setting.client(), service="/rosapi/nodes")["result"] is True
 
 
@@ -397,18 +397,18 @@ def test_a_reader_that_breaks_off_while_images_come_is_forgotten(setting: Settin
 def test_pages_of_other_origins_are_refused(setting: Setting) -> None:
     assert setting.client(origin="http://localhost:8080")
     for origin in ("https://example.org", "null", "http://localhost.example.org"):
-        with pytest.raises(InvalidStatus) as caught:
+        with pytest.raises(InvalidStatus) as excinfo:
             setting.client(origin=origin)
-        assert caught.value.response.status_code == 403
+        assert excinfo.value.response.status_code == 403
 
 
 def test_a_token_is_asked_for() -> None:
     setting = Setting(token="secret")
     try:
         for path in ("/", "/?token=wrong"):
-            with pytest.raises(InvalidStatus) as caught:
+            with pytest.raises(InvalidStatus) as excinfo:
                 setting.client(path)
-            assert caught.value.response.status_code == 401
+            assert excinfo.value.response.status_code == 401
         assert setting.client("/?token=secret")
         assert setting.client(additional_headers={"Authorization": "Bearer secret"})
     finally:
@@ -453,35 +453,35 @@ def test_a_service_of_a_client_that_does_not_answer_holds_up_who_calls_it_alone(
     send(offerer, op="advertise_service", service="/slow", type=kind)
     setting.step_until(lambda: "slow" in setting.bridge.graph.services)
     send(caller, op="call_service", id="1", service="/slow", args={"groundTruth": [1.0]})
-    began = time.monotonic()
-    asked: list[Any] = []
+    start_time = time.monotonic()
+    requests: list[Any] = []
 
     def is_asked() -> bool:
         with suppress(TimeoutError):
-            asked.append(json.loads(offerer.recv(timeout=0.001)))
-        return bool(asked)
+            requests.append(json.loads(offerer.recv(timeout=0.001)))
+        return bool(requests)
 
     setting.step_until(is_asked)
     for _ in range(10):
         setting.bridge.step()
-    assert time.monotonic() - began < 10.0  # a call that is waited for takes 60 s
+    assert time.monotonic() - start_time < 10.0  # a call that is waited for takes 60 s
     with pytest.raises(TimeoutError):
         caller.recv(timeout=0.01)
-    send(offerer, op="service_response", id=asked[0]["id"], values={}, result=True)
+    send(offerer, op="service_response", id=requests[0]["id"], values={}, result=True)
     assert heard(caller)["result"] is True
     send(caller, op="call_service", id="2", service="/slow", args={"groundTruth": [1.0]})
-    asked.clear()
+    requests.clear()
     setting.step_until(is_asked)
     offerer.close()
-    answered: list[Any] = []
+    answers: list[Any] = []
 
     def is_answered() -> bool:
         with suppress(TimeoutError):
-            answered.append(json.loads(caller.recv(timeout=0.001)))
-        return bool(answered)
+            answers.append(json.loads(caller.recv(timeout=0.001)))
+        return bool(answers)
 
     setting.step_until(is_answered)
-    assert answered[0]["result"] is False
+    assert answers[0]["result"] is False
 
 
 def test_a_message_to_one_client_reaches_no_other(setting: Setting) -> None:
@@ -493,5 +493,5 @@ def test_a_message_to_one_client_reaches_no_other(setting: Setting) -> None:
     name = f"client 127.0.0.1:{clients[0].local_address[1]}"
     setting.bridge.send_to(name, "tick", String(data="no"))
     setting.bridge.send("tick", String(data="all"))
-    heard = [json.loads(client.recv(LIMIT))["msg"]["data"] for client in clients]
-    assert heard == ["no", "all"]
+    arrivals = [json.loads(client.recv(LIMIT))["msg"]["data"] for client in clients]
+    assert arrivals == ["no", "all"]

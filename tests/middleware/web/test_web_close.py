@@ -21,13 +21,13 @@ from uwsim.middleware.web.server import WebBridge
 def unraisable(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """Record what goes wrong where no error can be raised: a transport that was never closed."""
     monkeypatch.setattr("uwsim.middleware.web.server.CLOSE_TIMEOUT", 0.2)  # [s]
-    found: list[str] = []
+    actual: list[str] = []
 
     def record(unraisable: sys.UnraisableHookArgs) -> None:
-        found.append(repr(unraisable.exc_value))
+        actual.append(repr(unraisable.exc_value))
 
     monkeypatch.setattr(sys, "unraisablehook", record)
-    return found
+    return actual
 
 
 def opened() -> WebBridge:

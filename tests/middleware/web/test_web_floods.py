@@ -20,21 +20,21 @@ from uwsim.middleware.web.server import PING_INTERVAL, WebBridge
 
 
 @pytest.fixture
-def rests(monkeypatch: pytest.MonkeyPatch) -> list[float]:
+def pauses(monkeypatch: pytest.MonkeyPatch) -> list[float]:
     """The times for which clients are not read [s]."""
-    found: list[float] = []
+    actual: list[float] = []
     sleep = asyncio.sleep
 
     async def rest(seconds: float) -> None:
         if (
             0.0 < seconds < 0.5 * PING_INTERVAL
         ):  # longer ones are the library's, between two questions
-            found.append(seconds)
+            actual.append(seconds)
         await sleep(seconds)
 
     monkeypatch.setattr("uwsim.middleware.web.server.asyncio.sleep", rest)
     monkeypatch.setattr("uwsim.middleware.web.server.CLIENT_BURST", 0.002)
-    return found
+    return actual
 
 
 ADMISSIONS = {
@@ -46,7 +46,7 @@ ADMISSIONS = {
 
 
 @pytest.mark.parametrize("sync", ADMISSIONS)
-def test_what_a_run_waits_for_is_read_at_once(sync: str, rests: list[float]) -> None:
+def test_what_a_run_waits_for_is_read_at_once(sync: str, pauses: list[float]) -> None:
     bus, n = Bus(), 200
     bus.inbox("twist", TwistStamped)
     bridge = WebBridge(bus, lambda: 0.0, WebOptions(port=0), Log("web", lambda line: None))
@@ -60,10 +60,10 @@ def test_what_a_run_waits_for_is_read_at_once(sync: str, rests: list[float]) -> 
             until(lambda: bridge.arrivals.n_arrived["twist"] == n)
     finally:
         bridge.close()
-    assert bool(rests) == (sync == "none")
+    assert bool(pauses) == (sync == "none")
 
 
-def test_a_client_that_calls_itself_a_participant_waits_as_others_do(rests: list[float]) -> None:
+def test_a_client_that_calls_itself_a_participant_waits_as_others_do(pauses: list[float]) -> None:
     bus, n = Bus(), 200
     bridge = WebBridge(bus, lambda: 0.0, WebOptions(port=0), Log("web", lambda line: None))
     bridge.admission = SingleProgram(lambda sender, what: None)
@@ -76,12 +76,12 @@ def test_a_client_that_calls_itself_a_participant_waits_as_others_do(rests: list
             )
             for _ in range(n):
                 client.send(json.dumps(join))
-            until(lambda: len(rests) > 1)
+            until(lambda: len(pauses) > 1)
     finally:
         bridge.close()
 
 
-def test_a_flood_is_read_in_few_bursts(rests: list[float]) -> None:
+def test_a_flood_is_read_in_few_bursts(pauses: list[float]) -> None:
     """Each time that the server wakes, the simulation waits for Python's lock."""
     bus, n = Bus(), 200
     bus.inbox("twist", TwistStamped)
@@ -94,7 +94,7 @@ def test_a_flood_is_read_in_few_bursts(rests: list[float]) -> None:
             until(lambda: bridge.arrivals.n_arrived["twist"] == n)
     finally:
         bridge.close()
-    assert 0 < len(rests) < n / 5
+    assert 0 < len(pauses) < n / 5
     assert sum("sends faster than it is read" in line for line in bridge.log.lines) in range(1, 7)
 
 
