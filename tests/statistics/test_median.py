@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from uwsim.statistics import fewest_for_median, median_interval
+from uwsim.statistics import median_interval, min_values_for_median
 
 
 def points(values: list[float]) -> list[tuple[float, float]]:
@@ -43,7 +43,7 @@ def test_they_are_those_of_an_independent_library(n: int, confidence: float) -> 
 def test_too_few_values_have_no_limits_and_the_fewest_are_known() -> None:
     assert median_interval(points([1.0, 2.0, 4.0])).low is None
     assert median_interval(points([1.0, 2.0, 4.0])).value == 2.0
-    assert [fewest_for_median(c) for c in (0.5, 0.9, 0.95, 0.99)] == [2, 5, 6, 8]
+    assert [min_values_for_median(c) for c in (0.5, 0.9, 0.95, 0.99)] == [2, 5, 6, 8]
     assert median_interval(points([1.0] * 5), confidence=0.9375).low == 1.0
     with pytest.raises(ValueError, match="at least one"):
         median_interval([])

@@ -12,16 +12,16 @@ from scipy import stats
 from uwsim.base.rng import stream
 from uwsim.statistics import (
     cohens_d,
-    fewest_for,
     hedges_g,
     holm,
     mcnemar,
+    min_p_value,
+    min_pairs,
     power,
     rank_biserial,
     repeats_needed,
     sign_flip,
     signed_rank,
-    smallest_p,
     vargha_delaney,
 )
 
@@ -91,25 +91,25 @@ def test_equal_differences_reach_the_smallest_p_there_is_in_spite_of_rounding() 
 
 @pytest.mark.parametrize(("alpha", "fewest"), [(0.05, 6), (0.0625, 5), (0.01, 8), (0.05 / 27, 11)])
 def test_fewest_pairs_that_can_reach_a_level(alpha: float, fewest: int) -> None:
-    assert fewest_for(alpha) == fewest
+    assert min_pairs(alpha) == fewest
     assert 2 / 2**fewest <= alpha < 2 / 2 ** (fewest - 1)
 
 
 @pytest.mark.parametrize("n", [1, 2, 5, 6, 7, 12])
 def test_the_smallest_p_is_that_of_differences_of_one_sign_and_scipy_agrees(n: int) -> None:
     values = np.abs(draw(n)) + 0.1
-    assert sign_flip(values.tolist()) == smallest_p(n)
+    assert sign_flip(values.tolist()) == min_p_value(n)
     if n > 1:
         theirs = stats.permutation_test(
             (values,), np.mean, permutation_type="samples", n_resamples=np.inf
         )
-        assert theirs.pvalue == pytest.approx(smallest_p(n), abs=1e-12)
-    assert all((sign_flip(draw(n, shift)) or 0.0) >= smallest_p(n) for shift in (0.0, 1.0, 9.0))
+        assert theirs.pvalue == pytest.approx(min_p_value(n), abs=1e-12)
+    assert all((sign_flip(draw(n, shift)) or 0.0) >= min_p_value(n) for shift in (0.0, 1.0, 9.0))
 
 
 @pytest.mark.parametrize("n", [21, 60, 200])
 def test_where_sign_patterns_are_drawn_no_p_is_below_one_in_all_of_them(n: int) -> None:
-    assert smallest_p(n) == 1e-5
+    assert min_p_value(n) == 1e-5
     assert 1e-5 <= (sign_flip([1.0] * n) or 0.0) <= 2e-5
 
 
@@ -117,7 +117,7 @@ def test_where_sign_patterns_are_drawn_no_p_is_below_one_in_all_of_them(n: int) 
 def test_with_the_fewest_pairs_of_a_corrected_level_the_clearest_differences_are_shown(
     n_tests: int,
 ) -> None:
-    fewest = fewest_for(0.05 / n_tests)
+    fewest = min_pairs(0.05 / n_tests)
     clear = [sign_flip([1.0] * fewest)] * n_tests
     assert all(p is not None and p <= 0.05 for p in holm(clear))
     short = [sign_flip([1.0] * (fewest - 1))] * n_tests

@@ -15,7 +15,7 @@ from pathlib import Path
 from ..results.atomic_file import write_text
 from ..results.inputs import Inputs
 from ..results.run_info import RunInfo
-from ..statistics import Median, fewest_for_median, median_interval, rate
+from ..statistics import Median, median_interval, min_values_for_median, rate
 from .criterion import reasons
 from .evaluate import Evaluation
 from .search import Range, Search
@@ -205,7 +205,7 @@ class Envelope:
     def _limits(self) -> str:
         median, settings = self.median, self.settings
         if median.confidence is None or median.low is None or median.high is None:
-            n_needed = fewest_for_median(settings.confidence)
+            n_needed = min_values_for_median(settings.confidence)
             n = len(self.search.thresholds)
             seeds = "1 seed" if n == 1 else f"{n} seeds"
             return f" ({seeds}; a bound of {settings.confidence * 100:.3g} % needs {n_needed})"

@@ -6,16 +6,16 @@ from collections.abc import Sequence
 
 
 def holm(p_values: Sequence[float | None]) -> tuple[float | None, ...]:
-    r"""Return the p-values adjusted by Holm (1979); None, no test, stays None and counts for none.
+    r"""Return the p-values adjusted by Holm (1979); None (no test) stays None and is not counted.
 
     With m tests ordered by p, :math:`\tilde p_{(i)} = \max_{j \le i} \min(1, (m-j+1)\, p_{(j)})`.
-    Of all that are called different at :math:`\tilde p \le \alpha`, the chance that even one is not
-    is at most :math:`\alpha`, however the tests depend on each other.
+    The probability of even one false rejection at :math:`\tilde p \le \alpha` is at most
+    :math:`\alpha`, for every dependence between the tests.
     """
-    tested = sorted((p, i) for i, p in enumerate(p_values) if p is not None)
-    adjusted: list[float | None] = [None] * len(p_values)
-    largest = 0.0
-    for place, (p, i) in enumerate(tested):
-        largest = max(largest, min(1.0, (len(tested) - place) * p))
-        adjusted[i] = largest
-    return tuple(adjusted)
+    sorted_tests = sorted((p, i) for i, p in enumerate(p_values) if p is not None)
+    adjusted_p_values: list[float | None] = [None] * len(p_values)
+    running_maximum = 0.0
+    for rank, (p, i) in enumerate(sorted_tests):
+        running_maximum = max(running_maximum, min(1.0, (len(sorted_tests) - rank) * p))
+        adjusted_p_values[i] = running_maximum
+    return tuple(adjusted_p_values)

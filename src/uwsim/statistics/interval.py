@@ -13,25 +13,25 @@ import numpy.typing as npt
 from ..base.rng import stream
 
 N_RESAMPLES = 10_000
-"""Drawn once for each number of values, the same for all data."""
-MAX_RESAMPLED = 200
-"""With more values than these the bootstrap-t and Student's interval are the same to the eye."""
+"""The number of resamples, drawn once for each number of values and the same for all data."""
+MAX_BOOTSTRAP_VALUES = 200
+"""The number of values above which the interval is Student's, which then differs little."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Interval:
-    """A mean and its confidence interval; without limits there were too few values."""
+    """A mean and its confidence interval; too few values have no limits."""
 
     n: int
-    """Number of values."""
+    """The number of values."""
     mean: float | None
-    """Arithmetic mean, in the values' unit; None without values."""
+    """The arithmetic mean, in the values' unit; None without values."""
     std: float | None
-    """Standard deviation of the sample (n - 1); None below two values."""
+    """The standard deviation of the sample (n - 1); None for fewer than two values."""
     low: float | None
-    """Lower limit; None below two values."""
+    """The lower limit; None for fewer than two values."""
     high: float | None
-    """Upper limit, not as far from the mean as the lower one; None below two values."""
+    """The upper limit, at another distance from the mean; None for fewer than two values."""
 
 
 def mean_interval(values: Sequence[float], *, confidence: float = 0.95) -> Interval:
@@ -43,12 +43,12 @@ def mean_interval(values: Sequence[float], *, confidence: float = 0.95) -> Inter
         \qquad t^* = \frac{\bar x^* - \bar x}{s^*/\sqrt n}
 
     (Efron 1982, section 10.10; Hall 1988), where every value of a resample :math:`x^*` carries a
-    normal error of variance :math:`s^2/n` (Hesterberg 2004): resamples then spread as widely as
-    samples do, never collapse onto one value, and the limits are finite from two values on. Above
-    `MAX_RESAMPLED` values Student's quantiles stand for :math:`t^*`.
+    normal error of variance :math:`s^2/n` (Hesterberg 2004). Resamples then spread as widely as
+    samples do, never consist of one value, and the limits are finite from two values on. Above
+    `MAX_BOOTSTRAP_VALUES` values :math:`t^*` has Student's quantiles.
 
-    Chosen by measured coverage, ``docs/statistics.md``: 95 % for normal values of any number, at
-    least 93 % for skewness up to 2 from 10 values on; below what is promised for long tails.
+    Its coverage was measured (``docs/statistics.md``): 95 % for normal values of any number, at
+    least 93 % for skewness up to 2 from 10 values on. For long tails it is below the nominal one.
 
     Equal values, whatever their order, have equal limits; mirrored values have mirrored ones.
     """
@@ -61,26 +61,26 @@ def mean_interval(values: Sequence[float], *, confidence: float = 0.95) -> Inter
     std = math.hypot(*(v - mean for v in values)) / math.sqrt(n - 1)
     if std <= 1e-14 * abs(mean):
         return Interval(n=n, mean=mean, std=std, low=mean, high=mean)
-    standardised = np.array(sorted((v - mean) / std for v in values))
-    low, high = _quantiles(standardised, (1 - confidence) / 2)
+    z_scores = np.array(sorted((v - mean) / std for v in values))
+    low, high = _quantiles(z_scores, (1 - confidence) / 2)
     scale = std / math.sqrt(n)
     return Interval(n=n, mean=mean, std=std, low=mean - high * scale, high=mean - low * scale)
 
 
-def _quantiles(standardised: npt.NDArray[np.float64], tail: float) -> tuple[float, float]:
-    """Quantiles ``tail`` and ``1 - tail`` of t* for values of mean 0 and deviation 1, sorted."""
+def _quantiles(z_scores: npt.NDArray[np.float64], tail: float) -> tuple[float, float]:
+    """Return the quantiles ``tail`` and ``1 - tail`` of t* for sorted z-scores."""
     from scipy.special import stdtrit
 
-    n = len(standardised)
-    if n > MAX_RESAMPLED:
+    n = len(z_scores)
+    if n > MAX_BOOTSTRAP_VALUES:
         quantile = float(stdtrit(n - 1, 1 - tail))
         return -quantile, quantile
-    drawn = _resamples(n)
-    mean = drawn.mean_error / math.sqrt(n)  # (N_RESAMPLES,)
-    square = drawn.square_error / n
-    for i, c in enumerate(standardised.tolist()):
-        mean = mean + c * drawn.shares[i]
-        square = square + c * c * drawn.shares[i] + 2 * c / math.sqrt(n) * drawn.errors[i]
+    resamples = _resamples(n)
+    mean = resamples.mean_error / math.sqrt(n)  # (N_RESAMPLES,)
+    square = resamples.square_error / n
+    for i, z in enumerate(z_scores.tolist()):
+        mean = mean + z * resamples.shares[i]
+        square = square + z * z * resamples.shares[i] + 2 * z / math.sqrt(n) * resamples.errors[i]
     t = np.sort(mean / np.sqrt((square - mean * mean) / (n - 1)))
     k = max(1, round((len(t) + 1) * tail))
     return float(t[k - 1]), float(t[-k])
@@ -88,30 +88,30 @@ def _quantiles(standardised: npt.NDArray[np.float64], tail: float) -> tuple[floa
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class _Resamples:
-    """What the moments of all resamples of n values need, for any values."""
+    """The terms of the moments of all resamples of n values, for any values."""
 
     shares: npt.NDArray[np.float64]
-    """(n, N_RESAMPLES): how often a value was drawn, over n."""
+    """The number of draws of each value over n, (n, N_RESAMPLES)."""
     errors: npt.NDArray[np.float64]
-    """(n, N_RESAMPLES): sum of the errors [s / sqrt n] at the draws of a value, over n."""
+    """The sum of the errors [s / sqrt n] at the draws of each value over n, (n, N_RESAMPLES)."""
     mean_error: npt.NDArray[np.float64]
-    """(N_RESAMPLES,): mean error."""
+    """The mean error, (N_RESAMPLES,)."""
     square_error: npt.NDArray[np.float64]
-    """(N_RESAMPLES,): mean squared error."""
+    """The mean squared error, (N_RESAMPLES,)."""
 
 
 @functools.lru_cache(maxsize=4)
 def _resamples(n: int) -> _Resamples:
-    """Draw half of the resamples; the other half mirrors them, for mirrored limits."""
-    random = stream(0, f"statistics/bootstrap/{n}")
+    """Draw half of the resamples, and mirror them, so that mirrored values have mirrored limits."""
+    rng = stream(0, f"statistics/bootstrap/{n}")
     half = N_RESAMPLES // 2
-    chosen = random.integers(0, n, (n, half))
-    error = random.standard_normal((n, half))
-    chosen = np.concatenate([chosen, n - 1 - chosen], axis=1)
+    draws = rng.integers(0, n, (n, half))
+    error = rng.standard_normal((n, half))
+    draws = np.concatenate([draws, n - 1 - draws], axis=1)
     error = np.concatenate([error, -error], axis=1)
-    cell = (chosen * N_RESAMPLES + np.arange(N_RESAMPLES)).ravel()
-    counts = np.bincount(cell, minlength=n * N_RESAMPLES).reshape(n, N_RESAMPLES)
-    sums = np.bincount(cell, weights=error.ravel(), minlength=n * N_RESAMPLES)
+    cells = (draws * N_RESAMPLES + np.arange(N_RESAMPLES)).ravel()
+    counts = np.bincount(cells, minlength=n * N_RESAMPLES).reshape(n, N_RESAMPLES)
+    sums = np.bincount(cells, weights=error.ravel(), minlength=n * N_RESAMPLES)
     return _Resamples(
         shares=counts / n,
         errors=sums.reshape(n, N_RESAMPLES) / n,

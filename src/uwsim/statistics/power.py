@@ -1,13 +1,13 @@
-"""Number of repeats for a wanted power: planning, not inference."""
+"""The number of repeats for a required power: planning, not inference."""
 
 from __future__ import annotations
 
 import math
 
-from .paired import fewest_for
+from .paired import min_pairs
 
 MAX_REPEATS = 100_000
-"""More repeats than these are not counted."""
+"""The greatest number of repeats that is planned."""
 
 
 def power(n: int, d: float, alpha: float = 0.05) -> float:
@@ -18,7 +18,8 @@ def power(n: int, d: float, alpha: float = 0.05) -> float:
 
     .. math:: 1 - T_{n-1}(t_c;\, d\sqrt n) + T_{n-1}(-t_c;\, d\sqrt n)
 
-    where T is the noncentral distribution. The sign-flip test is as powerful but for its steps.
+    where T is the noncentral distribution. The sign-flip test has the same power, except that its p
+    has steps.
     """
     from scipy.special import ncfdtr, stdtrit
 
@@ -32,20 +33,20 @@ def power(n: int, d: float, alpha: float = 0.05) -> float:
     return 1 - float(ncfdtr(1, n - 1, shift * shift, critical * critical))
 
 
-def repeats_needed(d: float, *, alpha: float = 0.05, wanted: float = 0.8) -> int | None:
-    """Return the least number of pairs that shows an effect of size d with power ``wanted``.
+def repeats_needed(d: float, *, alpha: float = 0.05, target_power: float = 0.8) -> int | None:
+    """Return the least number of pairs that shows an effect of size d with power ``target_power``.
 
-    Never fewer than the sign-flip test needs to reach ``alpha`` at all (`fewest_for`); None where
-    that takes more than `MAX_REPEATS`, as it does without an effect.
+    It is at least the number at which the sign-flip test can reach ``alpha`` (`min_pairs`). None
+    for more than `MAX_REPEATS`, as without an effect.
     """
-    low, high = 1, max(2, fewest_for(alpha))
-    if power(high, d, alpha) >= wanted:
+    low, high = 1, max(2, min_pairs(alpha))
+    if power(high, d, alpha) >= target_power:
         return high
-    while power(high, d, alpha) < wanted:
+    while power(high, d, alpha) < target_power:
         low, high = high, 2 * high
         if low > MAX_REPEATS:
             return None
     while high - low > 1:
         middle = (low + high) // 2
-        low, high = (low, middle) if power(middle, d, alpha) >= wanted else (middle, high)
+        low, high = (low, middle) if power(middle, d, alpha) >= target_power else (middle, high)
     return high if high <= MAX_REPEATS else None

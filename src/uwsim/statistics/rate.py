@@ -10,30 +10,30 @@ class Rate:
     """A success rate and its confidence limits."""
 
     n: int
-    """Number of trials, at least 1."""
+    """The number of trials, at least 1."""
     successes: int
-    """Number of successes."""
+    """The number of successes."""
     low: float
-    """Lower limit, 0 to 1."""
+    """The lower limit, 0 to 1."""
     high: float
-    """Upper limit, 0 to 1."""
+    """The upper limit, 0 to 1."""
 
     @property
     def value(self) -> float:
-        """Share of successes, 0 to 1."""
+        """The share of successes, 0 to 1."""
         return self.successes / self.n
 
 
 def rate(successes: int, n: int, *, confidence: float = 0.95) -> Rate | None:
     r"""Return the share of successes with its exact limits; None without trials.
 
-    The limits are those of Clopper and Pearson (1934), the rates at which so many successes, or so
-    few, would be seen with probability :math:`\alpha/2`:
+    The limits are those of Clopper and Pearson (1934): the rates at which so many successes or
+    more, or so few or fewer, have probability :math:`\alpha/2`:
 
     .. math:: B^{-1}_{\alpha/2}(k, n-k+1), \qquad B^{-1}_{1-\alpha/2}(k+1, n-k)
 
-    They contain the truth with *at least* the stated probability whatever it is, hence more often
-    for most rates: conservative by construction.
+    They enclose every true rate with *at least* the stated probability, and most rates with a
+    higher one: the interval is conservative.
     """
     from scipy.special import betaincinv
 

@@ -289,7 +289,7 @@ def _judged(family: Sequence[PairedDifference], higher_is_better: bool) -> list[
             fewest=fewest,
             needed=None
             if d.hedges_g is None
-            else repeats_needed(d.hedges_g, alpha=alpha, wanted=POWER),
+            else repeats_needed(d.hedges_g, alpha=alpha, target_power=POWER),
         )
         for d, p, least in zip(family, corrected, least_corrected(family), strict=True)
     ]

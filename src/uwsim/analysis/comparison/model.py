@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from ...results.result import Column
-from ...statistics import Interval, Rate, fewest_for, holm, smallest_p
+from ...statistics import Interval, Rate, holm, min_p_value, min_pairs
 from .inputs import Entry
 from .pairs import Level
 from .repeats import ALPHA
@@ -56,7 +56,7 @@ class PairedDifference:
     @property
     def is_tested(self) -> bool:
         """Whether there are repeats enough for p to reach `ALPHA`."""
-        return self.difference.n >= fewest_for(ALPHA)
+        return self.difference.n >= min_pairs(ALPHA)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -79,7 +79,7 @@ class Success:
     @property
     def is_tested(self) -> bool:
         """Whether there are unlike pairs enough for p to reach `ALPHA`."""
-        return self.first_only + self.second_only >= fewest_for(ALPHA)
+        return self.first_only + self.second_only >= min_pairs(ALPHA)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -194,13 +194,13 @@ def fewest_of(family: Sequence[PairedDifference]) -> int:
     With m tests of n repeats each the smallest corrected p there is is m times :math:`2/2^n`; m
     are all that have a pair, for with more repeats all of them will be tested.
     """
-    return fewest_for(ALPHA / max(1, sum(d.difference.n > 0 for d in family)))
+    return min_pairs(ALPHA / max(1, sum(d.difference.n > 0 for d in family)))
 
 
 def least_corrected(family: Sequence[PairedDifference]) -> tuple[float | None, ...]:
     """Return the smallest p that each test could have after Holm's correction; None: not tested.
 
     Holm's correction of no test falls when the p of another rises, so the least there is is that of
-    all tests at their smallest (`smallest_p`), which depends on their numbers of pairs alone.
+    all tests at their smallest (`min_p_value`), which depends on their numbers of pairs alone.
     """
-    return holm([smallest_p(d.difference.n) if d.is_tested else None for d in family])
+    return holm([min_p_value(d.difference.n) if d.is_tested else None for d in family])

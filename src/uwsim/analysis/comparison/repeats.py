@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from ...statistics import fewest_for
+from ...statistics import min_pairs
 
 ALPHA = 0.05
 """A difference is called one when its p, corrected by Holm, is not above this."""
@@ -16,4 +16,4 @@ def fewest_repeats(n_results: int, n_levels: int) -> tuple[int, int]:
     smallest p of n pairs, to be 0.05/m at most.
     """
     pairs = max(1, n_results * (n_results - 1) // 2)
-    return fewest_for(ALPHA / pairs), fewest_for(ALPHA / (pairs * max(1, n_levels)))
+    return min_pairs(ALPHA / pairs), min_pairs(ALPHA / (pairs * max(1, n_levels)))

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 
 from ...results.result import Column
-from ...statistics import Interval, smallest_p
+from ...statistics import Interval, min_p_value
 from ..plots import level_text, written_unit
 from .inputs import Entry
 from .matrix import too_few
@@ -162,7 +162,7 @@ def _needed(comparison: Comparison, d: PairedDifference) -> str:
     """How many more repeats are needed, or why that cannot be planned."""
     n, fewest = d.difference.n, comparison.fewest_for_sweep
     if d.verdict == "too few":
-        least, of = smallest_p(n), len(comparison.versus)
+        least, of = min_p_value(n), len(comparison.versus)
         corrected = f", {_round(of * least)} after Holm" if of > 1 else ""
         return (
             f"With {n} repeats p cannot fall below {_round(least)}{corrected}: "
