@@ -91,17 +91,17 @@ def test_a_recorded_truth_is_linear_between_whole_lines(
 ) -> None:
     file = benchmark(tmp_path, TRUTH)
     truth = RecordedTruthSpec(file="t.csv", topic="t").read(file)
-    np.testing.assert_allclose(truth.at(time), expected)
+    np.testing.assert_allclose(truth.find_values(time), expected)
     chosen = RecordedTruthSpec(file="t.csv", topic="t", columns="v").read(file)
-    assert chosen.at(1.0).tolist() == [8.0]
+    assert chosen.find_values(1.0).tolist() == [8.0]
 
 
 @pytest.mark.parametrize(
     ("text", "said"),
     [
         ("t,u\n0,1\n", "no column 'time'"),
-        ("time,u\n0,1\n0,2\n", "does not rise"),
-        ("time,u\n,1\n", "does not rise"),
+        ("time,u\n0,1\n0,2\n", "does not increase"),
+        ("time,u\n,1\n", "does not increase"),
         ("time,u\n", "no line of numbers"),
         ("time [ms],u\n0,1\n", r"'time' is in 'ms'; expected \[s\]"),
         ("time\n0\n", "no line of numbers"),

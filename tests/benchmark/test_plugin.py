@@ -250,9 +250,9 @@ def test_a_result_without_plugins_does_not_mention_them(folder: Path) -> None:
         ("ALGORITHMS = {'a:b': int}", "letters, digits, '_', '.' and '-' only"),
         (
             "ALGORITHMS = {'esm': type('A', (), {'start': print})}",
-            "must be defined at module level",
+            "must be at module level",
         ),
-        (PARTS + "\nMEASURES = {'count': Count}", "Count is no MeasureSpec; give its spec"),
+        (PARTS + "\nMEASURES = {'count': Count}", "Count is no MeasureSpec; declare its spec"),
         (
             PARTS + "\nclass B(CountSpec):\n    extra: int = 1\nMEASURES = {'b': B}",
             "B lacks @dataclass(frozen=True, kw_only=True)",
@@ -270,9 +270,9 @@ def test_a_result_without_plugins_does_not_mention_them(folder: Path) -> None:
         ),
         (
             PARTS.replace("    def values(", "    def faults(self): return ()\n\n    def values("),
-            "MurkSpec.faults is never called: it is errors now; rename it",
+            "MurkSpec.faults is not used; rename it to errors",
         ),
-        (PARTS + "\nALGORITHMS = {'esm': Idle}", "'esm' is a name of uwsim; call it otherwise"),
+        (PARTS + "\nALGORITHMS = {'esm': Idle}", "'esm' is a name of uwsim; choose another name"),
     ],
 )
 def test_each_mistake_in_a_plugin_is_one_clean_error(tmp_path: Path, text: str, wrong: str) -> None:
@@ -299,7 +299,7 @@ def test_two_plugins_with_one_name_are_an_error_that_names_both(folder: Path) ->
 
 
 def test_one_plugin_given_twice_is_an_error(folder: Path) -> None:
-    with pytest.raises(BadSetting, match=r"is parts\.py once more"):
+    with pytest.raises(BadSetting, match=r"is the same plugin as parts\.py"):
         read_plugins([Path("parts.py"), folder / "parts.py"])
 
 
@@ -340,7 +340,7 @@ def test_the_line_of_the_plugin_that_raised_is_named(tmp_path: Path) -> None:
         own.module().f()
     with (
         pytest.raises(RunFailed, match=r"own\.py:2: KeyError: 'x' \(at noon\)"),
-        attribute_errors_to([own], when=lambda: "at noon"),
+        attribute_errors_to([own], moment=lambda: "at noon"),
     ):
         own.module().f()
     with pytest.raises(KeyError), attribute_errors_to([own]):
@@ -358,7 +358,7 @@ def test_the_line_of_the_plugin_that_raised_is_named(tmp_path: Path) -> None:
 )
 def test_whatever_a_plugin_raises_is_one_line(tmp_path: Path, error: str, said: str) -> None:
     own = read_plugin(plugin(tmp_path, f"def f():\n    raise {error}\nALGORITHMS = {{}}\n"))
-    with pytest.raises(RunFailed) as caught, attribute_errors_to([own], when=str):
+    with pytest.raises(RunFailed) as caught, attribute_errors_to([own], moment=str):
         own.module().f()
     assert str(caught.value).endswith(f"{said} ()")
 

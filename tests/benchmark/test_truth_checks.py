@@ -70,7 +70,7 @@ def test_a_truth_of_a_part_is_a_warning(
     assert check(folder, csv)[0] == 0
     captured = capsys.readouterr()
     said = captured.out + captured.err
-    assert f":19: warning: the truth is that of {span}, and the recording is one of" in said
+    assert f":19: warning: the truth is from {span}, the recording from" in said
 
 
 @pytest.mark.parametrize(
@@ -78,11 +78,11 @@ def test_a_truth_of_a_part_is_a_warning(
     [
         (ALL, "u", ":6: <components> names 1 of the numbers on '/truth/corners'; corners.csv "),
         ("time,u\n0,1\n0.25,2\n", "u v", "publishes 1: u"),
-        ("time,u,v\n1.7e9,1,10\n1.7e9,6,60\n", "u v", "does not rise"),
+        ("time,u,v\n1.7e9,1,10\n1.7e9,6,60\n", "u v", "does not increase"),
         (
             "time,u,v\n1.7e9,1,10\n1.8e9,6,60\n",
             "u v",
-            ":19: corners.csv: its times, 1.7e+09 s to 1.8e+09 s, are none of the recording",
+            ":19: corners.csv: its times, 1.7e+09 s to 1.8e+09 s, are outside the recording",
         ),
     ],
 )

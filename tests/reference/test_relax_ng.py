@@ -59,7 +59,9 @@ def test_our_benchmarks_are_valid(path: Path, benchmarks: etree.RelaxNG) -> None
 def test_the_file_of_every_element_is_in_the_originals_order_and_valid_in_any(
     benchmarks: etree.RelaxNG,
 ) -> None:
-    assert [str(diagnostic) for diagnostic in check_benchmark(EVERY_ELEMENT, strict=True)[0]] == []
+    assert [
+        str(diagnostic) for diagnostic in check_benchmark(EVERY_ELEMENT, is_strict=True)[0]
+    ] == []
     for seed in range(20):
         assert benchmarks.validate(shuffled(EVERY_ELEMENT, seed)), (seed, benchmarks.error_log)
 

@@ -35,19 +35,21 @@ def check_names(
         elif len(spec.name) > MAX_NAME_LENGTH:
             diagnostics.error(
                 spec,
-                f"the name {name!r}... has {len(spec.name)} letters; at most "
-                f"{MAX_NAME_LENGTH}, for files are called after it",
+                f"the name {name!r}... has {len(spec.name)} letters; expected at most "
+                f"{MAX_NAME_LENGTH}, because files have this name",
             )
         elif spec.name in named_specs:
             first_line = line_of(named_specs[spec.name])
             line = "" if first_line is None else f" (line {first_line})"
-            diagnostics.error(spec, f"another measure{line} is called {name!r}")
+            diagnostics.error(spec, f"another measure{line} has the name {name!r}")
         elif spec.name in RESERVED_NAMES or spec.name in columns:
-            diagnostics.error(spec, f"{name!r} is another column of the result; call it otherwise")
+            diagnostics.error(
+                spec, f"{name!r} is another column of the result; choose another name"
+            )
         elif spec.name in expression.CONSTANTS or spec.name in expression.FUNCTIONS:
             kind = "constant" if spec.name in expression.CONSTANTS else "function"
             diagnostics.error(
-                spec, f"{name!r} is a {kind} of the language of scores; call it otherwise"
+                spec, f"{name!r} is a {kind} of the language of scores; choose another name"
             )
         named_specs.setdefault(spec.name, spec)
 

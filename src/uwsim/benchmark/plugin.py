@@ -7,13 +7,13 @@
     UPDATERS = {"turbidity": TurbiditySpec}     # <u:turbidity>
     ALGORITHMS = {"brightest": Brightest}       # --algorithm brightest
 
-Any of the four may be left out. Names without a prefix are the original's, so what a plugin adds to
-a file lives in the namespace ``urn:uwsim:1``; should uwsim or another plugin have the name already,
-that is an error.
+Any of the four may be left out. Names without a prefix are the original's, so the elements of a
+plugin are in the namespace ``urn:uwsim:1``. A name that uwsim or another plugin already has is an
+error.
 
-A plugin is one file and travels as its source: a worker, here or on another machine, runs the very
-bytes whose hash stands in the result. What it imports must be installed. Its module is called after
-that hash, so nothing global changes and two plugins cannot disturb each other.
+A plugin is one file, which is sent as its source: a worker, here or on another machine, runs the
+bytes whose hash is in the result. The modules that it imports must be installed. The hash is part
+of the name of its module, so nothing global changes and two plugins do not affect each other.
 """
 
 from __future__ import annotations
@@ -46,45 +46,45 @@ from .plugin_checks import ContractViolation
 from .triggers import Trigger, TriggerSpec
 from .updaters import SceneUpdater, SceneUpdaterSpec
 
-MODULE = "uwsim_plugin_"
-"""How the name of a plugin's module begins."""
+MODULE_PREFIX = "uwsim_plugin_"
+"""The prefix of the name of a plugin's module."""
 MAX_BYTES = 10_000_000
 
 
-LIVE = ((MeasureSpec, Measure), (TriggerSpec, Trigger), (SceneUpdaterSpec, SceneUpdater))
+LIVE_CLASSES = ((MeasureSpec, Measure), (TriggerSpec, Trigger), (SceneUpdaterSpec, SceneUpdater))
 
 
 @dataclass(frozen=True)
 class Plugin:
-    """One plugin file, with the source that was read."""
+    """A plugin file, with the source that was read."""
 
     path: str
-    """The file as the user named it."""
+    """The path of the file as given by the user."""
     source: bytes = field(repr=False)
-    """Its content."""
+    """The content of the file."""
 
     def __reduce__(self) -> tuple[Callable[[str, bytes], Plugin], tuple[str, bytes]]:
         """Pickle the source; unpickling imports the module, and with it the classes."""
-        return _imported, (self.path, self.source)
+        return _import_plugin, (self.path, self.source)
 
     @property
     def name(self) -> str:
-        """Name of the file, without its folders."""
+        """The name of the file, without its folders."""
         return Path(self.path).name
 
     @property
     def sha256(self) -> str:
-        """Hash of the source."""
+        """The hash of the source."""
         return "sha256:" + hashlib.sha256(self.source).hexdigest()
 
     @property
     def module_name(self) -> str:
-        """Name of its module: equal sources are one module."""
+        """The name of its module: equal sources are one module."""
         stem = re.sub(r"\W", "_", Path(self.path).stem, flags=re.ASCII)
-        return f"{MODULE}{stem}_{hashlib.sha256(self.source).hexdigest()[:16]}"
+        return f"{MODULE_PREFIX}{stem}_{hashlib.sha256(self.source).hexdigest()[:16]}"
 
     def module(self) -> ModuleType:
-        """Return its module, importing it unless that was done.
+        """Return its module; import it at the first call.
 
         Raises:
             PluginError: it cannot be imported.
@@ -97,7 +97,7 @@ class Plugin:
         except BaseException as error:
             if is_user_interrupt(error):
                 raise
-            message = f"cannot be imported: {raised(error)}"
+            message = f"cannot be imported: {format_exception(error)}"
             if isinstance(error, ModuleNotFoundError):
                 message += " (a plugin is one file; what it imports must be installed)"
             raise self.diagnostic(message, self.line_of(error)) from error
@@ -107,13 +107,13 @@ class Plugin:
         return PluginError([Diagnostic(file=self.path, line=line, message=message)])
 
     def line_of(self, error: BaseException) -> int | None:
-        """Return the line of this file in which an error arose; None if it was elsewhere."""
+        """Return the line of this file in which an error was raised; None if in another file."""
         frames = traceback.extract_tb(error.__traceback__)
         lines = [frame.lineno for frame in frames if frame.filename == self.path]
         return lines[-1] if lines else None
 
 
-def _imported(path: str, source: bytes) -> Plugin:
+def _import_plugin(path: str, source: bytes) -> Plugin:
     plugin = Plugin(path, source)
     plugin.module()
     return plugin
@@ -132,11 +132,11 @@ def read_plugin(path: Path) -> Plugin:
         raise Plugin(str(path), b"").diagnostic(f"{message}: not a plugin") from None
     except OSError as error:
         raise Plugin(str(path), b"").diagnostic(f"cannot be read: {error.strerror}") from None
-    return _imported(str(path), source)
+    return _import_plugin(str(path), source)
 
 
 def line_of_class(value: object, plugin: Plugin) -> int | None:
-    """Line of a class of the plugin."""
+    """Return the line of a class of the plugin; None for any other value."""
     if not isinstance(value, type) or value.__module__ != plugin.module_name:
         return None
     try:
@@ -145,8 +145,8 @@ def line_of_class(value: object, plugin: Plugin) -> int | None:
         return None
 
 
-def _line_of_answer(error: ContractViolation, plugin: Plugin) -> int | None:
-    """Line of the property with the wrong value, or of its class."""
+def _line_of_attribute(error: ContractViolation, plugin: Plugin) -> int | None:
+    """Return the line of the property with the invalid value, or of its class."""
     cls = type(error.part)
     if cls.__module__ != plugin.module_name:
         return None
@@ -157,8 +157,8 @@ def _line_of_answer(error: ContractViolation, plugin: Plugin) -> int | None:
     return line_of_class(cls, plugin)
 
 
-def raised(error: BaseException) -> str:
-    """Return what was raised as one line, whatever its message holds."""
+def format_exception(error: BaseException) -> str:
+    """Return an exception as one line, whatever its message contains."""
     if isinstance(error, ContractViolation):
         return str(error)
     return type_and_text(error)
@@ -166,17 +166,17 @@ def raised(error: BaseException) -> str:
 
 @contextmanager
 def attribute_errors_to(
-    plugins: Sequence[Plugin], *, when: Callable[[], str] | None = None
+    plugins: Sequence[Plugin], *, moment: Callable[[], str] | None = None
 ) -> Iterator[None]:
     """Add the line of the plugin to exceptions that its code raises.
 
     Args:
-        plugins: those that are in use.
-        when: says at which moment of a running benchmark; None while files are read.
+        plugins: the plugins in use.
+        moment: returns the moment of a running benchmark; None while files are read.
 
     Raises:
-        PluginError: what a plugin raised while files were read.
-        RunFailed: ... while the benchmark was running.
+        PluginError: a plugin raised an exception while files were read.
+        RunFailed: a plugin raised an exception while the benchmark was running.
     """
     try:
         yield
@@ -188,11 +188,11 @@ def attribute_errors_to(
         for plugin in plugins:
             line = plugin.line_of(error)
             if line is None and isinstance(error, ContractViolation):
-                line = _line_of_answer(error, plugin)
+                line = _line_of_attribute(error, plugin)
             if line is not None:
-                message = raised(error)
-                if when is not None:
-                    raise RunFailed(f"{plugin.path}:{line}: {message} ({when()})") from error
+                message = format_exception(error)
+                if moment is not None:
+                    raise RunFailed(f"{plugin.path}:{line}: {message} ({moment()})") from error
                 raise plugin.diagnostic(message, line) from error
         raise
 
@@ -207,22 +207,24 @@ def check_bound(
     Raises:
         PluginError: it cannot be used in a run.
     """
-    own = {plugin.module_name: plugin for plugin in plugins}
+    plugins_by_module = {plugin.module_name: plugin for plugin in plugins}
     for part in parts:
-        plugin = own.get(type(part).__module__)
+        plugin = plugins_by_module.get(type(part).__module__)
         if plugin is None:
             continue
-        live: object = bind_part(part, stage)
-        for spec, kind in LIVE:
-            if isinstance(part, spec) and not isinstance(live, kind):
-                gives = "None" if live is None else type(live).__name__
-                message = f"{type(part).__name__}.bind gives {gives}; expected a {kind.__name__}"
+        instance: object = bind_part(part, stage)
+        for spec, kind in LIVE_CLASSES:
+            if isinstance(part, spec) and not isinstance(instance, kind):
+                type_name = "None" if instance is None else type(instance).__name__
+                message = (
+                    f"{type(part).__name__}.bind gives {type_name}; expected a {kind.__name__}"
+                )
                 raise plugin.diagnostic(message, line_of_class(type(part), plugin))
-        if isinstance(live, Measure) and not isinstance(getattr(live, "unit", None), str):
-            message = f"{type(live).__name__} has no unit, such as unit = 'm/s'"
-            raise plugin.diagnostic(message, line_of_class(type(live), plugin))
-        if isinstance(live, Measure | Trigger):
-            live.close()
+        if isinstance(instance, Measure) and not isinstance(getattr(instance, "unit", None), str):
+            message = f"{type(instance).__name__} has no unit, such as unit = 'm/s'"
+            raise plugin.diagnostic(message, line_of_class(type(instance), plugin))
+        if isinstance(instance, Measure | Trigger):
+            instance.close()
 
 
 def hashes(plugins: Sequence[Plugin]) -> tuple[tuple[str, str], ...]:

@@ -1,7 +1,7 @@
-"""Checks of what a plugin's measures, triggers and updaters return against their contract.
+"""Checks of the values of a plugin's measures, triggers and updaters against their contract.
 
-Annotations are not looked at when Python runs, and a result is only whole if names are text and
-samples fit their header; so what leaves a measure is checked where it is taken.
+Python does not check annotations, and a result is only complete if names are text and samples fit
+their header. The values of a measure are therefore checked where they are read.
 """
 
 from __future__ import annotations
@@ -17,10 +17,10 @@ from ..world import Stage
 from .measures import Measure
 from .updaters import SceneUpdaterSpec
 
-TEXTS = ("why", "ends_level")
-"""Attributes of a measure that are text or None."""
-BY_NAME = ("details", "detail_units", "reasons")
-"""What it has by the names of its details."""
+TEXT_ATTRIBUTES = ("why", "ends_level")
+"""The attributes of a measure that are text or None."""
+DICT_ATTRIBUTES = ("details", "detail_units", "reasons")
+"""The attributes of a measure that are dicts by the names of its details."""
 
 
 class ContractViolation(Exception):
@@ -35,17 +35,18 @@ def check_values(measure: Measure) -> None:
     """Check all attributes of a measure that are not numbers, at the end of a level.
 
     Raises:
-        ContractViolation: names are no text, or a reason belongs to nothing.
+        ContractViolation: names are no text, or a reason belongs to no detail without a value.
     """
 
-    def expect(attribute: str, fits: Callable[[object], bool], expected: str) -> None:
-        answer = getattr(measure, attribute)
-        if not fits(answer):
-            raise ContractViolation(measure, attribute, f"is {_shown(answer)}; expected {expected}")
+    def expect(attribute: str, is_valid: Callable[[object], bool], expected: str) -> None:
+        value = getattr(measure, attribute)
+        if not is_valid(value):
+            message = f"is {_describe(value)}; expected {expected}"
+            raise ContractViolation(measure, attribute, message)
 
-    for attribute in TEXTS:
+    for attribute in TEXT_ATTRIBUTES:
         expect(attribute, lambda answer: isinstance(answer, str | None), "text or None")
-    for attribute in BY_NAME:
+    for attribute in DICT_ATTRIBUTES:
         expect(attribute, lambda answer: isinstance(answer, Mapping), "a dict by names of details")
         for key in getattr(measure, attribute):
             if not isinstance(key, str) or key == "":
@@ -53,28 +54,27 @@ def check_values(measure: Measure) -> None:
     for attribute in ("detail_units", "reasons"):
         for key, text in getattr(measure, attribute).items():
             if not isinstance(text, str) or text == "":
-                raise ContractViolation(
-                    measure, attribute, f"has {_shown(text)} for {key!r}, no text"
-                )
+                message = f"has {_describe(text)} for {key!r}, no text"
+                raise ContractViolation(measure, attribute, message)
     details = measure.details
     for key in measure.reasons:
         if key not in details or details[key] is not None:
-            what = f"is about {key!r}, which is no detail without a value"
-            raise ContractViolation(measure, "reasons", what)
+            message = f"is about {key!r}, which is no detail without a value"
+            raise ContractViolation(measure, "reasons", message)
     expect("longest_silence", lambda answer: isinstance(answer, Real), "a time [s]")
     expect("notes", _are_texts, "a tuple of text")
     expect("log_header", _are_texts, "a tuple of text")
 
 
-def sample_of(measure: Measure) -> Sequence[object]:
+def log_sample(measure: Measure) -> Sequence[object]:
     """Return a line of a measure's log, as of now.
 
     Raises:
-        ContractViolation: it has not as many values as the header has names.
+        ContractViolation: the number of values differs from that of the header's names.
     """
     values: object = measure.log_values
     if not isinstance(values, tuple | list):
-        message = f"is {_shown(values)}; expected a tuple of numbers"
+        message = f"is {_describe(values)}; expected a tuple of numbers"
         raise ContractViolation(measure, "log_values", message)
     if len(values) != len(measure.log_header):
         message = f"has {len(values)} values; log_header has {len(measure.log_header)} names"
@@ -82,34 +82,34 @@ def sample_of(measure: Measure) -> Sequence[object]:
     return values
 
 
-def parameters_of(
-    algorithm: object, given: Mapping[str, float | str], *, name: str
+def read_parameters(
+    algorithm: object, user_parameters: Mapping[str, float | str], *, name: str
 ) -> dict[str, float | int | str]:
-    """Return the parameters that an algorithm reports; without them, those given.
+    """Return the parameters that an algorithm reports; without them, those of the user.
 
     Args:
         algorithm: the algorithm.
-        given: what the user set.
-        name: of its class.
+        user_parameters: the parameters that the user set.
+        name: the name of its class.
 
     Raises:
-        RunFailed: they are no dict of name -> number or text, which is what a result can hold.
+        RunFailed: they are no dict of name -> number or text, as a result requires.
     """
-    returned: object = untracked_parameters(getattr(algorithm, "parameters", given))
-    who = f"Algorithm {name}: its attribute parameters"
-    if not isinstance(returned, Mapping):
-        raise RunFailed(f"{who} is {_shown(returned)}; expected a dict of name -> number or text.")
-    found: dict[str, float | int | str] = {}
-    for name, value in returned.items():
+    reports: object = untracked_parameters(getattr(algorithm, "parameters", user_parameters))
+    subject = f"Algorithm {name}: its attribute parameters"
+    if not isinstance(reports, Mapping):
+        text = f"{subject} is {_describe(reports)}"
+        raise RunFailed(f"{text}; expected a dict of name -> number or text.")
+    parameters: dict[str, float | int | str] = {}
+    for name, value in reports.items():
         number = _as_float(value) if isinstance(value, Real) else None
         if not isinstance(name, str) or not (
             isinstance(value, str) or (number is not None and math.isfinite(number))
         ):
-            raise RunFailed(
-                f"{who} has {_shown(value)} for {name!r}; expected a name, and a number or text."
-            )
-        found[name] = value if isinstance(value, str | int) or number is None else number
-    return found
+            text = f"{subject} has {_describe(value)} for {name!r}"
+            raise RunFailed(f"{text}; expected a name, and a number or text.")
+        parameters[name] = value if isinstance(value, str | int) or number is None else number
+    return parameters
 
 
 def _as_float(value: Real) -> float:
@@ -119,15 +119,17 @@ def _as_float(value: Real) -> float:
         return math.inf
 
 
-def files_of(updater: SceneUpdaterSpec, stage: Stage) -> Mapping[str, Path]:
+def updater_files(updater: SceneUpdaterSpec, stage: Stage) -> Mapping[str, Path]:
     """Return the files that an updater reads.
 
     Raises:
-        ContractViolation: it is no dict of name -> path, or one is not there.
+        ContractViolation: it returns no dict of name -> path, or a file does not exist.
     """
     files: object = updater.files(stage)
     if not isinstance(files, Mapping):
-        raise ContractViolation(updater, "files", f"gives {_shown(files)}; expected name -> path")
+        raise ContractViolation(
+            updater, "files", f"gives {_describe(files)}; expected name -> path"
+        )
     for name, path in files.items():
         if not (isinstance(name, str) and isinstance(path, Path) and path.exists()):
             message = f"gives {str(path)[:200]!r} for {name!r}; expected the path of a file"
@@ -135,16 +137,16 @@ def files_of(updater: SceneUpdaterSpec, stage: Stage) -> Mapping[str, Path]:
     return files
 
 
-def _are_texts(answer: object) -> bool:
-    return isinstance(answer, tuple | list) and all(isinstance(text, str) for text in answer)
+def _are_texts(value: object) -> bool:
+    return isinstance(value, tuple | list) and all(isinstance(text, str) for text in value)
 
 
-def _shown(answer: object) -> str:
+def _describe(value: object) -> str:
     """Describe a value in a few words that are the same in every run."""
-    kind = type(answer).__name__
-    if not isinstance(answer, str | Real):
+    kind = type(value).__name__
+    if not isinstance(value, str | Real):
         return kind
     try:
-        return f"{kind} {str(answer)[:40]!r}"
+        return f"{kind} {str(value)[:40]!r}"
     except ValueError:  # an int of more digits than Python writes
         return kind

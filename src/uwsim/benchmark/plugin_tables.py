@@ -1,4 +1,4 @@
-"""Tables of the names that a benchmark can use, and what plugins add to them."""
+"""The tables of names that a benchmark can use, with the names of plugins."""
 
 from __future__ import annotations
 
@@ -12,57 +12,57 @@ from ..bus import Algorithm
 from ..errors import BadSetting, Diagnostic, PluginError, did_you_mean
 from ..schema import fields_of
 from .measures import MeasureSpec
-from .plugin import Plugin, line_of_class, raised
+from .plugin import Plugin, format_exception, line_of_class
 from .triggers import TriggerSpec
 from .updaters import SceneUpdaterSpec
 
 PREFIX = "u:"
-"""Stands in front of what a plugin adds to a file."""
-WORD = re.compile(r"[A-Za-z][A-Za-z0-9]*")
-"""Names of elements and of columns."""
-ALGORITHM = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]*")
+"""The prefix of a plugin's names in a file."""
+ELEMENT_NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*")
+"""The valid names of elements and of columns."""
+ALGORITHM_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]*")
 
 
 @dataclass(frozen=True, kw_only=True)
 class Tables:
-    """The names that a benchmark can use: those bundled and those of plugins."""
+    """The names that a benchmark can use: those of the package and those of plugins."""
 
     measures: Mapping[str, type[MeasureSpec]] = field(default_factory=dict)
-    """Element -> spec."""
+    """The spec of each element of a measure."""
     triggers: Mapping[str, type[TriggerSpec]] = field(default_factory=dict)
-    """Type -> spec."""
+    """The spec of each type of trigger."""
     updaters: Mapping[str, type[SceneUpdaterSpec]] = field(default_factory=dict)
-    """Element -> spec."""
+    """The spec of each element of an updater."""
     algorithms: Mapping[str, type[Algorithm]] = field(default_factory=dict)
-    """Name -> class."""
+    """The class of each algorithm, by name."""
 
 
-BASES = {"MEASURES": MeasureSpec, "TRIGGERS": TriggerSpec, "UPDATERS": SceneUpdaterSpec}
-DECLARED = (*BASES, "ALGORITHMS")
-RENAMED = {"faults": "errors", "reference": "parameter", "reference_unit": "parameter_unit"}
-"""Methods and properties of specs that had another name: old name -> new name."""
+BASE_CLASSES = {"MEASURES": MeasureSpec, "TRIGGERS": TriggerSpec, "UPDATERS": SceneUpdaterSpec}
+TABLE_NAMES = (*BASE_CLASSES, "ALGORITHMS")
+NEW_NAMES = {"faults": "errors", "reference": "parameter", "reference_unit": "parameter_unit"}
+"""The methods and properties of specs that had another name: old name -> new name."""
 
 
-def with_plugins(bundled: Tables, plugins: Sequence[Plugin]) -> Tables:
-    """Return the bundled tables and what plugins add to them.
+def extend_tables(package_tables: Tables, plugins: Sequence[Plugin]) -> Tables:
+    """Return the tables of the package with the entries of plugins.
 
     Raises:
-        PluginError: with everything that is wrong about what the plugins declare.
+        PluginError: it has all errors of the plugins' entries.
         BadSetting: a plugin is given twice.
     """
     diagnostics: list[Diagnostic] = []
-    tables = {name: dict(getattr(bundled, name.lower())) for name in DECLARED}
+    tables = {name: dict(getattr(package_tables, name.lower())) for name in TABLE_NAMES}
     owners: dict[tuple[str, str], Plugin] = {}
     by_module: dict[str, Plugin] = {}
     for plugin in plugins:
-        if (twin := by_module.setdefault(plugin.module_name, plugin)) is not plugin:
-            raise BadSetting(f"--plugin {plugin.path}: is {twin.path} once more.")
-        for table, key, value in _declared(plugin, diagnostics):
+        if (same_plugin := by_module.setdefault(plugin.module_name, plugin)) is not plugin:
+            raise BadSetting(f"--plugin {plugin.path}: is the same plugin as {same_plugin.path}.")
+        for table, key, value in _read_entries(plugin, diagnostics):
             name = key if table == "ALGORITHMS" else PREFIX + key
             if name in tables[table]:
-                first = owners.get((table, name))
-                whose = f"is in {first.path}, too" if first else "is a name of uwsim"
-                message = f"{table}[{key!r}]: {name!r} {whose}; call it otherwise"
+                owner = owners.get((table, name))
+                error = f"is in {owner.path}, too" if owner else "is a name of uwsim"
+                message = f"{table}[{key!r}]: {name!r} {error}; choose another name"
                 diagnostics.append(
                     Diagnostic(file=plugin.path, line=line_of_class(value, plugin), message=message)
                 )
@@ -74,8 +74,8 @@ def with_plugins(bundled: Tables, plugins: Sequence[Plugin]) -> Tables:
     return Tables(**{name.lower(): table for name, table in tables.items()})
 
 
-def _declared(plugin: Plugin, diagnostics: list[Diagnostic]) -> Iterator[tuple[str, str, type]]:
-    """Yield table, key and class of what a plugin declares; errors go to ``diagnostics``."""
+def _read_entries(plugin: Plugin, diagnostics: list[Diagnostic]) -> Iterator[tuple[str, str, type]]:
+    """Yield table, key and class of the entries of a plugin; errors go to ``diagnostics``."""
     module = plugin.module()
 
     def add(message: str, value: object = None) -> None:
@@ -83,70 +83,70 @@ def _declared(plugin: Plugin, diagnostics: list[Diagnostic]) -> Iterator[tuple[s
             Diagnostic(file=plugin.path, line=line_of_class(value, plugin), message=message)
         )
 
-    given = [name for name in DECLARED if hasattr(module, name)]
-    if not given:
-        nearest = [did_you_mean(name, DECLARED) for name in vars(module) if name.isupper()]
-        near = next(filter(None, nearest), "")
-        add(f"declares none of {', '.join(DECLARED)}: dicts of name -> class.{near}")
-    for table in given:
+    table_names = [name for name in TABLE_NAMES if hasattr(module, name)]
+    if not table_names:
+        suggestions = [did_you_mean(name, TABLE_NAMES) for name in vars(module) if name.isupper()]
+        suggestion = next(filter(None, suggestions), "")
+        add(f"declares none of {', '.join(TABLE_NAMES)}: dicts of name -> class.{suggestion}")
+    for table in table_names:
         entries = getattr(module, table)
         if not isinstance(entries, Mapping):
             add(f"{table} is {type(entries).__name__}; expected a dict of name -> class")
             continue
         for key, value in entries.items():
-            wrong = _wrong_key(table, key) or _wrong_class(table, value, module)
-            if wrong:
-                add(f"{table}[{key!r}]: {wrong}", value)
+            error = _key_error(table, key) or _class_error(table, value, module)
+            if error:
+                add(f"{table}[{key!r}]: {error}", value)
             else:
                 yield table, key, value
 
 
-def _wrong_key(table: str, key: object) -> str | None:
+def _key_error(table: str, key: object) -> str | None:
     if table == "ALGORITHMS":
-        if isinstance(key, str) and ALGORITHM.fullmatch(key):
+        if isinstance(key, str) and ALGORITHM_NAME.fullmatch(key):
             return None
         return "the name of an algorithm has letters, digits, '_', '.' and '-' only"
-    if isinstance(key, str) and WORD.fullmatch(key):
+    if isinstance(key, str) and ELEMENT_NAME.fullmatch(key):
         return None
     if isinstance(key, str) and key.startswith(PREFIX):
-        return f"the prefix is put in front by uwsim; write {key.removeprefix(PREFIX)!r}"
+        return f"uwsim adds the prefix; write {key.removeprefix(PREFIX)!r}"
     return "the name of an element has letters and digits only, no digit first"
 
 
-def _wrong_class(table: str, value: object, module: ModuleType) -> str | None:
-    """Return why a value does not fit its table; None if it does."""
+def _class_error(table: str, value: object, module: ModuleType) -> str | None:
+    """Return why a class is invalid for its table; None if it is valid."""
     if not isinstance(value, type):
         return f"is {type(value).__name__} {str(value)[:40]!r}; expected a class"
     name = value.__name__
     owner = sys.modules.get(value.__module__, module)
     if getattr(owner, value.__qualname__.split(".")[0], None) is None or "<" in value.__qualname__:
-        return f"the class {name} must be defined at module level, for worker processes import it"
+        return f"the class {name} must be at module level, because worker processes import it"
     if table == "ALGORITHMS":
         return None if callable(getattr(value, "start", None)) else f"{name} has no start(node)"
-    base = BASES[table]
+    base = BASE_CLASSES[table]
     if not issubclass(value, base):
-        near = "; give its spec" if hasattr(value, "update") or hasattr(value, "apply") else ""
-        return f"{name} is no {base.__name__}{near}"
-    for old, new in RENAMED.items():
-        if callable(given := getattr(value, old, None)) or isinstance(given, property):
-            return f"{name}.{old} is never called: it is {new} now; rename it"
-    if missing := sorted(getattr(value, "__abstractmethods__", ())):
-        return f"{name} lacks {', '.join(missing)}"
+        hint = "; declare its spec" if hasattr(value, "update") or hasattr(value, "apply") else ""
+        return f"{name} is no {base.__name__}{hint}"
+    for old_name, new_name in NEW_NAMES.items():
+        if callable(attribute := getattr(value, old_name, None)) or isinstance(attribute, property):
+            return f"{name}.{old_name} is not used; rename it to {new_name}"
+    if missing_methods := sorted(getattr(value, "__abstractmethods__", ())):
+        return f"{name} lacks {', '.join(missing_methods)}"
     if "__dataclass_params__" not in vars(value):
         return f"{name} lacks @dataclass(frozen=True, kw_only=True)"
     try:
         fields_of(value)
     except Exception as error:
-        return f"the fields of {name} cannot be read: {raised(error)}"
+        return f"the fields of {name} cannot be read: {format_exception(error)}"
     if table == "UPDATERS":
-        return _wrong_reference(value)
+        return _column_error(value)
     return None
 
 
-def _wrong_reference(value: type) -> str | None:
-    """An updater names a column of the result."""
+def _column_error(value: type) -> str | None:
+    """Return why an updater's column name or unit is invalid; None if both are valid."""
     name = getattr(value, "name", None)
-    if not isinstance(name, str) or not WORD.fullmatch(name):
+    if not isinstance(name, str) or not ELEMENT_NAME.fullmatch(name):
         message = "lacks name" if name is None else f"has the name {name!r}"
         return f"{value.__name__} {message}: that of its column, letters and digits"
     if not isinstance(value.unit, str):  # type: ignore[attr-defined]

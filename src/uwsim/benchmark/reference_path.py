@@ -1,4 +1,4 @@
-"""The path that a body should follow, by points or a file: ``<u:path>``.
+"""The path that a body should follow, given by points or a file: ``<u:path>``.
 
 .. code-block:: xml
 
@@ -24,7 +24,7 @@ from .number_table import read_numbers
 
 MAX_POINTS = 100_000
 """The greatest number of points."""
-FARTHEST = 1e6
+MAX_COORDINATE = 1e6
 """The greatest coordinate [m]."""
 COLUMNS = ("x", "y", "z")
 
@@ -34,13 +34,13 @@ class ReferencePathSpec(Spec):
     """A ``<u:path>`` element."""
 
     points: Numbers = element(namespaced=True, default=())
-    """x, y and z of each point, one after the other [m]."""
+    """The x, y and z of each point, one after the other [m]."""
     file: str | None = element(namespaced=True, default=None)
     """A CSV file with the columns x, y and z [m], instead of the points. A header may state the
     unit (`x [m]`); another one is an error."""
 
     def errors(self) -> Sequence[str]:
-        """Return what is wrong with the points, or with the choice between points and file."""
+        """Return errors of the points, and of the choice between points and file."""
         if (self.file is not None) == bool(self.points):
             return ["<u:path> needs either <u:points> or <u:file>"]
         if len(self.points) % 3:
@@ -48,8 +48,8 @@ class ReferencePathSpec(Spec):
                 f"<u:points> in <u:path> has {len(self.points)} numbers; expected x y z of each "
                 "point"
             ]
-        if any(not abs(number) <= FARTHEST for number in self.points):
-            return [f"<u:points> in <u:path> has a number beyond {FARTHEST:g} m"]
+        if any(not abs(number) <= MAX_COORDINATE for number in self.points):
+            return [f"<u:points> in <u:path> has a number beyond {MAX_COORDINATE:g} m"]
         return []
 
     def read(self, benchmark: str) -> Array:
@@ -59,8 +59,8 @@ class ReferencePathSpec(Spec):
             benchmark: the benchmark file, in whose folder the file of points is searched.
 
         Raises:
-            AssetNotFound: the file is not there.
-            AssetError: it has no points, or something other than finite numbers.
+            AssetNotFound: the file does not exist.
+            AssetError: it has no points, or numbers that are not finite.
         """
         if self.file is None:
             return np.array(self.points, dtype=np.float64).reshape(-1, 3)
@@ -68,9 +68,9 @@ class ReferencePathSpec(Spec):
         points = table.columns(COLUMNS, "m")
         if not len(points):
             raise AssetError(f"{self.file}: has no point.", name=self.file)
-        if not (np.abs(points) <= FARTHEST).all():
+        if not (np.abs(points) <= MAX_COORDINATE).all():
             raise AssetError(
-                f"{self.file}: expected finite numbers up to {FARTHEST:g} m.", name=self.file
+                f"{self.file}: expected finite numbers up to {MAX_COORDINATE:g} m.", name=self.file
             )
         return points
 

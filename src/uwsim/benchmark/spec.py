@@ -12,19 +12,19 @@ from .triggers import TriggerSpec
 from .updaters import SceneUpdaterSpec, chain
 
 MAX_TASK_DURATION = 600.0
-"""A level without an interval ends after this, in ``timeout`` [s]."""
+"""The duration after which a level without an interval ends, in ``timeout`` [s]."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class FunctionSpec(Spec):
-    """The ``<function>`` element: how the measures make a score."""
+    """The ``<function>`` element: the score as a function of the measures."""
 
     text: str = element(text=True)
     """An expression over the measures' names (`uwsim.base.expression`)."""
     publish_result: bool = element(default=False, attribute=True)
-    """Whether results are published while it runs."""
+    """A flag: results are published during the run."""
     publish_rate: float = element(default=0.1, attribute=True, minimum=0.0)
-    """Shortest time between two such messages [s]; not a rate, in spite of its name."""
+    """The shortest time between two such messages [s]; not a rate, in spite of its name."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -32,47 +32,47 @@ class BenchmarkSpec(Spec):
     """A benchmark file: equal files give equal specs."""
 
     measures: tuple[MeasureSpec, ...]
-    """What is measured, in the file's order, which is that of the columns."""
+    """The measures, in the file's order, which is that of the columns."""
     start_on: TriggerSpec
-    """When the first level begins."""
+    """The trigger of the first level."""
     stop_on: TriggerSpec
-    """When a level ends before its interval is over."""
+    """The trigger that ends a level before its interval is over."""
     function: FunctionSpec
     """The score."""
     scene_updater: SceneUpdaterSpec
-    """How the scene changes from level to level."""
+    """The changes of the scene from level to level."""
     scene: str | None = element(default=None, attribute=True, namespaced=True)
-    """Scene file, relative to this file's folder; None: it is given with ``--scene``."""
+    """The scene file, relative to this file's folder; None: it is given with ``--scene``."""
     algorithm: str | None = element(default=None, attribute=True, namespaced=True)
-    """Algorithm under test, unless `--algorithm` names another."""
+    """The algorithm under test, unless `--algorithm` names another."""
     plugin: tuple[str, ...] = element(default=(), attribute=True, namespaced=True)
-    """Plugins (files with measures, triggers, updaters or algorithms of one's own), separated by
+    """The plugins (files with a user's measures, triggers, updaters or algorithms), separated by
     blanks; relative to this file's folder. `uwsim check` runs those of ``--plugin`` only."""
     mode: Literal["sequential", "independent"] | None = element(
         default=None, attribute=True, namespaced=True
     )
-    """Execution of the levels; None: sequential."""
+    """The execution of the levels; None: sequential."""
     prelude: bool = element(default=True, attribute=True, namespaced=True)
-    """Whether an independent level begins with a prelude: 1 s at the initial values of the
-    updaters, and 1 s on the way to its own; else its values hold from the first image on."""
+    """A flag: an independent level begins with a prelude: 1 s at the initial values of the
+    updaters, and 1 s on the way to its own. Otherwise its values hold from the first image on."""
     compatibility: tuple[str, ...] = element(default=(), attribute=True, namespaced=True)
-    """Compatibility quirks of the original to reproduce (`uwsim.base.compatibility`), separated by
-    blanks; ``uwsim`` is all of them but ``visual-frames``."""
+    """The compatibility quirks of the original to reproduce (`uwsim.base.compatibility`), separated
+    by blanks; ``uwsim`` is all of them but ``visual-frames``."""
     patience: float | None = element(default=None, attribute=True, namespaced=True, above=0.0)
-    """Longest wait for the start trigger, in simulation time [s]; None: 10 s."""
+    """The longest wait for the start trigger, in simulation time [s]; None: 10 s."""
     timestep: float | None = element(
         default=None, attribute=True, namespaced=True, above=0.0, maximum=0.02
     )
-    """Length of a physics step [s]; None: 0.002 s."""
+    """The length of a physics step [s]; None: 0.002 s."""
     vary: tuple[VariationSpec, ...] = element(namespaced=True, choice=DISTRIBUTIONS, default=())
-    """Values of its scene updaters that are drawn anew for each seed: ``u:path`` begins with the
-    name of the updater, ``currentForceUpdater.timeOffset``."""
+    """The values of its scene updaters that are drawn anew for each seed: ``u:path`` begins with
+    the name of the updater, ``currentForceUpdater.timeOffset``."""
     path: str = field(default="", compare=False, metadata={"path": True})
-    """The file as the user named it."""
+    """The path of the file as given by the user."""
 
     @property
     def parts(self) -> tuple[MeasureSpec | TriggerSpec | SceneUpdaterSpec, ...]:
-        """Every measure, trigger and updater in it."""
+        """All measures, triggers and updaters of the file."""
         gates = [gate for spec in self.measures for gate in (spec.start_on, spec.stop_on)]
         updaters = chain(self.scene_updater)
         return (*self.measures, *gates, self.start_on, self.stop_on, *updaters)

@@ -1,4 +1,4 @@
-"""Checks of recorded truths (``<u:truth>``) against the measures that read them, and the images."""
+"""Checks of recorded truths (``<u:truth>``) against the measures that use them, and the images."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from ..errors import Diagnostic, UwsimError
 from ..schema import Diagnostics, Spec, line_of
 from ..world import Stage
 from .ground_truth import TopicTruthSpec
-from .recorded_truth import SAME_TIME, RecordedTruth, RecordedTruthSpec
+from .recorded_truth import TIME_TOLERANCE, RecordedTruth, RecordedTruthSpec
 from .spec import BenchmarkSpec
 from .updaters import BagFogUpdaterSpec, chain
 
 
 def truth_diagnostics(benchmark: BenchmarkSpec, stage: Stage) -> list[Diagnostic]:
-    """Compare what a truth has with what is read of it; what cannot be read is reported elsewhere.
+    """Compare the columns and times of recorded truths with the measures and recordings.
 
-    An error where a measure reads another number of components; a warning where the truth begins
-    after the first image, or ends before the recording.
+    Another number of components in a measure is an error; a truth that begins after the first
+    image, or ends before the recording, is a warning. Files that cannot be read are skipped.
     """
     diagnostics = Diagnostics(benchmark.path)
     for updater in chain(benchmark.scene_updater):
@@ -29,39 +29,39 @@ def truth_diagnostics(benchmark: BenchmarkSpec, stage: Stage) -> list[Diagnostic
             times = updater.times(updater.find(stage))
         except UwsimError:
             continue
-        if message := _uncovered(truth, *times):
+        if message := _coverage_warning(truth, *times):
             diagnostics.warning(line_of(updater.truth, "file"), message)
-        for reads in _readers(benchmark, updater.truth):
-            n_read, n = len(reads.components.split()), len(truth.columns)
+        for topic_truth in _topic_truths(benchmark, updater.truth):
+            n_read, n = len(topic_truth.components.split()), len(truth.columns)
             if n_read != n:
                 diagnostics.error(
-                    line_of(reads, "components"),
-                    f"<components> names {n_read} of the numbers on {reads.topic!r}; "
+                    line_of(topic_truth, "components"),
+                    f"<components> names {n_read} of the numbers on {topic_truth.topic!r}; "
                     f"{Path(updater.truth.file).name} publishes {n}: {', '.join(truth.columns)}",
                 )
     return diagnostics.to_list()
 
 
-def _readers(benchmark: BenchmarkSpec, truth: RecordedTruthSpec) -> Iterator[TopicTruthSpec]:
-    """The ground truths of measures that are published by a recorded one."""
+def _topic_truths(benchmark: BenchmarkSpec, truth: RecordedTruthSpec) -> Iterator[TopicTruthSpec]:
+    """Yield the ground truths of measures on the topic of a recorded truth."""
     for measure in benchmark.measures:
-        reads: Spec | None = getattr(measure, "ground_truth", None)
-        if isinstance(reads, TopicTruthSpec) and reads.topic.strip("/") == truth.topic.strip("/"):
-            yield reads
+        source: Spec | None = getattr(measure, "ground_truth", None)
+        if isinstance(source, TopicTruthSpec) and source.topic.strip("/") == truth.topic.strip("/"):
+            yield source
 
 
-def _uncovered(truth: RecordedTruth, gap: float, length: float) -> str:
-    """Say which images have no truth; empty if all have one, as far as it can be seen.
+def _coverage_warning(truth: RecordedTruth, gap: float, length: float) -> str:
+    """Return a warning about images without a truth; empty if there is none.
 
     Args:
-        truth: of the images.
-        gap: between images [s].
-        length: from the first image to the end of the recording, whatever its topic is [s].
+        truth: the truth of the images.
+        gap: the time between images [s].
+        length: the time from the first image to the end of the recording, with any topic [s].
     """
-    first, last = truth.span
-    if first <= SAME_TIME and last >= length - gap - SAME_TIME:
+    start, end = truth.span
+    if start <= TIME_TOLERANCE and end >= length - gap - TIME_TOLERANCE:
         return ""
     return (
-        f"the truth is that of {first:.6g} s to {last:.6g} s, and the recording is one of 0 s to "
-        f"{length:.6g} s from its first image on: other images are not scored"
+        f"the truth is from {start:.6g} s to {end:.6g} s, the recording from its "
+        f"first image to {length:.6g} s: images without truth are not scored"
     )

@@ -12,84 +12,84 @@ from .spec import BenchmarkSpec
 from .updaters import chain
 
 
-def unknown_names(
+def find_unknown_names(
     benchmark: BenchmarkSpec, stage: Stage, *, is_whole: bool = True
 ) -> list[Diagnostic]:
-    """Look up every name of a benchmark file; reports all errors of binding it to the scene.
+    """Resolve every name of a benchmark file; return all errors of binding it to the scene.
 
     Args:
-        benchmark: what was read from the file.
+        benchmark: the spec that was read from the file.
         stage: the scene.
-        is_whole: whether it was read without an error; else its parts are not bound.
+        is_whole: it was read without an error; otherwise its parts are not bound.
     """
     diagnostics = Diagnostics(benchmark.path)
-    errors_of = _wrong if is_whole else _unknown
+    errors_of = _binding_errors if is_whole else _reference_errors
     for line, message in dict.fromkeys(
-        wrong for part in _parts(benchmark) for wrong in errors_of(part, stage)
+        error for part in _parts(benchmark) for error in errors_of(part, stage)
     ):
         diagnostics.error(line, message)
     return diagnostics.to_list()
 
 
 def _parts(benchmark: BenchmarkSpec) -> Iterator[Part]:
-    """Every part of a benchmark, in the file's order."""
+    """Yield every part of a benchmark, in the file's order."""
     for spec in benchmark.measures:
         yield from (spec, spec.start_on, spec.stop_on)
     yield from (benchmark.start_on, benchmark.stop_on)
     yield from chain(benchmark.scene_updater)
 
 
-def _line(spec: object, name: str) -> int | None:
-    """Line of the field within a spec that has the value ``name``; else of the spec."""
-    return next(_lines(spec, name), line_of(spec)) if name else line_of(spec)
+def _name_line(spec: object, name: str) -> int | None:
+    """Return the line of the field within a spec that has the value ``name``; else of the spec."""
+    return next(_name_lines(spec, name), line_of(spec)) if name else line_of(spec)
 
 
-def _lines(spec: object, name: str) -> Iterator[int | None]:
+def _name_lines(spec: object, name: str) -> Iterator[int | None]:
     for field in fields_of(type(spec)):
         value = field.value_in(spec)
         if value == name or (isinstance(value, str) and name in value.split()):
             yield line_of(spec, field.tag)
         elif isinstance(value, Spec) and not isinstance(value, Part):
-            yield from _lines(value, name)
+            yield from _name_lines(value, name)
 
 
-def _wrong(part: Part, stage: Stage) -> Iterator[tuple[int | None, str]]:
-    """What keeps a part from being bound, and where: its unknown names; else what it raises."""
-    unknown = [*_unknown(part, stage)]
-    if unknown:
-        yield from unknown
+def _binding_errors(part: Part, stage: Stage) -> Iterator[tuple[int | None, str]]:
+    """Yield the errors of a part with their lines: its unknown names; else that of binding it."""
+    reference_errors = [*_reference_errors(part, stage)]
+    if reference_errors:
+        yield from reference_errors
         return
     try:
         bind_part(part, stage).close()
     except UwsimError as error:
-        yield _line(part, error.name), str(error)
+        yield _name_line(part, error.name), str(error)
 
 
-def _unknown(spec: object, stage: Stage) -> Iterator[tuple[int | None, str]]:
-    """Look up what the fields of a spec, and of the specs in it, refer to."""
+def _reference_errors(spec: object, stage: Stage) -> Iterator[tuple[int | None, str]]:
+    """Resolve the references of the fields of a spec, and of the specs in it."""
     for field in fields_of(type(spec)):
         value = field.value_in(spec)
         if value is None or isinstance(value, Part):
             continue
         if field.xml.refers_to is not None:
             try:
-                LOOK_UP[field.xml.refers_to](stage, value)
+                RESOLVERS[field.xml.refers_to](stage, value)
             except UnknownName as error:
                 yield line_of(spec, field.tag), str(error)
         elif isinstance(value, Spec):
-            yield from _unknown(value, stage)
+            yield from _reference_errors(value, stage)
 
 
-def _vehicle(stage: Stage, name: str) -> None:
+def _find_vehicle(stage: Stage, name: str) -> None:
     if name not in stage.vehicles:
         raise UnknownName("vehicle", name, stage.vehicles)
 
 
-LOOK_UP: dict[str, Callable[[Stage, str], object]] = {
+RESOLVERS: dict[str, Callable[[Stage, str], object]] = {
     "actuators": lambda stage, name: stage.world.actuators(name),
     "body": lambda stage, name: stage.world.body(name),
     "camera": lambda stage, name: stage.world.camera(name),
     "contacts": lambda stage, name: stage.world.contacts(name),
-    "vehicle": _vehicle,
+    "vehicle": _find_vehicle,
 }
-"""What a field refers to (`element`) -> the look-up, which raises UnknownName."""
+"""The functions that resolve a reference of a field (`element`); they raise UnknownName."""

@@ -1,8 +1,8 @@
 """One value of a scene updater: drawn for each seed (``u:vary``), or set with ``--set``.
 
-A path begins with the name of the updater's element, however deep it is nested:
-``currentForceUpdater.timeOffset``. What decides the levels, or how long they last, is the plan of a
-benchmark and stays as the file says.
+A path begins with the name of the updater's element, at any depth of nesting:
+``currentForceUpdater.timeOffset``. Values that determine the levels or their duration cannot be
+changed.
 """
 
 from __future__ import annotations
@@ -20,85 +20,85 @@ from .updaters import UPDATERS, SceneUpdaterSpec, chain, interval
 from .updaters import levels as levels_of
 
 
-def element_of(updater: SceneUpdaterSpec) -> str:
-    """Return the name of an updater's element; of a plugin's that of its column."""
+def updater_element(updater: SceneUpdaterSpec) -> str:
+    """Return the name of an updater's element; for a plugin's updater that of its column."""
     names = {kind: name for name, kind in UPDATERS.items()}
     return names.get(type(updater), updater.name)
 
 
-def leads_to_updater(benchmark: BenchmarkSpec, path: str) -> bool:
-    """Whether a path begins with the name of one of its updaters."""
-    return path.partition(".")[0] in [element_of(each) for each in chain(benchmark.scene_updater)]
+def is_updater_path(benchmark: BenchmarkSpec, path: str) -> bool:
+    """Return whether a path begins with the name of one of its updaters."""
+    return path.partition(".")[0] in map(updater_element, chain(benchmark.scene_updater))
 
 
-def check_begin(benchmark: BenchmarkSpec, scene: SceneSpec, path: str, value: str) -> None:
-    """Raise BadSetting if a path begins with nothing that can be set; names all that can."""
-    first = path.partition(".")[0].partition("[")[0].removeprefix("u:")
-    known = [field.label.removeprefix("u:") for field in fields_of(type(scene))]
-    known += map(element_of, chain(benchmark.scene_updater))
-    known.append("algorithm")
-    if first and first not in known:
+def check_path_start(benchmark: BenchmarkSpec, scene: SceneSpec, path: str, value: str) -> None:
+    """Raise BadSetting if the beginning of a path is unknown; list all that are known."""
+    name = path.partition(".")[0].partition("[")[0].removeprefix("u:")
+    known_names = [field.label.removeprefix("u:") for field in fields_of(type(scene))]
+    known_names += map(updater_element, chain(benchmark.scene_updater))
+    known_names.append("algorithm")
+    if name and name not in known_names:
         raise BadSetting(
-            f"--set {path}={value}: there is no <{first}>.{did_you_mean(first, known)} "
-            f"There are: {', '.join(known)}."
+            f"--set {path}={value}: there is no <{name}>.{did_you_mean(name, known_names)} "
+            f"There are: {', '.join(known_names)}."
         )
 
 
 def locate_in_benchmark(benchmark: Any, path: str) -> Place:
     """Find the field of a path; raises BadSetting for an unknown path."""
-    first, _, rest = path.partition(".")
+    name, _, rest = path.partition(".")
     steps: list[Step] = []
-    outer, field = benchmark, "scene_updater"
+    owner, field = benchmark, "scene_updater"
     updater: SceneUpdaterSpec | None = benchmark.scene_updater
     while updater is not None:
-        is_it = element_of(updater) == first
-        steps.append(Step(outer, field, None, first if is_it else ""))
-        if is_it:
-            inner = locate(updater, rest)
-            return Place((*steps, *inner.steps), inner.leaf, inner.field, inner.rest)
-        outer, field, updater = updater, "child", updater.child
-    known = [element_of(each) for each in chain(benchmark.scene_updater)]
+        is_found = updater_element(updater) == name
+        steps.append(Step(owner, field, None, name if is_found else ""))
+        if is_found:
+            place = locate(updater, rest)
+            return Place((*steps, *place.steps), place.leaf, place.field, place.rest)
+        owner, field, updater = updater, "child", updater.child
+    known_names = [*map(updater_element, chain(benchmark.scene_updater))]
     raise BadSetting(
-        f"the benchmark has no updater <{first}>.{did_you_mean(first, known)} "
-        f"There are: {', '.join(known)}."
+        f"the benchmark has no updater <{name}>.{did_you_mean(name, known_names)} "
+        f"There are: {', '.join(known_names)}."
     )
 
 
-def same_levels(benchmark: BenchmarkSpec, changed: BenchmarkSpec) -> None:
-    """Refuse a change of the levels; raises BadSetting."""
-    before, after = benchmark.scene_updater, changed.scene_updater
-    for updater in chain(after):
-        for wrong in updater.errors():
-            raise BadSetting(wrong)
-    if levels_of(before) != levels_of(after) or interval(before) != interval(after):
-        raise BadSetting("it decides the levels, or how long they last; change the file.")
+def check_same_levels(benchmark: BenchmarkSpec, changed_benchmark: BenchmarkSpec) -> None:
+    """Raise BadSetting if a change affects the levels."""
+    old_spec, new_spec = benchmark.scene_updater, changed_benchmark.scene_updater
+    for updater in chain(new_spec):
+        for error in updater.errors():
+            raise BadSetting(error)
+    if levels_of(old_spec) != levels_of(new_spec) or interval(old_spec) != interval(new_spec):
+        raise BadSetting("it determines the levels or their duration; change the file.")
 
 
 def apply_updater_setting(benchmark: BenchmarkSpec, path: str, value: str) -> BenchmarkSpec:
-    """Return a copy with another value; a variation of it is dropped.
+    """Return a copy with another value; a variation of that value is removed.
 
     Raises:
         BadSetting: an unknown path, or an invalid value.
     """
     try:
         place = locate_in_benchmark(benchmark, path)
-        changed: BenchmarkSpec = place.with_value(value)
-        same_levels(benchmark, changed)
+        changed_benchmark: BenchmarkSpec = place.with_value(value)
+        check_same_levels(benchmark, changed_benchmark)
     except BadSetting as error:
         raise BadSetting(f"--set {path}={value}: {error}") from None
-    kept = tuple(
-        each
-        for each in benchmark.vary
-        if not overlaps(locate_in_benchmark(benchmark, each.path), place)
+    variations = tuple(
+        variation
+        for variation in benchmark.vary
+        if not overlaps(locate_in_benchmark(benchmark, variation.path), place)
     )
-    return dataclasses.replace(changed, vary=kept)
+    return dataclasses.replace(changed_benchmark, vary=variations)
 
 
 def benchmark_of_seed(benchmark: BenchmarkSpec, seed: int) -> BenchmarkSpec:
-    """Return the benchmark with what varies drawn for a seed."""
+    """Return the benchmark with the variations of a seed."""
     return apply_variations(benchmark, seed, find=locate_in_benchmark)
 
 
 def updater_draws(benchmark: BenchmarkSpec, seed: int) -> tuple[Draw, ...]:
-    """Return what was drawn for a seed."""
+    """Return the values drawn for a seed."""
     return draw(benchmark, seed, find=locate_in_benchmark)

@@ -1,7 +1,7 @@
 """Warnings about benchmark files that are valid but probably wrong.
 
-Levels that never begin or measure nothing; times shorter than half a step of the simulation, which
-would be read as none or as another time.
+They concern levels that never begin or measure nothing, and times shorter than half a step of the
+simulation, which have no effect or that of another time.
 """
 
 from __future__ import annotations
@@ -14,21 +14,21 @@ from .spec import BenchmarkSpec, FunctionSpec
 from .triggers import NeverSpec, ServiceSpec
 from .updaters import SceneUpdaterSpec, chain, interval
 
-Said = tuple[Spec | int | None, str]
-"""A spec or a line, and what is said about it."""
+PlacedMessage = tuple[Spec | int | None, str]
+"""A spec or a line, and the message about it."""
 
 
-def never_started(spec: BenchmarkSpec) -> Iterator[Said]:
-    """Warn that no level can begin."""
+def warn_never_started(spec: BenchmarkSpec) -> Iterator[PlacedMessage]:
+    """Warn about a trigger with which no level can begin."""
     start, place = spec.start_on, line_of(spec, "startOn")
     if isinstance(start, NeverSpec):
         yield place, "<startOn> is 'never': no level will ever begin"
-    answered = [
-        each.ground_truth.publish_on
-        for each in spec.measures
-        if isinstance(each, EuclideanNormSpec)
+    init_services = [
+        measure.ground_truth.publish_on
+        for measure in spec.measures
+        if isinstance(measure, EuclideanNormSpec)
     ]
-    if isinstance(start, ServiceSpec) and start.target in answered:
+    if isinstance(start, ServiceSpec) and start.target in init_services:
         yield (
             place,
             f"<startOn> waits for the service {start.target!r}, which the algorithm serves "
@@ -36,44 +36,48 @@ def never_started(spec: BenchmarkSpec) -> Iterator[Said]:
         )
 
 
-def too_short(
+def find_short_times(
     measures: Sequence[MeasureSpec],
     updater: SceneUpdaterSpec | None,
     function: FunctionSpec | None,
     timestep: float,
-) -> Iterator[Said]:
-    """Yield durations shorter than half a step, with their places.
+) -> Iterator[PlacedMessage]:
+    """Yield errors of durations shorter than half a step.
 
     Args:
-        measures: what could be read.
-        updater: the outermost, if it could be read.
+        measures: the measures that could be read.
+        updater: the outermost updater, if it could be read.
         function: the score's element, if it could be read.
-        timestep: length of a step [s].
+        timestep: the length of a step [s].
     """
     step = f"less than half a step of {timestep:g} s"
     for spec in measures:
-        if spec.log is not None and _is_nothing(spec.log, timestep):
+        if spec.log is not None and _is_too_short(spec.log, timestep):
             yield line_of(spec, "log"), f"<log> is {spec.log:g} s: {step}"
     rate = 0.0 if function is None else function.publish_rate
-    if rate > 0.0 and _is_nothing(rate, timestep):
+    if rate > 0.0 and _is_too_short(rate, timestep):
         message = f"publishRate is {rate:g} s: {step}; 0 publishes at every step"
         yield function, message
     if updater is not None:
-        yield from _empty_level(updater, timestep, step)
+        yield from _short_intervals(updater, timestep, step)
 
 
-def _empty_level(updater: SceneUpdaterSpec, timestep: float, step: str) -> Iterator[Said]:
-    """Report intervals and settling times of less than half a step."""
-    length, deepest = interval(updater), chain(updater)[-1]
-    if length is not None and _is_nothing(length, timestep):
+def _short_intervals(
+    updater: SceneUpdaterSpec, timestep: float, step: str
+) -> Iterator[PlacedMessage]:
+    """Yield errors of intervals and settling times shorter than half a step."""
+    length, deepest_updater = interval(updater), chain(updater)[-1]
+    if length is not None and _is_too_short(length, timestep):
         yield (
-            line_of(deepest, "interval"),
-            f"<interval> is {length:g} s: {step}, so nothing would be run",
+            line_of(deepest_updater, "interval"),
+            f"<interval> is {length:g} s: {step}, so no step is run",
         )
-    for each in chain(updater):
-        if each.settling_time > 0.0 and _is_nothing(each.settling_time, timestep):
-            yield each, f"u:settlingTime is {each.settling_time:g} s: {step}"
+    for inner_updater in chain(updater):
+        if inner_updater.settling_time > 0.0 and _is_too_short(
+            inner_updater.settling_time, timestep
+        ):
+            yield inner_updater, f"u:settlingTime is {inner_updater.settling_time:g} s: {step}"
 
 
-def _is_nothing(seconds: float, timestep: float) -> bool:
+def _is_too_short(seconds: float, timestep: float) -> bool:
     return round(seconds / timestep) < 1

@@ -32,11 +32,11 @@ def read_plugins(files: Sequence[Path] | None) -> tuple[tuple[Plugin, ...], Tabl
         BadSetting: a plugin is given twice.
     """
     from ..benchmark.plugin import read_plugin
-    from ..benchmark.plugin_tables import with_plugins
+    from ..benchmark.plugin_tables import extend_tables
 
     errors, plugins = ErrorCollector(), []
     for file in files or ():
         with errors.collect():
             plugins.append(read_plugin(file))
     errors.raise_errors()
-    return tuple(plugins), with_plugins(bundled_tables(), plugins)
+    return tuple(plugins), extend_tables(bundled_tables(), plugins)

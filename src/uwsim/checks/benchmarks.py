@@ -7,7 +7,7 @@ from pathlib import Path
 
 from ..algorithms import load_algorithm
 from ..benchmark.truth_checks import truth_diagnostics
-from ..benchmark.unknown_names import unknown_names
+from ..benchmark.unknown_names import find_unknown_names
 from ..benchmark.updaters import ArmMoveUpdaterSpec, chain
 from ..errors import BadSetting, Diagnostic
 from ..schema import Diagnostics, parse
@@ -26,7 +26,7 @@ def unknown_algorithm(benchmark: CheckedBenchmark) -> Iterator[Diagnostic]:
 
 def names_in_scene(benchmark: CheckedBenchmark) -> Iterable[Diagnostic]:
     """Report the names that the scene does not have."""
-    return unknown_names(benchmark.spec, benchmark.stage, is_whole=benchmark.is_whole)
+    return find_unknown_names(benchmark.spec, benchmark.stage, is_whole=benchmark.is_whole)
 
 
 def arm_positions(benchmark: CheckedBenchmark) -> Iterable[Diagnostic]:

@@ -199,7 +199,7 @@ def _check_benchmark(
         with attribute_errors_to(plugins):
             diagnostics, spec = check_benchmark(
                 file,
-                strict=strict,
+                is_strict=strict,
                 measures=tables.measures,
                 triggers=tables.triggers,
                 updaters=tables.updaters,

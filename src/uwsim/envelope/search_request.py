@@ -101,7 +101,7 @@ def updater_of(plan: Plan, parameter: str) -> SceneUpdaterSpec:
             f"--over {parameter}: this benchmark sweeps {sweep}.{did_you_mean(parameter, names)}"
         )
     spec = chain(plan.benchmark.scene_updater)[names.index(parameter)]
-    if spec.name == "none" or spec.blend(spec.initial + 1.0, 0.5) == spec.initial + 1.0:
+    if spec.name == "none" or spec.blend(spec.first_value + 1.0, 0.5) == spec.first_value + 1.0:
         raise BadSetting(f"--over {parameter}: the parameter has no values between two levels.")
     return spec
 
@@ -188,5 +188,5 @@ def fixed_levels(plan: Plan, parameter: str, fixed_values: list[tuple[str, float
             )
         if choices and (limit := violated_limit(spec, choices[0])):
             raise BadSetting(f"--level {name}={choices[0]:g}: {name} must be {limit}.")
-        values.append((name, choices[0] if choices else spec.initial))
+        values.append((name, choices[0] if choices else spec.first_value))
     return Level(tuple(values))

@@ -8,7 +8,7 @@ from pathlib import Path
 from ..base.files.input_files import InputFile, compute_hash, hashes_by_name, portable_name, record
 from ..base.files.python_sources import find_sources
 from ..benchmark.plugin import attribute_errors_to, hashes
-from ..benchmark.plugin_checks import files_of
+from ..benchmark.plugin_checks import updater_files
 from ..benchmark.updaters import chain
 from ..results.inputs import Inputs
 from ..simulation import Simulation
@@ -37,7 +37,7 @@ def inputs_of(plan: Plan, simulation: Simulation, read_files: Iterable[InputFile
     other_files = dict(simulation.world.files)
     for updater in chain(plan.benchmark.scene_updater):
         with attribute_errors_to(plan.plugins):
-            other_files |= files_of(updater, simulation.world.stage_view)
+            other_files |= updater_files(updater, simulation.world.stage_view)
     assets += _hash_files({n: path for n, path in other_files.items() if path not in read_paths})
     assets += [
         InputFile(name, f"sha256:{digest}")

@@ -9,7 +9,7 @@ from pathlib import Path
 from ..base.files.input_files import record_inputs
 from ..benchmark.plugin import attribute_errors_to, check_bound
 from ..benchmark.truth_checks import truth_diagnostics
-from ..benchmark.unknown_names import unknown_names
+from ..benchmark.unknown_names import find_unknown_names
 from ..errors import BenchmarkError, UwsimError
 from ..results.inputs import Inputs
 from ..simulation import RendererPool, Simulation
@@ -82,7 +82,7 @@ def _bind_all(plan: Plan, simulation: Simulation) -> None:
     try:
         bind_all(plan, simulation)
     except UwsimError:
-        if errors := unknown_names(plan.benchmark, simulation.world.stage_view):
+        if errors := find_unknown_names(plan.benchmark, simulation.world.stage_view):
             raise BenchmarkError(errors) from None
         raise
     truths = truth_diagnostics(plan.benchmark, simulation.world.stage_view)

@@ -41,7 +41,7 @@ from ..benchmark.measures import (
     Reconstruction3DSpec,
     TimeSpec,
 )
-from ..benchmark.plugin_checks import sample_of
+from ..benchmark.plugin_checks import log_sample
 from ..results.atomic_file import write_text
 from ..results.log import TIME, Log
 from ..results.result import Cell, Column, Result
@@ -167,7 +167,7 @@ def detail_names(spec: MeasureSpec, n_logged: int) -> tuple[str, ...]:
 
 def details(measure: TriggeredMeasure) -> tuple[float | None, ...]:
     """Return the current details of a measure, in the order of `detail_names`."""
-    values = [finite_value(value)[0] for value in sample_of(measure.measure)]
+    values = [finite_value(value)[0] for value in log_sample(measure.measure)]
     if measure.has_start_value:
         values = [measure.spec.start_value, *(0.0 for _ in values[1:])]
     return tuple(values[: len(detail_names(measure.spec, len(values)))])

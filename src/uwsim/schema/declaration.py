@@ -93,7 +93,7 @@ def element(
             name "" the element that the spec is read from contains them, each as a field.
         original: the way in which the original reads the element.
         refers_to: the kind of part of a scene that the field names, such as ``body``
-            (`uwsim.benchmark.unknown_names.LOOK_UP`).
+            (`uwsim.benchmark.unknown_names.RESOLVERS`).
         limits: ``minimum``, ``maximum``, ``above`` and ``below`` of a number.
     """
     if refers_to not in (None, *get_args(ReferenceKind)):

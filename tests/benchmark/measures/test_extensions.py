@@ -164,7 +164,7 @@ def test_dropping_the_extensions_leaves_the_originals_measures(tmp_path: Path) -
     etree.cleanup_namespaces(tree)
     file = tmp_path / "b.xml"
     file.write_bytes(etree.tostring(tree, doctype='<!DOCTYPE benchmark SYSTEM "benchmark.dtd">'))
-    assert check_benchmark(file, strict=True)[0] == []
+    assert check_benchmark(file, is_strict=True)[0] == []
     assert [m.name for m in read_benchmark(file).measures] == [
         "offset", "corners", "centroid", "objectCentered",
     ]  # fmt: skip

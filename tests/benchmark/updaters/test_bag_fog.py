@@ -16,7 +16,7 @@ from uwsim.benchmark.ground_truth import TopicTruthSpec
 from uwsim.benchmark.measures import EuclideanNorm, EuclideanNormSpec
 from uwsim.benchmark.recorded_truth import RecordedTruthSpec
 from uwsim.benchmark.updaters import BagFogUpdaterSpec
-from uwsim.benchmark.updaters.bag_fog_updater import BagFogUpdater, fogged
+from uwsim.benchmark.updaters.bag_fog_updater import BagFogUpdater, add_fog
 from uwsim.bus import Node
 from uwsim.cli import main
 from uwsim.errors import AssetError, AssetNotFound, BadSetting, RunFailed, UnknownName
@@ -138,7 +138,7 @@ def test_the_law_is_that_of_the_renderer() -> None:
     shape = pixels.shape[:2]
     drawn = apply_water(pixels / 255.0, np.full(shape, DEPTH), np.zeros(shape), water)
     seen = float(np.exp(-((0.4 * DEPTH) ** 2)))
-    assert fogged(pixels, seen, COLOUR) == pytest.approx(255.0 * drawn, abs=0.5001)
+    assert add_fog(pixels, seen, COLOUR) == pytest.approx(255.0 * drawn, abs=0.5001)
 
 
 @pytest.mark.parametrize("encoding", ["rgb8", "bgr8", "mono8"])
@@ -231,7 +231,7 @@ def test_what_is_missing_is_found_when_it_is_bound(tmp_path: Path) -> None:
     with pytest.raises(AssetError, match="carries sensor_msgs/msg/CameraInfo"):
         spec(tmp_path, image_topic=INFO).bind(stage)
     stage.bus.publisher(IMAGE, Image)
-    with pytest.raises(BadSetting, match=f"Topic '{IMAGE}' is the scene's already; name another"):
+    with pytest.raises(BadSetting, match=f"The scene publishes on '{IMAGE}'; choose another topic"):
         spec(tmp_path).bind(stage)
     spec(tmp_path, image_pub="/other").bind(stage)
 
@@ -419,7 +419,7 @@ def test_a_truth_of_another_time_is_refused(tmp_path: Path, times: tuple[float, 
     write_bag(tmp_path, "ros1", images())
     (tmp_path / "corners.csv").write_text(f"time,u,v\n{times[0]},1,10\n{times[1]},6,60\n")
     truth = RecordedTruthSpec(file="corners.csv", topic="truth/corners")
-    with pytest.raises(AssetError, match="are none of the recording: 0 s to 0"):
+    with pytest.raises(AssetError, match="are outside the recording: 0 s to 0"):
         spec(tmp_path, truth=truth).bind(world(timestep=0.01))
 
 

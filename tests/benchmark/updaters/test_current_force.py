@@ -144,8 +144,8 @@ def test_the_vehicle_is_put_back_once_for_all_fogs_within_a_current() -> None:
     before = None
     waits = []
     for level in levels(spec):
-        apply_level(updaters, level, after=before)
-        waits.append(settling_time(spec, level, after=before))
+        apply_level(updaters, level, last_level=before)
+        waits.append(settling_time(spec, level, last_level=before))
         before = level
     assert len(world.put_backs) == 2
     assert waits == [3.0, 0.0, 0.0, 3.0, 0.0, 0.0]
@@ -157,7 +157,7 @@ def test_a_current_that_is_repeated_begins_anew_each_time() -> None:
     updaters = bind_updaters(spec, world)
     first, second = levels(spec)
     apply_level(updaters, first)
-    apply_level(updaters, second, after=first)
+    apply_level(updaters, second, last_level=first)
     assert len(world.put_backs) == 2
 
 

@@ -109,14 +109,14 @@ LENGTH = 'u:unit="attenuationLength"'
     ("unit", "first", "last", "step", "interval", "line", "said"),
     [
         ("", 1.0, 0.0, -0.1, 1, 9, "<step> is '-0.1'; expected a number > 0 [1/m]: fog density "
-         'runs upward. A sweep of lengths may run downward: u:unit="attenuationLength" [m]'),
+         'increases. A sweep of lengths may decrease: u:unit="attenuationLength" [m]'),
         ("", 1.0, 0.0, 0.1, 1, 8, "<finalValue> 0 is below <initialValue> 1: no level."),
         ("", 0.0, 1.0, 0.0, 1, 9, "<step> is '0'; expected a number > 0"),
         ("", 0.0, 1.0, 0.1, 0, 10, "<interval> is '0'; expected a number > 0 [s]"),
         (LENGTH, 10, 1, -1, 0, 10, "<interval> is '0'; expected a number > 0 [s]"),
-        (LENGTH, 10, 1, 1, 1, 9, "<step> 1 leads away from <finalValue> 1, as <initialValue> is "
+        (LENGTH, 10, 1, 1, 1, 9, "<step> 1 points away from <finalValue> 1, as <initialValue> is "
          "10: change its sign"),
-        (LENGTH, 1, 10, -1, 1, 9, "<step> -1 leads away from <finalValue> 10"),
+        (LENGTH, 1, 10, -1, 1, 9, "<step> -1 points away from <finalValue> 10"),
         (LENGTH, 10, 1, 0, 1, 9, "<step> is 0; expected a length above or below 0 [m]"),
         (LENGTH, 10, 0, -1, 1, 8, "<finalValue> is 0; expected a length > 0 [m]"),
         (LENGTH, 0, 1, 1, 1, 7, "<initialValue> is 0; expected a length > 0 [m]"),

@@ -22,7 +22,7 @@ from uwsim.benchmark.updaters import (
     interval,
     levels,
     n_levels,
-    sweep,
+    sweep_values,
     swept_parameters,
 )
 from uwsim.errors import BadSetting, UnknownName
@@ -74,8 +74,8 @@ def test_fog_over_a_recording_is_counted_like_fog() -> None:
 
 
 def test_counting_in_single_precision_is_what_plays_the_last_fog() -> None:
-    assert len(sweep(0.0, 1.3, 0.05, single=True)) == 27
-    assert len(sweep(0.0, 1.3, 0.05)) == 26
+    assert len(sweep_values(0.0, 1.3, 0.05, is_single=True)) == 27
+    assert len(sweep_values(0.0, 1.3, 0.05)) == 26
 
 
 def test_values_are_multiples_of_the_step_and_not_a_drifting_sum() -> None:
@@ -87,7 +87,7 @@ def test_values_are_multiples_of_the_step_and_not_a_drifting_sum() -> None:
 @pytest.mark.parametrize("step", [0.0, -0.1, 1e-12])
 def test_a_sweep_that_never_ends_is_refused(step: float) -> None:
     with pytest.raises(BadSetting, match="more than 100000 levels"):
-        sweep(0.0, 1.3, step, single=True)
+        sweep_values(0.0, 1.3, step, is_single=True)
 
 
 def test_none_is_one_level_called_1_that_lasts_until_stop_on() -> None:

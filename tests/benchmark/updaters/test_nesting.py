@@ -162,7 +162,7 @@ def test_three_deep_every_value_stands_at_every_level_and_restarts(
     ramp_level(updaters, initial_level(spec))
     before: Level | None = None
     for level in played:
-        apply_level(updaters, level, after=before)
+        apply_level(updaters, level, last_level=before)
         before = level
         world.advance(2)
         for element, (_, value) in zip(elements, level.values, strict=True):
@@ -181,7 +181,7 @@ def test_a_current_inside_begins_each_of_its_levels_at_rest_and_lives_through_th
     updaters = bind_updaters(spec, world)
     before: Level | None = None
     for level in levels(spec):
-        apply_level(updaters, level, after=before)
+        apply_level(updaters, level, last_level=before)
         before = level
         world.advance(500)
     assert [time for _, time in world.put_backs] == pytest.approx([0.0, 2.0, 4.0, 6.0])
@@ -212,7 +212,7 @@ def test_a_restart_brings_back_force_and_pose_in_a_simulation(simulation: Simula
     drifted = {}
     before: Level | None = None
     for level in levels(spec):
-        apply_level(updaters, level, after=before)
+        apply_level(updaters, level, last_level=before)
         before = level
         joints[level] = simulation.world.vehicles.find(VEHICLE).joints[:2]
         for _ in range(1250):

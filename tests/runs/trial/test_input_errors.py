@@ -138,12 +138,12 @@ ERRORS = {
     ),
     "a name that no file can be called by": (
         changed("<name>centroid", f"<name>{'c' * 300}", "corners+centroid", "corners"),
-        "<euclideanNorm>\n      <name>ccc", "c'... has 300 letters; at most 100",
+        "<euclideanNorm>\n      <name>ccc", "c'... has 300 letters; expected at most 100",
     ),
     "two measures with one name": (
         changed("<name>centroid", "<name>corners", "corners+centroid", "corners"),
         "<euclideanNorm>\n      <name>corners</name>\n      <groundTruth type=\"centroid",
-        "another measure (line 6) is called 'corners'",
+        "another measure (line 6) has the name 'corners'",
     ),
     "a negative step": (
         changed("<step>0.05", "<step>-0.05"), "<step>", "expected a number > 0 [1/m]",
@@ -154,7 +154,7 @@ ERRORS = {
     ),
     "an interval of less than half a step": (
         changed("<interval>5", "<interval>0.0009"),
-        "<interval>", "<interval> is 0.0009 s: less than half a step of 0.002 s, so nothing would",
+        "<interval>", "<interval> is 0.0009 s: less than half a step of 0.002 s, so no step",
     ),
     "a settling time of less than half a step": (
         extended(
@@ -191,7 +191,7 @@ ERRORS = {
     ),
     "an updater beside another": (
         changed("<sceneFogUpdater>", "<none/><sceneFogUpdater>"),
-        "<sceneFogUpdater>", "only one may: nest it in a <sceneUpdater> of its own",
+        "<sceneFogUpdater>", "expected one: nest it in a <sceneUpdater> of its own",
     ),
     "an arm that goes nowhere": (
         with_updater("<armMoveUpdater><step>1</step><interval>1</interval>"

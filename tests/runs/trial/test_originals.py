@@ -16,9 +16,9 @@ from uwsim.base.compatibility import compatibility
 from uwsim.benchmark.reader import read_benchmark
 from uwsim.benchmark.spec import BenchmarkSpec
 from uwsim.benchmark.triggers import NeverSpec
-from uwsim.benchmark.unknown_names import unknown_names
+from uwsim.benchmark.unknown_names import find_unknown_names
 from uwsim.benchmark.updaters import (
-    STILL_WATER,
+    STILL_WATER_TIME,
     CurrentForceUpdaterSpec,
     SceneUpdaterSpec,
     chain,
@@ -85,7 +85,7 @@ def scene_for(benchmark: Path, spec: BenchmarkSpec) -> Path:
         except UwsimError as error:
             said.append(f"{path}: {error}")
             continue
-        errors = unknown_names(spec, simulation.world.stage_view)
+        errors = find_unknown_names(spec, simulation.world.stage_view)
         simulation.close()
         if not errors:
             return path
@@ -109,7 +109,7 @@ def plan_of(file: Path, scene: SceneSpec, compatibility: frozenset[str]) -> Plan
     has_current = any(
         isinstance(updater, CurrentForceUpdaterSpec) for updater in chain(spec.scene_updater)
     )
-    updater = shortened(spec.scene_updater, SHORT + STILL_WATER * has_current)
+    updater = shortened(spec.scene_updater, SHORT + STILL_WATER_TIME * has_current)
     chosen = [
         (name, value)
         for name, each in zip(swept_parameters(updater), chain(updater), strict=True)

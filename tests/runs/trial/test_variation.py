@@ -67,11 +67,11 @@ def test_a_setting_fixes_what_would_vary() -> None:
 
 
 def test_what_decides_the_levels_cannot_be_set_or_vary(tmp_path: Path) -> None:
-    with pytest.raises(UwsimError, match="it decides the levels, or how long they last"):
+    with pytest.raises(UwsimError, match="it determines the levels or their duration"):
         plan_of("currents", "currentForceUpdater.interval=5")
     text = (BENCHMARKS / "currents.xml").read_text()
     for path, said in (
-        ("currentForceUpdater.finalValue", "it decides the levels, or how long they last"),
+        ("currentForceUpdater.finalValue", "it determines the levels or their duration"),
         ("currentForceUpdater.timeOfset", "there is no <timeOfset>. Did you mean 'timeOffset'?"),
         ("currentForceUpdater.target", "it is text; only a number can vary"),
         ("sceneFogUpdater.step", "the benchmark has no updater <sceneFogUpdater>"),

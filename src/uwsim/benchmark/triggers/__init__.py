@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from .never import Never, NeverSpec
-from .on_init import OnInit, OnInitSpec
+from .never import NeverSpec, NeverTrigger
+from .on_init import OnInitSpec, OnInitTrigger
 from .on_move import OnMove, OnMoveSpec
 from .on_no_move import OnNoMove, OnNoMoveSpec
 from .position import Position, PositionSpec
@@ -20,14 +20,14 @@ TRIGGERS: dict[str, type[TriggerSpec]] = {
     "service": ServiceSpec,
     "topic": TopicSpec,
 }
-"""``<type>`` -> spec. In alphabetical order."""
+"""The spec of each ``<type>``, in alphabetical order."""
 
 __all__ = [
     "TRIGGERS",
-    "Never",
     "NeverSpec",
-    "OnInit",
+    "NeverTrigger",
     "OnInitSpec",
+    "OnInitTrigger",
     "OnMove",
     "OnMoveSpec",
     "OnNoMove",

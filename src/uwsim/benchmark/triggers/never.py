@@ -18,13 +18,13 @@ from .trigger import Trigger, TriggerSpec
 class NeverSpec(TriggerSpec):
     """A trigger of type ``never``."""
 
-    def bind(self, world: World) -> Never:
-        """Needs nothing of the world."""
-        return Never()
+    def bind(self, world: World) -> NeverTrigger:
+        """Return the trigger, which needs nothing of the world."""
+        return NeverTrigger()
 
 
-class Never(Trigger):
-    """Always off."""
+class NeverTrigger(Trigger):
+    """A trigger that is always off."""
 
     is_constant: ClassVar[bool] = True
 

@@ -18,13 +18,13 @@ from .trigger import Trigger, TriggerSpec
 class OnInitSpec(TriggerSpec):
     """A trigger of type ``onInit``."""
 
-    def bind(self, world: World) -> OnInit:
-        """Needs nothing of the world."""
-        return OnInit()
+    def bind(self, world: World) -> OnInitTrigger:
+        """Return the trigger, which needs nothing of the world."""
+        return OnInitTrigger()
 
 
-class OnInit(Trigger):
-    """Always on."""
+class OnInitTrigger(Trigger):
+    """A trigger that is always on."""
 
     is_constant: ClassVar[bool] = True
 

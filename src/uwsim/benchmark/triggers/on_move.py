@@ -16,8 +16,8 @@ from ...schema import element
 from ...world import Body, World
 from .trigger import Trigger, TriggerSpec
 
-MOVED = 0.2
-"""How far a body goes before it counts as moved [m]."""
+MOVED_DISTANCE = 0.2
+"""The distance after which a body counts as moved [m]."""
 
 
 def threshold(length: float, world: World) -> float:
@@ -34,27 +34,27 @@ class OnMoveSpec(TriggerSpec):
     """A trigger of type ``onMove``."""
 
     target: str = element(refers_to="body")
-    """Route of the body to watch."""
+    """The route of the body."""
 
     def bind(self, world: World) -> OnMove:
-        """Remember where the target is; raises UnknownName if it is not there."""
-        return OnMove(world.body(self.target), threshold(MOVED, world))
+        """Store the position of the target; raises UnknownName if there is none."""
+        return OnMove(world.body(self.target), threshold(MOVED_DISTANCE, world))
 
 
 class OnMove(Trigger):
-    r"""On, for good, once :math:`\lVert p - p_0 \rVert > 0.2` m.
+    r"""A trigger that turns on, for good, once :math:`\lVert p - p_0 \rVert > 0.2` m.
 
-    :math:`p_0` is where the body's origin was when the trigger was bound; rotation never counts.
+    :math:`p_0` is the position of the body's origin at binding; rotation does not count.
     """
 
     def __init__(self, body: Body, distance: float) -> None:
         self._body, self._distance = body, distance
-        self._from = body.world_from_body.position  # (3,) [m]
+        self._start_position = body.world_from_body.position  # (3,) [m]
         self._has_moved = False
 
     def is_on(self) -> bool:
-        """Whether the body has been far enough from its start."""
+        """Return whether the body has been far enough from its start."""
         if not self._has_moved:
-            way = self._body.world_from_body.position - self._from
-            self._has_moved = length(way) > self._distance
+            displacement = self._body.world_from_body.position - self._start_position
+            self._has_moved = length(displacement) > self._distance
         return self._has_moved

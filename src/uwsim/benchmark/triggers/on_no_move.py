@@ -16,13 +16,13 @@ import numpy.typing as npt
 from ...base.numerics.linear import length
 from ...schema import element
 from ...world import Body, World
-from .on_move import MOVED, threshold
+from .on_move import MOVED_DISTANCE, threshold
 from .trigger import Trigger, TriggerSpec
 
-STILL_FOR = 4.0
-"""Time without motion after which the trigger is on [s]."""
+STILL_TIME = 4.0
+"""The time without motion after which the trigger is on [s]."""
 N_SAMPLES = 10
-"""Looks at its position within that time."""
+"""The number of samples of the position within that time."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,43 +30,43 @@ class OnNoMoveSpec(TriggerSpec):
     """A trigger of type ``onNoMove``."""
 
     target: str = element(refers_to="body")
-    """Route of the body to watch."""
+    """The route of the body."""
 
     def bind(self, world: World) -> OnNoMove:
-        """Watch the target; raises UnknownName if it is not there."""
-        return OnNoMove(world, world.body(self.target), threshold(MOVED, world))
+        """Resolve the target; raises UnknownName if there is none."""
+        return OnNoMove(world, world.body(self.target), threshold(MOVED_DISTANCE, world))
 
 
 class OnNoMove(Trigger):
-    """On, for good, once a body has stayed within 0.2 m for more than 4 s.
+    """A trigger that turns on, for good, once a body has stayed within 0.2 m for more than 4 s.
 
-    Its position is remembered every 0.4 s. At every step the oldest memories that are farther
-    than 0.2 m from where it is now are forgotten; on when the oldest left is older than 4 s.
+    Its position is stored every 0.4 s. At every step the oldest positions that are farther than
+    0.2 m from the present one are discarded; on when the oldest that remains is older than 4 s.
     """
 
     def __init__(self, world: World, body: Body, distance: float) -> None:
         self._world, self._body, self._distance = world, body, distance
-        self._memories: deque[tuple[int, npt.NDArray[np.float64]]] = deque()
-        self._period = max(1, round(STILL_FOR / N_SAMPLES / world.timestep))  # [steps]
-        self._still_steps = round(STILL_FOR / world.timestep)
-        self._next = world.step
+        self._positions: deque[tuple[int, npt.NDArray[np.float64]]] = deque()
+        self._period = max(1, round(STILL_TIME / N_SAMPLES / world.timestep))  # [steps]
+        self._n_still_steps = round(STILL_TIME / world.timestep)
+        self._next_sample = world.step
         self._is_on = False
-        self._look()
+        self._update()
 
     def is_on(self) -> bool:
-        """Whether the body has not moved for long enough."""
+        """Return whether the body has not moved for long enough."""
         if not self._is_on:
-            self._look()
+            self._update()
         return self._is_on
 
-    def _look(self) -> None:
+    def _update(self) -> None:
         step, position = self._world.step, self._body.world_from_body.position
-        while self._memories and self._is_far(self._memories[0][1], position):
-            self._memories.popleft()
-        if step >= self._next:
-            self._memories.append((step, position))
-            self._next = step + self._period
-        self._is_on = bool(self._memories) and step - self._memories[0][0] > self._still_steps
+        while self._positions and self._is_far(self._positions[0][1], position):
+            self._positions.popleft()
+        if step >= self._next_sample:
+            self._positions.append((step, position))
+            self._next_sample = step + self._period
+        self._is_on = bool(self._positions) and step - self._positions[0][0] > self._n_still_steps
 
-    def _is_far(self, before: npt.NDArray[np.float64], now: npt.NDArray[np.float64]) -> bool:
-        return length(now - before) > self._distance
+    def _is_far(self, start: npt.NDArray[np.float64], end: npt.NDArray[np.float64]) -> bool:
+        return length(end - start) > self._distance

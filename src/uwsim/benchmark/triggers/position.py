@@ -1,4 +1,4 @@
-r"""position: on as soon as a body comes near a place.
+r"""position: on as soon as a body comes near a position.
 
 .. code-block:: xml
 
@@ -21,8 +21,8 @@ from ...world import Body, World
 from .on_move import threshold
 from .trigger import Trigger, TriggerSpec
 
-NEAR = 0.3
-"""How near counts as being there [m]."""
+NEAR_DISTANCE = 0.3
+"""The distance below which a body is at the position [m]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,30 +30,31 @@ class PositionSpec(TriggerSpec):
     """A trigger of type ``position``."""
 
     target: str = element(refers_to="body")
-    """Route of the body to watch."""
+    """The route of the body."""
     position: tuple[float, float, float]
-    """The place, in L [m]."""
+    """The position, in L [m]."""
 
     def bind(self, world: World) -> Position:
-        """Watch the target; raises UnknownName if it is not there."""
-        place = world.world_from_localized.transform(np.array([self.position]))[0]  # (3,) [m] W
-        return Position(world.body(self.target), place, threshold(NEAR, world))
+        """Resolve the target; raises UnknownName if there is none."""
+        goal = world.world_from_localized.transform(np.array([self.position]))[0]  # (3,) [m] W
+        return Position(world.body(self.target), goal, threshold(NEAR_DISTANCE, world))
 
 
 class Position(Trigger):
-    r"""On, for good, once :math:`\lVert p - q \rVert < 0.3` m for the body's origin :math:`p`.
+    r"""A trigger that turns on, for good, once a body is within 0.3 m of a position.
 
-    The position :math:`q` is given in L, as all positions in files. (The original means the
-    same, but converts it with the wrong numbers.)
+    It is on from the step at which :math:`\lVert p - q \rVert < 0.3` m for the body's origin
+    :math:`p`. The position :math:`q` is given in L, as all positions in files. (The original
+    intends the same, but converts it with wrong numbers.)
     """
 
-    def __init__(self, body: Body, place: npt.NDArray[np.float64], distance: float) -> None:
-        self._body, self._place, self._distance = body, place, distance
-        self._was_there = False
+    def __init__(self, body: Body, goal: npt.NDArray[np.float64], distance: float) -> None:
+        self._body, self._goal, self._distance = body, goal, distance
+        self._was_near = False
 
     def is_on(self) -> bool:
-        """Whether the body has been there."""
-        if not self._was_there:
-            way = self._body.world_from_body.position - self._place
-            self._was_there = length(way) < self._distance
-        return self._was_there
+        """Return whether the body has been at the position."""
+        if not self._was_near:
+            displacement = self._body.world_from_body.position - self._goal
+            self._was_near = length(displacement) < self._distance
+        return self._was_near

@@ -19,7 +19,7 @@ class ServiceSpec(TriggerSpec):
     """A trigger of type ``service``."""
 
     target: str
-    """Name of the service it offers (std_srvs/Empty)."""
+    """The name of the service that it offers (std_srvs/Empty)."""
 
     def bind(self, world: World) -> Service:
         """Offer the service."""
@@ -27,22 +27,22 @@ class ServiceSpec(TriggerSpec):
 
 
 class Service(Trigger):
-    """On from the first call of its service, and for good.
+    """A trigger that turns on, for good, at the first call of its service.
 
-    Several triggers may wait for one service: a call reaches all of them.
+    Several triggers may have one service: a call reaches all of them.
     """
 
     def __init__(self, world: World, name: str) -> None:
         self._was_called = False
-        self._leave = world.bus.services.offer(name, Empty, self._call)
+        self._withdraw = world.bus.services.offer(name, Empty, self._call)
 
     def is_on(self) -> bool:
-        """Whether the service has been called."""
+        """Return whether the service has been called."""
         return self._was_called
 
     def close(self) -> None:
-        """Stop waiting for the service; the last trigger to do so removes it."""
-        self._leave()
+        """Withdraw from the service; the last trigger to do so removes it."""
+        self._withdraw()
 
     def _call(self, request: Empty) -> EmptyResponse:
         self._was_called = True

@@ -1,4 +1,4 @@
-"""topic: on and off as given by a topic.
+"""topic: on and off by the messages of a topic.
 
 .. code-block:: xml
 
@@ -20,15 +20,15 @@ class TopicSpec(TriggerSpec):
     """A trigger of type ``topic``."""
 
     target: str
-    """Topic, of any type: a std_msgs/Bool means on or off, any other message on."""
+    """The topic, of any type: a std_msgs/Bool means on or off, any other message on."""
 
     def bind(self, world: World) -> Topic:
-        """Listen to the topic."""
+        """Subscribe to the topic."""
         return Topic(world.bus.inbox(self.target, object))
 
 
 class Topic(Trigger):
-    """The state given by the newest message on its topic; off until there is one.
+    """A trigger with the state of the newest message on its topic; off before the first.
 
     A std_msgs/Bool sets the state to its value. A message of any other type is an event, such as
     the first image of a camera or a goal, and sets it on. (The original reads a Bool only.)
@@ -39,7 +39,7 @@ class Topic(Trigger):
         self._is_on = False
 
     def is_on(self) -> bool:
-        """Whether the last message was true, or no Bool."""
+        """Return whether the last message was true, or not a Bool."""
         for message in self._inbox.take():
             self._is_on = bool(message.data) if isinstance(message, Bool) else True
         return self._is_on

@@ -15,7 +15,7 @@ class TriggerSpec(Spec, abc.ABC):
     """A ``<startOn>`` or ``<stopOn>`` element of a benchmark file."""
 
     def __str__(self) -> str:
-        """How messages name it: ``service 'startBench'``."""
+        """Return its name in messages: ``service 'startBench'``."""
         kind = type(self).__name__.removesuffix("Spec")
         kind = kind[0].lower() + kind[1:]
         target = getattr(self, "target", None)
@@ -23,21 +23,21 @@ class TriggerSpec(Spec, abc.ABC):
 
     @abc.abstractmethod
     def bind(self, world: World) -> Trigger:
-        """Watch ``world`` from now on; raises UnknownName for a target that is not there."""
+        """Resolve the target in ``world``; raises UnknownName if there is none."""
 
 
 class Trigger(abc.ABC):
-    """Something in the world that is on or off.
+    """A state of the world that is on or off.
 
     It is bound anew for every level, without state of earlier levels; read it once a step.
     """
 
     is_constant: ClassVar[bool] = False
-    """Whether its state never changes, so that it is read only once."""
+    """A flag: the state never changes, so it is read only once."""
 
     @abc.abstractmethod
     def is_on(self) -> bool:
-        """Whether it is on, at the current step."""
+        """Return whether it is on, at the current step."""
 
-    def close(self) -> None:  # noqa: B027 - most triggers hold nothing
-        """Give back what it held (a service, a subscription)."""
+    def close(self) -> None:  # noqa: B027 - most triggers have none
+        """Release its resources (a service, a subscription)."""

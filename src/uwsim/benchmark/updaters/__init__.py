@@ -1,4 +1,4 @@
-"""The scene updaters, one module each: how the scene changes from level to level."""
+"""The scene updaters, one module each: they change the scene from level to level."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from .arm_move_updater import ArmMoveUpdater, ArmMoveUpdaterSpec
 from .bag_fog_updater import BagFogUpdater, BagFogUpdaterSpec
 from .camera_noise_updater import CameraNoiseUpdaterSpec
 from .current_force_updater import (
-    STILL_WATER,
+    STILL_WATER_TIME,
     CurrentForceUpdater,
     CurrentForceUpdaterSpec,
     SphericalSpec,
@@ -15,7 +15,7 @@ from .none import NoneSpec, NoneUpdater
 from .repeat import Repeat, RepeatSpec
 from .scene_fog_updater import SceneFogUpdaterSpec
 from .scene_light_updater import SceneLightUpdaterSpec
-from .sweep import Setter, SweepSpec, sweep
+from .sweep import Setter, SweepSpec, sweep_values
 from .updater import (
     MAX_LEVELS,
     Level,
@@ -26,13 +26,13 @@ from .updater import (
     bind_updaters,
     blend,
     chain,
+    find_steps,
     initial_level,
     interval,
     levels,
     n_levels,
     ramp_level,
     settling_time,
-    steps,
     swept_parameters,
 )
 
@@ -46,11 +46,11 @@ UPDATERS: dict[str, type[SceneUpdaterSpec]] = {
     "sceneFogUpdater": SceneFogUpdaterSpec,
     "sceneLightUpdater": SceneLightUpdaterSpec,
 }
-"""Element name -> spec. In alphabetical order."""
+"""The spec of each element, in alphabetical order."""
 
 __all__ = [
     "MAX_LEVELS",
-    "STILL_WATER",
+    "STILL_WATER_TIME",
     "UPDATERS",
     "ArmMoveUpdater",
     "ArmMoveUpdaterSpec",
@@ -76,13 +76,13 @@ __all__ = [
     "bind_updaters",
     "blend",
     "chain",
+    "find_steps",
     "initial_level",
     "interval",
     "levels",
     "n_levels",
     "ramp_level",
     "settling_time",
-    "steps",
-    "sweep",
+    "sweep_values",
     "swept_parameters",
 ]

@@ -29,37 +29,37 @@ class ArmMoveUpdaterSpec(SceneUpdaterSpec):
     """An ``<armMoveUpdater>`` element.
 
     Its levels are the arm positions with ``step`` more, evenly spaced, between each and the next.
-    The value of a level is its number from 0. (The original calls every level 1.)
+    The value of a level is its number from 0. (In the original it is always 1.)
     """
 
     name: ClassVar[str] = "armPosition"
 
     arm_position: tuple[tuple[float, ...], ...] = element("armPosition", item="joint")
-    """Joint vectors, in the order of the vehicle's joints [rad or m]."""
+    """The joint vectors, in the order of the vehicle's joints [rad or m]."""
     step: int = element(minimum=0, maximum=MAX_LEVELS)
-    """Levels between two arm positions."""
+    """The number of levels between two arm positions."""
     interval: float = element(above=0.0)
-    """Length of a level [s]."""
+    """The length of a level [s]."""
     target: str = element(refers_to="vehicle")
-    """Name of the vehicle."""
+    """The name of the vehicle."""
 
     def values(self) -> tuple[float, ...]:
         """Return the number of each level, from 0."""
         count = len(self.arm_position) + (len(self.arm_position) - 1) * self.step
         if count > MAX_LEVELS:
-            raise BadSetting(f"The arm has {count} positions; at most {MAX_LEVELS}.")
+            raise BadSetting(f"The arm has {count} positions; expected at most {MAX_LEVELS}.")
         return tuple(float(i) for i in range(count))
 
     def errors(self) -> Iterator[str]:
-        """Say that arm positions have different lengths."""
+        """Report arm positions of different lengths."""
         if len({len(joints) for joints in self.arm_position}) > 1:
             yield "every <armPosition> must have as many <joint> as the first"
 
     def joints(self, value: float) -> npt.NDArray[np.float64]:
         """Return the joint vector of a level, or between two levels, (n,) [rad or m]."""
-        given = np.array(self.arm_position)  # (k, n)
-        at = np.arange(len(given)) * (self.step + 1.0)
-        return np.array([np.interp(value, at, column) for column in given.T])
+        arm_positions = np.array(self.arm_position)  # (k, n)
+        levels = np.arange(len(arm_positions)) * (self.step + 1.0)
+        return np.array([np.interp(value, levels, column) for column in arm_positions.T])
 
     @property
     def seconds_per_level(self) -> float:
@@ -67,19 +67,19 @@ class ArmMoveUpdaterSpec(SceneUpdaterSpec):
         return self.interval
 
     def bind(self, stage: Stage) -> ArmMoveUpdater:
-        """Find the vehicle; raises UnknownName if it is not there."""
+        """Resolve the vehicle; raises UnknownName if there is none."""
         if self.target not in stage.vehicles:
             raise UnknownName("vehicle", self.target, stage.vehicles)
         return ArmMoveUpdater(stage, self)
 
 
 class ArmMoveUpdater(SceneUpdater):
-    """Sets the joints of a vehicle."""
+    """An updater that sets the joints of a vehicle."""
 
     def __init__(self, stage: Stage, spec: ArmMoveUpdaterSpec) -> None:
         self._stage, self._spec = stage, spec
 
     def apply(self, value: float) -> None:
-        """Bring the arm to the position of level ``value``."""
+        """Set the arm to the position of level ``value``."""
         joints = self._spec.joints(value).tolist()
         self._stage.set_joints(self._spec.target, dict(enumerate(joints)))

@@ -11,20 +11,20 @@ r"""bagFogUpdater: fog over recorded images, to test an algorithm on real footag
       <u:truth> <u:file>corners.csv</u:file> <u:topic>truth/corners</u:topic> </u:truth>
     </bagFogUpdater>
 
-The bag is replayed in an endless loop, in simulation time and with the spacing recorded; from the
-last image to the first of the next round it is the mean spacing. Everything in an image counts
-as ``imageDepth`` away, so an image c in fog of density f and colour g becomes
+The bag is replayed in an endless loop, in simulation time and with the recorded spacing; from the
+last image to the first of the next loop it is the mean spacing. The distance of everything in an
+image is ``imageDepth``, so an image c in fog of density f and colour g becomes
 
 .. math:: c' = c\, t + g\, (1 - t), \quad t = e^{-(f \cdot imageDepth)^2}
 
-which is what the renderer does with fog (docs/rendering.md); g is the scene's fog colour. Images
-are published as ``rgb8`` or ``mono8``, each with the camera's info, both stamped with the time of
-publishing. Not modelled: attenuation, and fog that was in the water already.
+as in the renderer (docs/rendering.md); g is the scene's fog colour. Images are published as
+``rgb8`` or ``mono8``, each with the camera's info, both stamped with the time of publication. Not
+modelled: attenuation, and fog that was already in the water.
 
-``<u:truth>`` gives the truth of each image: a CSV file with a column ``time`` [s], which counts
-from the first image of the recording, and a column for each number. Between two lines it is
-interpolated linearly. It is published with each image, for ``<groundTruth type="topic">``. Where a
-cell is empty on either side, before the first line and after the last, the message is empty.
+``<u:truth>`` gives the truth of each image: a CSV file with a column ``time`` [s], which begins at
+the first image of the recording, and a column for each number. It is interpolated linearly between
+lines, and published with each image, for ``<groundTruth type="topic">``. The message is empty next
+to an empty cell, before the first line and after the last.
 """
 
 from __future__ import annotations
@@ -44,16 +44,16 @@ from ...messages import CameraInfo, Float32MultiArray, Image, image, time_from_s
 from ...messages.bag_camera import DecodedImage, RecordedFrame, Recording, camera_info
 from ...schema import element
 from ...world import Stage
-from ..recorded_truth import SAME_TIME, RecordedTruth, RecordedTruthSpec
+from ..recorded_truth import TIME_TOLERANCE, RecordedTruth, RecordedTruthSpec
 from .fog_sweep import FogSweepSpec
 from .updater import SceneUpdater
 
 ORIGINAL_COLOUR = (0.0, 0.05, 0.3)
-"""What the original puts on the three channels, whichever comes first."""
+"""The colour that the original adds to the three channels, in any order of these."""
 ORIGINAL_FACTOR = 1.442695
-"""1/ln 2: the original has base e where the constant was made for base 2."""
+"""The factor 1/ln 2: the original uses base e with a constant for base 2."""
 GREY = np.array([0.299, 0.587, 0.114])
-"""Weights of red, green and blue in grey (ITU-R BT.601)."""
+"""The weights of red, green and blue in grey (ITU-R BT.601)."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -63,15 +63,15 @@ class BagFogUpdaterSpec(FogSweepSpec):
     bag: str
     """The recording: a .bag, .mcap or .db3 file, or a folder of ROS 2 (rosbag2)."""
     image_topic: str
-    """Topic of the images in the recording (sensor_msgs/Image or CompressedImage)."""
+    """The topic of the images in the recording (sensor_msgs/Image or CompressedImage)."""
     info_topic: str
-    """Topic of the camera's info in the recording (sensor_msgs/CameraInfo)."""
+    """The topic of the camera's info in the recording (sensor_msgs/CameraInfo)."""
     image_depth: float = element(above=0.0)
-    """Assumed distance of everything in the images [m]."""
+    """The assumed distance of everything in the images [m]."""
     image_pub: str | None = element(default=None)
-    """Topic the images are published on; None: as in the recording."""
+    """The topic on which images are published; None: as in the recording."""
     info_pub: str | None = element(default=None)
-    """Topic the camera's info is published on; None: as in the recording."""
+    """The topic on which the camera's info is published; None: as in the recording."""
     truth: RecordedTruthSpec | None = element(namespaced=True, default=None)
     """The truth of the images."""
     path: str = field(default="", compare=False, metadata={"path": True})
@@ -79,18 +79,18 @@ class BagFogUpdaterSpec(FogSweepSpec):
 
     @property
     def topics(self) -> tuple[str, str]:
-        """Where images and info are published."""
+        """The topics on which images and info are published."""
         return self.image_pub or self.image_topic, self.info_pub or self.info_topic
 
     def find(self, stage: Stage) -> Path:
-        """Find the recording; AssetNotFound names every folder searched."""
+        """Find the recording; AssetNotFound names every searched folder."""
         try:
             return stage.find(self.bag, named_by=self.path)
-        except AssetNotFound as nowhere:
+        except AssetNotFound as error:
             try:
                 return stage.find(f"{self.bag}/metadata.yaml", named_by=self.path).parent
             except AssetNotFound:
-                raise nowhere from None
+                raise error from None
 
     def files(self, stage: Stage) -> Mapping[str, Path]:
         """Return the recording."""
@@ -108,10 +108,10 @@ class BagFogUpdaterSpec(FogSweepSpec):
         return recording.gap * 1e-9, recording.length * 1e-9
 
     def bind(self, stage: Stage) -> BagFogUpdater:
-        """Look into the recording.
+        """Open the recording.
 
         Raises:
-            AssetNotFound: it is nowhere.
+            AssetNotFound: it does not exist.
             AssetError: it cannot be read, or a topic has another type.
             UnknownName: a topic is not in it.
             BadSetting: the scene publishes on such a topic already.
@@ -121,15 +121,16 @@ class BagFogUpdaterSpec(FogSweepSpec):
         for tag, topic in zip(("imagePub", "infoPub"), self.topics, strict=True):
             if stage.bus.message_type(topic) is not None:
                 raise BadSetting(
-                    f"Topic {topic!r} is the scene's already; name another in <{tag}>.", name=topic
+                    f"The scene publishes on {topic!r}; choose another topic in <{tag}>.",
+                    name=topic,
                 )
         truth = None
         if self.truth is not None:
             truth = self.truth.read(self.path)
-            first, last = truth.span
-            if last < -SAME_TIME or first > length + SAME_TIME:
+            start, end = truth.span
+            if end < -TIME_TOLERANCE or start > length + TIME_TOLERANCE:
                 raise AssetError(
-                    f"{self.truth.file}: its times, {first:.6g} s to {last:.6g} s, are none of the "
+                    f"{self.truth.file}: its times, {start:.6g} s to {end:.6g} s, are outside the "
                     f"recording: 0 s to {length:.6g} s, from its first image on.",
                     name=self.truth.file,
                 )
@@ -137,15 +138,15 @@ class BagFogUpdaterSpec(FogSweepSpec):
 
 
 class BagFogUpdater(SceneUpdater):
-    """Replays a recording in fog.
+    """An updater that replays a recording in fog.
 
-    Until the benchmark has begun, and in the prelude of an independent level, the first image
-    stands, published at the spacing of the first two: a tracker takes its template from the very
-    image that its level begins with. With level 1 of a sequence, or with any independent level,
-    the replay begins; in a sequence it lives on from level to level.
+    Until the benchmark has begun, and in the prelude of an independent level, the first image is
+    repeated at the spacing of the first two: a tracker takes its template from the image with which
+    its level begins. The replay begins with level 1 of a sequence, or with any independent level;
+    in a sequence it continues from level to level.
 
     Compatibility ``bag-fog``: the exponent is 1.44 times as great, the colour is (0, 0.05, 0.3) on
-    the channels as they were recorded, and grey images stay as they are.
+    the channels in recorded order, and grey images do not change.
     """
 
     def __init__(
@@ -156,18 +157,18 @@ class BagFogUpdater(SceneUpdater):
             stage.bus.hide_topic(truth.topic)
         self._is_original = "bag-fog" in stage.world.compatibility
         self._image_topic, self._info_topic = spec.topics
-        self._density = spec.density(spec.initial)  # [1/m]
+        self._density = spec.density(spec.first_value)  # [1/m]
         self._recording: Recording | None = None
         self._has_begun = False
-        self._since = 0  # step at which the first image was due
+        self._start_step = 0  # step at which the first image was due
         self._schedule: Iterator[tuple[int, RecordedFrame]] = iter(())
-        self._next: tuple[int, RecordedFrame] | None = None  # step at which it is due, and what
+        self._next_frame: tuple[int, RecordedFrame] | None = None  # with its step
         self._n_frames = 0
         self._digest = hashlib.sha256()
         stage.create_timer(1.0 / stage.timestep, self._tick)
 
     def apply(self, value: float) -> None:
-        """Set the fog; with the first level the replay begins."""
+        """Set the fog; the first level starts the replay."""
         self._density = self._spec.density(value)
         if not self._has_begun:
             self._has_begun = True
@@ -193,91 +194,91 @@ class BagFogUpdater(SceneUpdater):
             self._recording = Recording(self._path, self._spec.image_topic, self._spec.info_topic)
         return self._recording
 
-    def _still(self) -> Iterator[tuple[int, RecordedFrame]]:
-        """Yield the first image over and over, each time with when it is due [ns]."""
+    def _repeat_first(self) -> Iterator[tuple[int, RecordedFrame]]:
+        """Yield the first image repeatedly, each time with the time at which it is due [ns]."""
         recording, n = self._open(), 0
         while True:
             yield n * recording.gap, recording.first_frame
             n += 1
 
     def _replay(self) -> Iterator[tuple[int, RecordedFrame]]:
-        """Yield every image with when it is due [ns], round after round."""
-        recording, began = self._open(), 0
+        """Yield every image with the time at which it is due [ns], in an endless loop."""
+        recording, loop_start = self._open(), 0
         while True:
-            last, count = 0, 0
+            last_time, count = 0, 0
             for frame in recording.frames():
-                last, count = frame.time, count + 1
-                yield began + last, frame
-            began += last + last // (count - 1)
+                last_time, count = frame.time, count + 1
+                yield loop_start + last_time, frame
+            loop_start += last_time + last_time // (count - 1)
 
     def _start(self, schedule: Iterator[tuple[int, RecordedFrame]]) -> None:
-        self._since, self._schedule = self._stage.step, schedule
+        self._start_step, self._schedule = self._stage.step, schedule
         self._advance()
 
     def _advance(self) -> None:
         time, frame = next(self._schedule)
         steps = math.ceil(time / (self._stage.timestep * 1e9) - 1e-9)
-        self._next = self._since + steps, frame
+        self._next_frame = self._start_step + steps, frame
 
     def _tick(self) -> None:
         try:
-            if self._next is None:
-                self._start(self._still())
-            while self._next is not None and self._stage.step >= self._next[0]:
-                self._publish(self._next[1])
+            if self._next_frame is None:
+                self._start(self._repeat_first())
+            while self._next_frame is not None and self._stage.step >= self._next_frame[0]:
+                self._publish(self._next_frame[1])
                 self._advance()
         except AssetError as error:
             raise RunFailed(f"The recording broke off: {error}") from error
 
     def _publish(self, frame: RecordedFrame) -> None:
         if self._truth is not None:
-            numbers = self._truth.at(frame.time * 1e-9)
+            numbers = self._truth.find_values(frame.time * 1e-9)
             self._stage.bus.publisher(self._truth.topic, Float32MultiArray)(
                 Float32MultiArray(data=numbers.astype(np.float32))
             )
-        is_seen = self._stage.bus.has_subscribers(self._image_topic)
-        if not is_seen and not self._stage.bus.has_subscribers(self._info_topic):
+        has_subscribers = self._stage.bus.has_subscribers(self._image_topic)
+        if not has_subscribers and not self._stage.bus.has_subscribers(self._info_topic):
             return
-        decoded, time = frame.decode(), self._stage.time
+        decoded_image, time = frame.decode(), self._stage.time
         stamp = time_from_seconds(time)
-        info = camera_info(frame.info, stamp=stamp, frame_id=decoded.frame_id)
+        info = camera_info(frame.info, stamp=stamp, frame_id=decoded_image.frame_id)
         self._stage.bus.publisher(self._info_topic, CameraInfo)(info)
-        if is_seen:
-            pixels = self._fogged(decoded)
+        if has_subscribers:
+            pixels = self._add_fog(decoded_image)
             self._n_frames += 1
             self._digest.update(pixels.tobytes())
             self._stage.bus.publisher(self._image_topic, Image)(
-                image(pixels, time=time, frame_id=decoded.frame_id)
+                image(pixels, time=time, frame_id=decoded_image.frame_id)
             )
 
-    def _fogged(self, decoded: DecodedImage) -> npt.NDArray[np.uint8]:
-        """Add the fog of now to an image."""
+    def _add_fog(self, decoded_image: DecodedImage) -> npt.NDArray[np.uint8]:
+        """Return an image with the present fog."""
         thickness = (self._density * self._spec.image_depth) ** 2
         if not self._is_original:
-            return fogged(decoded.pixels, math.exp(-thickness), self._stage.fog_colour)
-        if decoded.pixels.ndim == 2:
-            return np.ascontiguousarray(decoded.pixels)
+            return add_fog(decoded_image.pixels, math.exp(-thickness), self._stage.fog_colour)
+        if decoded_image.pixels.ndim == 2:
+            return np.ascontiguousarray(decoded_image.pixels)
         r, g, b = ORIGINAL_COLOUR
-        colour = (b, g, r) if decoded.is_blue_first else (r, g, b)
-        return fogged(decoded.pixels, math.exp(-ORIGINAL_FACTOR * thickness), colour)
+        colour = (b, g, r) if decoded_image.is_blue_first else (r, g, b)
+        return add_fog(decoded_image.pixels, math.exp(-ORIGINAL_FACTOR * thickness), colour)
 
 
-def fogged(
-    pixels: npt.NDArray[np.uint8], seen: float, colour: tuple[float, float, float]
+def add_fog(
+    pixels: npt.NDArray[np.uint8], contrast: float, colour: tuple[float, float, float]
 ) -> npt.NDArray[np.uint8]:
     """Return ``pixels * seen + colour * (1 - seen)``, rounded to whole numbers.
 
     Args:
         pixels: (h, w, 3), red first; or (h, w), whose fog is as grey as the colour.
-        seen: what is left of the contrast, 0..1.
-        colour: red, green and blue of the fog, 0..1.
+        contrast: the remaining share of the contrast, 0..1.
+        colour: the red, green and blue of the fog, 0..1.
     """
     import cv2
 
-    stored = np.arange(256.0)[:, None]
-    end = 255.0 * np.array(colour)
+    levels = np.arange(256.0)[:, None]
+    fog_levels = 255.0 * np.array(colour)
     if pixels.ndim == 2:
-        end = np.array([dot(end, GREY)])
-    table = np.rint(seen * stored + (1.0 - seen) * end).astype(np.uint8)  # (256, 3) or (256, 1)
-    changed = cv2.LUT(np.ascontiguousarray(pixels), table[None])
-    return np.asarray(changed, dtype=np.uint8).reshape(pixels.shape)
+        fog_levels = np.array([dot(fog_levels, GREY)])
+    table = np.rint(contrast * levels + (1.0 - contrast) * fog_levels)  # (256, 3) or (256, 1)
+    foggy_pixels = cv2.LUT(np.ascontiguousarray(pixels), table.astype(np.uint8)[None])
+    return np.asarray(foggy_pixels, dtype=np.uint8).reshape(pixels.shape)

@@ -1,4 +1,4 @@
-"""cameraNoiseUpdater: cameras that grow noisier from level to level.
+"""cameraNoiseUpdater: camera noise that increases from level to level.
 
 .. code-block:: xml
 
@@ -25,10 +25,10 @@ class CameraNoiseUpdaterSpec(SweepSpec):
     name: ClassVar[str] = "noise"
 
     initial_value: float = element(original=Original(aliases=("initialNoise",)), minimum=0.0)
-    """Noise of the first level: a standard deviation in colour units, 0..1."""
+    """The noise of the first level: a standard deviation in colour units, 0..1."""
     final_value: float = element(original=Original(aliases=("finalNoise",)), minimum=0.0)
-    """Noise that is not exceeded."""
+    """The noise that is not exceeded."""
 
     def bind(self, stage: Stage) -> Setter:
-        """Bind to all colour cameras."""
+        """Return a setter of the noise of all colour cameras."""
         return Setter(stage.set_camera_noise)

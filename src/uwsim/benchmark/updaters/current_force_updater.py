@@ -1,4 +1,4 @@
-"""currentForceUpdater: a current that grows from level to level.
+"""currentForceUpdater: a current that increases from level to level.
 
 .. code-block:: xml
 
@@ -35,17 +35,17 @@ from ...world import Flow, Stage
 from .sweep import SweepSpec
 from .updater import SceneUpdater
 
-STILL_WATER = 2.0
-"""After each change of level there is no current for so long [s]."""
+STILL_WATER_TIME = 2.0
+"""The time without current after each change of level [s]."""
 MAX_OFFSET = 3600.0
-"""A clock may not begin earlier than this: all its random factors would have to be drawn [s]."""
-RESET = "dynamics/reset"
+"""The greatest time offset of the clock, for which all random factors have to be drawn [s]."""
+RESET_SERVICE = "dynamics/reset"
 """The service called when a level begins, if it exists."""
 FORCE_TOPIC = "currentForce"
 FORCE_RATE = 100.0
-"""Of the messages on it [Hz]."""
-DRAG = 500.0 * 0.82
-"""Half the density of water, times the drag coefficient of a cube, times 1 m2 [kg/m]."""
+"""The rate of the messages on that topic [Hz]."""
+DRAG_FACTOR = 500.0 * 0.82
+"""The product of half the density of water, the drag coefficient of a cube, and 1 m2 [kg/m]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,9 +53,9 @@ class SphericalSpec(Spec):
     """A value for each of the two angles of the current's direction."""
 
     theta: float
-    """Of the polar angle from z of L."""
+    """The value of the polar angle from z of L."""
     phi: float
-    """Of the azimuth from y of L towards -x."""
+    """The value of the azimuth from y of L towards -x."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -68,39 +68,39 @@ class CurrentForceUpdaterSpec(SweepSpec):
     initial_value: float = element(
         original=Original(aliases=("initialCurrent",)), minimum=-MAX_SPEED, maximum=MAX_SPEED
     )
-    """Speed of the current in the first level [m/s]."""
+    """The speed of the current in the first level [m/s]."""
     final_value: float = element(
         original=Original(aliases=("finalCurrent",)), minimum=-MAX_SPEED, maximum=MAX_SPEED
     )
-    """Speed that is not exceeded [m/s]."""
+    """The speed that is not exceeded [m/s]."""
     spherical_direction: SphericalSpec
-    """Its direction [rad]."""
+    """The direction of the current [rad]."""
     force_variation: float = element(minimum=-MAX_SPEED, maximum=MAX_SPEED)
-    """Amplitude of its swelling [m/s]."""
+    """The amplitude of the variation of its speed [m/s]."""
     force_period: float = element(minimum=MIN_PERIOD)
-    """Period of its swelling [s]."""
+    """The period of the variation of its speed [s]."""
     direction_variation: SphericalSpec
-    """Amplitudes of its turning [rad]."""
+    """The amplitudes of the variation of its direction [rad]."""
     direction_period: SphericalSpec
-    """Periods of its turning [s]."""
+    """The periods of the variation of its direction [s]."""
     random: float = element(minimum=0.0, maximum=10.0)
-    """Half-width of the uniform noise, relative."""
+    """The half-width of the uniform noise, relative."""
     step: float = element(above=0.0)
-    """What each level adds [m/s]."""
+    """The increment from level to level [m/s]."""
     target: str = element(refers_to="vehicle")
-    """Name of the vehicle that is put back when a level begins."""
+    """The name of the vehicle whose pose is reset when a level begins."""
     publish_as_force: bool = element(default=False, attribute=True)
-    """Whether the current is published as a force instead of moving the vehicle."""
+    """A flag: the current is published as a force instead of moving the vehicle."""
     time_offset: float = element(
         default=0.0, attribute=True, namespaced=True, minimum=0.0, maximum=MAX_OFFSET
     )
-    """What the current's clock shows when a level begins [s] (``u:timeOffset``)."""
+    """The time of the current's clock when a level begins [s] (``u:timeOffset``)."""
 
     def current(self, value: float) -> UwsimSinusoidSpec:
         """Return the current of a level.
 
         Raises:
-            BadSetting: the direction is to turn with a period that is not above 0.
+            BadSetting: the direction varies with a period that is not above 0.
         """
         periods = {}
         for angle in ("theta", "phi"):
@@ -108,7 +108,7 @@ class CurrentForceUpdaterSpec(SweepSpec):
             if period < MIN_PERIOD and getattr(self.direction_variation, angle) != 0.0:
                 raise BadSetting(
                     f"<directionPeriod> has {angle} {period:g}; expected a number >= "
-                    f"{MIN_PERIOD:g} [s], as <directionVariation> lets {angle} turn."
+                    f"{MIN_PERIOD:g} [s], as <directionVariation> varies {angle}."
                 )
             periods[angle] = period if period >= MIN_PERIOD else 1.0
         return UwsimSinusoidSpec(
@@ -125,23 +125,23 @@ class CurrentForceUpdaterSpec(SweepSpec):
         )
 
     def bind(self, stage: Stage) -> CurrentForceUpdater:
-        """Find the vehicle; raises UnknownName if it is not there."""
+        """Resolve the vehicle; raises UnknownName if there is none."""
         if self.target not in stage.vehicles:
             raise UnknownName("vehicle", self.target, stage.vehicles)
-        self.current(self.initial)
+        self.current(self.first_value)
         return CurrentForceUpdater(stage, self)
 
 
 class CurrentForceUpdater(SceneUpdater):
-    """Each step puts the vehicle back; after 2 s of still water the level's current flows.
+    """An updater that resets the vehicle's pose; after 2 s the level's current flows.
 
-    As in the original, the first level of a sequence is no step: the vehicle stays where it is and
-    the current flows at once. Before it there is none.
+    As in the original, the first level of a sequence is no step: the vehicle keeps its pose and the
+    current flows at once. Before it there is no current.
 
     The current's time and its random factors begin with the level, so that a level does not depend
-    on those before it. (In the original both ran on through the levels, from the clock.)
+    on those before it. (In the original both continue through the levels, from the clock.)
 
-    Compatibility ``current-target``: the current moves the target alone, not all that floats.
+    Compatibility ``current-target``: the current moves the target alone, not all floating bodies.
     """
 
     def __init__(self, stage: Stage, spec: CurrentForceUpdaterSpec) -> None:
@@ -149,28 +149,28 @@ class CurrentForceUpdater(SceneUpdater):
         self._force: ForcePublisher | None = None
 
     def apply(self, value: float) -> None:
-        """Put the vehicle back and let a current of ``value`` [m/s] flow in 2 s."""
+        """Reset the vehicle's pose, and start a current of ``value`` [m/s] in 2 s."""
         self._stage.put_back(self._spec.target)
-        self._flow(value, delay=STILL_WATER)
-        if self._stage.bus.services.is_offered(RESET):
-            self._stage.bus.services.call(RESET, Empty())
+        self._set_current(value, delay=STILL_WATER_TIME)
+        if self._stage.bus.services.is_offered(RESET_SERVICE):
+            self._stage.bus.services.call(RESET_SERVICE, Empty())
 
     def begin(self, value: float) -> None:
-        """Let a current of ``value`` [m/s] flow."""
-        self._flow(value, delay=0.0)
+        """Start a current of ``value`` [m/s]."""
+        self._set_current(value, delay=0.0)
 
     def ramp(self, value: float) -> None:
-        """Hold the vehicle in its place: else the level would begin with a jump in the image."""
+        """Hold the vehicle's pose, so that the level does not begin with a jump in the image."""
         self._stage.put_back(self._spec.target)
 
-    def _flow(self, value: float, *, delay: float) -> None:
+    def _set_current(self, value: float, *, delay: float) -> None:
         stage, spec = self._stage, self._spec
-        steady = spec.current(value).bind(Place(stream=stage.stream))
+        sinusoid = spec.current(value).bind(Place(stream=stage.stream))
         offset = spec.time_offset
-        current = LateCurrent(steady, began=stage.time, delay=delay, offset=offset)
+        current = LateCurrent(sinusoid, began=stage.time, delay=delay, offset=offset)
         if not spec.publish_as_force:
-            alone = "current-target" in stage.world.compatibility
-            stage.set_current(TargetCurrent(current, spec.target) if alone else current)
+            has_target = "current-target" in stage.world.compatibility
+            stage.set_current(TargetCurrent(current, spec.target) if has_target else current)
         elif self._force is None:
             self._force = ForcePublisher(stage, current)
         else:
@@ -178,28 +178,28 @@ class CurrentForceUpdater(SceneUpdater):
 
 
 class ForcePublisher:
-    r"""Publishes the force of a current on ``currentForce`` at 100 Hz, instead of moving the water.
+    r"""A publisher of the force of a current on ``currentForce`` at 100 Hz, in still water.
 
     .. math:: f_i = \tfrac{1}{2} \rho\, C_d A\; v_i |v_i|, \quad
         \rho = 1000,\ C_d = 0.82,\ A = 1
 
-    along each axis of L (``frame_id`` "Currents"), torque 0. It serves dynamics nodes without a
+    along each axis of L (``frame_id`` "Currents"), torque 0. It is for dynamics nodes without a
     current of their own. With the compatibility ``current-force`` it is :math:`v_i^2` as in the
     original, which loses the sign. Not modelled: the vehicle's own velocity and shape.
     """
 
     def __init__(self, stage: Stage, current: Flow) -> None:
         self.current = current
-        """The current as of now."""
+        """The present current."""
         self._stage = stage
         self._is_signless = "current-force" in stage.world.compatibility
         self._publish = stage.bus.publisher(FORCE_TOPIC, WrenchStamped)
-        stage.create_timer(FORCE_RATE, self._say)
+        stage.create_timer(FORCE_RATE, self._publish_force)
 
-    def _say(self) -> None:
+    def _publish_force(self) -> None:
         time = self._stage.time
         v = self.current.velocity(np.zeros((1, 3)), time)[0]  # (3,) [m/s]
-        force = DRAG * v * (v if self._is_signless else np.abs(v))  # (3,) [N]
+        force = DRAG_FACTOR * v * (v if self._is_signless else np.abs(v))  # (3,) [N]
         x, y, z = force.tolist()
         wrench = Wrench(force=Vector3(x=x, y=y, z=z), torque=Vector3(x=0.0, y=0.0, z=0.0))
         self._publish(WrenchStamped(header=header(time, "Currents"), wrench=wrench))

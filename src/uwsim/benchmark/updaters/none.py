@@ -1,4 +1,4 @@
-"""none: the scene stays as it is.
+"""none: a scene that does not change.
 
 .. code-block:: xml
 
@@ -21,16 +21,16 @@ class NoneSpec(SceneUpdaterSpec):
     name: ClassVar[str] = "none"
 
     def values(self) -> tuple[float, ...]:
-        """One level, called 1 as in the original."""
+        """Return the value of the only level, 1 as in the original."""
         return (1.0,)
 
     def bind(self, stage: Stage) -> NoneUpdater:
-        """Needs nothing of the scene."""
+        """Return the updater, which needs nothing of the scene."""
         return NoneUpdater()
 
 
 class NoneUpdater(SceneUpdater):
-    """Changes nothing."""
+    """An updater that changes nothing."""
 
     def apply(self, value: float) -> None:
         """Change nothing."""

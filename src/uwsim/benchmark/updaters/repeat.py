@@ -22,9 +22,9 @@ class RepeatSpec(SceneUpdaterSpec):
     name: ClassVar[str] = "iteration"
 
     iterations: int = element(minimum=1, maximum=MAX_LEVELS)
-    """How many times."""
+    """The number of iterations."""
     interval: float = element(above=0.0)
-    """Length of a level [s]."""
+    """The length of a level [s]."""
 
     def values(self) -> tuple[float, ...]:
         """Return the numbers of the iterations, from 0."""
@@ -36,16 +36,16 @@ class RepeatSpec(SceneUpdaterSpec):
         return self.interval
 
     def blend(self, value: float, fraction: float) -> float:
-        """There is nothing between two iterations."""
+        """Return ``value``: there is nothing between two iterations."""
         return value
 
     def bind(self, stage: Stage) -> Repeat:
-        """Needs nothing of the scene."""
+        """Return the updater, which needs nothing of the scene."""
         return Repeat()
 
 
 class Repeat(SceneUpdater):
-    """Changes nothing."""
+    """An updater that changes nothing."""
 
     def apply(self, value: float) -> None:
         """Change nothing."""

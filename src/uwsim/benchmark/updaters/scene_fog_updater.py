@@ -1,4 +1,4 @@
-"""sceneFogUpdater: fog that thickens from level to level.
+"""sceneFogUpdater: fog whose density increases from level to level.
 
 .. code-block:: xml
 
@@ -22,5 +22,5 @@ class SceneFogUpdaterSpec(FogSweepSpec):
     """A ``<sceneFogUpdater>`` element."""
 
     def bind(self, stage: Stage) -> Setter:
-        """Bind to the fog of the sea and of all cameras."""
+        """Return a setter of the fog of the sea and of all cameras."""
         return Setter(lambda value: stage.set_fog(self.density(value)))

@@ -1,4 +1,4 @@
-"""sceneLightUpdater: light that grows from level to level.
+"""sceneLightUpdater: light that increases from level to level.
 
 .. code-block:: xml
 
@@ -25,10 +25,10 @@ class SceneLightUpdaterSpec(SweepSpec):
     name: ClassVar[str] = "light"
 
     initial_value: float = element(original=Original(aliases=("initialLight",)), minimum=0.0)
-    """Light rate of the first level; 1 is as usual."""
+    """The light rate of the first level; 1 is the scene's own light."""
     final_value: float = element(original=Original(aliases=("finalLight",)), minimum=0.0)
-    """Light rate that is not exceeded."""
+    """The light rate that is not exceeded."""
 
     def bind(self, stage: Stage) -> Setter:
-        """Bind to the light of the scene."""
+        """Return a setter of the light of the scene."""
         return Setter(stage.set_light_rate)

@@ -22,9 +22,9 @@ def family(table: Mapping[str, type]) -> dict[str, str]:
 
 def is_of_a_plugin(spec: type) -> bool:
     """Tell whether a class came with ``--plugin``."""
-    from ...benchmark.plugin import MODULE
+    from ...benchmark.plugin import MODULE_PREFIX
 
-    return spec.__module__.startswith(MODULE)
+    return spec.__module__.startswith(MODULE_PREFIX)
 
 
 def module_of(spec: type) -> ModuleType:

@@ -134,8 +134,9 @@ def _run_job(job: Job, reporter: Reporter) -> str | None:
     except UwsimError as error:
         return str(error)
     except Exception as error:  # a full disk, a number that no plot can show
-        from ...benchmark.plugin import raised
+        from ...benchmark.plugin import format_exception
 
         name = "The report" if isinstance(job, Path) else "The control"
-        return f"{name} failed: {raised(error)}. Finished rows are kept; continue with --resume."
+        message = f"{name} failed: {format_exception(error)}"
+        return f"{message}. Finished rows are kept; continue with --resume."
     return None

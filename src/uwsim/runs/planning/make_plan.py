@@ -164,8 +164,8 @@ def _read_files(
 def _apply_values(read: _Files, pairs: Sequence[tuple[str, str]], errors: ErrorCollector) -> _Files:
     from ...benchmark.updater_settings import (
         apply_updater_setting,
-        check_begin,
-        leads_to_updater,
+        check_path_start,
+        is_updater_path,
     )
     from ...scene.settings import apply_setting
 
@@ -174,11 +174,11 @@ def _apply_values(read: _Files, pairs: Sequence[tuple[str, str]], errors: ErrorC
         with errors.collect():
             if name.startswith((ALGORITHM_PREFIX, XACRO_PREFIX)):
                 continue
-            if spec is not None and leads_to_updater(spec, name):
+            if spec is not None and is_updater_path(spec, name):
                 spec = apply_updater_setting(spec, name, value)
             elif scene is not None:
                 if spec is not None:
-                    check_begin(spec, scene, name, value)
+                    check_path_start(spec, scene, name, value)
                 scene = apply_setting(scene, name, value)
     return replace(read, benchmark=spec, scene=scene)
 

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 
 from ...base.expression import Expression
 from ...benchmark.spec import FunctionSpec
-from ...benchmark.updaters import Level, steps
+from ...benchmark.updaters import Level, find_steps
 from ...messages import Float32MultiArray, String, floats
 from ...simulation import Simulation
 from ..uwsim_files import details
@@ -53,7 +53,7 @@ class LiveTopics:
     def record_change(self, level: Level, *, last_level: Level | None) -> None:
         """Record that the scene was brought to ``level``; the first level changes nothing."""
         if last_level is not None and level != last_level:
-            self._scene_change = f"Updated scene {steps(level, last_level).index(True) + 1}"
+            self._scene_change = f"Updated scene {find_steps(level, last_level).index(True) + 1}"
 
     def update(self, level: Level, time: float, measures: Sequence[TriggeredMeasure]) -> None:
         """Add an entry, if one is due; ``time`` is the benchmark's running time [s]."""

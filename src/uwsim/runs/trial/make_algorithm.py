@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Mapping
 from ...base.exceptions import RemoteError
 from ...base.interrupts import is_user_interrupt
 from ...base.tracked_parameters import describe_unread_parameters
-from ...benchmark.plugin_checks import parameters_of
+from ...benchmark.plugin_checks import read_parameters
 from ...bus import Algorithm
 from ...errors import NeverStarted, RunFailed, UwsimError
 from ...simulation import Calls, InProcessNode, what_broke
@@ -47,7 +47,7 @@ def reported_parameters(
     """
     try:
         with calls:
-            return parameters_of(algorithm, user_parameters, name=plan.algorithm.cls.__name__)
+            return read_parameters(algorithm, user_parameters, name=plan.algorithm.cls.__name__)
     except UwsimError:
         raise
     except BaseException as error:

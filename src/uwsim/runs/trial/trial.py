@@ -96,9 +96,9 @@ def execute(
         try:
             with (
                 nullcontext() if recorder is None else recorder.recording(simulation, trial),
-                attribute_errors_to(plan.plugins, when=partial(_moment, simulation, trial)),
+                attribute_errors_to(plan.plugins, moment=partial(_moment, simulation, trial)),
                 closing(_Execution(plan, trial, simulation, program, calls, observer)) as execution,
-                attribute_errors_to(plan.plugins, when=execution.moment),
+                attribute_errors_to(plan.plugins, moment=execution.moment),
             ):
                 yield from execution.rows()
         finally:
@@ -217,7 +217,7 @@ class _Execution:
                 if plan.benchmark.prelude:
                     self._prelude(level)
             self._begin(level, last_level)
-            self._settle(settling_time(self._updater, level, after=last_level))
+            self._settle(settling_time(self._updater, level, last_level=last_level))
             if floor is not None:
                 floor.begin()
             row = self._run_level(level)
@@ -322,7 +322,7 @@ class _Execution:
         if last_level is None and not self._trial.is_alone:
             begin_level(self._updaters, level)
         else:
-            apply_level(self._updaters, level, after=last_level)
+            apply_level(self._updaters, level, last_level=last_level)
 
     def _begin(self, level: Level, last_level: Level | None) -> None:
         self._step_to(level, last_level)

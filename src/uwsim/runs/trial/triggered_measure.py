@@ -6,7 +6,7 @@ import math
 from numbers import Real
 
 from ...benchmark.measures import MeasureSpec
-from ...benchmark.plugin_checks import sample_of
+from ...benchmark.plugin_checks import log_sample
 from ...results.result import MAX_VALUE
 from ...world import World
 
@@ -98,6 +98,6 @@ class TriggeredMeasure:
         assert self.spec.log is not None
         timestep = self._world.timestep
         time = (self._world.step - self._step0) * timestep
-        self.log.append((time, *(finite_value(value)[0] for value in sample_of(self.measure))))
+        self.log.append((time, *(finite_value(value)[0] for value in log_sample(self.measure))))
         n_next = math.floor(time / self.spec.log + 1e-9) + 1
         self._log_due = math.ceil(n_next * self.spec.log / timestep - 1e-9)
