@@ -80,7 +80,6 @@ def check_file(
 def _check_scene(
     path: Path, strict: bool, data_path: tuple[Path, ...], arguments: Mapping[str, str] | None
 ) -> list[Diagnostic]:
-    """Return the errors and warnings of a scene file and of its robots, as `check_file` does."""
     from ..scene.reader import read_document
     from ..scene.xacro import parse_expanded
     from .subjects import CheckedScene
@@ -173,7 +172,6 @@ def _check_library(
 
 
 def _check_hydrodynamics(file: Path) -> list[Diagnostic]:
-    """Return all errors of a hydrodynamics file; its links are checked with a scene."""
     from ..scene.hydrodynamics.vehicle_file import read_vehicle_into
 
     diagnostics = Diagnostics(file)
@@ -190,7 +188,6 @@ def _check_benchmark(
     tables: Tables,
     arguments: Mapping[str, str] | None,
 ) -> list[Diagnostic]:
-    """Return the errors and warnings of a benchmark and of plugins in it."""
     from ..benchmark.plugin import attribute_errors_to
     from ..benchmark.reader import check_benchmark
     from .subjects import CheckedBenchmark

@@ -113,7 +113,6 @@ class NameResolution:
                 self._check_massless_links(index, robot)
 
     def _with_settings(self, index: int, dynamics: VehicleHydrodynamics) -> VehicleHydrodynamics:
-        """Apply the changes of ``--set`` and ``u:vary`` to a set; report errors."""
         vehicle = self._scene.vehicles[index]
         for path, text in vehicle.hydrodynamics:
             dynamics = self._with_setting(index, dynamics, path, text)
@@ -134,7 +133,6 @@ class NameResolution:
         return dynamics if errors else cast(VehicleHydrodynamics, new_dynamics)
 
     def _check_varied_numbers(self, index: int, dynamics: VehicleHydrodynamics) -> None:
-        """Report the errors of a set in which a varied number is at a bound."""
         for variation in self._scene.vary:
             place = locate(self._scene, variation.path)
             if isinstance(place, HydrodynamicsPlace) and place.leaf is self._scene.vehicles[index]:
@@ -146,7 +144,6 @@ class NameResolution:
                     self._with_setting(index, dynamics, place.number, repr(bound))
 
     def _check_weight(self, index: int, name: str, robot: RobotSpec) -> None:
-        """Compare a vehicle's weight with its displacement."""
         dynamics, vehicle = self.dynamics[index], self._scene.vehicles[index].name
         place = (self._scene.vehicles[index], DYNAMICS)
         masses = {body.link: body.mass for body in dynamics.bodies}
@@ -167,7 +164,6 @@ class NameResolution:
             )
 
     def _check_massless_links(self, index: int, robot: RobotSpec) -> None:
-        """Warn of links without a mass, which get the engine's minimum."""
         dynamics, vehicle = self.dynamics[index], self._scene.vehicles[index].name
         masses = {body.link: body.mass for body in dynamics.bodies}
         names = [link.name for link in robot.links if not (masses.get(link.name) or link.mass)]
@@ -205,7 +201,7 @@ class NameResolution:
             return
         for index, set_density in densities.items():
             if density is not None and density != set_density:
-                self._trim(index, density)
+                self._change_density(index, density)
 
     def _profile_errors(self) -> list[str]:
         ocean = self._scene.ocean_state
@@ -215,8 +211,7 @@ class NameResolution:
             return ["it gives the density; expected no other density, temperature or salinity"]
         return ocean.profile.errors()
 
-    def _trim(self, index: int, density: float) -> None:
-        """Change a vehicle's set to another density of water, and report the effect."""
+    def _change_density(self, index: int, density: float) -> None:
         dynamics = self.dynamics[index]
         self.dynamics[index] = dynamics.scale_to_density(density)
         if self._scene.ocean_state.profile is not None:
@@ -240,7 +235,6 @@ class NameResolution:
         return self._scene.ocean_state.ocean_surface_height - float(place[2])
 
     def _check_scale(self, vehicle: VehicleSpec) -> None:
-        """Report a scaled vehicle: masses, volumes and thrusts are for the size in the files."""
         if vehicle.scale_factor != (1.0, 1.0, 1.0):
             x, y, z = vehicle.scale_factor
             self._report(
@@ -270,7 +264,6 @@ class NameResolution:
                     self._report(str(UnknownName("thruster", fault.thruster, names)), fault)
 
     def _field_error(self, fault: FaultSpec, vehicle: VehicleSpec) -> str | None:
-        """Return the error of a field that no message of the sensor of a fault has."""
         sensors = [part for _, part in vehicle.all_parts() if _name(part) == fault.sensor]
         types = {measured_by(type(part)) for part in sensors} - {None}
         for interface in self._scene.ros_interfaces:
@@ -285,7 +278,6 @@ class NameResolution:
     def _autopilot_error(
         self, interface: AutopilotTopicSpec, vehicles: Mapping[str, VehicleSpec]
     ) -> str | None:
-        """Return the reason why an interface has no autopilot to command."""
         vehicle = vehicles.get(interface.vehicle_name)
         if vehicle is None:
             suggestion = did_you_mean(interface.vehicle_name, vehicles)
@@ -348,7 +340,6 @@ class NameResolution:
     def _report(
         self, message: str, spec: Spec, element: str = "", severity: Severity = "error"
     ) -> None:
-        """Add an error or warning of an ``element`` in a spec, or of the spec."""
         file = self._scene.path
         self.diagnostics.append(diagnostic_at(spec, message, element, file=file, severity=severity))
 
@@ -358,5 +349,4 @@ def _name(part: object) -> str | None:
 
 
 def _type_name(message: type) -> str:
-    """Return the ROS name of a message type, ``std_msgs/msg/Bool``."""
     return str(getattr(message, "__msgtype__", message.__name__))

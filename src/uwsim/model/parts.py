@@ -107,7 +107,6 @@ def parts_of(resolved_scene: ResolvedScene) -> list[Part]:
 
 
 def _led_parts(number: int, index: int, vehicle: VehicleSpec, array: LedArraySpec) -> list[Part]:
-    """Make the balls of an array of signal lamps, numbered from ``number``."""
     balls = []
     for i, (colour, place) in enumerate(array.positions.items()):
         frame_from_mesh = np.eye(4)

@@ -40,8 +40,7 @@ def _drop(reason: str) -> Rule:
     return rule
 
 
-def _visualize(node: Node, parent: Node, diagnostics: Diagnostics) -> None:
-    """Convert ``<visualize>`` of an odometry input to a ``<showTrajectory>`` of its vehicle."""
+def _convert_visualize(node: Node, parent: Node, diagnostics: Diagnostics) -> None:
     style = _text(node)
     vehicle = _text(parent.find("vehicleName"))
     root = parent.getroottree().getroot()
@@ -58,7 +57,6 @@ def _visualize(node: Node, parent: Node, diagnostics: Diagnostics) -> None:
 
 
 def _convert_numpixels(node: Node, parent: Node, diagnostics: Diagnostics) -> None:
-    """Convert ``<numpixels>`` beams over ``<fieldOfView>`` degrees to first, last and step."""
     field_of_view = parent.find("fieldOfView")
     n_beams, angle = parse_number(_text(node)), parse_number(_text(field_of_view))
     if field_of_view is None or n_beams is None or angle is None or n_beams < 2:
@@ -96,7 +94,6 @@ def _convert_factor(kind: str) -> Rule:
 
 
 def _convert_current(node: Node, parent: Node, diagnostics: Diagnostics) -> None:
-    """Convert ``<current>`` of the benchmarks of 2013 to a ``<u:uwsimSinusoid>``."""
     diagnostics.warning(
         node, "<current> is read as <u:current> <u:uwsimSinusoid>, its <forceModule> as <u:speed>"
     )
@@ -182,7 +179,6 @@ def _rename(new_tag: str) -> Rule:
 
 
 def _convert_comms_device(node: Node, parent: Node, diagnostics: Diagnostics) -> None:
-    """Convert ``<CommsDevice>`` to a ``<CustomCommsDevice>`` with other names."""
     diagnostics.warning(node, "<CommsDevice> is an old name of <CustomCommsDevice>")
     node.tag = "CustomCommsDevice"
     for old_name, new_name in (("name", "dccommsId"), ("trTime", "intrinsicDelay")):
@@ -208,7 +204,6 @@ def _convert_max_bit_rate(node: Node, parent: Node, diagnostics: Diagnostics) ->
 
 
 def _convert_packet_errors(node: Node, parent: Node, diagnostics: Diagnostics) -> None:
-    """Convert ``<minPktErrRatio>`` and ``<pktErrRatioIncPerMeter>`` to an error expression."""
     min_ratio, slope = parent.find("minPktErrRatio"), parent.find("pktErrRatioIncPerMeter")
     diagnostics.warning(node, f"<{node.tag}> is read as <rateErrorModel>")
     if parent.find("rateErrorModel") is None:
@@ -221,7 +216,6 @@ def _convert_packet_errors(node: Node, parent: Node, diagnostics: Diagnostics) -
 
 
 def _convert_mac_protocol(node: Node, parent: Node, diagnostics: Diagnostics) -> None:
-    """Convert ``<macProtocol>`` with a name as text to one with a ``<name>``."""
     if len(node) == 0 and (name := _text(node)):
         diagnostics.warning(node, f"<macProtocol> {name} is read as <macProtocol> <name>")
         node.text = None
@@ -285,7 +279,7 @@ FORKS: dict[tuple[str, str], Rule] = {
 
 RULES: dict[tuple[str, str], Rule] = {
     **FORKS,
-    ("ROSOdomToPAT", "visualize"): _visualize,
+    ("ROSOdomToPAT", "visualize"): _convert_visualize,
     ("oceanState", "current"): _convert_current,
     ("simParams", "disableTextures"): _drop("was an option of UWSim's first years"),
     ("simParams", "physicsWater"): _drop("is Bullet's fluid, removed from UWSim in 2014"),

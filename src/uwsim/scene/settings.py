@@ -225,7 +225,6 @@ def locate(spec: Any, path: str) -> Place:
 def _hydrodynamics_place(
     steps: tuple[Step, ...], vehicle: Any, parts: Sequence[tuple[str, str | None]]
 ) -> HydrodynamicsPlace:
-    """Return the place of a number in the hydrodynamics file of a vehicle."""
     if vehicle.dynamics is None:
         raise BadSetting(f"the vehicle {vehicle.name!r} has no <u:dynamics>.")
     if not parts:
@@ -365,7 +364,6 @@ def _with_number(current: Any, field: schema.Field, rest: list[str], text: str) 
 
 
 def _write_list(node: etree._Element, field: schema.Field, text: str) -> None:
-    """Write a list of numbers: in one text, or an element each."""
     list_node, words = etree.SubElement(node, field.tag), text.replace(",", " ").split()
     if field.xml.item is None:
         list_node.text = " ".join(words)
@@ -381,7 +379,6 @@ def _write_triple(
     rest: list[str],
     text: str,
 ) -> None:
-    """Write three numbers, given together or one of them by its letter."""
     letters = list(field.xml.parts)
     if not rest:
         words = text.replace(",", " ").split()

@@ -28,7 +28,6 @@ FAMILIES: dict[str, dict[str, type]] = {
 
 
 def _is_simulated(spec: type) -> bool:
-    """Return whether a sensor, device or interface is simulated."""
     return spec.is_simulated() if issubclass(spec, InterfaceSpec) else hasattr(spec, "bind")
 
 

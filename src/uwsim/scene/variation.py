@@ -183,7 +183,7 @@ def apply_variations(spec: T, seed: int, *, find: Find = locate) -> T:
         return spec
     new_spec: Any = dataclasses.replace(spec, vary=())  # type: ignore[type-var]
     for _, place, value in _values(spec, seed, find):
-        new_spec = find(new_spec, place.path).with_value(_text(value))
+        new_spec = find(new_spec, place.path).with_value(_to_exact_text(value))
     return cast(T, new_spec)
 
 
@@ -242,7 +242,7 @@ def _specs_at_bounds(place: Place, variation: VariationSpec) -> list[Any]:
     for bound in variation.bounds:
         if place.is_integer and not float(bound).is_integer():
             raise BadSetting(f"it is an integer, and {bound:g} is not.")
-        specs.append(place.with_value(_text(int(bound) if place.is_integer else bound)))
+        specs.append(place.with_value(_to_exact_text(int(bound) if place.is_integer else bound)))
     return specs
 
 
@@ -255,6 +255,5 @@ def _draw_value(variation: VariationSpec, place: Place, share: float) -> float:
     return round(variation.quantile(share))
 
 
-def _text(value: float) -> str:
-    """Return a number as text that is read back exactly."""
+def _to_exact_text(value: float) -> str:
     return repr(value)

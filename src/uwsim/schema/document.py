@@ -99,7 +99,6 @@ def parse(path: Path, *, error: type[FileError] = FileError) -> Document:
 
 
 def _syntax_message(entry: etree._LogEntry, data: bytes) -> str:
-    """Return the parser's message without abbreviations."""
     text = data.rstrip()
     if (
         entry.line > text.count(b"\n")
@@ -123,7 +122,6 @@ def _path_fault(path: Path) -> str:
 
 
 def _read_valid_bytes(path: Path, diagnostics: Diagnostics) -> bytes:
-    """Return the bytes of a file, if they may be parsed; else add errors."""
     try:
         if not path.is_file():
             diagnostics.error(None, _path_fault(path))
@@ -165,7 +163,6 @@ def _read_valid_bytes(path: Path, diagnostics: Diagnostics) -> bytes:
 
 
 def _check_utf_8(data: bytes, diagnostics: Diagnostics) -> None:
-    """Report the first byte that is not UTF-8, such as an accented letter in Latin-1."""
     try:
         data.decode("utf-8")
     except UnicodeDecodeError as problem:

@@ -114,7 +114,6 @@ def _parse_word(
 
 
 def _normalize_word(word: str) -> str:
-    """Return a word in lower case, without blanks, hyphens and underscores."""
     return _SEPARATORS.sub("", word).lower()
 
 

@@ -58,7 +58,6 @@ def _fixed_meshes(scene: CheckedScene) -> Iterator[tuple[int, FixedMesh]]:
 
 
 def _list_objects(scene: CheckedScene, facts: dict[int, str]) -> str:
-    """Return the names of the first objects, each with a fact."""
     objects = scene.spec.objects
     names = [f"{objects[i].name!r} ({fact})" for i, fact in facts.items()]
     is_long = len(names) > MAX_LISTED_OBJECTS

@@ -60,11 +60,10 @@ def describe_rotation(
         f"it is {2000.0 * radius:.3g} mm thick and sinks at {speed:.2g} m/s. If it rolls as fast, "
         f"it turns by {speed * timestep / radius:.2g} rad in a step of {timestep:g} s. Contacts "
         f"may throw it or end the run; expected steps of "
-        f"{_round_down(MAX_TURN * radius / speed):g} s at most"
+        f"{_round_down_to_digit(MAX_TURN * radius / speed):g} s at most"
     )
 
 
-def _round_down(time: float) -> float:
-    """Round a time down to one digit."""
+def _round_down_to_digit(time: float) -> float:
     unit = 10.0 ** math.floor(math.log10(time))
     return math.floor(time / unit * (1.0 + 1e-9)) * unit

@@ -93,7 +93,6 @@ def _is_coupled(allocation: Allocation, axis: int) -> bool:
 
 
 def _describe_coupling(allocation: Allocation, axis: int) -> str:
-    """Describe the driven axes to which an axis is coupled."""
     shares = product(allocation.wrenches[axis], allocation.share)  # of each driven axis
     pairs = zip(allocation.axes, shares, strict=True)
     coupled_axes = [AXES[a] for a, share in pairs if abs(share) > 1e-3]

@@ -274,7 +274,6 @@ def _links(vehicle: SimulatedVehicle) -> Iterator[tuple[LinkSpec, float, Body | 
 
 
 def _list_first(items: Sequence[str]) -> str:
-    """Return the first three items of a list and the number of the others."""
     remainder = f" and {len(items) - 3} more" if len(items) > 3 else ""
     return f"{', '.join(items[:3])}{remainder}"
 

@@ -20,7 +20,7 @@ def forces_on_bodies(scene: CheckedScene) -> Iterator[Diagnostic]:
     for force in scene.spec.forces:
         element = elements.get(type(force), type(force).__name__)
         label = f"<u:{element}> {force.name!r}"
-        body_names = [*_names(force)]
+        body_names = [*_body_names(force)]
         unknown_names = [(line, name) for line, name in body_names if name not in bodies]
         for line, name in unknown_names:
             message = str(UnknownName("vehicle, link or object", name, bodies))
@@ -36,12 +36,11 @@ def forces_on_bodies(scene: CheckedScene) -> Iterator[Diagnostic]:
             )
 
 
-def _names(spec: Spec) -> Iterator[tuple[int | None, str]]:
-    """Yield the bodies that a spec and its parts name, with their lines."""
+def _body_names(spec: Spec) -> Iterator[tuple[int | None, str]]:
     for field in fields_of(type(spec)):
         value = field.value_in(spec)
         if field.xml.refers_to == "body" and isinstance(value, str):
             yield line_of(spec, field.tag), value
         for part in value if isinstance(value, tuple) else (value,):
             if isinstance(part, Spec):
-                yield from _names(part)
+                yield from _body_names(part)

@@ -78,8 +78,7 @@ def joint_values(scene: CheckedScene) -> Iterator[Diagnostic]:
                 yield scene.warning(place, message)
 
 
-def _names(scene: SceneSpec) -> dict[str, dict[str, None]]:
-    """Return the names of each kind of element, in their order."""
+def _names_by_kind(scene: SceneSpec) -> dict[str, dict[str, None]]:
     names: dict[str, dict[str, None]] = {
         "vehicle": {vehicle.name: None for vehicle in scene.vehicles},
         "object": {spec.name: None for spec in scene.objects},
@@ -93,7 +92,7 @@ def _names(scene: SceneSpec) -> dict[str, dict[str, None]]:
 
 def unknown_sources(scene: CheckedScene) -> Iterator[Diagnostic]:
     """Report interfaces whose vehicle, camera or sensor does not exist."""
-    known_names = _names(scene.spec)
+    known_names = _names_by_kind(scene.spec)
     for interface in unwrap_interfaces(scene.spec.ros_interfaces):
         if isinstance(interface, SensorToROSSpec):
             continue  # not ignored as in the original: `NamedSensors.error` reports it
@@ -184,7 +183,6 @@ def loose_scenery(scene: CheckedScene) -> Iterator[Diagnostic]:
 
 
 def _list_objects(specs: Sequence[ObjectSpec]) -> str:
-    """Return the names of the first objects, with their lines."""
     names = [f"{spec.name!r} (line {line_of(spec) or '?'})" for spec in specs[:MAX_LISTED_OBJECTS]]
     n_others = len(specs) - len(names)
     return ", ".join(names) + (f" and {n_others} more" if n_others else "")

@@ -243,7 +243,6 @@ def _areas(part: Array) -> Array:
 
 
 def _longest_edges(part: Array) -> Array:
-    """Return the longest edge of each triangle (n, 3, d), (n,) [m]."""
     lengths: Array = np.linalg.norm(np.roll(part, -1, axis=1) - part, axis=2).max(axis=1)
     return lengths
 

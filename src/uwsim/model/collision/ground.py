@@ -61,8 +61,7 @@ class Ground:
     def level(self, point: Array) -> float | None:
         """Return the height of the ground at a point's x and y; None if there is none.
 
-        It is the surface above a point that is below ground, else the next one below it, else the
-        lowest.
+        It is the surface above a point that is below ground, else the next below it or the lowest.
         """
         heights, faces_up = self._column(point[0], point[1])
         floors = heights[faces_up]

@@ -90,7 +90,7 @@ def collision_shapes(
         )
     for index in vehicles:
         robot = resolved_scene.robots[index]
-        fingers = _fingers(robot)
+        fingers = _moving_leaf_links(robot)
         link_scales = _link_scales(robot, scene.vehicles[index])
         for link in robot.links:
             boxes = [
@@ -124,8 +124,7 @@ def _link_scales(robot: RobotSpec, vehicle: VehicleSpec) -> dict[str, Array]:
     }
 
 
-def _fingers(robot: RobotSpec) -> set[str]:
-    """Return the links that a joint moves and that have no child link."""
+def _moving_leaf_links(robot: RobotSpec) -> set[str]:
     parents = {joint.parent for joint in robot.joints}
     return {joint.child for joint in robot.joints if joint.moves} - parents
 
@@ -138,7 +137,6 @@ def _shapes_of_solid(
     *,
     is_finger: bool,
 ) -> list[CollisionShape]:
-    """Make the collision shapes of one solid of a link, in the link's frame."""
     model, scale = visual_model(solid, Path(robot.path).parent, data_path)
     link_from_solid = Pose.from_rpy(solid.position, solid.rpy)
     solid_from_mesh = np.diag([*scale, 1.0])
@@ -217,12 +215,10 @@ def contact_mesh(
 
 
 def _contact_model(spec: ObjectSpec, physics: PhysicsSpec, load: Callable[[str], Model]) -> Model:
-    """Load the model of an object's collision mesh."""
     return load(physics.collision_shape or spec.file)
 
 
 def _object_from_mesh(spec: ObjectSpec) -> Array:
-    """Return the pose of an object's mesh on it, with its scale, (4, 4) [m]."""
     return product(np.diag([*spec.scale_factor, 1.0]), spec.object_from_mesh.matrix)
 
 

@@ -67,8 +67,7 @@ class CollisionShape:
     kind: Literal["box", "sphere", "cylinder", "hull", "height field"]
     """The kind of shape."""
     body_from_shape: Pose
-    """The pose of the middle; a cylinder's axis is z; a height field begins at its lowest
-    height."""
+    """The middle's pose; a cylinder's axis is z; a height field's origin is its lowest height."""
     size: tuple[float, ...] = ()
     """The half edges of a box; radius of a ball; radius and half length of a cylinder; half edges,
     greatest height and depth of a height field [m]."""

@@ -154,7 +154,6 @@ def _lift_errors(owner: str, lift: Array) -> list[str]:
 
 
 def _advance_errors(owner: str, advance: Numbers) -> list[str]:
-    """Return every error in the curve of the thrust over the advance ratio."""
     if not advance:
         return []
     if len(advance) % 2 or not 4 <= len(advance) <= 2 * MAX_POINTS:
@@ -175,7 +174,6 @@ def _advance_errors(owner: str, advance: Numbers) -> list[str]:
 
 
 def _thrust_errors(owner: str, thruster: ThrusterSpec) -> list[str]:
-    """Return the errors of a thrust curve that does not rise."""
     backward = thruster.forward if thruster.backward is None else thruster.backward
     sides = [
         ("forward", thruster.forward, thruster.limits[1], "0 at most"),

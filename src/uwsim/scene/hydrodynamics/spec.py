@@ -160,8 +160,7 @@ class FinSpec(Spec):
     area: float = element(above=0.0, maximum=MAX_FIN_AREA)
     """The area of the planform [m2]."""
     aspect_ratio: float | None = element(default=None, above=0.0)
-    """The effective aspect ratio, span squared / area; gives a missing ``lift_slope`` or
-    ``induced_drag`` [1]."""
+    """The effective aspect ratio, span squared / area, for a missing slope or induced drag [1]."""
     lift_slope: float | None = element(default=None, above=0.0, maximum=MAX_LIFT_SLOPE)
     """The slope of the lift coefficient over the angle of attack, below the stall; without: 1 / (1
     / (1.8 pi) + 1 / (pi AR)) with the aspect ratio AR [1/rad]."""

@@ -207,7 +207,6 @@ def _include(
     parts: _Parts,
     including_files: tuple[Path, ...],
 ) -> None:
-    """Read another hydrodynamics file, next to the first or bundled, into ``parts``."""
     file_diagnostics = Diagnostics(path)
     try:
         files = [folder / name for folder in (path.parent, bundled_folder())]

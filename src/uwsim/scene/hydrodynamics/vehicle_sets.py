@@ -42,7 +42,6 @@ def bundled_folder() -> Path:
 
 
 def _sets_in_folder(named_by: Path | None) -> list[str]:
-    """Return the names of the hydrodynamics files next to a scene."""
     names = []
     with suppress(OSError):
         paths = [] if named_by is None else sorted(named_by.parent.glob("*.xml"))

@@ -105,7 +105,6 @@ def _limits(node: etree._Element, kind: str, diagnostics: Diagnostics) -> tuple[
 
 
 def _are_degrees(lower: float, upper: float) -> bool:
-    """Return whether limits are likely degrees: integers beyond a turn, up to 360."""
     return MAX_PLAUSIBLE_ANGLE < max(abs(lower), abs(upper)) <= 360.0 and not (
         lower % 1 or upper % 1
     )

@@ -36,13 +36,12 @@ def link_poses(robot: RobotSpec, joint_values: Sequence[float] = ()) -> dict[str
     poses = {robot.root: Pose.identity()}
     for joint in robot.joints:  # parents come before their children
         parent_from_joint = Pose.from_rpy(joint.position, joint.rpy)
-        motion = _motion(joint, positions.get(joint.name, 0.0))
-        poses[joint.child] = poses[joint.parent] @ parent_from_joint @ motion
+        joint_from_child = _joint_from_child(joint, positions.get(joint.name, 0.0))
+        poses[joint.child] = poses[joint.parent] @ parent_from_joint @ joint_from_child
     return poses
 
 
-def _motion(joint: JointSpec, value: float) -> Pose:
-    """Return ``joint_from_child``: a rotation about the axis, or a translation along it."""
+def _joint_from_child(joint: JointSpec, value: float) -> Pose:
     if not joint.moves:
         return Pose.identity()
     axis = np.array(joint.axis)  # (3,)

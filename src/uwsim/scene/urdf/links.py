@@ -80,7 +80,6 @@ def _file_of(shape: etree._Element) -> str:
 
 
 def _edges_of(box: etree._Element, diagnostics: Diagnostics) -> Triple:
-    """Return the edges of a box; clamp an edge beyond the limit."""
     edges = numbers_of(box, "size", 3, diagnostics) or [0.0, 0.0, 0.0]
     text = box.get("size", "")
     if min(edges) < 0:

@@ -88,18 +88,17 @@ def read_robot(
     joints = follow_chains(joints, diagnostics)
     if diagnostics.has_errors:
         return None
-    robot = _tree(root, path, links, joints, diagnostics)
+    robot = _sort_into_tree(root, path, links, joints, diagnostics)
     return None if robot is None else dataclasses.replace(robot, expansion=document.expansion)
 
 
-def _tree(
+def _sort_into_tree(
     root: etree._Element,
     path: Path,
     links: dict[str, LinkSpec],
     joints: dict[str, JointSpec],
     diagnostics: Diagnostics,
 ) -> RobotSpec | None:
-    """Sort links and joints into UWSim's order."""
     children: dict[str, list[JointSpec]] = {}
     parent_joints: dict[str, JointSpec] = {}
     for joint in sorted(joints.values(), key=lambda joint: joint.name):

@@ -126,7 +126,6 @@ def _is_to_expand(document: Document) -> bool:
 
 
 def _merge_interfaces(root: etree._Element) -> None:
-    """Merge the ``<rosInterfaces>`` of a scene and of its includes into one."""
     interfaces = root.findall("rosInterfaces")
     for other in interfaces[1:]:
         interfaces[0].extend(list(other))

@@ -149,7 +149,6 @@ class Expander:
         return self._diagnostics.setdefault(str(file), Diagnostics(file))
 
     def _expand_nodes(self, nodes: Sequence[Node], scope: Scope) -> Iterator[Node]:
-        """Yield the expanded elements of nodes."""
         for node in nodes:
             if self._n_nodes > MAX_NODES:
                 return
@@ -229,7 +228,6 @@ class Expander:
         return element
 
     def _copy_comment(self, node: Node, scope: Scope) -> Node:
-        """Return a comment, an instruction or an entity with the expanded text after it."""
         element = copy.deepcopy(node)
         if node.tail is not None:
             element.tail = to_text(scope.text(node.tail))
@@ -301,7 +299,6 @@ class Expander:
         yield from elements
 
     def _bind_call(self, node: Node, macro: Macro, scope: Scope) -> Scope:
-        """Return the scope of a call: each parameter with its value."""
         texts = {str(key): str(text) for key, text in node.attrib.items()}
         if etree.QName(node).localname == "call":
             texts.pop("macro", None)
@@ -340,7 +337,6 @@ class Expander:
         yield from elements
 
     def _load_yaml(self, name: Value) -> Value:
-        """Return the value of a YAML file; read each file once."""
         path = self._files.find(to_text(name), self._file)
         if path not in self._yaml_values:
             if len(self._yaml_values) >= MAX_FILES:
@@ -351,7 +347,6 @@ class Expander:
 
     @contextmanager
     def _enter_file(self, file: Path, line: int | None) -> Iterator[None]:
-        """Expand the content of a file, one level deeper; raises ExpressionError."""
         previous_place = self._file, self._line
         if self._depth >= MAX_DEPTH:
             raise ExpressionError(f"calls and includes are nested deeper than {MAX_DEPTH} levels")

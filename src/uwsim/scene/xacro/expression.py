@@ -166,7 +166,6 @@ class Evaluation:
         return self._arithmetic(node)
 
     def _slice(self, container: Value, part: ast.Slice) -> Value:
-        """Return the slice of a list or a text."""
         if not isinstance(container, list | str):
             raise ExpressionError(f"{to_text(container)[:40]} is neither a list nor a text")
         bounds: list[Any] = [
@@ -180,20 +179,18 @@ class Evaluation:
         container = self.value(node)
         if not isinstance(container, list | dict | str):
             raise ExpressionError(f"{to_text(container)[:40]} is neither a list nor a dictionary")
-        self._count(len(container))
+        self._count_iterations(len(container))
         return list(container)
 
-    def _count(self, n: int) -> None:
-        """Count iterations of loops, and the items of the lists that they make."""
+    def _count_iterations(self, n: int) -> None:
         self._n_iterations[0] += n
         if self._n_iterations[0] > MAX_ITERATIONS:
             raise ExpressionError(f"loops of more than {MAX_ITERATIONS} iterations")
 
     def _comprehend(self, item: ast.expr, loops: Sequence[ast.comprehension]) -> Iterator[Value]:
-        """Yield the items of ``[item for name in list if condition]``."""
         if not loops:
             value = self.value(item)
-            self._count(len(value) if isinstance(value, list | dict) else 0)
+            self._count_iterations(len(value) if isinstance(value, list | dict) else 0)
             yield value
             return
         for entry in self._items(loops[0].iter):
@@ -322,7 +319,6 @@ def _item(container: Value, key: Value) -> Value:
 
 
 def _attribute(container: Value, name: str) -> Value:
-    """Return an entry of a dictionary, written as ``dictionary.name``."""
     if not isinstance(container, dict):
         raise ExpressionError(f"{to_text(container)[:40]} has no entry {name[:40]!r}")
     if name not in container:

@@ -77,8 +77,6 @@ def substitute(text: str, arguments: Arguments, file: Path) -> str:
 
 
 def _evaluate(expression: str, arguments: Arguments) -> str:
-    """Return the value of an expression over the arguments, as text."""
-
     def resolve(name: str) -> Value:
         return CONSTANTS[name] if name in CONSTANTS else literal_of(arguments.value(name))
 
