@@ -182,7 +182,9 @@ def test_the_axes_that_thrusters_drive(
     found = allocate(thrusters, ORIGIN, stiffness)
     assert found.axes == axes
     # what is driven is driven alone, and as said
-    assert found.reached @ found.share == pytest.approx(np.eye(len(axes)), abs=1e-9)
+    assert found.driven_wrenches @ found.allocation_matrix == pytest.approx(
+        np.eye(len(axes)), abs=1e-9
+    )
 
 
 @pytest.mark.parametrize("name", ["g500_physical", "uwsim_compat", "bluerov2_heavy", "rexrov"])
@@ -207,8 +209,8 @@ def test_bundled_vehicles_drive_all_that_keeps_a_place(name: str) -> None:
 
 def test_a_force_that_leans_the_hull_is_asked_for_as_far_as_it_rights_itself() -> None:
     found = allocate([thruster(-0.8, 0, 0.1, 1, 0, 0)], ORIGIN, 10.0)
-    assert found.full_reach(SURGE) == pytest.approx((-40.0, 40.0))
-    assert found.reach(SURGE)[1] == pytest.approx(10.0 * np.sin(np.radians(20.0)) / 0.1)
+    assert found.thruster_limits(SURGE) == pytest.approx((-40.0, 40.0))
+    assert found.force_limits(SURGE)[1] == pytest.approx(10.0 * np.sin(np.radians(20.0)) / 0.1)
 
 
 def test_weight_and_righting_of_a_vehicle_with_an_arm_are_those_of_the_engine() -> None:

@@ -17,7 +17,7 @@ from ..model.scene_model import SceneModel
 from ..scene.spec import SceneSpec
 from ..scene.urdf.kinematics import joint_positions
 from ..scene.urdf.robot import RobotSpec
-from .actuation.vehicle_actuation import actuation_of
+from .actuation.vehicle_actuation import make_actuation
 from .bounce_limit import BounceLimit
 from .collision.contacts import EngineContacts, body_name
 from .collision.world_tree import place_fixed_shapes
@@ -89,7 +89,7 @@ class Engine:
         self._water: Hydrodynamics | None = _water_of(model) if dynamics else None
         self.joint_wrench = JointWrench(model, data, self.poses)
         """What links do to the joints that carry them."""
-        self.actuation = actuation_of(scene_model, data, self._water, self.poses)
+        self.actuation = make_actuation(scene_model, data, self._water, self.poses)
         """What moves each simulated vehicle, by its number."""
         self._set_first_joints(scene)
         self.submerged = SubmergedBodies(model, self.poses, self._water, dynamics)
@@ -287,7 +287,7 @@ class Engine:
         A simulated vehicle's servos hold the joints there from now on.
         """
         if index in self.actuation:
-            self.actuation[index].servos.put(values)
+            self.actuation[index].servos.set_positions(values)
         else:
             positions = joint_positions(self._robots[index], values.tolist())
             for name, value in positions.items():

@@ -20,9 +20,9 @@ from ..base.numerics.memory import (
     view_int64s,
 )
 from ..base.sampling import TABLE, take_due
-from .actuation.autopilot_kernel import Seen, steer
+from .actuation.autopilot_kernel import Base, steer
 from .actuation.records import AUTOPILOT, AUTOPILOT_STATE, JOINT, JOINT_STATE, POSITION, THRUSTER
-from .actuation.servo_kernel import Forces, move_on, pull
+from .actuation.servo_kernel import EngineArrays, advance_requests, apply_servos
 from .engine_warnings import too_fast
 from .hydrodynamics.columns import TURN, WATER_COLUMNS
 from .hydrodynamics.kernel import fields as f
@@ -90,22 +90,22 @@ def begin(plans: Record) -> None:
         set_water(plan, at)
     ctrl = view_doubles(read_int64(d + at[f.CTRL]), read_int64(m + at[f.NU]))
     set_thrusters(plan, at, qpos, ctrl)
-    nv = read_int64(m + at[f.NV])
-    engine = Forces(
+    nv = word(m + at[f.NV])
+    engine = EngineArrays(
         qpos=qpos,
-        bias=view_doubles(read_int64(d + at[f.BIAS_FORCE]), nv),
-        passive=view_doubles(read_int64(d + at[f.PASSIVE]), nv),
-        spring=view_doubles(read_int64(d + at[f.SPRING]), nv),
-        damper=view_doubles(read_int64(d + at[f.DAMPER]), nv),
-        given=view_doubles(read_int64(d + at[f.ACTUATOR]), nv),
+        bias=floats(word(d + at[f.BIAS_FORCE]), nv),
+        passive=floats(word(d + at[f.PASSIVE]), nv),
+        spring=floats(word(d + at[f.SPRING]), nv),
+        damper=floats(word(d + at[f.DAMPER]), nv),
+        efforts=floats(word(d + at[f.ACTUATOR]), nv),
         controls=ctrl,
     )
     servos = view_int64s(plan.servos, 3 * plan.n_servos)
     for i in range(plan.n_servos):
         joints = carray(pointer(servos[3 * i]), (servos[3 * i + 2],), JOINT)
         states = carray(pointer(servos[3 * i + 1]), (servos[3 * i + 2],), JOINT_STATE)
-        move_on(plan.timestep, joints, states, qpos)
-        pull(plan.timestep, joints, states, engine)
+        advance_requests(plan.timestep, joints, states, qpos)
+        apply_servos(plan.timestep, joints, states, engine)
     if plan.is_in_middle != 0:
         to_the_middle(m, d, at)
 
@@ -234,12 +234,12 @@ def set_thrusters(plan: Record, at: Ints64, qpos: Array, ctrl: Array) -> None:
         autopilot = carray(pointer(own[0]), (1,), AUTOPILOT)[0]
         thrusters = carray(pointer(own[2]), (own[4],), THRUSTER)
         is_over_ground = autopilot.is_over_ground != 0 or state.mode == POSITION
-        qvel = view_doubles(read_int64(plan.data + at[f.QVEL]) + 8 * autopilot.dof, 6)
-        water = read_int64(plan.data + at[f.USERDATA]) + 8 * WATER_COLUMNS * autopilot.body
+        qvel = floats(word(plan.data + at[f.QVEL]) + 8 * autopilot.dof_address, 6)
+        water = word(plan.data + at[f.USERDATA]) + 8 * WATER_COLUMNS * autopilot.body
         seen = look(
-            qpos[autopilot.place : autopilot.place + 7],
+            qpos[autopilot.qpos_address : autopilot.qpos_address + 7],
             qvel,
-            view_doubles(water, 3),
+            floats(water, 3),
             is_over_ground,
         )
         commands = view_doubles(own[3], own[4])
@@ -248,7 +248,7 @@ def set_thrusters(plan: Record, at: Ints64, qpos: Array, ctrl: Array) -> None:
 
 
 @njit
-def look(qpos: Array, qvel: Array, water: Array, is_over_ground: bool) -> Seen:
+def look(qpos: Array, qvel: Array, water: Array, is_over_ground: bool) -> Base:
     """Return a free body as its autopilot sees it."""
     rotation = rotation_of(qpos[3], qpos[4], qpos[5], qpos[6])
     velocity = qvel.copy()
@@ -258,7 +258,7 @@ def look(qpos: Array, qvel: Array, water: Array, is_over_ground: bool) -> Seen:
             velocity[i] -= (
                 rotation[0, i] * water[0] + rotation[1, i] * water[1] + rotation[2, i] * water[2]
             )
-    return Seen(position=qpos[:3].copy(), rotation=rotation, velocity=velocity)
+    return Base(position=qpos[:3].copy(), rotation=rotation, velocity=velocity)
 
 
 @njit

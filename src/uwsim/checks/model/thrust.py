@@ -9,7 +9,7 @@ from ...devices.battery import BatterySpec
 from ...physics.actuation.allocation import (
     AXES,
     HEAVE,
-    LEAN,
+    MAX_TILT,
     MIN_LEVER,
     PITCH,
     SURGE,

@@ -1,8 +1,8 @@
 """Actuators of a simulated vehicle: present thrusts, efforts and electric power.
 
-Read from the engine's state after a step, not integrated: the thrust that the rotors, as they
-turn now, give in the water around them, and the effort of the servos in that step. Joints that
-mimic have a servo and so a motor of their own.
+They are computed from the engine's state after a step, not integrated: the thrust that the rotors
+give at their present speed in the water around them, and the effort of the servos in that step.
+Joints that mimic have a servo and so a motor of their own.
 """
 
 from __future__ import annotations
@@ -43,65 +43,67 @@ class Actuators:
         index: int,
         refresh: Callable[[], None],
     ) -> None:
-        """Find them in the model.
+        """Find the actuators in the model.
 
         Args:
-            model: the engine's.
-            data: its state.
-            water: around the vehicle.
-            vehicle: its hydrodynamics.
-            robot: its links and joints.
-            index: number of the vehicle.
-            refresh: brings the places in ``data`` up to date.
+            model: the engine's model.
+            data: the engine's state.
+            water: the hydrodynamics of the engine.
+            vehicle: the spec of the vehicle's hydrodynamics.
+            robot: the vehicle's links and joints.
+            index: the number of the vehicle.
+            refresh: the function that updates the poses in ``data``.
         """
         from . import power_kernel
 
-        self._law, self._refresh = power_kernel, refresh
-        moving = [joint for joint in robot.joints if joint.moves]
+        self._kernel, self._refresh = power_kernel, refresh
+        moving_joints = [joint for joint in robot.joints if joint.moves]
         self.thrusters = tuple(spec.name for spec in vehicle.thrusters)
-        """Names of its thrusters."""
-        self.joints = tuple(joint.name for joint in moving)
-        """Names of its joints, those that mimic included."""
-        powers = [greatest_power(one, water.density) for one in vehicle.thrusters]
+        """The names of the thrusters."""
+        self.joints = tuple(joint.name for joint in moving_joints)
+        """The names of the joints, including those that mimic."""
+        powers = [greatest_power(thruster, water.density) for thruster in vehicle.thrusters]
         self.greatest_power = math.fsum(powers)
-        """Electric power of all thrusters at their greatest thrusts [W]."""
-        terms = max((power_table(one, 1.0).shape[1] - 1 for one in vehicle.thrusters), default=0)
+        """The electric power of all thrusters at their greatest thrusts [W]."""
+        n_terms = max(
+            (power_table(spec, 1.0).shape[1] - 1 for spec in vehicle.thrusters), default=0
+        )
         self._tables = np.array(
-            [power_table(one, water.density, terms) for one in vehicle.thrusters]
-        ).reshape(-1, 2, 1 + terms)
+            [power_table(thruster, water.density, n_terms) for thruster in vehicle.thrusters]
+        ).reshape(-1, 2, 1 + n_terms)
         rotors = [model.actuator(vehicle_thruster(index, name)).id for name in self.thrusters]
         radii = [spec.radius for spec in vehicle.thrusters]
         self._rotors = _rotors(model, data, water, rotors, radii)
         names = [vehicle_joint(index, name) for name in self.joints]
-        drives = [vehicle.drive(joint.name) for joint in moving]
+        drives = [vehicle.drive(joint.name) for joint in moving_joints]
         self._motors = _motors(model, data, names, drives)
 
     def thrusts(self) -> Array:
-        """Along their directions, as the water has it, (n,) [N]."""
+        """Compute the thrusts along the thrusters' directions in the present water, (n,) [N]."""
         self._refresh()
-        return self._law.thrusts(*self._rotors)
+        return self._kernel.thrusts(*self._rotors)
 
     def efforts(self) -> Array:
-        """Of the joints' servos, or what was commanded where those are off, (m,) [N m or N]."""
-        return self._law.efforts(*self._motors)
+        """Compute the servos' efforts; where a servo is off, the commanded one, (m,) [N m or N]."""
+        return self._kernel.efforts(*self._motors)
 
     @cached_property
     def compiled_powers(self) -> CompiledFunction:
-        """The function that writes `powers` for compiled code."""
-        row = self._law.powers_record(self._tables, self._rotors, self._motors)
+        """The compiled function that writes `powers`."""
+        row = self._kernel.powers_record(self._tables, self._rotors, self._motors)
         return CompiledFunction(
-            addresses=(function_address(self._law.write_powers), address_of(row)),
+            addresses=(function_address(self._kernel.write_powers), address_of(row)),
             prepare=lambda _: self._refresh(),
             memory_owners=(self, row),
         )
 
     def powers(self) -> Array:
-        """Electric power of the thrusters, then of the joints, (n + m,) [W]."""
+        """Compute the electric power of the thrusters, then of the joints, (n + m,) [W]."""
         self._refresh()
-        return self._law.powers(self._tables, self._rotors, self._motors)
+        return self._kernel.powers(self._tables, self._rotors, self._motors)
 
 
-# What the laws take. Views into the engine's memory: servos are switched off and on there.
+# The kernel's arguments are views into the engine's memory, where servos are switched on and off.
 
 
 def _rotors(
@@ -111,7 +113,7 @@ def _rotors(
     rotors: Sequence[int],
     radii: Sequence[float],
 ) -> Rotors:
-    """Return what the law of thrust takes of some actuators with propellers of some radii [m]."""
+    """Return the arguments of `power_kernel.thrusts` for actuators and their radii [m]."""
     sites = model.actuator_trnid[rotors, 0]
     controls = model.actuator_ctrladr[rotors]
     losses = WATER_COLUMNS * model.nbody + np.array(rotors, dtype=np.int64)
@@ -131,18 +133,18 @@ def _rotors(
 def _motors(
     model: mujoco.MjModel, data: mujoco.MjData, names: Sequence[str], drives: Sequence[JointDrive]
 ) -> Motors:
-    """Return what the law of efforts takes of the servos of some joints."""
+    """Return the arguments of `power_kernel.efforts` for the servos of some joints."""
     joints = [model.joint(name).id for name in names]
     servos = [model.actuator(f"{name}/servo").id for name in names]
     is_limited = model.actuator_forcelimited[servos].astype(bool)
-    strongest = np.where(is_limited, model.actuator_forcerange[servos, 1], math.inf)
-    places = [model.jnt_qposadr[joints], model.jnt_dofadr[joints]]
+    max_efforts = np.where(is_limited, model.actuator_forcerange[servos, 1], math.inf)
+    addresses = [model.jnt_qposadr[joints], model.jnt_dofadr[joints]]
     efficiencies = [drive.efficiency for drive in drives]
     copper_losses = [drive.copper_loss for drive in drives]
     return (
         float(model.opt.timestep),
-        _columns([*places, model.actuator_ctrladr[servos], servos], np.int64),
-        _columns([strongest, efficiencies, copper_losses], np.float64),
+        _columns([*addresses, model.actuator_ctrladr[servos], servos], np.int64),
+        _columns([max_efforts, efficiencies, copper_losses], np.float64),
         model.actuator_gainprm,
         model.actuator_biasprm,
         data.ctrl,
@@ -153,5 +155,5 @@ def _motors(
 
 
 def _columns(columns: list[Any], dtype: type) -> npt.NDArray[Any]:
-    """The columns side by side, (n, k); n may be 0."""
+    """Return the columns side by side, (n, k); n may be 0."""
     return np.array([np.asarray(column) for column in columns], dtype=dtype).T.copy()

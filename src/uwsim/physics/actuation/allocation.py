@@ -3,15 +3,15 @@ r"""Thrust allocation: the axes that a vehicle's thrusters drive, and their limi
 One newton of thruster i along its direction d at the place r gives the force and moment
 :math:`(d, (r - r_0) \times d)` about the reference :math:`r_0`; they are the columns of the matrix
 B (Fossen, *Handbook of Marine Craft*, 2011, section 12.3). An axis is *driven* if thrusts can give
-its force or moment alone, nothing along the other axes that are driven: if its row of B is not made
-of theirs, by more than `MIN_LEVER`. Where rows are made of one another the first in the order
-`FIRST` is driven and the others are left to the hull.
+its force or moment alone, without any along the other driven axes: its row of B differs by more
+than `MIN_LEVER` from every combination of theirs. Of rows that depend on each other, the first in
+the order `AXIS_PRIORITY` is driven, and the others are not.
 
-Roll and pitch that are not driven are held by weight and buoyancy alone. A force that comes with a
-moment about them is asked for only as far as the hull stays within `LEAN`; where less than half of
-it would be left of heave, the thrusters hold the hull level instead, and heave is not driven.
+Weight and buoyancy alone hold roll and pitch that are not driven. A force that causes a moment
+about them is limited so that the hull tilts by at most `MAX_TILT`. Where less than half of the
+heave force would remain, the thrusters drive pitch instead of heave.
 
-Not modelled: thrusters on links that move stand where the joints are at the start; what fins give.
+Not modelled: forces of fins; motion of thrusters on links, which stay where they are at the start.
 """
 
 from __future__ import annotations
@@ -32,16 +32,16 @@ from ...scene.urdf.robot import RobotSpec
 AXES = ("surge", "sway", "heave", "roll", "pitch", "yaw")
 UNITS = ("N", "N", "N", "N m", "N m", "N m")
 SURGE, SWAY, HEAVE, ROLL, PITCH, YAW = range(6)
-FIRST = (SURGE, YAW, HEAVE, SWAY, PITCH, ROLL)
-"""What is driven first where thrusters cannot do all."""
+AXIS_PRIORITY = (SURGE, YAW, HEAVE, SWAY, PITCH, ROLL)
+"""The order in which axes are driven where the thrusters cannot drive all."""
 MIN_LEVER = 0.02
-"""What moves a vehicle less than this per newton of its thrusters is not asked of them [1, m]."""
-LEAN = math.radians(20.0)
-"""How far thrusters may push a hull over that rights itself [rad]."""
-ENOUGH = 0.5
-"""Share of the heave that must be left for it to be driven."""
+"""The least force or moment per newton of thrust with which thrusters drive an axis [1, m]."""
+MAX_TILT = math.radians(20.0)
+"""The greatest angle by which thrusters may tilt a hull that rights itself [rad]."""
+MIN_HEAVE_SHARE = 0.5
+"""The least share of the heave force that must remain for heave to be driven."""
 N_POINTS = 401
-"""Points of a thruster's curve in the autopilot's table."""
+"""The number of points of a thrust curve in the autopilot's table."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -49,36 +49,37 @@ class Allocation:
     """The thrust allocation of a vehicle."""
 
     axes: tuple[int, ...]
-    """The axes that are driven, rising."""
+    """The driven axes, in rising order."""
     wrenches: Array
-    """Force and moment about the reference of one newton of each, (6, n) [1, m]."""
-    reached: Array
-    """The rows of the driven axes, (k, n)."""
-    share: Array
-    """Thrusts for a unit of each driven axis, (n, k) [N per N or N m]."""
-    most: Array
-    """Force that a driven axis is asked for at most lest the hull leans, (6,) [N]; else inf."""
-    least: Array
-    """Thrusts backwards, (n,) [N]."""
-    greatest: Array
-    """Thrusts forwards, (n,) [N]."""
+    """The force and moment about the reference of one newton of each thruster, (6, n) [1, m]."""
+    driven_wrenches: Array
+    """The rows of `wrenches` of the driven axes, (k, n)."""
+    allocation_matrix: Array
+    """The thrusts for a unit of each driven axis, (n, k) [N per N or N m]."""
+    max_forces: Array
+    """The force along each driven axis that tilts the hull by `MAX_TILT`, (6,) [N]; else inf."""
+    min_thrusts: Array
+    """The greatest thrusts backwards, (n,) [N]."""
+    max_thrusts: Array
+    """The greatest thrusts forwards, (n,) [N]."""
 
     @property
-    def drives(self) -> Array:
-        """1 for each driven axis, 0 for the others, (6,)."""
+    def driven_mask(self) -> Array:
+        """The mask of the driven axes: 1 for each of them, 0 for the others, (6,)."""
         flags = np.zeros(6)
         flags[list(self.axes)] = 1.0
         return flags
 
-    def reach(self, axis: int) -> tuple[float, float]:
-        """Force or moment of a driven axis alone, backwards and forwards [N, N m]."""
-        column = self.share[:, self.axes.index(axis)]
-        full = _reach(column, self.least, self.greatest)
-        return -min(-full[0], self.most[axis]), min(full[1], self.most[axis])
+    def force_limits(self, axis: int) -> tuple[float, float]:
+        """Return the limits of the force or moment along a driven axis, both ways [N, N m]."""
+        column = self.allocation_matrix[:, self.axes.index(axis)]
+        limits = _thruster_limits(column, self.min_thrusts, self.max_thrusts)
+        return -min(-limits[0], self.max_forces[axis]), min(limits[1], self.max_forces[axis])
 
-    def full_reach(self, axis: int) -> tuple[float, float]:
-        """The same without the limit on the heel of the hull."""
-        return _reach(self.share[:, self.axes.index(axis)], self.least, self.greatest)
+    def thruster_limits(self, axis: int) -> tuple[float, float]:
+        """Return the same without the limit on the tilt of the hull."""
+        column = self.allocation_matrix[:, self.axes.index(axis)]
+        return _thruster_limits(column, self.min_thrusts, self.max_thrusts)
 
 
 def allocate(
@@ -87,69 +88,69 @@ def allocate(
     """Compute the allocation of some thrusters.
 
     Args:
-        thrusters: places and directions in the base's frame.
-        reference: what forces and moments are about, (3,) [m].
-        stiffness: with which the hull rights itself [N m/rad]; not above 0: it does not.
+        thrusters: positions and directions in the base's frame.
+        reference: the point that forces and moments are about, (3,) [m].
+        stiffness: the righting stiffness of the hull [N m/rad]; up to 0: it does not right itself.
     """
     columns = [wrench(thruster, reference) for thruster in thrusters]
     wrenches = np.array(columns).reshape(-1, 6).T  # (6, n): N, N m per N
-    ends = [(thrusts[0], thrusts[-1]) for thrusts, _ in map(curve, thrusters)]
-    least, greatest = np.array(ends).reshape(-1, 2).T.copy()  # (n,) [N]
-    axes = driven_axes(wrenches, FIRST)
-    found = _allocation(wrenches, axes, least, greatest, stiffness)
+    ends = [(thrusts[0], thrusts[-1]) for thrusts, _ in map(thrust_curve, thrusters)]
+    min_thrusts, max_thrusts = np.array(ends).reshape(-1, 2).T.copy()  # (n,) [N]
+    axes = driven_axes(wrenches, AXIS_PRIORITY)
+    allocation = _allocation(wrenches, axes, min_thrusts, max_thrusts, stiffness)
     if HEAVE in axes and PITCH not in axes:
-        level = driven_axes(wrenches, [axis for axis in FIRST if axis != HEAVE])
-        full = max(found.full_reach(HEAVE))
-        is_weak = stiffness <= 0.0 and _moment(found, HEAVE)[PITCH] > MIN_LEVER
-        if PITCH in level and (is_weak or found.most[HEAVE] < ENOUGH * full):
-            return _allocation(wrenches, level, least, greatest, stiffness)
-    return found
+        level = driven_axes(wrenches, [axis for axis in AXIS_PRIORITY if axis != HEAVE])
+        heave = max(allocation.thruster_limits(HEAVE))
+        is_weak = stiffness <= 0.0 and _tilting_moments(allocation, HEAVE)[PITCH] > MIN_LEVER
+        if PITCH in level and (is_weak or allocation.max_forces[HEAVE] < MIN_HEAVE_SHARE * heave):
+            return _allocation(wrenches, level, min_thrusts, max_thrusts, stiffness)
+    return allocation
 
 
 def thrusters_on_base(
     robot: RobotSpec, thrusters: Sequence[ThrusterSpec], joint_values: Sequence[float] = ()
 ) -> tuple[ThrusterSpec, ...]:
-    """Thrusters that sit on other links, as if they sat on the base where these are at the start.
+    """Return all thrusters as if fixed to the base, with the links where they are at the start.
 
     Args:
-        robot: the links.
-        thrusters: each in the frame of its link.
-        joint_values: its joints [rad or m].
+        robot: the links and joints of the vehicle.
+        thrusters: the thrusters, each in the frame of its link.
+        joint_values: the joint vector at the start [rad or m].
     """
     poses = link_poses(robot, joint_values)
-    found = []
+    base_thrusters = []
     for thruster in thrusters:
         if thruster.link != robot.root:
             base_from_link = poses[thruster.link]
             x, y, z = base_from_link.transform(np.array([thruster.position]))[0].tolist()
             a, b, c = rotate(base_from_link.rotation, np.array(thruster.direction)).tolist()
             thruster = replace(thruster, position=(x, y, z), direction=(a, b, c))
-        found.append(thruster)
-    return tuple(found)
+        base_thrusters.append(thruster)
+    return tuple(base_thrusters)
 
 
 def driven_axes(wrenches: Array, order: Sequence[int]) -> tuple[int, ...]:
-    """Axes whose rows of (6, n) are not made of those before them, rising.
+    """Return the axes whose rows of (6, n) do not depend on those of earlier axes, in rising order.
 
     Args:
-        wrenches: force and moment of one newton of each thruster.
-        order: which axes, the most wanted first.
+        wrenches: the force and moment of one newton of each thruster.
+        order: the axes to consider, that of the highest priority first.
     """
     basis: list[Array] = []
-    driven = []
+    axes = []
     for axis in order:
-        rest = wrenches[axis].copy()
+        residual = wrenches[axis].copy()
         for unit in basis:
-            rest -= dot(rest, unit) * unit
-        size = length(rest)
-        if size > MIN_LEVER:
-            basis.append(rest / size)
-            driven.append(axis)
-    return tuple(sorted(driven))
+            residual -= dot(residual, unit) * unit
+        norm = length(residual)
+        if norm > MIN_LEVER:
+            basis.append(residual / norm)
+            axes.append(axis)
+    return tuple(sorted(axes))
 
 
 def wrench(thruster: ThrusterSpec, reference: Array) -> Array:
-    """Force and moment about the reference of one newton of a thruster, (6,)."""
+    """Return the force and moment about the reference of one newton of a thruster, (6,)."""
     direction = np.array(thruster.direction, dtype=np.float64)
     direction /= length(direction)
     arm = np.array(thruster.position) - reference
@@ -157,62 +158,63 @@ def wrench(thruster: ThrusterSpec, reference: Array) -> Array:
 
 
 @lru_cache(maxsize=256)
-def curve(thruster: ThrusterSpec) -> tuple[Array, Array]:
-    """Thrust [N] and the command that gives it [1], both rising."""
+def thrust_curve(thruster: ThrusterSpec) -> tuple[Array, Array]:
+    """Return the thrusts [N] and the commands that give them [1], both in rising order."""
     commands = np.linspace(*thruster.limits, N_POINTS)
     backward = thruster.forward if thruster.backward is None else thruster.backward
     thrusts = []
     for command in commands:
         size = max(0.0, abs(command) - thruster.dead_zone)
-        numbers = thruster.forward if command > 0.0 else backward
-        force = sum(c * size ** (i + 1) for i, c in enumerate(numbers))
+        coefficients = thruster.forward if command > 0.0 else backward
+        force = sum(c * size ** (i + 1) for i, c in enumerate(coefficients))
         thrusts.append(math.copysign(force, command))
-    found = np.maximum.accumulate(np.array(thrusts)), commands
-    for each in found:
-        each.flags.writeable = False  # whoever asks again gets the same
-    return found
+    curve = np.maximum.accumulate(np.array(thrusts)), commands
+    for array in curve:
+        array.flags.writeable = False  # the cache returns the same arrays again
+    return curve
 
 
 def _allocation(
-    wrenches: Array, axes: tuple[int, ...], least: Array, greatest: Array, stiffness: float
+    wrenches: Array, axes: tuple[int, ...], min_thrusts: Array, max_thrusts: Array, stiffness: float
 ) -> Allocation:
-    reached = np.ascontiguousarray(wrenches[list(axes)])  # (k, n)
-    share = np.ascontiguousarray(pseudo_inverse(reached, rcond=1e-6))
-    found = Allocation(
+    driven_wrenches = np.ascontiguousarray(wrenches[list(axes)])  # (k, n)
+    allocation_matrix = np.ascontiguousarray(pseudo_inverse(driven_wrenches, rcond=1e-6))
+    allocation = Allocation(
         axes=axes,
         wrenches=wrenches,
-        reached=reached,
-        share=share,
-        most=np.full(6, np.inf),
-        least=least,
-        greatest=greatest,
+        driven_wrenches=driven_wrenches,
+        allocation_matrix=allocation_matrix,
+        max_forces=np.full(6, np.inf),
+        min_thrusts=min_thrusts,
+        max_thrusts=max_thrusts,
     )
     for axis in (SURGE, SWAY, HEAVE):
         if axis in axes and stiffness > 0.0:
-            lever = max(_moment(found, axis))
+            lever = max(_tilting_moments(allocation, axis))
             if lever > 0.0:
-                found.most[axis] = stiffness * math.sin(LEAN) / lever
-    return found
+                allocation.max_forces[axis] = stiffness * math.sin(MAX_TILT) / lever
+    return allocation
 
 
-def _moment(found: Allocation, axis: int) -> Array:
-    """Moments about undriven roll and pitch that a force along an axis causes, (6,)."""
-    moments = np.abs(product(found.wrenches, found.share[:, found.axes.index(axis)]))
+def _tilting_moments(allocation: Allocation, axis: int) -> Array:
+    """Return the moments about undriven roll and pitch that a force along an axis causes, (6,)."""
+    thrusts = allocation.allocation_matrix[:, allocation.axes.index(axis)]
+    moments = np.abs(product(allocation.wrenches, thrusts))
     for other in range(6):
-        if other not in (ROLL, PITCH) or other in found.axes:
+        if other not in (ROLL, PITCH) or other in allocation.axes:
             moments[other] = 0.0
     return moments
 
 
-def _reach(column: Array, least: Array, greatest: Array) -> tuple[float, float]:
-    """Greatest multiple of a thrust distribution before the first thruster saturates, both ways."""
-    ends = []
+def _thruster_limits(column: Array, min_thrusts: Array, max_thrusts: Array) -> tuple[float, float]:
+    """Return the greatest multiples of thrusts, both ways, before a thruster saturates."""
+    limits = []
     for sign in (-1.0, 1.0):
-        ways = sign * column
-        room = [
-            (greatest[k] if way > 0.0 else least[k]) / way
-            for k, way in enumerate(ways)
-            if abs(way) > 1e-12
+        thrusts = sign * column
+        multiples = [
+            (max_thrusts[k] if thrust > 0.0 else min_thrusts[k]) / thrust
+            for k, thrust in enumerate(thrusts)
+            if abs(thrust) > 1e-12
         ]
-        ends.append(sign * min(room, default=0.0))
-    return ends[0], ends[1]
+        limits.append(sign * min(multiples, default=0.0))
+    return limits[0], limits[1]

@@ -1,38 +1,38 @@
 r"""Autopilot: the velocity, depth, heading and position loops of a vehicle.
 
-A command is held until the next, of whatever kind; what it takes over begins at the present place.
+A command holds until the next of any kind. Its loops start at the present depth and heading.
 
-*Velocity.* Each of surge, sway, heave and yaw has a loop on the velocity relative to the water
-(what a vehicle without bottom lock can know), or to the ground:
+*Velocity.* Each of surge, sway, heave and yaw has a loop on the velocity :math:`\nu` relative to
+the water (which a vehicle without bottom lock measures), or to the ground:
 
 .. math:: \tau = M (\dot\nu_r + k_v (\nu_r - \nu) + k_i \int (\nu_r - \nu)\,dt)
     + D(\nu_r) + v \times A v
 
-with M the mass and added mass, D the drag and the last term against the Munk moment of the added
-mass A. What is followed, :math:`\nu_r`, goes after what is wanted with a lag of :math:`2.5\,T` (a
-reference model: Fossen, *Handbook of Marine Craft*, section 12.1), so that a step is not overshot;
-T is the lag of the slowest thruster. The gains follow from it, too: :math:`k_v = 0.32/T`,
+M is the mass and added mass, D the drag, and the last term cancels the Munk moment of the added
+mass A. The reference :math:`\nu_r` follows the desired twist :math:`\nu_d` with the time constant
+:math:`2.5\,T` (a reference model: Fossen, *Handbook of Marine Craft*, section 12.1), which avoids
+overshoot. T is the time constant of the slowest thruster. The gains :math:`k_v = 0.32/T` and
 :math:`k_i = 0.032/T^2` give the loop :math:`T s^3 + s^2 + k_v s + k_i` the poles
-:math:`0.2/T, 0.4/T, 0.4/T`: it does not swing. A faster loop swings by itself and, through a camera
-that tilts with the hull, keeps a roll up that no thruster damps. Where the thrusters are at their
-limits the integral does not grow (clamping). *Depth and heading* are held where the last command
-left them: their loops wish for a heave or yaw rate in proportion to the error. *Position* hold
-wishes for a surge and sway in proportion to the error as well, at most 0.5 m/s, over ground: who
-knows where they are know how they move. *Wrench*: shared out, nothing is held. *Thrusters*: their
-commands as they are. *Pitch* and, where thrusters reach it beside the other axes, *roll* are
-righted: the angle is the integral of the rate, and pulls with :math:`k_i` as the others' integrals
-do. Forces are shared out by least squares and turned into commands by the thrusters' own curves;
-where they are not enough, surge and sway go short.
+:math:`0.2/T, 0.4/T, 0.4/T`: it does not oscillate. A faster loop oscillates. Through a camera that
+tilts with the hull it also excites a roll that no thruster damps. Where the thrusters are at their
+limits the integral does not grow (clamping).
 
-*Axes that the thrusters cannot drive* (`uwsim.physics.actuation.allocation`) are let go: nothing is
-asked of thrusters for them, and their integrals stay 0. Where pitch is driven and heave is not,
-depth is held by the angle :math:`\gamma` at which the vehicle goes ahead, with the climb c wished
-for and the speed u
+*Depth and heading* are held where the last command left them: heave and yaw rate are proportional
+to the error. *Position* hold also makes surge and sway proportional to the error, at most 0.5 m/s,
+over ground: a vehicle with a position has its velocity over ground. *Wrench*: it is allocated, and
+nothing is held. *Thrusters*: their commands are passed on. *Pitch* and, where thrusters drive it
+beside the other axes, *roll* are levelled: the angle is the integral of the rate, with the gain
+:math:`k_i`. Forces are allocated by least squares and converted to commands by the thrusters'
+curves. Where they exceed the limits, surge and sway are reduced.
+
+*Axes that are not driven* (`uwsim.physics.actuation.allocation`) get no force, and their integrals
+stay 0. Where pitch is driven and heave is not, depth is held by the pitch :math:`\gamma` of a
+vehicle with the desired climb rate c and the speed u
 
 .. math:: \gamma = c\,u / (u^2 + u_0^2), \qquad |\gamma| \le 0.35
 
-Where pitch is not driven, surge wished for fades out while the hull leans by `LEVEL` to `STEEP`, so
-that what it cannot right does not take it to the surface or the floor.
+Where pitch is not driven, the desired surge fades out while the tilt grows from `FADE_START` to
+`FADE_END`, so that a tilted vehicle does not reach the surface or the floor.
 
 The autopilot reads the true state. Not modelled: noise and delay of its sensors.
 """
@@ -50,97 +50,98 @@ from ...base.geometry import Array, Pose
 from ...base.numerics.linear import pseudo_inverse
 from ...base.record import Record
 from ...scene.hydrodynamics.spec import ThrusterSpec, VehicleHydrodynamics, matrix
-from .allocation import ROLL, Allocation, allocate, curve
+from .allocation import ROLL, Allocation, allocate, thrust_curve
 from .records import AUTOPILOT, AUTOPILOT_STATE, POSITION, THRUSTER, THRUSTERS, VELOCITY, WRENCH
 
-USUAL = (0, 1, 2, 4, 5)
-"""Surge, sway, heave, pitch and yaw: of a commanded wrench where thrusters do not reach roll."""
-ALL = (0, 1, 2, 3, 4, 5)
+WRENCH_AXES_WITHOUT_ROLL = (0, 1, 2, 4, 5)
+"""The axes of a commanded wrench where the thrusters do not drive roll."""
+WRENCH_AXES = (0, 1, 2, 3, 4, 5)
+"""The axes of a commanded wrench."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Gains:
-    """Gains of the control loops."""
+    """The gains of the control loops."""
 
     depth: float = 0.4
-    """Heave wished for per depth error [1/s]."""
+    """The desired heave per depth error [1/s]."""
     position: float = 0.4
-    """Surge and sway wished for per position error [1/s]."""
+    """The desired surge and sway per position error [1/s]."""
     heading: float = 0.5
-    """Yaw rate wished for per heading error [1/s]."""
+    """The desired yaw rate per heading error [1/s]."""
 
 
 MIN_LAG = 0.08
-"""Thrusters are taken to lag by this at least: the autopilot thinks every 20 ms [s]."""
+"""The least time constant assumed for thrusters: the autopilot runs every 20 ms [s]."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Seat:
-    """Where the engine keeps what an autopilot reads and sets."""
+class BaseAddresses:
+    """The addresses in the engine of a vehicle's base and thrusters."""
 
-    place: int
-    """Of the base in ``qpos``."""
-    dof: int
-    """Of the base among the degrees of freedom."""
+    qpos_address: int
+    """The address of the base's pose in ``qpos``."""
+    dof_address: int
+    """The first degree of freedom of the base."""
     body: int
-    """The base."""
-    controls: Sequence[int]
-    """Of the thrusters in ``ctrl``."""
+    """The engine's number of the base."""
+    ctrl_addresses: Sequence[int]
+    """The addresses of the thrusters' commands in ``ctrl``."""
     is_over_ground: bool
-    """Whether velocities are those over ground."""
+    """The velocity loops use the velocity over ground if true, else that through the water."""
 
 
 @dataclass(slots=True)
 class AutopilotState(Record):
-    """What an autopilot does."""
+    """The state of an autopilot."""
 
     loops: npt.NDArray[np.void]
-    """Its loops, (1,) of `records.AUTOPILOT_STATE`."""
+    """The state of the control loops, (1,) of `records.AUTOPILOT_STATE`."""
     commands: Array
-    """The commands of the thrusters that are passed on, (n,) [1]."""
+    """The commands that are passed on to the thrusters, (n,) [1]."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class AutopilotModel:
-    """What an autopilot knows of its vehicle; it does not change while a simulation runs."""
+    """The parameters of an autopilot, which do not change while a simulation runs."""
 
     reference: Array
-    """What forces and moments are about, in the base's frame, (3,) [m]."""
+    """The point that forces and moments are about, in the base's frame, (3,) [m]."""
     allocation: Allocation
     """The thrust allocation."""
     loops: npt.NDArray[np.void]
-    """The parameters of its loops, (1,) of `records.AUTOPILOT`."""
+    """The parameters of the control loops, (1,) of `records.AUTOPILOT`."""
     thrusters: npt.NDArray[np.void]
-    """The parameters of its thrusters, (n,) of `records.THRUSTER`."""
+    """The parameters of the thrusters, (n,) of `records.THRUSTER`."""
 
 
 def autopilot_model(
     vehicle: VehicleHydrodynamics,
     link: str,
     mass: float,
-    seat: Seat,
+    addresses: BaseAddresses,
     *,
     stiffness: float,
     thrusters: Sequence[ThrusterSpec],
 ) -> AutopilotModel:
-    """Prepare the loops of a vehicle.
+    """Compute the parameters of a vehicle's autopilot.
 
     Args:
-        vehicle: its hydrodynamics.
-        link: its base.
-        mass: of the whole vehicle with its arm [kg].
-        seat: where the engine keeps it.
-        stiffness: with which the hull rights itself [N m/rad].
-        thrusters: in the base's frame.
+        vehicle: the vehicle's hydrodynamics.
+        link: the name of its base.
+        mass: the mass of the whole vehicle with its arm [kg].
+        addresses: the addresses in the engine.
+        stiffness: the righting stiffness of the hull [N m/rad].
+        thrusters: the thrusters in the base's frame.
     """
     body = vehicle.body(link)
     reference = np.array(body.reference if body else (0.0, 0.0, 0.0))
     allocation = allocate(thrusters, reference, stiffness)
     loops = _autopilot_record(vehicle, link, mass, Gains(), allocation)
-    for name in ("place", "dof", "body", "is_over_ground"):
-        loops[name] = getattr(seat, name)
+    for name in ("qpos_address", "dof_address", "body", "is_over_ground"):
+        loops[name] = getattr(addresses, name)
     records = _thruster_records(thrusters, allocation, loops)
-    records["control"] = seat.controls
+    records["ctrl_address"] = addresses.ctrl_addresses
     loops.flags.writeable = records.flags.writeable = False
     return AutopilotModel(
         reference=reference, allocation=allocation, loops=loops, thrusters=records
@@ -150,10 +151,10 @@ def autopilot_model(
 class Autopilot:
     """The autopilot of one vehicle: velocity loops; depth, heading and position hold.
 
-    It takes the commands; `autopilot_kernel.steer` does what they ask for.
+    It receives the commands; `autopilot_kernel.steer` carries them out.
 
     Args:
-        model: what it knows of the vehicle.
+        model: its parameters.
     """
 
     def __init__(self, model: AutopilotModel) -> None:
@@ -161,18 +162,18 @@ class Autopilot:
         self._state = np.zeros(1, AUTOPILOT_STATE)
         self._state["heading"] = np.eye(3)
         self._mode: Array = self._state["mode"]
-        self._wanted: Array = self._state["wanted"][0]
+        self._twist: Array = self._state["wanted"][0]
         self._integral: Array = self._state["integral"]
         self._commands = np.zeros(len(model.thrusters))
         self.state = AutopilotState(self._state, self._commands)
-        """What it does."""
+        """The state of the autopilot."""
 
     @property
     def addresses(self) -> tuple[int, int, int, int, int]:
-        """Of its records: what it knows, its state, its thrusters, its commands; how many."""
+        """The addresses of parameters, state, thrusters and commands; the number of thrusters."""
         records = (self._model.loops, self._state, self._model.thrusters, self._commands)
-        knows, state, thrusters, commands = (each.ctypes.data for each in records)
-        return knows, state, thrusters, commands, len(self._commands)
+        parameters, state, thrusters, commands = (record.ctypes.data for record in records)
+        return parameters, state, thrusters, commands, len(self._commands)
 
     def hold(self, world_from_base: Pose) -> None:
         """Hold the present depth and heading, at rest, and reset the loops."""
@@ -184,12 +185,12 @@ class Autopilot:
         state["heading"] = world_from_base.rotation
 
     def command(self, linear: Sequence[float], angular: Sequence[float]) -> None:
-        """Take a twist [m/s, rad/s] in the base frame; it is held until the next."""
+        """Set the desired twist [m/s, rad/s] in the base frame, until the next command."""
         self._change_to(VELOCITY, takes_over=True)
-        self._wanted[:] = [min(max(x, -MAX_COMMAND), MAX_COMMAND) for x in (*linear, *angular)]
+        self._twist[:] = [min(max(x, -MAX_COMMAND), MAX_COMMAND) for x in (*linear, *angular)]
 
     def go_to(self, world_from_base: Pose) -> None:
-        """Go to a place and its heading, and stay there; roll and pitch are not followed."""
+        """Hold a position and its heading; roll and pitch of the pose have no effect."""
         self._change_to(POSITION, takes_over=False)
         self._state["takes_over"] = False
         self._state["wanted"] = 0.0
@@ -204,7 +205,7 @@ class Autopilot:
         self._state["wrench"] = np.concatenate([force, moment])
 
     def set_thrusters(self, commands: Array) -> None:
-        """Pass the commands of the thrusters on, (n,) [1]."""
+        """Pass commands on to the thrusters, (n,) [1]."""
         self._state["mode"], self._state["has_news"] = THRUSTERS, True
         self._commands[:] = commands
 
@@ -219,42 +220,43 @@ class Autopilot:
 def _autopilot_record(
     vehicle: VehicleHydrodynamics, link: str, mass: float, gains: Gains, allocation: Allocation
 ) -> npt.NDArray[np.void]:
-    """The parameters of a vehicle's loops, (1,)."""
+    """Return the parameters of a vehicle's control loops, (1,)."""
     body = vehicle.body(link)
     lag = max([MIN_LAG, *(thruster.time_constant for thruster in vehicle.thrusters)])
-    added = matrix(body.added_mass) if body else np.zeros((6, 6))
-    own = [mass, mass, mass, *(body.inertia[:3] if body and body.inertia else (1.0,) * 3)]
-    # a wrench that is commanded is given as nearly as thrusters can, whatever comes with it
-    asked = ALL if ROLL in allocation.axes else USUAL
-    found = np.zeros(1, AUTOPILOT)
-    found["lag"] = 2.5 * lag
-    found["depth"], found["position"] = gains.depth, gains.position
-    found["heading"] = gains.heading
-    found["velocity"], found["integral"] = 0.32 / lag, 0.032 / lag**2
-    found["mass"] = np.array(own) + np.diag(added)
-    found["added"] = np.diag(added)
+    added_mass = matrix(body.added_mass) if body else np.zeros((6, 6))
+    inertia = body.inertia[:3] if body and body.inertia else (1.0,) * 3
+    # a commanded wrench gets the thrusts of least error, whatever undriven axes add
+    wrench_axes = WRENCH_AXES if ROLL in allocation.axes else WRENCH_AXES_WITHOUT_ROLL
+    record = np.zeros(1, AUTOPILOT)
+    record["time_constant"] = 2.5 * lag
+    record["depth_gain"], record["position_gain"] = gains.depth, gains.position
+    record["heading_gain"] = gains.heading
+    record["velocity_gain"], record["integral_gain"] = 0.32 / lag, 0.032 / lag**2
+    record["mass"] = np.array([mass, mass, mass, *inertia]) + np.diag(added_mass)
+    record["added_mass"] = np.diag(added_mass)
     if body:
-        found["linear"] = np.diag(matrix(body.linear_damping))
-        found["quadratic"] = np.diag(matrix(body.quadratic_damping))
-        found["reference"] = body.reference
-    for name, axes in (("axes", allocation.axes), ("asked", asked)):
-        found[f"n_{name}"] = len(axes)
-        found[name][0, : len(axes)] = axes
-    found["drives"], found["max_force"] = allocation.drives, allocation.most
-    return found
+        record["linear_damping"] = np.diag(matrix(body.linear_damping))
+        record["quadratic_damping"] = np.diag(matrix(body.quadratic_damping))
+        record["reference_point"] = body.reference
+    for name, axes in (("axes", allocation.axes), ("wrench_axes", wrench_axes)):
+        record[f"n_{name}"] = len(axes)
+        record[name][0, : len(axes)] = axes
+    record["driven_mask"], record["max_forces"] = allocation.driven_mask, allocation.max_forces
+    return record
 
 
 def _thruster_records(
     thrusters: Sequence[ThrusterSpec], allocation: Allocation, autopilot: npt.NDArray[np.void]
 ) -> npt.NDArray[np.void]:
-    """The parameters of the thrusters, (n,)."""
-    n_axes, asked = len(allocation.axes), autopilot["asked"][0, : autopilot["n_asked"][0]].tolist()
-    rows = np.ascontiguousarray(allocation.wrenches[asked])
-    found = np.zeros(len(thrusters), THRUSTER)
-    found["min_thrust"], found["max_thrust"] = allocation.least, allocation.greatest
-    found["share"][:, :n_axes] = allocation.share
-    found["reached"][:, :n_axes] = allocation.reached.T
-    found["nearest"][:, : len(asked)] = pseudo_inverse(rows, rcond=1e-6)
-    for record, thruster in zip(found, thrusters, strict=True):
-        record["thrusts"], record["commands"] = curve(thruster)
-    return found
+    """Return the parameters of the thrusters, (n,)."""
+    n_axes = len(allocation.axes)
+    wrench_axes = autopilot["wrench_axes"][0, : autopilot["n_wrench_axes"][0]].tolist()
+    rows = np.ascontiguousarray(allocation.wrenches[wrench_axes])
+    records = np.zeros(len(thrusters), THRUSTER)
+    records["min_thrust"], records["max_thrust"] = allocation.min_thrusts, allocation.max_thrusts
+    records["allocation"][:, :n_axes] = allocation.allocation_matrix
+    records["wrench"][:, :n_axes] = allocation.driven_wrenches.T
+    records["wrench_allocation"][:, : len(wrench_axes)] = pseudo_inverse(rows, rcond=1e-6)
+    for record, thruster in zip(records, thrusters, strict=True):
+        record["thrusts"], record["commands"] = thrust_curve(thruster)
+    return records

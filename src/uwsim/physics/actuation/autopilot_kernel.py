@@ -12,30 +12,29 @@ from ...base.numerics.jit import njit
 from .records import POSITION, THRUSTERS, WRENCH
 
 MAX_SPEED = 0.5
-"""Greatest speed that position hold commands [m/s]."""
+"""The greatest speed that position hold commands [m/s]."""
 MAX_CLIMB_RATE = 0.3
-"""What depth hold wishes for at most [m/s]."""
-STEEPEST_DIVE = 0.35
-"""Angle at which a vehicle without heave goes up and down at most [rad]."""
-SLOW = 0.3
-"""Speed below which it hardly can [m/s]."""
-LEVEL, STEEP = 0.4363, 0.7854
-"""Lean from which on, and up to which, surge fades out where pitch is not driven: 25 and 45 degrees
-[rad]."""
+"""The greatest climb rate that depth hold commands [m/s]."""
+MAX_PITCH = 0.35
+"""The greatest pitch by which a vehicle without heave changes its depth [rad]."""
+PITCH_SPEED = 0.3
+"""The speed u_0 below which pitch hardly changes the depth [m/s]."""
+FADE_START, FADE_END = 0.4363, 0.7854
+"""The tilts between which surge fades out where pitch is not driven: 25 and 45 degrees [rad]."""
 
 Record = Any
-"""One of `records`."""
+"""A record of `records`."""
 
 
-class Seen(NamedTuple):
-    """The base as its autopilot sees it."""
+class Base(NamedTuple):
+    """The motion of the base that an autopilot controls."""
 
     position: Array
-    """In W, (3,) [m]."""
+    """The position in W, (3,) [m]."""
     rotation: Array
     """``world_from_base``, (3, 3)."""
     velocity: Array
-    """Relative to water or ground, base axes, (6,) [m/s, rad/s]."""
+    """The velocity relative to water or ground, base axes, (6,) [m/s, rad/s]."""
 
 
 @njit
@@ -44,213 +43,213 @@ def steer(
     autopilot: Record,
     state: Record,
     thrusters: Record,
-    own: Array,
-    seen: Seen,
+    thruster_commands: Array,
+    base: Base,
     ctrl: Array,
 ) -> None:
     """Set the commands of the thrusters.
 
     Args:
-        dt: time since the last call [s].
-        autopilot: of `records.AUTOPILOT`.
-        state: of `records.AUTOPILOT_STATE`; moves on.
-        thrusters: of `records.THRUSTER`, (n,).
-        own: commands of the thrusters that somebody gave, (n,) [1].
-        seen: the base.
-        ctrl: the engine's, changed.
+        dt: the time since the last call [s].
+        autopilot: a record of `records.AUTOPILOT`.
+        state: a record of `records.AUTOPILOT_STATE`, which is advanced.
+        thrusters: records of `records.THRUSTER`, (n,).
+        thruster_commands: the commands that are passed on, (n,) [1].
+        base: the motion of the base.
+        ctrl: the engine's controls, which are set.
     """
     state.has_news = 0
     if state.mode == THRUSTERS:
         for k in range(len(thrusters)):
-            ctrl[thrusters[k].control] = own[k]
+            ctrl[thrusters[k].ctrl_address] = thruster_commands[k]
         return
     if state.mode == WRENCH:
-        forces = nearest(autopilot, state, thrusters)
+        thrusts = distribute_wrench(autopilot, state, thrusters)
     else:
         if state.takes_over != 0:
-            take_over(state, seen)
-        forces = loops(dt, autopilot, state, thrusters, seen)
+            set_setpoints(state, base)
+        thrusts = run_loops(dt, autopilot, state, thrusters, base)
     for k in range(len(thrusters)):
-        ctrl[thrusters[k].control] = command(thrusters[k], forces[k])
+        ctrl[thrusters[k].ctrl_address] = thruster_command(thrusters[k], thrusts[k])
 
 
 @njit
-def take_over(state: Record, seen: Seen) -> None:
-    """Hold depth and heading where the vehicle is, and go on from its velocity."""
+def set_setpoints(state: Record, base: Base) -> None:
+    """Set depth, heading and velocity of the vehicle as setpoints."""
     state.takes_over = 0
     for i in range(6):
-        state.model[i] = seen.velocity[i]
-    state.target[2] = seen.position[2]
+        state.model[i] = base.velocity[i]
+    state.target[2] = base.position[2]
     for i in range(3):
         for k in range(3):
-            state.heading[i, k] = seen.rotation[i, k]
+            state.heading[i, k] = base.rotation[i, k]
 
 
 @njit
-def loops(dt: float, autopilot: Record, state: Record, thrusters: Record, seen: Seen) -> Array:
+def run_loops(dt: float, autopilot: Record, state: Record, thrusters: Record, base: Base) -> Array:
     """Return the thrusts that the velocity, depth, heading and position loops command, (n,) [N].
 
-    The arguments are those of `steer`. What follows depth and heading moves on, and the integral of
-    the error, unless thrusters are at their limits.
+    The arguments are those of `steer`. The setpoints of depth and heading advance, and so does the
+    integral of the error, unless thrusters are at their limits.
     """
-    wanted, climb = wishes(dt, autopilot, state, seen)
-    rotation = seen.rotation
+    nu_d, climb_rate = desired_twist(dt, autopilot, state, base)
+    rotation = base.rotation
     up = rotation[2, 2]
-    # W's z in base axes; of a base whose z points down it is the other way round
+    # W's z in base axes; -z for a base whose z points down
     side = 1.0 if up >= 0.0 else -1.0
     x, y, z = side * rotation[2, 0], side * rotation[2, 1], side * rotation[2, 2]
-    lean = math.atan2(-x, z)  # about the base's y
-    dive = 0.0  # the lean wished for
-    if autopilot.drives[4] == 0.0:
-        wanted[0] *= min(max((STEEP - abs(lean)) / (STEEP - LEVEL), 0.0), 1.0)
-    elif autopilot.drives[2] == 0.0:
-        dive = -side * dive_angle(climb, state.wanted[2] * up, seen.velocity[0])
-    speeding = (wanted - state.model) / max(autopilot.lag, dt)
-    model = state.model
-    model += speeding * dt
-    error = model - seen.velocity
-    a, b, c = seen.velocity[3], seen.velocity[4], seen.velocity[5]
-    error[0] -= b * autopilot.reference[2] - c * autopilot.reference[1]
-    error[1] -= c * autopilot.reference[0] - a * autopilot.reference[2]
-    error[2] -= a * autopilot.reference[1] - b * autopilot.reference[0]
-    error[3], error[4] = -a, -b
-    before = state.integral.copy()
+    pitch = math.atan2(-x, z)  # about the base's y
+    desired_pitch = 0.0
+    if autopilot.driven_mask[4] == 0.0:
+        nu_d[0] *= min(max((FADE_END - abs(pitch)) / (FADE_END - FADE_START), 0.0), 1.0)
+    elif autopilot.driven_mask[2] == 0.0:
+        desired_pitch = -side * climb_pitch(climb_rate, state.wanted[2] * up, base.velocity[0])
+    nu_r_dot = (nu_d - state.model) / max(autopilot.time_constant, dt)
+    nu_r = state.model
+    nu_r += nu_r_dot * dt
+    error = nu_r - base.velocity
+    p, q, r = base.velocity[3], base.velocity[4], base.velocity[5]
+    error[0] -= q * autopilot.reference_point[2] - r * autopilot.reference_point[1]
+    error[1] -= r * autopilot.reference_point[0] - p * autopilot.reference_point[2]
+    error[2] -= p * autopilot.reference_point[1] - q * autopilot.reference_point[0]
+    error[3], error[4] = -p, -q
+    start = state.integral.copy()
     integral = state.integral
     integral += error * dt
     integral[3] = integral[4] = 0.0
     for i in range(6):
-        if autopilot.drives[i] == 0.0:
+        if autopilot.driven_mask[i] == 0.0:
             integral[i] = 0.0
-    tau = efforts(autopilot, speeding, error, integral, model, seen.velocity)
-    tau[3] -= autopilot.mass[3] * autopilot.integral * math.atan2(y, z)
-    tau[4] -= autopilot.mass[4] * autopilot.integral * (lean - dive)
-    return given(autopilot, thrusters, tau, error, before, integral)
+    tau = control_force(autopilot, nu_r_dot, error, integral, nu_r, base.velocity)
+    tau[3] -= autopilot.mass[3] * autopilot.integral_gain * math.atan2(y, z)
+    tau[4] -= autopilot.mass[4] * autopilot.integral_gain * (pitch - desired_pitch)
+    return allocate_thrusts(autopilot, thrusters, tau, error, start, integral)
 
 
 @njit
-def wishes(dt: float, autopilot: Record, state: Record, seen: Seen) -> tuple[Array, float]:
+def desired_twist(dt: float, autopilot: Record, state: Record, base: Base) -> tuple[Array, float]:
     """Return the desired twist in base axes, (6,) [m/s, rad/s], and the desired climb rate [m/s].
 
-    Depth and heading to hold move on as commanded.
+    The setpoints of depth and heading advance by the commanded twist nu_c.
     """
-    rotation, position = seen.rotation, seen.position
-    commanded, target, heading = state.wanted, state.target, state.heading
-    wanted = commanded.copy()
+    rotation, position = base.rotation, base.position
+    nu_c, target, heading = state.wanted, state.target, state.heading
+    nu_d = nu_c.copy()
     if state.mode == POSITION:
-        ahead, aside = 0.0, 0.0  # [m]
+        x_error, y_error = 0.0, 0.0  # [m]
         for k in range(3):
-            ahead += rotation[k, 0] * (target[k] - position[k])
-            aside += rotation[k, 1] * (target[k] - position[k])
-        size = autopilot.position * math.hypot(ahead, aside)
-        slowed = autopilot.position * min(1.0, MAX_SPEED / max(size, 1e-9))
-        wanted[0] += slowed * ahead
-        wanted[1] += slowed * aside
+            x_error += rotation[k, 0] * (target[k] - position[k])
+            y_error += rotation[k, 1] * (target[k] - position[k])
+        speed = autopilot.position_gain * math.hypot(x_error, y_error)
+        gain = autopilot.position_gain * min(1.0, MAX_SPEED / max(speed, 1e-9))
+        nu_d[0] += gain * x_error
+        nu_d[1] += gain * y_error
     up = rotation[2, 2]  # how much of W's z lies along the base's z: +-1 when level
-    target[2] += commanded[2] * up * dt
-    climb = autopilot.depth * (target[2] - position[2])
-    wanted[2] += min(max(climb, -MAX_CLIMB_RATE), MAX_CLIMB_RATE) * up
-    cosine, sine = math.cos(commanded[5] * dt), math.sin(commanded[5] * dt)
-    across = along = 0.0  # of the wanted x axis, in the base
+    target[2] += nu_c[2] * up * dt
+    climb_rate = autopilot.depth_gain * (target[2] - position[2])
+    nu_d[2] += min(max(climb_rate, -MAX_CLIMB_RATE), MAX_CLIMB_RATE) * up
+    cosine, sine = math.cos(nu_c[5] * dt), math.sin(nu_c[5] * dt)
+    heading_y = heading_x = 0.0  # the desired x axis, in base axes
     for k in range(3):
         x, y = heading[k, 0], heading[k, 1]
         heading[k, 0], heading[k, 1] = cosine * x + sine * y, cosine * y - sine * x
-        along += rotation[k, 0] * heading[k, 0]
-        across += rotation[k, 1] * heading[k, 0]
-    wanted[5] += autopilot.heading * math.atan2(across, along)
-    return wanted, climb
+        heading_x += rotation[k, 0] * heading[k, 0]
+        heading_y += rotation[k, 1] * heading[k, 0]
+    nu_d[5] += autopilot.heading_gain * math.atan2(heading_y, heading_x)
+    return nu_d, climb_rate
 
 
 @njit
-def dive_angle(climb: float, commanded: float, ahead_speed: float) -> float:
+def climb_pitch(climb_rate: float, commanded_rate: float, u: float) -> float:
     """Return the pitch that gives a vehicle without heave the desired climb rate [rad]."""
-    slope = min(max(climb, -MAX_CLIMB_RATE), MAX_CLIMB_RATE) + commanded
-    slope *= ahead_speed / (ahead_speed * ahead_speed + SLOW * SLOW)
-    return min(max(slope, -STEEPEST_DIVE), STEEPEST_DIVE)
+    gamma = min(max(climb_rate, -MAX_CLIMB_RATE), MAX_CLIMB_RATE) + commanded_rate
+    gamma *= u / (u * u + PITCH_SPEED * PITCH_SPEED)
+    return min(max(gamma, -MAX_PITCH), MAX_PITCH)
 
 
 @njit
-def efforts(
-    autopilot: Record, speeding: Array, error: Array, integral: Array, model: Array, velocity: Array
+def control_force(
+    autopilot: Record, nu_r_dot: Array, error: Array, integral: Array, nu_r: Array, nu: Array
 ) -> Array:
     """Return the force and moment that the velocity loops command, (6,) [N, N m]."""
     tau: Array = autopilot.mass * (
-        speeding + autopilot.velocity * error + autopilot.integral * integral
+        nu_r_dot + autopilot.velocity_gain * error + autopilot.integral_gain * integral
     )
-    tau += autopilot.linear * model + autopilot.quadratic * np.abs(model) * model
-    u, v, w = velocity[0], velocity[1], velocity[2]
-    added = autopilot.added
-    tau[3] += (added[2] - added[1]) * v * w  # the Munk moment v x A v, which turns hulls broadside
-    tau[4] += (added[0] - added[2]) * w * u
-    tau[5] += (added[1] - added[0]) * u * v
+    tau += autopilot.linear_damping * nu_r + autopilot.quadratic_damping * np.abs(nu_r) * nu_r
+    u, v, w = nu[0], nu[1], nu[2]
+    m_a = autopilot.added_mass
+    tau[3] += (m_a[2] - m_a[1]) * v * w  # the Munk moment v x A v, which turns hulls broadside
+    tau[4] += (m_a[0] - m_a[2]) * w * u
+    tau[5] += (m_a[1] - m_a[0]) * u * v
     return tau
 
 
 @njit
-def given(
-    autopilot: Record, thrusters: Record, tau: Array, error: Array, before: Array, integral: Array
+def allocate_thrusts(
+    autopilot: Record, thrusters: Record, tau: Array, error: Array, start: Array, integral: Array
 ) -> Array:
-    """Return the thrusts for a force and moment, (n,) [N], and hold integrals that wind up."""
+    """Return thrusts for a force and moment, (n,) [N]; integrals that wind up stay at ``start``."""
     for i in range(3):
-        held = min(max(tau[i], -autopilot.max_force[i]), autopilot.max_force[i])
-        if (tau[i] - held) * error[i] > 0.0:
-            integral[i] = before[i]
-        tau[i] = held
-    asked = shared(autopilot, thrusters, tau)
-    forces = within_reach(autopilot, thrusters, tau, asked)
+        limited_force = min(max(tau[i], -autopilot.max_forces[i]), autopilot.max_forces[i])
+        if (tau[i] - limited_force) * error[i] > 0.0:
+            integral[i] = start[i]
+        tau[i] = limited_force
+    optimum = distribute_force(autopilot, thrusters, tau)
+    thrusts = reduce_surge_sway(autopilot, thrusters, tau, optimum)
     for i in range(autopilot.n_axes):
-        lacking = 0.0  # force or moment beyond the thrusters' limits
-        for k in range(len(forces)):
-            one = thrusters[k]
-            excess = asked[k] - min(max(forces[k], one.min_thrust), one.max_thrust)
-            lacking += one.reached[i] * excess
-        place = autopilot.axes[i]
-        if lacking * error[place] > 0.0:
-            integral[place] = before[place]
-    return forces
+        shortfall = 0.0  # force or moment beyond the thrusters' limits
+        for k in range(len(thrusts)):
+            thruster = thrusters[k]
+            excess = optimum[k] - min(max(thrusts[k], thruster.min_thrust), thruster.max_thrust)
+            shortfall += thruster.wrench[i] * excess
+        axis = autopilot.axes[i]
+        if shortfall * error[axis] > 0.0:
+            integral[axis] = start[axis]
+    return thrusts
 
 
 @njit
-def within_reach(autopilot: Record, thrusters: Record, tau: Array, asked: Array) -> Array:
+def reduce_surge_sway(autopilot: Record, thrusters: Record, tau: Array, optimum: Array) -> Array:
     """Return the thrusts with surge and sway reduced to what the other axes leave, (n,) [N].
 
-    Who cannot do all keeps upright first, and depth and heading: a pull that is cut off thruster
-    by thruster would turn the vehicle over.
+    Attitude, depth and heading come first: clamping each thruster by itself would turn the vehicle
+    over.
     """
-    still = tau.copy()
-    still[0] = still[1] = 0.0
-    rest = shared(autopilot, thrusters, still)
-    part = 1.0
-    for k in range(len(rest)):
-        way = asked[k] - rest[k]
-        end = thrusters[k].max_thrust if way > 0.0 else thrusters[k].min_thrust
-        if way != 0.0:
-            part = min(part, max((end - rest[k]) / way, 0.0))
-    return rest + part * (asked - rest)
+    other_axes = tau.copy()
+    other_axes[0] = other_axes[1] = 0.0
+    other_thrusts = distribute_force(autopilot, thrusters, other_axes)
+    share = 1.0
+    for k in range(len(other_thrusts)):
+        difference = optimum[k] - other_thrusts[k]
+        limit = thrusters[k].max_thrust if difference > 0.0 else thrusters[k].min_thrust
+        if difference != 0.0:
+            share = min(share, max((limit - other_thrusts[k]) / difference, 0.0))
+    return other_thrusts + share * (optimum - other_thrusts)
 
 
 @njit
-def shared(autopilot: Record, thrusters: Record, tau: Array) -> Array:
-    """Return the thrusts that come nearest to a force and moment (6,), beyond limits too, (n,)."""
-    forces = np.zeros(len(thrusters))
+def distribute_force(autopilot: Record, thrusters: Record, tau: Array) -> Array:
+    """Return the thrusts, not limited, of least error for a force and moment (6,), (n,) [N]."""
+    thrusts = np.zeros(len(thrusters))
     for k in range(len(thrusters)):
         for i in range(autopilot.n_axes):
-            forces[k] += thrusters[k].share[i] * tau[autopilot.axes[i]]
-    return forces
+            thrusts[k] += thrusters[k].allocation[i] * tau[autopilot.axes[i]]
+    return thrusts
 
 
 @njit
-def nearest(autopilot: Record, state: Record, thrusters: Record) -> Array:
-    """Return the thrusts that come nearest to the commanded wrench, beyond limits too, (n,)."""
-    forces = np.zeros(len(thrusters))
+def distribute_wrench(autopilot: Record, state: Record, thrusters: Record) -> Array:
+    """Return the thrusts, not limited, of least error for the commanded wrench, (n,) [N]."""
+    thrusts = np.zeros(len(thrusters))
     for k in range(len(thrusters)):
-        for i in range(autopilot.n_asked):
-            forces[k] += thrusters[k].nearest[i] * state.wrench[autopilot.asked[i]]
-    return forces
+        for i in range(autopilot.n_wrench_axes):
+            thrusts[k] += thrusters[k].wrench_allocation[i] * state.wrench[autopilot.wrench_axes[i]]
+    return thrusts
 
 
 @njit
-def command(thruster: Record, force: float) -> float:
-    """Return a thruster's command for a thrust [N], as far as it reaches [1]."""
+def thruster_command(thruster: Record, force: float) -> float:
+    """Return a thruster's command for a thrust [N], within its limits [1]."""
     x, y = thruster.thrusts, thruster.commands
     j, end = -1, len(x)  # the last point that is not beyond the force
     while end - j > 1:
@@ -259,7 +258,7 @@ def command(thruster: Record, force: float) -> float:
             end = middle
         else:
             j = middle
-    found: float = y[min(max(j, 0), len(y) - 1)]
+    command: float = y[min(max(j, 0), len(y) - 1)]
     if 0 <= j < len(x) - 1:
-        found = y[j] + (y[j + 1] - y[j]) * (force - x[j]) / (x[j + 1] - x[j])
-    return found
+        command = y[j] + (y[j + 1] - y[j]) * (force - x[j]) / (x[j + 1] - x[j])
+    return command

@@ -11,18 +11,18 @@ times the propeller's figure of merit. A duct may lift the figure of merit up to
 
 .. math:: P = c_1 |T| + c_2 |T|^2 + \dots
 
-T is the thrust given: a dead thruster draws nothing, one that lost half of its thrust what a
-healthy one draws for that half.
+T is the present thrust: a dead thruster draws no power. One that lost half of its thrust draws what
+a healthy one draws for that half.
 
-*Joint.* A motor with a gear pays for the work it does and for the current that makes its torque
+*Joint.* A motor with a gear draws power for its work and for the current that makes its torque
 (Spong, Hutchinson and Vidyasagar, *Robot Modeling and Control*, ch. 6: copper loss
 :math:`R i^2`, with :math:`i` in proportion to the torque):
 
 .. math:: P = \frac{\max(0, \tau \omega)}{\eta} + k \tau^2
 
-What the load gives back is lost: there is no regeneration.
+Work of the load on the motor is lost: there is no regeneration.
 
-Not modelled: inflow (a thruster that advances draws otherwise), idling current, the voltage of the
+Not modelled: inflow (it changes the power of a thruster), idling current, the voltage of the
 battery and its own losses, friction of gears at rest.
 """
 
@@ -37,20 +37,20 @@ from ...scene.hydrodynamics.power_checks import greatest_thrust, polynomial
 from ...scene.hydrodynamics.spec import ThrusterSpec
 
 DEFAULT_EFFICIENCY = 0.4
-"""Of a thruster whose file says nothing [1]."""
+"""The efficiency of a thruster whose file does not state one [1]."""
 
 
-def power_table(thruster: ThrusterSpec, density: float, terms: int = 0) -> Array:
-    """Return what `power_kernel.thruster_power` computes with, (2, 1 + n).
+def power_table(thruster: ThrusterSpec, density: float, min_terms: int = 0) -> Array:
+    """Return the coefficients of `power_kernel.thruster_power`, (2, 1 + n).
 
     Args:
-        thruster: its spec.
-        density: of the water [kg/m3].
-        terms: the polynomials have room for so many at least.
+        thruster: the spec of the thruster.
+        density: the density of the water [kg/m3].
+        min_terms: the least number of coefficients of the polynomials.
     """
     forward, backward = thruster.power, thruster.power_backward or thruster.power
-    terms = max(terms, len(forward or ()), len(backward or ()))
-    table = np.zeros((2, 1 + terms))
+    min_terms = max(min_terms, len(forward or ()), len(backward or ()))
+    table = np.zeros((2, 1 + min_terms))
     disc = math.pi * thruster.radius**2
     for row, curve in enumerate((forward, backward)):
         if curve is None:
@@ -65,13 +65,13 @@ def greatest_power(thruster: ThrusterSpec, density: float) -> float:
     """Return the electric power of a thruster at its greatest thrust, forward or backward [W].
 
     Args:
-        thruster: its spec.
-        density: of the water [kg/m3].
+        thruster: the spec of the thruster.
+        density: the density of the water [kg/m3].
     """
     table = power_table(thruster, density)
-    found = []
+    max_powers = []
     for row, forward in enumerate((True, False)):
         thrusts = np.linspace(0.0, greatest_thrust(thruster, forward=forward), 201)
-        law = table[row, 0] * thrusts**1.5
-        found.append(float((law + polynomial(tuple(table[row, 1:]), thrusts)).max()))
-    return max(found)
+        ideal_powers = table[row, 0] * thrusts**1.5
+        max_powers.append(float((ideal_powers + polynomial(tuple(table[row, 1:]), thrusts)).max()))
+    return max(max_powers)

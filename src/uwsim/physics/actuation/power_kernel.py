@@ -15,19 +15,19 @@ from ..hydrodynamics.columns import WATER_COLUMNS
 from ..hydrodynamics.kernel.thrusters import curve
 
 STATE, CONTROL, SITE, BODY, LOSS, INFLOW, ACTUATOR = range(7)
-"""Columns of the rotors' addresses in the engine; a state below 0 is none."""
+"""The columns of the rotors' addresses in the engine; a state below 0 is none."""
 MIN_COMMAND, MAX_COMMAND, RADIUS = range(3)
-"""Columns of the rotors' traits: ends of the command [1], radius [m]."""
-PLACE, DOF, INPUT, SERVO = range(4)
-"""Columns of the motors' addresses in the engine."""
+"""The columns of the rotors' properties: command limits [1], radius [m]."""
+POSITION, DOF, CONTROL_INPUT, SERVO = range(4)
+"""The columns of the motors' addresses in the engine."""
 MAX_EFFORT, EFFICIENCY, COPPER = range(3)
-"""Columns of the motors' traits: greatest effort [N m or N], efficiency [1], copper loss."""
+"""The columns of the motors' properties: effort limit [N m or N], efficiency [1], copper loss."""
 
 Ints = npt.NDArray[np.int64]
 Rotors = tuple[Ints, Array, Array, float, Array, Array, Array, Array]
-"""What `thrusts` takes."""
+"""The arguments of `thrusts`."""
 Motors = tuple[float, Ints, Array, Array, Array, Array, Array, Array, Array]
-"""What `efforts` takes."""
+"""The arguments of `efforts`."""
 
 
 @njit
@@ -35,17 +35,17 @@ def thruster_power(table: Array, thrust: float) -> float:
     """Return the electric power of a thruster at a thrust [N], in watts.
 
     Args:
-        table: forward and backward (2, 1 + n): scale of the law [W/N^1.5], coefficients of the
-            polynomial [W/N, W/N2, ...]; one of them is 0 (`power.power_table`).
-        thrust: given [N].
+        table: forward and backward (2, 1 + n): the factor of the law [W/N^1.5], the coefficients of
+            the polynomial [W/N, W/N2, ...]; one of them is 0 (`power.power_table`).
+        thrust: the present thrust [N].
     """
     size = abs(thrust)
     row = 0 if thrust >= 0.0 else 1
     power = 0.0
     for i in range(table.shape[1] - 1, 0, -1):
         power = (power + table[row, i]) * size
-    drawn: float = max(power + table[row, 0] * size * math.sqrt(size), 0.0)
-    return drawn
+    electric_power: float = max(power + table[row, 0] * size * math.sqrt(size), 0.0)
+    return electric_power
 
 
 @njit
@@ -57,44 +57,44 @@ def joint_power(efficiency: float, copper_loss: float, effort: float, speed: flo
 @njit
 def thrusts(
     rotors: Ints,
-    traits: Array,
+    properties: Array,
     curves: Array,
-    still: float,
+    surface_height: float,
     controls: Array,
     states: Array,
     userdata: Array,
     sites: Array,
 ) -> Array:
-    """Return the thrusts along the thrusters' directions, as the water has it, (n,) [N].
+    """Return the thrusts along the thrusters' directions in the present water, (n,) [N].
 
     Args:
-        rotors: addresses, (n, 7).
-        traits: (n, 3).
+        rotors: the addresses of the rotors, (n, 7).
+        properties: the properties of the rotors, (n, 3).
         curves: the engine's ``actuator_user``.
-        still: height of the still water's surface [m].
-        controls: its ``ctrl``.
-        states: its ``act``.
-        userdata: its ``userdata``.
-        sites: its ``site_xpos``.
+        surface_height: the height of the still water's surface [m].
+        controls: the engine's ``ctrl``.
+        states: the engine's ``act``.
+        userdata: the engine's ``userdata``.
+        sites: the engine's ``site_xpos``.
     """
-    given = np.empty(len(rotors))
+    rotor_thrusts = np.empty(len(rotors))
     for i in range(len(rotors)):
         state, control, site, body, loss, inflow, actuator = rotors[i]
         command = controls[control] if state < 0 else states[state]
-        surface = still + userdata[WATER_COLUMNS * body + 6]
-        wet = 0.5 + 0.5 * (surface - sites[site, 2]) / traits[i, RADIUS]
-        command = min(max(command, traits[i, MIN_COMMAND]), traits[i, MAX_COMMAND])
+        surface = surface_height + userdata[WATER_COLUMNS * body + 6]
+        submerged_fraction = 0.5 + 0.5 * (surface - sites[site, 2]) / properties[i, RADIUS]
+        command = min(max(command, properties[i, MIN_COMMAND]), properties[i, MAX_COMMAND])
         thrust = (1.0 - userdata[loss]) * curve(curves[actuator], command)
         thrust *= 1.0 - userdata[inflow]
-        given[i] = thrust * min(max(wet, 0.0), 1.0)
-    return given
+        rotor_thrusts[i] = thrust * min(max(submerged_fraction, 0.0), 1.0)
+    return rotor_thrusts
 
 
 @njit
 def efforts(
     dt: float,
     motors: Ints,
-    traits: Array,
+    properties: Array,
     gains: Array,
     biases: Array,
     controls: Array,
@@ -104,29 +104,29 @@ def efforts(
 ) -> Array:
     """Return the efforts that acted on the joints in the last step, (m,) [N m or N].
 
-    The engine pulls towards the target from where the joint was, and damps the speed that it has
-    after the step.
+    The engine computes the spring force from the position before the step, and the damping from the
+    velocity after it.
 
     Args:
-        dt: length of the step [s].
-        motors: addresses, (m, 4).
-        traits: (m, 3).
+        dt: the length of the step [s].
+        motors: the addresses of the motors, (m, 4).
+        properties: the properties of the motors, (m, 3).
         gains: the engine's ``actuator_gainprm``.
-        biases: its ``actuator_biasprm``.
-        controls: its ``ctrl``.
-        qpos: its positions.
-        qvel: its velocities.
-        applied: its ``qfrc_applied``.
+        biases: the engine's ``actuator_biasprm``.
+        controls: the engine's ``ctrl``.
+        qpos: the engine's positions.
+        qvel: the engine's velocities.
+        applied: the engine's ``qfrc_applied``.
     """
-    acted = np.empty(len(motors))
+    joint_efforts = np.empty(len(motors))
     for i in range(len(motors)):
-        place, dof, control, servo = motors[i]
-        before = qpos[place] - qvel[dof] * dt
-        pull = gains[servo, 0] * controls[control]
-        pull += biases[servo, 1] * before + biases[servo, 2] * qvel[dof]
-        strongest = traits[i, MAX_EFFORT]
-        acted[i] = min(max(pull, -strongest), strongest) + applied[dof]
-    return acted
+        position, dof, control, servo = motors[i]
+        start_position = qpos[position] - qvel[dof] * dt
+        effort = gains[servo, 0] * controls[control]
+        effort += biases[servo, 1] * start_position + biases[servo, 2] * qvel[dof]
+        max_effort = properties[i, MAX_EFFORT]
+        joint_efforts[i] = min(max(effort, -max_effort), max_effort) + applied[dof]
+    return joint_efforts
 
 
 @njit
@@ -134,46 +134,48 @@ def powers(tables: Array, thrusters: Rotors, joints: Motors) -> Array:
     """Return the electric power of the thrusters, then of the joints, (n + m,) [W].
 
     Args:
-        tables: of `thruster_power`, (n, 2, 1 + k).
-        thrusters: what `thrusts` takes.
-        joints: what `efforts` takes.
+        tables: the tables of `thruster_power`, (n, 2, 1 + k).
+        thrusters: the arguments of `thrusts`.
+        joints: the arguments of `efforts`.
     """
-    given, acted = thrusts(*thrusters), efforts(*joints)
-    _, motors, traits, _, _, _, _, qvel, _ = joints
-    n = len(given)
-    drawn = np.empty(n + len(acted))
+    rotor_thrusts, joint_efforts = thrusts(*thrusters), efforts(*joints)
+    _, motors, properties, _, _, _, _, qvel, _ = joints
+    n = len(rotor_thrusts)
+    watts = np.empty(n + len(joint_efforts))
     for i in range(n):
-        drawn[i] = thruster_power(tables[i], given[i])
-    for i in range(len(acted)):
+        watts[i] = thruster_power(tables[i], rotor_thrusts[i])
+    for i in range(len(joint_efforts)):
         speed = qvel[motors[i, DOF]]
-        drawn[n + i] = joint_power(traits[i, EFFICIENCY], traits[i, COPPER], acted[i], speed)
-    return drawn
+        efficiency, copper_loss = properties[i, EFFICIENCY], properties[i, COPPER]
+        watts[n + i] = joint_power(efficiency, copper_loss, joint_efforts[i], speed)
+    return watts
 
 
 POWERS = np.dtype(
     [
-        *((name, np.int64) for name in ("tables", "n_terms", "rotors", "rotor_traits", "n_rotors")),
-        *((name, np.int64) for name in ("curves", "n_curves", "curve_columns", "controls", "nu")),
-        *((name, np.int64) for name in ("states", "na", "userdata", "n_userdata")),
-        *((name, np.int64) for name in ("sites", "n_sites", "motors", "motor_traits", "n_motors")),
+        *((name, np.int64) for name in ("tables", "n_terms", "rotors", "rotor_properties")),
+        *((name, np.int64) for name in ("n_rotors", "curves", "n_curves", "curve_columns")),
+        *((name, np.int64) for name in ("controls", "nu", "states", "na", "userdata")),
+        *((name, np.int64) for name in ("n_userdata", "sites", "n_sites", "motors")),
+        *((name, np.int64) for name in ("motor_properties", "n_motors")),
         *((name, np.int64) for name in ("gains", "gain_columns", "biases", "bias_columns")),
         *((name, np.int64) for name in ("qpos", "nq", "qvel", "applied", "nv")),
-        ("still", np.float64),  # height of the still water's surface [m]
+        ("surface_height", np.float64),  # the height of the still water's surface [m]
         ("timestep", np.float64),  # [s]
     ]
 )
-"""Addresses and lengths of the arrays that `powers` takes."""
+"""The addresses and lengths of the arguments of `powers`."""
 
 
 def powers_record(tables: Array, thrusters: Rotors, joints: Motors) -> npt.NDArray[np.void]:
-    """Return the record of `POWERS` of what `powers` takes, (1,); the arrays have to live on."""
-    rotors, traits, curves, still, controls, states, userdata, sites = thrusters
-    dt, motors, motor_traits, gains, biases, _, qpos, qvel, applied = joints
+    """Return a record of `POWERS` for these arguments of `powers`, which must live on, (1,)."""
+    rotors, rotor_properties, curves, surface_height, controls, states, userdata, sites = thrusters
+    dt, motors, motor_properties, gains, biases, _, qpos, qvel, applied = joints
     row = np.zeros(1, POWERS)
     arrays = {
-        "tables": tables, "rotors": rotors, "rotor_traits": traits, "curves": curves,
+        "tables": tables, "rotors": rotors, "rotor_properties": rotor_properties, "curves": curves,
         "controls": controls, "states": states, "userdata": userdata, "sites": sites,
-        "motors": motors, "motor_traits": motor_traits, "gains": gains, "biases": biases,
+        "motors": motors, "motor_properties": motor_properties, "gains": gains, "biases": biases,
         "qpos": qpos, "qvel": qvel, "applied": applied,
     }  # fmt: skip
     for name, array in arrays.items():
@@ -185,19 +187,19 @@ def powers_record(tables: Array, thrusters: Rotors, joints: Motors) -> npt.NDArr
     row["nu"], row["na"], row["n_userdata"] = len(controls), len(states), len(userdata)
     row["n_sites"], row["gain_columns"] = len(sites), gains.shape[1]
     row["bias_columns"], row["nq"], row["nv"] = biases.shape[1], len(qpos), len(qvel)
-    row["still"], row["timestep"] = still, dt
+    row["surface_height"], row["timestep"] = surface_height, dt
     return row
 
 
 def write_powers(parameters: int, values: int, time: float) -> None:
-    """Write what `powers` returns; see `uwsim.base.numerics.calls`."""
+    """Write the values of `powers`; see `uwsim.base.numerics.calls`."""
     p = carray(pointer(parameters), (1,), POWERS)[0]
     n, m, controls = p.n_rotors, p.n_motors, view_doubles(p.controls, p.nu)
     rotors = (
-        view_int64s(p.rotors, 7 * n).reshape((n, 7)),
-        view_doubles(p.rotor_traits, 3 * n).reshape((n, 3)),
-        view_doubles(p.curves, p.n_curves * p.curve_columns).reshape((p.n_curves, p.curve_columns)),
-        p.still,
+        longs(p.rotors, 7 * n).reshape((n, 7)),
+        floats(p.rotor_properties, 3 * n).reshape((n, 3)),
+        floats(p.curves, p.n_curves * p.curve_columns).reshape((p.n_curves, p.curve_columns)),
+        p.surface_height,
         controls,
         view_doubles(p.states, p.na),
         view_doubles(p.userdata, p.n_userdata),
@@ -205,10 +207,10 @@ def write_powers(parameters: int, values: int, time: float) -> None:
     )
     motors = (
         p.timestep,
-        view_int64s(p.motors, 4 * m).reshape((m, 4)),
-        view_doubles(p.motor_traits, 3 * m).reshape((m, 3)),
-        view_doubles(p.gains, p.n_curves * p.gain_columns).reshape((p.n_curves, p.gain_columns)),
-        view_doubles(p.biases, p.n_curves * p.bias_columns).reshape((p.n_curves, p.bias_columns)),
+        longs(p.motors, 4 * m).reshape((m, 4)),
+        floats(p.motor_properties, 3 * m).reshape((m, 3)),
+        floats(p.gains, p.n_curves * p.gain_columns).reshape((p.n_curves, p.gain_columns)),
+        floats(p.biases, p.n_curves * p.bias_columns).reshape((p.n_curves, p.bias_columns)),
         controls,
         view_doubles(p.qpos, p.nq),
         view_doubles(p.qvel, p.nv),

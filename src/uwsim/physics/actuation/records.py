@@ -6,34 +6,34 @@ import numpy as np
 
 from .allocation import N_POINTS
 
-_FLAG, _PLACE, _NUMBER = np.int64, np.int64, np.float64
+_FLAG, _INDEX, _FLOAT = np.int64, np.int64, np.float64
 
 VELOCITY, POSITION, WRENCH, THRUSTERS = range(4)
-"""Modes of an autopilot."""
+"""The modes of an autopilot."""
 
 AUTOPILOT = np.dtype(
     [
-        ("place", _PLACE),  # of the base in qpos
-        ("dof", _PLACE),  # of the base among the degrees of freedom
-        ("body", _PLACE),  # the base
-        ("is_over_ground", _FLAG),  # whether its velocity loop is over ground
-        ("lag", _NUMBER),  # with which the model goes after what is wanted [s]
-        ("depth", _NUMBER),  # gains, as in `autopilot.Gains` [1/s]
-        ("position", _NUMBER),
-        ("heading", _NUMBER),
-        ("velocity", _NUMBER),  # of the velocity loops [1/s]
-        ("integral", _NUMBER),  # [1/s2]
-        ("mass", _NUMBER, (6,)),  # and added mass along the axes [kg, kg m2]
-        ("added", _NUMBER, (6,)),  # the added mass of it [kg, kg m2]
-        ("linear", _NUMBER, (6,)),  # damping along the axes
-        ("quadratic", _NUMBER, (6,)),
-        ("reference", _NUMBER, (3,)),  # what forces and velocities are about, base axes [m]
-        ("n_axes", _PLACE),
-        ("axes", _PLACE, (6,)),  # of the forces and moments that the thrusters are to give
-        ("n_asked", _PLACE),
-        ("asked", _PLACE, (6,)),  # the same of a commanded wrench
-        ("drives", _NUMBER, (6,)),  # 1 for each axis that the thrusters drive, 0 for the others
-        ("max_force", _NUMBER, (6,)),  # force of an axis at most, lest the hull leans [N]
+        ("qpos_address", _INDEX),  # of the base's pose in qpos
+        ("dof_address", _INDEX),  # of the base among the degrees of freedom
+        ("body", _INDEX),  # the engine's number of the base
+        ("is_over_ground", _FLAG),  # true if its velocity loops use the velocity over ground
+        ("time_constant", _FLOAT),  # of the reference model [s]
+        ("depth_gain", _FLOAT),  # gains, as in `autopilot.Gains` [1/s]
+        ("position_gain", _FLOAT),
+        ("heading_gain", _FLOAT),
+        ("velocity_gain", _FLOAT),  # k_v [1/s]
+        ("integral_gain", _FLOAT),  # k_i [1/s2]
+        ("mass", _FLOAT, (6,)),  # mass and added mass along the axes [kg, kg m2]
+        ("added_mass", _FLOAT, (6,)),  # [kg, kg m2]
+        ("linear_damping", _FLOAT, (6,)),  # along the axes
+        ("quadratic_damping", _FLOAT, (6,)),
+        ("reference_point", _FLOAT, (3,)),  # of forces and velocities, base axes [m]
+        ("n_axes", _INDEX),
+        ("axes", _INDEX, (6,)),  # the driven axes
+        ("n_wrench_axes", _INDEX),
+        ("wrench_axes", _INDEX, (6,)),  # the axes of a commanded wrench
+        ("driven_mask", _FLOAT, (6,)),  # 1 for each driven axis, 0 for the others
+        ("max_forces", _FLOAT, (6,)),  # the greatest force of each axis that limits the tilt [N]
     ],
     align=True,
 )
@@ -42,14 +42,14 @@ AUTOPILOT = np.dtype(
 AUTOPILOT_STATE = np.dtype(
     [
         ("mode", _FLAG),
-        ("has_news", _FLAG),  # whether forces or thrusts were commanded and not given yet
-        ("takes_over", _FLAG),  # whether depth and heading are still to be taken from the pose
-        ("wanted", _NUMBER, (6,)),  # the twist asked for, base axes [m/s, rad/s]
-        ("model", _NUMBER, (6,)),  # the velocity that is followed [m/s, rad/s]
-        ("integral", _NUMBER, (6,)),  # of the error [m, rad]
-        ("target", _NUMBER, (3,)),  # position and height to hold, W [m]
-        ("heading", _NUMBER, (3, 3)),  # world_from_base whose yaw is to be held
-        ("wrench", _NUMBER, (6,)),  # force and moment about the reference [N, N m]
+        ("has_news", _FLAG),  # a wrench or thrusts were commanded and are not carried out yet
+        ("takes_over", _FLAG),  # the setpoints of depth and heading are not set yet
+        ("wanted", _FLOAT, (6,)),  # the commanded twist, base axes [m/s, rad/s]
+        ("model", _FLOAT, (6,)),  # the velocity of the reference model [m/s, rad/s]
+        ("integral", _FLOAT, (6,)),  # of the velocity error [m, rad]
+        ("target", _FLOAT, (3,)),  # setpoint of the position, W [m]
+        ("heading", _FLOAT, (3, 3)),  # world_from_base whose yaw is the setpoint
+        ("wrench", _FLOAT, (6,)),  # the commanded force and moment about the reference [N, N m]
     ],
     align=True,
 )
@@ -57,37 +57,37 @@ AUTOPILOT_STATE = np.dtype(
 
 THRUSTER = np.dtype(
     [
-        ("control", _PLACE),  # its place in ctrl
-        ("min_thrust", _NUMBER),  # thrust [N]
-        ("max_thrust", _NUMBER),  # [N]
-        ("share", _NUMBER, (6,)),  # thrust for a unit of each driven axis
-        ("reached", _NUMBER, (6,)),  # the other way: of each driven axis for a newton
-        ("nearest", _NUMBER, (6,)),  # thrust for a unit of each axis of a commanded wrench
-        ("thrusts", _NUMBER, (N_POINTS,)),  # points of its curve, rising [N]
-        ("commands", _NUMBER, (N_POINTS,)),  # that give them [1]
+        ("ctrl_address", _INDEX),  # of its command in ctrl
+        ("min_thrust", _FLOAT),  # [N]
+        ("max_thrust", _FLOAT),  # [N]
+        ("allocation", _FLOAT, (6,)),  # thrust for a unit of each driven axis
+        ("wrench", _FLOAT, (6,)),  # along each driven axis for a newton
+        ("wrench_allocation", _FLOAT, (6,)),  # thrust for a unit of each axis of a commanded wrench
+        ("thrusts", _FLOAT, (N_POINTS,)),  # points of its curve, in rising order [N]
+        ("commands", _FLOAT, (N_POINTS,)),  # the commands that give them [1]
     ],
     align=True,
 )
-"""A thruster as an autopilot knows it."""
+"""The parameters of a thruster for an autopilot."""
 
-OWN, GEARED, CRANKED = range(3)
-"""What a joint's position follows from: its own value, that of another, or a slider crank's."""
+OWN_VALUE, GEAR_RATIO, SLIDER_CRANK = range(3)
+"""The sources of a joint's position: its own value, that of another joint, or a slider crank's."""
 
 JOINT = np.dtype(
     [
-        ("place", _PLACE),  # in qpos
-        ("dof", _PLACE),  # among the degrees of freedom
-        ("control", _PLACE),  # in ctrl
+        ("qpos_address", _INDEX),  # of the position in qpos
+        ("dof_address", _INDEX),  # among the degrees of freedom
+        ("ctrl_address", _INDEX),  # in ctrl
         ("kind", _FLAG),
-        ("leader", _PLACE),  # number of the joint that it mimics; below 0 none
-        ("multiplier", _NUMBER),
-        ("offset", _NUMBER),
-        ("lower", _NUMBER),  # [rad or m]
-        ("upper", _NUMBER),
-        ("stiffness", _NUMBER),  # of its servo [N m/rad or N/m]
-        ("damping", _NUMBER),
-        ("max_effort", _NUMBER),  # greatest effort [N m or N]
-        ("max_speed", _NUMBER),  # greatest speed of the target [rad/s or m/s]
+        ("leader", _INDEX),  # the index of the joint that it mimics; below 0 none
+        ("multiplier", _FLOAT),
+        ("offset", _FLOAT),
+        ("lower", _FLOAT),  # [rad or m]
+        ("upper", _FLOAT),
+        ("stiffness", _FLOAT),  # of its servo [N m/rad or N/m]
+        ("damping", _FLOAT),
+        ("max_effort", _FLOAT),  # [N m or N]
+        ("max_speed", _FLOAT),  # of the target [rad/s or m/s]
     ],
     align=True,
 )
@@ -95,13 +95,13 @@ JOINT = np.dtype(
 
 JOINT_STATE = np.dtype(
     [
-        ("is_on", _FLAG),  # whether the servo is
-        ("wanted", _NUMBER),  # where the target is to go [rad or m]; of what mimics nothing
-        ("speed", _NUMBER),  # at which that moves on [rad/s or m/s]
-        ("aim", _NUMBER),  # that within the limits, and for what mimics, too
-        ("target", _NUMBER),  # where the target is now
-        ("step", _NUMBER),  # how far it was moved last
-        ("integral", _NUMBER),  # effort over stiffness for what the servo cannot know [rad or m]
+        ("is_on", _FLAG),  # true if the servo is on
+        ("wanted", _FLOAT),  # the requested position [rad or m]; of joints that do not mimic
+        ("speed", _FLOAT),  # of the requested position [rad/s or m/s]
+        ("aim", _FLOAT),  # the requested position within the limits, of joints that mimic, too
+        ("target", _FLOAT),  # the present target of the servo
+        ("step", _FLOAT),  # the last change of the target
+        ("integral", _FLOAT),  # effort over stiffness for unknown loads [rad or m]
     ],
     align=True,
 )

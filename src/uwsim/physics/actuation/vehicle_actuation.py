@@ -18,7 +18,7 @@ from ...scene.urdf.robot import RobotSpec
 from ..poses import Poses
 from .actuators import Actuators
 from .allocation import thrusters_on_base
-from .autopilot import Autopilot, AutopilotModel, AutopilotState, Seat, autopilot_model
+from .autopilot import Autopilot, AutopilotModel, AutopilotState, BaseAddresses, autopilot_model
 from .servos import Servos, ServosState
 
 if TYPE_CHECKING:
@@ -27,25 +27,25 @@ if TYPE_CHECKING:
 
 @dataclass(slots=True)
 class ActuationState(Record):
-    """What the actuation of a vehicle does."""
+    """The state of the actuation of a vehicle."""
 
     autopilot: AutopilotState
-    """What its autopilot does."""
+    """The state of the autopilot."""
     servos: ServosState
-    """What the servos of its joints do."""
+    """The state of the joints' servos."""
 
 
 class VehicleActuation:
-    """The actuation of the vehicle number ``index``.
+    """The actuation of one simulated vehicle.
 
     Args:
-        index: its number in the scene.
-        autopilot: what its autopilot knows of it.
+        index: the number of the vehicle in the scene.
+        autopilot: the parameters of its autopilot.
         robot: its links and joints.
-        dynamics: what its hydrodynamics file says.
+        dynamics: its hydrodynamics.
         data: the engine's state.
-        water: around it.
-        poses: where it is.
+        water: the hydrodynamics of the engine.
+        poses: the poses of all bodies.
     """
 
     def __init__(
@@ -61,21 +61,21 @@ class VehicleActuation:
         self._index, self._robot, self._dynamics = index, robot, dynamics
         self._data, self._water, self._refresh = data, water, poses.refresh
         self.thrusters = tuple(thruster.name for thruster in dynamics.thrusters)
-        """Names of its thrusters, in the order of its hydrodynamics file."""
+        """The names of its thrusters, in the order of its hydrodynamics file."""
         self.fins = tuple(fin.name for fin in dynamics.fins)
-        """Names of its fins, in that order."""
-        self._thrusters = [water.thruster(vehicle_thruster(index, one)) for one in self.thrusters]
+        """The names of its fins, in that order."""
+        self._thrusters = [water.thruster(vehicle_thruster(index, name)) for name in self.thrusters]
         self._fins = [vehicle_fin(index, name) for name in self.fins]
         self.servos = Servos(water.model, data, robot, index)
-        """Those of its joints."""
+        """The servos of its joints."""
         self.autopilot = Autopilot(autopilot)
-        """What steers it."""
+        """The autopilot of the vehicle."""
         self.state = ActuationState(self.autopilot.state, self.servos.state)
-        """What they do."""
+        """The state of autopilot and servos."""
         self.autopilot.hold(poses.vehicle(index))
 
     def hold(self, world_from_base: Pose) -> None:
-        """Stop the thrusters, put the fins at 0, and hold depth and heading here."""
+        """Stop the thrusters, set the fins to 0, and hold the present depth and heading."""
         for thruster in self._thrusters:
             self._water.stop_thruster(self._data, thruster)
         for fin in self._fins:
@@ -83,7 +83,7 @@ class VehicleActuation:
         self.autopilot.hold(world_from_base)
 
     def turn_fins(self, angles: Array) -> None:
-        """Let its fins turn to these angles, (n,) [rad]."""
+        """Command the angles of the fins, (n,) [rad]."""
         for fin, angle in zip(self._fins, angles.tolist(), strict=True):
             self._water.turn_fin(self._data, fin, angle)
 
@@ -95,9 +95,9 @@ class VehicleActuation:
         model = self._water.model
         actuators = [self._water.thrusters[number] for number in self._thrusters]
         lower, upper = model.actuator_ctrlrange[actuators].T
-        largest = np.maximum(np.abs(lower), np.abs(upper))
-        given = np.clip(self._data.ctrl[model.actuator_ctrladr[actuators]], lower, upper)
-        shares: Array = given / np.where(largest > 0.0, largest, 1.0)
+        max_commands = np.maximum(np.abs(lower), np.abs(upper))
+        commands = np.clip(self._data.ctrl[model.actuator_ctrladr[actuators]], lower, upper)
+        shares: Array = commands / np.where(max_commands > 0.0, max_commands, 1.0)
         return shares
 
     def set_loss(self, thruster: int, loss: float) -> None:
@@ -117,43 +117,43 @@ class VehicleActuation:
         )
 
 
-def actuation_of(
+def make_actuation(
     scene_model: SceneModel, data: mujoco.MjData, water: Hydrodynamics | None, poses: Poses
 ) -> dict[int, VehicleActuation]:
-    """The actuation of every simulated vehicle, by its number; none without water."""
+    """Return the actuation of every simulated vehicle, by its number; empty without water."""
     if water is None:
         return {}
     robots, autopilots = scene_model.robots, scene_model.compute_once(_autopilot_models)
     return {
-        i: VehicleActuation(i, autopilots[i], robots[i], one, data, water, poses)
-        for i, one in scene_model.dynamics.items()
+        i: VehicleActuation(i, autopilots[i], robots[i], dynamics, data, water, poses)
+        for i, dynamics in scene_model.dynamics.items()
     }
 
 
 def _autopilot_models(scene_model: SceneModel) -> dict[int, AutopilotModel]:
-    """Return what the autopilot of each simulated vehicle knows of it, by its number."""
+    """Return the parameters of the autopilot of each simulated vehicle, by its number."""
     model = scene_model.engine_model
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
-    found = {}
+    models = {}
     for index, dynamics in scene_model.dynamics.items():
         vehicle, robot = scene_model.scene.vehicles[index], scene_model.robots[index]
         base = model.body(vehicle_body(index, robot.root)).id
-        free = model.joint(vehicle_joint(index, ""))
+        free_joint = model.joint(vehicle_joint(index, ""))
         names = [vehicle_thruster(index, thruster.name) for thruster in dynamics.thrusters]
         up = data.xmat[base, 6:]  # W's z in the base's frame, (3,)
-        found[index] = autopilot_model(
+        models[index] = autopilot_model(
             dynamics,
             robot.root,
             float(model.body_subtreemass[base]),
-            Seat(
-                place=int(free.qposadr[0]),
-                dof=int(free.dofadr[0]),
+            BaseAddresses(
+                qpos_address=int(free_joint.qposadr[0]),
+                dof_address=int(free_joint.dofadr[0]),
                 body=base,
-                controls=[int(model.actuator_ctrladr[model.actuator(n).id]) for n in names],
+                ctrl_addresses=[int(model.actuator_ctrladr[model.actuator(n).id]) for n in names],
                 is_over_ground=vehicle.velocity_loop == "ground",
             ),
             stiffness=balance_of(robot, dynamics, vehicle.joint_values).stiffness(up),
             thrusters=thrusters_on_base(robot, dynamics.thrusters, vehicle.joint_values),
         )
-    return found
+    return models
