@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from uwsim.physics.kinematics.jumps import MAX_JUMP, MAX_JUMP_SPEED, JumpTimes, without_placement
+from uwsim.physics.kinematics.jumps import MAX_JUMP, MAX_JUMP_SPEED, JumpTimes, jump_velocity
 
 
 @pytest.mark.parametrize("timestep", [0.001, 0.002, 0.02, 0.3, 2.0])
 def test_a_jump_takes_the_time_since_the_one_before_and_a_second_at_most(timestep: float) -> None:
     longest = max(1, round(MAX_JUMP / timestep))
-    times = JumpTimes(timestep, last=0)
+    times = JumpTimes(timestep, last_step=0)
     assert times.n_steps == 0
     step = 0
     for pause in (1, 2, longest - 1, longest, longest + 1, 10 * longest, 1):
@@ -34,7 +34,7 @@ def test_the_first_jump_of_what_was_placed_long_ago_takes_a_second() -> None:
 
 
 def test_several_jumps_in_a_step_take_a_step() -> None:
-    times = JumpTimes(0.01, last=0)
+    times = JumpTimes(0.01, last_step=0)
     times.add(4)
     times.add(4)
     assert times.n_steps == 1
@@ -46,4 +46,4 @@ def test_several_jumps_in_a_step_take_a_step() -> None:
 )
 def test_what_is_faster_than_a_body_moves_is_a_placement(speed: float, is_motion: bool) -> None:
     velocity = np.array([speed, 0.0, -1.0])
-    assert np.array_equal(without_placement(velocity, speed), velocity * is_motion)
+    assert np.array_equal(jump_velocity(velocity, speed), velocity * is_motion)

@@ -100,7 +100,7 @@ class Engine:
         """Bodies that begin in the ground, on their way out of it."""
         self._uwsim_physics = UwsimPhysics(scene, model, data) if scene.has_uwsim_physics else None
         self.state = EngineState(
-            memory=EngineMemory(data, self.contacts.forget),
+            memory=EngineMemory(data, self.contacts.clear_cache),
             model=ModelState.of(model),
             n_steps=0,
             actuation={i: each.state for i, each in self.actuation.items()},
@@ -181,7 +181,7 @@ class Engine:
         finally:
             self.state.n_steps = self._stepper.n_steps
         self.lift.end_step()
-        self.contacts.look_again(hold=True)
+        self.contacts.invalidate(are_current=True)
         self.poses.moved()
         return is_sampled
 
@@ -217,7 +217,7 @@ class Engine:
             self._bounces.apply()
         self.state.n_steps += 1
         self._check.end_if_warned(self.state.n_steps)
-        self.contacts.look_again(hold=True)
+        self.contacts.invalidate(are_current=True)
         self.poses.moved()
 
     def deep_at_start(self, depth: float) -> list[tuple[Kind, int]]:
@@ -260,7 +260,7 @@ class Engine:
         if index in self.actuation:
             self._data.qvel[dof : dof + 6] = 0.0
             self.actuation[index].hold(world_from_base)
-            self.contacts.look_again(hold=False)
+            self.contacts.invalidate(are_current=False)
         self.poses.moved()
 
     def drift(self, drift: DriftFunction, time: float) -> None:

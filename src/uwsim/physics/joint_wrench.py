@@ -33,7 +33,7 @@ from .collision.contact_wrench import rotate_wrench
 from .hydrodynamics import callback
 from .hydrodynamics.kernel import fields as f
 from .hydrodynamics.kernel.kernel import water_wrenches
-from .kinematics.link_kernel import MOUNT, mounted_frame
+from .kinematics.link_kernel import MOUNT, write_frame
 from .poses import Mount, Poses
 
 FUNCTIONS = ("mj_kinematics", "mj_comPos", "mj_comVel", "mj_rnePostConstraint")
@@ -127,7 +127,7 @@ def sample_joint(parameters: int, values: int, time: float) -> None:
     """Compute a joint wrench; see `uwsim.base.numerics.calls`."""
     joint = carray(pointer(parameters), (1,), JOINT_WRENCH)[0]
     frame, wrench = np.empty(12), np.zeros(6)
-    mounted_frame(carray(pointer(joint.mount), (1,), MOUNT)[0], frame)
+    write_frame(carray(pointer(joint.mount), (1,), MOUNT)[0], frame)
     if joint.workspace != 0:
         space = carray(pointer(joint.workspace), (1,), WORKSPACE)[0]
         compute_wrench(space, joint.body, frame, wrench)

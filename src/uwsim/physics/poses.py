@@ -14,7 +14,7 @@ from ..base.numerics.linear import product, rotate, world_positions
 from ..base.record import Record
 from ..model.body_names import object_body, vehicle_body
 from ..model.scene_model import SceneModel
-from .kinematics.link_kernel import MOUNT, frame_of, stretch
+from .kinematics.link_kernel import MOUNT, compute_frame, scaled_axes
 
 Mount = npt.NDArray[np.void]
 """A record of `link_kernel.MOUNT`, (1,)."""
@@ -117,7 +117,7 @@ class Poses:
         frame = pose.matrix
         if index in self._scales:
             base, scale = self.vehicle(index).rotation, np.array(self._scales[index])
-            frame[:3, :3] = stretch(base, pose.rotation, scale)
+            frame[:3, :3] = scaled_axes(base, pose.rotation, scale)
         return frame
 
     def mount(self, index: int, link: str, link_from_part: Pose) -> Mount:
@@ -140,7 +140,7 @@ class Poses:
     def mounted(self, mount: Mount) -> Pose:
         """Return where a part on a link is; the vehicle's scale moves it and does not turn it."""
         self.refresh()
-        frame = frame_of(mount)
+        frame = compute_frame(mount)
         return Pose(frame[:3], frame[3:].reshape(3, 3))
 
     def object(self, index: int) -> Pose:

@@ -25,7 +25,7 @@ from ..base.numerics.linear import rotate
 from ..base.record import Record
 from ..scene.object import PhysicsSpec
 from ..scene.spec import SceneSpec
-from .kinematics.jumps import JumpState, JumpTimes, without_placement
+from .kinematics.jumps import JumpState, JumpTimes, jump_velocity
 
 HEAVY = 1e4
 """Mass and inertia of a vehicle's links: nothing that is loose moves them [kg, kg m2]."""
@@ -134,7 +134,7 @@ class _KinematicVehicle:
         widths = np.diff([*model.jnt_qposadr.tolist(), model.nq])  # of each joint's position
         self._q = np.flatnonzero(np.isin(np.repeat(np.arange(model.njnt), widths), joints))
         self._v = np.flatnonzero(np.isin(model.dof_jntid, joints))
-        self._jumps = JumpTimes(model.opt.timestep, last=0)
+        self._jumps = JumpTimes(model.opt.timestep, last_step=0)
         now, speed = data.qpos[self._q].copy(), np.zeros(len(self._v))
         self.state = DisplacedState(now, speed, 0, self._jumps.state)
 
@@ -165,4 +165,4 @@ class _KinematicVehicle:
         speed = np.zeros(self._model.nv)
         mujoco.mj_differentiatePos(self._model, speed, self._jumps.duration, before, after)
         own: Array = speed[self._v]
-        return without_placement(own, float(np.abs(own).max(initial=0.0)))
+        return jump_velocity(own, float(np.abs(own).max(initial=0.0)))

@@ -50,8 +50,8 @@ class MountedBody:
     def functions(self) -> npt.NDArray[np.void]:
         """Its functions for compiled code: a record of `uwsim.world.mounts.MOUNT`, (1,)."""
         functions = np.zeros(1, MOUNT)
-        functions["place"] = function_address(link_kernel.place_mount)
-        functions["move"] = function_address(link_kernel.move_mount)
+        functions["place"] = function_address(link_kernel.write_mount_frame)
+        functions["move"] = function_address(link_kernel.write_mount_motion)
         functions["parameters"] = address_of(self._mount)
         return functions
 
@@ -122,7 +122,9 @@ class MovingBody(MountedBody):
         link, point = self._link, self.world_from_body.position
         if (led := link.led()) is not None:
             led.update(link.step())
-        return link.motion.of(link.body, point, led=None if led is None else link.index)
+        return link.motion.point_motion(
+            link.body, point, vehicle=None if led is None else link.index
+        )
 
 
 class CompiledVehicle:

@@ -169,7 +169,7 @@ class SceneVehicle:
     def _rest_at(self, world_from_base: Pose) -> None:
         self._engine.place_vehicle(self.index, world_from_base)
         if self._placed is not None:
-            self._placed.rest()
+            self._placed.record_at_rest()
 
     def _centre_of(self, world_from_base: Pose) -> tuple[Sequence[float], Sequence[float]] | None:
         """What it is displaced from where it is displaced to a pose now; None: never displaced."""

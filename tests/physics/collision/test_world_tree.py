@@ -8,7 +8,7 @@ import pytest
 
 from uwsim.physics.collision.world_tree import (
     MAX_DEPTH,
-    PLACED,
+    N_LISTED_SHAPES,
     place_fixed_shapes,
     rebuild_world_tree,
 )
@@ -93,7 +93,7 @@ def test_placed_for_good_fixed_shapes_are_met_just_as_before() -> None:
     everywhere = mujoco.MjData(model)
     expected = fallen(model, everywhere, 200)
     place_fixed_shapes(model, known)
-    assert model.body_geomnum[0] == PLACED
+    assert model.body_geomnum[0] == N_LISTED_SHAPES
     state = mujoco.mjtState.mjSTATE_INTEGRATION
     start = np.empty(mujoco.mj_stateSize(model, state))
     mujoco.mj_getState(model, known, start, state)

@@ -60,7 +60,7 @@ def test_every_link_moves_as_the_engine_says_to_the_bit(seed: int) -> None:
     assert len(links) > 5
     for link in links:
         body, point = engine.poses.link_body(0, link), random.normal(size=3)
-        found = numbers(engine.link_motion.of(body, point))
+        found = numbers(engine.link_motion.point_motion(body, point))
         assert found.tobytes() == by_mujoco(simulation, body, point).tobytes(), link
 
 
@@ -74,7 +74,7 @@ def test_velocities_and_accelerations_are_differences_of_places() -> None:
     engine.poses.refresh()
     on_link = np.array([0.1, -0.2, 0.3])
     point = data.xpos[body] + data.xmat[body].reshape(3, 3) @ on_link
-    motion = engine.link_motion.of(body, point)
+    motion = engine.link_motion.point_motion(body, point)
     places, begin, dt = [], data.qpos.copy(), 1e-4
     for step in (-1, 0, 1):
         data.qpos[:] = begin
@@ -88,15 +88,18 @@ def test_velocities_and_accelerations_are_differences_of_places() -> None:
 
 def test_what_has_no_joint_is_at_rest() -> None:
     engine = moving(1).world.engine
-    assert not numbers(engine.link_motion.of(0, np.ones(3))).any()
+    assert not numbers(engine.link_motion.point_motion(0, np.ones(3))).any()
 
 
 def test_joints_that_are_led_move_as_they_are_led() -> None:
     simulation = moving(2)
     engine = simulation.world.engine
     motion = LinkMotion(engine._model, engine._data, engine.poses)
-    speeds, _ = motion.led(0)
+    speeds, _ = motion.kinematic_motion(0)
     speeds[:] = 2.0 * engine._data.qvel
     body = engine.poses.link_body(0, simulation.world.model.robots[0].links[-1].name)
-    led, own = motion.of(body, np.ones(3), led=0), motion.of(body, np.ones(3))
+    led, own = (
+        motion.point_motion(body, np.ones(3), vehicle=0),
+        motion.point_motion(body, np.ones(3)),
+    )
     assert led.velocity == pytest.approx(2.0 * own.velocity, rel=1e-12)

@@ -18,7 +18,7 @@ from uwsim.base.geometry import Pose
 from uwsim.checks import check_file
 from uwsim.checks.model.starts import Starts
 from uwsim.model.resolved_scene import ResolvedScene
-from uwsim.physics.kinematics.lift import SPEED
+from uwsim.physics.kinematics.lift import LIFT_SPEED
 from uwsim.scene.object import ObjectSpec
 from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import SceneSpec
@@ -60,7 +60,7 @@ def test_a_box_that_begins_in_the_ground_is_lifted_slowly(
     for _ in range(40):
         simulation.advance(0.1)
         heights.append(height(simulation))
-    assert np.diff(heights).max() < 1.1 * SPEED * 0.1
+    assert np.diff(heights).max() < 1.1 * LIFT_SPEED * 0.1
     x, y, z = simulation.world.bodies.find("thing").world_from_body.position
     assert z > relief(x, y) - 0.05
     assert max(heights) < float(relief(0.3, 0.2)) + 1.5 * HEIGHT  # and then it may roll down
@@ -205,5 +205,5 @@ def test_an_object_of_the_original_s_physics_is_lifted_too_and_check_warns(
         for _ in range(50):
             simulation.advance(0.1)
             heights.append(height(simulation, name))
-    assert np.diff(heights).max() < 1.1 * SPEED * 0.1
+    assert np.diff(heights).max() < 1.1 * LIFT_SPEED * 0.1
     assert heights[-1] == pytest.approx(-4.5, abs=0.01)

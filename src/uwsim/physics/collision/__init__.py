@@ -1,1 +1,1 @@
-"""What touches what in the engine: contacts, also of kinematic vehicles, and a tree of shapes."""
+"""Contacts of simulated and kinematic bodies, and the engine's tree of fixed shapes."""

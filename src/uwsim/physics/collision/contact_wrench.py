@@ -33,7 +33,7 @@ from ...base.numerics.memory import (
 from ...base.sampling import Sampler
 from ..hydrodynamics import callback
 from ..hydrodynamics.kernel import fields as f
-from ..kinematics.link_kernel import MOUNT, mounted_frame
+from ..kinematics.link_kernel import MOUNT, write_frame
 from ..poses import Mount
 
 CONTACT_WRENCH = np.dtype(
@@ -45,7 +45,7 @@ CONTACT_WRENCH = np.dtype(
         ("offsets", np.int64),
         ("n_offsets", np.int64),
         ("contact_force", np.int64),  # the address of ``mj_contactForce``
-        ("has_contacts", np.int64),  # whether the contacts are those of the current poses
+        ("has_contacts", np.int64),  # true if the contacts are those of the present poses
     ]
 )
 """The record of a contact wrench for compiled code."""
@@ -63,8 +63,8 @@ def contact_sampler(
     """Return a sampler of the force [N] and the torque [N m], 6 numbers.
 
     Args:
-        model: of the scene.
-        data: its state.
+        model: the engine's model.
+        data: the engine's state.
         body: the engine's number of the link.
         mount: the frame on the link.
         prepare: updates the poses, and returns whether the contacts are those of these poses.
@@ -95,44 +95,44 @@ def contact_sampler(
 def sample_contacts(parameters: int, values: int, time: float) -> None:
     """Compute a contact wrench; see `uwsim.base.numerics.calls`."""
     wrench = carray(pointer(parameters), (1,), CONTACT_WRENCH)[0]
-    frame, sums = np.empty(12), np.zeros(6)
-    mounted_frame(carray(pointer(wrench.mount), (1,), MOUNT)[0], frame)
+    frame, total = np.empty(12), np.zeros(6)
+    write_frame(carray(pointer(wrench.mount), (1,), MOUNT)[0], frame)
     if wrench.has_contacts != 0:
-        add_contacts(wrench, view_int64s(wrench.offsets, wrench.n_offsets), frame, sums)
-    rotate_wrench(frame, sums, view_doubles(values, 6))
+        add_contacts(wrench, longs(wrench.offsets, wrench.n_offsets), frame, total)
+    rotate_wrench(frame, total, floats(values, 6))
 
 
 @njit
-def add_contacts(wrench: Record, offsets: Ints64, point: Array, sums: Array) -> None:
+def add_contacts(wrench: Record, offsets: Ints64, point: Array, total: Array) -> None:
     """Add the wrenches of the contacts on a body to a sum.
 
     Args:
         wrench: a record of `CONTACT_WRENCH`.
-        offsets: of MuJoCo's fields.
-        point: about which the torque is, in W, (3,) or more [m].
-        sums: force and torque, in W, (6,) [N, N m].
+        offsets: the offsets of MuJoCo's fields.
+        point: the point that the torque is about, in W, (3,) or more [m].
+        total: the force and torque, in W, (6,) [N, N m].
     """
     m, d, body = wrench.model, wrench.data, wrench.body
-    bodies, contacts = read_int64(m + offsets[f.GEOM_BODY]), read_int64(d + offsets[f.CONTACTS])
-    result, lever = np.empty(6), np.empty(3)
-    for i in range(read_int32(d + offsets[f.N_CONTACTS])):
+    bodies, contacts = word(m + offsets[f.GEOM_BODY]), word(d + offsets[f.CONTACTS])
+    contact_force, lever = np.empty(6), np.empty(3)
+    for i in range(small(d + offsets[f.N_CONTACTS])):
         contact = contacts + offsets[f.CONTACT_SIZE] * i
         geoms = view_int32s(contact + offsets[f.CONTACT_GEOMS], 2)
         is_second = read_int32(bodies + 4 * geoms[1]) == body
         if (read_int32(bodies + 4 * geoms[0]) == body) == is_second:
             continue
-        call_numbered(wrench.contact_force, m, d, i, result.ctypes.data)
-        axes = view_doubles(contact + offsets[f.CONTACT_AXES], 9).reshape((3, 3))  # rows, in W
-        position = view_doubles(contact + offsets[f.CONTACT_POINT], 3)
+        call_numbered(wrench.contact_force, m, d, i, contact_force.ctypes.data)
+        axes = floats(contact + offsets[f.CONTACT_AXES], 9).reshape((3, 3))  # rows, in W
+        position = floats(contact + offsets[f.CONTACT_POINT], 3)
         sign = 1.0 if is_second else -1.0  # the first body pushes the second
-        force, torque = rotate_back(axes, result[:3]), rotate_back(axes, result[3:])
+        force, torque = turned_back(axes, contact_force[:3]), turned_back(axes, contact_force[3:])
         for k in range(3):
             force[k] *= sign
             lever[k] = position[k] - point[k]
         moment = cross(lever, force)
         for k in range(3):
-            sums[k] += force[k]
-            sums[3 + k] += sign * torque[k] + moment[k]
+            total[k] += force[k]
+            total[3 + k] += sign * torque[k] + moment[k]
 
 
 @njit

@@ -1,7 +1,7 @@
-"""Contacts between bodies, as MuJoCo found them at the beginning of the last step.
+"""Contacts between bodies that MuJoCo found at the beginning of the last step.
 
-At the first step of a contact the approach speed is the one at which the two met; later ones are
-what is left of it while they press into each other.
+At the first step of a contact the approach speed is that of the impact. It decreases in the later
+steps while the bodies press into each other.
 """
 
 from __future__ import annotations
@@ -27,25 +27,25 @@ from ..poses import Mount, Poses
 from .contact_wrench import contact_sampler
 
 Numbers = npt.NDArray[np.int64]
-Pressing = tuple[npt.NDArray[np.int32], npt.NDArray[np.int32], Array, Array]
+ContactArrays = tuple[npt.NDArray[np.int32], npt.NDArray[np.int32], Array, Array]
 
 
 @dataclass(slots=True)
 class EngineContactsState(Record):
-    """Whether the contacts hold."""
+    """The validity of the engine's contacts."""
 
-    hold: bool = False
-    """Whether the engine's contacts are those of its state."""
+    are_current: bool = False
+    """The engine's contacts are those of its present poses if true."""
 
 
 class EngineContacts:
-    """Contacts that MuJoCo found in the last step.
+    """The contacts that MuJoCo found in the last step.
 
     Args:
         scene_model: the model of the scene.
-        model: that of the engine.
-        data: its state.
-        poses: where everything is.
+        model: the engine's model.
+        data: the engine's state.
+        poses: the poses of all bodies.
     """
 
     def __init__(
@@ -53,49 +53,49 @@ class EngineContacts:
     ) -> None:
         self._model, self._data, self._poses = model, data, poses
         owners, self._owner_numbers = scene_model.shape_owners
-        self._names = [name_of(scene_model.scene, owner) for owner in owners]
+        self._names = [owner_name(scene_model.scene, owner) for owner in owners]
         self._numbers = {owner: i for i, owner in enumerate(owners)}
         self._labels = sorted(set(self._names))
         labels = {name: i for i, name in enumerate(self._labels)}
         own_labels = np.array([labels[name] for name in self._names], np.int64)
         self._name_numbers = own_labels[self._owner_numbers]
-        self._touchable = frozenset(owner_of(name) for name in scene_model.shapes)
+        self._owners_with_shapes = frozenset(owner_of(name) for name in scene_model.shapes)
         self.state = EngineContactsState()
-        """Whether they hold."""
-        self._looked_up: Pressing | None = None
+        """The validity of the contacts."""
+        self._arrays: ContactArrays | None = None
 
-    def look_again(self, *, hold: bool) -> None:
-        """Look up the contacts when they are next asked for; to be called after every step.
+    def invalidate(self, *, are_current: bool) -> None:
+        """Read the contacts anew when they are next needed; to be called after every step.
 
         Args:
-            hold: whether there are contacts of the bodies where they are.
+            are_current: true if the engine's contacts are those of the present poses.
         """
-        self.state.hold = hold
-        self.forget()
+        self.state.are_current = are_current
+        self.clear_cache()
 
-    def forget(self) -> None:
-        """Forget what was looked up in the engine's memory."""
-        self._looked_up = None
+    def clear_cache(self) -> None:
+        """Drop the views into the engine's memory."""
+        self._arrays = None
 
-    def of(self, kind: Literal["vehicle", "object"], index: int) -> list[Contact] | None:
-        """Where a vehicle or object touches others; None if it has no shape to be touched."""
+    def find_contacts(self, kind: Literal["vehicle", "object"], index: int) -> list[Contact] | None:
+        """Return the contacts of a vehicle or object with others; None if it has no shape."""
         owner = f"{kind}/{index}"
-        if owner not in self._touchable:
+        if owner not in self._owners_with_shapes:
             return None
-        if not self.state.hold:
+        if not self.state.are_current:
             return []
         is_own = self._owner_numbers == self._numbers.get(owner, -1)
-        return _contacts_of(self._model, self._data, is_own, self._owner_numbers, self._names)
+        return _find_contacts(self._model, self._data, is_own, self._owner_numbers, self._names)
 
     def forces(self, kind: Literal["vehicle", "object"], index: int) -> dict[str, Array]:
-        """Forces on a vehicle or object of what it touches, by its name, (3,) in W [N]."""
-        found: dict[str, Array] = {}
-        if not self.state.hold or self._data.ncon == 0:
-            return found
+        """Return the forces on a vehicle or object, by the other's name, (3,) in W [N]."""
+        forces_by_name: dict[str, Array] = {}
+        if not self.state.are_current or self._data.ncon == 0:
+            return forces_by_name
         owner = self._numbers.get(f"{kind}/{index}")
         if owner is None:
-            return found
-        geoms, addresses, frames, pressures = self._pressing()
+            return forces_by_name
+        geoms, addresses, frames, pressures = self._read_arrays()
         labels, forces = np.empty(len(geoms), np.int64), np.empty((len(geoms), 3))
         n = _sum_forces(
             geoms,
@@ -109,15 +109,15 @@ class EngineContacts:
             forces,
         )
         for label, force in zip(labels[:n].tolist(), forces, strict=False):
-            found[self._labels[label]] = force
-        return found
+            forces_by_name[self._labels[label]] = force
+        return forces_by_name
 
-    def _pressing(self) -> Pressing:
-        """Shapes, addresses, frames and forces of the engine's contacts; looked up once a step."""
-        if self._looked_up is None:
-            found = self._data.contact
-            self._looked_up = found.geom, found.efc_address, found.frame, self._data.efc_force
-        return self._looked_up
+    def _read_arrays(self) -> ContactArrays:
+        """Return shapes, addresses, frames and forces of the contacts, read once a step."""
+        if self._arrays is None:
+            contact = self._data.contact
+            self._arrays = contact.geom, contact.efc_address, contact.frame, self._data.efc_force
+        return self._arrays
 
     def wrench_sampler(self, body: int, mount: Mount) -> Sampler:
         """Return a sampler of the wrench of the contacts on a link; see `contact_sampler`.
@@ -131,7 +131,7 @@ class EngineContacts:
     def _prepare(self) -> bool:
         """Update the poses; return whether the contacts are those of these poses."""
         self._poses.refresh()
-        return self.state.hold
+        return self.state.are_current
 
 
 @njit
@@ -142,48 +142,48 @@ def _sum_forces(
     pressures: Array,
     owners: Numbers,
     names: Numbers,
-    own: int,
+    owner: int,
     labels: Numbers,
     forces: Array,
 ) -> int:
-    """Add up the forces on an owner by the names of what touches it; how many names there are.
+    """Sum the forces on an owner by the names of what it touches, and return the number of names.
 
     Args:
         geoms: both shapes of each contact, (n, 2).
-        addresses: where each contact begins in the forces, (n,); negative: it does not press.
-        frames: rows are normal and tangents of each, in W, (n, 9).
-        pressures: forces along them, of an elliptic cone.
-        owners: number of the owner of each shape.
-        names: number of the name of each shape's owner.
-        own: number of the owner.
-        labels: into which the numbers of the names are written, (n,).
-        forces: into which their forces on it are written, in W, (n, 3) [N].
+        addresses: the first force of each contact in ``pressures``, (n,); negative: no force.
+        frames: normal and tangents of each contact by rows, in W, (n, 9).
+        pressures: the forces along them, of an elliptic cone.
+        owners: the number of the owner of each shape.
+        names: the number of the name of each shape's owner.
+        owner: the number of the owner.
+        labels: receives the numbers of the names, (n,).
+        forces: receives the forces on the owner, in W, (n, 3) [N].
     """
     n = 0
     for i in range(len(geoms)):
-        is_first = owners[geoms[i, 0]] == own
-        at = addresses[i]
-        if is_first == (owners[geoms[i, 1]] == own) or at < 0 or at + 2 >= len(pressures):
+        is_first = owners[geoms[i, 0]] == owner
+        start = addresses[i]
+        if is_first == (owners[geoms[i, 1]] == owner) or start < 0 or start + 2 >= len(pressures):
             continue
         label = names[geoms[i, 1 if is_first else 0]]
-        place = 0
-        while place < n and labels[place] != label:
-            place += 1
+        row = 0
+        while row < n and labels[row] != label:
+            row += 1
         for k in range(3):
-            force = pressures[at] * frames[i, k]
-            force = force + pressures[at + 1] * frames[i, 3 + k]
-            force = force + pressures[at + 2] * frames[i, 6 + k]
+            force = pressures[start] * frames[i, k]
+            force = force + pressures[start + 1] * frames[i, 3 + k]
+            force = force + pressures[start + 2] * frames[i, 6 + k]
             if is_first:  # the force is the first's on the second
                 force = -force
-            forces[place, k] = force if place == n else forces[place, k] + force
-        if place == n:
+            forces[row, k] = force if row == n else forces[row, k] + force
+        if row == n:
             labels[n] = label
             n += 1
     return n
 
 
-def name_of(scene: SceneSpec, owner: str) -> str:
-    """Its name in the scene."""
+def owner_name(scene: SceneSpec, owner: str) -> str:
+    """Return the name of an owner in the scene."""
     kind, _, index = owner.partition("/")
     if kind == "vehicle":
         return scene.vehicles[int(index)].name
@@ -191,12 +191,12 @@ def name_of(scene: SceneSpec, owner: str) -> str:
 
 
 def body_name(scene: SceneSpec, body: str) -> str:
-    """How the scene calls a body of the model: ``girona500/part0``, an object's name."""
+    """Return the scene's name of a body of the model: ``girona500/part0``, an object's name."""
     link = body.split("/")[2:]
-    return "/".join([name_of(scene, owner_of(body)), *link])
+    return "/".join([owner_name(scene, owner_of(body)), *link])
 
 
-def _contacts_of(
+def _find_contacts(
     model: mujoco.MjModel,
     data: mujoco.MjData,
     is_own: npt.NDArray[np.bool_],
@@ -206,39 +206,39 @@ def _contacts_of(
     """Return the contacts of some bodies with others.
 
     Args:
-        model: the model.
+        model: the engine's model.
         data: its state after a step.
-        is_own: which shapes are asked for, (ngeom,).
-        owners: number of what each shape belongs to, (ngeom,).
-        names: the name of each of those.
+        is_own: the mask of the shapes of these bodies, (ngeom,).
+        owners: the number of the owner of each shape, (ngeom,).
+        names: the name of each owner.
     """
     if data.ncon == 0:
         return []
-    found = data.contact
-    bodies = model.geom_bodyid[found.geom]  # (n, 2)
-    own = is_own[found.geom]  # (n, 2)
-    presses = (np.asarray(found.efc_address) >= 0) & (np.asarray(found.dist) < 0.0)
+    contact = data.contact
+    bodies = model.geom_bodyid[contact.geom]  # (n, 2)
+    own_shapes = is_own[contact.geom]  # (n, 2)
+    is_pressing = (np.asarray(contact.efc_address) >= 0) & (np.asarray(contact.dist) < 0.0)
     contacts: list[Contact] = []
-    for i in np.flatnonzero(presses & (own[:, 0] != own[:, 1])).tolist():
-        first, second = bodies[i].tolist()
-        normal = found.frame[i][:3]  # from the first to the second, W
-        v_first = dot(normal, _velocity(model, data, first, found.pos[i]))
-        v_second = dot(normal, _velocity(model, data, second, found.pos[i]))
-        is_first = bool(own[i, 0])
+    for i in np.flatnonzero(is_pressing & (own_shapes[:, 0] != own_shapes[:, 1])).tolist():
+        first_body, second_body = bodies[i].tolist()
+        normal = contact.frame[i][:3]  # from the first to the second, W
+        v_first = dot(normal, _velocity(model, data, first_body, contact.pos[i]))
+        v_second = dot(normal, _velocity(model, data, second_body, contact.pos[i]))
+        is_first = bool(own_shapes[i, 0])
         contacts.append(
             Contact(
                 approach_speed=v_first - v_second,
                 own_speed=v_first if is_first else -v_second,
                 is_first=is_first,
-                other=names[owners[found.geom[i][1 if is_first else 0]]],
-                position=tuple(found.pos[i].tolist()),
+                other=names[owners[contact.geom[i][1 if is_first else 0]]],
+                position=tuple(contact.pos[i].tolist()),
             )
         )
     return contacts
 
 
 def _velocity(model: mujoco.MjModel, data: mujoco.MjData, body: int, point: Array) -> Array:
-    """Velocity of a body's point, W, (3,) [m/s]."""
+    """Return the velocity of a body's point, W, (3,) [m/s]."""
     twist = data.cvel[body]
     lever = point - data.subtree_com[model.body_rootid[body]]
     velocity: Array = twist[3:] + cross(twist[:3], lever)

@@ -1,8 +1,8 @@
 """Contacts of kinematic bodies, which have poses instead of forces.
 
-A vehicle without ``u:dynamics`` moves as commanded, even through walls, as in the
-original. Its shapes are laid over those of the objects wherever it is; nothing is pushed. It moves
-in jumps (`uwsim.physics.kinematics.jumps`); the speed of one is that of as much time after it.
+A vehicle without ``u:dynamics`` moves as commanded, even through walls, as in the original. The
+overlaps of its shapes with those of objects are its contacts; nothing is pushed. It moves in jumps
+(`uwsim.physics.kinematics.jumps`); the velocity of a jump lasts as long after it as the jump took.
 """
 
 from __future__ import annotations
@@ -19,26 +19,26 @@ from ...base.record import Record
 from ...model.collision.shapes import CollisionShape
 from ...world import Contact
 from ..engine_model import ALL, OBJECTS, SHAPES, give_form
-from ..kinematics.jumps import JumpState, JumpTimes, without_placement
+from ..kinematics.jumps import JumpState, JumpTimes, jump_velocity
 
 
 @dataclass(slots=True)
 class KinematicBodyState(Record):
     """The last displacement of a kinematic body."""
 
-    now: Pose
-    """Where it is."""
-    pose_before: Pose
-    """Where it was before its last displacement."""
+    pose: Pose
+    """The present pose."""
+    previous_pose: Pose
+    """The pose before the last displacement."""
     jumps: JumpState
-    """When it was displaced."""
+    """The time of the last displacement."""
 
 
 @dataclass(slots=True)
 class KinematicContactsState(Record):
-    """What is known of the bodies that overlap."""
+    """The recorded poses of the bodies."""
 
-    seen: int
+    version: int
     """The version of the poses that were last recorded."""
     step: int
     """The step at which they were recorded."""
@@ -50,11 +50,11 @@ class KinematicContacts:
     """Overlaps of the collision shapes of kinematic bodies.
 
     Args:
-        shapes: what can be touched, by the name of its body: ``vehicle/0/base_link``, ``object/1``.
-        poses: where the bodies are now, by name.
-        names: what the scene calls the owners of bodies: ``vehicle/0``, ``object/1``.
-        version: grows whenever something was moved.
-        timestep: length of a step [s].
+        shapes: the collision shapes by the name of their body: ``vehicle/0/base_link``.
+        poses: functions that return the present poses of the bodies, by name.
+        names: the scene's names of the bodies' owners: ``vehicle/0``, ``object/1``.
+        version: returns a number that grows whenever a body was moved.
+        timestep: the length of a step [s].
     """
 
     def __init__(
@@ -67,63 +67,63 @@ class KinematicContacts:
     ) -> None:
         self._names, self._version = names, version
         self._bodies = [_KinematicBody(poses[name], timestep) for name in shapes]
-        self._model = _model(shapes)
+        self._model = _build_model(shapes)
         self._data = mujoco.MjData(self._model)
         owners = [_owner(self._model.geom(i).name) for i in range(self._model.ngeom)]
         self._owners = np.array(owners)
-        self._touchable = frozenset(owners)
-        self._laid: list[Pose] = []  # where the bodies were when their shapes were laid
+        self._owners_with_shapes = frozenset(owners)
+        self._poses: list[Pose] = []  # of the bodies at the last update
         self.state = KinematicContactsState(version(), 0, [body.state for body in self._bodies])
-        """What is known of the bodies."""
+        """The recorded poses of the bodies."""
 
     def record(self, step: int) -> None:
         """Record the poses of all bodies; to be called at every step."""
         self.state.step = step
-        if (version := self._version()) == self.state.seen:
+        if (version := self._version()) == self.state.version:
             return
-        self.state.seen = version
+        self.state.version = version
         for body in self._bodies:
             body.record(step)
 
     def contacts(self, kind: str, index: int) -> list[Contact] | None:
-        """Where a vehicle or object touches others; None if it has no shape to be touched."""
+        """Return the contacts of a vehicle or object with others; None if it has no shape."""
         owner = f"{kind}/{index}"
-        if owner not in self._touchable:
+        if owner not in self._owners_with_shapes:
             return None
-        places = [body.now for body in self.state.bodies]
-        if not self._laid or any(a is not b for a, b in zip(places, self._laid, strict=True)):
-            self._lay(places)
-        found = self._data.contact
+        poses = [body.pose for body in self.state.bodies]
+        if not self._poses or any(a is not b for a, b in zip(poses, self._poses, strict=True)):
+            self._place_shapes(poses)
+        pairs = self._data.contact
         if self._data.ncon == 0:
             return []
-        own = self._owners[found.geom] == owner  # (n, 2)
+        is_own = self._owners[pairs.geom] == owner  # (n, 2)
         contacts: list[Contact] = []
-        for i in np.flatnonzero((own[:, 0] != own[:, 1]) & (found.dist < 0.0)).tolist():
-            first, second = found.geom[i].tolist()
-            normal, point = found.frame[i][:3], found.pos[i]  # from the first to the second
-            v_first = dot(normal, self._velocity(first, point))
-            v_second = dot(normal, self._velocity(second, point))
-            is_first = bool(own[i, 0])
+        for i in np.flatnonzero((is_own[:, 0] != is_own[:, 1]) & (pairs.dist < 0.0)).tolist():
+            first_geom, second_geom = pairs.geom[i].tolist()
+            normal, point = pairs.frame[i][:3], pairs.pos[i]  # from the first to the second
+            v_first = dot(normal, self._velocity(first_geom, point))
+            v_second = dot(normal, self._velocity(second_geom, point))
+            is_first = bool(is_own[i, 0])
             contacts.append(
                 Contact(
                     approach_speed=v_first - v_second,
                     own_speed=v_first if is_first else -v_second,
                     is_first=is_first,
-                    other=self._names[self._owners[second if is_first else first]],
+                    other=self._names[self._owners[second_geom if is_first else first_geom]],
                 )
             )
         return contacts
 
-    def _lay(self, places: list[Pose]) -> None:
-        for i, place in enumerate(places):
-            self._data.qpos[7 * i : 7 * i + 3] = place.position
-            self._data.qpos[7 * i + 3 : 7 * i + 7] = quaternion_from_rotation(place.rotation)
+    def _place_shapes(self, poses: list[Pose]) -> None:
+        for i, pose in enumerate(poses):
+            self._data.qpos[7 * i : 7 * i + 3] = pose.position
+            self._data.qpos[7 * i + 3 : 7 * i + 7] = quaternion_from_rotation(pose.rotation)
         mujoco.mj_kinematics(self._model, self._data)
         mujoco.mj_collision(self._model, self._data)
-        self._laid = places
+        self._poses = poses
 
     def _velocity(self, geom: int, point: Array) -> Array:
-        """Velocity of a body's point, W, (3,) [m/s]."""
+        """Return the velocity of a body's point, W, (3,) [m/s]."""
         body = int(self._model.geom_bodyid[geom])
         return self._bodies[body - 1].velocity(point, self.state.step)
 
@@ -132,28 +132,28 @@ class _KinematicBody:
     """A kinematic body, with the velocity of its last displacement."""
 
     def __init__(self, pose: Callable[[], Pose], timestep: float) -> None:
-        self._pose, self._jumps = pose, JumpTimes(timestep, last=0)
-        here = pose()
-        self.state = KinematicBodyState(here, here, self._jumps.state)
+        self._pose, self._jumps = pose, JumpTimes(timestep, last_step=0)
+        initial_pose = pose()
+        self.state = KinematicBodyState(initial_pose, initial_pose, self._jumps.state)
 
     def record(self, step: int) -> None:
-        """Record its pose."""
+        """Record the pose of the body."""
         pose, state = self._pose(), self.state
-        is_there = np.array_equal(pose.position, state.now.position)
-        if not is_there or not np.array_equal(pose.rotation, state.now.rotation):
-            state.pose_before, state.now = state.now, pose
+        is_same_position = np.array_equal(pose.position, state.pose.position)
+        if not is_same_position or not np.array_equal(pose.rotation, state.pose.rotation):
+            state.previous_pose, state.pose = state.pose, pose
             self._jumps.add(step)
 
     def velocity(self, point: Array, step: int) -> Array:
-        """Velocity of its point at ``point``, W, (3,) [m/s]."""
+        """Return the velocity of the body's point at ``point``, W, (3,) [m/s]."""
         if self._jumps.age(step) >= self._jumps.n_steps:
             return np.zeros(3)
-        was_at = (self.state.pose_before @ self.state.now.inverse()).transform(point[None])[0]
-        velocity: Array = (point - was_at) / self._jumps.duration
-        return without_placement(velocity, length(velocity))
+        start = (self.state.previous_pose @ self.state.pose.inverse()).transform(point[None])[0]
+        velocity: Array = (point - start) / self._jumps.duration
+        return jump_velocity(velocity, length(velocity))
 
 
-def _model(shapes: Mapping[str, Sequence[CollisionShape]]) -> mujoco.MjModel:
+def _build_model(shapes: Mapping[str, Sequence[CollisionShape]]) -> mujoco.MjModel:
     """Build a model of free bodies, one for each name, in their order."""
     spec = mujoco.MjSpec()
     for name, parts in shapes.items():
@@ -163,12 +163,12 @@ def _model(shapes: Mapping[str, Sequence[CollisionShape]]) -> mujoco.MjModel:
         kind, owner = name.split("/")[:2]
         bit = OBJECTS if kind == "object" else 2 << (int(owner) % 29)
         for i, shape in enumerate(parts):
-            place = shape.body_from_shape
+            body_from_shape = shape.body_from_shape
             geom = body.add_geom(
                 name=f"{name}/shape/{i}",
                 type=SHAPES[shape.kind],
-                pos=place.position.tolist(),
-                quat=quaternion_from_rotation(place.rotation).tolist(),
+                pos=body_from_shape.position.tolist(),
+                quat=quaternion_from_rotation(body_from_shape.rotation).tolist(),
                 contype=bit,
                 conaffinity=ALL & ~bit,
             )
@@ -177,5 +177,5 @@ def _model(shapes: Mapping[str, Sequence[CollisionShape]]) -> mujoco.MjModel:
 
 
 def _owner(name: str) -> str:
-    """``vehicle/1`` or ``object/1``, what the body or shape of that name belongs to."""
+    """Return the owner of the body or shape of that name: ``vehicle/1`` or ``object/1``."""
     return "/".join(name.split("/")[:2])

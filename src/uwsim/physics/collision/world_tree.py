@@ -1,16 +1,16 @@
 r"""The engine's bounding volume tree over the fixed shapes, rebuilt by the surface area heuristic.
 
-MuJoCo halves its shapes at the median. The shapes of a tank or a wreck are large plates around a
-hollow, and halves of them overlap in the hollow, just where the vehicles are. Here a node is cut
-where the surface area heuristic is least,
+MuJoCo splits its shapes at the median. The shapes of a tank or a wreck are large plates around a
+free volume. The boxes of both halves overlap in that volume, where the vehicles are. Here a node is
+split where the surface area heuristic is least,
 
 .. math:: A_{left}\,n_{left} + A_{right}\,n_{right}
 
 with A the area of a half's box and n its number of shapes (MacDonald and Booth, Heuristics for
-ray tracing using space subdivision, The Visual Computer 6, 1990). The tree holds the same shapes;
-only fewer of its boxes are looked into.
+ray tracing using space subdivision, The Visual Computer 6, 1990). The tree has the same shapes, and
+a query visits fewer of its boxes.
 
-What never moves is placed once: see `place_fixed_shapes`.
+Fixed shapes are placed once: see `place_fixed_shapes`.
 """
 
 from __future__ import annotations
@@ -23,18 +23,18 @@ from ...base.geometry import Array
 
 WORLD = 0
 """The engine's number of the body of fixed shapes."""
-PLACED = 2
-"""Fixed shapes that the engine goes through at every step; with one it would not use the tree."""
+N_LISTED_SHAPES = 2
+"""The number of fixed shapes that the engine lists; with one it would not use the tree."""
 MAX_DEPTH = 40
-"""Nodes below this are halved at the median; the engine allows 50."""
+"""The depth below which nodes are halved at the median; the engine allows 50."""
 
 Ints = npt.NDArray[np.int64]
 
 
 def rebuild_world_tree(model: mujoco.MjModel) -> None:
     """Rebuild the tree over the shapes of the world's body, in the place of the engine's."""
-    first, count = int(model.body_bvhadr[WORLD]), int(model.body_bvhnum[WORLD])
-    rows = slice(first, first + count)
+    start, count = int(model.body_bvhadr[WORLD]), int(model.body_bvhnum[WORLD])
+    rows = slice(start, start + count)
     leaves = np.flatnonzero(model.bvh_nodeid[rows] >= 0)
     if len(leaves) < 3:
         return
@@ -44,9 +44,9 @@ def rebuild_world_tree(model: mujoco.MjModel) -> None:
     tree_boxes, children = model.bvh_aabb[rows], model.bvh_child[rows]
     depths, numbers = model.bvh_depth[rows], model.bvh_nodeid[rows]
     node = 0
-    waiting: list[tuple[Ints, int, int, int]] = [(np.arange(len(leaves)), -1, 0, 0)]
-    while waiting:
-        members, parent, side, depth = waiting.pop()
+    stack: list[tuple[Ints, int, int, int]] = [(np.arange(len(leaves)), -1, 0, 0)]
+    while stack:
+        members, parent, side, depth = stack.pop()
         lower, upper = low[members].min(axis=0), high[members].max(axis=0)
         tree_boxes[node, :3], tree_boxes[node, 3:] = 0.5 * (lower + upper), 0.5 * (upper - lower)
         depths[node], children[node] = depth, -1
@@ -54,51 +54,51 @@ def rebuild_world_tree(model: mujoco.MjModel) -> None:
         if parent >= 0:
             children[parent, side] = node
         if len(members) > 1:
-            left, right = _cut(members, low, high, depth)
-            waiting += [(right, node, 1, depth + 1), (left, node, 0, depth + 1)]
+            left, right = _split(members, low, high, depth)
+            stack += [(right, node, 1, depth + 1), (left, node, 0, depth + 1)]
         node += 1
 
 
 def place_fixed_shapes(model: mujoco.MjModel, data: mujoco.MjData) -> None:
-    """Place the shapes of the world's body for good, and tell the engine of only a few of them.
+    """Place the shapes of the world's body once, and list only a few of them in the engine.
 
-    The engine goes through all of them to learn which kinds of shapes the world's body may touch,
-    for each body at every step, and, unless sleeping is enabled, to place them anew. The tree,
-    through which contacts are found, keeps them all. Only ``data`` and its copies know where they
-    are: other data of this model find no contacts with them, nor does ``data`` after a reset.
+    For each body at every step, the engine reads the collision bits of all listed shapes. Unless
+    sleeping is enabled, it also places them anew. The tree, in which contacts are searched, keeps
+    them all. Only ``data`` and its copies have their poses: other data of this model find no
+    contacts with them, nor does ``data`` after a reset.
     """
-    first, count = int(model.body_geomadr[WORLD]), int(model.body_geomnum[WORLD])
-    if count <= PLACED or model.body_bvhnum[WORLD] == 0:
+    start, count = int(model.body_geomadr[WORLD]), int(model.body_geomnum[WORLD])
+    if count <= N_LISTED_SHAPES or model.body_bvhnum[WORLD] == 0:
         return
-    shapes = slice(first, first + count)
+    shapes = slice(start, start + count)
     if any(
         len(np.unique(bits[shapes])) > 1 for bits in (model.geom_contype, model.geom_conaffinity)
     ):
         return
     mujoco.mj_kinematics(model, data)
-    model.body_geomnum[WORLD] = PLACED
+    model.body_geomnum[WORLD] = N_LISTED_SHAPES
 
 
-def _cut(members: Ints, low: Array, high: Array, depth: int) -> tuple[Ints, Ints]:
+def _split(members: Ints, low: Array, high: Array, depth: int) -> tuple[Ints, Ints]:
     """Split the shapes of a node."""
-    middles = low[members] + high[members]
-    orders = members[np.argsort(middles, axis=0, kind="stable").T]  # (3, n): along each axis
+    centres = low[members] + high[members]
+    orders = members[np.argsort(centres, axis=0, kind="stable").T]  # (3, n): along each axis
     if len(members) == 2:
         return orders[0, :1], orders[0, 1:]
     if depth >= MAX_DEPTH:
-        order = orders[int(np.argmax(np.ptp(middles, axis=0)))]
+        order = orders[int(np.argmax(np.ptp(centres, axis=0)))]
         half = len(order) // 2
         return order[:half], order[half:]
     lows, highs = low[orders], high[orders]  # (3, n, 3)
-    below = _areas(lows, highs)[:, :-1]
-    above = _areas(lows[:, ::-1], highs[:, ::-1])[:, -2::-1]
+    left = _areas(lows, highs)[:, :-1]
+    right = _areas(lows[:, ::-1], highs[:, ::-1])[:, -2::-1]
     counts = np.arange(1, len(members))
-    axis, place = divmod(int(np.argmin(below * counts + above * counts[::-1])), len(counts))
-    return orders[axis, : place + 1], orders[axis, place + 1 :]
+    axis, cut = divmod(int(np.argmin(left * counts + right * counts[::-1])), len(counts))
+    return orders[axis, : cut + 1], orders[axis, cut + 1 :]
 
 
 def _areas(lows: Array, highs: Array) -> Array:
-    """Half the surface of the box around the first 1, 2, ... of some rows of boxes, (3, n) [m2]."""
+    """Return half the surface of the boxes around the first 1, 2, ... rows, (3, n) [m2]."""
     edges = np.maximum.accumulate(highs, axis=1) - np.minimum.accumulate(lows, axis=1)
     x, y, z = edges[..., 0], edges[..., 1], edges[..., 2]
     areas: Array = x * y + y * z + z * x

@@ -1,1 +1,1 @@
-"""How points on vehicles move: velocities and accelerations for sensors."""
+"""Velocities and accelerations of points on vehicles, for sensors."""

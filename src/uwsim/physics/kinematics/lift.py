@@ -1,9 +1,9 @@
 r"""Lifting of bodies that begin deep in the ground.
 
-Contacts push a body out of what it is in along the shortest way, which may be sideways or through,
-with a force that grows with the depth. A light link that begins 0.25 m deep is thrown out at
-100 rad/s. So a body that a scene puts into the ground touches nothing at first, and its base rises
-at `SPEED` as it stands until it is clear:
+A contact pushes a penetrating body out along the shortest way, which may be sideways or through the
+ground, with a force that grows with the depth. A light link that begins 0.25 m deep leaves at
+100 rad/s. A body that a scene places in the ground therefore has no contacts at first, and its base
+rises at `LIFT_SPEED` with a constant attitude until it is clear:
 
 .. math:: z(t) = z_0 + v\,t, \qquad 0 \le t \le \Delta z / v
 
@@ -21,15 +21,15 @@ import numpy as np
 from ...base.geometry import Array
 from ...base.record import Record
 
-SPEED = 0.25
-"""Of a body that is lifted [m/s]."""
+LIFT_SPEED = 0.25
+"""The speed of a body that is lifted [m/s]."""
 
 
 @dataclass(slots=True)
 class LiftState(Record):
-    """How far bodies are lifted."""
+    """The progress of the lifted bodies."""
 
-    left: list[int] = field(default_factory=list)
+    steps_left: list[int] = field(default_factory=list)
     """The steps until each body is clear."""
 
 
@@ -37,83 +37,83 @@ class Lift:
     """The bodies that are lifted.
 
     Args:
-        model: of the scene; bits of contacts are changed here.
-        data: its state.
+        model: the engine's model, whose collision bits are changed here.
+        data: the engine's state.
     """
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData) -> None:
         self._model, self._data = model, data
         self._bodies: list[_LiftedBody] = []
         self.state = LiftState()
-        """How far they are lifted."""
+        """The progress of the lifted bodies."""
 
     def add(self, body: int, rise: float) -> None:
-        """Lift a body with a free joint, and all that is on it, from where it is.
+        """Lift a body with a free joint, and its whole tree of bodies, from where it is.
 
         Args:
-            body: number of the body.
-            rise: how far [m].
+            body: the engine's number of the body.
+            rise: the height of the lift [m].
         """
-        n_steps = max(1, math.ceil(rise / (SPEED * self._model.opt.timestep)))
-        lifted = _LiftedBody(self._model, self._data, body, rise, n_steps)
-        lifted.touch(is_on=False)
-        self._bodies.append(lifted)
-        self.state.left.append(n_steps)
+        n_steps = max(1, math.ceil(rise / (LIFT_SPEED * self._model.opt.timestep)))
+        lifted_body = _LiftedBody(self._model, self._data, body, rise, n_steps)
+        lifted_body.set_contacts(is_on=False)
+        self._bodies.append(lifted_body)
+        self.state.steps_left.append(n_steps)
 
     @property
     def is_active(self) -> bool:
-        """Whether a body is being lifted; then steps are taken one by one."""
-        return any(self.state.left)
+        """A body is being lifted if true; then steps are taken one by one."""
+        return any(self.state.steps_left)
 
     def begin_step(self) -> None:
-        """Stop to lift what was placed elsewhere; to be called before a step."""
+        """Stop the lift of bodies that were placed elsewhere; to be called before a step."""
         for i, body in enumerate(self._bodies):
-            if self.state.left[i] and not body.is_at(self.state.left[i]):
-                self.state.left[i] = 0
-                body.touch(is_on=True)
+            if self.state.steps_left[i] and not body.is_at(self.state.steps_left[i]):
+                self.state.steps_left[i] = 0
+                body.set_contacts(is_on=True)
 
     def end_step(self) -> None:
-        """Put each body where it has been lifted to; to be called after a step."""
+        """Move each body to its lifted pose; to be called after a step."""
         for i, body in enumerate(self._bodies):
-            if self.state.left[i]:
-                self.state.left[i] -= 1
-                body.put(self.state.left[i])
+            if self.state.steps_left[i]:
+                self.state.steps_left[i] -= 1
+                body.place(self.state.steps_left[i])
 
 
 class _LiftedBody:
-    """A body with its way up."""
+    """A body that is lifted, with its pose at the start."""
 
     def __init__(
         self, model: mujoco.MjModel, data: mujoco.MjData, body: int, rise: float, n_steps: int
     ) -> None:
         joint = int(model.body_jntadr[body])
-        place, dof = int(model.jnt_qposadr[joint]), int(model.jnt_dofadr[joint])
+        address, dof = int(model.jnt_qposadr[joint]), int(model.jnt_dofadr[joint])
         self._model, self._rise, self._n_steps = model, rise, n_steps
-        self._pose, self._velocity = data.qpos[place : place + 7], data.qvel[dof : dof + 6]
+        self._pose, self._velocity = data.qpos[address : address + 7], data.qvel[dof : dof + 6]
         self._start = self._pose.copy()
         self._geoms = np.flatnonzero(model.body_rootid[model.geom_bodyid] == body)
         self._bits = model.geom_contype[self._geoms], model.geom_conaffinity[self._geoms]
 
-    def touch(self, *, is_on: bool) -> None:
-        """Let it touch others, or nothing."""
+    def set_contacts(self, *, is_on: bool) -> None:
+        """Enable or disable the contacts of the body."""
         contype, conaffinity = self._bits
         self._model.geom_contype[self._geoms] = contype if is_on else 0
         self._model.geom_conaffinity[self._geoms] = conaffinity if is_on else 0
 
-    def is_at(self, left: int) -> bool:
-        """Whether it is where it was put some steps before its end."""
-        return np.array_equal(self._pose, self._pose_at(left))
+    def is_at(self, steps_left: int) -> bool:
+        """Return whether the body is where it was placed that many steps before its end."""
+        return np.array_equal(self._pose, self._pose_at(steps_left))
 
-    def put(self, left: int) -> None:
-        """Place it some steps before its end; at the end it is at rest and touches others."""
-        self._pose[:] = self._pose_at(left)
+    def place(self, steps_left: int) -> None:
+        """Place the body; at the end of the lift it is at rest and has contacts."""
+        self._pose[:] = self._pose_at(steps_left)
         self._velocity[:] = 0.0
-        if left:
-            self._velocity[2] = SPEED
+        if steps_left:
+            self._velocity[2] = LIFT_SPEED
         else:
-            self.touch(is_on=True)
+            self.set_contacts(is_on=True)
 
-    def _pose_at(self, left: int) -> Array:
+    def _pose_at(self, steps_left: int) -> Array:
         pose: Array = self._start.copy()
-        pose[2] += self._rise * (1.0 - left / self._n_steps)
+        pose[2] += self._rise * (1.0 - steps_left / self._n_steps)
         return pose

@@ -1,4 +1,4 @@
-r"""The frame of a part on a link, and how a point of it moves, in compiled code.
+r"""The frame of a part on a link and the motion of its points, in compiled code.
 
 With the Jacobian J of a point, :math:`v = J \dot q` and :math:`a = J \ddot q + \dot J \dot q`. The
 columns of J are those of the joints from the root of the tree of links to the link; the others are
@@ -19,7 +19,7 @@ from ...base.numerics.memory import carray, pointer, view_doubles, view_int32s, 
 
 CHAIN = np.dtype(
     [
-        ("root", np.int64),  # the first body of the tree; its bodies follow one another
+        ("root", np.int64),  # the first body of the tree; its bodies have consecutive numbers
         ("n_bodies", np.int64),
         ("dofs", np.int64),  # `DOF_COLUMNS` numbers a degree of freedom, from root to link
         ("n_dofs", np.int64),
@@ -31,12 +31,12 @@ CHAIN = np.dtype(
         ("anchors", np.int64),
         ("joint_axes", np.int64),
         ("speeds", np.int64),  # of all degrees of freedom [m/s, rad/s]
-        ("rates", np.int64),  # of these speeds [m/s2, rad/s2]
+        ("accelerations", np.int64),  # of all degrees of freedom [m/s2, rad/s2]
         ("scratch", np.int64),  # `scratch_size` numbers
     ],
     align=True,
 )
-"""The joints that move a body, and where their numbers are."""
+"""The joints that move a body, and the addresses of their numbers."""
 
 MOUNT = np.dtype(
     [
@@ -53,21 +53,21 @@ MOUNT = np.dtype(
 """A part on a link."""
 
 DOF_COLUMNS = 4
-"""Of a degree of freedom: its number, its kind, its body and its joint."""
-SHIFT, TURN, SLIDE, HINGE = range(4)
-"""Kinds of degrees of freedom: translation and rotation of a free joint, and joints of one axis."""
-_TINY = 1e-15  # mjMINVAL
+"""The columns of a degree of freedom: its number, its kind, its body and its joint."""
+TRANSLATION, ROTATION, SLIDE, HINGE = range(4)
+"""The kinds of degrees of freedom: translation and rotation of a free joint, joints of one axis."""
+_MINVAL = 1e-15  # mjMINVAL
 
 Record = Any
 
 
 def scratch_size(n_bodies: int, n_dofs: int) -> int:
-    """Return how many numbers a chain writes down."""
+    """Return how many numbers of scratch memory a chain needs."""
     return 3 * n_bodies + 12 * n_dofs
 
 
 @njit
-def mounted_frame(mount: Record, frame: Array) -> None:
+def write_frame(mount: Record, frame: Array) -> None:
     """Write the position in W [m] and the axes of a part, by rows, into (12,).
 
     The scale of a vehicle moves the part and does not turn it.
@@ -75,13 +75,13 @@ def mounted_frame(mount: Record, frame: Array) -> None:
     origin, axes = view_doubles(mount.origin, 3), view_doubles(mount.axes, 9).reshape((3, 3))
     shift, turn = compose(axes, origin, mount.rotation, mount.position)
     if mount.base_axes != 0:
-        base = view_doubles(mount.base_axes, 9).reshape((3, 3))
-        stretched = stretch(base, axes, mount.scale)
+        base = floats(mount.base_axes, 9).reshape((3, 3))
+        matrix = scaled_axes(base, axes, mount.scale)
         for i in range(3):
-            along = 0.0
+            offset = 0.0
             for k in range(3):
-                along += stretched[i, k] * mount.position[k]
-            shift[i] = origin[i] + along
+                offset += matrix[i, k] * mount.position[k]
+            shift[i] = origin[i] + offset
     for i in range(3):
         frame[i] = shift[i]
         for k in range(3):
@@ -89,25 +89,25 @@ def mounted_frame(mount: Record, frame: Array) -> None:
 
 
 @njit
-def frame_of(mounts: Record) -> Array:
-    """Return what `mounted_frame` writes of the first of some records."""
+def compute_frame(mounts: Record) -> Array:
+    """Return the values of `write_frame` for the first of some records, (12,)."""
     frame = np.empty(12)
-    mounted_frame(mounts[0], frame)
+    write_frame(mounts[0], frame)
     return frame
 
 
 @njit
-def motion_of(chains: Record, point: Array) -> Array:
-    """Return what `point_motion` writes of the first of some records."""
-    found = np.empty(9)
-    point_motion(chains[0], point, found)
-    return found
+def compute_motion(chains: Record, point: Array) -> Array:
+    """Return the values of `write_motion` for the first of some records, (9,)."""
+    motion = np.empty(9)
+    write_motion(chains[0], point, motion)
+    return motion
 
 
 @njit
-def stretch(base: Array, axes: Array, scale: Array) -> Array:
+def scaled_axes(base: Array, axes: Array, scale: Array) -> Array:
     """Return the axes of a link with the scale along its vehicle's base in them, (3, 3)."""
-    in_base, found = np.empty((3, 3)), np.empty((3, 3))
+    in_base, matrix = np.empty((3, 3)), np.empty((3, 3))
     for i in range(3):
         for k in range(3):
             total = 0.0
@@ -119,50 +119,50 @@ def stretch(base: Array, axes: Array, scale: Array) -> Array:
             total = 0.0
             for j in range(3):
                 total += (base[i, j] * scale[j]) * in_base[j, k]
-            found[i, k] = total
-    return found
+            matrix[i, k] = total
+    return matrix
 
 
 @njit
-def point_motion(chain: Record, point: Array, found: Array) -> None:
+def write_motion(chain: Record, point: Array, motion: Array) -> None:
     """Write velocity, angular velocity and acceleration of a point, in W, into (9,).
 
     Args:
-        chain: the joints that move it.
-        point: in W, (3,) [m].
-        found: into which they are written.
+        chain: the joints that move the point.
+        point: the point in W, (3,) [m].
+        motion: receives the numbers, (9,).
     """
     for i in range(9):
-        found[i] = 0.0
+        motion[i] = 0.0
     n = chain.n_dofs
     if n == 0:
         return
     scratch = chain.scratch + 24 * chain.n_bodies
-    columns = view_doubles(scratch, 6 * n).reshape((n, 6))  # turn and shift by each joint
-    changes = view_doubles(scratch + 48 * n, 6 * n).reshape((n, 6))  # how fast these change
+    columns = floats(scratch, 6 * n).reshape((n, 6))  # turn and shift by each joint
+    changes = floats(scratch + 48 * n, 6 * n).reshape((n, 6))  # their rates of change
     centre, twist, offset = np.empty(3), np.zeros(6), np.empty(3)
     tree_centre(chain, centre)
     joint_columns(chain, centre, columns, changes, twist)
     for i in range(3):
         offset[i] = point[i] - centre[i]
-    carried = np.empty(3)  # the velocity of the point, by the twist
+    v_point = np.empty(3)  # by the twist of the link
     for i in range(3):
-        carried[i] = twist[3 + i] - component(offset, twist, i)
-    dofs = view_int64s(chain.dofs, DOF_COLUMNS * n).reshape((n, DOF_COLUMNS))
+        v_point[i] = twist[3 + i] - cross(offset, twist, i)
+    dofs = longs(chain.dofs, DOF_COLUMNS * n).reshape((n, DOF_COLUMNS))
     for i in range(3):
-        velocity, turn, pushed, bent = 0.0, 0.0, 0.0, 0.0
+        velocity, omega, joint_term, bias_term = 0.0, 0.0, 0.0, 0.0
         for k in range(n):
             column, change = columns[k], changes[k]
-            speed = view_doubles(chain.speeds + 8 * dofs[k, 0], 1)[0]
-            rate = view_doubles(chain.rates + 8 * dofs[k, 0], 1)[0]
-            along = column[3 + i] + component(column, offset, i)
-            velocity += along * speed
-            turn += column[i] * speed
-            pushed += along * rate
-            bent += (
-                change[3 + i] + component(change, offset, i) + component(column, carried, i)
+            speed = floats(chain.speeds + 8 * dofs[k, 0], 1)[0]
+            acceleration = floats(chain.accelerations + 8 * dofs[k, 0], 1)[0]
+            jacobian = column[3 + i] + cross(column, offset, i)
+            velocity += jacobian * speed
+            omega += column[i] * speed
+            joint_term += jacobian * acceleration
+            bias_term += (
+                change[3 + i] + cross(change, offset, i) + cross(column, v_point, i)
             ) * speed
-        found[i], found[3 + i], found[6 + i] = velocity, turn, pushed + bent
+        motion[i], motion[3 + i], motion[6 + i] = velocity, omega, joint_term + bias_term
 
 
 @njit
@@ -183,16 +183,16 @@ def tree_centre(chain: Record, centre: Array) -> None:
         parent = parents[body] - root
         for i in range(3):
             moments[3 * parent + i] += moments[3 * body + i]
-    share = 0.0 if mass < _TINY else 1.0 / mass
+    share = 0.0 if mass < _MINVAL else 1.0 / mass
     for i in range(3):
-        centre[i] = centres[i] if mass < _TINY else moments[i] * share
+        centre[i] = centres[i] if mass < _MINVAL else moments[i] * share
 
 
 @njit
 def joint_columns(
     chain: Record, centre: Array, columns: Array, changes: Array, twist: Array
 ) -> None:
-    """Write the twist by each joint about the centre, its rate of change, and the link's twist."""
+    """Write the twist per joint about the centre, its rate of change, and the twist of the link."""
     n = chain.n_dofs
     dofs = view_int64s(chain.dofs, DOF_COLUMNS * n).reshape((n, DOF_COLUMNS))
     axis, offset, total = np.empty(3), np.empty(3), np.empty(6)
@@ -202,16 +202,16 @@ def joint_columns(
         anchor = view_doubles(chain.anchors + 24 * joint, 3)
         for i in range(3):
             offset[i] = centre[i] - anchor[i]
-        width = 3 if kind in (SHIFT, TURN) else 1
+        width = 3 if kind in (TRANSLATION, ROTATION) else 1
         for j in range(width):
             column = columns[k + j]
             for i in range(6):
                 column[i] = 0.0
-            if kind == SHIFT:
+            if kind == TRANSLATION:
                 column[3 + j] = 1.0
                 continue
-            if kind == TURN:
-                matrix = view_doubles(chain.axes + 72 * body, 9)
+            if kind == ROTATION:
+                matrix = floats(chain.axes + 72 * body, 9)
                 for i in range(3):
                     axis[i] = matrix[3 * i + j]
             else:
@@ -221,9 +221,9 @@ def joint_columns(
                 continue
             column[:3] = axis
             for i in range(3):
-                column[3 + i] = component(axis, offset, i)
+                column[3 + i] = cross(axis, offset, i)
         if kind in (SLIDE, HINGE):
-            bend(twist, columns[k], changes[k])
+            write_column_rate(twist, columns[k], changes[k])
         for i in range(6):
             total[i] = 0.0
             for j in range(width):
@@ -232,35 +232,35 @@ def joint_columns(
                 )
             twist[i] += total[i]
         for j in range(width):
-            if kind == SHIFT:
+            if kind == TRANSLATION:
                 changes[k + j, :] = 0.0
-            elif kind == TURN:  # of a quaternion, by the twist with it
-                bend(twist, columns[k + j], changes[k + j])
+            elif kind == ROTATION:  # of a quaternion, by the twist with the joint's own
+                write_column_rate(twist, columns[k + j], changes[k + j])
         k += width
 
 
 @njit
-def bend(twist: Array, column: Array, found: Array) -> None:
-    """Write how fast the column of a joint changes that is carried by a twist (6,) into (6,)."""
+def write_column_rate(twist: Array, column: Array, rate: Array) -> None:
+    """Write the rate of change of a joint's column that moves with a twist (6,) into (6,)."""
     for i in range(3):
-        found[i] = component(twist, column, i)
-        found[3 + i] = component(twist, column[3:], i) + component(twist[3:], column, i)
+        rate[i] = cross(twist, column, i)
+        rate[3 + i] = cross(twist, column[3:], i) + cross(twist[3:], column, i)
 
 
 @njit
-def component(left: Array, right: Array, i: int) -> float:
+def cross(left: Array, right: Array, i: int) -> float:
     """Return a component of the vector product of two vectors' first three numbers."""
     j, k = (i + 1) % 3, (i + 2) % 3
-    found: float = left[j] * right[k] - left[k] * right[j]
-    return found
+    component: float = left[j] * right[k] - left[k] * right[j]
+    return component
 
 
-def place_mount(parameters: int, values: int, time: float) -> None:
+def write_mount_frame(parameters: int, values: int, time: float) -> None:
     """Write the frame of a part; see `uwsim.base.numerics.calls`."""
-    mounted_frame(carray(pointer(parameters), (1,), MOUNT)[0], view_doubles(values, 12))
+    write_frame(carray(pointer(parameters), (1,), MOUNT)[0], floats(values, 12))
 
 
-def move_mount(parameters: int, values: int, time: float) -> None:
-    """Write how a point of a part moves behind the point, (3,), in the same array, (12,)."""
+def write_mount_motion(parameters: int, values: int, time: float) -> None:
+    """Write the motion of a part's point behind the point, (3,), in the same array, (12,)."""
     mount = carray(pointer(parameters), (1,), MOUNT)[0]
-    point_motion(mount.chain, view_doubles(values, 3), view_doubles(values + 24, 9))
+    write_motion(mount.chain, floats(values, 3), floats(values + 24, 9))

@@ -1,8 +1,8 @@
-r"""How the links of vehicles move: velocities and accelerations of points on them.
+r"""Velocities and accelerations of points on the links of vehicles.
 
-Velocities of a simulated vehicle are those at the end of the last step; :math:`\ddot q` is what the
-engine solved in that step, in which forces act at its middle: accelerations are half a step old.
-`link_kernel` has the formulas.
+Velocities of a simulated vehicle are those at the end of the last step. :math:`\ddot q` is the
+engine's solution for that step, in which forces act at its middle: accelerations are half a step
+old. `link_kernel` has the formulas.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from ...model.body_names import vehicle_joint
 from ...world import BodyMotion
 from ..poses import Poses
 from . import link_kernel
-from .link_kernel import CHAIN, HINGE, SHIFT, SLIDE, TURN
+from .link_kernel import CHAIN, HINGE, ROTATION, SLIDE, TRANSLATION
 
 Chain = npt.NDArray[np.void]
 """A record of `link_kernel.CHAIN`, (1,)."""
@@ -30,23 +30,23 @@ class LinkMotion:
     """The motion of points on links.
 
     Args:
-        model: of the scene.
-        data: its state.
-        poses: where everything is.
+        model: the engine's model.
+        data: the engine's state.
+        poses: the poses of all bodies.
     """
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, poses: Poses) -> None:
         self._model, self._data, self._poses = model, data, poses
         self._scratch = np.zeros(link_kernel.scratch_size(model.nbody, model.nv))
-        self._led: dict[int, tuple[Array, Array]] = {}
+        self._kinematic_motion: dict[int, tuple[Array, Array]] = {}
         self._chains: dict[tuple[int, int | None], Chain] = {}
-        self._kept: list[npt.NDArray[np.int64]] = []  # what chains have the addresses of
+        self._dof_arrays: list[npt.NDArray[np.int64]] = []  # chains have their addresses
 
     def base_addresses(self, index: int) -> tuple[Addresses, Addresses]:
-        """Return the addresses of the place and of the twist of a vehicle's base, (12,) and (6,).
+        """Return the addresses of the pose and of the twist of a vehicle's base, (12,) and (6,).
 
-        Position [m] and axes in W by rows, as `Poses.refresh` leaves them; velocity in W [m/s] and
-        angular velocity in its own axes [rad/s].
+        The pose has the position [m] and the axes in W by rows, as `Poses.refresh` computes them.
+        The twist has the velocity in W [m/s] and the angular velocity in the base's axes [rad/s].
         """
         poses, body = self._poses, self._poses.base(index)
         dof = int(self._model.body_dofadr[body])
@@ -60,60 +60,60 @@ class LinkMotion:
         """Return the addresses of the positions of some joints of a vehicle [rad or m], (n,).
 
         With motion, (4 n,), those of velocities [rad/s or m/s] and of the two parts of the efforts
-        [N m or N] follow: what drives the joints, and what is applied to them.
+        [N m or N] follow: the actuators' efforts, and the applied ones.
         """
         model, data = self._model, self._data
         joints = [model.joint(vehicle_joint(index, name)).id for name in names]
         places, dofs = model.jnt_qposadr[joints], model.jnt_dofadr[joints]
-        found = [number_addresses(data.qpos, places)]
+        addresses = [addresses_in(data.qpos, places)]
         if with_motion:
-            moving = data.qvel, data.qfrc_actuator, data.qfrc_applied
-            found += [number_addresses(array, dofs) for array in moving]
-        return np.concatenate(found)
+            arrays = data.qvel, data.qfrc_actuator, data.qfrc_applied
+            addresses += [addresses_in(array, dofs) for array in arrays]
+        return np.concatenate(addresses)
 
-    def led(self, index: int) -> tuple[Array, Array]:
-        """Return where the motion of a vehicle's joints is written that is not the engine's.
+    def kinematic_motion(self, index: int) -> tuple[Array, Array]:
+        """Return the arrays of the joint motion of a kinematic vehicle.
 
         Args:
-            index: number of the vehicle.
+            index: the number of the vehicle.
 
         Returns:
-            Speeds of all degrees of freedom of the scene, and the rates of these, (nv,) each.
+            Speeds and accelerations of all degrees of freedom of the scene, (nv,) each.
         """
-        if index not in self._led:
-            self._led[index] = np.zeros(self._model.nv), np.zeros(self._model.nv)
-        return self._led[index]
+        if index not in self._kinematic_motion:
+            self._kinematic_motion[index] = np.zeros(self._model.nv), np.zeros(self._model.nv)
+        return self._kinematic_motion[index]
 
-    def of(self, body: int, point: Array, *, led: int | None = None) -> BodyMotion:
+    def point_motion(self, body: int, point: Array, *, vehicle: int | None = None) -> BodyMotion:
         """Return the motion of a point of W, (3,) [m], on a body of the engine.
 
         Args:
-            body: its number in the engine.
-            point: in W, (3,) [m].
-            led: number of the vehicle whose joints move as `led` has it; None: as the engine moves
-                them.
+            body: the engine's number of the body.
+            point: the point in W, (3,) [m].
+            vehicle: the vehicle whose `kinematic_motion` moves the joints; None: the
+                engine moves them.
         """
         self._poses.refresh()
-        found = link_kernel.motion_of(self.chain(body, led), point)
-        return BodyMotion(found[:3], found[3:6], found[6:])
+        motion = link_kernel.compute_motion(self.chain(body, vehicle), point)
+        return BodyMotion(motion[:3], motion[3:6], motion[6:])
 
-    def chain(self, body: int, led: int | None) -> Chain:
+    def chain(self, body: int, vehicle: int | None) -> Chain:
         """Return the joints that move a body, as a record for compiled code.
 
         Args:
-            body: its number in the engine.
-            led: number of the vehicle whose joints move as `led` has it; None: as the engine moves
-                them.
+            body: the engine's number of the body.
+            vehicle: the vehicle whose `kinematic_motion` moves the joints; None: the
+                engine moves them.
         """
-        if (body, led) in self._chains:
-            return self._chains[body, led]
+        if (body, vehicle) in self._chains:
+            return self._chains[body, vehicle]
         model, data = self._model, self._data
-        speeds, rates = (data.qvel, data.qacc) if led is None else self.led(led)
-        root, rows = int(model.body_rootid[body]), np.array(self._rows(body), np.int64)
-        chain = self._chains[body, led] = np.zeros(1, CHAIN)
+        motion = (data.qvel, data.qacc) if vehicle is None else self.kinematic_motion(vehicle)
+        root, rows = int(model.body_rootid[body]), np.array(self._dof_rows(body), np.int64)
+        chain = self._chains[body, vehicle] = np.zeros(1, CHAIN)
         chain["root"], chain["n_bodies"] = root, int((model.body_rootid == root).sum())
         chain["n_dofs"] = len(rows)
-        self._kept.append(rows)
+        self._dof_arrays.append(rows)
         for name, numbers in (
             ("dofs", rows),
             ("parents", model.body_parentid),
@@ -123,22 +123,23 @@ class LinkMotion:
             ("axes", data.xmat),
             ("anchors", data.xanchor),
             ("joint_axes", data.xaxis),
-            ("speeds", speeds),
-            ("rates", rates),
+            ("speeds", motion[0]),
+            ("accelerations", motion[1]),
             ("scratch", self._scratch),
         ):
             chain[name] = address_of(numbers)
         return chain
 
-    def _rows(self, body: int) -> list[tuple[int, int, int, int]]:
-        """Return number, kind, body and joint of what moves a body, from root to link."""
+    def _dof_rows(self, body: int) -> list[tuple[int, int, int, int]]:
+        """Return number, kind, body and joint of a body's degrees of freedom, from the root on."""
         model, rows = self._model, []
         body = int(model.body_weldid[body])
         dof = int(model.body_dofadr[body] + model.body_dofnum[body] - 1) if body else -1
         while dof >= 0:
             joint = int(model.dof_jntid[dof])
+            is_translation = dof < model.jnt_dofadr[joint] + 3  # of a free joint
             kind = {
-                mujoco.mjtJoint.mjJNT_FREE: SHIFT if dof < model.jnt_dofadr[joint] + 3 else TURN,
+                mujoco.mjtJoint.mjJNT_FREE: TRANSLATION if is_translation else ROTATION,
                 mujoco.mjtJoint.mjJNT_SLIDE: SLIDE,
                 mujoco.mjtJoint.mjJNT_HINGE: HINGE,
             }[mujoco.mjtJoint(model.jnt_type[joint])]

@@ -4,10 +4,9 @@ Its commands move it in jumps (`jumps`), each made evenly over a time T:
 
 .. math:: \dot q = \Delta q / T, \qquad \ddot q = (\dot q - \dot q_{before}) / T
 
-Both last until the next jump; where none comes for :math:`1.5\,T` the vehicle has stopped, and
-slows down over T. The commands of the base, those of
-the joints and the drift with the water, which moves a vehicle at every step, are jumps of their own
-and add up.
+Both last until the next jump. Where none comes for :math:`1.5\,T`, the vehicle stops and slows down
+over T. The commands of the base, those of the joints and the drift with the water, which moves a
+vehicle at every step, are separate jumps, and their motions are added.
 """
 
 from __future__ import annotations
@@ -25,44 +24,44 @@ from .jumps import JumpState, JumpTimes
 from .link_motion import LinkMotion
 
 Source = Literal["base", "joints"]
-"""What commands move."""
+"""The part of a vehicle that commands move."""
 
 
 @dataclass(slots=True)
 class SourceState(Record):
-    """What one source of motion has done."""
+    """The motion by one source."""
 
     speed: Array
     """The velocity of its last jump, (n,) [m/s, rad/s]."""
-    before: Array
-    """The velocity before it, (n,)."""
+    previous_speed: Array
+    """The velocity of the jump before it, (n,)."""
     times: JumpState
-    """When it jumped."""
+    """The time of the last jump."""
 
 
 @dataclass(slots=True)
 class PlacedState(Record):
-    """What changes of a vehicle that is placed."""
+    """The state of the motion of a placed vehicle."""
 
-    now: Array
-    """Its joints' positions when they were last recorded, (7 + n,)."""
+    positions: Array
+    """The positions of the joints when they were last recorded, (7 + n,)."""
     base: SourceState
-    """What commands of the base have done."""
+    """The motion by commands of the base."""
     joints: SourceState
-    """What commands of the joints have done."""
+    """The motion by commands of the joints."""
     drift: SourceState
-    """What the water has done."""
+    """The motion by the water."""
 
 
 class PlacedMotion:
     """The motion of one vehicle that is placed.
 
     Args:
-        model: of the scene.
-        data: its state.
-        joints: the vehicle's in the model, the free joint of its base first.
-        index: number of the vehicle.
-        links: how points on links move.
+        model: the engine's model.
+        data: the engine's state.
+        joints: the vehicle's joints in the model, the free joint of its base first.
+        index: the number of the vehicle.
+        links: the motion of points on links.
     """
 
     def __init__(
@@ -74,63 +73,64 @@ class PlacedMotion:
         links: LinkMotion,
     ) -> None:
         self._data = data
-        self._speeds, self._rates = links.led(index)
-        free, *moving = joints
-        place, dof = int(model.jnt_qposadr[free]), int(model.jnt_dofadr[free])
-        self._places = np.array([*range(place, place + 7), *model.jnt_qposadr[moving]])
-        self._dofs = np.array([*range(dof, dof + 6), *model.jnt_dofadr[moving]])
+        self._speeds, self._accelerations = links.kinematic_motion(index)
+        free_joint, *other_joints = joints
+        place, dof = int(model.jnt_qposadr[free_joint]), int(model.jnt_dofadr[free_joint])
+        self._places = np.array([*range(place, place + 7), *model.jnt_qposadr[other_joints]])
+        self._dofs = np.array([*range(dof, dof + 6), *model.jnt_dofadr[other_joints]])
         timestep = float(model.opt.timestep)
-        self._base, self._drift = _Jumps(6, timestep), _Jumps(6, timestep)
-        self._joints = _Jumps(len(moving), timestep)
+        self._base, self._drift = _Motion(6, timestep), _Motion(6, timestep)
+        self._joints = _Motion(len(other_joints), timestep)
         now: Array = data.qpos[self._places]
         self.state = PlacedState(now, self._base.state, self._joints.state, self._drift.state)
-        """What changes of it."""
+        """The state of the motion."""
 
-    def record(self, step: int, starts: Collection[Source] = ()) -> None:
-        """Record where it was put; what ``starts`` has not come there, its motion begins there."""
-        change = self._change()
-        sources: tuple[tuple[Source, _Jumps, Array], ...] = (
+    def record(self, step: int, starting_sources: Collection[Source] = ()) -> None:
+        """Record the present position; motion by ``starting_sources`` begins there."""
+        change = self._measure_change()
+        sources: tuple[tuple[Source, _Motion, Array], ...] = (
             ("base", self._base, change[:6]),
             ("joints", self._joints, change[6:]),
         )
         for source, jumps, part in sources:
-            if source in starts:
+            if source in starting_sources:
                 jumps.begin(step)
             elif part.any():
                 jumps.add(step, part)
 
     def record_drift(self, step: int) -> None:
-        """Record where the water has carried it."""
-        self._drift.add(step, self._change()[:6])
+        """Record the displacement by the water."""
+        self._drift.add(step, self._measure_change()[:6])
 
-    def rest(self) -> None:
-        """Record where it was put, at rest."""
-        self._change()
+    def record_at_rest(self) -> None:
+        """Record the present position, at rest."""
+        self._measure_change()
         for jumps in (self._base, self._joints, self._drift):
             jumps.clear()
 
     def twist(self, step: int) -> Array:
-        """Return the velocity of its base in W, and its turning in its own axes, (6,)."""
+        """Return the velocity of the base in W and its angular velocity in its own axes, (6,)."""
         return self._base.speed(step) + self._drift.speed(step)
 
     def update(self, step: int) -> None:
-        """Write how its joints move at a step to where `LinkMotion` reads it."""
-        for found, part in ((self._speeds, _Jumps.speed), (self._rates, _Jumps.rate)):
+        """Write the joints' motion at a step into the arrays that `LinkMotion` reads."""
+        parts = (self._speeds, _Motion.speed), (self._accelerations, _Motion.acceleration)
+        for array, part in parts:
             base = part(self._base, step) + part(self._drift, step)
-            found[self._dofs] = np.concatenate([base, part(self._joints, step)])
+            array[self._dofs] = np.concatenate([base, part(self._joints, step)])
 
-    def _change(self) -> Array:
-        """How far it is from where it was the last time, for each degree of freedom."""
-        before, now = self.state.now, self._data.qpos[self._places]
+    def _measure_change(self) -> Array:
+        """Return the displacement since the last call, for each degree of freedom."""
+        q_last, q = self.state.positions, self._data.qpos[self._places]
         change = np.empty(len(self._dofs))
-        change[:3] = now[:3] - before[:3]  # in W
-        mujoco.mju_subQuat(change[3:6], now[3:7], before[3:7])  # in the base's axes
-        change[6:] = now[7:] - before[7:]
-        self.state.now = now
+        change[:3] = q[:3] - q_last[:3]  # in W
+        mujoco.mju_subQuat(change[3:6], q[3:7], q_last[3:7])  # in the base's axes
+        change[6:] = q[7:] - q_last[7:]
+        self.state.positions = q
         return change
 
 
-class _Jumps:
+class _Motion:
     """The degrees of freedom that one source moves, with the velocity of its last jump."""
 
     def __init__(self, n: int, timestep: float) -> None:
@@ -140,11 +140,12 @@ class _Jumps:
     def clear(self) -> None:
         """Forget the last jump."""
         state = self.state
-        state.speed, state.before = np.zeros_like(state.speed), np.zeros_like(state.before)
+        state.speed = np.zeros_like(state.speed)
+        state.previous_speed = np.zeros_like(state.previous_speed)
         self._times.forget()
 
     def begin(self, step: int) -> None:
-        """Be at rest from this step on; the next jump counts from it."""
+        """Set the motion to rest at this step; the next jump counts from it."""
         self.clear()
         self._times.add(step)
 
@@ -153,25 +154,25 @@ class _Jumps:
         if self._times.age(step) == 0:
             self.state.speed = self.state.speed + change / self._times.duration
             return
-        self.state.before = self.speed(step)
+        self.state.previous_speed = self.speed(step)
         self._times.add(step)
         self.state.speed = change / self._times.duration
 
     def speed(self, step: int) -> Array:
         """Return the velocity, (n,) [m/s, rad/s]."""
-        is_moving = self._times.age(step) < self._lasts
+        is_moving = self._times.age(step) < self._n_moving_steps
         return self.state.speed if is_moving else np.zeros_like(self.state.speed)
 
-    def rate(self, step: int) -> Array:
+    def acceleration(self, step: int) -> Array:
         """Return the acceleration, (n,) [m/s2, rad/s2]."""
         age, time = self._times.age(step), self._times.duration
-        if age < self._lasts:
-            return (self.state.speed - self.state.before) / time
-        if age < self._lasts + self._times.n_steps:
+        if age < self._n_moving_steps:
+            return (self.state.speed - self.state.previous_speed) / time
+        if age < self._n_moving_steps + self._times.n_steps:
             return -self.state.speed / time
         return np.zeros_like(self.state.speed)
 
     @property
-    def _lasts(self) -> int:
-        """For how many steps a jump is the motion, unless another comes."""
+    def _n_moving_steps(self) -> int:
+        """The number of steps for which a jump is the motion, unless another comes."""
         return self._times.n_steps + (self._times.n_steps + 1) // 2

@@ -77,7 +77,7 @@ class Contacts:
             UwsimError: it cannot be touched.
         """
         kind, index = touchable(name, self._model.scene)
-        contacts = self._engine.contacts.of(kind, index)
+        contacts = self._engine.contacts.find_contacts(kind, index)
         if contacts is None:
             if self._overlaps.part is None:
                 self._overlaps.get_or_make().record(self.state.step)

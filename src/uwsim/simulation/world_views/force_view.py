@@ -112,7 +112,7 @@ class ForceView:
         def motion() -> BodyMotion:
             if body is None:
                 return BodyMotion(np.zeros(3), np.zeros(3), np.zeros(3))
-            return engine.link_motion.of(body, pose().position)
+            return engine.link_motion.point_motion(body, pose().position)
 
         return SceneAttachment(name, "", pose, motion, body, object_from_frame.position)
 
