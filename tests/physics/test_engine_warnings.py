@@ -17,7 +17,13 @@ from uwsim.model.body_names import object_body
 from uwsim.model.collision.shapes import CollisionShape
 from uwsim.model.resolved_scene import SimulatedScene
 from uwsim.physics.engine_model import compile_engine_model
-from uwsim.physics.engine_warnings import hush, say_too_fast, speeds_of, too_fast, why_untrue
+from uwsim.physics.engine_warnings import (
+    describe_speed,
+    describe_warning,
+    find_excess_speed,
+    speed_limits,
+    suppress_warnings,
+)
 from uwsim.scene.object import ObjectSpec, PhysicsSpec
 from uwsim.scene.reader import read_scene
 from uwsim.scene.sim_params import SimParamsSpec
@@ -40,11 +46,11 @@ def diverge() -> None:
 def warned(memory: str) -> str:
     model = mujoco.MjModel.from_xml_string(MODEL.format(memory=memory))
     data = mujoco.MjData(model)
-    hush()
+    suppress_warnings()
     mujoco.mj_step(model, data)
     names = [model.body(i).name for i in model.dof_bodyid]
     assert data.warning.number.any()
-    return why_untrue(data, 0.002, 0.002, names)
+    return describe_warning(data, 0.002, 0.002, names)
 
 
 def test_contacts_that_find_no_room_are_reported(
@@ -58,7 +64,7 @@ def test_contacts_that_find_no_room_are_reported(
 
 def test_what_moves_too_fast_is_named_with_what_may_be_wrong() -> None:
     velocities, speeds = np.array([0.0, 90.0, 90.0]), np.array([[0, 3, 100]], dtype=np.int64)
-    said = say_too_fast(velocities, speeds, 0, 1.5, ["needle"] * 3)
+    said = describe_speed(velocities, speeds, 0, 1.5, ["needle"] * 3)
     assert said.startswith("'needle' moves at 127.3 m/s or rad/s at 1.5 s")
     assert "bodies were inside each other as they began, or it is so thin" in said
 
@@ -73,11 +79,11 @@ def test_a_thin_thing_that_is_loose_may_turn_as_fast_as_it_rolls(radius: float, 
             scene=scene, robots={}, dynamics={}, shapes={object_body(0): (rod,)}, timestep=0.002
         )
     )
-    speeds = speeds_of(model)
+    speeds = speed_limits(model)
     assert speeds.tolist() == [[0, 3, 100], [3, 3, limit]]
-    assert too_fast(np.array([0.0, 0.0, 0.0, 0.9 * limit, 0.0, 0.0]), speeds) == -1
-    assert too_fast(np.array([0.0, 0.0, 0.0, 0.9 * limit, 0.9 * limit, 0.0]), speeds) == 3
-    assert too_fast(np.array([101.0, 0.0, 0.0, 0.0, 0.0, 0.0]), speeds) == 0
+    assert find_excess_speed(np.array([0.0, 0.0, 0.0, 0.9 * limit, 0.0, 0.0]), speeds) == -1
+    assert find_excess_speed(np.array([0.0, 0.0, 0.0, 0.9 * limit, 0.9 * limit, 0.0]), speeds) == 3
+    assert find_excess_speed(np.array([101.0, 0.0, 0.0, 0.0, 0.0, 0.0]), speeds) == 0
 
 
 @pytest.mark.slow
@@ -97,7 +103,7 @@ def test_somebody_elses_listener_stays() -> None:
     before = mujoco.get_mju_user_warning()
     try:
         mujoco.set_mju_user_warning(print)
-        hush()
+        suppress_warnings()
         assert mujoco.get_mju_user_warning() is print
     finally:
         mujoco.set_mju_user_warning(before)

@@ -9,7 +9,7 @@ import pytest
 
 import uwsim
 from uwsim.messages import JointState
-from uwsim.physics.joints import BEYOND, BEYOND_TURN
+from uwsim.physics.joints import STOP_MARGIN, STOP_MARGIN_ANGLE
 
 HULL = """
   <body link="hull">
@@ -80,7 +80,7 @@ def pull_down(simulation: uwsim.Simulation, newtons: float, seconds: float) -> f
 def test_a_held_joint_stops_a_little_beyond_its_limit_when_more_pulls_than_its_servo_bears(
     simulation: uwsim.Simulation,
 ) -> None:
-    assert 0.5 < pull_down(simulation, 400.0, 2.0) < 0.5 + 1.5 * BEYOND
+    assert 0.5 < pull_down(simulation, 400.0, 2.0) < 0.5 + 1.5 * STOP_MARGIN
 
 
 def test_a_joint_that_is_let_go_stops_at_its_limit_and_a_saved_one_does_so_again(
@@ -90,7 +90,7 @@ def test_a_joint_that_is_let_go_stops_at_its_limit_and_a_saved_one_does_so_again
     simulation.advance(0.1)
     saved = simulation.save()
     farthest = pull_down(simulation, 400.0, 2.0)
-    assert farthest < 0.5 + 0.5 * BEYOND
+    assert farthest < 0.5 + 0.5 * STOP_MARGIN
     simulation.publish("/arm", JointState(name=["lift"], position=np.array([0.2])))
     simulation.advance(0.1)
     simulation.restore(saved)
@@ -115,7 +115,7 @@ def test_a_held_joint_that_turns_stops_a_little_beyond_its_limit_under_more_than
 ) -> None:
     """400 N at 0.5 m against 50 N m; the hull tilts under it."""
     farthest = pull_down(turning(tmp_path), 400.0, 2.0)
-    assert 0.5 < farthest < 0.5 + 1.5 * BEYOND_TURN
+    assert 0.5 < farthest < 0.5 + 1.5 * STOP_MARGIN_ANGLE
 
 
 def test_one_that_is_let_go_stops_at_its_limit_and_one_that_is_held_again_beyond(
@@ -124,10 +124,10 @@ def test_one_that_is_let_go_stops_at_its_limit_and_one_that_is_held_again_beyond
     simulation = turning(tmp_path)
     simulation.publish("/arm", JointState(name=["lift"], effort=np.array([0.0])))
     simulation.advance(0.1)
-    assert pull_down(simulation, 400.0, 2.0) < 0.5 + 0.5 * BEYOND_TURN
+    assert pull_down(simulation, 400.0, 2.0) < 0.5 + 0.5 * STOP_MARGIN_ANGLE
     simulation.publish("/arm", JointState(name=["lift"], position=np.array([0.5])))
     farthest = pull_down(simulation, 400.0, 2.0)
-    assert 0.5 + 0.5 * BEYOND_TURN < farthest < 0.5 + 1.5 * BEYOND_TURN
+    assert 0.5 + 0.5 * STOP_MARGIN_ANGLE < farthest < 0.5 + 1.5 * STOP_MARGIN_ANGLE
 
 
 def test_a_servo_that_comes_to_its_limit_under_a_load_does_not_touch_the_stop(
@@ -137,7 +137,7 @@ def test_a_servo_that_comes_to_its_limit_under_a_load_does_not_touch_the_stop(
     simulation.publish("/arm", JointState(name=["lift"], position=np.array([0.0])))
     simulation.advance(4.0)
     simulation.publish("/arm", JointState(name=["lift"], position=np.array([0.5])))
-    assert pull_down(simulation, 20.0, 4.0) < 0.5 + 0.5 * BEYOND_TURN
+    assert pull_down(simulation, 20.0, 4.0) < 0.5 + 0.5 * STOP_MARGIN_ANGLE
     assert simulation.world.vehicles.find("lifter").joints[0] == pytest.approx(0.5, abs=0.002)
 
 

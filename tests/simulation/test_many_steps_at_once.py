@@ -17,7 +17,7 @@ from uwsim.currents import ConstantSpec, Place, PowerProfileSpec, TotalCurrent, 
 from uwsim.devices.fault import FaultSpec
 from uwsim.errors import RunFailed
 from uwsim.messages import Odometry, Twist, TwistStamped, Vector3, header
-from uwsim.physics.step_kernel import rotation_of
+from uwsim.physics.step_kernel import engine_rotation
 from uwsim.scene.reader import read_scene
 from uwsim.sensors import ImuSpec
 from uwsim.simulation import Simulation
@@ -273,4 +273,4 @@ def test_a_base_is_turned_as_the_engine_turns_it() -> None:
     for _ in range(200):
         data.qpos[3:] = random.normal(size=4)
         mujoco.mj_kinematics(model, data)
-        assert np.array_equal(rotation_of(*data.qpos[3:].tolist()).ravel(), data.xmat[1])
+        assert np.array_equal(engine_rotation(*data.qpos[3:].tolist()).ravel(), data.xmat[1])

@@ -1,16 +1,15 @@
-r"""No bounce of a loose object adds energy.
+r"""The limit on the energy of loose objects that bounce.
 
-A contact with a restitution is a soft spring (`restitution`), and with long steps a body sinks in
-by more than a facet of relief is wide. Another facet may then find it deep inside, from another
-side, and its spring would throw the body out. Here the mechanical energy
+A contact with a restitution is a soft spring (`restitution`). With long steps a body penetrates by
+more than the width of a facet of the relief. It may then be deep behind another facet, whose spring
+would eject it. Here the mechanical energy
 
 .. math:: E = \tfrac12 \nu^T (M + M_A)\,\nu - (m - \rho V)\, g \cdot x
 
-of an object that touches nothing but fixed things is bounded by what it was before it touched
-them, and the sum of those of loose objects that touch each other by what it was before. Beyond it
-the velocities are reduced to the size that the bound leaves. In water that moves, the work of the
-water raises the bound. Objects that touch what else moves (a gripper, a vehicle) are not bounded.
-Only scenes in which something has a restitution pay for this.
+of an object that touches only fixed bodies is limited to its value before the contact. For loose
+objects that touch each other, the sum of their energies is limited. Above the limit the velocities
+are reduced. In moving water, the work of the water raises the limit. Objects that touch other
+moving bodies (a gripper, a vehicle) have no limit. Only scenes with a restitution compute it.
 """
 
 from __future__ import annotations
@@ -27,181 +26,180 @@ from ..base.numerics.linear import dot, product, rotate, rotate_back
 from ..base.record import Record
 from .hydrodynamics import columns as c
 
-FIXED, MOVING = -1, -2
-"""What an object touches that is no object with a bound."""
+FIXED_BODY, MOVING_BODY = -1, -2
+"""Bodies without an energy limit that an object touches."""
 
 
 @dataclass(slots=True)
 class BounceState(Record):
-    """What bounds the energy of loose objects."""
+    """The energy limits of loose objects."""
 
     bounds: Array
-    """The energy that each may have, (n,) [J]."""
-    before: Array
-    """The velocity of each before the step, (n, 6) [m/s, rad/s]."""
+    """The greatest energy of each object, (n,) [J]."""
+    velocities: Array
+    """The velocity of each object before the step, (n, 6) [m/s, rad/s]."""
 
 
 class BounceLimit:
-    """The energy of loose objects that bounce.
+    """The limit on the energy of loose objects that bounce.
 
     Args:
-        model: of the scene.
-        data: its state.
-        bodies: numbers of the loose objects' bodies.
+        model: the engine's model.
+        data: the engine's state.
+        bodies: the engine's numbers of the loose objects.
     """
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, bodies: Sequence[int]) -> None:
         self._model, self._data = model, data
-        self._objects = [_Object(model, data, body) for body in bodies]
+        self._objects = [_LooseBody(model, data, body) for body in bodies]
         self.is_on = True
-        """Whether it bounds anything; not while a vehicle holds an object."""
-        self._numbers = {one.body: i for i, one in enumerate(self._objects)}
-        self._fixed = model.body_weldid == 0  # whether a body never moves
+        """A flag: the limit applies, as no vehicle holds an object."""
+        self._indices = {body.number: i for i, body in enumerate(self._objects)}
+        self._fixed = model.body_weldid == 0  # mask of the bodies that never move
         self.state = BounceState(
-            np.array([one.energy() for one in self._objects]),
-            np.array([one.velocity for one in self._objects]).reshape(-1, 6),
+            np.array([body.energy() for body in self._objects]),
+            np.array([body.velocity for body in self._objects]).reshape(-1, 6),
         )
-        """What bounds their energy."""
+        """The energy limits."""
 
     def apply(self) -> None:
-        """Bound the energy of every object, and of those that touch each other, after a step."""
-        touched = self._touched()
-        energies = np.array([one.energy() for one in self._objects])  # [J]
-        for group in self._groups(touched):
-            is_bounded = self.is_on and not any(MOVING in touched[i] for i in group)
-            if is_bounded and (len(group) > 1 or FIXED in touched[group[0]]):
-                self._bound(group, energies)
+        """Limit the energy of every object, and of those that touch each other, after a step."""
+        contacts = self._find_contacts()
+        energies = np.array([body.energy() for body in self._objects])  # [J]
+        for group in self._groups(contacts):
+            is_bounded = self.is_on and not any(MOVING_BODY in contacts[i] for i in group)
+            if is_bounded and (len(group) > 1 or FIXED_BODY in contacts[group[0]]):
+                self._limit_energy(group, energies)
             else:
                 self.state.bounds[group] = energies[group]
-        for i, one in enumerate(self._objects):
-            self.state.before[i] = one.velocity
+        for i, body in enumerate(self._objects):
+            self.state.velocities[i] = body.velocity
 
-    def _bound(self, group: list[int], energies: Array) -> None:
-        """Bound the sum of the energies of some objects, which they exchange."""
+    def _limit_energy(self, group: list[int], energies: Array) -> None:
+        """Limit the sum of the energies of objects that exchange energy."""
         objects = [self._objects[i] for i in group]
-        for i, one in zip(group, objects, strict=True):
-            self.state.bounds[i] += one.work_of_flow(self.state.before[i])
+        for i, body in zip(group, objects, strict=True):
+            self.state.bounds[i] += body.work_of_flow(self.state.velocities[i])
         excess = float(energies[group].sum() - self.state.bounds[group].sum())
-        kinetic = sum(one.kinetic() for one in objects)
-        if excess > 0.0 and kinetic > 0.0:
-            share = excess / kinetic
-            for one in objects:
-                one.slow_down(share)
-        if len(group) > 1:  # what each may have from now on: the sum is as before
-            left = np.array([one.energy() for one in objects])
-            self.state.bounds[group] = left + (self.state.bounds[group].sum() - left.sum()) / len(
-                group
-            )
+        kinetic_energy = sum(body.kinetic_energy() for body in objects)
+        if excess > 0.0 and kinetic_energy > 0.0:
+            share = excess / kinetic_energy
+            for body in objects:
+                body.slow_down(share)
+        if len(group) > 1:  # the new limits have the same sum
+            energies_now = np.array([body.energy() for body in objects])
+            total = self.state.bounds[group].sum()
+            self.state.bounds[group] = energies_now + (total - energies_now.sum()) / len(group)
 
-    def _groups(self, touched: Sequence[set[int]]) -> list[list[int]]:
-        """Numbers of objects, those together that touch each other."""
+    def _groups(self, contacts: Sequence[set[int]]) -> list[list[int]]:
+        """Return the indices of objects in groups that touch each other."""
         groups: list[list[int]] = []
-        seen = set[int]()
+        known_indices = set[int]()
         for i in range(len(self._objects)):
-            if i in seen:
+            if i in known_indices:
                 continue
-            group, waiting = [], [i]
-            seen.add(i)
-            while waiting:
-                one = waiting.pop()
-                group.append(one)
-                near = sorted(touched[one] - seen - {FIXED, MOVING})
-                seen.update(near)
-                waiting += near
+            group, stack = [], [i]
+            known_indices.add(i)
+            while stack:
+                index = stack.pop()
+                group.append(index)
+                neighbours = sorted(contacts[index] - known_indices - {FIXED_BODY, MOVING_BODY})
+                known_indices.update(neighbours)
+                stack += neighbours
             groups.append(sorted(group))
         return groups
 
-    def _touched(self) -> list[set[int]]:
-        """For each object the numbers of others that it touches, `FIXED` and `MOVING`."""
-        touched: list[set[int]] = [set() for _ in self._objects]
+    def _find_contacts(self) -> list[set[int]]:
+        """Return the indices of the objects that each touches, `FIXED_BODY` and `MOVING_BODY`."""
+        contacts: list[set[int]] = [set() for _ in self._objects]
         if self._data.ncon == 0:
-            return touched
+            return contacts
         pairs = self._model.geom_bodyid[self._data.contact.geom].tolist()
-        for first, second in pairs:
-            for body, other in ((first, second), (second, first)):
-                if (i := self._numbers.get(body)) is not None:
-                    kind = FIXED if self._fixed[other] else MOVING
-                    touched[i].add(self._numbers.get(other, kind))
-        return touched
+        for pair in pairs:
+            for body, other in (pair, pair[::-1]):
+                if (i := self._indices.get(body)) is not None:
+                    kind = FIXED_BODY if self._fixed[other] else MOVING_BODY
+                    contacts[i].add(self._indices.get(other, kind))
+        return contacts
 
 
-class _Object:
-    """A loose object with its inertia, rigid and added."""
+class _LooseBody:
+    """A loose object: inertia, rigid and added, and the centres of mass r_g and buoyancy r_b."""
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, body: int) -> None:
-        self.body = body
+        self.number = body
         dof = int(model.body_dofadr[body])
         place = int(model.jnt_qposadr[model.body_jntadr[body]])
         self._q, self.velocity = data.qpos[place : place + 7], data.qvel[dof : dof + 6]
-        self._pushed, self._free = data.qacc[dof : dof + 6], data.qacc_smooth[dof : dof + 6]
+        self._qacc, self._qacc_smooth = data.qacc[dof : dof + 6], data.qacc_smooth[dof : dof + 6]
         self._timestep, self._gravity = float(model.opt.timestep), model.opt.gravity
         self._mass = float(model.body_mass[body])
-        self._middle = model.body_ipos[body].copy()  # (3,) [m]
-        inertia = _rigid(model, body)
-        self._displaced, self._lift_at, self._flow = 0.0, np.zeros(3), np.zeros(6)
+        self._r_g = model.body_ipos[body].copy()  # (3,) [m]
+        inertia = _rigid_inertia(model, body)
+        self._displaced_mass, self._r_b, self._flow = 0.0, np.zeros(3), np.zeros(6)
         if model.nuser_body == c.BODY_COLUMNS and model.body_user[body, c.KIND] != c.DRY:
             row = model.body_user[body]
-            inertia = inertia + _moved(row[c.ADDED : c.ADDED + 36].reshape(6, 6), row)
-            self._displaced = float(row[c.DISPLACED])
-            self._lift_at = row[c.REFERENCE : c.REFERENCE + 3] + row[c.CENTRE : c.CENTRE + 3]
+            inertia = inertia + _shift_added_mass(row[c.ADDED : c.ADDED + 36].reshape(6, 6), row)
+            self._displaced_mass = float(row[c.DISPLACED])
+            self._r_b = row[c.REFERENCE : c.REFERENCE + 3] + row[c.CENTRE : c.CENTRE + 3]
             start = c.WATER_COLUMNS * body
             self._flow = data.userdata[start : start + 6]
         self._inertia = inertia  # about its origin, in its axes, linear part first, (6, 6)
 
     def energy(self) -> float:
-        """Kinetic and potential energy in still water [J]."""
-        return self._kinetic(self.velocity) + self._potential()
+        """Return the kinetic and potential energy in still water [J]."""
+        return self._kinetic_energy(self.velocity) + self._potential_energy()
 
-    def kinetic(self) -> float:
-        """Kinetic energy [J]."""
-        return self._kinetic(self.velocity)
+    def kinetic_energy(self) -> float:
+        """Return the kinetic energy [J]."""
+        return self._kinetic_energy(self.velocity)
 
     def slow_down(self, share: float) -> None:
-        """Take a share of its kinetic energy out of its motion, all of it at most."""
+        """Reduce the kinetic energy by a share, at most to 0."""
         self.velocity *= math.sqrt(max(0.0, 1.0 - share))
 
-    def work_of_flow(self, before: Array) -> float:
-        """At most the work of moving water in the last step [J]; 0 in still water."""
+    def work_of_flow(self, start: Array) -> float:
+        """Return a bound on the work of moving water in the last step [J]; 0 in still water."""
         if not self._flow.any():
             return 0.0
-        free = self.velocity - self._timestep * (self._pushed - self._free)
-        return max(0.0, self._kinetic(free) - self._kinetic(before))
+        v_smooth = self.velocity - self._timestep * (self._qacc - self._qacc_smooth)
+        return max(0.0, self._kinetic_energy(v_smooth) - self._kinetic_energy(start))
 
-    def _kinetic(self, velocity: Array) -> float:
-        twist = np.concatenate([rotate_back(self._rotation(), velocity[:3]), velocity[3:]])
+    def _kinetic_energy(self, velocity: Array) -> float:
+        twist = np.concatenate([turned_back(self._rotation(), velocity[:3]), velocity[3:]])
         return 0.5 * dot(twist, product(self._inertia, twist))
 
-    def _potential(self) -> float:
-        """Of weight and buoyancy."""
-        lever = self._mass * self._middle - self._displaced * self._lift_at
-        moment = (self._mass - self._displaced) * self._q[:3] + rotate(self._rotation(), lever)
+    def _potential_energy(self) -> float:
+        """Return the energy of weight and buoyancy [J]."""
+        lever = self._mass * self._r_g - self._displaced_mass * self._r_b
+        moment = (self._mass - self._displaced_mass) * self._q[:3] + turned(self._rotation(), lever)
         return -dot(self._gravity, moment)
 
     def _rotation(self) -> Array:
-        found = np.empty(9)
-        mujoco.mju_quat2Mat(found, self._q[3:])
-        return found.reshape(3, 3)
+        matrix = np.empty(9)
+        mujoco.mju_quat2Mat(matrix, self._q[3:])
+        return matrix.reshape(3, 3)
 
 
-def _rigid(model: mujoco.MjModel, body: int) -> Array:
-    """Inertia of the rigid body about its origin, in its axes, (6, 6)."""
+def _rigid_inertia(model: mujoco.MjModel, body: int) -> Array:
+    """Return the inertia of the rigid body about its origin, in its axes, (6, 6)."""
     mass, turn = float(model.body_mass[body]), np.empty(9)
     mujoco.mju_quat2Mat(turn, model.body_iquat[body])
     axes = turn.reshape(3, 3)
     s = _skew(model.body_ipos[body])
-    found = np.zeros((6, 6))
-    found[:3, :3] = mass * np.eye(3)
-    found[:3, 3:], found[3:, :3] = -mass * s, mass * s
-    own = product(axes * model.body_inertia[body], axes.T)
-    found[3:, 3:] = own - mass * product(s, s)
-    return found
+    inertia = np.zeros((6, 6))
+    inertia[:3, :3] = mass * np.eye(3)
+    inertia[:3, 3:], inertia[3:, :3] = -mass * s, mass * s
+    tensor = product(axes * model.body_inertia[body], axes.T)
+    inertia[3:, 3:] = tensor - mass * product(s, s)
+    return inertia
 
 
-def _moved(added: Array, row: Array) -> Array:
-    """Added mass about the origin, from that about the reference point, (6, 6)."""
-    move = np.eye(6)  # twist at the reference from that at the origin
-    move[:3, 3:] = -_skew(row[c.REFERENCE : c.REFERENCE + 3])
-    return product(move.T, product(added, move))
+def _shift_added_mass(added_mass: Array, row: Array) -> Array:
+    """Return the added mass about the origin, from that about the reference point, (6, 6)."""
+    shift = np.eye(6)  # twist at the reference from that at the origin
+    shift[:3, 3:] = -_skew(row[c.REFERENCE : c.REFERENCE + 3])
+    return product(shift.T, product(added_mass, shift))
 
 
 def _skew(a: Array) -> Array:

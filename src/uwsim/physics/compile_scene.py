@@ -1,4 +1,4 @@
-"""Compiles a scene: from its spec to the model that its simulations share."""
+"""The compilation of a scene: from its spec to the model that its simulations share."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ from ..scene.variation import apply_variations
 from ..world import TIMESTEP
 from .engine_model import compile_engine_model
 
-MAX_SHOWN = 60
-"""Most letters of a wrong argument in an error."""
+MAX_SHOWN_LETTERS = 60
+"""The number of letters of an invalid argument that an error shows."""
 
 
 def compile_scene(
@@ -35,48 +35,48 @@ def compile_scene(
     """Compile a scene.
 
     Args:
-        scene: spec of the scene.
-        seed: of its variations, which are drawn here.
-        timestep: length of a step [s].
-        data_path: folders in which files are looked for.
-        compatibility: names of the compatibility quirks that are on.
+        scene: the spec of the scene.
+        seed: the seed of its variations, which are drawn here.
+        timestep: the length of a step [s].
+        data_path: the folders in which files are searched.
+        compatibility: the names of the compatibility quirks that are on.
         integrator: ``implicitfast`` or ``RK4`` instead of the file's (`SimParamsSpec`).
 
     Raises:
-        AssetNotFound: a file is nowhere; names every folder searched.
-        SceneError: a file is wrong, or a name leads nowhere; with every error.
-        BadHydrodynamics: the hydrodynamics are wrong; with every error.
-        BadSetting: it is no scene; the step is no time, or longer than the physics bears.
+        AssetNotFound: a file is missing; with every folder searched.
+        SceneError: a file is invalid, or a name is unknown; with every error.
+        BadHydrodynamics: the hydrodynamics are invalid; with every error.
+        BadSetting: the scene is not a spec; the step is not a time, or too long for the physics.
     """
     if not isinstance(scene, SceneSpec):
         raise BadSetting(
-            f"A scene is compiled from what read_scene returns, not of a {type(scene).__name__}: "
-            f"{repr(scene)[:MAX_SHOWN]}."
+            f"A scene to compile is a {type(scene).__name__}, {repr(scene)[:MAX_SHOWN_LETTERS]}; "
+            "expected a SceneSpec, which read_scene returns."
         )
     folders = tuple(map(Path, data_path))
     source = with_integrator(scene, integrator)
-    drawn = apply_variations(source, seed)
-    read = ResolvedScene(scene=drawn, robots=read_robots(drawn, folders), data_path=folders)
-    placed = replace(read, scene=set_on_floor(read))
-    dynamics = read_dynamics(placed)
-    simulated = SimulatedScene(
-        **vars(placed),
+    variant = varied(source, seed)
+    draft = ResolvedScene(scene=variant, robots=read_robots(variant, folders), data_path=folders)
+    resolved_scene = replace(draft, scene=set_on_floor(draft))
+    dynamics = read_dynamics(resolved_scene)
+    simulated_scene = SimulatedScene(
+        **vars(resolved_scene),
         dynamics=dynamics,
-        shapes=simulated_shapes(placed, dynamics),
+        shapes=simulated_shapes(resolved_scene, dynamics),
         timestep=timestep,
     )
     return SceneModel(
-        **vars(simulated),
+        **vars(simulated_scene),
         source=source,
-        varied_scene=drawn,
+        varied=variant,
         seed=seed,
         compatibility=compatibility,
-        engine_model=compile_engine_model(simulated),
+        engine_model=compile_engine_model(simulated_scene),
     )
 
 
 def recompile(model: SceneModel, seed: int) -> SceneModel:
-    """Compile the scene of a model for another seed; returns the model itself for the same."""
+    """Compile the scene of a model for another seed; return the model itself for the same seed."""
     if seed == model.seed:
         return model
     return compile_scene(

@@ -1,8 +1,8 @@
-"""Disk cache of compiled models: to compile thousands of shapes takes seconds.
+"""The disk cache of compiled models: to compile thousands of shapes takes seconds.
 
-A model is found by the hash of all that it is compiled from: the spec of the scene, its robots, the
-hydrodynamics, the step, the shapes, the sources of uwsim and the version of MuJoCo. Models of few
-shapes are not kept.
+The key of a model is the hash of all that it is compiled from: the spec of the scene, its robots,
+the hydrodynamics, the step, the shapes, the sources of uwsim and the version of MuJoCo. Models of
+few shapes are not cached.
 """
 
 from __future__ import annotations
@@ -26,12 +26,12 @@ from ..base.geometry import Array, Pose
 from ..model.collision.shapes import CollisionShape
 
 MIN_SHAPES = 500
-"""Models of fewer shapes are compiled anew."""
+"""The least number of shapes of a model that is cached."""
 SOURCES = ("base", "schema", "devices", "scene", "model", "physics", "world")
-"""Of this package, what models follow from."""
+"""The parts of this package that models depend on."""
 PACKAGES = ("mujoco", "numpy", "scipy", "numba")
 NAME = "scene.mjb"
-NONE = np.zeros(0)
+EMPTY_ARRAY = np.zeros(0)
 
 
 class NoContent(Exception):
@@ -44,9 +44,9 @@ def cached_model(
     """Return what ``build`` compiles, from the cache if possible.
 
     Args:
-        inputs: all that the model follows from, besides code.
-        n_shapes: how many shapes it has.
-        build: compiles it.
+        inputs: all values that the model depends on, besides code.
+        n_shapes: the number of its shapes.
+        build: compiles the model.
     """
     if n_shapes < MIN_SHAPES:
         return build()
@@ -64,10 +64,10 @@ def cached_model(
 
 
 def content_digest(inputs: Sequence[object]) -> bytes:
-    """Hash values by their content, and the code that compiles models, (32 bytes).
+    """Return the hash of values by their content and of the code that compiles models, (32 bytes).
 
     Raises:
-        NoContent: a value is of a type that is not known here.
+        NoContent: the type of a value is not supported.
     """
     package = Path(__file__).parents[1]
     digest = hashlib.sha256(code_digest([package / name for name in SOURCES], PACKAGES))
@@ -80,33 +80,33 @@ def content_digest(inputs: Sequence[object]) -> bytes:
 def _add(value: object, parts: list[bytes]) -> None:
     """Append a value's type, its length and its content: no two values have the same bytes."""
     if value is None or isinstance(value, bool | int | str | Path | enum.Enum):
-        parts.append(_framed(type(value).__name__, f"{value}".encode()))
+        parts.append(_encode(type(value).__name__, f"{value}".encode()))
     elif isinstance(value, float):
         parts.append(b"f" + struct.pack("<d", value))
     elif isinstance(value, bytes):
-        parts.append(_framed("bytes", value))
+        parts.append(_encode("bytes", value))
     elif isinstance(value, np.ndarray):
         kind = f"{value.dtype.str} {value.shape}"
-        parts.append(_framed(kind, np.ascontiguousarray(value).tobytes()))
+        parts.append(_encode(kind, np.ascontiguousarray(value).tobytes()))
     elif isinstance(value, tuple | list) and value and isinstance(value[0], CollisionShape):
         _add_shapes(value, parts)
     elif isinstance(value, tuple | list):
-        parts.append(_framed("list", str(len(value)).encode()))
-        for each in value:
-            _add(each, parts)
+        parts.append(_encode("list", str(len(value)).encode()))
+        for element in value:
+            _add(element, parts)
     elif isinstance(value, Mapping):
-        parts.append(_framed("mapping", str(len(value)).encode()))
-        for key, each in value.items():
+        parts.append(_encode("mapping", str(len(value)).encode()))
+        for key, element in value.items():
             _add(key, parts)
-            _add(each, parts)
+            _add(element, parts)
     elif isinstance(value, Pose):
         _add((value.position, value.rotation), parts)
     elif dataclasses.is_dataclass(value) and not isinstance(value, type):
-        parts.append(_framed("object", f"{type(value).__module__} {type(value).__name__}".encode()))
-        for name in _compared(type(value)):
+        parts.append(_encode("object", f"{type(value).__module__} {type(value).__name__}".encode()))
+        for name in _content_fields(type(value)):
             _add(getattr(value, name), parts)
     else:
-        raise NoContent(f"{type(value).__name__} has no content that is known.")
+        raise NoContent(f"{type(value).__name__} has no content that can be hashed.")
 
 
 def _add_shapes(shapes: Sequence[CollisionShape], parts: list[bytes]) -> None:
@@ -115,20 +115,20 @@ def _add_shapes(shapes: Sequence[CollisionShape], parts: list[bytes]) -> None:
     columns: list[list[Array]] = [
         [shape.body_from_shape.position for shape in shapes],
         [shape.body_from_shape.rotation for shape in shapes],
-        [NONE if shape.corners is None else shape.corners for shape in shapes],
-        [NONE if shape.heights is None else shape.heights for shape in shapes],
+        [EMPTY_ARRAY if shape.corners is None else shape.corners for shape in shapes],
+        [EMPTY_ARRAY if shape.heights is None else shape.heights for shape in shapes],
     ]
     for arrays in columns:
         forms = " ".join(str(array.shape) for array in arrays)
-        parts.append(_framed("forms", forms.encode()))
-        _add(np.concatenate([array.ravel() for array in (NONE, *arrays)]), parts)
+        parts.append(_encode("forms", forms.encode()))
+        _add(np.concatenate([array.ravel() for array in (EMPTY_ARRAY, *arrays)]), parts)
 
 
-def _framed(kind: str, content: bytes) -> bytes:
+def _encode(kind: str, content: bytes) -> bytes:
     return f"{kind} {len(content)} ".encode() + content
 
 
 @cache
-def _compared(kind: Any) -> tuple[str, ...]:
-    """Names of the fields of a dataclass; where it was read is no part of its content."""
+def _content_fields(kind: Any) -> tuple[str, ...]:
+    """Return the names of the fields of a dataclass, except the line in its file."""
     return tuple(field.name for field in dataclasses.fields(kind) if field.name != "source_line")

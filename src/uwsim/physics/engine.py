@@ -41,14 +41,14 @@ if TYPE_CHECKING:
     from .stepper import Stepper
 
 Kind = Literal["vehicle", "object"]
-"""Of what has a body."""
+"""The kinds of elements that have a body."""
 
 
 class Engine:
     """The physics engine of a scene: state, forces and step.
 
-    Joint vectors hold the movable, non-mimic joints in UWSim's order; mimic joints follow.
-    Vehicles with hydrodynamics are simulated, the others stay where they are put.
+    Joint vectors have the movable joints that do not mimic, in UWSim's order; mimic joints follow.
+    Vehicles with hydrodynamics are simulated, and the others stay where they are placed.
 
     Args:
         scene_model: the model of the scene.
@@ -58,79 +58,79 @@ class Engine:
         scene, robots, dynamics = scene_model.scene, scene_model.robots, scene_model.dynamics
         shapes = scene_model.shapes
         self._robots, self._dynamics = robots, dynamics
-        # its own: servos, grips and lifts change numbers of it
+        # a copy, as servos, grips and lifts change its numbers
         self._model = model = copy.copy(scene_model.compute_once(_corrected_model))
         self._data = data = mujoco.MjData(model)
         place_fixed_shapes(model, data)
         names = [body_name(scene, model.body(i).name) for i in range(model.nbody)]
         self.motion = Motion(model, data, names)
-        """Positions and velocities of all bodies, as one row of numbers."""
+        """The positions and velocities of all bodies, as one row of numbers."""
         self.poses = Poses(scene_model, model, data)
-        """Where everything is, as frames."""
+        """The poses of all bodies."""
         self.link_motion = LinkMotion(model, data, self.poses)
-        """How the links of vehicles move."""
+        """The motion of points on the links of vehicles."""
         self.grips = Grips(model, data, self.poses, dynamics, shapes)
-        """Objects that vehicles hold."""
+        """The objects that vehicles hold."""
         self.contacts = EngineContacts(scene_model, model, data, self.poses)
-        """Contacts between what it simulates."""
+        """The contacts between simulated bodies."""
         self._check = StepCheck(model, data, names)
-        self._placed = [i for i in robots if i not in dynamics]
-        free = {i: model.joint(vehicle_joint(i, "")).id for i in robots}
-        self._free_places = {i: int(model.jnt_qposadr[joint]) for i, joint in free.items()}
-        self._free_dofs = {i: int(model.jnt_dofadr[joint]) for i, joint in free.items()}
-        places = [range(self._free_places[i], self._free_places[i] + 7) for i in self._placed]
-        self._placed_places = np.array(places, np.intp).reshape(-1, 7)  # of poses in ``qpos``
-        self._joint_places = {i: joint_places(model, robots[i], i) for i in robots}
-        self._scaled = {
+        self._placed_vehicles = [i for i in robots if i not in dynamics]
+        joints = {i: model.joint(vehicle_joint(i, "")).id for i in robots}
+        self._base_addresses = {i: int(model.jnt_qposadr[joint]) for i, joint in joints.items()}
+        self._base_dofs = {i: int(model.jnt_dofadr[joint]) for i, joint in joints.items()}
+        starts = np.array([self._base_addresses[i] for i in self._placed_vehicles], np.intp)
+        self._placed_addresses = starts[:, None] + np.arange(7)  # (n, 7), of poses in ``qpos``
+        self._joint_addresses = {i: joint_addresses(model, robots[i], i) for i in robots}
+        self._scaled_links = {
             i: ScaledLinks(model, robots[i], i, vehicle.scale_factor)
             for i, vehicle in enumerate(scene.vehicles)
             if i not in dynamics and vehicle.scale_factor != (1.0, 1.0, 1.0)
         }
-        self._water: Hydrodynamics | None = _water_of(model) if dynamics else None
+        self._water: Hydrodynamics | None = _attach_water(model) if dynamics else None
         self.joint_wrench = JointWrench(model, data, self.poses)
-        """What links do to the joints that carry them."""
+        """The wrenches of links on the joints that carry them."""
         self.actuation = make_actuation(scene_model, data, self._water, self.poses)
-        """What moves each simulated vehicle, by its number."""
-        self._set_first_joints(scene)
-        self.submerged = SubmergedBodies(model, self.poses, self._water, dynamics)
+        """The actuation of each simulated vehicle, by its number."""
+        self._set_initial_joints(scene)
+        self.submerged_bodies = SubmergedBodies(model, self.poses, self._water, dynamics)
         """The bodies that the water acts on."""
-        self._bounces = _bounces_of(scene, model, data)
-        self._stepper = self._make_stepper([free[i] for i in self._placed])
+        self._bounce_limit = _make_limit(scene, model, data)
+        self._stepper = self._make_stepper([joints[i] for i in self._placed_vehicles])
         self.lift = Lift(model, data)
-        """Bodies that begin in the ground, on their way out of it."""
+        """The bodies that begin in the ground and are lifted out of it."""
         self._uwsim_physics = UwsimPhysics(scene, model, data) if scene.has_uwsim_physics else None
         self.state = EngineState(
             memory=EngineMemory(data, self.contacts.clear_cache),
-            model=ModelState.of(model),
+            model=ModelState.from_model(model),
             n_steps=0,
-            actuation={i: each.state for i, each in self.actuation.items()},
+            actuation={i: actuation.state for i, actuation in self.actuation.items()},
             poses=self.poses.state,
             grips=self.grips.state,
             contacts=self.contacts.state,
             lift=self.lift.state,
-            bounces=self._bounces.state if self._bounces else None,
+            bounces=self._bounce_limit.state if self._bounce_limit else None,
             stepper=self._stepper.state if self._stepper else None,
             uwsim_physics=self._uwsim_physics.state if self._uwsim_physics else None,
         )
-        """What changes of the physics."""
+        """The state of the physics."""
 
     @property
     def is_dynamic(self) -> bool:
-        """Whether anything is simulated."""
+        """A flag: a vehicle is simulated."""
         return self._water is not None
 
     @property
-    def moves_by_step(self) -> bool:
-        """Whether something is placed at every step: it is carried, or lifted."""
+    def places_bodies(self) -> bool:
+        """A flag: a body is placed at every step, as it is carried or lifted."""
         return self.grips.is_carrying or self.lift.is_active
 
     def is_simulated(self, index: int) -> bool:
-        """Whether a vehicle is moved by forces."""
+        """Return whether forces move a vehicle."""
         return index in self.actuation
 
     @property
     def n_steps(self) -> int:
-        """Steps taken; one that failed counts."""
+        """The number of steps taken, including one that failed."""
         return self.state.n_steps
 
     def step(
@@ -146,19 +146,19 @@ class Engine:
         """Advance all simulated bodies by some steps.
 
         Args:
-            n: how many.
-            water: how it moves at the bodies that it acts on; None: it is still.
-            samples: taken after each step but the last, a record of `sampling.TABLE`, (1,).
+            n: the number of steps.
+            water: the motion of the water at the bodies that it acts on; None: it is still.
+            samples: the samples after each step but the last, a record of `sampling.TABLE`, (1,).
             step: the number of the first step by the clock of the samples.
-            samples_last: take them after the last step, too.
+            samples_last: take samples after the last step, too.
             drift: moves the vehicles that are not simulated; None: they stay.
 
         Returns:
-            Whether a timer of the samples was due after the last step, and they were taken.
+            True if a timer of the samples was due after the last step, and they were taken.
 
         Raises:
-            SimulationFailed: the engine warned, or a body moves faster than can be: what follows
-                would not be true.
+            SimulationFailed: the engine warned, or a body is faster than its limit: results would
+                be invalid.
         """
         if self._stepper is None:
             return False
@@ -166,8 +166,8 @@ class Engine:
             self.poses.refresh()
         self.grips.follow()
         self.lift.begin_step()
-        if self._bounces is not None:
-            self._bounces.is_on = not self.grips.is_holding
+        if self._bounce_limit is not None:
+            self._bounce_limit.is_on = not self.grips.is_holding
         try:
             is_sampled = self._stepper.run(
                 n,
@@ -182,15 +182,15 @@ class Engine:
             self.state.n_steps = self._stepper.n_steps
         self.lift.end_step()
         self.contacts.invalidate(are_current=True)
-        self.poses.moved()
+        self.poses.mark_stale()
         return is_sampled
 
-    def push(self, wrenches: Iterable[tuple[int, Array, Array]]) -> None:
-        """Let wrenches act on bodies in the steps from now on, in place of those before.
+    def apply_wrenches(self, wrenches: Iterable[tuple[int, Array, Array]]) -> None:
+        """Apply wrenches to bodies in the steps from now on, in place of earlier ones.
 
         Args:
-            wrenches: the number of a body of the engine, a point in its frame (3,) [m], and the
-                force and the torque about this point, in W, (6,) [N, N m].
+            wrenches: the engine's number of a body, a point in its frame (3,) [m], and the force
+                and the torque about this point, in W, (6,) [N, N m].
         """
         self.poses.refresh()
         axes, middles = self._data.xmat.reshape(-1, 3, 3), self._model.body_ipos
@@ -200,11 +200,11 @@ class Engine:
             applied[body] += wrench
             applied[body, 3:] += cross(rotate(axes[body], point - middles[body]), wrench[:3])
 
-    def fall(self) -> None:
+    def step_uwsim_physics(self) -> None:
         """Advance the original's physics by one step, if the scene uses it.
 
         Raises:
-            SimulationFailed: the engine warned: what follows would not be true.
+            SimulationFailed: the engine warned: results would be invalid.
         """
         if self._uwsim_physics is None:
             return
@@ -212,31 +212,31 @@ class Engine:
         self.lift.begin_step()
         self._uwsim_physics.step()
         self.lift.end_step()
-        if self._bounces is not None:
-            self._bounces.is_on = not self.grips.is_holding
-            self._bounces.apply()
+        if self._bounce_limit is not None:
+            self._bounce_limit.is_on = not self.grips.is_holding
+            self._bounce_limit.apply()
         self.state.n_steps += 1
         self._check.end_if_warned(self.state.n_steps)
         self.contacts.invalidate(are_current=True)
-        self.poses.moved()
+        self.poses.mark_stale()
 
-    def deep_at_start(self, depth: float) -> list[tuple[Kind, int]]:
-        """Return the simulated vehicles and loose objects that are in something fixed now.
+    def find_deep_bodies(self, depth: float) -> list[tuple[Kind, int]]:
+        """Return the simulated vehicles and loose objects that penetrate a fixed body now.
 
         Args:
-            depth: of at least this [m], in any direction.
+            depth: the least penetration [m], in any direction.
         """
         data = copy.copy(self._data)
         mujoco.mj_kinematics(self._model, data)
         mujoco.mj_collision(self._model, data)
         bodies = self._model.geom_bodyid[data.contact.geom[data.contact.dist < -depth]]
         is_fixed = self._model.body_weldid[bodies] == 0  # (n, 2)
-        moving = bodies[(is_fixed.sum(axis=1) == 1)[:, None] & ~is_fixed]
-        names = {self._model.body(int(body)).name for body in moving}
+        moving_bodies = bodies[(is_fixed.sum(axis=1) == 1)[:, None] & ~is_fixed]
+        names = {self._model.body(int(body)).name for body in moving_bodies}
         owners = {(kind, int(index)) for kind, index in (name.split("/")[:2] for name in names)}
-        simulated: list[tuple[Kind, int]] = [("vehicle", i) for i in self.actuation]
-        loose: list[tuple[Kind, int]] = [("object", i) for k, i in sorted(owners) if k == "object"]
-        return [each for each in (*simulated, *loose) if each in owners]
+        keys: list[tuple[Kind, int]] = [("vehicle", i) for i in self.actuation]
+        keys += [("object", i) for k, i in sorted(owners) if k == "object"]
+        return [key for key in keys if key in owners]
 
     def begin_lift(self, kind: Kind, index: int, rise: float) -> None:
         """Lift a simulated vehicle or a loose object from where it is by some height [m]."""
@@ -247,38 +247,38 @@ class Engine:
 
     def vehicle_velocity(self, index: int) -> Array:
         """Return the twist of a vehicle's base over ground, base axes, (6,) [m/s, rad/s]."""
-        first = self._free_dofs[index]
-        twist: Array = self._data.qvel[first : first + 6].copy()
-        twist[:3] = rotate_back(self.poses.vehicle(index).rotation, twist[:3])
+        dof = self._base_dofs[index]
+        twist: Array = self._data.qvel[dof : dof + 6].copy()
+        twist[:3] = turned_back(self.poses.vehicle(index).rotation, twist[:3])
         return twist
 
     def place_vehicle(self, index: int, world_from_base: Pose) -> None:
         """Set the pose of a vehicle, at rest."""
-        place, dof = self._free_places[index], self._free_dofs[index]
-        self._data.qpos[place : place + 3] = world_from_base.position
-        self._data.qpos[place + 3 : place + 7] = quaternion_from_rotation(world_from_base.rotation)
+        start, dof = self._base_addresses[index], self._base_dofs[index]
+        self._data.qpos[start : start + 3] = world_from_base.position
+        self._data.qpos[start + 3 : start + 7] = quaternion_from_rotation(world_from_base.rotation)
         if index in self.actuation:
             self._data.qvel[dof : dof + 6] = 0.0
             self.actuation[index].hold(world_from_base)
             self.contacts.invalidate(are_current=False)
-        self.poses.moved()
+        self.poses.mark_stale()
 
     def drift(self, drift: DriftFunction, time: float) -> None:
         """Move the vehicles that are not simulated by a step that ends at ``time`` [s]."""
-        poses: Array = self._data.qpos[self._placed_places]
+        poses: Array = self._data.qpos[self._placed_addresses]
         move_placed(drift.function, drift.address, poses, time)
-        self._data.qpos[self._placed_places] = poses
-        self.poses.moved()
+        self._data.qpos[self._placed_addresses] = poses
+        self.poses.mark_stale()
 
     def placed_motion(self, index: int) -> PlacedMotion:
-        """Return how a vehicle that is not simulated moves; it records from now on."""
+        """Return the motion of a vehicle that is not simulated; it records from now on."""
         model, prefix = self._model, vehicle_joint(index, "")
         joints = [i for i in range(model.njnt) if model.joint(i).name.startswith(prefix)]
         return PlacedMotion(model, self._data, joints, index, self.link_motion)
 
     def joints(self, index: int) -> Array:
         """Return a copy of the joint vector of a vehicle, (n,) [rad or m]."""
-        joints: Array = self._data.qpos[self._joint_places[index]]
+        joints: Array = self._data.qpos[self._joint_addresses[index]]
         return joints
 
     def set_joints(self, index: int, values: Array) -> None:
@@ -293,20 +293,20 @@ class Engine:
             for name, value in positions.items():
                 joint = self._model.joint(vehicle_joint(index, name))
                 self._data.qpos[joint.qposadr[0]] = value
-            if index in self._scaled:
-                self._scaled[index].follow(values)
-        self.poses.moved()
+            if index in self._scaled_links:
+                self._scaled_links[index].set_poses(values)
+        self.poses.mark_stale()
 
-    def _set_first_joints(self, scene: SceneSpec) -> None:
+    def _set_initial_joints(self, scene: SceneSpec) -> None:
         for index, vehicle in enumerate(scene.vehicles):
             n_joints = len(self._robots[index].movable_joints)
             values = np.zeros(n_joints)  # (n,) [rad or m]
-            given = vehicle.joint_values[:n_joints]
-            values[: len(given)] = given
+            joint_values = vehicle.joint_values[:n_joints]
+            values[: len(joint_values)] = joint_values
             self.set_joints(index, values)
 
-    def _make_stepper(self, placed: Sequence[int]) -> Stepper | None:
-        """Make the stepper of a scene with simulated vehicles; ``placed`` joints are fixed."""
+    def _make_stepper(self, placed_joints: Sequence[int]) -> Stepper | None:
+        """Return the stepper of a scene with simulated vehicles; ``placed_joints`` do not move."""
         if self._water is None:
             return None
         from .stepper import Stepper
@@ -314,34 +314,34 @@ class Engine:
         return Stepper(
             self._data,
             self._water,
-            [each.autopilot for each in self.actuation.values()],
-            [each.servos for each in self.actuation.values()],
-            placed,
-            self.submerged.bodies.tolist(),
-            self.submerged.felt_at,
+            [vehicle.autopilot for vehicle in self.actuation.values()],
+            [vehicle.servos for vehicle in self.actuation.values()],
+            placed_joints,
+            self.submerged_bodies.bodies.tolist(),
+            self.submerged_bodies.reference_points,
             self._check,
-            self._bounces,
+            self._bounce_limit,
         )
 
 
-def joint_places(model: mujoco.MjModel, robot: RobotSpec, index: int) -> npt.NDArray[np.intp]:
-    """Where the joint vector of a vehicle lies in ``qpos``, (n,)."""
-    names = [vehicle_joint(index, joint.name) for joint in robot.movable_joints]
+def joint_addresses(model: mujoco.MjModel, robot: RobotSpec, index: int) -> npt.NDArray[np.intp]:
+    """Return the addresses of a vehicle's joint vector in ``qpos``, (n,)."""
+    names = [vehicle_joint(index, joint.name) for joint in robot.movable]
     return np.array([model.joint(name).qposadr[0] for name in names], dtype=np.intp)
 
 
-def _bounces_of(scene: SceneSpec, model: mujoco.MjModel, data: mujoco.MjData) -> BounceLimit | None:
-    """The bound on the energy of loose objects; None where nothing has a restitution."""
-    if all(thing.solid.restitution is None for thing in scene.objects):
+def _make_limit(scene: SceneSpec, model: mujoco.MjModel, data: mujoco.MjData) -> BounceLimit | None:
+    """Return the limit on the energy of loose objects; None where nothing has a restitution."""
+    if all(spec.solid.restitution is None for spec in scene.objects):
         return None
-    names = {model.joint(i).name: int(model.jnt_bodyid[i]) for i in range(model.njnt)}
-    loose = [loose_joint(i) for i in range(len(scene.objects))]
-    bodies = [names[name] for name in loose if name in names]
+    body_numbers = {model.joint(i).name: int(model.jnt_bodyid[i]) for i in range(model.njnt)}
+    joint_names = [loose_joint(i) for i in range(len(scene.objects))]
+    bodies = [body_numbers[name] for name in joint_names if name in body_numbers]
     return BounceLimit(model, data, bodies) if bodies else None
 
 
 def _corrected_model(scene_model: SceneModel) -> mujoco.MjModel:
-    """Return the model that the engines of a scene copy: with the water in its inverse weights."""
+    """Return the model that the engines of a scene copy: with added mass in its inverse weights."""
     if not scene_model.dynamics:
         return scene_model.engine_model
     from .hydrodynamics.hydrodynamics import install
@@ -351,7 +351,7 @@ def _corrected_model(scene_model: SceneModel) -> mujoco.MjModel:
     return model
 
 
-def _water_of(model: mujoco.MjModel) -> Hydrodynamics:
+def _attach_water(model: mujoco.MjModel) -> Hydrodynamics:
     """Return the hydrodynamics of an engine's model."""
     from .hydrodynamics.hydrodynamics import attach
 

@@ -1,9 +1,9 @@
 """From a scene to a MuJoCo model: bodies, joints and, for vehicles with ``u:dynamics``, water.
 
 Every vehicle becomes a free body with its links as a tree of hinges and slides. A vehicle without
-``u:dynamics`` is placed, not simulated. The joints of one that is simulated are held by servos.
-Objects stand fixed, but for those that have a shape and are loose. Contacts are elliptic with
-friction `FRICTION`, soft enough to take a few steps.
+``u:dynamics`` is placed, not simulated. Servos hold the joints of a simulated vehicle. Objects are
+fixed unless they have a shape and are loose. Contacts have elliptic cones with the friction
+`FRICTION`, and are soft enough to last a few steps.
 """
 
 from __future__ import annotations
@@ -37,27 +37,27 @@ from ..scene.urdf.robot import LinkSpec, RobotSpec
 from ..world import GRAVITY
 from .collision.world_tree import rebuild_world_tree
 from .compiled_models import cached_model
-from .engine_warnings import hush
+from .engine_warnings import suppress_warnings
 from .free_objects import loose_hydrodynamics, loose_link, object_errors
 from .hydrodynamics import prepare
 from .joints import add_gear, add_joint, add_servo, is_geared
 from .restitution import contact_spring
 
 MAX_STEP = 0.02
-"""Of what is simulated: held in soaks up to 0.01 s, seen to diverge from 0.03 s on; the autopilot
-thinks this often [s]."""
+"""The longest step of a simulated scene, stable in soaks up to 0.01 s, unstable from 0.03 s on
+[s]."""
 FRICTION = (0.8, 0.005, 0.0001)
-"""Sliding [1], spinning [m] and rolling [m], rubber on metal; of two shapes the greater counts."""
+"""The sliding [1], spinning [m] and rolling [m] friction of rubber on metal."""
 SOFTNESS = (0.95, 0.99, 0.001, 0.5, 2.0)
-"""MuJoCo's solimp: half the creep of its default in a grasp."""
+"""MuJoCo's solimp, with half the creep of its default in a grasp."""
 IMPRATIO = 10.0
-"""How much stiffer friction is than the normal force: less creep of what is held."""
+"""The ratio of the stiffness of friction to that of the normal force: less creep in a grasp."""
 NOSLIP = 5
-"""Iterations against the creep of friction, where contacts are precise."""
-OBJECTS = 1
-"""Collision bit of objects; every vehicle has another."""
-ALL = 2**31 - 1
-SHAPES = {
+"""The iterations against the creep of friction, where contacts are precise."""
+OBJECT_BIT = 1
+"""The collision bit of objects; every vehicle has another."""
+ALL_BITS = 2**31 - 1
+GEOM_TYPES = {
     "box": mujoco.mjtGeom.mjGEOM_BOX,
     "sphere": mujoco.mjtGeom.mjGEOM_SPHERE,
     "cylinder": mujoco.mjtGeom.mjGEOM_CYLINDER,
@@ -72,63 +72,62 @@ INTEGRATORS = {
 
 
 def vehicle_bit(index: int) -> int:
-    """Collision bit of the vehicle number ``index``."""
+    """Return the collision bit of the vehicle of number ``index``."""
     return 2 << (index % 29)
 
 
-def compile_engine_model(simulated: SimulatedScene) -> mujoco.MjModel:
+def compile_engine_model(inputs: SimulatedScene) -> mujoco.MjModel:
     """Build the MuJoCo model of a scene.
 
     Raises:
-        BadHydrodynamics: with every error.
-        BadSetting: the step is no time, or longer than the physics bears.
-        SceneError: a loose object has next to no mass, or far too much buoyancy.
+        BadHydrodynamics: the hydrodynamics are invalid; with every error.
+        BadSetting: the step is not a time, or too long for the physics.
+        SceneError: the mass of a loose object is too small, or its buoyancy too great.
     """
-    scene, dynamics, shapes = simulated.scene, simulated.dynamics, simulated.shapes
-    _check_step(simulated.timestep, is_simulated=bool(dynamics) or scene.has_uwsim_physics)
-    hush()
+    scene, dynamics, shapes = inputs.scene, inputs.dynamics, inputs.shapes
+    _check_step(inputs.timestep, is_simulated=bool(dynamics) or scene.has_uwsim_physics)
+    suppress_warnings()
     return cached_model(
-        (scene, simulated.robots, dynamics, simulated.timestep, shapes),
+        (scene, inputs.robots, dynamics, inputs.timestep, shapes),
         sum(map(len, shapes.values())),
-        lambda: _compiled(simulated),
+        lambda: _compile(inputs),
     )
 
 
-def _compiled(simulated: SimulatedScene) -> mujoco.MjModel:
-    """Build the model."""
-    scene, dynamics, shapes = simulated.scene, simulated.dynamics, simulated.shapes
-    spec = _with_options(scene, simulated.timestep, is_simulated=bool(dynamics))
+def _compile(inputs: SimulatedScene) -> mujoco.MjModel:
+    scene, dynamics, shapes = inputs.scene, inputs.dynamics, inputs.shapes
+    spec = _make_spec(scene, inputs.timestep, is_simulated=bool(dynamics))
     world_from_localized = scene.world_from_localized
-    _add_vehicles(spec, simulated)
-    loose: dict[str, PhysicsSpec] = {}
+    _add_vehicles(spec, inputs)
+    loose_physics: dict[str, PhysicsSpec] = {}
     density = next(iter(dynamics.values())).density if dynamics else None
-    for index, thing in enumerate(scene.objects):
+    for index, object_spec in enumerate(scene.objects):
         name = object_body(index)
         if name not in shapes:
             continue
-        world_from_object = world_from_localized @ thing.localized_from_object
-        if thing.solid.is_loose:
-            if wrong := object_errors(thing, thing.solid, shapes[name], density):
-                raise SceneError(wrong)
-            link = loose_link(name, thing.solid, shapes[name])
+        world_from_object = world_from_localized @ object_spec.localized_from_object
+        if object_spec.solid.is_loose:
+            if errors := object_errors(object_spec, object_spec.solid, shapes[name], density):
+                raise SceneError(errors)
+            link = loose_link(name, object_spec.solid, shapes[name])
             body = _add_body(spec.worldbody, name, world_from_object, link)
             body.add_freejoint(name=loose_joint(index))
-            loose[name] = thing.solid
-        else:  # without a body of their own they cost the engine nothing
+            loose_physics[name] = object_spec.solid
+        else:  # shapes without a body of their own cost the engine nothing
             _add_shapes(spec, spec.worldbody, name, shapes[name], world_from_object)
-            _give_surface(spec, name, shapes[name], thing.solid)
+            _set_surface(spec, name, shapes[name], object_spec.solid)
     for name, parts in shapes.items():
-        if name in loose or not name.startswith("object/"):
+        if name in loose_physics or not name.startswith("object/"):
             _add_shapes(spec, spec.body(name), name, parts, Pose.identity())
-            if name in loose:
-                _give_surface(spec, name, parts, loose[name])
+            if name in loose_physics:
+                _set_surface(spec, name, parts, loose_physics[name])
     if density is not None:
-        wet = {
+        hydrodynamics = {
             name: loose_hydrodynamics(name, physics, shapes[name], density)
-            for name, physics in loose.items()
+            for name, physics in loose_physics.items()
         }
-        _add_water(spec, scene, dynamics, wet)
-        _add_grips(spec, simulated, loose)
+        _add_water(spec, scene, dynamics, hydrodynamics)
+        _add_grips(spec, inputs, loose_physics)
     try:
         model = spec.compile()
     except ValueError as error:
@@ -137,14 +136,14 @@ def _compiled(simulated: SimulatedScene) -> mujoco.MjModel:
         ) from error
     rebuild_world_tree(model)
     if model.opt.integrator != mujoco.mjtIntegrator.mjINT_RK4:
-        # what never moves is then placed once, and not at every step; nothing is to fall asleep
+        # fixed shapes are then placed once, and not at every step; no body is to fall asleep
         model.opt.enableflags |= int(mujoco.mjtEnableBit.mjENBL_SLEEP)
         model.tree_sleep_policy[:] = int(mujoco.mjtSleepPolicy.mjSLEEP_NEVER)
     return model
 
 
-def _with_options(scene: SceneSpec, timestep: float, *, is_simulated: bool) -> mujoco.MjSpec:
-    """A model without bodies: the step, the integrator, the contacts and gravity of a scene."""
+def _make_spec(scene: SceneSpec, timestep: float, *, is_simulated: bool) -> mujoco.MjSpec:
+    """Return a spec without bodies: step, integrator, contacts and gravity of a scene."""
     spec = mujoco.MjSpec()
     spec.compiler.degree = False
     spec.option.timestep = timestep
@@ -157,16 +156,16 @@ def _with_options(scene: SceneSpec, timestep: float, *, is_simulated: bool) -> m
     return spec
 
 
-def _add_vehicles(spec: mujoco.MjSpec, simulated: SimulatedScene) -> None:
-    """Add every vehicle where the scene puts it; without dynamics its links weigh nothing."""
-    for index, vehicle in enumerate(simulated.scene.vehicles):
-        robot = simulated.robots[index]
+def _add_vehicles(spec: mujoco.MjSpec, inputs: SimulatedScene) -> None:
+    """Add every vehicle at its pose in the scene; without dynamics its links have no weight."""
+    for index, vehicle in enumerate(inputs.scene.vehicles):
+        robot = inputs.robots[index]
         links = {link.name: link for link in robot.links}
-        is_dynamic = index in simulated.dynamics
+        is_dynamic = index in inputs.dynamics
         base = _add_body(
             spec.worldbody,
             vehicle_body(index, robot.root),
-            simulated.scene.world_from_localized @ vehicle.localized_from_base,
+            inputs.scene.world_from_localized @ vehicle.localized_from_base,
             links[robot.root] if is_dynamic else None,
         )
         base.add_freejoint(name=vehicle_joint(index, ""))
@@ -179,7 +178,7 @@ def _check_step(timestep: float, *, is_simulated: bool) -> None:
     if is_simulated and timestep > MAX_STEP:
         raise BadSetting(
             f"The step is {timestep:g} s; expected {MAX_STEP:g} s at most where a vehicle is "
-            "simulated: with longer ones the motion grows beyond all bounds (0.002 is usual)."
+            "simulated. Longer steps make the motion unstable (0.002 s is usual)."
         )
 
 
@@ -194,24 +193,24 @@ def _add_shapes(
     spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
     spec.option.impratio = IMPRATIO
     kind, owner = name.split("/")[:2]
-    bit = OBJECTS if kind == "object" else vehicle_bit(int(owner))
+    bit = OBJECT_BIT if kind == "object" else vehicle_bit(int(owner))
     for i, shape in enumerate(shapes):
-        place = body_from_owner @ shape.body_from_shape
+        pose = body_from_owner @ shape.body_from_shape
         geom = body.add_geom(
             name=f"{name}/shape/{i}",
-            type=SHAPES[shape.kind],
-            pos=place.position.tolist(),
-            quat=quaternion_from_rotation(place.rotation).tolist(),
+            type=GEOM_TYPES[shape.kind],
+            pos=pose.position.tolist(),
+            quat=quaternion_from_rotation(pose.rotation).tolist(),
             contype=bit,
-            conaffinity=ALL if kind == "object" else ALL & ~bit,
+            conaffinity=ALL_BITS if kind == "object" else ALL_BITS & ~bit,
             condim=4,
             friction=list(FRICTION),
             solimp=list(SOFTNESS),
         )
-        give_form(spec, geom, f"{name}/{i}", shape)
+        set_size(spec, geom, f"{name}/{i}", shape)
 
 
-def give_form(spec: mujoco.MjSpec, geom: mujoco.MjsGeom, name: str, shape: CollisionShape) -> None:
+def set_size(spec: mujoco.MjSpec, geom: mujoco.MjsGeom, name: str, shape: CollisionShape) -> None:
     """Set the size of an engine's shape; a hull or a height field is added under ``name``."""
     if shape.corners is not None:
         spec.add_mesh(name=name, uservert=shape.corners.ravel().tolist())
@@ -230,7 +229,7 @@ def give_form(spec: mujoco.MjSpec, geom: mujoco.MjsGeom, name: str, shape: Colli
         geom.size[: len(shape.size)] = shape.size
 
 
-def _give_surface(
+def _set_surface(
     spec: mujoco.MjSpec, name: str, shapes: Sequence[CollisionShape], physics: PhysicsSpec
 ) -> None:
     """Set the friction and restitution of an object's shapes."""
@@ -273,14 +272,14 @@ def _add_children(
         _add_children(spec, child, robot, joint.child, index, links)
 
 
-def _add_grips(spec: mujoco.MjSpec, simulated: SimulatedScene, loose: Collection[str]) -> None:
+def _add_grips(spec: mujoco.MjSpec, inputs: SimulatedScene, objects: Collection[str]) -> None:
     """Add a constraint, not active, between each picker's link and each loose object."""
-    for index in simulated.dynamics:
-        pickers = simulated.scene.vehicles[index].parts_of(ObjectPickerSpec)
+    for index in inputs.dynamics:
+        pickers = inputs.scene.vehicles[index].parts_of(ObjectPickerSpec)
         for link in dict.fromkeys(picker.relative_to for picker in pickers):
-            if simulated.robots[index].link(link) is None:
+            if inputs.robots[index].link(link) is None:
                 continue
-            for name in loose:
+            for name in objects:
                 weld = spec.add_equality(
                     name=grip_constraint(index, link, int(name.split("/")[1])),
                     type=mujoco.mjtEq.mjEQ_WELD,
@@ -289,16 +288,16 @@ def _add_grips(spec: mujoco.MjSpec, simulated: SimulatedScene, loose: Collection
                     name2=name,
                 )
                 weld.active = False
-                weld.data[10] = 1.0  # turning counts as much as moving
+                weld.data[10] = 1.0  # rotation counts as much as translation
 
 
 def _add_water(
     spec: mujoco.MjSpec,
     scene: SceneSpec,
     dynamics: Mapping[int, VehicleHydrodynamics],
-    loose: Mapping[str, BodyHydrodynamics],
+    object_hydrodynamics: Mapping[str, BodyHydrodynamics],
 ) -> None:
-    bodies: dict[str, BodyHydrodynamics] = dict(loose)
+    bodies: dict[str, BodyHydrodynamics] = dict(object_hydrodynamics)
     thrusters: dict[str, tuple[str, ThrusterSpec]] = {}
     fins: dict[str, tuple[str, FinSpec]] = {}
     for index, vehicle in dynamics.items():
@@ -318,7 +317,7 @@ def _add_water(
 def _add_body(
     parent: mujoco.MjsBody, name: str, parent_from_body: Pose, link: LinkSpec | None
 ) -> mujoco.MjsBody:
-    """Add a body; with a ``link`` its mass is the URDF's, without it stands for a pose alone."""
+    """Add a body, with the URDF's mass if there is a ``link``, else as a frame without weight."""
     mass, inertia = (1.0, 1.0) if link is None else (MIN_MASS, MIN_INERTIA)
     body = parent.add_body(
         name=name,
@@ -326,7 +325,7 @@ def _add_body(
         quat=quaternion_from_rotation(parent_from_body.rotation).tolist(),
         mass=mass,
         inertia=[inertia] * 3,
-        ipos=[0.0, 0.0, 0.0],  # else MuJoCo takes the body's place for its centre of mass
+        ipos=[0.0, 0.0, 0.0],  # else MuJoCo takes the body's position as its centre of mass
     )
     body.explicitinertial = True
     if link is None:
@@ -336,9 +335,9 @@ def _add_body(
         body.ipos = list(link.centre_of_mass)
         xx, yy, zz, xy, xz, yz = link.inertia
         if min(xx, yy, zz) > 0.0:
-            own = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
-            turn = rotation_from_rpy(*link.inertia_rpy)
-            turned = product(product(turn, own), turn.T)
-            body.fullinertia = [*np.diag(turned), turned[0, 1], turned[0, 2], turned[1, 2]]
+            tensor = np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]])
+            rotation = rotation_from_rpy(*link.inertia_rpy)
+            tensor = product(product(rotation, tensor), rotation.T)
+            body.fullinertia = [*np.diag(tensor), tensor[0, 1], tensor[0, 2], tensor[1, 2]]
             body.inertia = [0.0, 0.0, 0.0]
     return body

@@ -1,4 +1,4 @@
-"""What changes of the physics of a scene, as one record."""
+"""The state of the physics of a scene, as one record."""
 
 from __future__ import annotations
 
@@ -24,11 +24,11 @@ if TYPE_CHECKING:
     from .stepper import StepperState
 
 
-class EngineFlags(ExternalValue):
-    """What MuJoCo leaves out of a step: `islands` chooses it anew for every step.
+class EngineFlags(Live):
+    """The flags that disable parts of a step: `islands` sets one anew for every step.
 
     Args:
-        model: of the engine.
+        model: the engine's model.
     """
 
     def __init__(self, model: mujoco.MjModel) -> None:
@@ -49,32 +49,32 @@ class EngineFlags(ExternalValue):
 class ModelState(Record):
     """The numbers of the engine's model that servos, grips, lifts and steps change."""
 
-    link_places: Array
-    """Where each body is on its parent, (nbody, 3) [m]."""
+    link_positions: Array
+    """The position of each body on its parent, (nbody, 3) [m]."""
     stops: Array
-    """The limits of each joint, (njnt, 2) [rad or m]."""
+    """The end stops of each joint, (njnt, 2) [rad or m]."""
     gains: Array
     """The gains of each actuator, (nactuator, k)."""
     biases: Array
     """The biases of each actuator, (nactuator, k)."""
     welds: Array
-    """The places of what is welded, (neq, k)."""
+    """The relative poses of the welds, (neq, k)."""
     shape_kinds: npt.NDArray[np.int32]
-    """The kinds that each shape is of, as bits, (ngeom,)."""
+    """The collision bits of each shape, (ngeom,)."""
     shape_touches: npt.NDArray[np.int32]
-    """The kinds that each shape touches, as bits, (ngeom,)."""
+    """The collision bits that each shape collides with, (ngeom,)."""
     body_kinds: npt.NDArray[np.int32]
-    """The kinds that the shapes of each body are of, as bits, (nbody,)."""
+    """The collision bits of the shapes of each body, (nbody,)."""
     body_touches: npt.NDArray[np.int32]
-    """The kinds that the shapes of each body touch, as bits, (nbody,)."""
+    """The collision bits that the shapes of each body collide with, (nbody,)."""
     flags: EngineFlags
-    """What is left out of a step."""
+    """The flags that disable parts of a step."""
 
     @staticmethod
-    def of(model: mujoco.MjModel) -> ModelState:
-        """Return the numbers of a model themselves."""
+    def from_model(model: mujoco.MjModel) -> ModelState:
+        """Return views of the numbers of a model."""
         return ModelState(
-            link_places=model.body_pos,
+            link_positions=model.body_pos,
             stops=model.jnt_range,
             gains=model.actuator_gainprm,
             biases=model.actuator_biasprm,
@@ -89,27 +89,27 @@ class ModelState(Record):
 
 @dataclass(slots=True)
 class EngineState(Record):
-    """What changes of the physics."""
+    """The state of the physics."""
 
     memory: EngineMemory
-    """MuJoCo's numbers."""
+    """The numbers of MuJoCo's data."""
     model: ModelState
-    """The numbers of its model that change."""
+    """The numbers of MuJoCo's model that change."""
     n_steps: int
-    """The steps taken; one that failed counts."""
+    """The number of steps taken, including one that failed."""
     actuation: dict[int, ActuationState]
-    """What moves each simulated vehicle, by its number."""
+    """The actuation of each simulated vehicle, by its number."""
     poses: PosesState
-    """What changes of the frames."""
+    """The state of the frames."""
     grips: GripsState
-    """What is held."""
+    """The objects that are held."""
     contacts: EngineContactsState
-    """Whether the contacts hold."""
+    """The validity of the contacts."""
     lift: LiftState
-    """How far bodies are lifted."""
+    """The progress of lifted bodies."""
     bounces: BounceState | None
-    """What bounds the energy of objects that bounce."""
+    """The energy limits of objects that bounce."""
     stepper: StepperState | None
-    """What the next step depends on."""
+    """The state of the stepper."""
     uwsim_physics: UwsimPhysicsState | None
-    """What the original's physics keeps."""
+    """The state of the original's physics."""

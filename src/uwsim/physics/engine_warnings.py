@@ -1,8 +1,8 @@
-"""Warnings of the engine: each ends the run with a one-line error, and no log file is written.
+"""Warnings of the engine: each ends the run with a one-line error, without a log file.
 
-MuJoCo's own way is to print, to append to ``MUJOCO_LOG.TXT`` in the working folder, and to go on:
-with contacts left out, or from the beginning when a number grew beyond all bounds. Every warning
-is also counted in the state, where `why_untrue` reads it after each step.
+MuJoCo itself prints a warning, appends it to ``MUJOCO_LOG.TXT`` in the working folder, and
+continues: without some contacts, or from the initial state when a number became too large. It also
+counts every warning in the state, where `describe_warning` reads it after each step.
 """
 
 from __future__ import annotations
@@ -20,38 +20,38 @@ from ..base.numerics.jit import njit
 from ..errors import SimulationFailed
 
 MAX_SPEED = 100.0
-"""Of a body in water: no thing that a simulation of this kind is for goes faster, or turns more
-quickly [m/s, rad/s]; but for loose things that are thin, see `RIM_SPEED`."""
+"""The greatest speed and angular speed of a body in water [m/s, rad/s]; `RIM_SPEED` is for thin
+loose objects."""
 RIM_SPEED = 1.0
-"""Of the surface of a loose thing that turns: as fast as small heavy things sink, and roll; a
-needle does so at more than `MAX_SPEED` [m/s]."""
+"""The surface speed of a rotating loose object: small heavy objects sink and roll as fast; a needle
+then exceeds `MAX_SPEED` [m/s]."""
 FIRST_UNSTABLE = int(mujoco.mjtWarning.mjWARN_BADQPOS)
-"""From this on: a position, velocity, acceleration or control is no number."""
+"""The first of the warnings that a position, velocity, acceleration or control is not a number."""
 SINGULAR = int(mujoco.mjtWarning.mjWARN_INERTIA)
 
 
-def hush() -> None:
+def suppress_warnings() -> None:
     """Suppress MuJoCo's warnings in this process, unless another handler is installed."""
     if mujoco.get_mju_user_warning() is None:
-        mujoco.set_mju_user_warning(_pass_over)
+        mujoco.set_mju_user_warning(_ignore)
 
 
 class StepCheck:
-    """Checks of a step: SimulationFailed names the body and the time.
+    """The checks of a step; SimulationFailed names the body and the time.
 
     Args:
-        model: the engine's.
-        data: its state.
-        names: what the scene calls each body of the model.
+        model: the engine's model.
+        data: the engine's state.
+        names: the scene's name of each body of the model.
     """
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, names: Sequence[str]) -> None:
         self._data, self._timestep = data, model.opt.timestep
         self._names = [names[body] for body in model.dof_bodyid]
         self.counters = data.warning.number
-        """The engine's, one for each kind of warning."""
-        self.speeds = speeds_of(model)
-        """Which velocities make a speed together, and how fast that may be, (n, 3): `speeds_of`."""
+        """The engine's counters, one for each kind of warning."""
+        self.speeds = speed_limits(model)
+        """The degrees of freedom that form one speed, and its limit, (n, 3): `speed_limits`."""
 
     def end_if_warned(self, step: int) -> None:
         """Raise SimulationFailed if the engine has warned in a step."""
@@ -62,27 +62,27 @@ class StepCheck:
         """Raise SimulationFailed: the engine has warned, or a degree of freedom is too fast."""
         time = step * self._timestep
         if dof < 0:
-            raise SimulationFailed(why_untrue(self._data, time, self._timestep, self._names))
-        raise SimulationFailed(say_too_fast(self._data.qvel, self.speeds, dof, time, self._names))
+            raise SimulationFailed(describe_warning(self._data, time, self._timestep, self._names))
+        raise SimulationFailed(describe_speed(self._data.qvel, self.speeds, dof, time, self._names))
 
 
-def why_untrue(data: mujoco.MjData, time: float, timestep: float, names: list[str]) -> str:
+def describe_warning(data: mujoco.MjData, time: float, timestep: float, names: list[str]) -> str:
     """Return why results would be invalid after a warning of the engine.
 
     Args:
         data: the engine's state.
-        time: of the step that it warned in [s].
-        timestep: length of a step [s].
-        names: what the scene calls the body of each degree of freedom.
+        time: the time of the step with the warning [s].
+        timestep: the length of a step [s].
+        names: the scene's name of the body of each degree of freedom.
     """
     counts = data.warning.number
     if counts[FIRST_UNSTABLE:].any():
-        where = ""
+        body_text = ""
         for kind in (mujoco.mjtWarning.mjWARN_BADQVEL, mujoco.mjtWarning.mjWARN_BADQACC):
             if counts[kind]:
-                where = f" of {names[data.warning[kind].lastinfo]!r}"
+                body_text = f" of {names[data.warning[kind].lastinfo]!r}"
         return (
-            f"The motion{where} grew beyond all bounds at {time:g} s: "
+            f"The motion{body_text} grew beyond all bounds at {time:g} s: "
             f"forces, currents or damping are too strong for steps of {timestep:g} s."
         )
     if counts[SINGULAR]:
@@ -96,23 +96,23 @@ def why_untrue(data: mujoco.MjData, time: float, timestep: float, names: list[st
     )
 
 
-def speeds_of(model: mujoco.MjModel) -> npt.NDArray[np.int64]:
-    """Degrees of freedom that form one speed: the first, how many, and the limit, (n, 3)."""
+def speed_limits(model: mujoco.MjModel) -> npt.NDArray[np.int64]:
+    """Return the degrees of freedom of each speed: the first, how many, and the limit, (n, 3)."""
     parts = {mujoco.mjtJoint.mjJNT_FREE: (3, 3), mujoco.mjtJoint.mjJNT_BALL: (3,)}
-    found = []
+    rows = []
     for joint in range(model.njnt):
-        first = int(model.jnt_dofadr[joint])
-        limits = (int(MAX_SPEED), _fastest_turn(model, int(model.jnt_bodyid[joint])))
+        dof = int(model.jnt_dofadr[joint])
+        limits = (int(MAX_SPEED), _max_angular_speed(model, int(model.jnt_bodyid[joint])))
         for i, n in enumerate(parts.get(mujoco.mjtJoint(model.jnt_type[joint]), (1,))):
-            found.append((first, n, limits[i]))
-            first += n
-    return np.array(found, dtype=np.int64).reshape(-1, 3)
+            rows.append((dof, n, limits[i]))
+            dof += n
+    return np.array(rows, dtype=np.int64).reshape(-1, 3)
 
 
-def _fastest_turn(model: mujoco.MjModel, body: int) -> int:
-    """How fast a body may turn: a loose object about its longest axis as `RIM_SPEED` says [rad/s].
+def _max_angular_speed(model: mujoco.MjModel, body: int) -> int:
+    """Return the greatest angular speed of a body, by `RIM_SPEED` for a loose object [rad/s].
 
-    Its radius is half the middle one of the edges of the box around it; of several shapes the
+    The radius of the object is half the middle edge of its bounding box; of several shapes the
     thickest counts.
     """
     start, n = int(model.body_geomadr[body]), int(model.body_geomnum[body])
@@ -123,29 +123,29 @@ def _fastest_turn(model: mujoco.MjModel, body: int) -> int:
 
 
 @njit
-def too_fast(velocities: Array, speeds: npt.NDArray[np.int64]) -> int:
-    """The first degree of freedom with a speed above its limit or not finite; else -1.
+def find_excess_speed(velocities: Array, speeds: npt.NDArray[np.int64]) -> int:
+    """Return the first degree of freedom with a speed above its limit or not finite; else -1.
 
     Args:
-        velocities: of all degrees of freedom [m/s, rad/s].
-        speeds: see `speeds_of`.
+        velocities: the velocities of all degrees of freedom [m/s, rad/s].
+        speeds: the rows of `speed_limits`.
     """
     for i in range(speeds.shape[0]):
-        first = speeds[i, 0]
+        dof = speeds[i, 0]
         square = 0.0
-        for k in range(first, first + speeds[i, 1]):
+        for k in range(dof, dof + speeds[i, 1]):
             square += velocities[k] * velocities[k]
         limit = float(speeds[i, 2])
         if not square <= limit * limit:
-            return int(first)
+            return int(dof)
     return -1
 
 
-def say_too_fast(
+def describe_speed(
     velocities: Array, speeds: npt.NDArray[np.int64], dof: int, time: float, names: list[str]
 ) -> str:
-    """Report which body is too fast, as `why_untrue` does."""
-    row = next(i for i, first in enumerate(speeds[:, 0]) if first == dof)
+    """Return the report of a body that is too fast, as `describe_warning` does."""
+    row = next(i for i, first_dof in enumerate(speeds[:, 0]) if first_dof == dof)
     speed = math.hypot(*velocities[dof : dof + speeds[row, 1]].tolist())
     return (
         f"{names[dof]!r} moves at {speed:.4g} m/s or rad/s at {time:g} s, and nothing here is "
@@ -155,5 +155,5 @@ def say_too_fast(
     )
 
 
-def _pass_over(message: str) -> None:
-    """It is counted."""
+def _ignore(message: str) -> None:
+    """Pass over a warning, which the engine counts."""

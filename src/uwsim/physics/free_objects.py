@@ -1,11 +1,10 @@
 r"""Free objects in water: mass, buoyancy and drag from a box.
 
-The coefficients of an object are those of the box around its shape: drag
-:math:`\tfrac12\rho C_d A v|v|` on each pair of faces with :math:`C_d` = 1.05, added mass that of
-plates and prisms in DNV-RP-H103 (2011, appendix A), in rotation that of the ellipsoid of the same
-proportions and volume (Lamb), buoyancy its volume unless ``u:volume``
-says another. A ball has :math:`C_d` = 0.47
-however it is turned. ``linearDamping`` and ``angularDamping`` come on top,
+The coefficients of an object are those of the box around its shape. The drag is :math:`\tfrac12\rho
+C_d A v|v|` on each pair of faces with :math:`C_d` = 1.05. The added mass is that of plates and
+prisms in DNV-RP-H103 (2011, appendix A), in rotation that of the ellipsoid of the same proportions
+and volume (Lamb). The displaced volume is that of the box unless ``u:volume`` states another. A
+ball has :math:`C_d` = 0.47 in all directions. ``linearDamping`` and ``angularDamping`` are added,
 per mass and inertia.
 """
 
@@ -26,89 +25,89 @@ from ..scene.urdf.robot import LinkSpec
 from ..schema import diagnostic_at
 
 BOX_DRAG = 1.05
-"""Of a cube face on [1]."""
+"""The drag coefficient of a cube, face on [1]."""
 BALL_DRAG = 0.47
-"""Of a ball [1]."""
-LEAST = 1e-14
-"""Mass [kg] and inertia [kg m2] have to be greater for the engine."""
+"""The drag coefficient of a ball [1]."""
+MIN_INERTIA = 1e-14
+"""The bound that mass [kg] and inertia [kg m2] have to exceed in the engine."""
 
 BALL_TORQUE = 0.05
-"""Of a ball that turns, torque by half the density, the spin squared and the fifth power of the
-radius [1] (Sawatzki, Acta Mechanica 9, 1970, at a Reynolds number of 2 10^4)."""
+"""The torque on a rotating ball by half the density, the angular speed squared and the fifth power
+of the radius [1] (Sawatzki, Acta Mechanica 9, 1970, at a Reynolds number of 2 10^4)."""
 PLATES = (
     (1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 8.0, 10.0, 1e3),
     (0.579, 0.642, 0.690, 0.757, 0.801, 0.830, 0.872, 0.897, 0.934, 0.947, 1.0),
 )
-"""Long by short side of a plate; its added mass in water of the cylinder about it, pi/4 a^2 b [1]
-(DNV-RP-H103, table A-2)."""
+"""The ratio b/a of the sides of a plate, and its added mass relative to the water in the cylinder
+about it, pi/4 a^2 b [1] (DNV-RP-H103, table A-2)."""
 DEPTHS = (
     (0.0, 0.1, 0.2, 0.5, 1.0, 2.0, 4.0, 6.0, 10.0),
     (1.0, 1.14, 1.21, 1.36, 1.495, 1.583, 1.67, 1.715, 1.76),
 )
-"""Length of a box along its way by the short side of its face; its added mass in that of the
-face as a plate [1] (up to 0.5 rectangles of table A-1, from 1 on square prisms of table A-2)."""
+"""The length of a box along its motion by the short side of its face, and its added mass by that of
+the face as a plate [1] (up to 0.5 rectangles of table A-1, from 1 square prisms of table A-2)."""
 
 
 def loose_link(name: str, physics: PhysicsSpec, shapes: Sequence[CollisionShape]) -> LinkSpec:
-    """Mass and inertia of an object, about its centre of mass: those of its box, or of a ball."""
+    """Return mass and inertia of an object about its centre of mass: of its box, or of a ball."""
     box = bounds(shapes)
     x, y, z = (2.0 * half for half in box.size)
-    given = physics.inertia
-    if not any(given):
+    inertia = physics.inertia
+    if not any(inertia):
         share = physics.mass / 12.0
-        given = (share * (y * y + z * z), share * (x * x + z * z), share * (x * x + y * y))
+        inertia = (share * (y * y + z * z), share * (x * x + z * z), share * (x * x + y * y))
         if _is_ball(shapes):
-            given = (0.1 * physics.mass * x * x,) * 3
+            inertia = (0.1 * physics.mass * x * x,) * 3
     mx, my, mz = physics.centre_of_mass or box.body_from_shape.position.tolist()
     return LinkSpec(
         name=name,
         mass=physics.mass,
         centre_of_mass=(mx, my, mz),
-        inertia=(*given, 0.0, 0.0, 0.0),
+        inertia=(*inertia, 0.0, 0.0, 0.0),
     )
 
 
 def object_errors(
-    thing: ObjectSpec, physics: PhysicsSpec, shapes: Sequence[CollisionShape], density: float | None
+    spec: ObjectSpec, physics: PhysicsSpec, shapes: Sequence[CollisionShape], density: float | None
 ) -> list[Diagnostic]:
-    """Report the mass, the inertia and the volume of a loose object that no simulation bears.
+    """Return the errors in mass, inertia and volume of a loose object that prevent a simulation.
 
     Args:
-        thing: the object.
+        spec: the object.
         physics: its physics.
-        shapes: what is touched of it.
-        density: of the water [kg/m3]; None where there is no buoyancy.
+        shapes: its collision shapes.
+        density: the density of the water [kg/m3]; None where there is no buoyancy.
     """
     messages = []
-    least = min(loose_link(thing.name, physics, shapes).inertia[:3])
-    is_heavy = physics.mass > LEAST and (least > LEAST or any(physics.inertia))
-    if not is_heavy:  # what an inertia of the file may be is checked where it is read
+    inertia = min(loose_link(spec.name, physics, shapes).inertia[:3])
+    is_heavy = physics.mass > MIN_INERTIA and (inertia > MIN_INERTIA or any(physics.inertia))
+    if not is_heavy:  # an inertia in the file is checked where it is read
         messages.append(
-            f"the object {thing.name!r} has {physics.mass:g} kg and an inertia of {least:.3g} "
-            f"kg m2 about an axis; expected more than {LEAST:g} of both, or the mass 0 for what "
-            "stands fixed"
+            f"the object {spec.name!r} has {physics.mass:g} kg and an inertia of {inertia:.3g} kg "
+            f"m2 about an axis; expected more than {MIN_INERTIA:g} of both. A fixed object has "
+            "the mass 0"
         )
     elif density is not None and (physics.volume or 0.0) * density > MAX_BUOYANCY * physics.mass:
         box = float(np.prod(2.0 * np.array(bounds(shapes).size)))
         messages.append(
-            f"the object {thing.name!r} has {physics.mass:g} kg and displaces "
+            f"the object {spec.name!r} has {physics.mass:g} kg and displaces "
             f"{(physics.volume or 0.0) * density:.4g} kg of water; expected less than "
-            f"{MAX_BUOYANCY:g} times the mass (<u:volume> is in m3; the box around it has "
-            f"{box:.3g} m3)"
+            f"{MAX_BUOYANCY:g} times the mass. The unit of <u:volume> is m3; the box around it has "
+            f"{box:.3g} m3"
         )
-    return [diagnostic_at(thing, message, "physics") for message in messages]
+    return [diagnostic_at(spec, message, "physics") for message in messages]
 
 
 def loose_hydrodynamics(
     name: str, physics: PhysicsSpec, shapes: Sequence[CollisionShape], density: float
 ) -> BodyHydrodynamics:
-    """The hydrodynamics of an object.
+    """Return the hydrodynamics of an object.
 
     Args:
-        name: of its body in the model.
-        physics: its spec.
-        shapes: what is touched of it.
-        density: of the water [kg/m3].
+        name: the name of its body in the model.
+        physics: its physics.
+        shapes: its collision shapes.
+        density: the density of the water [kg/m3].
     """
     box = bounds(shapes)
     edges = 2.0 * np.array(box.size)  # (3,) [m]
@@ -116,18 +115,18 @@ def loose_hydrodynamics(
     drag = density * (_ball_drag(box.size[0]) if is_ball else box_drag(edges))
     volume = float(np.prod(edges)) * (math.pi / 6.0 if is_ball else 1.0)
     half = 0.5 * edges * (1.0 if is_ball else (6.0 / math.pi) ** (1.0 / 3.0))
-    added = ellipsoid_added_mass(half)
+    added_mass = ellipsoid_added_mass(half)
     if not is_ball:
-        added[:3] = box_added_mass(edges)
+        added_mass[:3] = box_added_mass(edges)
     mx, my, mz = box.body_from_shape.position.tolist()
     link = loose_link(name, physics, shapes)
-    own = np.array([physics.mass] * 3 + list(link.inertia[:3]))
+    masses = np.array([physics.mass] * 3 + list(link.inertia[:3]))
     rates = np.array([physics.linear_damping] * 3 + [physics.angular_damping] * 3)
     return BodyHydrodynamics(
         link=name,
         reference=(mx, my, mz),
-        added_mass=tuple((density * added).tolist()),
-        linear_damping=tuple((own * np.maximum(rates, 0.0)).tolist()),
+        added_mass=tuple((density * added_mass).tolist()),
+        linear_damping=tuple((masses * np.maximum(rates, 0.0)).tolist()),
         quadratic_damping=tuple(drag.tolist()),
         volume=volume if physics.volume is None else physics.volume,
         centre_of_buoyancy=(mx, my, mz),
@@ -139,16 +138,16 @@ def loose_hydrodynamics(
 
 
 def box_drag(edges: Array) -> Array:
-    """Quadratic drag of a box per density of the water, (6,) [m2, m5]."""
+    """Return the quadratic drag of a box per density of the water, (6,) [m2, m5]."""
     x, y, z = edges.tolist()
     faces = [y * z, x * z, x * y]
     # strips of a face at distance r from the axis resist with r^2 at the lever r
-    turning = [
+    moments = [
         x * (y**4 + z**4) / 32.0,
         y * (x**4 + z**4) / 32.0,
         z * (x**4 + y**4) / 32.0,
     ]
-    return 0.5 * BOX_DRAG * np.array(faces + turning)
+    return 0.5 * BOX_DRAG * np.array(faces + moments)
 
 
 def _is_ball(shapes: Sequence[CollisionShape]) -> bool:
@@ -156,22 +155,22 @@ def _is_ball(shapes: Sequence[CollisionShape]) -> bool:
 
 
 def _ball_drag(radius: float) -> Array:
-    across, turning = BALL_DRAG * math.pi * radius**2, BALL_TORQUE * radius**5
-    return 0.5 * np.array([across] * 3 + [turning] * 3)
+    translation, rotation = BALL_DRAG * math.pi * radius**2, BALL_TORQUE * radius**5
+    return 0.5 * np.array([translation] * 3 + [rotation] * 3)
 
 
 def box_added_mass(edges: Array) -> Array:
-    """Added mass of a box along its three axes, per density, (3,) [m3]."""
-    found = np.empty(3)
+    """Return the added mass of a box along its three axes, per density, (3,) [m3]."""
+    added_mass = np.empty(3)
     for axis in range(3):
-        short, long = sorted(np.delete(edges, axis).tolist())
-        plate = np.interp(long / short, *PLATES) * math.pi / 4.0 * short * short * long
-        found[axis] = plate * np.interp(edges[axis] / short, *DEPTHS)
-    return found
+        a, b = sorted(np.delete(edges, axis).tolist())
+        plate = np.interp(b / a, *PLATES) * math.pi / 4.0 * a * a * b
+        added_mass[axis] = plate * np.interp(edges[axis] / a, *DEPTHS)
+    return added_mass
 
 
 def ellipsoid_added_mass(half: Array) -> Array:
-    """Added mass of an ellipsoid with these half-axes, per density, (6,) [m3, m5] (Lamb)."""
+    """Return the added mass of an ellipsoid by its half-axes, per density, (6,) [m3, m5]."""
     from scipy.special import elliprd
 
     a2, b2, c2 = (half**2).tolist()
@@ -181,14 +180,14 @@ def ellipsoid_added_mass(half: Array) -> Array:
         [elliprd(b2, c2, a2), elliprd(c2, a2, b2), elliprd(a2, b2, c2)]
     )  # (3,) [1]
     squares = (a2, b2, c2)
-    turning = []
+    moments = []
     for axis in range(3):
         j, k = (axis + 1) % 3, (axis + 2) % 3
         gap, total = squares[j] - squares[k], squares[j] + squares[k]
         slope = alpha[j] - alpha[k]
-        below = 2.0 * gap + total * slope
+        denominator = 2.0 * gap + total * slope
         if abs(gap) < 1e-9 * total:
-            turning.append(0.0)
+            moments.append(0.0)
         else:
-            turning.append(max(0.0, volume / 5.0 * gap * gap * -slope / below))
-    return np.array([*(volume * alpha / (2.0 - alpha)), *turning])
+            moments.append(max(0.0, volume / 5.0 * gap * gap * -slope / denominator))
+    return np.array([*(volume * alpha / (2.0 - alpha)), *moments])

@@ -1,12 +1,12 @@
-r"""What a link, with all that is beyond it, does to the joint that carries it.
+r"""The wrench of a link, and of all that is beyond it, on the joint that carries it.
 
-That is what a force-torque sensor in the joint reads. With the momentum :math:`p` of the links
-beyond the joint, their weight, contacts, the objects they hold, and the water on them (buoyancy,
-drag, added mass),
+A force-torque sensor in the joint measures it. With the momentum :math:`p` of the links beyond the
+joint, their weight, contacts, the objects they hold, and the water on them (buoyancy, drag, added
+mass),
 
 .. math:: w = W + w_{contacts} + w_{water} - \dot p .
 
-Forces and accelerations are those of the last step, places those at its end.
+Forces and accelerations are those of the last step, positions those at its end.
 """
 
 from __future__ import annotations
@@ -54,10 +54,7 @@ JOINT_WRENCH = np.dtype(
     [
         ("mount", np.int64),  # the address of a record of `link_kernel.MOUNT`
         ("body", np.int64),
-        (
-            "workspace",
-            np.int64,
-        ),  # the address of a record of `WORKSPACE`; 0: not simulated
+        ("workspace", np.int64),  # the address of a record of `WORKSPACE`; 0: not simulated
     ]
 )
 """The record of a joint wrench for compiled code."""
@@ -68,12 +65,12 @@ Record = Any
 class JointWrench:
     """The wrenches at the joints of simulated vehicles.
 
-    It works in memory of its own: the engine's stays as the step left it.
+    The computation uses a copy of the engine's data, which it does not change.
 
     Args:
-        model: of the scene.
-        data: its state.
-        poses: where everything is.
+        model: the engine's model.
+        data: the engine's state.
+        poses: the poses of all bodies.
     """
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, poses: Poses) -> None:
@@ -87,7 +84,7 @@ class JointWrench:
         Args:
             body: the engine's number of the link.
             mount: the frame on the link.
-            is_simulated: whether its vehicle is simulated; else all numbers are 0.
+            is_simulated: true if its vehicle is simulated; else all numbers are 0.
         """
         row, offsets = np.zeros(1, JOINT_WRENCH), callback.offsets()
         row["mount"], row["body"] = address_of(mount), body
@@ -117,7 +114,7 @@ class JointWrench:
         )
 
     def _make_copy(self) -> None:
-        """Make the copy of the data for the first sample: it takes megabytes."""
+        """Make the copy of the data, which takes megabytes, at the first sample."""
         if self._copy is None:
             self._copy = mujoco.MjData(self._model)
             self._workspace["copy"] = self._copy._address
@@ -136,12 +133,12 @@ def sample_joint(parameters: int, values: int, time: float) -> None:
 
 @njit
 def compute_wrench(space: Record, body: int, point: Array, wrench: Array) -> None:
-    """Write what a body, and all beyond it, does to its joint, in W, into (6,) [N, N m].
+    """Write the wrench of a body, and of all beyond it, on its joint, in W, into (6,) [N, N m].
 
     Args:
         space: a record of `WORKSPACE`.
-        body: the engine's number.
-        point: about which the torque is, in W, (3,) or more [m].
+        body: the engine's number of the body.
+        point: the point that the torque is about, in W, (3,) or more [m].
         wrench: receives force and torque.
     """
     m, d, offsets = space.model, space.copy, view_int64s(space.offsets, space.n_offsets)

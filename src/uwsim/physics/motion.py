@@ -11,20 +11,20 @@ from ..base.geometry import Array
 
 
 class Motion:
-    """Generalised positions and velocities of every body that has joints, as a copy.
+    """The generalised positions and velocities of every body that has joints, as a copy.
 
-    Generalised coordinates: three and a quaternion (wxyz) for a body that is free, one for each
-    joint; behind them the velocities. Bodies without a joint follow from these.
+    Generalised coordinates are a position and a quaternion (wxyz) of each free body, and one for
+    each joint; the velocities follow them. The motion of bodies without a joint depends on these.
 
     Args:
-        model: of MuJoCo.
-        data: its state, looked at whenever `read` is called.
-        names: how the scene calls each body of the model.
+        model: the engine's model.
+        data: the engine's state, from which `read` copies.
+        names: the scene's name of each body of the model.
     """
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, names: Sequence[str]) -> None:
         self._data = data
-        self._both = np.zeros(model.nq + model.nv)
+        self._numbers = np.zeros(model.nq + model.nv)
         self._n_positions = model.nq
         owners = [int(body) for body in model.jnt_bodyid]
         starts = [int(a) for a in model.jnt_qposadr], [model.nq + int(a) for a in model.jnt_dofadr]
@@ -43,15 +43,15 @@ class Motion:
             parts.append((names[body], len(numbers)))
         self._order = np.array(order, dtype=np.intp)
         self.parts = tuple(parts)
-        """Name of each body, and how many numbers are its own."""
+        """The name of each body, and its number of numbers."""
 
     @property
     def size(self) -> int:
-        """Length of the row of numbers."""
+        """The length of the row of numbers."""
         return len(self._order)
 
-    def read(self, into: Array) -> None:
-        """Write the motion as it is now, body by body, into a row (size,) [m, rad, m/s, rad/s]."""
-        self._both[: self._n_positions] = self._data.qpos
-        self._both[self._n_positions :] = self._data.qvel
-        np.take(self._both, self._order, out=into)
+    def read(self, row: Array) -> None:
+        """Write the present motion, body by body, into a row (size,) [m, rad, m/s, rad/s]."""
+        self._numbers[: self._n_positions] = self._data.qpos
+        self._numbers[self._n_positions :] = self._data.qvel
+        np.take(self._numbers, self._order, out=row)

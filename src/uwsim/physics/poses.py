@@ -22,16 +22,16 @@ Mount = npt.NDArray[np.void]
 
 @dataclass(slots=True)
 class PosesState(Record):
-    """What changes of the frames of a scene."""
+    """The state of the frames of a scene."""
 
     version: int = 0
-    """Grows whenever something was moved."""
+    """The number of changes of poses."""
     is_stale: bool = True
-    """Whether the frames are out of date."""
-    put: dict[int, Pose] = field(default_factory=dict)
-    """Where objects were put that are no bodies of the engine."""
-    carried: dict[int, tuple[int, str, Pose]] = field(default_factory=dict)
-    """Objects that follow a link: number of the vehicle, link, and where on it they are."""
+    """A flag: the frames are out of date."""
+    placed_poses: dict[int, Pose] = field(default_factory=dict)
+    """The poses of moved objects that are no bodies of the engine, by number."""
+    carriers: dict[int, tuple[int, str, Pose]] = field(default_factory=dict)
+    """The vehicle, the link and the pose on it of each object that follows a link."""
 
 
 class Poses:
@@ -39,18 +39,18 @@ class Poses:
 
     Args:
         scene_model: the model of the scene.
-        model: that of the engine.
-        data: its state.
+        model: the engine's model.
+        data: the engine's state.
     """
 
     def __init__(self, scene_model: SceneModel, model: mujoco.MjModel, data: mujoco.MjData) -> None:
         scene, robots = scene_model.scene, scene_model.robots
         self._model, self._data = model, data
-        # Views into MuJoCo's memory: to look them up by name costs more than the step.
+        # Views into MuJoCo's memory: access by name takes longer than the step.
         self.origins = data.xpos
-        """Of the engine's bodies, as `refresh` left them, (nbody, 3) [m]."""
+        """The origins of the engine's bodies, as `refresh` computed them, (nbody, 3) [m]."""
         self.axes = data.xmat.reshape(-1, 3, 3)
-        """Of these, (nbody, 3, 3)."""
+        """The axes of these bodies, (nbody, 3, 3)."""
         ids = {model.body(i).name: i for i in range(model.nbody)}
         self._bases = {i: ids[vehicle_body(i, robots[i].root)] for i in robots}
         self._links = {
@@ -59,26 +59,26 @@ class Poses:
             for link in robots[i].links
         }
         names = {i: object_body(i) for i in range(len(scene.objects))}
-        self._loose = {i: ids[name] for i, name in names.items() if name in ids}
-        self._placed = scene_model.placed_objects
+        self._loose_bodies = {i: ids[name] for i, name in names.items() if name in ids}
+        self._initial_poses = scene_model.placed_objects
         self._fixed = scene_model.fixed_objects
         scales = {i: vehicle.scale_factor for i, vehicle in enumerate(scene.vehicles)}
         self._scales = {i: scale for i, scale in scales.items() if scale != (1.0, 1.0, 1.0)}
         self.state = PosesState()
-        """What changes of them."""
+        """The state of the frames."""
 
     @property
     def version(self) -> int:
-        """A number that grows whenever something was moved."""
+        """A number that grows whenever a body was moved."""
         return self.state.version
 
-    def moved(self) -> None:
+    def mark_stale(self) -> None:
         """Mark the frames as out of date."""
         self.state.is_stale = True
         self.state.version += 1
 
     def refresh(self) -> None:
-        """Compute the frames, if they are out of date."""
+        """Compute the frames if they are out of date."""
         if self.state.is_stale:
             mujoco.mj_kinematics(self._model, self._data)
             self.state.is_stale = False
@@ -91,17 +91,16 @@ class Poses:
         """Return the engine's number of a vehicle's link."""
         return self._links[index, link]
 
-    def engine_body(self, vehicle: int | None, link: str, thing: int | None) -> int:
+    def engine_body(self, vehicle: int | None, link: str, index: int | None) -> int:
         """Return the engine's body whose frame is that of a link or an object; -1 for none.
 
-        The frame of a scaled vehicle's link is none of these, nor that of an object which follows
-        a link.
+        A link of a scaled vehicle and an object that follows a link have no such body.
         """
         if vehicle is not None:
             return -1 if vehicle in self._scales else self._links[vehicle, link]
-        if thing is None or thing in self._placed or thing in self.state.carried:
+        if index is None or index in self._initial_poses or index in self.state.carriers:
             return -1
-        return self._loose[thing]
+        return self._loose_bodies[index]
 
     def vehicle(self, index: int) -> Pose:
         """Return ``world_from_base`` of a vehicle."""
@@ -121,12 +120,12 @@ class Poses:
         return frame
 
     def mount(self, index: int, link: str, link_from_part: Pose) -> Mount:
-        """Return the record of a part on a link, for `mounted` and for compiled code.
+        """Return the record of a part on a link, for `mount_pose` and for compiled code.
 
         Args:
-            index: number of the vehicle.
-            link: name of the link.
-            link_from_part: where the file puts it on the link.
+            index: the number of the vehicle.
+            link: the name of the link.
+            link_from_part: the pose of the part on the link.
         """
         body, mount = self._links[index, link], np.zeros(1, MOUNT)
         mount["origin"] = address_of(self.origins) + 24 * body
@@ -137,55 +136,55 @@ class Poses:
             mount["scale"] = self._scales[index]
         return mount
 
-    def mounted(self, mount: Mount) -> Pose:
-        """Return where a part on a link is; the vehicle's scale moves it and does not turn it."""
+    def mount_pose(self, mount: Mount) -> Pose:
+        """Return the pose of a part on a link; a vehicle's scale moves it but does not turn it."""
         self.refresh()
         frame = compute_frame(mount)
         return Pose(frame[:3], frame[3:].reshape(3, 3))
 
     def object(self, index: int) -> Pose:
         """Return ``world_from_object`` (before its offsets and its scale)."""
-        if index in self.state.carried:
-            vehicle, link, link_from_object = self.state.carried[index]
+        if index in self.state.carriers:
+            vehicle, link, link_from_object = self.state.carriers[index]
             world_from_link = self.link(vehicle, link)
             return world_from_link @ link_from_object
-        if index in self._placed:
-            return self.state.put.get(index, self._placed[index]).copy()
-        return self._body(self._loose[index])
+        if index in self._initial_poses:
+            return self.state.placed_poses.get(index, self._initial_poses[index]).copy()
+        return self._body(self._loose_bodies[index])
 
-    def put(self, index: int, world_from_object: Pose) -> None:
+    def place_object(self, index: int, world_from_object: Pose) -> None:
         """Set the pose of an object that is no body of the engine."""
-        self.state.put[index] = world_from_object
+        self.state.placed_poses[index] = world_from_object
 
     def loose_body(self, index: int) -> int | None:
         """Return the engine's number of an object; None where it is no body of the engine."""
-        return self._loose.get(index)
+        return self._loose_bodies.get(index)
 
-    def rows(self, bodies: npt.NDArray[np.intp]) -> Array:
+    def read_frames(self, bodies: npt.NDArray[np.intp]) -> Array:
         """Return position in W [m] and quaternion (wxyz) of bodies of the engine, (n, 7)."""
         self.refresh()
         return np.concatenate([self._data.xpos[bodies], self._data.xquat[bodies]], axis=1)
 
-    def show(self, bodies: npt.NDArray[np.intp], rows: Array) -> None:
-        """Put frames where they were in another run, for images; the engine's state stays.
+    def set_frames(self, bodies: npt.NDArray[np.intp], rows: Array) -> None:
+        """Set frames to their poses in another run, for images; the engine's state is not changed.
 
-        What is fixed to these bodies follows them. The next `moved` undoes it.
+        Bodies fixed to these bodies follow them. The next `mark_stale` undoes it.
 
         Args:
-            bodies: numbers of the engine's bodies.
+            bodies: the engine's numbers of the bodies.
             rows: position in W [m] and quaternion (wxyz) of each, (n, 7).
         """
         self.refresh()
         model, axes = self._model, np.zeros(9)
-        shown = dict(zip(bodies.tolist(), rows, strict=True))
-        follows = set(shown)
+        rows_by_body = dict(zip(bodies.tolist(), rows, strict=True))
+        moved_bodies = set(rows_by_body)
         for body in range(1, model.nbody):
             parent = int(model.body_parentid[body])
-            if body in shown:
-                mujoco.mju_quat2Mat(axes, np.ascontiguousarray(shown[body][3:]))
-                self.origins[body], self.axes[body] = shown[body][:3], axes.reshape(3, 3)
-            elif parent in follows:
-                follows.add(body)
+            if body in rows_by_body:
+                mujoco.mju_quat2Mat(axes, np.ascontiguousarray(rows_by_body[body][3:]))
+                self.origins[body], self.axes[body] = rows_by_body[body][:3], axes.reshape(3, 3)
+            elif parent in moved_bodies:
+                moved_bodies.add(body)
                 mujoco.mju_quat2Mat(axes, model.body_quat[body])
                 self.origins[body] = self.origins[parent] + rotate(
                     self.axes[parent], model.body_pos[body]
@@ -194,11 +193,11 @@ class Poses:
         self.state.version += 1
 
     def is_fixed(self, index: int) -> bool:
-        """Whether an object stays where it is for good."""
+        """Return whether an object never moves."""
         return index in self._fixed
 
     def points(self, bodies: npt.NDArray[np.int64], on_bodies: Array) -> Array:
-        """Return where points (n, 3) [m] of some bodies are, in W, (n, 3) [m]."""
+        """Return the positions in W of points (n, 3) [m] on some bodies, (n, 3) [m]."""
         self.refresh()
         return world_positions(self.origins, self.axes, bodies, on_bodies)
 

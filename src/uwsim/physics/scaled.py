@@ -1,12 +1,12 @@
 r"""A vehicle's ``scaleFactor``: a scale at the root of the tree of links.
 
-The original scales the vehicle as a whole, L_T_B = T R S, so that a point p of a link K stands at
+The original scales the vehicle as a whole, L_T_B = T R S, so that a point p of a link K is at
 
 .. math:: W_T_B\; S\; B_T_K\; p
 
-The origins of links move by S, and so do what is mounted on them and their shapes; a mesh is
-stretched along the axes of the base, which shears it where S is uneven and the link lies askew. A
-frame has no stretch: it stands at the scaled place and turns as it did. Joints keep their values.
+S moves the origins of links, the parts mounted on them and their shapes. It stretches a mesh along
+the axes of the base, which shears it where S is not uniform and the link is not aligned with them.
+It moves a frame and does not rotate it. Joint values do not change.
 """
 
 from __future__ import annotations
@@ -25,10 +25,10 @@ class ScaledLinks:
     """The link poses of one scaled vehicle in the engine.
 
     Args:
-        model: of the scene; the relative poses of its links are changed here.
-        robot: the vehicle's.
-        index: the vehicle's number.
-        scale: along the axes of its base [1].
+        model: the engine's model, whose relative link poses are changed here.
+        robot: the links and joints of the vehicle.
+        index: the number of the vehicle.
+        scale: the scale along the axes of its base [1].
     """
 
     def __init__(self, model: mujoco.MjModel, robot: RobotSpec, index: int, scale: Triple) -> None:
@@ -37,14 +37,14 @@ class ScaledLinks:
             link.name: model.body(vehicle_body(index, link.name)).id for link in robot.links
         }
 
-    def follow(self, values: Array) -> None:
+    def set_poses(self, values: Array) -> None:
         """Set the scaled pose of every link for a joint vector (n,) [rad or m]."""
         poses = link_poses(self._robot, values.tolist())
         positions = joint_positions(self._robot, values.tolist())
         for joint in self._robot.joints:
             parent, child = poses[joint.parent], poses[joint.child]
-            apart = rotate_back(parent.rotation, self._scale * (child.position - parent.position))
+            offset = turned_back(parent.rotation, self._scale * (child.position - parent.position))
             if joint.kind == "prismatic":  # the engine adds the slide
                 axis = np.array(joint.axis) / length(joint.axis)
-                apart -= rotate(rotation_from_rpy(*joint.rpy), axis) * positions[joint.name]
-            self._model.body_pos[self._bodies[joint.child]] = apart
+                offset -= turned(rotation_from_rpy(*joint.rpy), axis) * positions[joint.name]
+            self._model.body_pos[self._bodies[joint.child]] = offset

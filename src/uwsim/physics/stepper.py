@@ -27,17 +27,17 @@ from .hydrodynamics.hydrodynamics import Hydrodynamics
 from .hydrodynamics.water_function import WATER_ROW, DriftFunction, WaterFunction
 
 AUTOPILOT_PERIOD = 0.02
-"""Period of the autopilots [s]."""
+"""The period of the autopilots [s]."""
 
 Ints = npt.NDArray[np.int64]
 
 
 def _word(name: str) -> int:
-    """How many words of a plan lie before a field."""
+    """Return the number of words of a plan before a field."""
     return int(step_kernel.PLAN.fields[name][1]) // 8  # type: ignore[index]
 
 
-_STEP, _SAMPLES, _AHEAD = map(_word, ("step", "samples", "ahead"))
+_STEP, _SAMPLES, _OFFSET = map(_word, ("step", "samples", "step_offset"))
 _FLOW, _FLOW_PARAMETERS = map(_word, ("flow", "flow_parameters"))
 _NEEDS_POINTS, _N_WATER = map(_word, ("needs_points", "n_water"))
 _DRIFT, _DRIFT_PARAMETERS = map(_word, ("drift", "drift_parameters"))
@@ -45,25 +45,25 @@ _DRIFT, _DRIFT_PARAMETERS = map(_word, ("drift", "drift_parameters"))
 
 @dataclass(slots=True)
 class StepperState(Record):
-    """What the next step depends on, besides the engine's numbers."""
+    """The state of a stepper, besides the engine's numbers."""
 
     has_flow: bool = False
-    """Whether the water moved in the last step."""
+    """A flag: the water moved in the last step."""
 
 
 class Stepper:
-    """Takes the steps of one engine.
+    """The steps of one engine.
 
     Args:
         data: the engine's state.
-        water: around its bodies.
-        autopilots: of the simulated vehicles.
-        servos: of their joints.
-        placed: joints of the vehicles that stay where they are put.
-        wet: bodies whose water is set.
-        felt_at: where these feel it, in their axes, (n, 3) [m].
-        check: says what is wrong with a step.
-        bounces: bounds the energy of objects that bounce; None where none does.
+        water: the hydrodynamics of the engine.
+        autopilots: the autopilots of the simulated vehicles.
+        servos: the servos of these vehicles.
+        placed_joints: the free joints of vehicles that are not simulated.
+        submerged_bodies: the bodies that the water acts on.
+        reference_points: the points where it acts on them, in their axes, (n, 3) [m].
+        check: the checks after a step.
+        bounce_limit: the limit on the energy of objects that bounce; None where none does.
     """
 
     def __init__(
@@ -72,61 +72,61 @@ class Stepper:
         water: Hydrodynamics,
         autopilots: Sequence[Autopilot],
         servos: Sequence[Servos],
-        placed: Sequence[int],
-        wet: Sequence[int],
-        felt_at: Array,
+        placed_joints: Sequence[int],
+        submerged_bodies: Sequence[int],
+        reference_points: Array,
         check: StepCheck,
-        bounces: BounceLimit | None,
+        bounce_limit: BounceLimit | None,
     ) -> None:
         model = water.model
-        self._bounces = bounces
+        self._bounce_limit = bounce_limit
         self._model, self._data, self._water, self._check = model, data, water, check
         self._plan = plan = np.zeros(1, step_kernel.PLAN)
-        self._words = plan.view(np.int64).data  # a number is set faster there than in a field
+        self._words = plan.view(np.int64).data  # setting a number is faster there than in a field
         self._table: tuple[npt.NDArray[np.void] | None, int] = None, 0  # of samples; its address
         uses_callback = callback.has_slot()
         plan["model"], plan["data"] = model._address, data._address
-        plan["is_in_middle"] = uses_callback
+        plan["uses_midpoint"] = uses_callback
         plan["kinematics"] = callback.function_address("mj_kinematics")
         plan["autopilot_steps"] = max(1, round(AUTOPILOT_PERIOD / model.opt.timestep))
         plan["timestep"] = model.opt.timestep
-        self._kept = {
+        self._arrays = {
             "offsets": (callback.offsets(), 1),
-            "autopilots": (_numbers([each.addresses for each in autopilots]), 5),
-            "servos": (_numbers([each.addresses for each in servos]), 3),
-            "placed": (_numbers([_places(model, joint) for joint in placed]), 2),
+            "autopilots": (_flatten([part.addresses for part in autopilots]), 5),
+            "servos": (_flatten([part.addresses for part in servos]), 3),
+            "placed_bodies": (_flatten([_addresses(model, joint) for joint in placed_joints]), 2),
             "speeds": (check.speeds, 3),
-            "wet": (_numbers([list(wet)]), 1),
+            "submerged_bodies": (_flatten([list(submerged_bodies)]), 1),
         }
-        for name, (numbers, width) in self._kept.items():
+        for name, (numbers, width) in self._arrays.items():
             plan[name], plan[f"n_{name}"] = numbers.ctypes.data, numbers.size // width
-        self._poses = np.zeros(7 * len(placed))
+        self._poses = np.zeros(7 * len(placed_joints))
         plan["poses"] = self._poses.ctypes.data
         counters = check.counters
         plan["warnings"], plan["n_warnings"] = counters.ctypes.data, len(counters)
-        plan["stride"] = counters.strides[0]
-        self._wet, self._felt_at = list(wet), np.ascontiguousarray(felt_at)
-        self._rows = np.zeros((len(wet), WATER_ROW))  # of the water at these bodies
-        plan["felt_at"], plan["water_rows"] = address_of(self._felt_at), address_of(self._rows)
+        plan["warning_stride"] = counters.strides[0]
+        self._bodies, self._points = list(submerged_bodies), np.ascontiguousarray(reference_points)
+        self._rows = np.zeros((len(submerged_bodies), WATER_ROW))  # of the water at these bodies
+        plan["points"], plan["water_rows"] = address_of(self._points), address_of(self._rows)
         self.state = StepperState()
-        """What the next step depends on."""
+        """The state of the stepper."""
         self._step: Callable[[mujoco.MjModel, mujoco.MjData], None] = (
             mujoco.mj_step if uses_callback else lambda _, data: water.step_without_callback(data)
         )
         self._uses_callback = uses_callback
         self._end_and_begin: Callable[[npt.NDArray[np.void]], int] = step_kernel.end_and_begin
-        if bounces is not None:
-            self._end_and_begin = self._bound_and_begin
+        if bounce_limit is not None:
+            self._end_and_begin = self._limit_and_begin
 
     @property
     def n_steps(self) -> int:
-        """Steps taken since the beginning; one that failed counts."""
+        """The number of steps taken since the beginning, including one that failed."""
         return self._words[_STEP]
 
     def run(
         self,
         n: int,
-        first: int,
+        n_0: int,
         water: WaterFunction | None,
         samples: npt.NDArray[np.void] | None = None,
         step: int = 0,
@@ -134,28 +134,28 @@ class Stepper:
         samples_last: bool = False,
         drift: DriftFunction | None = None,
     ) -> bool:
-        """Take steps.
+        """Take some steps.
 
         Args:
-            n: how many.
-            first: how many were taken before.
-            water: how it moves at the bodies, which are placed; None: it is still.
-            samples: taken after each step but the last, a record of `sampling.TABLE`, (1,).
+            n: the number of steps.
+            n_0: the number of steps taken before.
+            water: the motion of the water at the bodies, with current poses; None: it is still.
+            samples: the samples after each step but the last, a record of `sampling.TABLE`, (1,).
             step: the number of the first step by the clock of the samples.
-            samples_last: take them after the last step, too.
+            samples_last: take samples after the last step, too.
             drift: moves the vehicles that are not simulated; None: they stay.
 
         Returns:
-            Whether a timer of the samples was due after the last step, and they were taken.
+            True if a timer of the samples was due after the last step, and they were taken.
 
         Raises:
-            SimulationFailed: MuJoCo warned, or a body moves faster than can be: what follows would
-                not be true.
+            SimulationFailed: MuJoCo warned, or a body is faster than its limit: results would be
+                invalid.
         """
         plan, words, model, data = self._plan, self._words, self._model, self._data
         if samples is not self._table[0]:
             self._table = samples, 0 if samples is None else address_of(samples)
-        words[_STEP], words[_SAMPLES], words[_AHEAD] = first, self._table[1], step - 1 - first
+        words[_STEP], words[_SAMPLES], words[_OFFSET] = n_0, self._table[1], step - 1 - n_0
         self._set_water(water, n)
         words[_DRIFT] = 0
         if drift is not None:
@@ -163,25 +163,25 @@ class Stepper:
         advance = self._step
         if self._uses_callback:
             callback.install()  # mj_resetCallbacks may have emptied the slot
-        step_kernel.begin(plan)
-        found = step_kernel.WENT_WELL
+        step_kernel.begin_step(plan)
+        outcome = step_kernel.STEP_OK
         for _ in range(n - 1):
             advance(model, data)
-            found = self._end_and_begin(plan)
-            if found != step_kernel.WENT_WELL:
+            outcome = self._end_and_begin(plan)
+            if outcome != step_kernel.STEP_OK:
                 break
         else:
             advance(model, data)
-            found = step_kernel.end(plan)
-            if self._bounces is not None and found == step_kernel.WENT_WELL:
-                self._bounces.apply()
-        if found != step_kernel.WENT_WELL:
+            outcome = step_kernel.end_step(plan)
+            if self._bounce_limit is not None and outcome == step_kernel.STEP_OK:
+                self._bounce_limit.apply()
+        if outcome != step_kernel.STEP_OK:
             words[_STEP] += 1
-            self._check.fail(self.n_steps, found - step_kernel.TOO_FAST)
+            self._check.fail(self.n_steps, outcome - step_kernel.EXCESS_SPEED)
         return samples_last and bool(step_kernel.sample(plan))
 
     def _set_water(self, water: WaterFunction | None, n: int) -> None:
-        """Let the water of the next steps move so; None: it is still."""
+        """Set the function of the water in the next steps; None: it is still."""
         words = self._words
         if water is not None:
             self.state.has_flow = True
@@ -193,21 +193,21 @@ class Stepper:
             self.state.has_flow = False
             at_bodies = self._data.userdata[: WATER_COLUMNS * self._model.nbody]
             rows = at_bodies.reshape(-1, WATER_COLUMNS)  # (bodies, columns)
-            rows[self._wet, :6] = rows[self._wet, TURN : TURN + 3] = 0.0
+            rows[self._bodies, :6] = rows[self._bodies, TURN : TURN + 3] = 0.0
 
-    def _bound_and_begin(self, plan: npt.NDArray[np.void]) -> int:
-        """Complete a step, bound what bounces, sample, and begin the next step."""
-        assert self._bounces is not None
-        found = int(step_kernel.end(plan))
-        if found == step_kernel.WENT_WELL:
-            self._bounces.apply()
+    def _limit_and_begin(self, plan: npt.NDArray[np.void]) -> int:
+        """Complete a step, limit the energy of bounces, sample, and begin the next step."""
+        assert self._bounce_limit is not None
+        outcome = int(step_kernel.end_step(plan))
+        if outcome == step_kernel.STEP_OK:
+            self._bounce_limit.apply()
             step_kernel.sample_and_begin(plan)
-        return found
+        return outcome
 
 
-def _numbers(rows: Sequence[Sequence[int]]) -> Ints:
+def _flatten(rows: Sequence[Sequence[int]]) -> Ints:
     return np.array(rows, dtype=np.int64).ravel()
 
 
-def _places(model: mujoco.MjModel, joint: int) -> tuple[int, int]:
+def _addresses(model: mujoco.MjModel, joint: int) -> tuple[int, int]:
     return int(model.jnt_qposadr[joint]), int(model.jnt_dofadr[joint])

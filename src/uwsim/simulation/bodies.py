@@ -102,7 +102,7 @@ def name_bodies(model: SceneModel, engine: Engine) -> dict[str, SceneBody]:
                 continue
             link_from_visual = Pose.from_rpy(link.visual.position, link.visual.rpy)
             mount = engine.poses.mount(index, link.name, link_from_visual)
-            pose = partial(engine.poses.mounted, mount)
+            pose = partial(engine.poses.mount_pose, mount)
             add(seen, pose, link_boxes[index, link.name])
     for index, thing in enumerate(scene.objects):
         mesh = thing.object_from_mesh
@@ -135,7 +135,7 @@ def _link_boxes(model: SceneModel) -> dict[tuple[int, str], Box]:
                 continue
             link_from_visual = Pose.from_rpy(link.visual.position, link.visual.rpy)
             mount = engine.poses.mount(index, link.name, link_from_visual)
-            world_from_visual = engine.poses.mounted(mount)
+            world_from_visual = engine.poses.mount_pose(mount)
             parts = [
                 each for each in model.parts if (each.vehicle, each.link) == (index, link.name)
             ]

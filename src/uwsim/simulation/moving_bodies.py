@@ -44,7 +44,7 @@ class MountedBody:
     @property
     def world_from_body(self) -> Pose:
         """Where it is now."""
-        return self._poses.mounted(self._mount)
+        return self._poses.mount_pose(self._mount)
 
     @cached_property
     def functions(self) -> npt.NDArray[np.void]:

@@ -51,7 +51,7 @@ class SceneStepper:
         self._drifting = [world.vehicles[i] for i in placed]
         self._drifting_names = tuple(vehicle.name for vehicle in self._drifting)
         self._wet_names = tuple(
-            "" if i is None else vehicles[i].name for i in engine.submerged.vehicles
+            "" if i is None else vehicles[i].name for i in engine.submerged_bodies.vehicles
         )
 
     @property
@@ -97,7 +97,7 @@ class SceneStepper:
             or self._forces
             or self._contacts.is_laid
             or not engine.is_dynamic
-            or engine.moves_by_step
+            or engine.places_bodies
             or water.is_asked_where_bodies_are(self._wet_names)
         ):
             return 1, False
@@ -141,7 +141,7 @@ class SceneStepper:
             return False
         return (
             not engine.is_dynamic
-            or engine.moves_by_step  # what is carried is placed beside a vehicle that has drifted
+            or engine.places_bodies  # what is carried is placed beside a vehicle that has drifted
             or bool(self._forces)
             or any(vehicle.state.placed.part is not None for vehicle in self._drifting)  # recorded
             or water.drift(self._drifting_names, self._timestep, self._time) is None
@@ -173,13 +173,13 @@ class SceneStepper:
         """
         engine, water = self._engine, self._water
         if self._forces:
-            engine.push(engine_wrenches(self._forces, self._time - self._timestep))
+            engine.apply_wrenches(engine_wrenches(self._forces, self._time - self._timestep))
         if not engine.is_dynamic:
-            engine.fall()
+            engine.step_uwsim_physics()
             self._below_ground.look(self._step)
             return False
         first = self._step
-        steps, positions = range(first, first + n), engine.submerged.positions
+        steps, positions = range(first, first + n), engine.submerged_bodies.positions
         motion = water.during(positions, steps, self._timestep, self._wet_names)
         drift = None
         if drifts and self._drifting and motion is not None:

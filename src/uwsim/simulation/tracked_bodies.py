@@ -54,11 +54,11 @@ class TrackedBodies:
 
     def rows(self) -> Array:
         """Return position in W [m] and quaternion (wxyz) of each, (n, 7)."""
-        rows = self._poses.rows(self._numbers)
-        if not self._placed and not self._poses.state.carried:
+        rows = self._poses.read_frames(self._numbers)
+        if not self._placed and not self._poses.state.carriers:
             return rows
         rows = np.concatenate([rows, np.zeros((len(self._placed), 7))])
-        for i in [*self._placed, *self._poses.state.carried]:
+        for i in [*self._placed, *self._poses.state.carriers]:
             pose = self._poses.object(i)
             rows[self._row_of_object[i], :3] = pose.position
             rows[self._row_of_object[i], 3:] = quaternion_from_rotation(pose.rotation)
@@ -67,9 +67,9 @@ class TrackedBodies:
     def show(self, rows: Array) -> None:
         """Put all of them where rows (n, 7), as of `rows`, say, for images."""
         n = len(self._numbers)
-        self._poses.show(self._numbers, rows[:n])
+        self._poses.set_frames(self._numbers, rows[:n])
         for i, row in zip(self._placed, rows[n:], strict=True):
-            self._poses.put(i, Pose(row[:3].copy(), rotation_from_quaternion(row[3:])))
+            self._poses.place_object(i, Pose(row[:3].copy(), rotation_from_quaternion(row[3:])))
 
 
 def vehicle_labels(world: LiveScene) -> tuple[str, ...]:

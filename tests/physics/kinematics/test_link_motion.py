@@ -21,7 +21,7 @@ def moving(seed: int) -> Simulation:
     mujoco.mj_normalizeQuat(engine._model, data.qpos)
     data.qvel[:] = random.normal(size=len(data.qvel))
     data.qacc[:] = random.normal(size=len(data.qacc))
-    engine.poses.moved()
+    engine.poses.mark_stale()
     return simulation
 
 

@@ -91,8 +91,8 @@ def test_in_water_the_bound_takes_nothing_from_a_bounce(floor: ObjectSpec) -> No
     for is_on in (True, False):
         simulation = in_water(thing, flat, timestep=0.002)
         if not is_on:
-            simulation.world.engine._bounces.is_on = False
-            simulation.world.engine._bounces.apply = lambda: None
+            simulation.world.engine._bounce_limit.is_on = False
+            simulation.world.engine._bounce_limit.apply = lambda: None
         simulation.advance(2.0)
         ends.append(simulation.world.bodies.find("thing").world_from_body.matrix.tobytes())
     assert ends[0] == ends[1]
@@ -109,7 +109,7 @@ def test_a_body_that_has_passed_through_the_ground_ends_the_run_by_its_name(
     engine = simulation.world.engine
     simulation.advance(0.5)
     joint = int(engine._model.body_jntadr[engine.poses.loose_body(0)])
-    place = int(engine._model.jnt_qposadr[joint]) if name == "thing" else engine._free_places[0]
+    place = int(engine._model.jnt_qposadr[joint]) if name == "thing" else engine._base_addresses[0]
     engine._data.qpos[place + 2] -= 1.0 if name == "thing" else 9.0
     with pytest.raises(SimulationFailed, match=f"'{name}' has passed through the ground"):
         simulation.advance(1.5)

@@ -89,7 +89,7 @@ def test_an_accepted_start_or_one_that_is_shallow_is_left_to_contacts(floor: Obj
 def test_each_of_several_is_lifted_by_its_own_depth(floor: ObjectSpec) -> None:
     things = [sunk(0.05, "a", x=-3.0), sunk(0.2, "b", x=3.0), sunk(-2.0, "c")]
     simulation = in_water(*things, floor, timestep=0.01)
-    left = simulation.world.engine.lift.state.left
+    left = simulation.world.engine.lift.state.steps_left
     assert len(left) == 2
     assert left[1] > left[0] > 0
     simulation.advance(6.0)

@@ -82,7 +82,7 @@ def test_a_neutral_ball_goes_round_in_an_eddy() -> None:
     frame = simulation.world.model.scene.world_from_localized
     base = state.poses.vehicle(0)
     state.place_vehicle(0, replace(base, position=frame.transform(np.array([[2.0, 0, 3.0]]))[0]))
-    velocity = state._data.qvel[state._free_dofs[0] : state._free_dofs[0] + 6]
+    velocity = state._data.qvel[state._base_dofs[0] : state._base_dofs[0] + 6]
     velocity[:3] = frame.rotation @ [0.0, 0.2, 0.0]
     velocity[3:] = base.rotation.T @ frame.rotation @ [0.0, 0.0, 0.1]
     for _ in range(round(5.0 / simulation.timestep)):
@@ -100,9 +100,11 @@ def test_a_hull_below_its_origin_feels_the_water_where_it_is() -> None:
     own = read_vehicle(vehicle_sets()["bluerov2_heavy"]).bodies[0]
     assert isinstance(own, BodyHydrodynamics)
     row = water.model.body_user[water.bodies[0]]
-    assert water.felt_at(water.bodies[0]) == pytest.approx(own.centre_of_buoyancy)
+    assert water.reference_points(water.bodies[0]) == pytest.approx(own.centre_of_buoyancy)
     row[3:6] += shift  # the centre of buoyancy
-    assert water.felt_at(water.bodies[0])[2] == pytest.approx(own.centre_of_buoyancy[2] + 2.0)
+    assert water.reference_points(water.bodies[0])[2] == pytest.approx(
+        own.centre_of_buoyancy[2] + 2.0
+    )
 
 
 @pytest.mark.parametrize("vehicles", [(), ("",), ("a", "", "b", "b", "a", "")])

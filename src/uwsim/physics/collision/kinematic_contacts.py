@@ -18,7 +18,7 @@ from ...base.numerics.linear import dot, length
 from ...base.record import Record
 from ...model.collision.shapes import CollisionShape
 from ...world import Contact
-from ..engine_model import ALL, OBJECTS, SHAPES, give_form
+from ..engine_model import ALL_BITS, GEOM_TYPES, OBJECT_BIT, set_size
 from ..kinematics.jumps import JumpState, JumpTimes, jump_velocity
 
 
@@ -161,18 +161,18 @@ def _build_model(shapes: Mapping[str, Sequence[CollisionShape]]) -> mujoco.MjMod
         body.explicitinertial = True
         body.add_freejoint()
         kind, owner = name.split("/")[:2]
-        bit = OBJECTS if kind == "object" else 2 << (int(owner) % 29)
+        bit = OBJECT_BIT if kind == "object" else 2 << (int(owner) % 29)
         for i, shape in enumerate(parts):
             body_from_shape = shape.body_from_shape
             geom = body.add_geom(
                 name=f"{name}/shape/{i}",
-                type=SHAPES[shape.kind],
+                type=GEOM_TYPES[shape.kind],
                 pos=body_from_shape.position.tolist(),
                 quat=quaternion_from_rotation(body_from_shape.rotation).tolist(),
                 contype=bit,
-                conaffinity=ALL & ~bit,
+                conaffinity=ALL_BITS & ~bit,
             )
-            give_form(spec, geom, f"{name}/{i}", shape)
+            set_size(spec, geom, f"{name}/{i}", shape)
     return spec.compile()
 
 

@@ -82,7 +82,7 @@ class Hydrodynamics:
         rows[chosen, 3:6] = acceleration
         rows[chosen, c.TURN : c.TURN + 3] = rotation
 
-    def felt_at(self, body: int) -> Floats:
+    def reference_point(self, body: int) -> Floats:
         """The point at which a body samples the flow, in its axes, (3,) [m]."""
         row = self.model.body_user[body]
         point = row[c.REFERENCE : c.REFERENCE + 3].copy()

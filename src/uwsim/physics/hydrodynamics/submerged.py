@@ -36,8 +36,10 @@ class SubmergedBodies:
         found = set() if water is None else {*water.bodies, *map(poses.base, vehicles)}
         self.bodies = np.array(sorted(found), np.int64)
         """Their numbers in the engine, (n,)."""
-        points = [] if water is None else [water.felt_at(body) for body in self.bodies.tolist()]
-        self.felt_at = np.array(points).reshape(-1, 3)
+        points = (
+            [] if water is None else [water.reference_point(body) for body in self.bodies.tolist()]
+        )
+        self.reference_points = np.array(points).reshape(-1, 3)
         """Where the water acts on each, in its axes, (n, 3) [m].
 
         At the centre of buoyancy; for a body that displaces nothing, where its matrices are about.
@@ -48,4 +50,4 @@ class SubmergedBodies:
 
     def positions(self) -> Array:
         """Return where the water acts on them now, in W, (n, 3) [m]."""
-        return self._poses.points(self.bodies, self.felt_at)
+        return self._poses.points(self.bodies, self.reference_points)

@@ -104,7 +104,7 @@ def _start_lifts(model: SceneModel) -> list[tuple[Kind, int, float]]:
     Only those are looked at which touch something fixed at the start.
     """
     lifts: list[tuple[Kind, int, float]] = []
-    touching = Engine(model).deep_at_start(MIN_RISE)
+    touching = Engine(model).find_deep_bodies(MIN_RISE)
     if not touching:
         return lifts
     scene = model.scene

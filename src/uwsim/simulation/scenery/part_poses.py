@@ -41,7 +41,7 @@ class PartPoses:
 
     def of_all(self) -> Array:
         """Return where the parts are now, in their order, (n, 4, 4) [m]."""
-        poses, carried = self._poses, list(self._poses.state.carried)
+        poses, carried = self._poses, list(self._poses.state.carriers)
         if self._carried != carried:
             bodies = [poses.engine_body(p.vehicle, p.link, p.object) for p in self._parts]
             self._bodies = np.array(bodies, dtype=np.int64)

@@ -77,7 +77,7 @@ class SceneRays:
             self._laid is not None
             and not self._heaps
             and not self._placed
-            and not self._engine.poses.state.carried
+            and not self._engine.poses.state.carriers
         )
 
     def prepare(self) -> None:
@@ -95,7 +95,7 @@ class SceneRays:
     @property
     def _scene(self) -> RayScene:
         """The bodies of the scene, where they are now."""
-        poses, carried = self._engine.poses, list(self._engine.poses.state.carried)
+        poses, carried = self._engine.poses, list(self._engine.poses.state.carriers)
         poses.refresh()
         if self._laid is None or self._carried != carried:
             movers = self._bodies.movers

@@ -10,7 +10,7 @@ from ...base.numerics.calls import FUNCTION, address_of, call, function_address
 from ...base.numerics.memory import carray, pointer, view_doubles
 from ...currents.flow_function import QUERY, FlowFunction, query_of
 from ...physics.hydrodynamics.water_function import DriftFunction
-from ...physics.step_kernel import rotation_of
+from ...physics.step_kernel import engine_rotation
 
 DRIFT = np.dtype(
     [
@@ -70,5 +70,5 @@ def drift(parameters: int, values: int, time: float) -> None:
         for k in range(3):
             turn = drifting.rotation[k]
             poses[i, k] = turn[0] * x + turn[1] * y + turn[2] * z + drifting.position[k]
-        rotation = rotation_of(poses[i, 3], poses[i, 4], poses[i, 5], poses[i, 6])
+        rotation = engine_rotation(poses[i, 3], poses[i, 4], poses[i, 5], poses[i, 6])
         write_quaternion(rotation, poses[i, 3:7])
