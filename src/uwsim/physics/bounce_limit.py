@@ -166,13 +166,13 @@ class _LooseBody:
         return max(0.0, self._kinetic_energy(v_smooth) - self._kinetic_energy(start))
 
     def _kinetic_energy(self, velocity: Array) -> float:
-        twist = np.concatenate([turned_back(self._rotation(), velocity[:3]), velocity[3:]])
+        twist = np.concatenate([rotate_back(self._rotation(), velocity[:3]), velocity[3:]])
         return 0.5 * dot(twist, product(self._inertia, twist))
 
     def _potential_energy(self) -> float:
         """Return the energy of weight and buoyancy [J]."""
         lever = self._mass * self._r_g - self._displaced_mass * self._r_b
-        moment = (self._mass - self._displaced_mass) * self._q[:3] + turned(self._rotation(), lever)
+        moment = (self._mass - self._displaced_mass) * self._q[:3] + rotate(self._rotation(), lever)
         return -dot(self._gravity, moment)
 
     def _rotation(self) -> Array:

@@ -249,7 +249,7 @@ class Engine:
         """Return the twist of a vehicle's base over ground, base axes, (6,) [m/s, rad/s]."""
         dof = self._base_dofs[index]
         twist: Array = self._data.qvel[dof : dof + 6].copy()
-        twist[:3] = turned_back(self.poses.vehicle(index).rotation, twist[:3])
+        twist[:3] = rotate_back(self.poses.vehicle(index).rotation, twist[:3])
         return twist
 
     def place_vehicle(self, index: int, world_from_base: Pose) -> None:

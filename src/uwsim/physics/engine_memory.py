@@ -89,14 +89,14 @@ class EngineMemory(ExternalValue):
     def set(self, value: object) -> None:
         """Set the numbers; raise UwsimError where they are of another model."""
         if not isinstance(value, EngineNumbers):
-            raise of_another_scene()
+            raise wrong_scene_error()
         offsets = np.frombuffer(value.offsets, np.uint64)
         lengths = len(value.counts), len(offsets), len(value.arrays)
         own_lengths = self._n_counts, len(self._addresses), len(self._arrays)
         if lengths != own_lengths or len(value.arena) > len(self._arena):
-            raise of_another_scene()
+            raise wrong_scene_error()
         if offsets.max(initial=0) > len(value.arena) + 1:  # an empty array may begin at its end
-            raise of_another_scene()
+            raise wrong_scene_error()
         start = 0
         for part in self._counts:
             end = start + part.stop - part.start

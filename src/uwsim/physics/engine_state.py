@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from .stepper import StepperState
 
 
-class EngineFlags(Live):
+class EngineFlags(ExternalValue):
     """The flags that disable parts of a step: `islands` sets one anew for every step.
 
     Args:

@@ -30,11 +30,11 @@ def choose_islands(m: int, d: int, o: Ints64, step: int) -> None:
         o: the offsets of the fields.
         step: the number of steps taken.
     """
-    flags = ints(m + o[f.DISABLE], 1)
-    if small(d + o[f.N_ROWS]) <= FEW_ROWS:
+    flags = view_int32s(m + o[f.DISABLE], 1)
+    if read_int32(d + o[f.N_ROWS]) <= FEW_ROWS:
         is_one_island = False
     elif (flags[0] & _ISLANDS_OFF) != 0:
-        is_one_island = small(d + o[f.ITERATIONS]) <= 1
+        is_one_island = read_int32(d + o[f.ITERATIONS]) <= 1
     else:
         is_one_island = step % PERIOD == 0
     flags[0] &= ~_ISLANDS_OFF

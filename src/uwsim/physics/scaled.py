@@ -43,8 +43,8 @@ class ScaledLinks:
         positions = joint_positions(self._robot, values.tolist())
         for joint in self._robot.joints:
             parent, child = poses[joint.parent], poses[joint.child]
-            offset = turned_back(parent.rotation, self._scale * (child.position - parent.position))
+            offset = rotate_back(parent.rotation, self._scale * (child.position - parent.position))
             if joint.kind == "prismatic":  # the engine adds the slide
                 axis = np.array(joint.axis) / length(joint.axis)
-                offset -= turned(rotation_from_rpy(*joint.rpy), axis) * positions[joint.name]
+                offset -= rotate(rotation_from_rpy(*joint.rpy), axis) * positions[joint.name]
             self._model.body_pos[self._bodies[joint.child]] = offset

@@ -82,22 +82,22 @@ def begin_step(plans: Record) -> None:
     """Set the water, the thrusters and the servos of the step that begins."""
     plan = plans[0]
     m, d = plan.model, plan.data
-    o = longs(plan.offsets, plan.n_offsets)
-    qpos = floats(word(d + o[f.QPOS]), word(m + o[f.NQ]))
+    o = view_int64s(plan.offsets, plan.n_offsets)
+    qpos = view_doubles(read_int64(d + o[f.QPOS]), read_int64(m + o[f.NQ]))
     if plan.n_placed_bodies > 0:
         record_placed(plan, qpos)
     if plan.n_water > 0:
         set_water(plan, o)
-    ctrl = floats(word(d + o[f.CTRL]), word(m + o[f.NU]))
+    ctrl = view_doubles(read_int64(d + o[f.CTRL]), read_int64(m + o[f.NU]))
     run_autopilots(plan, o, qpos, ctrl)
-    nv = word(m + o[f.NV])
+    nv = read_int64(m + o[f.NV])
     engine = EngineArrays(
         qpos=qpos,
-        bias=floats(word(d + o[f.BIAS_FORCE]), nv),
-        passive=floats(word(d + o[f.PASSIVE]), nv),
-        spring=floats(word(d + o[f.SPRING]), nv),
-        damper=floats(word(d + o[f.DAMPER]), nv),
-        efforts=floats(word(d + o[f.ACTUATOR]), nv),
+        bias=view_doubles(read_int64(d + o[f.BIAS_FORCE]), nv),
+        passive=view_doubles(read_int64(d + o[f.PASSIVE]), nv),
+        spring=view_doubles(read_int64(d + o[f.SPRING]), nv),
+        damper=view_doubles(read_int64(d + o[f.DAMPER]), nv),
+        efforts=view_doubles(read_int64(d + o[f.ACTUATOR]), nv),
         controls=ctrl,
     )
     servos = view_int64s(plan.servos, 3 * plan.n_servos)
@@ -115,20 +115,20 @@ def end_step(plans: Record) -> int:
     """Complete the step after MuJoCo's, and return its outcome."""
     plan = plans[0]
     m, d = plan.model, plan.data
-    o = longs(plan.offsets, plan.n_offsets)
+    o = view_int64s(plan.offsets, plan.n_offsets)
     if plan.uses_midpoint != 0:
         to_the_end(m, d, o)
     for i in range(plan.n_warnings):
-        if small(plan.warnings + plan.warning_stride * i) != 0:
+        if read_int32(plan.warnings + plan.warning_stride * i) != 0:
             return ENGINE_WARNING
-    qvel = floats(word(d + o[f.QVEL]), word(m + o[f.NV]))
-    speeds = longs(plan.speeds, 3 * plan.n_speeds).reshape((-1, 3))
+    qvel = view_doubles(read_int64(d + o[f.QVEL]), read_int64(m + o[f.NV]))
+    speeds = view_int64s(plan.speeds, 3 * plan.n_speeds).reshape((-1, 3))
     dof = find_excess_speed(qvel, speeds)
     if dof >= 0:
         return EXCESS_SPEED + dof
-    qpos = floats(word(d + o[f.QPOS]), word(m + o[f.NQ]))
-    addresses = longs(plan.placed_bodies, 2 * plan.n_placed_bodies)
-    poses = floats(plan.poses, 7 * plan.n_placed_bodies)
+    qpos = view_doubles(read_int64(d + o[f.QPOS]), read_int64(m + o[f.NQ]))
+    addresses = view_int64s(plan.placed_bodies, 2 * plan.n_placed_bodies)
+    poses = view_doubles(plan.poses, 7 * plan.n_placed_bodies)
     for i in range(plan.n_placed_bodies):
         for k in range(7):
             qpos[addresses[2 * i] + k] = poses[7 * i + k]
@@ -149,7 +149,7 @@ def sample(plans: Record) -> bool:
     if plan.samples == 0:
         return False
     tables, step = carray(pointer(plan.samples), (1,), TABLE), plan.step + plan.step_offset
-    if step < word(tables[0].due):
+    if step < read_int64(tables[0].due):
         return False
     call_both(plan.kinematics, plan.model, plan.data)
     take_due(tables, step)
@@ -177,8 +177,8 @@ def end_and_begin(plans: Record) -> int:
 @njit
 def record_placed(plan: Record, qpos: Array) -> None:
     """Record the poses of placed bodies, after their drift."""
-    addresses = longs(plan.placed_bodies, 2 * plan.n_placed_bodies)
-    poses = floats(plan.poses, 7 * plan.n_placed_bodies)
+    addresses = view_int64s(plan.placed_bodies, 2 * plan.n_placed_bodies)
+    poses = view_doubles(plan.poses, 7 * plan.n_placed_bodies)
     for i in range(plan.n_placed_bodies):
         for k in range(7):
             poses[7 * i + k] = qpos[addresses[2 * i] + k]
@@ -195,13 +195,13 @@ def record_placed(plan: Record, qpos: Array) -> None:
 def set_water(plan: Record, o: Ints64) -> None:
     """Set the motion of the water in the step that begins, from its function, at its middle."""
     d, n = plan.data, plan.n_submerged_bodies
-    bodies = longs(plan.submerged_bodies, n)
-    rows = floats(plan.water_rows, WATER_ROW * n).reshape((n, WATER_ROW))
+    bodies = view_int64s(plan.submerged_bodies, n)
+    rows = view_doubles(plan.water_rows, WATER_ROW * n).reshape((n, WATER_ROW))
     if plan.needs_points != 0:
-        points = floats(plan.points, 3 * n)
+        points = view_doubles(plan.points, 3 * n)
         for i in range(n):
-            origin = floats(word(d + o[f.XPOS]) + 24 * bodies[i], 3)
-            axes = floats(word(d + o[f.XMAT]) + 72 * bodies[i], 9)
+            origin = view_doubles(read_int64(d + o[f.XPOS]) + 24 * bodies[i], 3)
+            axes = view_doubles(read_int64(d + o[f.XMAT]) + 72 * bodies[i], 9)
             x, y, z = points[3 * i], points[3 * i + 1], points[3 * i + 2]
             for k in range(3):
                 rows[i, POINT + k] = (
@@ -209,7 +209,7 @@ def set_water(plan: Record, o: Ints64) -> None:
                 )
     time = (plan.step + plan.step_offset + 1) * plan.timestep - 0.5 * plan.timestep
     call(plan.flow, plan.flow_parameters, plan.water_rows, time)
-    userdata = floats(word(d + o[f.USERDATA]), word(plan.model + o[f.NUSERDATA]))
+    userdata = view_doubles(read_int64(d + o[f.USERDATA]), read_int64(plan.model + o[f.NUSERDATA]))
     for i in range(n):
         start = WATER_COLUMNS * bodies[i]
         for k in range(6):
@@ -222,7 +222,7 @@ def set_water(plan: Record, o: Ints64) -> None:
 @njit
 def run_autopilots(plan: Record, o: Ints64, qpos: Array, ctrl: Array) -> None:
     """Run the autopilots that are due or have a new command: they set their thrusters."""
-    addresses = longs(plan.autopilots, 5 * plan.n_autopilots)
+    addresses = view_int64s(plan.autopilots, 5 * plan.n_autopilots)
     is_due = plan.step % plan.autopilot_steps == 0
     for i in range(plan.n_autopilots):
         numbers = addresses[5 * i : 5 * i + 5]
@@ -232,15 +232,15 @@ def run_autopilots(plan: Record, o: Ints64, qpos: Array, ctrl: Array) -> None:
         autopilot = carray(pointer(numbers[0]), (1,), AUTOPILOT)[0]
         thrusters = carray(pointer(numbers[2]), (numbers[4],), THRUSTER)
         is_over_ground = autopilot.is_over_ground != 0 or state.mode == POSITION
-        qvel = floats(word(plan.data + o[f.QVEL]) + 8 * autopilot.dof_address, 6)
-        water = word(plan.data + o[f.USERDATA]) + 8 * WATER_COLUMNS * autopilot.body
+        qvel = view_doubles(read_int64(plan.data + o[f.QVEL]) + 8 * autopilot.dof_address, 6)
+        water = read_int64(plan.data + o[f.USERDATA]) + 8 * WATER_COLUMNS * autopilot.body
         base = base_motion(
             qpos[autopilot.qpos_address : autopilot.qpos_address + 7],
             qvel,
-            floats(water, 3),
+            view_doubles(water, 3),
             is_over_ground,
         )
-        commands = floats(numbers[3], numbers[4])
+        commands = view_doubles(numbers[3], numbers[4])
         dt = plan.autopilot_steps * plan.timestep
         steer(dt, autopilot, state, thrusters, commands, base, ctrl)
 

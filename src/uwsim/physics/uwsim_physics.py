@@ -120,9 +120,9 @@ class _DampedObject:
         """Damp the velocities for one step."""
         rotation = self._rotation.reshape(3, 3)
         omega = self._velocity[3:]
-        v_g = self._velocity[:3] + turned(rotation, np.cross(omega, self._r_g))
+        v_g = self._velocity[:3] + rotate(rotation, np.cross(omega, self._r_g))
         omega *= self._factors[1]
-        lever = turned(rotation, np.cross(omega, self._r_g))
+        lever = rotate(rotation, np.cross(omega, self._r_g))
         self._velocity[:3] = self._factors[0] * v_g - lever
 
 

@@ -217,9 +217,9 @@ class SceneVehicle:
         """Fix an object, by its index, to a link of the vehicle at its present pose."""
         self._engine.grips.hold(object_index, self.index, link)
 
-    def let_go(self, thing: int) -> None:
-        """Release an object that is held."""
-        self._engine.grips.release(thing)
+    def release(self, object_index: int) -> None:
+        """Release a held object."""
+        self._engine.grips.release(object_index)
 
     @property
     def compiled_vehicle(self) -> CompiledVehicle:

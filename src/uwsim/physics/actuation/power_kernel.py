@@ -196,9 +196,9 @@ def write_powers(parameters: int, values: int, time: float) -> None:
     p = carray(pointer(parameters), (1,), POWERS)[0]
     n, m, controls = p.n_rotors, p.n_motors, view_doubles(p.controls, p.nu)
     rotors = (
-        longs(p.rotors, 7 * n).reshape((n, 7)),
-        floats(p.rotor_properties, 3 * n).reshape((n, 3)),
-        floats(p.curves, p.n_curves * p.curve_columns).reshape((p.n_curves, p.curve_columns)),
+        view_int64s(p.rotors, 7 * n).reshape((n, 7)),
+        view_doubles(p.rotor_properties, 3 * n).reshape((n, 3)),
+        view_doubles(p.curves, p.n_curves * p.curve_columns).reshape((p.n_curves, p.curve_columns)),
         p.surface_height,
         controls,
         view_doubles(p.states, p.na),
@@ -207,10 +207,10 @@ def write_powers(parameters: int, values: int, time: float) -> None:
     )
     motors = (
         p.timestep,
-        longs(p.motors, 4 * m).reshape((m, 4)),
-        floats(p.motor_properties, 3 * m).reshape((m, 3)),
-        floats(p.gains, p.n_curves * p.gain_columns).reshape((p.n_curves, p.gain_columns)),
-        floats(p.biases, p.n_curves * p.bias_columns).reshape((p.n_curves, p.bias_columns)),
+        view_int64s(p.motors, 4 * m).reshape((m, 4)),
+        view_doubles(p.motor_properties, 3 * m).reshape((m, 3)),
+        view_doubles(p.gains, p.n_curves * p.gain_columns).reshape((p.n_curves, p.gain_columns)),
+        view_doubles(p.biases, p.n_curves * p.bias_columns).reshape((p.n_curves, p.bias_columns)),
         controls,
         view_doubles(p.qpos, p.nq),
         view_doubles(p.qvel, p.nv),

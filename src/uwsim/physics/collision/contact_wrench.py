@@ -98,8 +98,8 @@ def sample_contacts(parameters: int, values: int, time: float) -> None:
     frame, total = np.empty(12), np.zeros(6)
     write_frame(carray(pointer(wrench.mount), (1,), MOUNT)[0], frame)
     if wrench.has_contacts != 0:
-        add_contacts(wrench, longs(wrench.offsets, wrench.n_offsets), frame, total)
-    rotate_wrench(frame, total, floats(values, 6))
+        add_contacts(wrench, view_int64s(wrench.offsets, wrench.n_offsets), frame, total)
+    rotate_wrench(frame, total, view_doubles(values, 6))
 
 
 @njit
@@ -113,19 +113,19 @@ def add_contacts(wrench: Record, offsets: Ints64, point: Array, total: Array) ->
         total: the force and torque, in W, (6,) [N, N m].
     """
     m, d, body = wrench.model, wrench.data, wrench.body
-    bodies, contacts = word(m + offsets[f.GEOM_BODY]), word(d + offsets[f.CONTACTS])
+    bodies, contacts = read_int64(m + offsets[f.GEOM_BODY]), read_int64(d + offsets[f.CONTACTS])
     contact_force, lever = np.empty(6), np.empty(3)
-    for i in range(small(d + offsets[f.N_CONTACTS])):
+    for i in range(read_int32(d + offsets[f.N_CONTACTS])):
         contact = contacts + offsets[f.CONTACT_SIZE] * i
         geoms = view_int32s(contact + offsets[f.CONTACT_GEOMS], 2)
         is_second = read_int32(bodies + 4 * geoms[1]) == body
         if (read_int32(bodies + 4 * geoms[0]) == body) == is_second:
             continue
         call_numbered(wrench.contact_force, m, d, i, contact_force.ctypes.data)
-        axes = floats(contact + offsets[f.CONTACT_AXES], 9).reshape((3, 3))  # rows, in W
-        position = floats(contact + offsets[f.CONTACT_POINT], 3)
+        axes = view_doubles(contact + offsets[f.CONTACT_AXES], 9).reshape((3, 3))  # rows, in W
+        position = view_doubles(contact + offsets[f.CONTACT_POINT], 3)
         sign = 1.0 if is_second else -1.0  # the first body pushes the second
-        force, torque = turned_back(axes, contact_force[:3]), turned_back(axes, contact_force[3:])
+        force, torque = rotate_back(axes, contact_force[:3]), rotate_back(axes, contact_force[3:])
         for k in range(3):
             force[k] *= sign
             lever[k] = position[k] - point[k]

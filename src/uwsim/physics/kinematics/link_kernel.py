@@ -75,7 +75,7 @@ def write_frame(mount: Record, frame: Array) -> None:
     origin, axes = view_doubles(mount.origin, 3), view_doubles(mount.axes, 9).reshape((3, 3))
     shift, turn = compose(axes, origin, mount.rotation, mount.position)
     if mount.base_axes != 0:
-        base = floats(mount.base_axes, 9).reshape((3, 3))
+        base = view_doubles(mount.base_axes, 9).reshape((3, 3))
         matrix = scaled_axes(base, axes, mount.scale)
         for i in range(3):
             offset = 0.0
@@ -138,8 +138,8 @@ def write_motion(chain: Record, point: Array, motion: Array) -> None:
     if n == 0:
         return
     scratch = chain.scratch + 24 * chain.n_bodies
-    columns = floats(scratch, 6 * n).reshape((n, 6))  # turn and shift by each joint
-    changes = floats(scratch + 48 * n, 6 * n).reshape((n, 6))  # their rates of change
+    columns = view_doubles(scratch, 6 * n).reshape((n, 6))  # turn and shift by each joint
+    changes = view_doubles(scratch + 48 * n, 6 * n).reshape((n, 6))  # their rates of change
     centre, twist, offset = np.empty(3), np.zeros(6), np.empty(3)
     tree_centre(chain, centre)
     joint_columns(chain, centre, columns, changes, twist)
@@ -148,13 +148,13 @@ def write_motion(chain: Record, point: Array, motion: Array) -> None:
     v_point = np.empty(3)  # by the twist of the link
     for i in range(3):
         v_point[i] = twist[3 + i] - cross(offset, twist, i)
-    dofs = longs(chain.dofs, DOF_COLUMNS * n).reshape((n, DOF_COLUMNS))
+    dofs = view_int64s(chain.dofs, DOF_COLUMNS * n).reshape((n, DOF_COLUMNS))
     for i in range(3):
         velocity, omega, joint_term, bias_term = 0.0, 0.0, 0.0, 0.0
         for k in range(n):
             column, change = columns[k], changes[k]
-            speed = floats(chain.speeds + 8 * dofs[k, 0], 1)[0]
-            acceleration = floats(chain.accelerations + 8 * dofs[k, 0], 1)[0]
+            speed = view_doubles(chain.speeds + 8 * dofs[k, 0], 1)[0]
+            acceleration = view_doubles(chain.accelerations + 8 * dofs[k, 0], 1)[0]
             jacobian = column[3 + i] + cross(column, offset, i)
             velocity += jacobian * speed
             omega += column[i] * speed
@@ -211,7 +211,7 @@ def joint_columns(
                 column[3 + j] = 1.0
                 continue
             if kind == ROTATION:
-                matrix = floats(chain.axes + 72 * body, 9)
+                matrix = view_doubles(chain.axes + 72 * body, 9)
                 for i in range(3):
                     axis[i] = matrix[3 * i + j]
             else:
@@ -257,10 +257,10 @@ def cross(left: Array, right: Array, i: int) -> float:
 
 def write_mount_frame(parameters: int, values: int, time: float) -> None:
     """Write the frame of a part; see `uwsim.base.numerics.calls`."""
-    write_frame(carray(pointer(parameters), (1,), MOUNT)[0], floats(values, 12))
+    write_frame(carray(pointer(parameters), (1,), MOUNT)[0], view_doubles(values, 12))
 
 
 def write_mount_motion(parameters: int, values: int, time: float) -> None:
     """Write the motion of a part's point behind the point, (3,), in the same array, (12,)."""
     mount = carray(pointer(parameters), (1,), MOUNT)[0]
-    write_motion(mount.chain, floats(values, 3), floats(values + 24, 9))
+    write_motion(mount.chain, view_doubles(values, 3), view_doubles(values + 24, 9))

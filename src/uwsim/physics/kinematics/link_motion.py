@@ -65,10 +65,10 @@ class LinkMotion:
         model, data = self._model, self._data
         joints = [model.joint(vehicle_joint(index, name)).id for name in names]
         places, dofs = model.jnt_qposadr[joints], model.jnt_dofadr[joints]
-        addresses = [addresses_in(data.qpos, places)]
+        addresses = [number_addresses(data.qpos, places)]
         if with_motion:
             arrays = data.qvel, data.qfrc_actuator, data.qfrc_applied
-            addresses += [addresses_in(array, dofs) for array in arrays]
+            addresses += [number_addresses(array, dofs) for array in arrays]
         return np.concatenate(addresses)
 
     def kinematic_motion(self, index: int) -> tuple[Array, Array]:
