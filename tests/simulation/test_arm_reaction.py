@@ -87,10 +87,10 @@ def energy(simulation: Simulation) -> float:
     for body in range(1, model.nbody):
         total += float(model.body_mass[body]) * g * float(now.xipos[body, 2])
         row = model.body_user[body]
-        if row[c.DISPLACED] > 0.0:
+        if row[c.DISPLACED_MASS] > 0.0:
             centre = row[c.REFERENCE : c.REFERENCE + 3] + row[c.CENTRE : c.CENTRE + 3]
             at = now.xpos[body] + now.xmat[body].reshape(3, 3) @ centre
-            total -= float(row[c.DISPLACED]) * g * float(at[2])
+            total -= float(row[c.DISPLACED_MASS]) * g * float(at[2])
     return total
 
 

@@ -67,7 +67,7 @@ def test_it_has_few_shapes_and_is_neither_simplified_nor_compiled_twice(
     for module, name in (
         (fixed_mesh_module, "fixed_mesh"),
         (polygon_cache.convex_faces, "convex_faces"),
-        (compile_module, "_compiled"),
+        (compile_module, "_compile"),
     ):
         made = getattr(module, name)
         monkeypatch.setattr(

@@ -8,6 +8,6 @@ from .force import Force, ForceSpec
 FORCES: dict[str, type[ForceSpec]] = {
     "dockingMagnet": DockingMagnetSpec,
 }
-"""Element of ``<u:forces>``, without its prefix -> its spec, in alphabetical order."""
+"""The specs by the element of ``<u:forces>``, without its prefix, in alphabetical order."""
 
 __all__ = ["FORCES", "DockingMagnetSpec", "Force", "ForceSpec"]

@@ -44,7 +44,7 @@ class MagnetSpec(Spec):
 
 @dataclass(frozen=True, kw_only=True)
 class DockingMagnetSpec(ForceSpec):
-    """A ``<u:dockingMagnet>``: two magnets, which pull and turn each other."""
+    """A ``<u:dockingMagnet>``: two magnets, which pull and turn each pose_2."""
 
     first: MagnetSpec
     """One magnet."""
@@ -76,13 +76,13 @@ class DockingMagnet(Force):
 
     (Yung, Landecker, Villani, An Analytic Solution for the Force Between Two Magnetic Dipoles,
     Magnetic and Electrical Separation 9, 1998; Jackson, Classical Electrodynamics, 3rd ed., 5.56).
-    The first gets -F. These torques and the couple of both forces add up to nothing.
+    The force on the first is -F. These torques and the couple of both forces add up to 0.
 
-    It is exact for balls that are magnetised evenly, down to their contact (Edwards, Riffe, Ji,
-    Booth, Interactions between uniformly magnetized spheres, American Journal of Physics 85, 2017).
-    For other magnets of a size d it is right at distances of several d. Nearer than ``closest``
-    force and torque are those at that distance; the torques take up the shorter lever by halves, so
-    that the balance remains. At a distance of 0, where there is no direction, nothing acts.
+    It is exact for uniformly magnetised balls, down to their contact (Edwards, Riffe, Ji, Booth,
+    Interactions between uniformly magnetized spheres, American Journal of Physics 85, 2017). For
+    other magnets of a size d it is accurate at distances of several d. Below ``r_min``,
+    force and torque are those at that distance. Each torque compensates half of the shorter lever,
+    so that the sum remains 0. At a distance of 0, where there is no direction, the wrenches are 0.
 
     Not modelled: soft iron and other magnets nearby, the shape of magnets at contact, moments that
     change with temperature or an opposing field, electromagnets that are switched, eddy currents in
@@ -90,48 +90,44 @@ class DockingMagnet(Force):
     """
 
     def __init__(
-        self, first: Attachment, second: Attachment, moments: Array, closest: float
+        self, magnet_1: Attachment, magnet_2: Attachment, moments: Array, r_min: float
     ) -> None:
-        self._first, self._second = first, second
+        self._magnet_1, self._magnet_2 = magnet_1, magnet_2
         self._moments = moments  # (2, 3) [A m2], each in the axes of its body
-        self._closest = closest
+        self._r_min = r_min
 
     def wrenches(self, time: float) -> tuple[tuple[Attachment, Array], tuple[Attachment, Array]]:
         """Return the wrenches on both bodies, each about its magnet, in W."""
-        one, other = self._first.world_from_body, self._second.world_from_body
+        pose_1, pose_2 = self._magnet_1.world_from_body, self._magnet_2.world_from_body
         on_first, on_second = dipole_wrenches(
-            rotate(one.rotation, self._moments[0]),
-            rotate(other.rotation, self._moments[1]),
-            other.position - one.position,
-            self._closest,
+            rotate(pose_1.rotation, self._moments[0]),
+            rotate(pose_2.rotation, self._moments[1]),
+            pose_2.position - pose_1.position,
+            self._r_min,
         )
-        return (self._first, on_first), (self._second, on_second)
+        return (self._magnet_1, on_first), (self._magnet_2, on_second)
 
 
-def dipole_wrenches(first: Array, second: Array, way: Array, closest: float) -> tuple[Array, Array]:
-    """Compute the wrenches on two dipoles, each about its own place, (6,) [N, N m].
+def dipole_wrenches(m_1: Array, m_2: Array, r_12: Array, r_min: float) -> tuple[Array, Array]:
+    """Compute the wrenches on two dipoles, each about its own position, (6,) [N, N m].
 
     Args:
-        first: moment of the first, (3,) [A m2].
-        second: moment of the second, in the same axes.
-        way: from the first to the second, (3,) [m].
-        closest: the distance below which the law of this distance holds [m].
+        m_1: the moment of the first dipole, (3,) [A m2].
+        m_2: the moment of the second dipole, in the same axes.
+        r_12: the vector from the first to the second, (3,) [m].
+        r_min: the distance below which the law of this distance holds [m].
     """
-    distance = math.sqrt(dot(way, way))
+    distance = math.sqrt(dot(r_12, r_12))
     if distance == 0.0:
         return np.zeros(6), np.zeros(6)
-    u, r = way / distance, max(distance, closest)
-    along_first, along_second = dot(first, u), dot(second, u)
+    u, r = r_12 / distance, max(distance, r_min)
+    m_1u, m_2u = dot(m_1, u), dot(m_2, u)
     field = MAGNETIC_CONSTANT / (r * r * r)
-    force = (3.0 * field / r) * (
-        along_first * second
-        + along_second * first
-        + (dot(first, second) - 5.0 * along_first * along_second) * u
-    )
-    on_first = field * cross(first, 3.0 * along_second * u - second)
-    on_second = field * cross(second, 3.0 * along_first * u - first)
-    shorter = 0.5 * (r - distance) * cross(u, force)
+    force = (3.0 * field / r) * (m_1u * m_2 + m_2u * m_1 + (dot(m_1, m_2) - 5.0 * m_1u * m_2u) * u)
+    torque_1 = field * cross(m_1, 3.0 * m_2u * u - m_2)
+    torque_2 = field * cross(m_2, 3.0 * m_1u * u - m_1)
+    couple = 0.5 * (r - distance) * cross(u, force)
     return (
-        np.concatenate([-force, on_first + shorter]),
-        np.concatenate([force, on_second + shorter]),
+        np.concatenate([-force, torque_1 + couple]),
+        np.concatenate([force, torque_2 + couple]),
     )

@@ -21,12 +21,12 @@ from ..world import Attachment, ForceWorld
 class ForceSpec(Spec, abc.ABC):
     """The spec of a force.
 
-    Fields that name a body are declared with ``element(refers_to="body")``: ``uwsim check`` looks
-    them up.
+    Fields that name a body are declared with ``element(refers_to="body")``: ``uwsim check`` checks
+    them.
     """
 
     name: str
-    """Its name, which is in messages about it."""
+    """The name of the force, which messages about it contain."""
 
     @abc.abstractmethod
     def bind(self, world: ForceWorld) -> Force:
@@ -36,19 +36,19 @@ class ForceSpec(Spec, abc.ABC):
 class Force(abc.ABC):
     """A bound force.
 
-    It is asked at the beginning of each step and acts in that step: poses, velocities and the water
-    are those of the beginning, and the wrenches are constant in W until its end. So its error falls
-    with the first power of the step, and a damping c on a mass m needs a step below 2 m/c.
+    It is computed at the beginning of each step and acts in that step: poses, velocities and the
+    water are those of the beginning, and the wrenches are constant in W until its end. Its error is
+    of first order in the step, and a damping c on a mass m needs a step below 2 m/c.
     """
 
     state: Record = NoState()
-    """All that changes of it as time goes by; `Simulation.save` keeps it."""
+    """All numbers of the force that change during a run; `Simulation.save` stores them."""
 
     @abc.abstractmethod
     def wrenches(self, time: float) -> Iterable[tuple[Attachment, Array]]:
-        """Return the bodies that it acts on in the step that begins at ``time`` [s], and how.
+        """Return the bodies and the wrenches on them in the step that begins at ``time`` [s].
 
         Each wrench is (6,): the force [N], then the torque [N m] about the origin of the
-        attachment, both in the axes of W. Of several on one body the sum acts. The reaction on
+        attachment, both in the axes of W. Several wrenches on one body are added. The reaction on
         another body is one more entry; on a body that forces do not move a wrench has no effect.
         """

@@ -137,10 +137,10 @@ class _LooseBody:
         self._r_g = model.body_ipos[body].copy()  # (3,) [m]
         inertia = _rigid_inertia(model, body)
         self._displaced_mass, self._r_b, self._flow = 0.0, np.zeros(3), np.zeros(6)
-        if model.nuser_body == c.BODY_COLUMNS and model.body_user[body, c.KIND] != c.DRY:
+        if model.nuser_body == c.BODY_COLUMNS and model.body_user[body, c.KIND] != c.DRY_BODY:
             row = model.body_user[body]
-            inertia = inertia + _shift_added_mass(row[c.ADDED : c.ADDED + 36].reshape(6, 6), row)
-            self._displaced_mass = float(row[c.DISPLACED])
+            inertia = inertia + _shift_added_mass(row[c.M_A : c.M_A + 36].reshape(6, 6), row)
+            self._displaced_mass = float(row[c.DISPLACED_MASS])
             self._r_b = row[c.REFERENCE : c.REFERENCE + 3] + row[c.CENTRE : c.CENTRE + 3]
             start = c.WATER_COLUMNS * body
             self._flow = data.userdata[start : start + 6]

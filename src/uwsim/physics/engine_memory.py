@@ -22,7 +22,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..base.record import ExternalValue, wrong_scene_error
-from .hydrodynamics.kernel.layout import MujocoChanged, data_places
+from .hydrodynamics.kernel.layout import MujocoChanged, data_slices
 
 Bytes = npt.NDArray[np.uint8]
 
@@ -59,7 +59,7 @@ class EngineMemory(ExternalValue):
 
     def __init__(self, data: mujoco.MjData, on_set: Callable[[], None] = lambda: None) -> None:
         self._on_set = on_set
-        fields, size = data_places()
+        fields, size = data_slices()
         self._struct = struct = _view(data._address, size)
         self._bytes = struct.data
         self._counts = _count_slices()
@@ -111,7 +111,7 @@ class EngineMemory(ExternalValue):
 @cache
 def _count_slices() -> tuple[slice, ...]:
     """Return the bytes of the struct that are kept, as slices without gaps."""
-    fields, _ = data_places()
+    fields, _ = data_slices()
     start, end = fields[FIRST_FIELD].start, fields[LAST_FIELD].start
     slices: list[slice] = []
     for name, part in fields.items():

@@ -149,7 +149,6 @@ class Grips:
         self._set_bits(index, OBJECT_BIT, ALL_BITS)
 
     def _set_bits(self, index: int, contype: int, conaffinity: int) -> None:
-        """Set the collision bits of an object's shapes."""
         if self._is_free(index):
             model = self._model
             body = model.body(object_body(index)).id

@@ -24,9 +24,9 @@ from .actuation.autopilot_kernel import Base, steer
 from .actuation.records import AUTOPILOT, AUTOPILOT_STATE, JOINT, JOINT_STATE, POSITION, THRUSTER
 from .actuation.servo_kernel import EngineArrays, advance_requests, apply_servos
 from .engine_warnings import find_excess_speed
-from .hydrodynamics.columns import TURN, WATER_COLUMNS
+from .hydrodynamics.columns import OMEGA, WATER_COLUMNS
 from .hydrodynamics.kernel import fields as f
-from .hydrodynamics.kernel.free_bodies import to_the_end, to_the_middle
+from .hydrodynamics.kernel.free_bodies import move_to_end, move_to_middle
 from .hydrodynamics.water_function import POINT, ROTATION, VELOCITY, WATER_ROW
 from .islands import choose_islands
 
@@ -107,7 +107,7 @@ def begin_step(plans: Record) -> None:
         advance_requests(plan.timestep, joints, states, qpos)
         apply_servos(plan.timestep, joints, states, engine)
     if plan.uses_midpoint != 0:
-        to_the_middle(m, d, o)
+        move_to_middle(m, d, o)
 
 
 @njit
@@ -117,7 +117,7 @@ def end_step(plans: Record) -> int:
     m, d = plan.model, plan.data
     o = view_int64s(plan.offsets, plan.n_offsets)
     if plan.uses_midpoint != 0:
-        to_the_end(m, d, o)
+        move_to_end(m, d, o)
     for i in range(plan.n_warnings):
         if read_int32(plan.warnings + plan.warning_stride * i) != 0:
             return ENGINE_WARNING
@@ -215,7 +215,7 @@ def set_water(plan: Record, o: Ints64) -> None:
         for k in range(6):
             userdata[start + k] = rows[i, VELOCITY + k]
         for k in range(3):
-            userdata[start + TURN + k] = rows[i, ROTATION + k]
+            userdata[start + OMEGA + k] = rows[i, ROTATION + k]
     plan.n_water -= 1
 
 

@@ -22,7 +22,7 @@ from .actuation.servos import Servos
 from .bounce_limit import BounceLimit
 from .engine_warnings import StepCheck
 from .hydrodynamics import callback
-from .hydrodynamics.columns import TURN, WATER_COLUMNS
+from .hydrodynamics.columns import OMEGA, WATER_COLUMNS
 from .hydrodynamics.hydrodynamics import Hydrodynamics
 from .hydrodynamics.water_function import WATER_ROW, DriftFunction, WaterFunction
 
@@ -193,7 +193,7 @@ class Stepper:
             self.state.has_flow = False
             at_bodies = self._data.userdata[: WATER_COLUMNS * self._model.nbody]
             rows = at_bodies.reshape(-1, WATER_COLUMNS)  # (bodies, columns)
-            rows[self._bodies, :6] = rows[self._bodies, TURN : TURN + 3] = 0.0
+            rows[self._bodies, :6] = rows[self._bodies, OMEGA : OMEGA + 3] = 0.0
 
     def _limit_and_begin(self, plan: npt.NDArray[np.void]) -> int:
         """Complete a step, limit the energy of bounces, sample, and begin the next step."""

@@ -117,7 +117,6 @@ class _DampedObject:
         self._r_g = model.body_ipos[body].copy()
 
     def slow_down(self) -> None:
-        """Damp the velocities for one step."""
         rotation = self._rotation.reshape(3, 3)
         omega = self._velocity[3:]
         v_g = self._velocity[:3] + rotate(rotation, np.cross(omega, self._r_g))

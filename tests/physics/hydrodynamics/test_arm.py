@@ -143,7 +143,7 @@ def test_the_quick_way_for_diagonal_matrices_is_the_way_for_full_ones(surface: f
     model = spec.compile()
     water = install(model)
     found, velocity = [], rng.normal(size=model.nv)
-    for kind in (c.DIAGONAL, c.FULL):
+    for kind in (c.DIAGONAL_MATRICES, c.FULL_MATRICES):
         model.body_user[1:, c.KIND] = kind
         data = mujoco.MjData(model)
         data.qvel[:] = velocity

@@ -29,7 +29,7 @@ def test_this_mujoco_passes() -> None:
     ],
 )
 def test_a_field_at_another_place_is_found(field: int, name: str) -> None:
-    model = mujoco.MjModel.from_xml_string(callback._SMALL)
+    model = mujoco.MjModel.from_xml_string(callback._SMALL_MODEL)
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
     at = layout.offsets()

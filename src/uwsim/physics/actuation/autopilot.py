@@ -248,7 +248,6 @@ def _autopilot_record(
 def _thruster_records(
     thrusters: Sequence[ThrusterSpec], allocation: Allocation, autopilot: npt.NDArray[np.void]
 ) -> npt.NDArray[np.void]:
-    """Return the parameters of the thrusters, (n,)."""
     n_axes = len(allocation.axes)
     wrench_axes = autopilot["wrench_axes"][0, : autopilot["n_wrench_axes"][0]].tolist()
     rows = np.ascontiguousarray(allocation.wrenches[wrench_axes])

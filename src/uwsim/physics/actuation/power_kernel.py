@@ -12,7 +12,7 @@ from ...base.numerics.calls import address_of
 from ...base.numerics.jit import njit
 from ...base.numerics.memory import carray, pointer, view_doubles, view_int64s
 from ..hydrodynamics.columns import WATER_COLUMNS
-from ..hydrodynamics.kernel.thrusters import curve
+from ..hydrodynamics.kernel.thrusters import static_thrust
 
 STATE, CONTROL, SITE, BODY, LOSS, INFLOW, ACTUATOR = range(7)
 """The columns of the rotors' addresses in the engine; a state below 0 is none."""
@@ -84,7 +84,7 @@ def thrusts(
         surface = surface_height + userdata[WATER_COLUMNS * body + 6]
         submerged_fraction = 0.5 + 0.5 * (surface - sites[site, 2]) / properties[i, RADIUS]
         command = min(max(command, properties[i, MIN_COMMAND]), properties[i, MAX_COMMAND])
-        thrust = (1.0 - userdata[loss]) * curve(curves[actuator], command)
+        thrust = (1.0 - userdata[loss]) * static_thrust(curves[actuator], command)
         thrust *= 1.0 - userdata[inflow]
         rotor_thrusts[i] = thrust * min(max(submerged_fraction, 0.0), 1.0)
     return rotor_thrusts

@@ -137,7 +137,6 @@ class _KinematicBody:
         self.state = KinematicBodyState(initial_pose, initial_pose, self._jumps.state)
 
     def record(self, step: int) -> None:
-        """Record the pose of the body."""
         pose, state = self._pose(), self.state
         is_same_position = np.array_equal(pose.position, state.pose.position)
         if not is_same_position or not np.array_equal(pose.rotation, state.pose.rotation):

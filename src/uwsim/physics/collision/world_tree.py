@@ -80,7 +80,6 @@ def place_fixed_shapes(model: mujoco.MjModel, data: mujoco.MjData) -> None:
 
 
 def _split(members: Ints, low: Array, high: Array, depth: int) -> tuple[Ints, Ints]:
-    """Split the shapes of a node."""
     centres = low[members] + high[members]
     orders = members[np.argsort(centres, axis=0, kind="stable").T]  # (3, n): along each axis
     if len(members) == 2:

@@ -1,10 +1,10 @@
 """The kernel as MuJoCo's callback for passive forces, and a stepping loop without the callback.
 
-MuJoCo calls ``mjcb_passive`` after it has factorised the mass matrix and before anything uses it
-for accelerations. There the wrapper rebuilds M if it has had its water (the callback may run twice
-on one state, as in ``mjd_transitionFD``), adds the water, factorises again, and projects the
-constraints again where the solver needs it. The slot is one per process; models without our tables
-pass through it untouched, so several models live beside one another, in any number of threads.
+MuJoCo calls ``mjcb_passive`` after it has factorised the mass matrix and before it is used for
+accelerations. There the wrapper recomputes M if it has its water already (the callback may run
+twice on one state, as in ``mjd_transitionFD``). It adds the water, factorises again, and projects
+the constraints again where the solver needs it. A process has one slot. The wrapper does not change
+models without our tables, so several models can exist at once, in any number of threads.
 
 MuJoCo skips the callback when springs and dampers are both disabled.
 """
@@ -36,7 +36,7 @@ _make, _factor, _project = (
     types.ExternalFunction(name, _SIGNATURE)
     for name in ("mj_makeM", "mj_factorM", "mj_projectConstraint")
 )
-_AT = layout.offsets()
+_OFFSETS = layout.offsets()
 
 
 class CallbackTaken(UwsimError):
@@ -57,62 +57,62 @@ def library() -> ctypes.CDLL:
 @functools.cache
 def offsets() -> Ints64:
     """The field offsets of this MuJoCo, checked on a small model once."""
-    model = mujoco.MjModel.from_xml_string(_SMALL)
+    model = mujoco.MjModel.from_xml_string(_SMALL_MODEL)
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
-    layout.check(model, data, _AT)
-    return _AT
+    layout.check(model, data, _OFFSETS)
+    return _OFFSETS
 
 
 def _add_water(m: int, d: int) -> None:
-    if kernel.has_tables(m, _AT):
-        if kernel.has_water(d, _AT):
+    if kernel.has_tables(m, _OFFSETS):
+        if kernel.has_water(d, _OFFSETS):
             _make(m, d)
-        kernel.add_water(m, d, _AT)
+        kernel.add_water(m, d, _OFFSETS)
         _factor(m, d)
-        if kernel.needs_projection(m, _AT):
+        if kernel.needs_projection(m, _OFFSETS):
             _project(m, d)
 
 
 @functools.cache
 def wrapper() -> Any:
-    """Compile the C function ``void (const mjModel*, mjData*)``, or read it from the disk."""
+    """Compile the C function ``void (const mjModel*, mjData*)``, or load it from the disk."""
     offsets()
-    link_library(library()._name)  # where MuJoCo's functions are
-    return compile_c_function(_add_water, _SIGNATURE)
+    link_library(library()._name)  # it has MuJoCo's functions
+    return c_function(_add_water, _SIGNATURE)
 
 
 @functools.cache
 def stepper() -> Callable[[int, int, int], None]:
-    """Compile a loop of ``mj_step1``, water, ``mj_step2``: what the callback does, without it."""
-    at = offsets()
-    one, two, make, factor, project = (
-        _native(name)
+    """Compile a loop of ``mj_step1``, water, ``mj_step2``: the steps without the callback."""
+    o = offsets()
+    step1, step2, make, factor, project = (
+        _native_function(name)
         for name in ("mj_step1", "mj_step2", "mj_makeM", "mj_factorM", "mj_projectConstraint")
     )
     add_water, needs_projection = kernel.add_water, kernel.needs_projection
     has_water = kernel.has_water
-    to_the_middle, to_the_end = free_bodies.to_the_middle, free_bodies.to_the_end
+    move_to_middle, move_to_end = free_bodies.move_to_middle, free_bodies.move_to_end
 
     def loop(m: int, d: int, n: int) -> None:
         for _ in range(n):
-            to_the_middle(m, d, at)
-            one(m, d)
-            if has_water(d, at):
+            move_to_middle(m, d, o)
+            step1(m, d)
+            if has_water(d, o):
                 make(m, d)
-            add_water(m, d, at)
+            add_water(m, d, o)
             factor(m, d)
-            if needs_projection(m, at):
+            if needs_projection(m, o):
                 project(m, d)
-            two(m, d)
-            to_the_end(m, d, at)
+            step2(m, d)
+            move_to_end(m, d, o)
 
-    compiled: Callable[[int, int, int], None] = numba.njit(nogil=True)(loop)
-    return compiled
+    compiled_loop: Callable[[int, int, int], None] = numba.njit(nogil=True)(loop)
+    return compiled_loop
 
 
 def has_slot() -> bool:
-    """Whether this MuJoCo exports the slot of the callback."""
+    """Return whether this MuJoCo exports the slot of the callback."""
     try:
         _slot()
     except ValueError:
@@ -121,15 +121,15 @@ def has_slot() -> bool:
 
 
 def is_installed() -> bool:
-    """Whether our function is installed in the slot."""
+    """Return whether our function is installed in the slot."""
     return has_slot() and _slot().value == _address()
 
 
 def install() -> None:
-    """Put our function into the slot; again after ``mj_resetCallbacks``.
+    """Install our function in the slot; again after ``mj_resetCallbacks``.
 
     Raises:
-        CallbackTaken: there is another one.
+        CallbackTaken: another function is installed.
     """
     slot, address = _slot(), _address()
     if slot.value == address:
@@ -146,7 +146,7 @@ def install() -> None:
 def stop_profiler() -> None:
     """Remove, once, the timer with which MuJoCo's bindings time every stage of a step.
 
-    It is a twentieth of a step, and nobody reads ``data.timer`` unless they ask for it: a clock set
+    It takes a twentieth of a step, and ``data.timer`` has no other reader: a clock that was set
     with ``mujoco.set_mjcb_time`` stays.
     """
     if mujoco.get_mjcb_time() is None:
@@ -161,23 +161,23 @@ def remove() -> None:
 
 
 def add_water(model: mujoco.MjModel, data: mujoco.MjData) -> None:
-    """Call what the callback calls, once, on ``data`` as ``mj_forward`` without it left it."""
+    """Call the callback's function once, on ``data`` after ``mj_forward`` without it."""
     function = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p)(wrapper().address)
     function(model._address, data._address)
 
 
-def to_the_middle(model: mujoco.MjModel, data: mujoco.MjData) -> None:
-    """The part of the step before MuJoCo's; see `free_bodies`."""
-    free_bodies.to_the_middle(model._address, data._address, offsets())
+def move_to_middle(model: mujoco.MjModel, data: mujoco.MjData) -> None:
+    """Carry out the part of the step before MuJoCo's; see `free_bodies`."""
+    free_bodies.move_to_middle(model._address, data._address, offsets())
 
 
-def to_the_end(model: mujoco.MjModel, data: mujoco.MjData) -> None:
-    """The part of the step after MuJoCo's; see `free_bodies`."""
-    free_bodies.to_the_end(model._address, data._address, offsets())
+def move_to_end(model: mujoco.MjModel, data: mujoco.MjData) -> None:
+    """Carry out the part of the step after MuJoCo's; see `free_bodies`."""
+    free_bodies.move_to_end(model._address, data._address, offsets())
 
 
 def water_wrenches(model: mujoco.MjModel, data: mujoco.MjData) -> Floats:
-    """Torque and force of the water on each subtree; see `kernel.water_wrenches`, (nbody, 6)."""
+    """Return torque and force of the water on subtrees, (nbody, 6): `kernel.water_wrenches`."""
     wrenches = np.zeros((model.nbody, 6))
     kernel.water_wrenches(model._address, data._address, offsets(), wrenches)
     return wrenches
@@ -191,7 +191,6 @@ def function_address(name: str) -> int:
 
 @functools.cache
 def _address() -> int:
-    """Of our function."""
     return int(wrapper().address)
 
 
@@ -200,7 +199,7 @@ def _slot() -> ctypes.c_void_p:
     return ctypes.c_void_p.in_dll(library(), "mjcb_passive")
 
 
-def _native(name: str) -> Any:
+def _native_function(name: str) -> Any:
     function = getattr(library(), name)
     function.argtypes = [ctypes.c_void_p, ctypes.c_void_p]
     function.restype = None
@@ -210,7 +209,7 @@ def _native(name: str) -> Any:
     )
 
 
-_SMALL = """
+_SMALL_MODEL = """
 <mujoco>
   <size nuser_body="2" nuser_actuator="3" nuserdata="5"/>
   <option timestep="0.003" noslip_iterations="2" integrator="implicitfast" gravity="1 2 -9.8"/>

@@ -21,7 +21,7 @@ class NoWater(UwsimError):
 
 
 class Hydrodynamics:
-    """Hydrodynamics of the bodies of one model; its state is in the given data."""
+    """The hydrodynamics of the bodies of one model; their state is in the given data."""
 
     def __init__(self, model: mujoco.MjModel) -> None:
         self.model = model
@@ -32,28 +32,28 @@ class Hydrodynamics:
             if model.nuser_actuator == c.ACTUATOR_COLUMNS
             and model.actuator_user[i, c.ROLE] == c.PROPELLER
         )
-        """Actuator ids of the thrusters, in the order of the model."""
+        """The actuator ids of the thrusters, in the order of the model."""
         in_flow = _bodies_in_flow(model)
         self.bodies = tuple(
             int(i)
             for i in range(1, model.nbody)
-            if model.body_user[i, c.KIND] != c.DRY or i in in_flow
+            if model.body_user[i, c.KIND] != c.DRY_BODY or i in in_flow
         )
-        """Body ids that the water acts on."""
-        self._controls = model.actuator_ctrladr[list(self.thrusters)]  # (n,) places in ctrl
+        """The ids of the bodies that the water acts on."""
+        self._controls = model.actuator_ctrladr[list(self.thrusters)]  # (n,) addresses in ctrl
 
     @property
     def surface(self) -> float:
-        """Height of the still water's surface [m]."""
+        """The height of the still water's surface [m]."""
         return float(self.model.body_user[0, c.SURFACE])
 
     @property
     def density(self) -> float:
-        """Of the water [kg/m3]."""
+        """The density of the water [kg/m3]."""
         return float(self.model.body_user[0, c.DENSITY])
 
     def water(self, data: mujoco.MjData) -> Floats:
-        """The water at every body, a live view, (nbody, 12): see `columns.WATER_COLUMNS`."""
+        """Return the water at every body, a live view, (nbody, 12): `columns.WATER_COLUMNS`."""
         n = c.WATER_COLUMNS * self.model.nbody
         rows: Floats = data.userdata[:n].reshape(self.model.nbody, c.WATER_COLUMNS)
         return rows
@@ -71,22 +71,22 @@ class Hydrodynamics:
 
         Args:
             data: the state.
-            velocity: of the water in W, (3,) [m/s]; of several bodies also (n, 3).
-            acceleration: of the water in W, the same shapes [m/s2].
-            rotation: half its vorticity, in W [rad/s].
-            body: id in the model, or (n,) such; None for all.
+            velocity: the velocity of the water in W, (3,) [m/s]; of several bodies also (n, 3).
+            acceleration: the acceleration of the water in W, the same shapes [m/s2].
+            rotation: the angular velocity of the water, half its vorticity, in W [rad/s].
+            body: the id in the model, or (n,) ids; None for all.
         """
         rows = self.water(data)
-        chosen = slice(None) if body is None else body
-        rows[chosen, 0:3] = velocity
-        rows[chosen, 3:6] = acceleration
-        rows[chosen, c.TURN : c.TURN + 3] = rotation
+        row = slice(None) if body is None else body
+        rows[row, 0:3] = velocity
+        rows[row, 3:6] = acceleration
+        rows[row, c.OMEGA : c.OMEGA + 3] = rotation
 
     def reference_point(self, body: int) -> Floats:
-        """The point at which a body samples the flow, in its axes, (3,) [m]."""
+        """Return the point at which the water acts on a body, in its axes, (3,) [m]."""
         row = self.model.body_user[body]
         point = row[c.REFERENCE : c.REFERENCE + 3].copy()
-        if row[c.DISPLACED] > 0.0:
+        if row[c.DISPLACED_MASS] > 0.0:
             point += row[c.CENTRE : c.CENTRE + 3]
         return np.asarray(point)
 
@@ -104,7 +104,7 @@ class Hydrodynamics:
         data.ctrl[self._controls[indices]] = commands
 
     def stop_thruster(self, data: mujoco.MjData, index: int) -> None:
-        """Let a thruster stand still at once, by its number among the thrusters."""
+        """Stop a thruster at once, by its number among the thrusters."""
         self.set_thruster(data, index, 0.0)
         address = int(self.model.actuator_actadr[self.thrusters[index]])
         if address >= 0:
@@ -124,11 +124,10 @@ class Hydrodynamics:
         data.act[self.model.actuator_actadr[self._fin(name)]] = 0.0
 
     def _fin(self, name: str) -> int:
-        """The actuator of a fin."""
         return int(self.model.actuator(name).id)
 
     def thruster(self, name: str) -> int:
-        """Number of a thruster among the thrusters, by its actuator's name."""
+        """Return the number of a thruster among the thrusters, by its actuator's name."""
         names = [self.model.actuator(i).name for i in self.thrusters]
         if name not in names:
             raise UnknownName("thruster", name, names)
@@ -139,9 +138,9 @@ class Hydrodynamics:
         if self._uses_callback:
             callback.install()  # mj_resetCallbacks may have emptied the slot
             for _ in range(n):
-                callback.to_the_middle(self.model, data)
+                callback.move_to_middle(self.model, data)
                 mujoco.mj_step(self.model, data)
-                callback.to_the_end(self.model, data)
+                callback.move_to_end(self.model, data)
         else:
             self.step_without_callback(data, n)
 
@@ -153,7 +152,7 @@ class Hydrodynamics:
         callback.stepper()(self.model._address, data._address, n)
 
     def wrenches(self, data: mujoco.MjData) -> Floats:
-        """Torque [N m] and force [N] of water and thrusters on each subtree, (nbody, 6).
+        """Return torque [N m] and force [N] of water and thrusters on each subtree, (nbody, 6).
 
         In world axes, about ``data.subtree_com`` of the tree's root. For the state of the last
         forward pass; ``data.cacc`` must be fresh: it is when the model has an accelerometer, a
@@ -165,13 +164,13 @@ class Hydrodynamics:
 def install(model: mujoco.MjModel) -> Hydrodynamics:
     """Install the hydrodynamics of a compiled model.
 
-    Checks MuJoCo's layout and the kernel, puts the kernel into MuJoCo's slot, and corrects the
-    model's inverse weights; a second time changes nothing.
+    It checks MuJoCo's layout and the kernel, installs the kernel in MuJoCo's slot, and corrects the
+    model's inverse weights. A second call changes nothing.
 
     Raises:
         NoWater: the model was not prepared, or its options exclude the callback.
-        CallbackTaken: another function sits in the slot.
-        MujocoChanged: this MuJoCo is not laid out as the kernel needs it.
+        CallbackTaken: another function is installed in the slot.
+        MujocoChanged: the layout of this MuJoCo differs from that of the kernel.
     """
     _check(model)
     water = attach(model)
@@ -184,8 +183,8 @@ def attach(model: mujoco.MjModel) -> Hydrodynamics:
     """Return the hydrodynamics of a copy of a model that `install` has corrected.
 
     Raises:
-        CallbackTaken: another function sits in the slot.
-        MujocoChanged: this MuJoCo is not laid out as the kernel needs it.
+        CallbackTaken: another function is installed in the slot.
+        MujocoChanged: the layout of this MuJoCo differs from that of the kernel.
     """
     self_test()
     if callback.has_slot():
@@ -195,11 +194,11 @@ def attach(model: mujoco.MjModel) -> Hydrodynamics:
 
 
 def _set_rotor_dynamics(model: mujoco.MjModel) -> None:
-    """Let RK4 integrate the lag of rotors by its stages.
+    """Replace the exact filter of rotors by one that RK4 integrates in its stages.
 
-    With MuJoCo's exact filter it would apply the lag in the stages and once more at their end,
-    which is of first order. A lag shorter than a step counts as one of a step: RK4 is unstable
-    from a third of a step down.
+    With MuJoCo's exact filter RK4 would apply the lag in the stages and again at their end, which
+    is of first order. A lag shorter than a step counts as a step: RK4 is unstable below a third of
+    one.
     """
     if model.opt.integrator != mujoco.mjtIntegrator.mjINT_RK4:
         return
@@ -212,14 +211,14 @@ def _set_rotor_dynamics(model: mujoco.MjModel) -> None:
 
 
 def _bodies_in_flow(model: mujoco.MjModel) -> set[int]:
-    """Bodies with fins or propellers that depend on the flow."""
+    """Return the bodies with fins, or with propellers whose thrust depends on the flow."""
     if model.nuser_actuator != c.ACTUATOR_COLUMNS:
         return set()
     rows = model.actuator_user
-    feels = (rows[:, c.ROLE] == c.FIN) | (
+    needs_flow = (rows[:, c.ROLE] == c.FIN) | (
         (rows[:, c.ROLE] == c.PROPELLER) & (rows[:, c.N_ADVANCE] > 0.0)
     )
-    return set(model.site_bodyid[model.actuator_trnid[feels, 0]].tolist())
+    return set(model.site_bodyid[model.actuator_trnid[needs_flow, 0]].tolist())
 
 
 def _check(model: mujoco.MjModel) -> None:
@@ -230,13 +229,13 @@ def _check(model: mujoco.MjModel) -> None:
             f"The model has {model.nuserdata} numbers of userdata for {model.nbody} bodies and "
             f"{model.nactuator} actuators; call prepare() last, after every body was added."
         )
-    off = mujoco.mjtDisableBit.mjDSBL_SPRING | mujoco.mjtDisableBit.mjDSBL_DAMPER
-    if model.opt.disableflags & off == off:
+    flags = mujoco.mjtDisableBit.mjDSBL_SPRING | mujoco.mjtDisableBit.mjDSBL_DAMPER
+    if model.opt.disableflags & flags == flags:
         raise NoWater("Springs and dampers are both disabled: MuJoCo then skips the water too.")
     if model.opt.density or model.opt.viscosity:
         raise NoWater("option density and viscosity must be 0: MuJoCo's own fluid is not used.")
     for body in range(1, model.nbody):
-        if model.body_user[body, c.KIND] == c.DRY or model.body_treeid[body] < 0:
+        if model.body_user[body, c.KIND] == c.DRY_BODY or model.body_treeid[body] < 0:
             continue
         weld = int(model.body_weldid[body])
         dofs = range(model.body_dofadr[weld], model.body_dofadr[weld] + model.body_dofnum[weld])

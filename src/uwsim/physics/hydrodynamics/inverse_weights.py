@@ -1,8 +1,8 @@
-"""Inverse inertias that MuJoCo's contacts are scaled with, corrected for the added mass.
+"""The inverse inertias that scale MuJoCo's contacts, corrected for the added mass.
 
-MuJoCo computes ``body_invweight0``, ``dof_invweight0``, ``tendon_invweight0`` and the mean
-inertia when it compiles, without the water. Contacts and limits of a body with much added mass
-would then be scaled for a much lighter one.
+MuJoCo computes ``body_invweight0``, ``dof_invweight0``, ``tendon_invweight0`` and the mean inertia
+when it compiles, without the water. The scale of contacts and limits of a body with much added mass
+would then be that of a much lighter one.
 """
 
 from __future__ import annotations
@@ -16,29 +16,29 @@ from ...base.numerics.linear import inverse
 from . import callback
 from . import columns as c
 
-_FREE, _BALL = int(mujoco.mjtJoint.mjJNT_FREE), int(mujoco.mjtJoint.mjJNT_BALL)
-_ABOVE_ALL = 1e9  # a surface so high that everything is under water [m]
+_FREE_JOINT, _BALL_JOINT = int(mujoco.mjtJoint.mjJNT_FREE), int(mujoco.mjtJoint.mjJNT_BALL)
+_HIGH_SURFACE = 1e9  # a height of the surface above all bodies [m]
 
 
 def correct_inverse_weights(model: mujoco.MjModel) -> None:
     """Recompute the inverse weights of ``model`` from M plus the added mass at ``qpos0``.
 
-    No tree of bodies has anything to do with another, so that each is inverted by itself: the time
-    grows with their number, not with its cube.
+    Trees of bodies do not depend on each other, and each is inverted alone: the time grows with
+    their number, not with its cube.
     """
     if model.nv == 0:
         return
-    first = model.tree_dofadr.tolist()
-    dofs = [slice(a, a + n) for a, n in zip(first, model.tree_dofnum.tolist(), strict=True)]
-    inverted = _inverted_masses(model, dofs)
-    diagonal = np.concatenate([np.diag(block) for block in inverted])  # (nv,)
+    starts = model.tree_dofadr.tolist()
+    dofs = [slice(a, a + n) for a, n in zip(starts, model.tree_dofnum.tolist(), strict=True)]
+    inverses = _inverted_masses(model, dofs)
+    diagonal = np.concatenate([np.diag(block) for block in inverses])  # (nv,)
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
     mujoco.mj_comPos(model, data)
     mujoco.mj_tendon(model, data)
     for joint in range(model.njnt):
         first_dof = model.jnt_dofadr[joint]
-        n_parts = {_FREE: 2, _BALL: 1}.get(int(model.jnt_type[joint]), 0)
+        n_parts = {_FREE_JOINT: 2, _BALL_JOINT: 1}.get(int(model.jnt_type[joint]), 0)
         if n_parts == 0:
             model.dof_invweight0[first_dof] = diagonal[first_dof]
             continue
@@ -51,26 +51,26 @@ def correct_inverse_weights(model: mujoco.MjModel) -> None:
             continue
         tree = int(model.body_treeid[body])
         mujoco.mj_jacBodyCom(model, data, jacobian[:3], jacobian[3:], body)
-        spread = _spread(jacobian[:, dofs[tree]], inverted[tree])
+        spread = _spread(jacobian[:, dofs[tree]], inverses[tree])
         model.body_invweight0[body] = spread[:3].mean(), spread[3:].mean()
     if model.ntendon:
         rows = _tendon_jacobian(model, data)
-        parts = zip(dofs, inverted, strict=True)
-        model.tendon_invweight0[:] = sum(_spread(rows[:, own], block) for own, block in parts)
+        parts = zip(dofs, inverses, strict=True)
+        model.tendon_invweight0[:] = sum(_spread(rows[:, part], block) for part, block in parts)
 
 
-def _spread(rows: np.ndarray, inverted: np.ndarray) -> np.ndarray:
-    """The diagonal of ``J M^-1 J^T``."""
-    return np.asarray(np.einsum("ij,jk,ik->i", rows, inverted, rows))
+def _spread(rows: np.ndarray, inverse_mass: np.ndarray) -> np.ndarray:
+    """Return the diagonal of ``J M^-1 J^T``."""
+    return np.asarray(np.einsum("ij,jk,ik->i", rows, inverse_mass, rows))
 
 
 def _inverted_masses(model: mujoco.MjModel, dofs: Sequence[slice]) -> list[np.ndarray]:
-    """Each tree's inverse of M at ``qpos0`` with all of it under water, without implicit drag."""
+    """Return the inverse of M of each tree at ``qpos0``, under water, without implicit drag."""
     surface, thetas = model.body_user[0, c.SURFACE], model.body_user[1:, c.THETA].copy()
     flags = model.opt.enableflags
     data = mujoco.MjData(model)
     try:
-        model.body_user[0, c.SURFACE] = _ABOVE_ALL
+        model.body_user[0, c.SURFACE] = _HIGH_SURFACE
         model.body_user[1:, c.THETA] = 0.0
         model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)
         mujoco.mj_resetData(model, data)
@@ -81,25 +81,25 @@ def _inverted_masses(model: mujoco.MjModel, dofs: Sequence[slice]) -> list[np.nd
         model.body_user[0, c.SURFACE] = surface
         model.body_user[1:, c.THETA] = thetas
         model.opt.enableflags = flags
-    blocks = [_block(model, data, own) for own in dofs]
+    blocks = [_block(model, data, tree_dofs) for tree_dofs in dofs]
     model.stat.meaninertia = float(np.concatenate([np.diag(block) for block in blocks]).mean())
     return [inverse(block) for block in blocks]
 
 
 def _block(model: mujoco.MjModel, data: mujoco.MjData, dofs: slice) -> np.ndarray:
-    """M of one tree, (n, n): MuJoCo keeps the entries on and left of the diagonal."""
+    """Return M of one tree, (n, n): MuJoCo keeps the entries on and left of the diagonal."""
     n = dofs.stop - dofs.start
     block = np.zeros((n, n))
     for row in range(n):
-        first, length = model.M_rowadr[dofs.start + row], model.M_rownnz[dofs.start + row]
-        columns = model.M_colind[first : first + length] - dofs.start
-        block[row, columns] = block[columns, row] = data.M[first : first + length]
+        start, length = model.M_rowadr[dofs.start + row], model.M_rownnz[dofs.start + row]
+        columns = model.M_colind[start : start + length] - dofs.start
+        block[row, columns] = block[columns, row] = data.M[start : start + length]
     return block
 
 
 def _tendon_jacobian(model: mujoco.MjModel, data: mujoco.MjData) -> np.ndarray:
     rows = np.zeros((model.ntendon, model.nv))
     for tendon in range(model.ntendon):
-        first, n = model.ten_J_rowadr[tendon], model.ten_J_rownnz[tendon]
-        rows[tendon, model.ten_J_colind[first : first + n]] = data.ten_J[first : first + n]
+        start, n = model.ten_J_rowadr[tendon], model.ten_J_rownnz[tendon]
+        rows[tendon, model.ten_J_colind[start : start + n]] = data.ten_J[start : start + n]
     return rows

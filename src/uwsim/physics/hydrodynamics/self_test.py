@@ -12,68 +12,68 @@ from . import callback
 from .kernel.layout import MujocoChanged
 from .table import prepare
 
-STEP, LOSS = 0.01, 1e-9
-"""Of the step that is tried [s], and what it may change of the energy, relative to it."""
+STEP, MAX_LOSS = 0.01, 1e-9
+"""The length of the tested step [s], and the greatest relative change of energy in it."""
 
 
 @functools.cache
 def self_test() -> None:
-    """Compare offsets with live arrays, a mass matrix, a force and a step with what they must be.
+    """Compare offsets, a mass matrix, a force and a step with independent values.
 
     Raises:
-        MujocoChanged: one of them is off.
+        MujocoChanged: one of them differs.
     """
     callback.offsets()
     slot_was_ours = callback.is_installed()
     callback.remove()
-    right = _equations_hold() and _energy_is_kept()
+    is_right = _equations_hold() and _energy_is_conserved()
     if slot_was_ours:
         callback.install()
-    if not right:
+    if not is_right:
         raise MujocoChanged(
             f"The hydrodynamics kernel does not agree with itself on MuJoCo {mujoco.__version__}."
         )
 
 
 def _equations_hold() -> bool:
-    """Compare one mass matrix and one force with numpy's."""
+    """Return whether one mass matrix and one force agree with numpy's."""
     rng_free = np.arange(36.0).reshape(6, 6) / 36.0
-    added = rng_free @ rng_free.T + np.diag(np.arange(1.0, 7.0))
+    m_a = rng_free @ rng_free.T + np.diag(np.arange(1.0, 7.0))
     body = BodyHydrodynamics(
-        link="b", added_mass=tuple(added.ravel()), linear_damping=(1.0, 2.0, 3.0, 4.0, 5.0, 6.0)
+        link="b", added_mass=tuple(m_a.ravel()), linear_damping=(1.0, 2.0, 3.0, 4.0, 5.0, 6.0)
     )
     model = _model(body, mujoco.mjtIntegrator.mjINT_RK4)  # the equations, not their steps
     data = mujoco.MjData(model)
     data.qvel[:] = 0.3, -0.2, 0.1, 0.4, 0.5, -0.6
     mujoco.mj_forward(model, data)
-    dry = np.empty((6, 6))
-    mujoco.mj_fullM(model, data, dry)
+    rigid_mass = np.empty((6, 6))
+    mujoco.mj_fullM(model, data, rigid_mass)
     callback.add_water(model, data)
-    wet = np.empty((6, 6))
-    mujoco.mj_fullM(model, data, wet)
+    mass = np.empty((6, 6))
+    mujoco.mj_fullM(model, data, mass)
     # at the unit attitude body axes are world axes, so J is the identity
     linear, angular = data.qvel[:3], data.qvel[3:]
-    momentum = added @ data.qvel
+    momentum = m_a @ data.qvel
     force = -matrix(body.linear_damping) @ data.qvel
-    force -= added @ np.concatenate([-np.cross(angular, linear), np.zeros(3)])
+    force -= m_a @ np.concatenate([-np.cross(angular, linear), np.zeros(3)])
     force[:3] -= np.cross(angular, momentum[:3])
     force[3:] -= np.cross(angular, momentum[3:]) + np.cross(linear, momentum[:3])
-    is_equal = np.allclose(wet - dry, added, rtol=0.0, atol=1e-9)
+    is_equal = np.allclose(mass - rigid_mass, m_a, rtol=0.0, atol=1e-9)
     return bool(is_equal and np.allclose(data.qfrc_passive, force, rtol=0.0, atol=1e-9))
 
 
-def _energy_is_kept() -> bool:
-    """Turn a free body for a step of ``implicitfast``.
+def _energy_is_conserved() -> bool:
+    """Return whether a free body that turns keeps its energy in a step of ``implicitfast``.
 
-    MuJoCo adds a gyroscopic term of its own there, which `free_bodies` takes back: if it added
-    another, or none, the step would gain or lose energy.
+    MuJoCo adds a gyroscopic term there, which `free_bodies` subtracts: with another term, or none,
+    the step would gain or lose energy.
     """
-    added = (4.0, 20.0, 30.0, 0.3, 0.02, 0.1)
-    body = BodyHydrodynamics(link="b", added_mass=added)
+    added_mass = (4.0, 20.0, 30.0, 0.3, 0.02, 0.1)
+    body = BodyHydrodynamics(link="b", added_mass=added_mass)
     model = _model(body, mujoco.mjtIntegrator.mjINT_IMPLICITFAST)
     data = mujoco.MjData(model)
     data.qvel[:] = 0.3, -0.2, 0.4, 2.0, 2.2, 1.1
-    inertia = np.array([2.0, 2.0, 2.0, 1.0, 1.1, 1.2]) + added
+    inertia = np.array([2.0, 2.0, 2.0, 1.0, 1.1, 1.2]) + added_mass
 
     def energy() -> float:
         turn = np.empty(9)
@@ -81,17 +81,17 @@ def _energy_is_kept() -> bool:
         velocity = np.concatenate([turn.reshape(3, 3).T @ data.qvel[:3], data.qvel[3:]])
         return float(0.5 * np.sum(inertia * velocity**2))
 
-    before = energy()
-    callback.to_the_middle(model, data)
+    start_energy = energy()
+    callback.move_to_middle(model, data)
     mujoco.mj_step1(model, data)
     callback.add_water(model, data)
     mujoco.mj_step2(model, data)
-    callback.to_the_end(model, data)
-    return abs(energy() - before) <= LOSS * before
+    callback.move_to_end(model, data)
+    return abs(energy() - start_energy) <= MAX_LOSS * start_energy
 
 
 def _model(body: BodyHydrodynamics, integrator: mujoco.mjtIntegrator) -> mujoco.MjModel:
-    """One free body in weightless water."""
+    """Return a model of one free body in weightless water."""
     spec = mujoco.MjSpec()
     spec.option.gravity = [0.0, 0.0, 0.0]
     spec.option.integrator = integrator

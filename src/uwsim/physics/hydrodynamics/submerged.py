@@ -19,10 +19,10 @@ class SubmergedBodies:
     """The bodies of a scene that the water acts on.
 
     Args:
-        model: of the engine.
-        poses: where its bodies are.
-        water: their hydrodynamics; None where nothing is simulated.
-        vehicles: numbers of the simulated vehicles: autopilots feel the water at their bases.
+        model: the engine's model.
+        poses: the poses of its bodies.
+        water: their hydrodynamics; None where no vehicle is simulated.
+        vehicles: the numbers of the simulated vehicles: autopilots need the water at their bases.
     """
 
     def __init__(
@@ -33,21 +33,21 @@ class SubmergedBodies:
         vehicles: Collection[int],
     ) -> None:
         self._poses = poses
-        found = set() if water is None else {*water.bodies, *map(poses.base, vehicles)}
-        self.bodies = np.array(sorted(found), np.int64)
-        """Their numbers in the engine, (n,)."""
+        bodies = set() if water is None else {*water.bodies, *map(poses.base, vehicles)}
+        self.bodies = np.array(sorted(bodies), np.int64)
+        """The engine's numbers of the bodies, (n,)."""
         points = (
             [] if water is None else [water.reference_point(body) for body in self.bodies.tolist()]
         )
         self.reference_points = np.array(points).reshape(-1, 3)
-        """Where the water acts on each, in its axes, (n, 3) [m].
+        """The points at which the water acts on the bodies, in their axes, (n, 3) [m].
 
-        At the centre of buoyancy; for a body that displaces nothing, where its matrices are about.
+        It is the centre of buoyancy, or the reference point of a body that displaces no water.
         """
         parts = [model.body(body).name.split("/") for body in self.bodies.tolist()]
         self.vehicles = tuple(int(part[1]) if part[0] == "vehicle" else None for part in parts)
-        """The number of the vehicle that each belongs to; None: of none."""
+        """The number of the vehicle that each body belongs to; None: an object."""
 
     def positions(self) -> Array:
-        """Return where the water acts on them now, in W, (n, 3) [m]."""
+        """Return the points at which the water acts on the bodies now, in W, (n, 3) [m]."""
         return self._poses.points(self.bodies, self.reference_points)

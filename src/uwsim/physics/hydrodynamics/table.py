@@ -1,4 +1,4 @@
-"""Writes specs into the tables of a model: before and after compiling."""
+"""The tables of a model, written from specs before it is compiled."""
 
 from __future__ import annotations
 
@@ -27,7 +27,8 @@ _SHAPES = {
     "shrinking-sphere": c.SHRINKING_SPHERE,
 }  # fmt: skip
 _LAWS = {
-    "axes": c.BY_AXIS, "speed": c.BY_SPEED, "x": c.ABOUT_X, "y": c.ABOUT_Y, "z": c.ABOUT_Z,
+    "axes": c.DRAG_BY_AXIS, "speed": c.DRAG_BY_SPEED,
+    "x": c.DRAG_ABOUT_X, "y": c.DRAG_ABOUT_Y, "z": c.DRAG_ABOUT_Z,
 }  # fmt: skip
 
 
@@ -47,15 +48,15 @@ def prepare(
 
     Args:
         spec: the whole scene.
-        bodies: name of a body in ``spec`` -> what the water does to it.
-        thrusters: name of the actuator to make -> the body it sits on, and its spec.
-        fins: the same of the fins.
-        surface: height of the still water's surface in W [m].
-        density: of the water, for which the numbers of the bodies are [kg/m3].
-        levels: of water that is stratified, depth [m] and density [kg/m3], two or more, downwards.
+        bodies: the hydrodynamics by the name of a body in ``spec``.
+        thrusters: the body and the spec of a thruster, by the name of the actuator to add.
+        fins: the same for the fins.
+        surface: the height of the still water's surface in W [m].
+        density: the density of the water of the bodies' numbers [kg/m3].
+        levels: the levels of stratified water, depth [m], density [kg/m3], two or more, downwards.
 
     Raises:
-        BadHydrodynamics: with every error.
+        BadHydrodynamics: the hydrodynamics are invalid; with every error.
     """
     propellers, foils = thrusters or {}, fins or {}
     _check(spec, bodies, propellers, foils, density)
@@ -66,8 +67,8 @@ def prepare(
     water = np.zeros(c.BODY_COLUMNS)
     water[[c.MAGIC, c.SURFACE, c.DENSITY]] = c.MAGIC_NUMBER, surface, density
     water[c.N_LEVELS] = len(levels)
-    for i, (depth, there) in enumerate(levels):
-        water[c.LEVELS + 2 * i : c.LEVELS + 2 * i + 2] = depth, there / density - 1.0
+    for i, (depth, level_density) in enumerate(levels):
+        water[c.LEVELS + 2 * i : c.LEVELS + 2 * i + 2] = depth, level_density / density - 1.0
     spec.worldbody.userdata = water
     for name, body in bodies.items():
         _prepare_body(spec.body(name), body, density)
@@ -79,30 +80,30 @@ def prepare(
 
 
 def body_row(body: BodyHydrodynamics, density: float) -> npt.NDArray[np.float64]:
-    """The columns of a body, (160,)."""
+    """Return the columns of a body, (160,)."""
     row = np.zeros(c.BODY_COLUMNS)
     linear, quadratic = matrix(body.linear_damping), matrix(body.quadratic_damping)
-    added, lift = matrix(body.added_mass), matrix(body.body_lift)
-    is_full = any(np.any(m - np.diag(np.diag(m))) for m in (added, linear, quadratic))
+    added_mass, lift = matrix(body.added_mass), matrix(body.body_lift)
+    is_full = any(np.any(m - np.diag(np.diag(m))) for m in (added_mass, linear, quadratic))
     is_full = is_full or bool(np.any(lift))
-    row[c.KIND] = c.FULL if is_full else c.DIAGONAL
+    row[c.KIND] = c.FULL_MATRICES if is_full else c.DIAGONAL_MATRICES
     row[c.THETA] = body.implicitness
     row[c.LAW] = _LAWS[body.drag_law]
-    row[c.DISPLACED] = density * body.volume
+    row[c.DISPLACED_MASS] = density * body.volume
     row[c.REFERENCE : c.REFERENCE + 3] = body.reference
     row[c.CENTRE : c.CENTRE + 3] = np.array(body.centre_of_buoyancy) - body.reference
     row[c.SHAPE] = _SHAPES[body.shape]
     size = body.size or (max(0.75 * body.volume / math.pi, 1e-12) ** (1.0 / 3.0),)
     row[c.SIZE : c.SIZE + len(size)] = size
-    row[c.REACH] = _reach(body.shape, size)
-    row[c.ADDED : c.ADDED + 36] = (0.5 * (added + added.T)).ravel()
+    row[c.REACH] = _max_radius(body.shape, size)
+    row[c.M_A : c.M_A + 36] = (0.5 * (added_mass + added_mass.T)).ravel()
     row[c.LINEAR : c.LINEAR + 36] = linear.ravel()
     row[c.QUADRATIC : c.QUADRATIC + 36] = quadratic.ravel()
     row[c.LIFT : c.LIFT + 36] = lift.ravel()
     return row
 
 
-def _reach(shape: str, size: tuple[float, ...]) -> float:
+def _max_radius(shape: str, size: tuple[float, ...]) -> float:
     if shape == "box":
         return 0.5 * math.hypot(*size)
     if shape == "cylinder":
@@ -111,7 +112,7 @@ def _reach(shape: str, size: tuple[float, ...]) -> float:
 
 
 def thruster_row(thruster: ThrusterSpec) -> npt.NDArray[np.float64]:
-    """The columns of a thruster, (68,)."""
+    """Return the columns of a thruster, (68,)."""
     row = np.zeros(c.ACTUATOR_COLUMNS)
     row[c.ROLE] = c.PROPELLER
     row[c.DEAD_ZONE] = thruster.dead_zone
@@ -128,13 +129,13 @@ def thruster_row(thruster: ThrusterSpec) -> npt.NDArray[np.float64]:
 
 
 def fin_row(fin: FinSpec) -> npt.NDArray[np.float64]:
-    """The columns of a fin, (68,)."""
+    """Return the columns of a fin, (68,)."""
     row = np.zeros(c.ACTUATOR_COLUMNS)
     row[c.ROLE] = c.FIN
     row[c.MIN_ANGLE], row[c.MAX_ANGLE] = fin.limits
     row[c.RATE], row[c.LAG] = fin.rate or math.inf, fin.time_constant
     row[c.AREA], row[c.SLOPE], row[c.STALL] = fin.area, fin.slope, fin.stall
-    row[c.DRAG], row[c.INDUCED], row[c.PLATE] = fin.drag, fin.induced_drag_slope, fin.plate_drag
+    row[c.DRAG], row[c.INDUCED_DRAG], row[c.PLATE] = fin.drag, fin.induced, fin.plate_drag
     row[c.N_COEFFICIENTS] = len(fin.coefficients) // 3
     row[c.IS_EVEN] = float(all(angle >= 0.0 for angle in fin.coefficients[::3]))
     row[c.COEFFICIENTS : c.COEFFICIENTS + len(fin.coefficients)] = fin.coefficients
@@ -150,8 +151,8 @@ def _check(
 ) -> None:
     errors = density_errors(density)
     errors += [error for body in bodies.values() for error in body_errors(body)]
-    errors += [error for _, one in thrusters.values() for error in thruster_errors(one)]
-    errors += [error for _, one in fins.values() for error in fin_errors(one)]
+    errors += [error for _, part in thrusters.values() for error in thruster_errors(part)]
+    errors += [error for _, part in fins.values() for error in fin_errors(part)]
     links = [link for link, _ in (*thrusters.values(), *fins.values())]
     for name in (*bodies, *links):
         if name == "world" or spec.body(name) is None:
@@ -173,7 +174,7 @@ def _prepare_body(node: mujoco.MjsBody, body: BodyHydrodynamics, density: float)
         node.ipos = list(body.centre_of_mass)
         node.explicitinertial = True
     elif node.mass > 0.0 and math.isnan(node.ipos[0]):
-        node.ipos = [0.0, 0.0, 0.0]  # else MuJoCo takes the body's own position for it
+        node.ipos = [0.0, 0.0, 0.0]  # else MuJoCo takes the body's own position
     if body.inertia is not None:
         node.fullinertia = list(body.inertia)
         node.inertia = [0.0, 0.0, 0.0]
@@ -184,9 +185,9 @@ def _prepare_body(node: mujoco.MjsBody, body: BodyHydrodynamics, density: float)
 def _add_thruster(
     spec: mujoco.MjSpec, name: str, body: mujoco.MjsBody, thruster: ThrusterSpec
 ) -> None:
-    """A site whose x axis is the thrust, and an actuator whose state is the rotor's.
+    """Add a site whose x axis is the thrust, and an actuator whose state is the rotor's.
 
-    MuJoCo integrates the state; its own gain is 0, the kernel makes the force.
+    MuJoCo integrates the state; its own gain is 0, and the kernel computes the force.
     """
     body.add_site(name=name, pos=list(thruster.position), quat=_quat_to(thruster.direction))
     actuator = spec.add_actuator(name=name, target=name, trntype=mujoco.mjtTrn.mjTRN_SITE)
@@ -203,14 +204,14 @@ def _add_thruster(
 
 
 def _add_fin(spec: mujoco.MjSpec, name: str, body: mujoco.MjsBody, fin: FinSpec) -> None:
-    """A site with the chord along x and the span along z, and an actuator whose state is its angle.
+    """Add a site with the chord along x and the span along z, and an actuator of the angle.
 
-    MuJoCo integrates the state, whose speed the kernel sets; the kernel makes the force, too.
+    MuJoCo integrates the state, whose rate the kernel sets; the kernel also computes the force.
     """
     span = np.array(fin.axis) / math.hypot(*fin.axis)
-    across = np.cross(span, fin.chord)
-    across /= length(across)
-    axes = np.stack([np.cross(across, span), across, span], axis=1)
+    normal = np.cross(span, fin.chord)
+    normal /= length(normal)
+    axes = np.stack([np.cross(normal, span), normal, span], axis=1)
     quat = quaternion_from_rotation(axes).tolist()
     body.add_site(name=name, pos=list(fin.position), quat=quat)
     actuator = spec.add_actuator(name=name, target=name, trntype=mujoco.mjtTrn.mjTRN_SITE)
@@ -223,7 +224,7 @@ def _add_fin(spec: mujoco.MjSpec, name: str, body: mujoco.MjsBody, fin: FinSpec)
 
 
 def _quat_to(direction: tuple[float, float, float]) -> list[float]:
-    """A turn wxyz that takes x into ``direction``."""
+    """Return a rotation wxyz that takes x into ``direction``."""
     quat = np.zeros(4)
     unit = np.array(direction) / math.hypot(*direction)
     half = np.array([1.0, 0.0, 0.0]) + unit

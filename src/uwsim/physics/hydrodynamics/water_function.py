@@ -1,4 +1,4 @@
-"""How the water moves the bodies of a scene in the compiled run of steps."""
+"""The motion of the water at the bodies of a scene in the compiled steps."""
 
 from __future__ import annotations
 
@@ -13,28 +13,28 @@ from ...base.numerics.calls import address_of, call
 from ...base.numerics.jit import njit
 
 POINT, VELOCITY, ACCELERATION, ROTATION, WATER_ROW = 0, 3, 6, 9, 12
-"""Columns of a row of water at a body, in W: where it is felt [m], its velocity [m/s], acceleration
-[m/s2] and rotation [rad/s]."""
+"""The columns of a row of water at a body, in W: the point [m], and there the velocity [m/s],
+acceleration [m/s2] and angular velocity [rad/s] of the water."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class WaterFunction:
-    """A function that is asked in each step of a run; see `uwsim.base.numerics.calls`.
+    """A compiled function of the water's motion; see `uwsim.base.numerics.calls`.
 
-    Its values are a row of `WATER_ROW` numbers a body: it reads the points, and writes the rest. It
-    gets the time in the middle of the step.
+    Its values are a row of `WATER_ROW` numbers a body: it reads the points and writes the others.
+    Its time is that in the middle of the step.
     """
 
     function: int
-    """Its address."""
+    """The address of the function."""
     parameters: npt.NDArray[Any]
     """The array that it reads at its address."""
     needs_points: bool = False
-    """Whether it reads where the bodies are; else the points may be out of date."""
+    """A flag: it reads the points, which must then be up to date."""
     is_steady: bool = False
-    """Whether what it says at the first step is the same in all others."""
+    """A flag: its values at the first step hold for all others."""
     kept: tuple[object, ...] = field(default=())
-    """What the parameters have the addresses of."""
+    """The objects whose addresses the parameters contain."""
 
     @cached_property
     def address(self) -> int:
@@ -44,18 +44,18 @@ class WaterFunction:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class DriftFunction:
-    """A function that moves vehicles which are not simulated, at the start of each step of a run.
+    """A function that moves vehicles that are not simulated, at the start of each step of a run.
 
     See `uwsim.base.numerics.calls`: its values are the poses of all such vehicles, position [m] and
-    quaternion (wxyz), (n, 7), which it changes. It gets the time at the end of the step.
+    quaternion (wxyz), (n, 7), which it changes. Its time is that at the end of the step.
     """
 
     function: int
-    """Its address."""
+    """The address of the function."""
     parameters: npt.NDArray[Any]
     """The array that it reads at its address."""
     kept: tuple[object, ...] = field(default=())
-    """What the parameters have the addresses of."""
+    """The objects whose addresses the parameters contain."""
 
     @cached_property
     def address(self) -> int:
@@ -65,5 +65,5 @@ class DriftFunction:
 
 @njit
 def move_placed(function: int, parameters: int, poses: Array, time: float) -> None:
-    """Move poses (n, 7) as a `DriftFunction` says, whose addresses are given."""
+    """Move poses (n, 7) by the `DriftFunction` at these addresses."""
     call(function, parameters, poses.ctypes.data, time)

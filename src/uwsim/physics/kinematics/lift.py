@@ -95,7 +95,6 @@ class _LiftedBody:
         self._bits = model.geom_contype[self._geoms], model.geom_conaffinity[self._geoms]
 
     def set_contacts(self, *, is_on: bool) -> None:
-        """Enable or disable the contacts of the body."""
         contype, conaffinity = self._bits
         self._model.geom_contype[self._geoms] = contype if is_on else 0
         self._model.geom_conaffinity[self._geoms] = conaffinity if is_on else 0

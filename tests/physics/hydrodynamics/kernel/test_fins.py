@@ -12,7 +12,7 @@ import pytest
 
 from tests.physics.water_models import free_body
 from uwsim.physics.hydrodynamics.hydrodynamics import Hydrodynamics, install
-from uwsim.physics.hydrodynamics.kernel.fins import FADE, coefficients
+from uwsim.physics.hydrodynamics.kernel.fins import FADE_ANGLE, coefficients
 from uwsim.physics.hydrodynamics.table import fin_row
 from uwsim.scene.hydrodynamics import BadHydrodynamics, BodyHydrodynamics, FinSpec
 from uwsim.scene.hydrodynamics.fin_checks import fin_errors
@@ -78,7 +78,7 @@ def test_beyond_the_stall_the_lift_falls_to_that_of_a_plate() -> None:
     row = fin_row(FIN)
     assert coefficients(row, 0.3) == pytest.approx((0.9, 0.01 + 0.1 * 0.81))
     assert coefficients(row, 0.3 + 1e-9) == pytest.approx(coefficients(row, 0.3))
-    lifts = [coefficients(row, 0.3 + share * FADE)[0] for share in np.linspace(0.0, 1.0, 20)]
+    lifts = [coefficients(row, 0.3 + share * FADE_ANGLE)[0] for share in np.linspace(0.0, 1.0, 20)]
     assert np.all(np.diff(lifts) < 0.0)
     for angle in (0.6, 1.0, 0.5 * math.pi, 3.0):
         sine, cosine = math.sin(angle), math.cos(angle)

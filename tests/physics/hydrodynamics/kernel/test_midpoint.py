@@ -26,7 +26,7 @@ def solved(
     b[mp.SUM : mp.SUM + 36] = (inertia + drag).ravel()
     b[mp.TWIST : mp.TWIST + 6] = twist
     b[mp.MOMENTUM : mp.MOMENTUM + 6] = momentum
-    b[mp.SIDE : mp.SIDE + 6] = wrench - by_momentum(momentum) @ twist
+    b[mp.FORCE : mp.FORCE + 6] = wrench - by_momentum(momentum) @ twist
     mp.solve_rate(b, STEP)
     return b[mp.RATE : mp.RATE + 6].copy()
 

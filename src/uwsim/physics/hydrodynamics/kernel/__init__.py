@@ -1,1 +1,1 @@
-"""The compiled functions: forces of the water on bodies, fins and thrusters."""
+"""Compiled functions for the forces of the water on bodies, fins and thrusters."""

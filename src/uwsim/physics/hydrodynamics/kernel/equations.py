@@ -1,11 +1,11 @@
 r"""Fossen's equations for one body, on plain numbers and arrays.
 
-Nothing here depends on where the numbers are stored: the kernel, and any other back end (a batch on
-a GPU), reads them from its own memory and passes them in. Six numbers of a twist or a force are in
-the literature's order (surge, sway, heave, roll, pitch, yaw) and in the axes of the body, about its
-reference point; ``table`` is a row of the body's table (`columns`), ``axes`` the nine numbers of
-world_from_body row by row, ``lever`` leads from the origin of the sums to the reference point, in
-world axes [m].
+These functions do not depend on where the numbers are stored: the kernel, and any other back end (a
+batch on a GPU), passes them in from its own memory. Six numbers of a twist or a force are in the
+literature's order (surge, sway, heave, roll, pitch, yaw) and in the axes of the body, about its
+reference point. ``table`` is a row of the body's table (`columns`), ``axes`` the nine numbers of
+world_from_body row by row, ``lever`` the vector from the origin of the sums to the reference point,
+in world axes [m].
 
 After Fossen, Handbook of Marine Craft Hydrodynamics and Motion Control (2011), chapters 6 and 8.
 """
@@ -16,24 +16,8 @@ import math
 
 from ....base.numerics.jit import njit
 from ....base.numerics.memory import Floats
-from ..columns import (
-    ABOUT_X,
-    ABOUT_Y,
-    ABOUT_Z,
-    ADDED,
-    BY_SPEED,
-    CENTRE,
-    LAW,
-    LIFT,
-    LINEAR,
-    QUADRATIC,
-    REACH,
-    REFERENCE,
-    SHAPE,
-    SIZE,
-    TURN,
-)
-from .submersion import submerged
+from .. import columns as c
+from .submersion import compute_submersion
 
 Three = tuple[float, float, float]
 Six = tuple[float, float, float, float, float, float]
@@ -41,7 +25,7 @@ Six = tuple[float, float, float, float, float, float]
 
 @njit
 def to_body(axes: Floats, x: float, y: float, z: float) -> Three:
-    """Turn a vector of the world into the axes of the body."""
+    """Return a vector of the world in the axes of the body."""
     return (
         axes[0] * x + axes[3] * y + axes[6] * z,
         axes[1] * x + axes[4] * y + axes[7] * z,
@@ -51,7 +35,7 @@ def to_body(axes: Floats, x: float, y: float, z: float) -> Three:
 
 @njit
 def to_world(axes: Floats, x: float, y: float, z: float) -> Three:
-    """Turn a vector of the body into the axes of the world."""
+    """Return a vector of the body in the axes of the world."""
     return (
         axes[0] * x + axes[1] * y + axes[2] * z,
         axes[3] * x + axes[4] * y + axes[5] * z,
@@ -60,83 +44,84 @@ def to_world(axes: Floats, x: float, y: float, z: float) -> Three:
 
 
 @njit
-def six(numbers: Floats, at: int) -> Six:
-    """Six numbers of an array, from ``at`` on."""
+def read_six(numbers: Floats, start: int) -> Six:
+    """Return six numbers of an array, from the index ``start`` on."""
     return (
-        numbers[at], numbers[at + 1], numbers[at + 2],
-        numbers[at + 3], numbers[at + 4], numbers[at + 5],
+        numbers[start], numbers[start + 1], numbers[start + 2],
+        numbers[start + 3], numbers[start + 4], numbers[start + 5],
     )  # fmt: skip
 
 
 @njit
 def subtract(a: Six, b: Six) -> Six:
-    """The difference of two wrenches."""
+    """Return the difference of two wrenches."""
     return a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3], a[4] - b[4], a[5] - b[5]
 
 
 @njit
-def reference_point(table: Floats, place: Floats, axes: Floats, com: Floats) -> tuple[float, Three]:
-    """Height of the reference point in W, and the lever to it from the origin of the sums [m].
+def reference_point(table: Floats, xpos: Floats, axes: Floats, com: Floats) -> tuple[float, Three]:
+    """Return the reference point's height in W and the lever to it from the sums' origin [m].
 
     Args:
-        table: the body's.
-        place: of the body's origin, in W.
+        table: the body's table.
+        xpos: the body's origin in W.
         axes: world_from_body.
-        com: the origin of the sums, in W.
+        com: the origin of the sums in W.
     """
-    bx, by, bz = table[REFERENCE], table[REFERENCE + 1], table[REFERENCE + 2]
-    height = place[2] + axes[6] * bx + axes[7] * by + axes[8] * bz
+    rx, ry, rz = table[c.REFERENCE], table[c.REFERENCE + 1], table[c.REFERENCE + 2]
+    height = xpos[2] + axes[6] * rx + axes[7] * ry + axes[8] * rz
     return height, (
-        place[0] - com[0] + axes[0] * bx + axes[1] * by + axes[2] * bz,
-        place[1] - com[1] + axes[3] * bx + axes[4] * by + axes[5] * bz,
+        xpos[0] - com[0] + axes[0] * rx + axes[1] * ry + axes[2] * rz,
+        xpos[1] - com[1] + axes[3] * rx + axes[4] * ry + axes[5] * rz,
         height - com[2],
     )
 
 
 @njit
-def wet_part(table: Floats, up: Three, depth: float) -> tuple[float, Three]:
-    """The submerged share of a body, and the centre of that part from the reference point [m].
+def submerged_part(table: Floats, up: Three, depth: float) -> tuple[float, Three]:
+    """Return the submerged fraction of a body, and its centre from the reference point [m].
 
     Args:
-        table: the body's.
+        table: the body's table.
         up: the vertical in the axes of the body.
-        depth: of the reference point below the surface [m].
+        depth: the depth of the reference point below the surface [m].
     """
-    x, y, z = table[CENTRE], table[CENTRE + 1], table[CENTRE + 2]
+    x, y, z = table[c.CENTRE], table[c.CENTRE + 1], table[c.CENTRE + 2]
     depth = depth - (up[0] * x + up[1] * y + up[2] * z)
-    if depth >= table[REACH]:
+    if depth >= table[c.REACH]:
         return 1.0, (x, y, z)
-    wet, cx, cy, cz = submerged(
-        table[SHAPE], table[SIZE], table[SIZE + 1], table[SIZE + 2], up[0], up[1], up[2], depth
-    )
-    return wet, (x + cx, y + cy, z + cz)
+    fraction, cx, cy, cz = compute_submersion(
+        table[c.SHAPE], table[c.SIZE], table[c.SIZE + 1], table[c.SIZE + 2],
+        up[0], up[1], up[2], depth,
+    )  # fmt: skip
+    return fraction, (x + cx, y + cy, z + cz)
 
 
 @njit
-def entered(table: Floats, up: Three, depth: float, wet: float, nu: Six, step: float) -> float:
-    """What share of the wet part has come into the water within a step.
+def entry(table: Floats, up: Three, depth: float, fraction: float, nu: Six, step: float) -> float:
+    """Return the share of the submerged part that has entered the water within a step.
 
     Args:
-        table: the body's.
+        table: the body's table.
         up: the vertical in the axes of the body.
-        depth: of the reference point below the surface [m].
-        wet: the submerged share of the body.
-        nu: its twist relative to the water, which carried it from where it was.
+        depth: the depth of the reference point below the surface [m].
+        fraction: the submerged fraction of the body.
+        nu: the twist relative to the water during the step.
         step: the length of the step [s].
     """
     a, b, c = up
     u, v, w, p, q, r = nu
     x, y, z = a - step * (b * r - c * q), b - step * (c * p - a * r), c - step * (a * q - b * p)
     size = math.sqrt(x * x + y * y + z * z)
-    before, _ = wet_part(
+    previous_fraction, _ = submerged_part(
         table, (x / size, y / size, z / size), depth + step * (a * u + b * v + c * w)
     )
-    return max(wet - before, 0.0) / wet
+    return max(fraction - previous_fraction, 0.0) / fraction
 
 
 @njit
-def take_along(force: Six, momentum: Six, rate: float) -> Six:
-    """A force less that on a body whose added mass grows at a rate [1/s]."""
+def subtract_momentum_rate(force: Six, momentum: Six, rate: float) -> Six:
+    """Return a force less that on a body whose added mass grows at a rate [1/s]."""
     return (
         force[0] - rate * momentum[0], force[1] - rate * momentum[1],
         force[2] - rate * momentum[2], force[3] - rate * momentum[3],
@@ -146,11 +131,11 @@ def take_along(force: Six, momentum: Six, rate: float) -> Six:
 
 @njit
 def relative_twist(axes: Floats, lever: Three, twist: Floats, water: Floats) -> Six:
-    r"""The twist :math:`\nu_r` relative to the water.
+    r"""Return the twist :math:`\nu_r` relative to the water.
 
     Args:
         axes: world_from_body.
-        lever: of the reference point.
+        lever: the lever to the reference point.
         twist: rotational, then translational part at the origin of the sums, world axes.
         water: the body's row of the water.
     """
@@ -162,24 +147,24 @@ def relative_twist(axes: Floats, lever: Three, twist: Floats, water: Floats) -> 
         twist[4] + wz * rx - wx * rz - water[1],
         twist[5] + wx * ry - wy * rx - water[2],
     )
-    p, q, r = to_body(axes, wx - water[TURN], wy - water[TURN + 1], wz - water[TURN + 2])
+    p, q, r = to_body(axes, wx - water[c.OMEGA], wy - water[c.OMEGA + 1], wz - water[c.OMEGA + 2])
     return u, v, w, p, q, r
 
 
 @njit
-def known_rate(axes: Floats, lever: Three, bias: Six, water: Floats, omega: Three) -> Six:
-    r"""The part of :math:`\dot\nu_r` that is known before the step is solved.
+def bias_acceleration(axes: Floats, lever: Three, bias: Six, water: Floats, omega: Three) -> Six:
+    r"""Return the part of :math:`\dot\nu_r` that does not depend on the solution of the step.
 
     .. math:: R^T (\dot J\dot q - \dot v_c) + \omega \times R^T v_c
 
-    with the water's rotation, which counts as steady, in :math:`v_c`.
+    The angular velocity of the water is part of :math:`v_c` and counts as constant.
 
     Args:
         axes: world_from_body.
-        lever: of the reference point.
+        lever: the lever to the reference point.
         bias: :math:`\dot J\dot q` at the origin of the sums, rotational part first, world axes.
         water: the body's row of the water.
-        omega: the body's own rotation, in its axes.
+        omega: the body's angular velocity, in its axes.
     """
     rx, ry, rz = lever
     ax, ay, az = bias[0], bias[1], bias[2]
@@ -190,7 +175,7 @@ def known_rate(axes: Floats, lever: Three, bias: Six, water: Floats, omega: Thre
         bias[5] + ax * ry - ay * rx - water[5],
     )
     cx, cy, cz = to_body(axes, water[0], water[1], water[2])
-    tx, ty, tz = to_body(axes, water[TURN], water[TURN + 1], water[TURN + 2])
+    tx, ty, tz = to_body(axes, water[c.OMEGA], water[c.OMEGA + 1], water[c.OMEGA + 2])
     p, q, r = omega
     dp, dq, dr = to_body(axes, ax, ay, az)
     return (
@@ -201,102 +186,100 @@ def known_rate(axes: Floats, lever: Three, bias: Six, water: Floats, omega: Thre
 
 @njit
 def diagonal_momentum(table: Floats, nu: Six) -> Six:
-    """The momentum of the added mass, of a body whose matrices are diagonal."""
+    """Return the momentum of the added mass of a body with diagonal matrices."""
     return (
-        table[ADDED] * nu[0], table[ADDED + 7] * nu[1], table[ADDED + 14] * nu[2],
-        table[ADDED + 21] * nu[3], table[ADDED + 28] * nu[4], table[ADDED + 35] * nu[5],
+        table[c.M_A] * nu[0], table[c.M_A + 7] * nu[1], table[c.M_A + 14] * nu[2],
+        table[c.M_A + 21] * nu[3], table[c.M_A + 28] * nu[4], table[c.M_A + 35] * nu[5],
     )  # fmt: skip
 
 
 @njit
-def paces(table: Floats, nu: Six) -> Six:
-    """The speeds that go with each component in the quadratic drag; see `BodyHydrodynamics`."""
+def drag_speeds(table: Floats, nu: Six) -> Six:
+    """Return the speed s of each component in the quadratic drag; see `BodyHydrodynamics`."""
     u, v, w, p, q, r = nu
-    law = table[LAW]
-    if law == BY_SPEED:
+    law = table[c.LAW]
+    if law == c.DRAG_BY_SPEED:
         speed, spin = math.sqrt(u * u + v * v + w * w), math.sqrt(p * p + q * q + r * r)
         return speed, speed, speed, spin, spin, spin
-    a, b, c, d, e, f = abs(u), abs(v), abs(w), abs(p), abs(q), abs(r)
-    if law == ABOUT_X:
-        b, e = math.sqrt(v * v + w * w), math.sqrt(q * q + r * r)
-        return a, b, b, d, e, e
-    if law == ABOUT_Y:
-        a, d = math.sqrt(u * u + w * w), math.sqrt(p * p + r * r)
-        return a, b, a, d, e, d
-    if law == ABOUT_Z:
-        a, d = math.sqrt(u * u + v * v), math.sqrt(p * p + q * q)
-        return a, a, c, d, d, f
-    return a, b, c, d, e, f
+    x, y, z, d, e, f = abs(u), abs(v), abs(w), abs(p), abs(q), abs(r)
+    if law == c.DRAG_ABOUT_X:
+        y, e = math.sqrt(v * v + w * w), math.sqrt(q * q + r * r)
+        return x, y, y, d, e, e
+    if law == c.DRAG_ABOUT_Y:
+        x, d = math.sqrt(u * u + w * w), math.sqrt(p * p + r * r)
+        return x, y, x, d, e, d
+    if law == c.DRAG_ABOUT_Z:
+        x, d = math.sqrt(u * u + v * v), math.sqrt(p * p + q * q)
+        return x, x, z, d, d, f
+    return x, y, z, d, e, f
 
 
 @njit
-def _slope(table: Floats, i: int, speed: float, pace: float) -> float:
-    """Derivative of the drag of a component: linear + quadratic (s + u^2 / s)."""
-    own = abs(speed)
-    grows = 2.0 * own if pace == own else pace + own * own / pace
-    slope: float = table[LINEAR + 7 * i] + table[QUADRATIC + 7 * i] * grows
+def _drag_slope(table: Floats, i: int, speed: float, s: float) -> float:
+    """Return the derivative of a component's drag: linear + quadratic (s + u^2 / s)."""
+    u = abs(speed)
+    rise = 2.0 * u if s == u else s + u * u / s
+    slope: float = table[c.LINEAR + 7 * i] + table[c.QUADRATIC + 7 * i] * rise
     return slope
 
 
 @njit
-def slopes(table: Floats, nu: Six, pace: Six) -> Six:
-    """Derivative of the drag of each component."""
+def drag_slopes(table: Floats, nu: Six, s: Six) -> Six:
+    """Return the derivative of the drag of each component."""
     return (
-        _slope(table, 0, nu[0], pace[0]), _slope(table, 1, nu[1], pace[1]),
-        _slope(table, 2, nu[2], pace[2]), _slope(table, 3, nu[3], pace[3]),
-        _slope(table, 4, nu[4], pace[4]), _slope(table, 5, nu[5], pace[5]),
+        _drag_slope(table, 0, nu[0], s[0]), _drag_slope(table, 1, nu[1], s[1]),
+        _drag_slope(table, 2, nu[2], s[2]), _drag_slope(table, 3, nu[3], s[3]),
+        _drag_slope(table, 4, nu[4], s[4]), _drag_slope(table, 5, nu[5], s[5]),
     )  # fmt: skip
 
 
 @njit
-def diagonal_force(table: Floats, nu: Six, rate: Six, pace: Six, slope: Six, step: float) -> Six:
-    r"""Force of diagonal added mass and drag: :math:`-(M_A + h D')\dot\nu - D(\nu)\,\nu`.
+def diagonal_force(table: Floats, nu: Six, rate: Six, s: Six, slope: Six, step: float) -> Six:
+    r"""Return the force :math:`-(M_A + h D')\dot\nu - D(\nu)\,\nu` of diagonal matrices.
 
-    Drag is linear over a step, so that it answers to what is known of the rate as to the rest.
+    Drag is linear over a step: it depends on the known part of the rate as on the unknown one.
     """
     return (
-        _axis_force(table, 0, nu[0], rate[0], pace[0], step * slope[0]),
-        _axis_force(table, 1, nu[1], rate[1], pace[1], step * slope[1]),
-        _axis_force(table, 2, nu[2], rate[2], pace[2], step * slope[2]),
-        _axis_force(table, 3, nu[3], rate[3], pace[3], step * slope[3]),
-        _axis_force(table, 4, nu[4], rate[4], pace[4], step * slope[4]),
-        _axis_force(table, 5, nu[5], rate[5], pace[5], step * slope[5]),
+        _axis_force(table, 0, nu[0], rate[0], s[0], step * slope[0]),
+        _axis_force(table, 1, nu[1], rate[1], s[1], step * slope[1]),
+        _axis_force(table, 2, nu[2], rate[2], s[2], step * slope[2]),
+        _axis_force(table, 3, nu[3], rate[3], s[3], step * slope[3]),
+        _axis_force(table, 4, nu[4], rate[4], s[4], step * slope[4]),
+        _axis_force(table, 5, nu[5], rate[5], s[5], step * slope[5]),
     )
 
 
 @njit
-def _axis_force(
-    table: Floats, i: int, speed: float, rate: float, pace: float, change: float
-) -> float:
-    drag = (table[LINEAR + 7 * i] + table[QUADRATIC + 7 * i] * pace) * speed
-    force: float = -(table[ADDED + 7 * i] + change) * rate - drag
+def _axis_force(table: Floats, i: int, speed: float, rate: float, s: float, change: float) -> float:
+    drag = (table[c.LINEAR + 7 * i] + table[c.QUADRATIC + 7 * i] * s) * speed
+    force: float = -(table[c.M_A + 7 * i] + change) * rate - drag
     return force
 
 
 @njit
 def full_force(
-    table: Floats, nu: Six, rate: Six, step: float, work: Floats, at: int
+    table: Floats, nu: Six, rate: Six, step: float, work: Floats, start: int
 ) -> tuple[Six, Six]:
-    """The same of a body with full matrices: force, and momentum of the added mass.
+    """Return force and momentum of the added mass of a body with full matrices.
 
-    Leaves added mass + step times the slope of the drag (its symmetric part), (6, 6), in ``work``
-    from ``at`` on.
+    It writes added mass + step times the slope of the drag (its symmetric part), (6, 6), to
+    ``work`` from ``start`` on.
     """
     surge = abs(nu[0])
     for i in range(6):
         force, momentum = 0.0, 0.0
         for j in range(6):
-            added = table[ADDED + 6 * i + j]
-            linear = table[LINEAR + 6 * i + j] + table[LIFT + 6 * i + j] * surge
-            steep = table[QUADRATIC + 6 * i + j] * abs(nu[j])
-            mirrored = table[LINEAR + 6 * j + i] + table[LIFT + 6 * j + i] * surge
-            mirrored += 2.0 * table[QUADRATIC + 6 * j + i] * abs(nu[i])
-            slope = 0.5 * (linear + 2.0 * steep + mirrored)
-            work[at + 6 * i + j] = added + step * slope
-            momentum += added * nu[j]
-            force -= work[at + 6 * i + j] * rate[j] + (linear + steep) * nu[j]
-        work[at + 36 + i], work[at + 42 + i] = force, momentum
-    f, m = at + 36, at + 42
+            added_mass = table[c.M_A + 6 * i + j]
+            linear = table[c.LINEAR + 6 * i + j] + table[c.LIFT + 6 * i + j] * surge
+            quadratic = table[c.QUADRATIC + 6 * i + j] * abs(nu[j])
+            transpose = table[c.LINEAR + 6 * j + i] + table[c.LIFT + 6 * j + i] * surge
+            transpose += 2.0 * table[c.QUADRATIC + 6 * j + i] * abs(nu[i])
+            slope = 0.5 * (linear + 2.0 * quadratic + transpose)
+            work[start + 6 * i + j] = added_mass + step * slope
+            momentum += added_mass * nu[j]
+            force -= work[start + 6 * i + j] * rate[j] + (linear + quadratic) * nu[j]
+        work[start + 36 + i], work[start + 42 + i] = force, momentum
+    f, m = start + 36, start + 42
     return (
         (work[f], work[f + 1], work[f + 2], work[f + 3], work[f + 4], work[f + 5]),
         (work[m], work[m + 1], work[m + 2], work[m + 3], work[m + 4], work[m + 5]),
@@ -305,9 +288,9 @@ def full_force(
 
 @njit
 def coriolis(nu: Six, omega: Three, momentum: Six) -> Six:
-    r"""Coriolis force of the added mass, :math:`C_A(\nu)\,\nu` (Kirchhoff).
+    r"""Return the Coriolis force of the added mass, :math:`C_A(\nu)\,\nu` (Kirchhoff).
 
-    The axes turn with the body's own rotation :math:`\omega`, in still water that of the twist.
+    The axes rotate with the body at :math:`\omega`, in still water that of the twist.
 
     With the momentum (p, h): force :math:`\omega \times p`, torque
     :math:`\omega \times h + v \times p`.
@@ -326,26 +309,26 @@ def coriolis(nu: Six, omega: Three, momentum: Six) -> Six:
 
 
 @njit
-def buoyancy(displaced: float, water: Floats, gravity: Floats, weight: float) -> Three:
-    """The pressure of still and of accelerating water on a displaced mass [N], world axes."""
+def buoyancy(mass: float, water: Floats, gravity: Floats, gravity_scale: float) -> Three:
+    """Return the pressure force of still and of accelerating water on a mass [N], world axes."""
     return (
-        displaced * (water[3] - weight * gravity[0]),
-        displaced * (water[4] - weight * gravity[1]),
-        displaced * (water[5] - weight * gravity[2]),
+        mass * (water[3] - gravity_scale * gravity[0]),
+        mass * (water[4] - gravity_scale * gravity[1]),
+        mass * (water[5] - gravity_scale * gravity[2]),
     )
 
 
 @njit
-def move_wrench(axes: Floats, lever: Three, wet: float, force: Six) -> Six:
-    """A wrench of the body at the origin of the sums: torque, then force, world axes."""
+def move_wrench(axes: Floats, lever: Three, fraction: float, force: Six) -> Six:
+    """Return a wrench of the body at the origin of the sums: torque, then force, world axes."""
     rx, ry, rz = lever
     x, y, z = to_world(axes, force[0], force[1], force[2])
     tx, ty, tz = to_world(axes, force[3], force[4], force[5])
-    x, y, z = wet * x, wet * y, wet * z
+    x, y, z = fraction * x, fraction * y, fraction * z
     return (
-        wet * tx + ry * z - rz * y,
-        wet * ty + rz * x - rx * z,
-        wet * tz + rx * y - ry * x,
+        fraction * tx + ry * z - rz * y,
+        fraction * ty + rz * x - rx * z,
+        fraction * tz + rx * y - ry * x,
         x,
         y,
         z,
@@ -353,18 +336,18 @@ def move_wrench(axes: Floats, lever: Three, wet: float, force: Six) -> Six:
 
 
 @njit
-def add_lift(
-    axes: Floats, lever: Three, centre: Three, wrench: Six, lift: Three, out: Floats, to: int
+def add_wrench(
+    axes: Floats, lever: Three, centre: Three, wrench: Six, force: Three, out: Floats, k: int
 ) -> None:
-    """Add a wrench and a force at ``centre`` (from the reference point) to ``out``."""
+    """Add a wrench, and a force at ``centre`` (from the reference point), to ``out``."""
     x, y, z = centre
-    fx, fy, fz = lift
+    fx, fy, fz = force
     cx = lever[0] + axes[0] * x + axes[1] * y + axes[2] * z
     cy = lever[1] + axes[3] * x + axes[4] * y + axes[5] * z
     cz = lever[2] + axes[6] * x + axes[7] * y + axes[8] * z
-    out[to] += wrench[0] + cy * fz - cz * fy
-    out[to + 1] += wrench[1] + cz * fx - cx * fz
-    out[to + 2] += wrench[2] + cx * fy - cy * fx
-    out[to + 3] += wrench[3] + fx
-    out[to + 4] += wrench[4] + fy
-    out[to + 5] += wrench[5] + fz
+    out[k] += wrench[0] + cy * fz - cz * fy
+    out[k + 1] += wrench[1] + cz * fx - cx * fz
+    out[k + 2] += wrench[2] + cx * fy - cy * fx
+    out[k + 3] += wrench[3] + fx
+    out[k + 4] += wrench[4] + fy
+    out[k + 5] += wrench[5] + fz

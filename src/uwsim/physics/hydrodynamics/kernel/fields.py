@@ -1,6 +1,6 @@
-"""Memory layout of the kernel: fields of MuJoCo's structs, and rows of its own.
+"""The memory layout of the kernel: fields of MuJoCo's structs, and rows of its own.
 
-A field's number here is its place among the offsets that `layout.offsets` gives.
+A field's number here is its index in the offsets that `layout.offsets` returns.
 """
 
 from __future__ import annotations
@@ -72,9 +72,9 @@ BIAS_FORCE = _NAMES.index("qfrc_bias")
 SPRING = _NAMES.index("qfrc_spring")
 DAMPER = _NAMES.index("qfrc_damper")
 ACTUATOR = _NAMES.index("qfrc_actuator")
-AWAKE = _NAMES.index("tree_awake")
-ACCELERATION = _NAMES.index("qacc")
-UNCONSTRAINED = _NAMES.index("qacc_smooth")
+TREE_AWAKE = _NAMES.index("tree_awake")
+QACC = _NAMES.index("qacc")
+QACC_SMOOTH = _NAMES.index("qacc_smooth")
 N_ROWS = _NAMES.index("nefc")
 ITERATIONS = _NAMES.index("solver_niter")
 N_CONTACTS = _NAMES.index("ncon")
@@ -83,12 +83,12 @@ CONTACT_POINT, CONTACT_AXES, CONTACT_GEOMS, CONTACT_SIZE = range(
     len(_NAMES), len(_NAMES) + len(CONTACT_FIELDS) + 1
 )
 
-# a row of the kernel's own array, one a body; wrenches and twists have their rotational part
+# a row of the kernel's own array for each body; wrenches and twists have their rotational part
 # first, as in MuJoCo
-BIAS, WRENCH, FF, FT, TT, MOMENTUM, TOUCHED, ROW = 0, 6, 12, 18, 27, 33, 39, 40
+BIAS, WRENCH, FF, FT, TT, MOMENTUM, IS_ACTIVE, ROW = 0, 6, 12, 18, 27, 33, 39, 40
 # FF: force by velocity, symmetric (xx xy xz yy yz zz); FT: force by rotation (3, 3), row by row;
 # TT: torque by rotation, symmetric
 SCRATCH = 60
-"""Numbers behind the rows, for full matrices."""
+"""The numbers behind the rows, for full matrices."""
 DRAG = 21
-"""Behind them for each tree: of FF, FT and TT of the whole what is implicit drag, no inertia."""
+"""The numbers behind these for each tree: the implicit drag in FF, FT and TT of the tree."""

@@ -1,20 +1,20 @@
 r"""Fins: control surfaces, with lift and drag over the angle of attack.
 
-A foil of the area S moves through the water at V, seen along its span; its leading edge is turned
-by :math:`\alpha` out of V. Across V, to the side of the leading edge, and against V it feels
+A foil of the area S moves through the water at V, across its span. The angle of attack
+:math:`\alpha` is from V to its leading edge. Lift acts across V, to that side, and drag against V:
 
 .. math:: L = \tfrac12 \rho S V^2 C_L(\alpha), \qquad D = \tfrac12 \rho S V^2 C_D(\alpha)
 
-with the velocity of its own place, so that it damps a vehicle's turns by itself. The coefficients
+The velocity is that at the foil, which therefore damps rotations of the vehicle. The coefficients
 are a table, or below the stall
 
 .. math:: C_L = a \alpha, \qquad C_D = C_{D0} + k C_L^2
 
-and beyond it, over `FADE`, those of a plate that stands across the flow (Hoerner, *Fluid-Dynamic
-Drag*, ch. 3): :math:`C_L = C_N \sin\alpha \cos\alpha`, :math:`C_D = C_{D0} + C_N \sin^2\alpha`.
+and beyond it, over `FADE_ANGLE`, those of a plate across the flow (Hoerner, *Fluid-Dynamic Drag*,
+ch. 3): :math:`C_L = C_N \sin\alpha \cos\alpha`, :math:`C_D = C_{D0} + C_N \sin^2\alpha`.
 
-Its servo turns it towards the angle that is wanted, with a lag and no faster than its rate. The
-site of the actuator is the foil at the angle 0: x along the chord, z along the span.
+Its servo turns it to the target angle, with a lag and a greatest rate. The site of the actuator is
+the foil at the angle 0: x along the chord, z along the span.
 
 Not modelled: the moment about the span, added mass of a foil, hysteresis of the stall, the wake of
 one fin or of a propeller on another.
@@ -33,97 +33,82 @@ from ....base.numerics.memory import (
     read_int64,
     view_doubles,
 )
-from ..columns import (
-    AREA,
-    COEFFICIENTS,
-    DRAG,
-    INDUCED,
-    IS_EVEN,
-    LAG,
-    MAX_ANGLE,
-    MIN_ANGLE,
-    N_COEFFICIENTS,
-    PLATE,
-    RATE,
-    SLOPE,
-    STALL,
-    WATER_COLUMNS,
-)
+from .. import columns as c
 from . import fields as f
-from .flow import height_of, push_at, site_of, velocity_at, water_density, wet_share
+from .flow import actuator_site, add_force, site_height, site_velocity, submersion, water_density
 from .stratification import density_ratio
-from .thrusters import share_of_lag
+from .thrusters import lag_share
 
-FADE = math.radians(10.0)
-"""From the stall until a foil is but a plate [rad]."""
+FADE_ANGLE = math.radians(10.0)
+"""The angle beyond the stall at which a foil is a plate [rad]."""
 _RK4 = 1  # mjINT_RK4
 
 
 @njit
-def add_fin(m: int, d: int, at: Ints64, i: int, table: Floats, ahead: float, work: Floats) -> None:
-    """Add the force of a fin, by its angle some time ahead, and set the speed of its servo.
+def add_fin(m: int, d: int, o: Ints64, i: int, table: Floats, dt: float, work: Floats) -> None:
+    """Add the force of a fin, by its angle a time ``dt`` later, and set the rate of its servo.
 
     Args:
-        m: address of the model.
-        d: address of the data.
-        at: offsets of the fields.
-        i: number of the actuator.
-        table: its row.
-        ahead: the time [s].
+        m: the address of the model.
+        d: the address of the data.
+        o: the offsets of the fields.
+        i: the number of the actuator.
+        table: the fin's row.
+        dt: the time [s].
         work: the rows of the bodies.
     """
-    nbody, step = read_int64(m + at[f.NBODY]), read_double(m + at[f.TIMESTEP])
-    wanted = read_double(read_int64(d + at[f.USERDATA]) + 8 * (WATER_COLUMNS * nbody + i))
+    nbody, step = read_int64(m + o[f.NBODY]), read_double(m + o[f.TIMESTEP])
+    target = read_double(read_int64(d + o[f.USERDATA]) + 8 * (c.WATER_COLUMNS * nbody + i))
     angle = read_double(
-        read_int64(d + at[f.ACT]) + 8 * read_int32(read_int64(m + at[f.ACTUATOR_ACT]) + 4 * i)
+        read_int64(d + o[f.ACT]) + 8 * read_int32(read_int64(m + o[f.ACTUATOR_ACT]) + 4 * i)
     )
-    is_rate = read_int32(m + at[f.INTEGRATOR]) == _RK4  # its stages integrate the rate of a time
-    speed = servo_speed(table, angle, wanted, step, is_rate)
-    control = read_int32(read_int64(m + at[f.ACTUATOR_CTRL]) + 4 * i)
-    view_doubles(read_int64(d + at[f.CTRL]) + 8 * control, 1)[0] = speed
-    site, body = site_of(m, at, i)
-    wet = wet_share(m, d, at, site, body, 0.5 * math.sqrt(table[AREA]))
-    if wet <= 0.0:
+    is_rate = read_int32(m + o[f.INTEGRATOR]) == _RK4  # its stages integrate the rate of a time
+    speed = servo_speed(table, angle, target, step, is_rate)
+    control = read_int32(read_int64(m + o[f.ACTUATOR_CTRL]) + 4 * i)
+    view_doubles(read_int64(d + o[f.CTRL]) + 8 * control, 1)[0] = speed
+    site, body = actuator_site(m, o, i)
+    fraction = submersion(m, d, o, site, body, 0.5 * math.sqrt(table[c.AREA]))
+    if fraction <= 0.0:
         return
-    u, v, _ = velocity_at(m, d, at, site, body)
-    density = water_density(m, at) * density_ratio(m, at, height_of(d, at, site))
-    x, y = foil_force(table, angle + ahead * speed, u, v, wet * density)
-    push_at(m, d, at, site, body, (x, y, 0.0), 0.0, work)
+    u, v, _ = site_velocity(m, d, o, site, body)
+    density = water_density(m, o) * density_ratio(m, o, site_height(d, o, site))
+    x, y = foil_force(table, angle + dt * speed, u, v, fraction * density)
+    add_force(m, d, o, site, body, (x, y, 0.0), 0.0, work)
 
 
 @njit
-def servo_speed(table: Floats, angle: float, wanted: float, step: float, is_rate: bool) -> float:
-    """Compute how fast a fin turns towards the angle that is wanted [rad/s].
+def servo_speed(table: Floats, angle: float, target: float, step: float, is_rate: bool) -> float:
+    """Return the angular velocity of a fin towards its target angle [rad/s].
 
     Args:
         table: the fin's row.
-        angle: its present angle [rad].
-        wanted: the angle that is wanted [rad].
-        step: length of a step [s].
-        is_rate: whether the speed is that of the moment, not the mean of the step; a lag shorter
-            than a step then counts as a step, else the angle would overshoot.
+        angle: the present angle [rad].
+        target: the target angle [rad].
+        step: the length of a step [s].
+        is_rate: true for the present rate instead of the mean of the step; a lag shorter than a
+            step then counts as a step, else the angle would overshoot.
     """
-    wanted = min(max(wanted, table[MIN_ANGLE]), table[MAX_ANGLE])
+    target = min(max(target, table[c.MIN_ANGLE]), table[c.MAX_ANGLE])
     if is_rate:
-        speed = (wanted - angle) / max(table[LAG], step)
+        speed = (target - angle) / max(table[c.LAG], step)
     else:
-        speed = share_of_lag(table[LAG], step) * (wanted - angle) / step
-    limited: float = min(max(speed, -table[RATE]), table[RATE])
-    return limited
+        speed = lag_share(table[c.LAG], step) * (target - angle) / step
+    limited_speed: float = min(max(speed, -table[c.RATE]), table[c.RATE])
+    return limited_speed
 
 
 @njit
 def foil_force(
     table: Floats, angle: float, u: float, v: float, density: float
 ) -> tuple[float, float]:
-    """Force on a foil along its chord at the angle 0 and across it [N].
+    """Return the force on a foil along its chord at the angle 0, and across it [N].
 
     Args:
         table: the fin's row.
-        angle: of the fin [rad].
-        u: its velocity through the water along that chord [m/s].
-        v: across it, to where the leading edge turns [m/s].
-        density: of the water [kg/m3].
+        angle: the angle of the fin [rad].
+        u: the velocity through the water along that chord [m/s].
+        v: the velocity across it, to the side to which the leading edge turns [m/s].
+        density: the density of the water [kg/m3].
     """
     speed = math.sqrt(u * u + v * v)
     if speed == 0.0:
@@ -132,39 +117,39 @@ def foil_force(
     if abs(attack) > math.pi:
         attack -= math.copysign(2.0 * math.pi, attack)
     lift, drag = coefficients(table, attack)
-    size = 0.5 * density * table[AREA] * speed
+    size = 0.5 * density * table[c.AREA] * speed
     return -size * (lift * v + drag * u), size * (lift * u - drag * v)
 
 
 @njit
 def coefficients(table: Floats, angle: float) -> tuple[float, float]:
-    """Coefficients of lift and drag at an angle of attack from -pi to pi."""
-    if table[N_COEFFICIENTS] > 0.0:
-        return _from_table(table, angle)
+    """Return the coefficients of lift and drag at an angle of attack from -pi to pi."""
+    if table[c.N_COEFFICIENTS] > 0.0:
+        return _interpolate(table, angle)
     size = abs(angle)
-    attached = table[SLOPE] * min(size, table[STALL])
-    drag = table[DRAG] + table[INDUCED] * attached * attached
-    if size <= table[STALL]:
-        return table[SLOPE] * angle, drag
-    share = min((size - table[STALL]) / FADE, 1.0)
-    across, along = math.sin(size), math.cos(size)
-    plate = table[PLATE] * across
-    lift = attached + share * (plate * along - attached)
-    return (lift if angle > 0.0 else -lift), drag + share * (table[DRAG] + plate * across - drag)
+    attached_lift = table[c.SLOPE] * min(size, table[c.STALL])
+    drag = table[c.DRAG] + table[c.INDUCED_DRAG] * attached_lift * attached_lift
+    if size <= table[c.STALL]:
+        return table[c.SLOPE] * angle, drag
+    share = min((size - table[c.STALL]) / FADE_ANGLE, 1.0)
+    sine, cosine = math.sin(size), math.cos(size)
+    plate = table[c.PLATE] * sine
+    lift = attached_lift + share * (plate * cosine - attached_lift)
+    return (lift if angle > 0.0 else -lift), drag + share * (table[c.DRAG] + plate * sine - drag)
 
 
 @njit
-def _from_table(table: Floats, angle: float) -> tuple[float, float]:
-    """Linear between the rows, and as the last row beyond it."""
-    is_even = table[IS_EVEN] != 0.0
+def _interpolate(table: Floats, angle: float) -> tuple[float, float]:
+    """Return the coefficients between the rows of the table, and of the last row beyond it."""
+    is_even = table[c.IS_EVEN] != 0.0
     x = abs(angle) if is_even else angle
-    n = int(table[N_COEFFICIENTS])
+    n = int(table[c.N_COEFFICIENTS])
     k = 1
-    while k < n - 1 and table[COEFFICIENTS + 3 * k] < x:
+    while k < n - 1 and table[c.COEFFICIENTS + 3 * k] < x:
         k += 1
-    first, second = COEFFICIENTS + 3 * (k - 1), COEFFICIENTS + 3 * k
-    share = (x - table[first]) / (table[second] - table[first])
+    i, j = c.COEFFICIENTS + 3 * (k - 1), c.COEFFICIENTS + 3 * k
+    share = (x - table[i]) / (table[j] - table[i])
     share = min(max(share, 0.0), 1.0)
-    lift = table[first + 1] + share * (table[second + 1] - table[first + 1])
-    drag = table[first + 2] + share * (table[second + 2] - table[first + 2])
+    lift = table[i + 1] + share * (table[j + 1] - table[i + 1])
+    drag = table[i + 2] + share * (table[j + 2] - table[i + 2])
     return (-lift if is_even and angle < 0.0 else lift), drag

@@ -1,9 +1,8 @@
 """Offsets of the fields of MuJoCo's C structs, computed from `mujoco.introspect`.
 
-The kernel gets nothing but the addresses of ``mjModel`` and ``mjData``. The offset of every field
-it reads follows from the declarations by C's rules of alignment; `check` holds the offsets
-against the live arrays that the Python bindings give out, so that a change of MuJoCo is refused,
-never misread.
+The kernel receives only the addresses of ``mjModel`` and ``mjData``. The offset of every field that
+it reads follows from the declarations by C's rules of alignment. `check` compares the offsets with
+the arrays of the Python bindings: another layout is an error, and is never misread.
 """
 
 from __future__ import annotations
@@ -30,7 +29,7 @@ MODEL_FIELDS = (
     "actuator_user", "actuator_trnid", "actuator_actadr", "actuator_ctrladr", "actuator_ctrlrange",
     "site_bodyid",
 )  # fmt: skip
-"""What the kernel reads of the model."""
+"""The fields of the model that the kernel reads."""
 
 DATA_FIELDS = (
     "qpos", "qvel", "act", "ctrl", "userdata", "xpos", "xmat", "site_xpos", "site_xmat",
@@ -38,13 +37,13 @@ DATA_FIELDS = (
     "qfrc_passive", "qfrc_applied", "qfrc_bias", "qfrc_spring", "qfrc_damper", "qfrc_actuator",
     "tree_awake", "qacc", "qacc_smooth", "nefc", "solver_niter", "ncon", "contact",
 )  # fmt: skip
-"""What the kernel reads and writes of the data."""
+"""The fields of the data that the kernel reads and writes."""
 
 CONTACT_FIELDS = ("pos", "frame", "geom")
 """The fields of a contact that the kernel reads."""
 
-_INSIDE = ("opt.", "nefc", "solver_niter", "ncon")
-"""Beginnings of the names of numbers of 32 bits, and of arrays that lie in the struct itself."""
+_STRUCT_NAMES = ("opt.", "nefc", "solver_niter", "ncon")
+"""The beginnings of the names of 32-bit numbers, and of arrays in the struct itself."""
 
 _SIZES = {
     "char": 1, "mjtByte": 1, "mjtBool": 1, "int": 4, "float": 4, "mjtNum": 8, "double": 8,
@@ -59,53 +58,55 @@ class MujocoChanged(UwsimError):
 def offsets() -> npt.NDArray[np.int64]:
     """Return the byte offsets of all fields, (n,).
 
-    Those of `MODEL_FIELDS` in mjModel, `DATA_FIELDS` in mjData and `CONTACT_FIELDS` in mjContact,
-    and the size of mjContact.
+    These are those of `MODEL_FIELDS` in mjModel, `DATA_FIELDS` in mjData and `CONTACT_FIELDS` in
+    mjContact, and the size of mjContact.
     """
     model, data = _fields("mjModel"), _fields("mjData")
     option = _fields("mjOption")
-    found = []
+    numbers = []
     for name in MODEL_FIELDS:
         head, _, tail = name.partition(".")
-        found.append(
+        numbers.append(
             _find(model, "mjModel", head) + (_find(option, "mjOption", tail) if tail else 0)
         )
-    found += [_find(data, "mjData", name) for name in DATA_FIELDS]
+    numbers += [_find(data, "mjData", name) for name in DATA_FIELDS]
     contact: dict[str, int] = {}
     size, _ = _walk(structs.STRUCTS["mjContact"].fields, contact)
-    found += [*(_find(contact, "mjContact", name) for name in CONTACT_FIELDS), size]
-    return np.array(found, dtype=np.int64)
+    numbers += [*(_find(contact, "mjContact", name) for name in CONTACT_FIELDS), size]
+    return np.array(numbers, dtype=np.int64)
 
 
-def check(model: mujoco.MjModel, data: mujoco.MjData, at: npt.NDArray[np.int64]) -> None:
+def check(model: mujoco.MjModel, data: mujoco.MjData, offsets: npt.NDArray[np.int64]) -> None:
     """Compare the offsets with live arrays and numbers.
 
     Args:
         model: the model.
         data: its state, with a contact.
-        at: the offsets.
+        offsets: the offsets.
 
     Raises:
         MujocoChanged: a pointer or a number is not where it should be.
     """
     names, n_contact = (*MODEL_FIELDS, *DATA_FIELDS), len(CONTACT_FIELDS) + 1
-    for name, offset in zip(names, at[:-n_contact].tolist(), strict=True):
+    for name, offset in zip(names, offsets[:-n_contact].tolist(), strict=True):
         is_data = name in DATA_FIELDS
-        place = (data if is_data else model)._address + offset
-        live = data if is_data else model
+        address = (data if is_data else model)._address + offset
+        value = data if is_data else model
         for part in name.split("."):
-            live = getattr(live, part)
+            value = getattr(value, part)
         if name == "contact":
-            right = _has_contact_layout(live, _read(place, ctypes.c_uint64), at[-n_contact:])
-        elif isinstance(live, np.ndarray) and name.startswith(_INSIDE):
-            right = live.ctypes.data == place
-        elif isinstance(live, np.ndarray):
-            right = live.size == 0 or live.ctypes.data == _read(place, ctypes.c_uint64)
-        elif isinstance(live, float):
-            right = live == _read(place, ctypes.c_double)
+            right = _has_contact_layout(
+                value, _read(address, ctypes.c_uint64), offsets[-n_contact:]
+            )
+        elif isinstance(value, np.ndarray) and name.startswith(_STRUCT_NAMES):
+            right = value.ctypes.data == address
+        elif isinstance(value, np.ndarray):
+            right = value.size == 0 or value.ctypes.data == _read(address, ctypes.c_uint64)
+        elif isinstance(value, float):
+            right = value == _read(address, ctypes.c_double)
         else:
-            width = ctypes.c_int32 if name.startswith(_INSIDE) else ctypes.c_int64
-            right = int(live) == _read(place, width)
+            width = ctypes.c_int32 if name.startswith(_STRUCT_NAMES) else ctypes.c_int64
+            right = int(value) == _read(address, width)
         if not right:
             raise MujocoChanged(
                 f"MuJoCo {mujoco.__version__} keeps {name!r} elsewhere than its own description "
@@ -114,14 +115,14 @@ def check(model: mujoco.MjModel, data: mujoco.MjData, at: npt.NDArray[np.int64])
 
 
 @cache
-def data_places() -> tuple[dict[str, slice], int]:
-    """The bytes of every field of mjData by its name, and the size of mjData."""
-    places: dict[str, int] = {}
+def data_slices() -> tuple[dict[str, slice], int]:
+    """Return the bytes of every field of mjData by its name, and the size of mjData."""
+    starts: dict[str, int] = {}
     fields = structs.STRUCTS["mjData"].fields
-    size, _ = _walk(fields, places)
+    size, _ = _walk(fields, starts)
     return {
-        each.name: slice(places[each.name], places[each.name] + _size(each.type)[0])
-        for each in fields
+        field.name: slice(starts[field.name], starts[field.name] + _size(field.type)[0])
+        for field in fields
     }, size
 
 
@@ -135,8 +136,8 @@ def _has_contact_layout(contacts: Any, address: int, layout: npt.NDArray[np.int6
     )
 
 
-def _read(place: int, kind: Any) -> Any:
-    return kind.from_address(place).value
+def _read(address: int, kind: Any) -> Any:
+    return kind.from_address(address).value
 
 
 def _find(fields: dict[str, int], struct: str, name: str) -> int:
@@ -149,26 +150,26 @@ def _find(fields: dict[str, int], struct: str, name: str) -> int:
 
 
 def _fields(struct: str) -> dict[str, int]:
-    """Name -> byte offset."""
-    places: dict[str, int] = {}
-    _walk(structs.STRUCTS[struct].fields, places)
-    return places
+    """Return the byte offsets by name."""
+    starts: dict[str, int] = {}
+    _walk(structs.STRUCTS[struct].fields, starts)
+    return starts
 
 
-def _walk(fields: Any, places: dict[str, int]) -> tuple[int, int]:
-    """Size and alignment of a struct; fills ``places``."""
-    end, widest = 0, 1
+def _walk(fields: Any, starts: dict[str, int]) -> tuple[int, int]:
+    """Return size and alignment of a struct; fill ``starts``."""
+    end, max_alignment = 0, 1
     for field in fields:
         size, alignment = _size(field.type)
         end = -(-end // alignment) * alignment
-        places[field.name] = end
+        starts[field.name] = end
         end += size
-        widest = max(widest, alignment)
-    return -(-end // widest) * widest, widest
+        max_alignment = max(max_alignment, alignment)
+    return -(-end // max_alignment) * max_alignment, max_alignment
 
 
 def _size(kind: Any) -> tuple[int, int]:
-    """Size and alignment of a type of `mujoco.introspect`."""
+    """Return size and alignment of a type of `mujoco.introspect`."""
     if hasattr(kind, "fields"):
         return _walk(kind.fields, {})
     if hasattr(kind, "extents"):

@@ -1,19 +1,18 @@
-r"""Coriolis terms of a free body at the midpoint of a step, which conserve its energy.
+r"""The Coriolis terms of a free body at the midpoint of a step, which conserve its energy.
 
-MuJoCo takes them at the start of a step, and with them the matrix of the added mass as it is
-turned then: a light thin body, or one that tumbles, would gain energy at every step. Here they
-are those of the implicit midpoint rule in the axes of the body. With its twist :math:`\nu`, its
-inertia :math:`A` (rigid and added), its momentum :math:`p` and the rate :math:`\delta` of
-:math:`\nu` over a step of length h,
+MuJoCo evaluates them, and the orientation of the added mass, at the start of a step: a light thin
+body, or one that tumbles, would gain energy at every step. Here they are those of the implicit
+midpoint rule in the axes of the body. With its twist :math:`\nu`, its inertia :math:`A` (rigid and
+added), its momentum :math:`p` and the rate :math:`\delta` of :math:`\nu` over a step of length h,
 
 .. math:: S\delta + \tfrac h2\bigl(\delta\times^*(p + \tfrac h2 A\delta) + \nu\times^* A\delta\bigr)
           = G
 
-where :math:`S` is :math:`A` and the drag that is implicit over the step, :math:`G = S\dot\nu` at
-its start, and :math:`\times^*` the cross product of a twist and a momentum, of which drag is no
-part: a needle would spin up about its axis. The rule keeps what is quadratic, energy and the
-lengths of both momenta (Hairer, Lubich, Wanner, *Geometric Numerical Integration*, 2006, IV.2). The
-joints of a body count as held. Twists and wrenches: rotational part first, as in MuJoCo.
+where :math:`S` is :math:`A` plus the drag that is implicit over the step, :math:`G = S\dot\nu` at
+its start, and :math:`\times^*` the cross product of a twist and a momentum, without that of drag,
+which would spin up a needle about its axis. The rule conserves energy and the lengths of both
+momenta (Hairer, Lubich, Wanner, *Geometric Numerical Integration*, 2006, IV.2). The joints of a
+body count as held. Twists and wrenches: rotational part first, as in MuJoCo.
 """
 
 from __future__ import annotations
@@ -23,48 +22,48 @@ import math
 from ....base.numerics.jit import njit
 from ....base.numerics.memory import Floats
 
-INERTIA, TWIST, MOMENTUM, SIDE, RATE, SUM = 0, 36, 42, 48, 54, 60
-"""Places in the numbers of one body: A (6, 6), nu, p, G and, found, delta (6) each, S (6, 6)."""
+INERTIA, TWIST, MOMENTUM, FORCE, RATE, SUM = 0, 36, 42, 48, 54, 60
+"""The indices of the numbers of one body: A (6, 6), nu, p, G, the solution delta, S (6, 6)."""
 _IMAGE, _BASIS, _MATRIX, STEP = 96, 102, 108, 144
 NUMBERS = 150
-"""How many there are, with those for reckoning."""
+"""The number of numbers of one body, with scratch."""
 _ROUNDS, _BOUND_ROUNDS = 16, 8
-_ENOUGH, _FAIR, _SLOW = 1e-14, 1e-12, 1e-4
-"""Energy of a correction in that of the rate: it is the last; it would do; and in that of the
-correction before: the matrix is made anew."""
+_TOLERANCE, _MAX_ERROR, _SLOW_RATIO = 1e-14, 1e-12, 1e-4
+"""The energy of a correction by that of the rate: at which the iteration ends, and which is still
+valid; and by that of the last correction: at which the matrix is computed anew."""
 
 
 @njit
 def solve_rate(b: Floats, h: float) -> None:
     """Find the rate over a step by Newton's method, from the numbers of one body.
 
-    The matrix is that of the first round as long as that leads there fast.
+    The matrix is that of the first round while the iteration converges fast.
     """
     for i in range(6):
         b[RATE + i] = 0.0
         b[_IMAGE + i] = 0.0
-        b[STEP + i] = b[SIDE + i]
+        b[STEP + i] = b[FORCE + i]
     _jacobian(b, h)
     _factorise(b)
-    before, left, size = math.inf, 0.0, 0.0
+    last_correction, correction, energy = math.inf, 0.0, 0.0
     for _ in range(_ROUNDS):
-        left = _solve_lower(b)
+        correction = _solve_lower(b)
         _solve_upper(b)
         for i in range(6):
             b[RATE + i] += b[STEP + i]
-        if left <= _ENOUGH * size:
+        if correction <= _TOLERANCE * energy:
             return
         multiply(b, INERTIA, RATE, _IMAGE)
         multiply(b, SUM, RATE, STEP)
-        size = 0.0
+        energy = 0.0
         for i in range(6):
-            size += b[RATE + i] * b[STEP + i]
-        if left > _SLOW * before:
+            energy += b[RATE + i] * b[STEP + i]
+        if correction > _SLOW_RATIO * last_correction:
             _jacobian(b, h)
             _factorise(b)
         _residual(b, h)
-        before = left
-    if not left <= _FAIR * size:
+        last_correction = correction
+    if not correction <= _MAX_ERROR * energy:
         _bound_rate(b, h)
 
 
@@ -72,9 +71,9 @@ def solve_rate(b: Floats, h: float) -> None:
 def _bound_rate(b: Floats, h: float) -> None:
     r"""Find a rate that gains no energy, where Newton's method finds none.
 
-    A body that turns by more than a radian in a step is lost anyway, but must not gather speed.
-    With the momentum :math:`p + \tfrac h2 A\delta` of the round before the equation is linear,
-    and the cross product does no work on the twist :math:`\nu + \tfrac h2\delta`.
+    The motion of a body that rotates by more than a radian in a step is wrong in any case, but must
+    not gain speed. With the momentum :math:`p + \tfrac h2 A\delta` of the last round the equation
+    is linear, and the cross product does no work on the twist :math:`\nu + \tfrac h2\delta`.
     """
     for i in range(6):
         b[_IMAGE + i] = 0.0
@@ -84,7 +83,7 @@ def _bound_rate(b: Floats, h: float) -> None:
         _subtract_momentum(b, 0.5 * h)
         _factorise(b)
         for i in range(6):
-            b[STEP + i] = b[SIDE + i]
+            b[STEP + i] = b[FORCE + i]
         cross(b, TWIST, _IMAGE, STEP, -0.5 * h)
         substitute(b)
         for i in range(6):
@@ -93,8 +92,8 @@ def _bound_rate(b: Floats, h: float) -> None:
 
 
 @njit
-def multiply(b: Floats, matrix: int, vector: int, to: int) -> None:
-    """The symmetric matrix (6, 6) at ``matrix`` times the six numbers at ``vector``, to ``to``."""
+def multiply(b: Floats, matrix: int, vector: int, k: int) -> None:
+    """Write the symmetric matrix (6, 6) at ``matrix`` times the vector at ``vector`` to ``k``."""
     t0, t1, t2, t3, t4, t5 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for j in range(6):
         x, row = b[vector + j], matrix + 6 * j
@@ -104,12 +103,12 @@ def multiply(b: Floats, matrix: int, vector: int, to: int) -> None:
         t3 += b[row + 3] * x
         t4 += b[row + 4] * x
         t5 += b[row + 5] * x
-    b[to], b[to + 1], b[to + 2], b[to + 3], b[to + 4], b[to + 5] = t0, t1, t2, t3, t4, t5
+    b[k], b[k + 1], b[k + 2], b[k + 3], b[k + 4], b[k + 5] = t0, t1, t2, t3, t4, t5
 
 
 @njit
-def cross(b: Floats, twist: int, momentum: int, to: int, share: float) -> None:
-    """Add ``share`` of twist x* momentum to the six numbers at ``to``."""
+def cross(b: Floats, twist: int, momentum: int, k: int, share: float) -> None:
+    """Add ``share`` of twist x* momentum to the six numbers at ``k``."""
     wx, wy, wz, vx, vy, vz = (
         b[twist], b[twist + 1], b[twist + 2], b[twist + 3], b[twist + 4], b[twist + 5]
     )  # fmt: skip
@@ -117,19 +116,19 @@ def cross(b: Floats, twist: int, momentum: int, to: int, share: float) -> None:
         b[momentum], b[momentum + 1], b[momentum + 2],
         b[momentum + 3], b[momentum + 4], b[momentum + 5],
     )  # fmt: skip
-    b[to] += share * (wy * hz - wz * hy + vy * pz - vz * py)
-    b[to + 1] += share * (wz * hx - wx * hz + vz * px - vx * pz)
-    b[to + 2] += share * (wx * hy - wy * hx + vx * py - vy * px)
-    b[to + 3] += share * (wy * pz - wz * py)
-    b[to + 4] += share * (wz * px - wx * pz)
-    b[to + 5] += share * (wx * py - wy * px)
+    b[k] += share * (wy * hz - wz * hy + vy * pz - vz * py)
+    b[k + 1] += share * (wz * hx - wx * hz + vz * px - vx * pz)
+    b[k + 2] += share * (wx * hy - wy * hx + vx * py - vy * px)
+    b[k + 3] += share * (wy * pz - wz * py)
+    b[k + 4] += share * (wz * px - wx * pz)
+    b[k + 5] += share * (wx * py - wy * px)
 
 
 @njit
 def _residual(b: Floats, h: float) -> None:
-    """What is missing, to ``STEP``, where the sum times the rate is."""
+    """Write the residual to ``STEP``, where the sum times the rate is."""
     for i in range(6):
-        b[STEP + i] = b[SIDE + i] - b[STEP + i]
+        b[STEP + i] = b[FORCE + i] - b[STEP + i]
         b[_BASIS + i] = b[MOMENTUM + i] + 0.5 * h * b[_IMAGE + i]
     cross(b, RATE, _BASIS, STEP, -0.5 * h)
     cross(b, TWIST, _IMAGE, STEP, -0.5 * h)
@@ -137,7 +136,7 @@ def _residual(b: Floats, h: float) -> None:
 
 @njit
 def _jacobian(b: Floats, h: float) -> None:
-    """How it answers to the rate, with the sign turned, row by row."""
+    """Compute the derivative of the residual by the rate, with the sign turned, row by row."""
     g = 0.5 * h
     wx, wy, wz = g * b[TWIST], g * b[TWIST + 1], g * b[TWIST + 2]
     vx, vy, vz = g * b[TWIST + 3], g * b[TWIST + 4], g * b[TWIST + 5]
@@ -157,7 +156,7 @@ def _jacobian(b: Floats, h: float) -> None:
 
 @njit
 def _subtract_momentum(b: Floats, g: float) -> None:
-    """Take the cross product with the momentum at the middle off ``_MATRIX``; g: half the step."""
+    """Subtract the cross product with the momentum at the middle from ``_MATRIX``; g = h/2."""
     for block, part in ((0, 0), (3, 3), (18, 3)):
         _subtract_skew(
             b, _MATRIX + block,
@@ -168,22 +167,22 @@ def _subtract_momentum(b: Floats, g: float) -> None:
 
 
 @njit
-def _subtract_skew(b: Floats, at: int, x: float, y: float, z: float) -> None:
-    """Take the matrix of x cross off a block in rows of 6."""
-    b[at + 1] += z
-    b[at + 2] -= y
-    b[at + 6] -= z
-    b[at + 8] += x
-    b[at + 12] += y
-    b[at + 13] -= x
+def _subtract_skew(b: Floats, k: int, x: float, y: float, z: float) -> None:
+    """Subtract the matrix of x cross from a block in rows of 6."""
+    b[k + 1] += z
+    b[k + 2] -= y
+    b[k + 6] -= z
+    b[k + 8] += x
+    b[k + 12] += y
+    b[k + 13] -= x
 
 
 @njit
 def _factorise(b: Floats) -> None:
-    """Turn ``_MATRIX`` into its factors, L below the diagonal and U, in place.
+    """Replace ``_MATRIX`` by its factors, L below the diagonal and U, in place.
 
-    Without pivots: the symmetric part of the matrix is the inertia, positive definite, and what
-    comes on top is small beside it or skew, so that no pivot vanishes.
+    It needs no pivoting: the symmetric part of the matrix is the inertia, positive definite, and
+    the other terms are small beside it or skew, so that no pivot vanishes.
     """
     for k in range(6):
         row = _MATRIX + 6 * k
@@ -206,7 +205,7 @@ def substitute(b: Floats) -> None:
 
 @njit
 def _solve_lower(b: Floats) -> float:
-    """The first half of that; returns twice the kinetic energy of what it leads to, roughly."""
+    """Solve for L; return twice the kinetic energy of the solution, roughly."""
     energy = 0.0
     for i in range(6):
         row = _MATRIX + 6 * i
@@ -229,7 +228,7 @@ def _solve_upper(b: Floats) -> None:
 
 
 @njit
-def turn_rate(
+def rotation_rate(
     wx: float,
     wy: float,
     wz: float,
@@ -238,15 +237,15 @@ def turn_rate(
     z: float,
     h: float,
 ) -> tuple[float, float, float]:
-    r"""How a vector changes that turns for a time h: :math:`(e^{h[\omega]} - 1)\,x / h`."""
+    r"""Return the rate of a vector that rotates for h: :math:`(e^{h[\omega]} - 1)\,x / h`."""
     angle2 = h * h * (wx * wx + wy * wy + wz * wz)
-    first, second = 1.0 - angle2 / 6.0, 0.5 * h
+    c1, c2 = 1.0 - angle2 / 6.0, 0.5 * h
     if angle2 > 1e-8:
         angle = math.sqrt(angle2)
-        first, second = math.sin(angle) / angle, h * (1.0 - math.cos(angle)) / angle2
+        c1, c2 = math.sin(angle) / angle, h * (1.0 - math.cos(angle)) / angle2
     cx, cy, cz = wy * z - wz * y, wz * x - wx * z, wx * y - wy * x
     return (
-        first * cx + second * (wy * cz - wz * cy),
-        first * cy + second * (wz * cx - wx * cz),
-        first * cz + second * (wx * cy - wy * cx),
+        c1 * cx + c2 * (wy * cz - wz * cy),
+        c1 * cy + c2 * (wz * cx - wx * cz),
+        c1 * cz + c2 * (wx * cy - wy * cx),
     )

@@ -1,8 +1,8 @@
 """Water whose density changes with depth: linear between levels, constant above and below them.
 
-Buoyancy, added mass and drag of a body, and the forces on a fin, grow with the density where it is.
-Not modelled: the rate of change of added mass that goes with it, internal waves, and what a body
-that moves through layers does to them.
+Buoyancy, added mass and drag of a body, and the forces on a fin, are proportional to the density
+there. Not modelled: the rate of change of added mass by it, internal waves, and the effect of
+moving bodies on the layers.
 """
 
 from __future__ import annotations
@@ -14,28 +14,28 @@ from . import fields as f
 
 
 @njit
-def density_ratio(m: int, at: Ints64, height: float) -> float:
-    """Density at a height in W [m], relative to that of the model's water."""
-    world = view_doubles(read_int64(m + at[f.BODY_USER]), BODY_COLUMNS)
+def density_ratio(m: int, o: Ints64, height: float) -> float:
+    """Return the density at a height in W [m], relative to that of the model's water."""
+    world = view_doubles(read_int64(m + o[f.BODY_USER]), BODY_COLUMNS)
     if world[N_LEVELS] == 0.0:
         return 1.0
-    return 1.0 + excess(world, world[SURFACE] - height)
+    return 1.0 + density_excess(world, world[SURFACE] - height)
 
 
 @njit
-def excess(world: Floats, depth: float) -> float:
-    """By how much water at a depth [m] is denser than the model's, of the latter.
+def density_excess(world: Floats, depth: float) -> float:
+    """Return the excess density of water at a depth [m], relative to the model's water.
 
     Args:
         world: the row of the world body.
-        depth: below the still surface.
+        depth: the depth below the still surface.
     """
     n = int(world[N_LEVELS])
     k = 1
     while k < n - 1 and world[LEVELS + 2 * k] < depth:
         k += 1
-    first, second = LEVELS + 2 * (k - 1), LEVELS + 2 * k
-    share = (depth - world[first]) / (world[second] - world[first])
+    i, j = LEVELS + 2 * (k - 1), LEVELS + 2 * k
+    share = (depth - world[i]) / (world[j] - world[i])
     share = min(max(share, 0.0), 1.0)
-    found: float = world[first + 1] + share * (world[second + 1] - world[first + 1])
-    return found
+    ratio: float = world[i + 1] + share * (world[j + 1] - world[i + 1])
+    return ratio

@@ -1,8 +1,8 @@
-"""Submerged share of a shape, and the centre of that part.
+"""The submerged fraction of a shape, and the centre of that part.
 
-Volumes are exact for spheres, ellipsoids and boxes at any attitude, and for cylinders that stand
-upright or whose end discs stay clear of the waterline; else a cylinder's are quadratures over 24
-chords, good to about a thousandth. The water surface is a horizontal plane.
+Volumes are exact for spheres, ellipsoids and boxes at any attitude, and for cylinders that are
+upright or whose end discs do not cross the surface. Other volumes of cylinders are quadratures over
+24 chords, accurate to about a thousandth. The water surface is a horizontal plane.
 """
 
 from __future__ import annotations
@@ -22,40 +22,40 @@ _PATHS = np.array([[1, 3], [1, 5], [2, 3], [2, 6], [4, 5], [4, 6]])
 
 
 @njit
-def submerged(
+def compute_submersion(
     shape: float, a: float, b: float, c: float, up_x: float, up_y: float, up_z: float, depth: float
 ) -> tuple[float, float, float, float]:
-    """Fraction of a shape's volume that is under water, and the centre of that part.
+    """Return the fraction of a shape's volume that is under water, and the centre of that part.
 
     Args:
-        shape: which one; see `columns`.
-        a: first length [m]: radius; half-axis; edge.
-        b: second length [m]: half-axis; edge; length of a cylinder, about z.
-        c: third length [m].
-        up_x: the vertical in the shape's axes, a unit vector.
-        up_y: its second,
-        up_z: and its third component.
-        depth: of the shape's centre below the surface [m].
+        shape: the number of the shape; see `columns`.
+        a: the first length [m]: radius; half-axis; edge.
+        b: the second length [m]: half-axis; edge; length of a cylinder, about z.
+        c: the third length [m].
+        up_x: the first component of the vertical in the shape's axes, a unit vector.
+        up_y: the second component.
+        up_z: the third component.
+        depth: the depth of the shape's centre below the surface [m].
 
     Returns:
-        Fraction 0..1, and the centre of the submerged part in the shape's axes [m].
+        The fraction 0..1, and the centre of the submerged part in the shape's axes [m].
     """
     size, up, centre = np.empty(3), np.empty(3), np.zeros(3)
     size[0], size[1], size[2] = a, b, c
     up[0], up[1], up[2] = up_x, up_y, up_z
-    fraction = _submerged(shape, size, up, depth, centre)
+    fraction = _fraction(shape, size, up, depth, centre)
     return fraction, centre[0], centre[1], centre[2]
 
 
 @njit
-def _submerged(shape: float, size: Floats, up: Floats, depth: float, centre: Floats) -> float:
+def _fraction(shape: float, size: Floats, up: Floats, depth: float, centre: Floats) -> float:
     if shape == SPHERE:
         return _ball(size[0], size[0], size[0], up, depth, centre)
     if shape == ELLIPSOID:
         return _ball(size[0], size[1], size[2], up, depth, centre)
     if shape == SHRINKING_SPHERE:
-        left: float = min(max(1.0 + min(depth, 0.0) / size[0], 0.0), 1.0)
-        return left**3
+        height: float = min(max(1.0 + min(depth, 0.0) / size[0], 0.0), 1.0)
+        return height**3
     if shape == BOX:
         reach = 0.5 * (abs(size[0] * up[0]) + abs(size[1] * up[1]) + abs(size[2] * up[2]))
     else:
@@ -74,7 +74,7 @@ def _submerged(shape: float, size: Floats, up: Floats, depth: float, centre: Flo
 
 @njit
 def _ball(a: float, b: float, c: float, up: Floats, depth: float, centre: Floats) -> float:
-    """An ellipsoid is a unit sphere, stretched; planes stay planes and fractions stay."""
+    """Return the fraction of an ellipsoid: a stretched unit sphere, with the same fractions."""
     reach = math.sqrt((a * up[0]) ** 2 + (b * up[1]) ** 2 + (c * up[2]) ** 2)
     if reach <= 0.0 or depth >= reach:
         return 1.0
@@ -92,10 +92,10 @@ def _ball(a: float, b: float, c: float, up: Floats, depth: float, centre: Floats
 
 @njit
 def _box(size: Floats, up: Floats, depth: float, centre: Floats) -> float:
-    """Six tetrahedra, each cut by the plane exactly."""
+    """Return the fraction of a box: of six tetrahedra, each cut by the plane exactly."""
     points = np.empty((4, 3))  # [m]
     heights = np.empty(4)  # above the surface [m]
-    whole = size[0] * size[1] * size[2] / 6.0
+    total = size[0] * size[1] * size[2] / 6.0
     volume: float = 0.0
     for path in range(6):
         for i in range(4):
@@ -103,17 +103,17 @@ def _box(size: Floats, up: Floats, depth: float, centre: Floats) -> float:
             for axis in range(3):
                 points[i, axis] = _CORNERS[corner, axis] * size[axis]
             heights[i] = points[i, 0] * up[0] + points[i, 1] * up[1] + points[i, 2] * up[2] - depth
-        volume += _tetrahedron(points, heights, whole, centre)
+        volume += _tetrahedron(points, heights, total, centre)
     if volume <= 0.0:
         return 0.0
     centre /= volume
-    fraction: float = volume / (6.0 * whole)
+    fraction: float = volume / (6.0 * total)
     return fraction
 
 
 @njit
-def _tetrahedron(points: Floats, heights: Floats, whole: float, moment: Floats) -> float:
-    """Volume below height 0; adds volume times centroid to ``moment``."""
+def _tetrahedron(points: Floats, heights: Floats, total: float, moment: Floats) -> float:
+    """Return the volume below height 0; add volume times centroid to ``moment``."""
     for i in range(1, 4):  # sort, lowest first
         j = i
         while j > 0 and heights[j] < heights[j - 1]:
@@ -126,61 +126,61 @@ def _tetrahedron(points: Floats, heights: Floats, whole: float, moment: Floats) 
     if heights[3] <= 0.0:
         for axis in range(3):
             mean = (points[0, axis] + points[1, axis] + points[2, axis] + points[3, axis]) / 4.0
-            moment[axis] += whole * mean
-        return whole
+            moment[axis] += total * mean
+        return total
     if heights[1] >= 0.0:  # one corner in the water
-        return _tip(points, heights, 0, whole, moment)
+        return _tip(points, heights, 0, total, moment)
     if heights[2] < 0.0:  # one corner out of the water
         for axis in range(3):
             mean = (points[0, axis] + points[1, axis] + points[2, axis] + points[3, axis]) / 4.0
-            moment[axis] += whole * mean
-        rest: float = whole - _tip(points, heights, 3, -whole, moment)
+            moment[axis] += total * mean
+        rest: float = total - _tip(points, heights, 3, -total, moment)
         return rest
-    # two in, two out: a wedge of three tetrahedra, cut along its edges at shares of the whole
+    # two in, two out: a wedge of three tetrahedra, cut along its edges at shares of the total
     a = heights[0] / (heights[0] - heights[2])
     b = heights[0] / (heights[0] - heights[3])
     c = heights[1] / (heights[1] - heights[2])
     d = heights[1] / (heights[1] - heights[3])
-    first = a * b * whole
-    second = (1.0 - a) * b * c * whole
-    third = (1.0 - b) * c * d * whole
+    v1 = a * b * total
+    v2 = (1.0 - a) * b * c * total
+    v3 = (1.0 - b) * c * d * total
     for axis in range(3):
         p, q = points[0, axis], points[1, axis]
         ac = p + a * (points[2, axis] - p)
         ad = p + b * (points[3, axis] - p)
         bc = q + c * (points[2, axis] - q)
         bd = q + d * (points[3, axis] - q)
-        moment[axis] += first * (p + ac + ad + q) / 4.0
-        moment[axis] += second * (ac + ad + q + bc) / 4.0
-        moment[axis] += third * (ad + q + bc + bd) / 4.0
-    wedge: float = first + second + third
+        moment[axis] += v1 * (p + ac + ad + q) / 4.0
+        moment[axis] += v2 * (ac + ad + q + bc) / 4.0
+        moment[axis] += v3 * (ad + q + bc + bd) / 4.0
+    wedge: float = v1 + v2 + v3
     return wedge
 
 
 @njit
-def _tip(points: Floats, heights: Floats, at: int, whole: float, moment: Floats) -> float:
-    """Volume (> 0) of the corner ``at`` that the plane cuts off; ``whole`` may carry a sign."""
+def _tip(points: Floats, heights: Floats, corner: int, total: float, moment: Floats) -> float:
+    """Return the volume (> 0) of the corner that the plane cuts off; ``total`` may be negative."""
     share = 1.0
     for i in range(4):
-        if i != at:
-            share *= heights[at] / (heights[at] - heights[i])
-    volume: float = share * whole
+        if i != corner:
+            share *= heights[corner] / (heights[corner] - heights[i])
+    volume: float = share * total
     for axis in range(3):
-        total = 4.0 * points[at, axis]
+        moment_arm = 4.0 * points[corner, axis]
         for i in range(4):
-            if i != at:
-                cut = heights[at] / (heights[at] - heights[i])
-                total += cut * (points[i, axis] - points[at, axis])
-        moment[axis] += volume * total / 4.0
+            if i != corner:
+                cut = heights[corner] / (heights[corner] - heights[i])
+                moment_arm += cut * (points[i, axis] - points[corner, axis])
+        moment[axis] += volume * moment_arm / 4.0
     return abs(volume)
 
 
 @njit
 def _cylinder(radius: float, length: float, up: Floats, depth: float, centre: Floats) -> float:
-    """Chords across the level direction; each slice is a rectangle cut by a line."""
+    """Return the fraction of a cylinder: chords along the level direction give rectangles."""
     tilt = math.sqrt(up[0] * up[0] + up[1] * up[1])
     x, y = (up[0] / tilt, up[1] / tilt) if tilt > 1e-12 else (1.0, 0.0)
-    volume, across, along = 0.0, 0.0, 0.0
+    volume, x_moment, z_moment = 0.0, 0.0, 0.0
     piece = np.empty(3)
     for i in range(CHORDS):
         angle = math.pi * (i + 1) / (CHORDS + 1)
@@ -188,20 +188,20 @@ def _cylinder(radius: float, length: float, up: Floats, depth: float, centre: Fl
         _rectangle(half, 0.5 * length, tilt, up[2], depth, piece)
         weight = math.sin(angle)
         volume += weight * piece[0]
-        across += weight * piece[1]
-        along += weight * piece[2]
+        x_moment += weight * piece[1]
+        z_moment += weight * piece[2]
     if volume <= 0.0:
         return 0.0
-    centre[0] = x * across / volume
-    centre[1] = y * across / volume
-    centre[2] = along / volume
-    # sum of 4 (length/2) r sin^2 over the nodes, exact: the whole by the same rule
+    centre[0] = x * x_moment / volume
+    centre[1] = y * x_moment / volume
+    centre[2] = z_moment / volume
+    # sum of 4 (length/2) r sin^2 over the nodes, exact: the volume by the same rule
     return volume / (length * radius * (CHORDS + 1))
 
 
 @njit
 def _rectangle(a: float, b: float, up_x: float, up_z: float, depth: float, piece: Floats) -> None:
-    """Area and first moments of the part of [-a, a] x [-b, b] where up . p <= depth."""
+    """Compute area and first moments of the part of [-a, a] x [-b, b] where up . p <= depth."""
     piece[:] = 0.0
     px, pz, ph = -a, -b, -a * up_x - b * up_z - depth
     for i in range(1, 5):
@@ -218,7 +218,7 @@ def _rectangle(a: float, b: float, up_x: float, up_z: float, depth: float, piece
                 ex, ez = px + share * (qx - px), pz + share * (qz - pz)
             _edge(sx, sz, ex, ez, piece)
         px, pz, ph = qx, qz, qh
-    # close along the waterline: from where the outline leaves the water to where it comes back
+    # close along the waterline: from where the outline leaves the water to where it enters it
     _waterline(a, b, up_x, up_z, depth, piece)
     piece[1] /= 3.0
     piece[2] /= 3.0
@@ -226,7 +226,7 @@ def _rectangle(a: float, b: float, up_x: float, up_z: float, depth: float, piece
 
 @njit
 def _edge(sx: float, sz: float, ex: float, ez: float, piece: Floats) -> None:
-    """Green's theorem for one edge: area, and three times the first moments."""
+    """Add the area, and three times the first moments, of one edge by Green's theorem."""
     turn = 0.5 * (sx * ez - ex * sz)
     piece[0] += turn
     piece[1] += turn * (sx + ex)
@@ -235,8 +235,8 @@ def _edge(sx: float, sz: float, ex: float, ez: float, piece: Floats) -> None:
 
 @njit
 def _waterline(a: float, b: float, up_x: float, up_z: float, depth: float, piece: Floats) -> None:
-    """The edge that the surface makes across the rectangle."""
-    leave_x, leave_z, back_x, back_z, found = 0.0, 0.0, 0.0, 0.0, 0
+    """Add the edge of the surface across the rectangle."""
+    leave_x, leave_z, back_x, back_z, n_crossings = 0.0, 0.0, 0.0, 0.0, 0
     px, pz, ph = -a, -b, -a * up_x - b * up_z - depth
     for i in range(1, 5):
         qx = a if i in (1, 2) else -a
@@ -249,7 +249,7 @@ def _waterline(a: float, b: float, up_x: float, up_z: float, depth: float, piece
                 leave_x, leave_z = x, z
             else:
                 back_x, back_z = x, z
-            found += 1
+            n_crossings += 1
         px, pz, ph = qx, qz, qh
-    if found == 2:
+    if n_crossings == 2:
         _edge(leave_x, leave_z, back_x, back_z, piece)

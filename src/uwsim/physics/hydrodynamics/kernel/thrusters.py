@@ -1,15 +1,15 @@
 r"""Thrusters: static thrust curve, reduced by the inflow.
 
-A propeller of diameter D that turns n times a second in water that comes at V gives
+A propeller of diameter D with n revolutions per second in an inflow of the speed V has the thrust
 
 .. math:: T = \rho n^2 D^4 K_T(J), \qquad J = \frac{V}{n D}
 
 (Carlton, *Marine Propellers and Propulsion*, ch. 6). The curve of the command is the thrust at
-rest, :math:`T_0 = \rho n^2 D^4 K_T(0)`, from which n follows: the thrust is
-:math:`T_0 K_T(J) / K_T(0)`. Water that comes from behind changes nothing. Backwards the
-propeller has the same coefficients.
+rest, :math:`T_0 = \rho n^2 D^4 K_T(0)`, which determines n: the thrust is
+:math:`T_0 K_T(J) / K_T(0)`. Inflow from behind has no effect. Backwards the propeller has the same
+coefficients.
 
-Not modelled: inflow across the propeller's axis, cavitation, the drag of a propeller that stands.
+Not modelled: inflow across the propeller's axis, cavitation, the drag of a stopped propeller.
 """
 
 from __future__ import annotations
@@ -25,108 +25,92 @@ from ....base.numerics.memory import (
     read_int64,
     view_doubles,
 )
-from ..columns import (
-    ADVANCE,
-    BACKWARD,
-    CURVE_TERMS,
-    DEAD_ZONE,
-    FORWARD,
-    LAG,
-    MAX_THRUST,
-    MIN_THRUST,
-    N_ADVANCE,
-    RADIUS,
-    TORQUE,
-    WAKE,
-    WATER_COLUMNS,
-)
+from .. import columns as c
 from . import fields as f
-from .flow import push_at, site_of, velocity_at, water_density, wet_share
+from .flow import actuator_site, add_force, site_velocity, submersion, water_density
 
 
 @njit
-def add_thrust(
-    m: int, d: int, at: Ints64, i: int, table: Floats, ahead: float, work: Floats
-) -> None:
-    """Add the thrust of a thruster, by its rotor some time ahead.
+def add_thrust(m: int, d: int, o: Ints64, i: int, table: Floats, dt: float, work: Floats) -> None:
+    """Add the thrust of a thruster, by its rotor a time ``dt`` later.
 
     Args:
-        m: address of the model.
-        d: address of the data.
-        at: offsets of the fields.
-        i: number of the actuator.
-        table: its row.
-        ahead: the time [s].
+        m: the address of the model.
+        d: the address of the data.
+        o: the offsets of the fields.
+        i: the number of the actuator.
+        table: the thruster's row.
+        dt: the time [s].
         work: the rows of the bodies.
     """
-    n, nbody = read_int64(m + at[f.NACTUATOR]), read_int64(m + at[f.NBODY])
-    state = read_int32(read_int64(m + at[f.ACTUATOR_ACT]) + 4 * i)
-    control = read_int32(read_int64(m + at[f.ACTUATOR_CTRL]) + 4 * i)
-    limits = view_doubles(read_int64(m + at[f.ACTUATOR_RANGE]) + 16 * control, 2)
-    command = min(max(read_double(read_int64(d + at[f.CTRL]) + 8 * control), limits[0]), limits[1])
-    if state >= 0:  # MuJoCo clamps what it integrates the rotor with, too
-        rotor = read_double(read_int64(d + at[f.ACT]) + 8 * state)
-        command = rotor + share_of_lag(table[LAG], ahead) * (command - rotor)
-    losses = view_doubles(read_int64(d + at[f.USERDATA]) + 8 * WATER_COLUMNS * nbody, 2 * n)
-    thrust = (1.0 - losses[i]) * curve(table, command)
-    site, body = site_of(m, at, i)
-    if table[N_ADVANCE] > 0.0:
-        speed = velocity_at(m, d, at, site, body)[0]
-        losses[n + i] = inflow_loss(table, thrust, speed, water_density(m, at))
+    n, nbody = read_int64(m + o[f.NACTUATOR]), read_int64(m + o[f.NBODY])
+    state = read_int32(read_int64(m + o[f.ACTUATOR_ACT]) + 4 * i)
+    control = read_int32(read_int64(m + o[f.ACTUATOR_CTRL]) + 4 * i)
+    limits = view_doubles(read_int64(m + o[f.ACTUATOR_RANGE]) + 16 * control, 2)
+    command = min(max(read_double(read_int64(d + o[f.CTRL]) + 8 * control), limits[0]), limits[1])
+    if state >= 0:  # MuJoCo also clamps the command of the rotor
+        rotor = read_double(read_int64(d + o[f.ACT]) + 8 * state)
+        command = rotor + lag_share(table[c.LAG], dt) * (command - rotor)
+    losses = view_doubles(read_int64(d + o[f.USERDATA]) + 8 * c.WATER_COLUMNS * nbody, 2 * n)
+    thrust = (1.0 - losses[i]) * static_thrust(table, command)
+    site, body = actuator_site(m, o, i)
+    if table[c.N_ADVANCE] > 0.0:
+        speed = site_velocity(m, d, o, site, body)[0]
+        losses[n + i] = inflow_loss(table, thrust, speed, water_density(m, o))
         thrust *= 1.0 - losses[n + i]
-    thrust *= wet_share(m, d, at, site, body, table[RADIUS])
-    push_at(m, d, at, site, body, (thrust, 0.0, 0.0), table[TORQUE], work)
+    thrust *= submersion(m, d, o, site, body, table[c.RADIUS])
+    add_force(m, d, o, site, body, (thrust, 0.0, 0.0), table[c.TORQUE], work)
 
 
 @njit
 def inflow_loss(table: Floats, thrust: float, speed: float, density: float) -> float:
-    """Which share of its thrust at rest [N] a propeller loses at a speed along its axis [m/s]."""
+    """Return the share of thrust at rest [N] that a propeller loses at a speed ahead [m/s]."""
     if thrust == 0.0:
         return 0.0
-    inflow = (1.0 - table[WAKE]) * (speed if thrust > 0.0 else -speed)
+    inflow = (1.0 - table[c.WAKE]) * (speed if thrust > 0.0 else -speed)
     if inflow <= 0.0:
         return 0.0
-    diameter = 2.0 * table[RADIUS]
-    tip = math.sqrt(abs(thrust) / (density * table[ADVANCE + 1])) / diameter  # n D [m/s]
-    lost: float = 1.0 - thrust_coefficient(table, inflow / tip) / table[ADVANCE + 1]
-    return lost
+    diameter = 2.0 * table[c.RADIUS]
+    tip = math.sqrt(abs(thrust) / (density * table[c.ADVANCE + 1])) / diameter  # n D [m/s]
+    loss: float = 1.0 - thrust_coefficient(table, inflow / tip) / table[c.ADVANCE + 1]
+    return loss
 
 
 @njit
 def thrust_coefficient(table: Floats, advance: float) -> float:
-    """KT at an advance ratio from 0 on: linear between the points and beyond the last."""
-    n = int(table[N_ADVANCE])
+    """Return KT at an advance ratio from 0 on: linear between the points and beyond the last."""
+    n = int(table[c.N_ADVANCE])
     k = 1
-    while k < n - 1 and table[ADVANCE + 2 * k] < advance:
+    while k < n - 1 and table[c.ADVANCE + 2 * k] < advance:
         k += 1
-    first, second = ADVANCE + 2 * (k - 1), ADVANCE + 2 * k
-    share = (advance - table[first]) / (table[second] - table[first])
-    found: float = table[first + 1] + share * (table[second + 1] - table[first + 1])
-    return found
+    i, j = c.ADVANCE + 2 * (k - 1), c.ADVANCE + 2 * k
+    share = (advance - table[i]) / (table[j] - table[i])
+    coefficient: float = table[i + 1] + share * (table[j + 1] - table[i + 1])
+    return coefficient
 
 
 @njit
-def share_of_lag(time_constant: float, time: float) -> float:
-    """Share of a step that a first-order lag covers in a time, 0..1."""
+def lag_share(time_constant: float, time: float) -> float:
+    """Return the share of a step that a first-order lag covers in a time, 0..1."""
     if time_constant <= 0.0:
         return 1.0
     x = time / time_constant
     if x < 0.01:
-        return x * (1.0 - x * (0.5 - x * (1.0 / 6.0 - x / 24.0)))  # quickly, to 1e-12
+        return x * (1.0 - x * (0.5 - x * (1.0 / 6.0 - x / 24.0)))  # fast, to 1e-12
     return -math.expm1(-x)
 
 
 @njit
-def curve(table: Floats, command: float) -> float:
-    """Thrust at rest [N] of a command: dead zone, polynomial of its sign, saturation."""
-    x = abs(command) - table[DEAD_ZONE]
+def static_thrust(table: Floats, command: float) -> float:
+    """Return the thrust at rest [N]: dead zone, polynomial of the command's sign, saturation."""
+    x = abs(command) - table[c.DEAD_ZONE]
     if x <= 0.0:
         return 0.0
-    first = FORWARD if command > 0.0 else BACKWARD
+    start = c.FORWARD if command > 0.0 else c.BACKWARD
     thrust = 0.0
-    for i in range(CURVE_TERMS - 1, -1, -1):
-        thrust = (thrust + table[first + i]) * x
+    for i in range(c.CURVE_TERMS - 1, -1, -1):
+        thrust = (thrust + table[start + i]) * x
     if command < 0.0:
         thrust = -thrust
-    limited: float = min(max(thrust, table[MIN_THRUST]), table[MAX_THRUST])
-    return limited
+    limited_thrust: float = min(max(thrust, table[c.MIN_THRUST]), table[c.MAX_THRUST])
+    return limited_thrust
