@@ -202,7 +202,7 @@ def test_bundled_vehicles_drive_all_that_keeps_a_place(name: str) -> None:
     found = allocate(vehicle.thrusters, np.array(body.reference), balance.stiffness(up))
     assert {SURGE, SWAY, HEAVE, PITCH, YAW} <= set(found.axes)
     for axis in (SURGE, SWAY, HEAVE):
-        assert found.reach(axis) == found.full_reach(axis)
+        assert found.force_limits(axis) == found.thruster_limits(axis)
     assert 0.98 < balance.displaced_mass / balance.mass < 1.03
     assert thrusters_on_base(robot, vehicle.thrusters) == vehicle.thrusters
 

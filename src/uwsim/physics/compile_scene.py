@@ -68,7 +68,7 @@ def compile_scene(
     return SceneModel(
         **vars(simulated_scene),
         source=source,
-        varied=variant,
+        varied_scene=variant,
         seed=seed,
         compatibility=compatibility,
         engine_model=compile_engine_model(simulated_scene),

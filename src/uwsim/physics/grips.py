@@ -124,7 +124,7 @@ class Grips:
 
     def _weld(self, index: int, hold: Hold) -> int | None:
         """Return the engine's constraint between an object and a link; None: there is none."""
-        name = grip(hold.vehicle, hold.link, index)
+        name = grip_constraint(hold.vehicle, hold.link, index)
         weld = mujoco.mj_name2id(self._model, mujoco.mjtObj.mjOBJ_EQUALITY, name)
         return None if weld < 0 else int(weld)
 

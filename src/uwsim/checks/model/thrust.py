@@ -73,18 +73,21 @@ def describe_limits(allocation: Allocation) -> str:
     if HEAVE in missing_axes and PITCH in allocation.axes:
         messages.append("depth is held by pitching while it moves ahead")
     for axis in allocation.axes:
-        if allocation.reach(axis) == allocation.full_reach(axis):
+        if allocation.force_limits(axis) == allocation.thruster_limits(axis):
             continue
-        limit, full_limit = max(allocation.reach(axis)), max(allocation.full_reach(axis))
+        limit, full_limit = (
+            max(allocation.force_limits(axis)),
+            max(allocation.thruster_limits(axis)),
+        )
         messages.append(
             f"{AXES[axis]} is limited to {limit:.3g} N of {full_limit:.3g} N, beyond which the "
-            f"hull would pitch or roll by more than {np.degrees(LEAN):.0f} degrees"
+            f"hull would pitch or roll by more than {np.degrees(MAX_TILT):.0f} degrees"
         )
     return "; ".join(messages)
 
 
 def _describe_range(allocation: Allocation, axis: int) -> str:
-    minimum, maximum = allocation.reach(axis)
+    minimum, maximum = allocation.force_limits(axis)
     return f"{AXES[axis]} ({minimum:.3g} to {maximum:.3g} {UNITS[axis]})"
 
 

@@ -190,7 +190,7 @@ def describe_strength(vehicle: SimulatedVehicle) -> str:
     """Describe thrusters that are too strong for the vehicle; empty if none is."""
     messages = []
     for thruster in vehicle.dynamics.thrusters:
-        thrusts, _ = curve(thruster)
+        thrusts, _ = thrust_curve(thruster)
         max_thrust = float(max(-thrusts[0], thrusts[-1]))
         if thruster.saturation is not None:
             max_thrust = min(max_thrust, max(map(abs, thruster.saturation)))

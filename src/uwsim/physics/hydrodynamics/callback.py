@@ -79,7 +79,7 @@ def wrapper() -> Any:
     """Compile the C function ``void (const mjModel*, mjData*)``, or load it from the disk."""
     offsets()
     link_library(library()._name)  # it has MuJoCo's functions
-    return c_function(_add_water, _SIGNATURE)
+    return compile_c_function(_add_water, _SIGNATURE)
 
 
 @functools.cache

@@ -33,7 +33,7 @@ class WaterFunction:
     """A flag: it reads the points, which must then be up to date."""
     is_steady: bool = False
     """A flag: its values at the first step hold for all others."""
-    kept: tuple[object, ...] = field(default=())
+    memory_owners: tuple[object, ...] = field(default=())
     """The objects whose addresses the parameters contain."""
 
     @cached_property
@@ -54,7 +54,7 @@ class DriftFunction:
     """The address of the function."""
     parameters: npt.NDArray[Any]
     """The array that it reads at its address."""
-    kept: tuple[object, ...] = field(default=())
+    memory_owners: tuple[object, ...] = field(default=())
     """The objects whose addresses the parameters contain."""
 
     @cached_property

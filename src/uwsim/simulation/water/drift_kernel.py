@@ -45,7 +45,9 @@ def of_drift(
     row["flow"], row["query"], row["timestep"] = flow.addresses, address_of(query), timestep
     row["rotation"], row["position"] = world_from_localized.rotation, world_from_localized.position
     row["back"], row["origin"] = back.rotation, back.position
-    return DriftFunction(function=function_address(drift), parameters=row, kept=(flow, query, kept))
+    return DriftFunction(
+        function=function_address(drift), parameters=row, memory_owners=(flow, query, kept)
+    )
 
 
 def drift(parameters: int, values: int, time: float) -> None:

@@ -83,7 +83,7 @@ def of_flow(
         parameters=row,
         needs_points=not is_uniform,
         is_steady=is_steady,
-        kept=(flow, at_bodies, around_them, kept, others),
+        memory_owners=(flow, at_bodies, around_them, kept, others),
     )
 
 
@@ -104,7 +104,7 @@ def of_rows(rows: Array) -> WaterFunction:
         function=function_address(write_next_rows),
         parameters=parameters,
         is_steady=len(rows) == 1,
-        kept=(rows,),
+        memory_owners=(rows,),
     )
 
 
