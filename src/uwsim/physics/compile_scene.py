@@ -55,7 +55,7 @@ def compile_scene(
         )
     folders = tuple(map(Path, data_path))
     source = with_integrator(scene, integrator)
-    variant = varied(source, seed)
+    variant = apply_variations(source, seed)
     draft = ResolvedScene(scene=variant, robots=read_robots(variant, folders), data_path=folders)
     resolved_scene = replace(draft, scene=set_on_floor(draft))
     dynamics = read_dynamics(resolved_scene)

@@ -326,7 +326,7 @@ class Engine:
 
 def joint_addresses(model: mujoco.MjModel, robot: RobotSpec, index: int) -> npt.NDArray[np.intp]:
     """Return the addresses of a vehicle's joint vector in ``qpos``, (n,)."""
-    names = [vehicle_joint(index, joint.name) for joint in robot.movable]
+    names = [vehicle_joint(index, joint.name) for joint in robot.movable_joints]
     return np.array([model.joint(name).qposadr[0] for name in names], dtype=np.intp)
 
 

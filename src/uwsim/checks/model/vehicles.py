@@ -20,7 +20,7 @@ from ...model.balance import Balance, balance_of
 from ...model.collision.hull import Hull, hull_of
 from ...model.dynamics import DYNAMICS
 from ...model.inertias import MIN_INERTIA
-from ...physics.actuation.allocation import curve, thrusters_on_base
+from ...physics.actuation.allocation import thrust_curve, thrusters_on_base
 from ...scene.accepted_warnings import VehicleWarning, acceptance_hint
 from ...scene.hydrodynamics.spec import BodyHydrodynamics, VehicleHydrodynamics, matrix
 from ...scene.urdf.kinematics import link_poses

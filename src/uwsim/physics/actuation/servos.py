@@ -61,7 +61,7 @@ class Servos:
         """The state of the servos."""
         self._state["is_on"] = True
         self._indices = np.array(
-            [names.index(joint.name) for joint in robot.movable], np.int64
+            [names.index(joint.name) for joint in robot.movable_joints], np.int64
         )  # (n,)
         self._places = self._records["qpos_address"][self._indices]
         self._dofs = self._records["dof_address"][self._indices]
@@ -92,7 +92,7 @@ class Servos:
     def set_positions(self, values: Array) -> None:
         """Set the positions of the joints, at rest, and hold them there."""
         joints = [self._specs[index] for index in self._indices]
-        positions = [joint.clamped(value) for joint, value in zip(joints, values, strict=False)]
+        positions = [joint.clamp(value) for joint, value in zip(joints, values, strict=False)]
         self.aim(np.arange(len(positions)), np.array(positions, dtype=np.float64))
         self._state["target"] = self._state["aim"]
         self._state["integral"] = 0.0
