@@ -100,9 +100,9 @@ def test_a_hull_below_its_origin_feels_the_water_where_it_is() -> None:
     own = read_vehicle(vehicle_sets()["bluerov2_heavy"]).bodies[0]
     assert isinstance(own, BodyHydrodynamics)
     row = water.model.body_user[water.bodies[0]]
-    assert water.reference_points(water.bodies[0]) == pytest.approx(own.centre_of_buoyancy)
+    assert water.reference_point(water.bodies[0]) == pytest.approx(own.centre_of_buoyancy)
     row[3:6] += shift  # the centre of buoyancy
-    assert water.reference_points(water.bodies[0])[2] == pytest.approx(
+    assert water.reference_point(water.bodies[0])[2] == pytest.approx(
         own.centre_of_buoyancy[2] + 2.0
     )
 
