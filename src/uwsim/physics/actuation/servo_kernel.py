@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 
 from ...base.geometry import Array
 from ...base.numerics.jit import njit
-from ...vehicle import Numbers
+from ...vehicle import JointIndices
 from .records import GEAR_RATIO, OWN_VALUE
 
 INTEGRAL_RATE = 1.0
@@ -60,7 +60,9 @@ def clamp_targets(joints: Records, states: Records) -> None:
 
 
 @njit
-def set_targets(joints: Records, states: Records, joint_indices: Numbers, targets: Array) -> None:
+def set_targets(
+    joints: Records, states: Records, joint_indices: JointIndices, targets: Array
+) -> None:
     """Set the targets of the servos of some joints; the others continue to theirs."""
     for i in range(len(joint_indices)):
         states[joint_indices[i]].wanted = targets[i]
@@ -69,7 +71,7 @@ def set_targets(joints: Records, states: Records, joint_indices: Numbers, target
 
 
 @njit
-def find_first_off(states: Records, joint_indices: Numbers) -> int:
+def find_first_off(states: Records, joint_indices: JointIndices) -> int:
     """Return the index of the first of some joints whose servo is off; below 0 if all are on."""
     for i in range(len(joint_indices)):
         if states[joint_indices[i]].is_on == 0:

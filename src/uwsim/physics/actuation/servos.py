@@ -99,7 +99,7 @@ class Servos:
         self._data.qpos[self._records["qpos_address"]] = self._state["aim"]
         self._data.qvel[self._records["dof_address"]] = 0.0
 
-    def aim(self, joints: Numbers, targets: Array) -> None:
+    def aim(self, joints: JointIndices, targets: Array) -> None:
         """Move these joints to targets, (n,) [rad or m], and hold them there.
 
         The other joints are not affected.
