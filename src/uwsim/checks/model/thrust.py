@@ -96,7 +96,7 @@ def _is_coupled(allocation: Allocation, axis: int) -> bool:
 
 
 def _describe_coupling(allocation: Allocation, axis: int) -> str:
-    shares = product(allocation.wrenches[axis], allocation.share)  # of each driven axis
+    shares = product(allocation.wrenches[axis], allocation.allocation_matrix)  # of each driven axis
     pairs = zip(allocation.axes, shares, strict=True)
     coupled_axes = [AXES[a] for a, share in pairs if abs(share) > 1e-3]
     return f"{AXES[axis]} is driven only together with {' and '.join(coupled_axes)}"
