@@ -134,7 +134,9 @@ def test_a_mesh_that_no_error_makes_small_enough_is_simplified_further(
 
 def test_too_many_plates_name_the_remedy() -> None:
     rough = np.concatenate([rock(seed) * (1.0 + 0.5 * seed) for seed in range(3)])
-    with pytest.raises(UwsimError, match=r"plates; expected at most 10000. Set a greater <u:contactError>"):
+    with pytest.raises(
+        UwsimError, match=r"plates; expected at most 10000. Set a greater <u:contactError>"
+    ):
         shapes_of(model_of(rough), np.eye(4), "trimesh", is_fixed=True, error=0.0)
     assert len(shapes_of(model_of(rough), np.eye(4), "trimesh", is_fixed=True)) < 4000
 

@@ -217,7 +217,7 @@ def multiply_matrices(a: Array, b: Array) -> Array:
 
 @njit
 def _multiply_stacks(a: Array, b: Array) -> Array:
-    """Return the products of (n, i, j) and (n, j, k); n = 1 stands for all."""
+    """Return the products of (n, i, j) and (n, j, k); a stack of one matrix is used for all n."""
     n = max(a.shape[0], b.shape[0])
     products = np.empty((n, a.shape[1], b.shape[2]))
     for m in range(n):
