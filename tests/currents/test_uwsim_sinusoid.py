@@ -12,7 +12,7 @@ from uwsim.base.rng import stream
 from uwsim.currents import (
     ConstantSpec,
     Current,
-    LateCurrent,
+    DelayedCurrent,
     Place,
     TotalCurrent,
     UwsimSinusoidSpec,
@@ -121,7 +121,7 @@ def test_every_point_has_the_same_water_and_may_be_written_to() -> None:
 
 def test_a_level_gives_the_same_numbers_alone_and_late_in_a_sweep() -> None:
     alone, late = (
-        LateCurrent(released(random=0.01).bind(place()), began=began, delay=2.0)
+        DelayedCurrent(released(random=0.01).bind(place()), start=began, delay=2.0)
         for began in (0.0, 1204.002)
     )
     for k in range(0, 60_000, 37):
@@ -129,7 +129,7 @@ def test_a_level_gives_the_same_numbers_alone_and_late_in_a_sweep() -> None:
 
 
 def test_a_late_current_is_still_until_it_begins() -> None:
-    late = LateCurrent(released().bind(place()), began=10.0, delay=2.0)
+    late = DelayedCurrent(released().bind(place()), start=10.0, delay=2.0)
     assert at(late, 11.998).tolist() == [0.0, 0.0, 0.0]
     assert late.acceleration(ORIGIN, 11.998).tolist() == [[0.0, 0.0, 0.0]]
     assert at(late, 12.0).tolist() == at(released().bind(place()), 2.0).tolist()
@@ -137,7 +137,7 @@ def test_a_late_current_is_still_until_it_begins() -> None:
 
 def test_a_current_without_speed_is_still_water_and_one_that_changes_is_not() -> None:
     none, some = (released(speed, theta=1.0).bind(place()) for speed in (0.0, 0.2))
-    late = LateCurrent(none, began=1.0, delay=2.0)
+    late = DelayedCurrent(none, start=1.0, delay=2.0)
     for still in (none, late, TotalCurrent([none, late])):
         assert still.is_still
     for moving in (some, TotalCurrent([none, some])):

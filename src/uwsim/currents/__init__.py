@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from .constant import Constant, ConstantSpec
 from .current import MAX_SPEED, Current, CurrentSpec, Place
-from .delayed import LateCurrent
+from .delayed import DelayedCurrent
 from .field import Field, FieldSpec, Grid, read_grid
 from .gauss_markov import GaussMarkov, GaussMarkovSpec
 from .profile import (
@@ -33,7 +33,7 @@ CURRENTS: dict[str, type[CurrentSpec]] = {
     "tidal": TidalSpec,
     "uwsimSinusoid": UwsimSinusoidSpec,
 }
-"""Element, without its prefix -> its spec, in alphabetical order."""
+"""The spec of each element of ``<u:currents>``."""
 
 __all__ = [
     "CURRENTS",
@@ -44,12 +44,12 @@ __all__ = [
     "ConstituentSpec",
     "Current",
     "CurrentSpec",
+    "DelayedCurrent",
     "Field",
     "FieldSpec",
     "GaussMarkov",
     "GaussMarkovSpec",
     "Grid",
-    "LateCurrent",
     "LayerSpec",
     "Layers",
     "LayersSpec",

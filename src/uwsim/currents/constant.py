@@ -25,7 +25,7 @@ class ConstantSpec(CurrentSpec):
     """A ``<u:constant>``: the same velocity everywhere and always."""
 
     velocity: Triple = element(namespaced=True, minimum=-MAX_SPEED, maximum=MAX_SPEED)
-    """Velocity of the water, in L [m/s]."""
+    """The velocity of the water, in L [m/s]."""
 
     def bind(self, place: Place) -> Constant:
         """Make the current; it needs nothing of the scene."""
@@ -50,21 +50,21 @@ class Constant(CompiledCurrent):
 
     @property
     def is_uniform(self) -> bool:
-        """Whether it is the same everywhere."""
+        """True if the velocity is the same everywhere, as here."""
         return True
 
     @property
     def is_steady(self) -> bool:
-        """Whether it is the same at all times: yes."""
+        """True if the velocity is constant in time, as here."""
         return True
 
     @property
     def is_still(self) -> bool:
-        """Whether its velocity is zero."""
+        """True if the velocity is zero."""
         return not any(self.components)
 
 
 def flow_constant(parameters: int, values: int, time: float) -> None:
-    """Answer a query about a constant current; see `uwsim.currents.flow_function`."""
+    """Evaluate a query of a constant current; see `uwsim.currents.flow_function`."""
     query = carray(pointer(values), (1,), QUERY)[0]
     write_everywhere(query, view_doubles(parameters, 3), np.zeros(3))

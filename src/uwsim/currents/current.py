@@ -16,10 +16,10 @@ from ..world import Flow
 from .flow_function import FlowFunction
 
 MAX_SPEED = 100.0
-"""No current of a file or a function is faster: turbidity currents and tsunamis reach
-some 30 m/s. What is faster is taken for a mistake, mostly of units [m/s]."""
-DIFFERENCE = 1e-3
-"""Half the span of the central difference that gives the acceleration [s]."""
+"""The largest speed in a file or of a function [m/s]. Turbidity currents and tsunamis reach some
+30 m/s; a greater speed is most probably an error of units."""
+HALF_SPAN = 1e-3
+"""The half span of the central difference that gives the acceleration [s]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,19 +29,19 @@ class Place:
     stream: Callable[[str], np.random.Generator]
     """The random generator of a name."""
     find: Callable[[str], Path] = Path
-    """Where a file that the scene names is."""
+    """The function that finds a file which the scene names."""
     world_from_localized: Pose = field(default_factory=Pose.identity)
     """W from L."""
     runs_code: bool = True
-    """Whether code that the scene names may run; what it would say is else as good as nothing."""
+    """True if Python code that the scene names may run; without it, that water is still."""
     surface_height: float = 0.0
-    """Of the still water, in W [m]."""
+    """The height of the still water in W [m]."""
 
     def depths(self, points: Array) -> Array:
-        """Return how far below the still surface points of L lie, (n,) [m]; above it negative."""
+        """Return the depths of points of L below the still surface, (n,) [m]; negative above it."""
         pose = self.world_from_localized
-        below: Array = self.surface_height - (product(points, pose.rotation[2]) + pose.position[2])
-        return below
+        depths: Array = self.surface_height - (product(points, pose.rotation[2]) + pose.position[2])
+        return depths
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,11 +50,11 @@ class CurrentSpec(Spec, abc.ABC):
 
     @abc.abstractmethod
     def bind(self, place: Place) -> Current:
-        """Make the current; raises UwsimError if something it needs is missing."""
+        """Make the current; raise UwsimError if an input is missing."""
 
     @property
     def code(self) -> str:
-        """User-supplied Python code that it runs, ``module:function``; empty if none."""
+        """The user's Python code that it runs, ``module:function``; empty if none."""
         return ""
 
     def files(self, place: Place) -> Mapping[str, Path]:
@@ -63,31 +63,31 @@ class CurrentSpec(Spec, abc.ABC):
 
 
 class Current(abc.ABC):
-    """Moving water: a `uwsim.world.Flow`.
+    """A current: a `uwsim.world.Flow`.
 
-    It is a function of place and time alone: asked twice, or out of order, it answers the same.
+    It is a function of position and time alone, so the order of evaluations has no effect.
     """
 
     @property
     def is_uniform(self) -> bool:
-        """Whether it is the same at every point."""
+        """True if the velocity is the same at every point."""
         return False
 
     @property
     def is_still(self) -> bool:
-        """Whether it never moves at all."""
+        """True if the water never moves."""
         return False
 
     @property
     def is_steady(self) -> bool:
-        """Whether it is the same at all times."""
+        """True if the velocity is constant in time."""
         return self.is_still
 
     def flow_function(self, vehicles: Sequence[str]) -> FlowFunction | None:
-        """Return its function for compiled code; None where Python has to be asked in every step.
+        """Return its function for compiled code; None if Python must evaluate it in every step.
 
         Args:
-            vehicles: their names, by the numbers that queries have for them.
+            vehicles: the names of the vehicles, by their numbers in queries.
         """
         return None
 
@@ -96,29 +96,29 @@ class Current(abc.ABC):
         """Return the velocity of the water, in L.
 
         Args:
-            points: where, in L, (n, 3) [m].
-            time: simulation time [s].
-            vehicles: what floats at each point, n names, ``""`` for none; or empty.
+            points: the points in L, (n, 3) [m].
+            time: the simulation time [s].
+            vehicles: the vehicle at each point, n names, ``""`` for none; or empty.
 
         Returns:
-            (n, 3) [m/s]; the caller's own array.
+            The velocities, (n, 3) [m/s]; a new array.
         """
 
     def acceleration(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
-        """Return how fast that velocity changes at a fixed point, in L, (n, 3) [m/s2].
+        """Return the local rate of change of the velocity, in L, (n, 3) [m/s2].
 
-        A central difference over 2 ms by default.
+        By default it is a central difference over 2 ms.
         """
-        before = max(0.0, time - DIFFERENCE)
-        later = self.velocity(points, time + DIFFERENCE, vehicles)
-        earlier = self.velocity(points, before, vehicles)
-        change: Array = (later - earlier) / (time + DIFFERENCE - before)
+        start_time = max(0.0, time - HALF_SPAN)
+        end_velocity = self.velocity(points, time + HALF_SPAN, vehicles)
+        start_velocity = self.velocity(points, start_time, vehicles)
+        change: Array = (end_velocity - start_velocity) / (time + HALF_SPAN - start_time)
         return change
 
     def motion(
         self, points: Array, time: float, vehicles: Sequence[str] = ()
     ) -> tuple[Array, Array]:
-        """Return velocity and acceleration, which physics asks for at every step."""
+        """Return velocity and acceleration, which physics needs at every step."""
         return self.velocity(points, time, vehicles), self.acceleration(points, time, vehicles)
 
 
@@ -128,5 +128,5 @@ def flow_function_of(flow: Flow, vehicles: Sequence[str]) -> FlowFunction | None
 
 
 def is_steady(flow: Flow) -> bool:
-    """Whether a flow says that it is the same at all times; one that is no `Current` does not."""
+    """Return whether a flow is constant in time; False for one that is no `Current`."""
     return isinstance(flow, Current) and flow.is_steady

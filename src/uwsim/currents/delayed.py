@@ -1,4 +1,4 @@
-"""A current that starts at a given time, from which its own time counts."""
+"""A current that starts at a given time, at which its own time begins."""
 
 from __future__ import annotations
 
@@ -16,101 +16,103 @@ from .current import Current, flow_function_of
 from .flow_function import QUERY, FlowFunction, write_everywhere
 
 
-class LateCurrent(Current):
-    """Zero before ``began + delay``; then the current at ``offset`` plus the time since began.
+class DelayedCurrent(Current):
+    """A current that is zero before ``start_time + delay``, and another current from then on.
 
-    The time since ``began`` is rounded to nanoseconds, so that a level gives the same numbers
+    The time since ``start`` is rounded to nanoseconds, so that a level gives the same numbers
     whether it is run alone or late in a sweep.
     """
 
-    def __init__(self, current: Flow, *, began: float, delay: float, offset: float = 0.0) -> None:
-        self._current, self._began, self._delay = current, began, delay
+    def __init__(self, current: Flow, *, start: float, delay: float, offset: float = 0.0) -> None:
+        self._current, self._start_time, self._delay = current, start, delay
         self._offset = offset
 
     @property
     def is_uniform(self) -> bool:
-        """Whether the other one is."""
+        """True if the other current is uniform."""
         return self._current.is_uniform
 
     @property
     def is_still(self) -> bool:
-        """Whether the other one is."""
+        """True if the other current is still."""
         return self._current.is_still
 
     def flow_function(self, vehicles: Sequence[str]) -> FlowFunction | None:
-        """Return its function; None where the other one has none."""
+        """Return its function; None if the other current has none."""
         flow = flow_function_of(self._current, vehicles)
         if flow is None:
             return None
-        row = np.zeros(1, LATE)
-        row["flow"], row["began"] = flow.addresses, self._began
+        row = np.zeros(1, DELAYED_CURRENT)
+        row["flow"], row["start_time"] = flow.addresses, self._start_time
         row["delay"], row["offset"] = self._delay, self._offset
 
-        def prepare(until: float) -> None:
-            if (own := self._own_time(until)) is not None:
-                flow.prepare(own)
+        def prepare(end_time: float) -> None:
+            if (current_time := self._current_time(end_time)) is not None:
+                flow.prepare(current_time)
 
-        return FlowFunction(function=flow_late, parameters=row, prepare=prepare, kept=(flow,))
+        return FlowFunction(
+            function=flow_delayed, parameters=row, prepare=prepare, referenced_objects=(flow,)
+        )
 
     def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
         """Return the velocity of the water, in L, (n, 3) [m/s]."""
-        own = self._own_time(time)
-        if own is None:
+        current_time = self._current_time(time)
+        if current_time is None:
             return np.zeros((len(points), 3))
-        return self._current.velocity(points, own, vehicles)
+        return self._current.velocity(points, current_time, vehicles)
 
     def acceleration(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
-        """Return its acceleration, in L, (n, 3) [m/s2]; the jump at its beginning is left out."""
-        own = self._own_time(time)
-        if own is None:
+        """Return the acceleration, in L, (n, 3) [m/s2], without the jump at the beginning."""
+        current_time = self._current_time(time)
+        if current_time is None:
             return np.zeros((len(points), 3))
-        return self._current.acceleration(points, own, vehicles)
+        return self._current.acceleration(points, current_time, vehicles)
 
     def motion(
         self, points: Array, time: float, vehicles: Sequence[str] = ()
     ) -> tuple[Array, Array]:
         """Return velocity and acceleration."""
-        own = self._own_time(time)
-        if own is None:
+        current_time = self._current_time(time)
+        if current_time is None:
             return np.zeros((len(points), 3)), np.zeros((len(points), 3))
-        return self._current.motion(points, own, vehicles)
+        return self._current.motion(points, current_time, vehicles)
 
-    def _own_time(self, time: float) -> float | None:
-        """The time of the other one at a simulation time [s]; None before it starts."""
-        elapsed = rounded(time - self._began)
-        return None if elapsed < self._delay else elapsed + self._offset
+    def _current_time(self, time: float) -> float | None:
+        """Return the time of the other current at a simulation time [s]; None before it starts."""
+        elapsed_time = round_to_nanoseconds(time - self._start_time)
+        return None if elapsed_time < self._delay else elapsed_time + self._offset
 
 
-LATE = np.dtype(
-    [("flow", FUNCTION), ("began", np.float64), ("delay", np.float64), ("offset", np.float64)]
+DELAYED_CURRENT = np.dtype(
+    [("flow", FUNCTION), ("start_time", np.float64), ("delay", np.float64), ("offset", np.float64)]
 )
 """A current that starts at a given time, for compiled code."""
 
 
-def flow_late(parameters: int, values: int, time: float) -> None:
-    """Answer a query about a delayed current; see `uwsim.currents.flow_function`."""
-    current = carray(pointer(parameters), (1,), LATE)[0]
-    elapsed = rounded(time - current.began)
-    if elapsed < current.delay:
+def flow_delayed(parameters: int, values: int, time: float) -> None:
+    """Evaluate a query of a delayed current; see `uwsim.currents.flow_function`."""
+    current = carray(pointer(parameters), (1,), DELAYED_CURRENT)[0]
+    elapsed_time = round_to_nanoseconds(time - current.start_time)
+    if elapsed_time < current.delay:
         write_everywhere(carray(pointer(values), (1,), QUERY)[0], np.zeros(3), np.zeros(3))
     else:
-        call(current.flow.function, current.flow.parameters, values, elapsed + current.offset)
+        call(current.flow.function, current.flow.parameters, values, elapsed_time + current.offset)
 
 
 @njit
-def rounded(time: float) -> float:
+def round_to_nanoseconds(time: float) -> float:
     """Round a time [s] to nanoseconds, bit for bit as Python's ``round(time, 9)``."""
     if abs(time) >= 2.0**23:  # floats are further apart
         return time
-    scaled = time * 1e9
-    whole = math.floor(scaled)
-    rest = scaled - whole
-    if rest == 0.5:  # the product may have been rounded to the middle: what it lost decides
-        lost = rounding_error(time, 1e9, scaled)
-        is_up = lost > 0.0 or (lost == 0.0 and whole % 2 == 1)
+    nanoseconds = time * 1e9
+    floor = math.floor(nanoseconds)
+    fraction = nanoseconds - floor
+    if fraction == 0.5:  # the product may have been rounded to the middle: what it lost decides
+        error = rounding_error(time, 1e9, nanoseconds)
+        is_up = error > 0.0 or (error == 0.0 and floor % 2 == 1)
     else:
-        is_up = rest > 0.5
-    return (whole + 1 if is_up else whole) / 1e9
+        is_up = fraction > 0.5
+    return (floor + 1 if is_up else floor) / 1e9
 
 
 @njit

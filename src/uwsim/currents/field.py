@@ -7,8 +7,8 @@ r"""field: velocities from a file, over x, y, z and time.
 A ``.csv`` file has a line of names, ``x,y,z,t,u,v,w``, and a line of numbers for every node of a
 full grid, in any order. A ``.nc`` file is classic NetCDF (version 3) with coordinate variables
 ``x``, ``y``, ``z`` and ``t`` (or ``time``), and ``u``, ``v``, ``w`` over them. Metres, seconds and
-m/s, in L, or in what a NetCDF file's ``units`` say (`units`). ``w`` and any of the coordinates may
-be left out: the water then does not move along z, or does not change along that coordinate.
+m/s, in L, or the ``units`` of a NetCDF file (`units`). ``w`` and any of the coordinates are
+optional. Without them, the water does not move along z, or does not change along that coordinate.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ Ints = npt.NDArray[np.int64]
 AXES = ("t", "x", "y", "z")
 COMPONENTS = ("u", "v", "w")
 MAX_FILE_BYTES = {".csv": 64 * 2**20, ".nc": 256 * 2**20, ".cdf": 256 * 2**20}
-"""Largest files [bytes]: a table takes five times as much memory as it is long."""
+"""The largest size of a file [bytes]; a table takes five times as much memory."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,22 +52,23 @@ class FieldSpec(CurrentSpec):
     file: str = element(namespaced=True)
     """The file, ``.csv`` or ``.nc``."""
     start: float = element(namespaced=True, default=0.0)
-    """Time in the file when the simulation begins [s]; where it counts from a date, after its first
-    time."""
+    """The time in the file at which the simulation begins [s]; for times since a date, after the
+    first time."""
     outside: Literal["edge", "still"] = element(namespaced=True, default="edge")
-    """Beyond the grid in space: as at its edge, or still. In time always as at its ends."""
+    """The velocity outside the grid: that of its ``edge``, or ``still`` water. Before the first and
+    after the last time, the velocity is that of the end."""
 
     def bind(self, place: Place) -> Field:
         """Read the file.
 
         Raises:
-            AssetError: it cannot be used.
+            AssetError: the file is unusable.
         """
         grid = read_grid(place.find(self.file), name=self.file)
-        return Field(grid, start=self.start, outside=self.outside)
+        return Field(grid, start=self.start, outer_water=self.outside)
 
     def files(self, place: Place) -> dict[str, Path]:
-        """The file."""
+        """Return the file."""
         return {self.file: place.find(self.file)}
 
 
@@ -76,20 +77,20 @@ class Grid:
     """Velocities at the nodes of a grid with straight, possibly uneven, axes."""
 
     axes: tuple[Array, Array, Array, Array]
-    """Values of t, x, y, z, each increasing; a single 0 where nothing changes along it [s, m]."""
+    """The values of t, x, y, z, each increasing; a single 0 if nothing changes along it [s, m]."""
     velocities: Array
-    """In L, (t, x, y, z, 3) [m/s]."""
+    """The velocities in L, (t, x, y, z, 3) [m/s]."""
 
 
 def read_grid(path: Path, *, name: str = "") -> Grid:
     """Read a ``.csv`` or ``.nc`` file.
 
     Args:
-        path: where it is.
-        name: what the scene calls it; the name of the file by default.
+        path: the path of the file.
+        name: its name in the scene; by default the name of the file.
 
     Raises:
-        AssetError: it cannot be used.
+        AssetError: the file is unusable.
     """
     readers = {".csv": read_csv, ".nc": read_netcdf, ".cdf": read_netcdf}
     reader = readers.get(path.suffix.lower())
@@ -123,21 +124,23 @@ def read_csv(path: Path, data: bytes) -> Grid:
                     f"{path}:{lines.line_num}: {len(row)} values; expected {len(names)}: "
                     f"{', '.join(names)}."
                 )
-            where = f"{path}:{lines.line_num}"
-            cells.extend(_number(*each, where) for each in zip(names, row, strict=True))
+            location = f"{path}:{lines.line_num}"
+            cells.extend(
+                _number(*cell_names, location) for cell_names in zip(names, row, strict=True)
+            )
     if not cells:
         raise AssetError(f"{path}: has no line of numbers.")
     table = np.frombuffer(cells).reshape(-1, len(names))  # (n, names)
     columns = {name: table[:, i] for i, name in enumerate(names)}
-    still = np.zeros(len(table))
-    found = [np.unique(columns.get(name, still), return_inverse=True) for name in AXES]
-    axes = tuple(values for values, _ in found)
+    zeros = np.zeros(len(table))
+    coordinates = [np.unique(columns.get(name, zeros), return_inverse=True) for name in AXES]
+    axes = tuple(values for values, _ in coordinates)
     shape = tuple(len(values) for values in axes)
-    node = _nodes(path, axes, tuple(index for _, index in found))  # (n,)
+    node = _nodes(path, axes, tuple(index for _, index in coordinates))  # (n,)
     velocities = np.empty((*shape, 3))
-    flat = velocities.reshape(-1, 3)
+    node_velocities = velocities.reshape(-1, 3)
     for i, name in enumerate(COMPONENTS):
-        flat[node, i] = columns.get(name, still)
+        node_velocities[node, i] = columns.get(name, zeros)
     return Grid((axes[0], axes[1], axes[2], axes[3]), velocities)
 
 
@@ -150,15 +153,18 @@ def read_netcdf(path: Path, data: bytes) -> Grid:
             f"{path}: is NetCDF-4; expected classic NetCDF. `nccopy -k classic` converts it."
         )
     try:
-        with netcdf_file(io.BytesIO(data), mmap=False, maskandscale=True) as found:
+        with netcdf_file(io.BytesIO(data), mmap=False, maskandscale=True) as dataset:
             arrays: dict[str, tuple[tuple[str, ...], Array]] = {}
             units: dict[str, str] = {}
-            for called, variable in found.variables.items():
-                if called not in (*AXES, "time", *COMPONENTS):
+            for variable_name, variable in dataset.variables.items():
+                if variable_name not in (*AXES, "time", *COMPONENTS):
                     continue
-                name = "t" if called == "time" else called
+                name = "t" if variable_name == "time" else variable_name
                 arrays[name] = (
-                    tuple("t" if each == "time" else each for each in variable.dimensions),
+                    tuple(
+                        "t" if dimension == "time" else dimension
+                        for dimension in variable.dimensions
+                    ),
                     np.ma.filled(np.ma.asarray(variable[:], dtype=np.float64), np.nan),
                 )
                 units_text = getattr(variable, "units", b"")
@@ -172,12 +178,12 @@ def read_netcdf(path: Path, data: bytes) -> Grid:
     _check_names(path, list(arrays))
     _convert(path, arrays, units)
     axes = [_axis(path, name, *arrays[name]) if name in arrays else np.zeros(1) for name in AXES]
-    known = {name: axis for name, axis in zip(AXES, axes, strict=True) if name in arrays}
+    coordinates = {name: axis for name, axis in zip(AXES, axes, strict=True) if name in arrays}
     shape = tuple(len(axis) for axis in axes)
     velocities = np.zeros((*shape, 3))
     for i, name in enumerate(COMPONENTS):
         if name in arrays:
-            velocities[..., i] = _component(path, name, *arrays[name], known)
+            velocities[..., i] = _component(path, name, *arrays[name], coordinates)
     return Grid((axes[0], axes[1], axes[2], axes[3]), velocities)
 
 
@@ -193,14 +199,14 @@ def _convert(
         if counts_from_date and values.size:
             values = values - values.min()
         arrays[name] = dimensions, values * factor if factor != 1.0 else values
-    falling = [
+    descending = [
         name
         for name in AXES
         if name in arrays and arrays[name][0] == (name,) and (np.diff(arrays[name][1]) < 0.0).all()
     ]
     for name, (dimensions, values) in arrays.items():
-        flipped = tuple(i for i, each in enumerate(dimensions) if each in falling)
-        arrays[name] = dimensions, np.flip(values, flipped)
+        flip_axes = tuple(i for i, dimension in enumerate(dimensions) if dimension in descending)
+        arrays[name] = dimensions, np.flip(values, flip_axes)
 
 
 def _axis(path: Path, name: str, dimensions: tuple[str, ...], values: Array) -> Array:
@@ -223,9 +229,9 @@ def _axis(path: Path, name: str, dimensions: tuple[str, ...], values: Array) -> 
 def _component(
     path: Path, name: str, dimensions: tuple[str, ...], values: Array, axes: Mapping[str, Array]
 ) -> Array:
-    """The values over t, x, y, z, those it does not change along of length 1."""
-    strange = [each for each in dimensions if each not in axes]
-    if strange or len(set(dimensions)) < len(dimensions):
+    """Return the values over t, x, y, z; axes without change have length 1."""
+    unknown_dimensions = [dimension for dimension in dimensions if dimension not in axes]
+    if unknown_dimensions or len(set(dimensions)) < len(dimensions):
         raise AssetError(
             f"{path}: {name} is over ({', '.join(dimensions)}); expected coordinates of "
             f"{', '.join(AXES)}, each with a variable of its own."
@@ -236,32 +242,32 @@ def _component(
             "expected a number at every node (0 on land)."
         )
     if np.abs(values).max(initial=0.0) > MAX_SPEED:
-        worst = np.unravel_index(int(np.argmax(np.abs(values))), values.shape)
-        where = ", ".join(
-            f"{axis} {axes[axis][i]:g}" for axis, i in zip(dimensions, worst, strict=True)
+        largest_index = np.unravel_index(int(np.argmax(np.abs(values))), values.shape)
+        location = ", ".join(
+            f"{axis} {axes[axis][i]:g}" for axis, i in zip(dimensions, largest_index, strict=True)
         )
         raise AssetError(
-            f"{path}: {name} is {values[worst]:g} at {where}; "
+            f"{path}: {name} is {values[largest_index]:g} at {location}; "
             f"expected numbers from -{MAX_SPEED:g} to {MAX_SPEED:g} [m/s]."
         )
     order = [dimensions.index(axis) for axis in AXES if axis in dimensions]
-    absent = [i for i, axis in enumerate(AXES) if axis not in dimensions]
-    return np.expand_dims(values.transpose(order), absent)
+    missing_axes = [i for i, axis in enumerate(AXES) if axis not in dimensions]
+    return np.expand_dims(values.transpose(order), missing_axes)
 
 
 def _check_names(path: Path, names: list[str]) -> None:
-    known = (*AXES, *COMPONENTS)
-    strange = [name for name in names if name not in known]
-    lacking = [name for name in ("u", "v") if name not in names]
-    if strange or lacking or len(set(names)) < len(names):
+    valid_names = (*AXES, *COMPONENTS)
+    unknown_names = [name for name in names if name not in valid_names]
+    missing_names = [name for name in ("u", "v") if name not in names]
+    if unknown_names or missing_names or len(set(names)) < len(names):
         raise AssetError(
-            f"{path}: has {', '.join(names) or 'nothing'}; expected u and v, and of w, x, y, z "
-            "and t what there is, each once."
+            f"{path}: has {', '.join(names) or 'nothing'}; expected u and v, optionally "
+            "w, x, y, z and t, each once."
         )
 
 
 def _nodes(path: Path, axes: tuple[Array, ...], indices: tuple[Ints, ...]) -> Ints:
-    """The number of each line's node; every node of the grid must have one line."""
+    """Return the number of each line's node; every node of the grid must have one line."""
     shape = tuple(len(values) for values in axes)
     n_lines, n_nodes = len(indices[0]), math.prod(shape)
     expected = f"expected a full grid of {' x '.join(map(str, shape))} nodes over {', '.join(AXES)}"
@@ -269,26 +275,27 @@ def _nodes(path: Path, axes: tuple[Array, ...], indices: tuple[Ints, ...]) -> In
         raise AssetError(f"{path}: has {n_lines} nodes; {expected}.")
     node: Ints = np.ravel_multi_index(indices, shape)
     counts = np.bincount(node, minlength=n_nodes)
-    for wrong, what in ((counts > 1, "stands twice"), (counts == 0, "is missing")):
-        if wrong.any():
-            where = np.unravel_index(int(np.argmax(wrong)), shape)
+    for is_invalid, problem in ((counts > 1, "occurs twice"), (counts == 0, "is missing")):
+        if is_invalid.any():
+            node_index = np.unravel_index(int(np.argmax(is_invalid)), shape)
             place = ", ".join(
-                f"{name} {axis[i]:g}" for name, axis, i in zip(AXES, axes, where, strict=True)
+                f"{name} {axis[i]:g}" for name, axis, i in zip(AXES, axes, node_index, strict=True)
             )
-            n_wrong = np.count_nonzero(wrong)
-            raise AssetError(f"{path}: the node {place} {what} ({n_wrong} such); {expected}.")
+            n_invalid = np.count_nonzero(is_invalid)
+            raise AssetError(f"{path}: the node {place} {problem} ({n_invalid} such); {expected}.")
     return node
 
 
-def _number(name: str, cell: str, where: str) -> float:
+def _number(name: str, cell: str, location: str) -> float:
     value = parse_number(cell.strip())
     if value is None:
-        raise AssetError(f"{where}: {cell.strip()[:40]!r}; expected a number.")
-    most = MAX_SPEED if name in COMPONENTS else MAX_NUMBER
-    if abs(value) > most:
+        raise AssetError(f"{location}: {cell.strip()[:40]!r}; expected a number.")
+    bound = MAX_SPEED if name in COMPONENTS else MAX_NUMBER
+    if abs(value) > bound:
         unit = " [m/s]" if name in COMPONENTS else ""
         raise AssetError(
-            f"{where}: {name} is {value:g}; expected a number from -{most:g} to {most:g}{unit}."
+            f"{location}: {name} is {value:g}; expected a number from "
+            f"-{bound:g} to {bound:g}{unit}."
         )
     return value
 
@@ -301,7 +308,7 @@ FIELD = np.dtype(
         ("lengths", np.int64, 4),
         ("velocities", np.int64),  # of the velocities in L, (t, nodes, 3) [m/s]
         ("n_nodes", np.int64),
-        ("corners", np.int64),  # of records of `CORNER`
+        ("corners", np.int64),  # the address of records of `CORNER`
         ("n_corners", np.int64),
     ]
 )
@@ -311,37 +318,37 @@ CORNER = np.dtype([("is_upper", np.int64, 3), ("offset", np.int64)])
 
 
 class Field(CompiledCurrent):
-    """Velocities of a grid, linear between its nodes along each of t, x, y, z.
+    """The velocities of a grid, with linear interpolation along each of t, x, y, z.
 
     Linear interpolation keeps neither mass nor the curl exactly: a field that conserves volume at
     its nodes does so between them only on average. Not modelled: geographic coordinates, land,
     eddies smaller than a cell.
     """
 
-    def __init__(self, grid: Grid, *, start: float = 0.0, outside: str = "edge") -> None:
+    def __init__(self, grid: Grid, *, start: float = 0.0, outer_water: str = "edge") -> None:
         n_x, n_y, n_z = grid.velocities.shape[1:4]
         axes = [np.ascontiguousarray(axis, dtype=np.float64) for axis in grid.axes]
         velocities = np.ascontiguousarray(grid.velocities, dtype=np.float64)
-        used = [n > 1 for n in (n_x, n_y, n_z)]
-        existing = [
-            corner for corner in itertools.product((0, 1), repeat=3) if _within(corner, used)
+        is_wide = [n > 1 for n in (n_x, n_y, n_z)]
+        cell_corners = [
+            corner for corner in itertools.product((0, 1), repeat=3) if _has_corner(corner, is_wide)
         ]
-        corners = np.zeros(len(existing), CORNER)
-        corners["is_upper"] = existing
+        corners = np.zeros(len(cell_corners), CORNER)
+        corners["is_upper"] = cell_corners
         corners["offset"] = (corners["is_upper"] * (n_y * n_z, n_z, 1)).sum(axis=1)
         row = np.zeros(1, FIELD)
-        row["start"], row["is_still_outside"] = start, outside == "still"
+        row["start"], row["is_still_outside"] = start, outer_water == "still"
         row["axes"], row["lengths"] = [address_of(axis) for axis in axes], grid.velocities.shape[:4]
         row["velocities"], row["n_nodes"] = address_of(velocities), n_x * n_y * n_z
         row["corners"], row["n_corners"] = address_of(corners), len(corners)
         self._flow = FlowFunction(
-            function=flow_field, parameters=row, kept=(axes, velocities, corners)
+            function=flow_field, parameters=row, referenced_objects=(axes, velocities, corners)
         )
 
 
-def _within(corner: tuple[int, ...], used: list[bool]) -> bool:
-    """Whether a corner exists: along an axis of one node there is only the lower."""
-    return all(along or which == 0 for which, along in zip(corner, used, strict=True))
+def _has_corner(corner: tuple[int, ...], is_wide_axis: list[bool]) -> bool:
+    """Return whether a corner exists; an axis with one node has the lower corner only."""
+    return all(is_wide or node == 0 for node, is_wide in zip(corner, is_wide_axis, strict=True))
 
 
 @njit
@@ -351,27 +358,27 @@ def axis_of(current: Record, k: int) -> Array:
 
 
 @njit
-def moment(current: Record, time: float) -> tuple[int, float, float]:
-    """Index of the time before, share of the way to the next, and how far that is [s]."""
+def time_interval(current: Record, time: float) -> tuple[int, float, float]:
+    """Return the index of the last time, the fraction to the next, and the interval [s]."""
     times, now = axis_of(current, 0), current.start + time
-    last = len(times) - 1
-    if now < times[0] or last == 0:
+    last_index = len(times) - 1
+    if now < times[0] or last_index == 0:
         return 0, 0.0, 0.0
-    if now >= times[last]:
-        return last, 0.0, 0.0
+    if now >= times[last_index]:
+        return last_index, 0.0, 0.0
     i = np.searchsorted(times, now, side="right") - 1
     span = times[i + 1] - times[i]
     return i, (now - times[i]) / span, span
 
 
 @njit
-def surround(current: Record, point: Array, shares: Array) -> tuple[int, bool]:
-    """Find the cell of a point: the number of its lowest node, and whether it is in the grid.
+def find_cell(current: Record, point: Array, shares: Array) -> tuple[int, bool]:
+    """Find the cell of a point; return its lowest node, and whether it is in the grid.
 
     Args:
         current: the field.
-        point: in L, (3,) [m].
-        shares: into which those of the lower and the upper node are written, (3, 2).
+        point: the point in L, (3,) [m].
+        shares: receives the weights of the lower and the upper node, (3, 2).
     """
     node, is_inside = 0, True
     for k in range(3):
@@ -390,17 +397,17 @@ def surround(current: Record, point: Array, shares: Array) -> tuple[int, bool]:
 
 
 def flow_field(parameters: int, values: int, time: float) -> None:
-    """Answer a query about a field; see `uwsim.currents.flow_function`."""
+    """Evaluate a query of a field; see `uwsim.currents.flow_function`."""
     current = carray(pointer(parameters), (1,), FIELD)[0]
     query = carray(pointer(values), (1,), QUERY)[0]
     corners = carray(pointer(current.corners), (current.n_corners,), CORNER)
-    i, fraction, span = moment(current, time)
+    i, fraction, span = time_interval(current, time)
     size = 3 * current.n_nodes
-    now = view_doubles(current.velocities + 8 * size * i, size)
-    later = view_doubles(current.velocities + 8 * size * (i + 1 if span > 0.0 else i), size)
+    velocities = view_doubles(current.velocities + 8 * size * i, size)
+    ends = view_doubles(current.velocities + 8 * size * (i + 1 if span > 0.0 else i), size)
     shares, velocity, change = np.empty((3, 2)), np.empty(3), np.empty(3)
     for p in range(query.n):
-        node, is_inside = surround(current, view_doubles(query.points + 24 * p, 3), shares)
+        node, is_inside = find_cell(current, view_doubles(query.points + 24 * p, 3), shares)
         velocity[:], change[:] = 0.0, 0.0
         for c in range(current.n_corners):
             corner = corners[c]
@@ -408,14 +415,14 @@ def flow_field(parameters: int, values: int, time: float) -> None:
             weight = shares[0, x] * shares[1, y] * shares[2, z]
             if current.is_still_outside != 0 and not is_inside:
                 weight *= 0.0
-            first = 3 * (node + corner.offset)
+            column = 3 * (node + corner.offset)
             for k in range(3):
-                here = now[first + k]
-                difference = later[first + k] - here
+                component = velocities[column + k]
+                difference = ends[column + k] - component
                 if fraction > 0.0:
-                    velocity[k] += weight * (here + difference * fraction)
+                    velocity[k] += weight * (component + difference * fraction)
                 else:
-                    velocity[k] += weight * here
+                    velocity[k] += weight * component
                 change[k] += weight * difference
         fill(query.velocity + 24 * p, 1, velocity)
         if query.acceleration != 0:

@@ -1,6 +1,6 @@
 """The function of a current, for compiled code.
 
-It is one of `uwsim.base.numerics.calls`: its parameters are a record of the current's own, and its
+It is a function of `uwsim.base.numerics.calls`. Its parameters are a record of the current, and its
 values a record of `QUERY`.
 """
 
@@ -20,19 +20,19 @@ from ..base.numerics.memory import view_doubles
 
 QUERY = np.dtype(
     [
-        ("n", np.int64),  # points that are asked about
-        ("points", np.int64),  # the address of where they are in L, (n, 3) [m]
-        ("vehicles", np.int64),  # of the number of the vehicle at each, (n,); 0: there is none
-        ("velocity", np.int64),  # of what is written, (n, 3) [m/s]
-        ("acceleration", np.int64),  # likewise [m/s2]; 0: it is not asked for
+        ("n", np.int64),  # the number of points
+        ("points", np.int64),  # the address of the points in L, (n, 3) [m]
+        ("vehicles", np.int64),  # the address of the vehicle at each, (n,); 0: none
+        ("velocity", np.int64),  # the address of the result, (n, 3) [m/s]
+        ("acceleration", np.int64),  # the address of the result [m/s2]; 0: not needed
     ]
 )
-"""A question about the water at some points, and where the answer is written."""
+"""A query of the motion of the water at some points, and the addresses of its results."""
 
 Record = Any
 
 
-def _nothing(until: float) -> None:
+def _prepare_nothing(end_time: float) -> None:
     """Prepare nothing."""
 
 
@@ -44,10 +44,10 @@ class FlowFunction:
     """A function of the module's level; see `uwsim.base.numerics.calls`."""
     parameters: npt.NDArray[Any]
     """The array that the function reads at its address."""
-    prepare: Callable[[float], None] = _nothing
-    """Makes ready what the function needs up to a time [s]: its random numbers."""
-    kept: tuple[object, ...] = field(default=())
-    """What the parameters have the addresses of."""
+    prepare: Callable[[float], None] = _prepare_nothing
+    """The function that prepares random numbers up to a time [s]."""
+    referenced_objects: tuple[object, ...] = field(default=())
+    """The objects whose addresses the parameters contain."""
 
     @property
     def addresses(self) -> tuple[int, int]:
@@ -56,7 +56,7 @@ class FlowFunction:
 
 
 def query_of(vehicles: npt.NDArray[np.int64]) -> tuple[npt.NDArray[Any], ...]:
-    """Return a record of `QUERY` about a point for each vehicle, (1,), and what it refers to."""
+    """Return a record of `QUERY` with a point for each vehicle, (1,), and its arrays."""
     points, velocity, acceleration = np.zeros((3, len(vehicles), 3))
     query = np.zeros(1, QUERY)
     query["n"], query["vehicles"] = len(vehicles), address_of(vehicles)
@@ -67,7 +67,7 @@ def query_of(vehicles: npt.NDArray[np.int64]) -> tuple[npt.NDArray[Any], ...]:
 
 @njit
 def write_everywhere(query: Record, velocity: Array, acceleration: Array) -> None:
-    """Answer with one velocity and one acceleration, (3,), for all points."""
+    """Write one velocity and one acceleration, (3,), for all points."""
     fill(query.velocity, query.n, velocity)
     if query.acceleration != 0:
         fill(query.acceleration, query.n, acceleration)
@@ -75,7 +75,7 @@ def write_everywhere(query: Record, velocity: Array, acceleration: Array) -> Non
 
 @njit
 def write_no_acceleration(query: Record) -> None:
-    """Answer that the water does not accelerate, if that is asked."""
+    """Write zero accelerations, if the query needs accelerations."""
     if query.acceleration != 0:
         fill(query.acceleration, query.n, np.zeros(3))
 

@@ -34,16 +34,16 @@ class GaussMarkovSpec(CurrentSpec):
     mean: Triple = element(
         namespaced=True, default=(0.0, 0.0, 0.0), minimum=-MAX_SPEED, maximum=MAX_SPEED
     )
-    """What the velocity returns to, in L [m/s]."""
+    """The mean velocity, in L [m/s]."""
     deviation: Triple = element(namespaced=True, minimum=0.0, maximum=MAX_SPEED)
-    """Standard deviation of the velocity along each axis of L [m/s]."""
+    """The standard deviation of the velocity along each axis of L [m/s]."""
     mu: float = element(namespaced=True, above=0)
-    """How fast it returns; 1/mu is the correlation time [1/s]."""
+    """The inverse of the correlation time [1/s]."""
     step: float = element(namespaced=True, default=0.05, minimum=0.001)
-    """Distance of the times at which it is drawn; between them it runs straight [s]."""
+    """The time between random numbers, with linear interpolation between them [s]."""
 
     def bind(self, place: Place) -> GaussMarkov:
-        """Take the stream ``current``."""
+        """Make the current with the random stream ``current``."""
         return GaussMarkov(self, place.stream("current"))
 
 
@@ -80,11 +80,12 @@ class GaussMarkov(CompiledCurrent):
     Not modelled: any change with place; correlation between axes; limits to the speed.
     """
 
-    def __init__(self, spec: GaussMarkovSpec, random: np.random.Generator) -> None:
-        keep = math.exp(-spec.mu * spec.step)
-        stir = math.sqrt(-math.expm1(-2.0 * spec.mu * spec.step))
+    def __init__(self, spec: GaussMarkovSpec, rng: np.random.Generator) -> None:
+        decay = math.exp(-spec.mu * spec.step)
+        gain = math.sqrt(-math.expm1(-2.0 * spec.mu * spec.step))
         states = RandomTable(  # of unit variance, at k * step
-            lambda shape, before: _walk(keep, stir, random.standard_normal(shape), before), 3
+            lambda shape, rows: _next_states(decay, gain, rng.standard_normal(shape), rows),
+            3,
         )
         row = np.zeros(1, GAUSS_MARKOV)
         row["mean"], row["deviation"], row["step"] = spec.mean, spec.deviation, spec.step
@@ -92,41 +93,41 @@ class GaussMarkov(CompiledCurrent):
         self._flow = FlowFunction(
             function=flow_gauss_markov,
             parameters=row,
-            prepare=lambda until: states.extend(math.floor(max(0.0, until) / spec.step + 1e-6) + 1),
-            kept=(states,),
+            prepare=lambda end: states.extend(math.floor(max(0.0, end) / spec.step + 1e-6) + 1),
+            referenced_objects=(states,),
         )
 
     @property
     def is_uniform(self) -> bool:
-        """Whether it is the same everywhere."""
+        """True if the velocity is the same everywhere, as here."""
         return True
 
 
 @njit
-def _walk(keep: float, stir: float, noise: Array, before: Array) -> Array:
-    """Return the next states of unit variance, (n, 3), from normal numbers and those before."""
+def _next_states(decay: float, gain: float, noise: Array, last_states: Array) -> Array:
+    """Return the next states of unit variance, (n, 3), from normal numbers and the last states."""
     states = noise.copy()
     for i in range(len(noise)):
-        if i > 0 or len(before) > 0:
-            last = states[i - 1] if i > 0 else before[-1]
+        if i > 0 or len(last_states) > 0:
+            state = states[i - 1] if i > 0 else last_states[-1]
             for k in range(3):
-                states[i, k] = keep * last[k] + stir * noise[i, k]
+                states[i, k] = decay * state[k] + gain * noise[i, k]
     return states
 
 
 def flow_gauss_markov(parameters: int, values: int, time: float) -> None:
-    """Answer a query about a Gauss-Markov process; see `uwsim.currents.flow_function`.
+    """Evaluate a query of a Gauss-Markov process; see `uwsim.currents.flow_function`.
 
     Its acceleration is zero: it has no derivative, and that of its pieces is not one.
     """
     current = carray(pointer(parameters), (1,), GAUSS_MARKOV)[0]
     table = carray(pointer(current.states), (1,), ROWS)[0]
     states = view_doubles(table.rows, 3 * table.n)
-    at = max(0.0, time) / current.step
-    k = math.floor(at + 1e-6)
-    fraction = max(0.0, at - k)
+    position = max(0.0, time) / current.step
+    k = math.floor(position + 1e-6)
+    fraction = max(0.0, position - k)
     velocity = np.empty(3)
     for i in range(3):
-        here, after = states[3 * k + i], states[3 * k + 3 + i]
-        velocity[i] = current.mean[i] + current.deviation[i] * (here + (after - here) * fraction)
+        start, end = states[3 * k + i], states[3 * k + 3 + i]
+        velocity[i] = current.mean[i] + current.deviation[i] * (start + (end - start) * fraction)
     write_everywhere(carray(pointer(values), (1,), QUERY)[0], velocity, np.zeros(3))

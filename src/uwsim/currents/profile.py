@@ -18,8 +18,8 @@ r"""powerProfile, logProfile, layers: currents that depend on depth.
       </u:layer>
     </u:layers>
 
-Depth counts from the still surface, whichever way the file's z points. All are steady, and none
-knows the ground: the depth of the water is what the file says.
+Depths are below the still surface, for any direction of the file's z axis. All are steady. The
+depth of the water is that of the file, not of the terrain.
 """
 
 from __future__ import annotations
@@ -50,14 +50,14 @@ class PowerProfileSpec(CurrentSpec):
     """A ``<u:powerProfile>``: speed grows with a power of the height above ground."""
 
     velocity: Triple = element(namespaced=True, minimum=-MAX_SPEED, maximum=MAX_SPEED)
-    """Velocity of the water at the surface, in L [m/s]."""
+    """The velocity of the water at the surface, in L [m/s]."""
     depth: float = element(namespaced=True, above=0)
-    """Depth of the ground below the still surface [m]."""
+    """The depth of the ground below the still surface [m]."""
     exponent: float = element(namespaced=True, default=1.0 / 7.0, above=0)
-    """Exponent of the power law [1]."""
+    """The exponent of the power law [1]."""
 
     def bind(self, place: Place) -> PowerProfile:
-        """Take the surface and the direction down from the scene."""
+        """Make the current with the surface and the vertical of the scene."""
         return PowerProfile(self, place)
 
 
@@ -66,17 +66,17 @@ class LogProfileSpec(CurrentSpec):
     """A ``<u:logProfile>``: speed grows with the logarithm of the height above ground."""
 
     velocity: Triple = element(namespaced=True, minimum=-MAX_SPEED, maximum=MAX_SPEED)
-    """Velocity of the water at the surface, in L [m/s]."""
+    """The velocity of the water at the surface, in L [m/s]."""
     depth: float = element(namespaced=True, above=0)
-    """Depth of the ground below the still surface [m]."""
+    """The depth of the ground below the still surface [m]."""
     roughness: float = element(namespaced=True, default=0.001, above=0)
-    """Roughness length z0 of the bottom: mud 0.0002, gravel 0.005 [m]."""
+    """The roughness length z0 of the bottom: mud 0.0002, gravel 0.005 [m]."""
 
     def bind(self, place: Place) -> LogProfile:
-        """Take the surface and the direction down from the scene.
+        """Make the current with the surface and the vertical of the scene.
 
         Raises:
-            BadSetting: the water is not deeper than its ground is rough.
+            BadSetting: the depth is not greater than the roughness.
         """
         if self.depth <= self.roughness:
             raise BadSetting(
@@ -88,12 +88,12 @@ class LogProfileSpec(CurrentSpec):
 
 @dataclass(frozen=True, kw_only=True)
 class LayerSpec(Spec):
-    """A ``<u:layer>``: how the water moves at one depth."""
+    """A ``<u:layer>``: the velocity of the water at one depth."""
 
     depth: float = element(namespaced=True)
-    """Below the still surface [m]."""
+    """The depth below the still surface [m]."""
     velocity: Triple = element(namespaced=True, minimum=-MAX_SPEED, maximum=MAX_SPEED)
-    """Velocity of the water there, in L [m/s]."""
+    """The velocity of the water at that depth, in L [m/s]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -101,27 +101,28 @@ class LayersSpec(CurrentSpec):
     """A ``<u:layers>``: velocities at given depths, linear between them."""
 
     layers: tuple[LayerSpec, ...] = element("layer", namespaced=True)
-    """From the top down."""
+    """The layers, from the top down."""
 
     def bind(self, place: Place) -> Layers:
-        """Take the surface and the direction down from the scene.
+        """Make the current with the surface and the vertical of the scene.
 
         Raises:
-            BadSetting: a layer does not lie below the one before it.
+            BadSetting: a layer is not below the layer before it.
         """
         depths = [layer.depth for layer in self.layers]
-        for above, below in itertools.pairwise(depths):
-            if below <= above:
+        for upper_depth, lower_depth in itertools.pairwise(depths):
+            if lower_depth <= upper_depth:
                 raise BadSetting(
-                    f"A <u:layer> of depth {below:g} m follows one of {above:g} m; "
+                    f"A <u:layer> of depth {lower_depth:g} m follows one of {upper_depth:g} m; "
                     "expected them from the top down, each depth once."
                 )
         return Layers(self, place)
 
 
 DOWN = np.dtype([("surface", np.float64), ("upward", np.float64, 3), ("origin", np.float64)])
-"""Height of the still water in W [m], the z axis of W in L, and the height of L's origin [m]."""
-OVER_GROUND = np.dtype(
+"""The height of the still water in W [m], the z axis of W in L, and the height of L's origin
+[m]."""
+GROUND_PROFILE = np.dtype(
     [
         ("down", DOWN),
         ("velocity", np.float64, 3),  # at the surface, in L [m/s]
@@ -142,12 +143,12 @@ class Profile(CompiledCurrent):
 
     @property
     def is_steady(self) -> bool:
-        """Whether it is the same at all times: yes."""
+        """True if the velocity is constant in time, as here."""
         return True
 
 
 class PowerProfile(Profile):
-    r"""Speed by the power law over the height above ground.
+    r"""A current whose speed follows the power law over the height above ground.
 
     .. math:: v(d) = v_0 \left(\frac{h - d}{h}\right)^{1/7}
 
@@ -157,13 +158,13 @@ class PowerProfile(Profile):
     """
 
     def __init__(self, spec: PowerProfileSpec, place: Place) -> None:
-        row = _over_ground(place, spec.velocity, spec.depth)
+        row = _ground_profile(place, spec.velocity, spec.depth)
         row["exponent"] = spec.exponent
         self._flow = FlowFunction(function=flow_power, parameters=row)
 
 
 class LogProfile(Profile):
-    r"""Speed by the law of the wall over the height above ground.
+    r"""A current whose speed follows the law of the wall over the height above ground.
 
     .. math:: v(d) = v_0 \frac{\ln((h - d)/z_0)}{\ln(h/z_0)} \quad
         \left(u = \frac{u_*}{0.41} \ln \frac{h - d}{z_0}\right)
@@ -174,14 +175,14 @@ class LogProfile(Profile):
     """
 
     def __init__(self, spec: LogProfileSpec, place: Place) -> None:
-        row = _over_ground(place, spec.velocity, spec.depth)
+        row = _ground_profile(place, spec.velocity, spec.depth)
         row["roughness"] = spec.roughness
         row["log_depth"] = math.log(spec.depth / spec.roughness)
         self._flow = FlowFunction(function=flow_log, parameters=row)
 
 
 class Layers(Profile):
-    """Velocities at given depths, linear between them, and even above the first and below the last.
+    """Velocities at given depths, linear between them, constant above the first and below the last.
 
     Not modelled: mixing, internal waves, time.
     """
@@ -191,7 +192,9 @@ class Layers(Profile):
         row = np.zeros(1, LAYERS)
         row["down"] = _down(place)
         row["layers"], row["n_layers"] = address_of(layers), len(layers)
-        self._flow = FlowFunction(function=flow_layers, parameters=row, kept=(layers,))
+        self._flow = FlowFunction(
+            function=flow_layers, parameters=row, referenced_objects=(layers,)
+        )
 
 
 def _down(place: Place) -> npt.NDArray[np.void]:
@@ -205,30 +208,30 @@ def _down(place: Place) -> npt.NDArray[np.void]:
     return row
 
 
-def _over_ground(place: Place, velocity: Triple, depth: float) -> npt.NDArray[np.void]:
-    row = np.zeros(1, OVER_GROUND)
+def _ground_profile(place: Place, velocity: Triple, depth: float) -> npt.NDArray[np.void]:
+    row = np.zeros(1, GROUND_PROFILE)
     row["down"], row["velocity"], row["depth"] = _down(place), velocity, depth
     return row
 
 
 @njit
 def depth_of(down: Record, points: Array, i: int) -> float:
-    """Return how far below the still surface point i of (3 n,) is [m]; above it negative."""
+    """Return the depth of point i of (3 n,) below the still surface [m]; negative above it."""
     up = down.upward
     height = 0.0 + points[3 * i] * up[0] + points[3 * i + 1] * up[1] + points[3 * i + 2] * up[2]
-    below: float = down.surface - (height + down.origin)
-    return below
+    depth: float = down.surface - (height + down.origin)
+    return depth
 
 
 @njit
-def within(value: float, least: float, most: float) -> float:
-    """Return the nearest number within limits; not a number stays so."""
-    return least if value < least else most if value > most else value
+def clamp(value: float, minimum: float, maximum: float) -> float:
+    """Return the nearest number within limits; NaN for NaN."""
+    return minimum if value < minimum else maximum if value > maximum else value
 
 
 def flow_power(parameters: int, values: int, time: float) -> None:
-    """Answer a query about a power profile; see `uwsim.currents.flow_function`."""
-    current = carray(pointer(parameters), (1,), OVER_GROUND)[0]
+    """Evaluate a query of a power profile; see `uwsim.currents.flow_function`."""
+    current = carray(pointer(parameters), (1,), GROUND_PROFILE)[0]
     query = carray(pointer(values), (1,), QUERY)[0]
     points, velocities = (
         view_doubles(query.points, 3 * query.n),
@@ -236,18 +239,18 @@ def flow_power(parameters: int, values: int, time: float) -> None:
     )
     depth, share = math.nan, 0.0
     for i in range(query.n):
-        here = depth_of(current.down, points, i)
-        if here != depth:  # neighbouring points are often as deep
-            depth = here
-            share = math.pow(within(1.0 - depth / current.depth, 0.0, 1.0), current.exponent)
+        point_depth = depth_of(current.down, points, i)
+        if point_depth != depth:  # neighbouring points often have the same depth
+            depth = point_depth
+            share = math.pow(clamp(1.0 - depth / current.depth, 0.0, 1.0), current.exponent)
         for k in range(3):
             velocities[3 * i + k] = share * current.velocity[k]
     write_no_acceleration(query)
 
 
 def flow_log(parameters: int, values: int, time: float) -> None:
-    """Answer a query about a logarithmic profile; see `uwsim.currents.flow_function`."""
-    current = carray(pointer(parameters), (1,), OVER_GROUND)[0]
+    """Evaluate a query of a logarithmic profile; see `uwsim.currents.flow_function`."""
+    current = carray(pointer(parameters), (1,), GROUND_PROFILE)[0]
     query = carray(pointer(values), (1,), QUERY)[0]
     points, velocities = (
         view_doubles(query.points, 3 * query.n),
@@ -255,10 +258,10 @@ def flow_log(parameters: int, values: int, time: float) -> None:
     )
     depth, share = math.nan, 0.0
     for i in range(query.n):
-        here = depth_of(current.down, points, i)
-        if here != depth:
-            depth = here
-            height = within(current.depth - depth, current.roughness, current.depth)
+        point_depth = depth_of(current.down, points, i)
+        if point_depth != depth:
+            depth = point_depth
+            height = clamp(current.depth - depth, current.roughness, current.depth)
             share = math.log(height / current.roughness) / current.log_depth
         for k in range(3):
             velocities[3 * i + k] = share * current.velocity[k]
@@ -266,7 +269,7 @@ def flow_log(parameters: int, values: int, time: float) -> None:
 
 
 def flow_layers(parameters: int, values: int, time: float) -> None:
-    """Answer a query about layers; see `uwsim.currents.flow_function`."""
+    """Evaluate a query of layers; see `uwsim.currents.flow_function`."""
     current = carray(pointer(parameters), (1,), LAYERS)[0]
     query = carray(pointer(values), (1,), QUERY)[0]
     points, velocities = (
@@ -276,14 +279,16 @@ def flow_layers(parameters: int, values: int, time: float) -> None:
     layers = view_doubles(current.layers, 4 * current.n_layers).reshape((current.n_layers, 4))
     for i in range(query.n):
         depth = depth_of(current.down, points, i)
-        below = 0  # of the first layer that is below
-        while below < len(layers) and layers[below, 0] <= depth:
-            below += 1
-        above, low = max(0, below - 1), min(below, len(layers) - 1)
+        lower = 0  # the first layer below the point
+        while lower < len(layers) and layers[lower, 0] <= depth:
+            lower += 1
+        upper, lower_layer = max(0, lower - 1), min(lower, len(layers) - 1)
         for k in range(3):
-            top = layers[above, 1 + k]
-            velocities[3 * i + k] = top
-            if above < low and depth != layers[above, 0]:
-                slope = (layers[low, 1 + k] - top) / (layers[low, 0] - layers[above, 0])
-                velocities[3 * i + k] = slope * (depth - layers[above, 0]) + top
+            velocity = layers[upper, 1 + k]
+            velocities[3 * i + k] = velocity
+            if upper < lower_layer and depth != layers[upper, 0]:
+                slope = (layers[lower_layer, 1 + k] - velocity) / (
+                    layers[lower_layer, 0] - layers[upper, 0]
+                )
+                velocities[3 * i + k] = slope * (depth - layers[upper, 0]) + velocity
     write_no_acceleration(query)

@@ -40,31 +40,31 @@ class PythonFunctionSpec(CurrentSpec):
     """``module:function``."""
 
     def bind(self, place: Place) -> PythonFunction:
-        """Import the module: its code runs here.
+        """Import the module, which runs its code.
 
-        Where no code may run it is only looked for, and the water of it is still.
+        If no code may run, only find the module; the water is then still.
 
         Raises:
             BadSetting: there is no such module, or no such function in it.
         """
         if not place.runs_code:
             self.look_up()
-            return PythonFunction(self.function, still)
+            return PythonFunction(self.function, still_water)
         module_name, name = self._names()
         try:
             module = importlib.import_module(module_name)
         except ModuleNotFoundError as error:
-            raise self._lost(error.name) from error
+            raise self._missing_module(error.name) from error
         except (Exception, SystemExit) as error:  # whatever a third-party module raises
             raise BadSetting(
-                f"<u:function> is {self.function!r}; its module raised {_returned(error)}"
+                f"<u:function> is {self.function!r}; its module raised {_error_text(error)}"
             ) from error
         function = getattr(module, name, None)
         if not callable(function):
-            known = [each for each in dir(module) if callable(getattr(module, each))]
+            function_names = [member for member in dir(module) if callable(getattr(module, member))]
             raise BadSetting(
                 f"<u:function> is {self.function!r}; {module_name} has no function {name!r}."
-                f"{did_you_mean(name, known)}"
+                f"{did_you_mean(name, function_names)}"
             )
         return PythonFunction(self.function, function)
 
@@ -77,44 +77,44 @@ class PythonFunctionSpec(CurrentSpec):
         try:
             return find_module_file(self._names()[0])
         except ModuleNotFoundError as error:
-            raise self._lost(error.name) from error
+            raise self._missing_module(error.name) from error
 
     @property
     def code(self) -> str:
-        """The module and function that it runs."""
+        """The module and function that it calls."""
         return self.function
 
     def files(self, place: Place) -> dict[str, Path]:
-        """The file of the module and those that it imports, once it is imported."""
+        """Return the files of the module and of its imports, once it is imported."""
         module = self._names()[0]
         return find_sources(module) if module in sys.modules else {}
 
-    def _lost(self, module: str | None) -> BadSetting:
+    def _missing_module(self, module: str | None) -> BadSetting:
         return BadSetting(
             f"<u:function> is {self.function!r}; there is no module {module!r} on Python's path "
             "(PYTHONPATH adds folders to it)."
         )
 
     def _names(self) -> tuple[str, str]:
-        """Module and function."""
+        """Return module and function."""
         module, _, name = self.function.partition(":")
         if not name.isidentifier() or not all(part.isidentifier() for part in module.split(".")):
             raise BadSetting(f"<u:function> is {self.function!r}; expected 'module:function'.")
         return module, name
 
 
-def still(point: Array, time: float, vehicle: str) -> tuple[float, float, float]:
-    """Still water, in place of a function that may not run."""
+def still_water(point: Array, time: float, vehicle: str) -> tuple[float, float, float]:
+    """Return the velocity of still water, in place of a function that may not run."""
     return 0.0, 0.0, 0.0
 
 
 class PythonFunction(Current):
-    """What ``function(point, time, vehicle)`` returns: three numbers, the velocity in L [m/s].
+    """The current of a user's ``function(point, time, vehicle)``, a velocity in L [m/s].
 
-    ``point`` is in L, (3,) [m], its own copy; ``time`` is simulation time [s]; ``vehicle`` is the
+    ``point`` is in L, (3,) [m], a copy; ``time`` is simulation time [s]; ``vehicle`` is the
     name of the vehicle whose part is there, ``""`` for a loose object. The function is called at
     every step for every body that the water acts on: once for the velocity, twice for the
-    acceleration and six times for shear, so its cost is the simulation's. A result is repeatable
+    acceleration and six times for shear, so its cost slows the simulation. A result is repeatable
     only if it depends on its arguments alone.
     """
 
@@ -125,37 +125,37 @@ class PythonFunction(Current):
         """Return the velocity of the water, in L, (n, 3) [m/s].
 
         Raises:
-            BadSetting: the function raised, or returned something else than three numbers up to
+            BadSetting: the function raised an exception, or did not return three numbers up to
                 `MAX_SPEED`.
         """
         names = vehicles if len(vehicles) else [""] * len(points)
         velocities = np.empty((len(points), 3))
         for i, (point, vehicle) in enumerate(zip(points, names, strict=True)):
-            velocities[i] = self._ask(point, time, vehicle)
+            velocities[i] = self._call_function(point, time, vehicle)
         return velocities
 
-    def _ask(self, point: Array, time: float, vehicle: str) -> tuple[float, float, float]:
+    def _call_function(self, point: Array, time: float, vehicle: str) -> tuple[float, float, float]:
         try:
-            returned = self._function(point.copy(), time, vehicle)
+            result = self._function(point.copy(), time, vehicle)
         except (Exception, SystemExit) as error:  # errors of the third-party function
             raise BadSetting(
-                f"The current {self._name!r} raised {_place(point, time)}: {_returned(error)}"
+                f"The current {self._name!r} raised {_location(point, time)}: {_error_text(error)}"
             ) from error
         try:
-            x, y, z = (float(value) for value in returned)
+            x, y, z = (float(value) for value in result)
         except Exception:  # a third-party object may raise anything in __float__
             x = y = z = math.nan
         if not (abs(x) <= MAX_SPEED and abs(y) <= MAX_SPEED and abs(z) <= MAX_SPEED):
             raise BadSetting(
-                f"The current {self._name!r} returned {short_repr(returned)} {_place(point, time)}"
+                f"The current {self._name!r} returned {short_repr(result)} {_location(point, time)}"
                 f"; expected three numbers from -{MAX_SPEED:g} to {MAX_SPEED:g} [m/s]."
             )
         return x, y, z
 
 
-def _place(point: Array, time: float) -> str:
+def _location(point: Array, time: float) -> str:
     return f"at {point.tolist()}, {time:g} s"
 
 
-def _returned(error: BaseException) -> str:
+def _error_text(error: BaseException) -> str:
     return f"{type(error).__name__}: {' '.join(str(error).split()):.200}"

@@ -9,33 +9,33 @@ import numpy as np
 from ..base.geometry import Array
 from ..base.numerics.calls import address_of
 
-BLOCK = 1024
-"""Rows drawn at once; part of what a seed means, so never to be changed."""
+BLOCK_SIZE = 1024
+"""The number of rows of a draw. It determines the numbers of a seed; never change it."""
 ROWS = np.dtype([("rows", np.int64), ("n", np.int64)])
-"""The address of the rows that are drawn, and how many there are."""
+"""The address and the number of the rows."""
 
 Draw = Callable[[tuple[int, int], Array], Array]
-"""Shape of the next rows, and all rows before -> the next rows."""
+"""The function that draws rows of a shape, and takes the rows before."""
 
 
 class RandomTable:
-    """Rows of random numbers that do not depend on the order of access: drawn in order and kept.
+    """A table of random numbers whose rows are drawn in order, for any order of access.
 
     Args:
         draw: draws the next rows.
-        width: how many numbers a row has.
+        width: the length of a row.
     """
 
     def __init__(self, draw: Draw, width: int) -> None:
         self._draw, self._width = draw, width
         self._rows = np.zeros((0, width))
         self.record = np.zeros(1, ROWS)
-        """Where the rows are, for compiled code; a record of `ROWS`, (1,)."""
+        """The address and the number of the rows, for compiled code: a record of `ROWS`, (1,)."""
         self.extend(0)
 
     def extend(self, k: int) -> None:
-        """Draw all rows up to number k that are not drawn yet."""
+        """Draw the missing rows up to number k."""
         while k >= len(self._rows):
-            new = self._draw((BLOCK, self._width), self._rows)
-            self._rows = np.concatenate([self._rows, new])
+            next_rows = self._draw((BLOCK_SIZE, self._width), self._rows)
+            self._rows = np.concatenate([self._rows, next_rows])
             self.record["rows"], self.record["n"] = address_of(self._rows), len(self._rows)

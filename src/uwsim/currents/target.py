@@ -23,21 +23,21 @@ class TargetCurrent(Current):
 
     @property
     def is_uniform(self) -> bool:
-        """Whether the other one is."""
+        """True if the other current is uniform."""
         return self._current.is_uniform
 
     @property
     def is_steady(self) -> bool:
-        """Whether the other one is."""
+        """True if the other current is constant in time."""
         return is_steady(self._current)
 
     @property
     def is_still(self) -> bool:
-        """Whether the other one is."""
+        """True if the other current is still."""
         return self._current.is_still
 
     def flow_function(self, vehicles: Sequence[str]) -> FlowFunction | None:
-        """Return its function; None where the other one has none."""
+        """Return its function; None if the other current has none."""
         flow = flow_function_of(self._current, vehicles)
         if flow is None:
             return None
@@ -48,26 +48,26 @@ class TargetCurrent(Current):
             function=flow_target,
             parameters=row,
             prepare=flow.prepare,
-            kept=(flow,),
+            referenced_objects=(flow,),
         )
 
     def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
         """Return the velocity of the water, in L, (n, 3) [m/s]."""
-        return self._own(self._current.velocity(points, time, vehicles), vehicles)
+        return self._clear_others(self._current.velocity(points, time, vehicles), vehicles)
 
     def acceleration(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
         """Return the acceleration of the water, in L, (n, 3) [m/s2]."""
-        return self._own(self._current.acceleration(points, time, vehicles), vehicles)
+        return self._clear_others(self._current.acceleration(points, time, vehicles), vehicles)
 
     def motion(
         self, points: Array, time: float, vehicles: Sequence[str] = ()
     ) -> tuple[Array, Array]:
         """Return velocity and acceleration."""
         velocity, acceleration = self._current.motion(points, time, vehicles)
-        return self._own(velocity, vehicles), self._own(acceleration, vehicles)
+        return self._clear_others(velocity, vehicles), self._clear_others(acceleration, vehicles)
 
-    def _own(self, vectors: Array, vehicles: Sequence[str]) -> Array:
-        """Set to 0 what is not the target's, (n, 3)."""
+    def _clear_others(self, vectors: Array, vehicles: Sequence[str]) -> Array:
+        """Set the vectors (n, 3) of other vehicles to 0."""
         if not vehicles:
             return np.zeros_like(vectors)
         is_other = [name != self._target for name in vehicles]
@@ -81,7 +81,7 @@ TARGET = np.dtype([("flow", FUNCTION), ("target", np.int64)])
 
 
 def flow_target(parameters: int, values: int, time: float) -> None:
-    """Answer a query about the current of a target; see `uwsim.currents.flow_function`."""
+    """Evaluate a query of the current of a target; see `uwsim.currents.flow_function`."""
     current = carray(pointer(parameters), (1,), TARGET)[0]
     query = carray(pointer(values), (1,), QUERY)[0]
     call(current.flow.function, current.flow.parameters, values, time)

@@ -29,7 +29,8 @@ from .current import MAX_SPEED, CurrentSpec, Place
 from .flow_function import QUERY, FlowFunction, write_everywhere
 
 DEGREES_PER_HOUR = {"M2": 28.9841042, "S2": 30.0, "K1": 15.0410686, "O1": 13.9430356}
-"""Speed of each constituent (Doodson): periods of 12.4206, 12, 23.9345 and 25.8193 h."""
+"""The angular speed of each constituent (Doodson) [degrees/h]: periods of 12.4206, 12, 23.9345 and
+25.8193 h."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,24 +38,24 @@ class ConstituentSpec(Spec):
     """A ``<u:constituent>``: the ellipse that one constituent of the tide draws."""
 
     name: Literal["M2", "S2", "K1", "O1"] = element(namespaced=True)
-    """Which: principal lunar, principal solar, lunisolar diurnal or lunar diurnal."""
+    """The name: principal lunar, principal solar, lunisolar diurnal or lunar diurnal."""
     semi_major: float = element(namespaced=True, minimum=0, maximum=MAX_SPEED)
-    """Highest speed [m/s]."""
+    """The highest speed [m/s]."""
     semi_minor: float = element(namespaced=True, default=0.0, minimum=-MAX_SPEED, maximum=MAX_SPEED)
-    """Lowest speed; below 0 the velocity turns from y of L to x, else from x to y [m/s]."""
+    """The lowest speed [m/s]; below 0 the velocity turns from y of L to x, else from x to y."""
     inclination: float = element(namespaced=True, default=0.0)
-    """Of the highest speed, from x of L towards y [rad]."""
+    """The inclination of the semi-major axis, from x of L towards y [rad]."""
     phase: float = element(namespaced=True, default=0.0)
-    """Lag of the highest speed behind time 0 [rad]."""
+    """The phase lag of the highest speed behind time 0 [rad]."""
 
     @property
     def angular_rate(self) -> float:
-        """Its speed [rad/s]."""
+        """The angular rate [rad/s]."""
         return math.radians(DEGREES_PER_HOUR[self.name]) / 3600.0
 
     @property
     def period(self) -> float:
-        """Its period [s]."""
+        """The period [s]."""
         return 2.0 * math.pi / self.angular_rate
 
 
@@ -63,9 +64,9 @@ class TidalSpec(CurrentSpec):
     """A ``<u:tidal>``: the sum of the ellipses of some constituents of the tide."""
 
     start: float = element(namespaced=True, default=0.0)
-    """Time of the tide when the simulation begins [s]."""
+    """The time of the tide at which the simulation begins [s]."""
     constituents: tuple[ConstituentSpec, ...] = element("constituent", namespaced=True)
-    """What adds up to it."""
+    """The constituents of the tide."""
 
     def bind(self, place: Place) -> Tidal:
         """Needs nothing of the scene."""
@@ -103,22 +104,25 @@ class Tidal(CompiledCurrent):
 
     def __init__(self, spec: TidalSpec) -> None:
         terms = np.zeros(len(spec.constituents), TERM)
-        for term, each in zip(terms, spec.constituents, strict=True):
-            term["rate"], term["lag"] = each.angular_rate, each.phase
-            term["major"], term["minor"] = each.semi_major, each.semi_minor
-            term["cosine"], term["sine"] = math.cos(each.inclination), math.sin(each.inclination)
+        for term, part in zip(terms, spec.constituents, strict=True):
+            term["rate"], term["lag"] = part.angular_rate, part.phase
+            term["major"], term["minor"] = part.semi_major, part.semi_minor
+            term["cosine"], term["sine"] = (
+                math.cos(part.inclination),
+                math.sin(part.inclination),
+            )
         row = np.zeros(1, TIDAL)
         row["start"], row["terms"], row["n_terms"] = spec.start, address_of(terms), len(terms)
-        self._flow = FlowFunction(function=flow_tidal, parameters=row, kept=(terms,))
+        self._flow = FlowFunction(function=flow_tidal, parameters=row, referenced_objects=(terms,))
 
     @property
     def is_uniform(self) -> bool:
-        """Whether it is the same everywhere."""
+        """True if the velocity is the same everywhere, as here."""
         return True
 
 
 def flow_tidal(parameters: int, values: int, time: float) -> None:
-    """Answer a query about a tidal current; see `uwsim.currents.flow_function`."""
+    """Evaluate a query of a tidal current; see `uwsim.currents.flow_function`."""
     current = carray(pointer(parameters), (1,), TIDAL)[0]
     terms = carray(pointer(current.terms), (current.n_terms,), TERM)
     velocity, acceleration = np.zeros(3), np.zeros(3)
@@ -126,10 +130,10 @@ def flow_tidal(parameters: int, values: int, time: float) -> None:
         term = terms[i]
         angle = term.rate * (current.start + time) - term.lag
         cosine, sine = math.cos(angle), math.sin(angle)
-        along, across = term.major * cosine, term.minor * sine
-        velocity[0] += along * term.cosine - across * term.sine
-        velocity[1] += along * term.sine + across * term.cosine
-        along, across = -term.rate * term.major * sine, term.rate * term.minor * cosine
-        acceleration[0] += along * term.cosine - across * term.sine
-        acceleration[1] += along * term.sine + across * term.cosine
+        major_part, minor_part = term.major * cosine, term.minor * sine
+        velocity[0] += major_part * term.cosine - minor_part * term.sine
+        velocity[1] += major_part * term.sine + minor_part * term.cosine
+        major_part, minor_part = -term.rate * term.major * sine, term.rate * term.minor * cosine
+        acceleration[0] += major_part * term.cosine - minor_part * term.sine
+        acceleration[1] += major_part * term.sine + minor_part * term.cosine
     write_everywhere(carray(pointer(values), (1,), QUERY)[0], velocity, acceleration)

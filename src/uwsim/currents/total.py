@@ -23,24 +23,24 @@ class TotalCurrent(Current):
 
     @property
     def is_uniform(self) -> bool:
-        """Whether all of them are the same everywhere."""
+        """True if all currents are uniform."""
         return all(current.is_uniform for current in self._currents)
 
     @property
     def is_steady(self) -> bool:
-        """Whether all of them are the same at all times."""
+        """True if all currents are constant in time."""
         return all(is_steady(current) for current in self._currents)
 
     @property
     def is_still(self) -> bool:
-        """Whether all of them are."""
+        """True if all currents are still."""
         return not self._currents
 
     def flow_function(self, vehicles: Sequence[str]) -> FlowFunction | None:
-        """Return its function; None where one of them has none."""
-        found = [flow_function_of(current, vehicles) for current in self._currents]
-        flows = [flow for flow in found if flow is not None]
-        if len(flows) < len(found):
+        """Return its function; None if one of the currents has none."""
+        functions = [flow_function_of(current, vehicles) for current in self._currents]
+        flows = [flow for flow in functions if flow is not None]
+        if len(flows) < len(functions):
             return None
         if len(flows) == 1:
             return flows[0]
@@ -49,15 +49,15 @@ class TotalCurrent(Current):
             part["function"], part["parameters"] = flow.addresses
         row["parts"], row["n"] = address_of(parts), len(parts)
 
-        def prepare(until: float) -> None:
+        def prepare(end_time: float) -> None:
             for flow in flows:
-                flow.prepare(until)
+                flow.prepare(end_time)
 
         return FlowFunction(
             function=flow_total,
             parameters=row,
             prepare=prepare,
-            kept=(parts, flows),
+            referenced_objects=(parts, flows),
         )
 
     def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
@@ -72,7 +72,7 @@ class TotalCurrent(Current):
 
 
 def _sum(parts: list[Array], n: int) -> Array:
-    """Add up vectors at n points, (n, 3); what is handed in may be changed."""
+    """Return the sum of vectors at n points, (n, 3); the arguments may change."""
     if not parts:
         return np.zeros((n, 3))
     for part in parts[1:]:
@@ -81,34 +81,34 @@ def _sum(parts: list[Array], n: int) -> Array:
 
 
 TOTAL = np.dtype([("parts", np.int64), ("n", np.int64)])
-"""The address of records of `calls.FUNCTION`, and how many, for compiled code."""
+"""The address and the number of records of `calls.FUNCTION`, for compiled code."""
 
 
 def flow_total(parameters: int, values: int, time: float) -> None:
-    """Answer a query about a sum of currents; see `uwsim.currents.flow_function`."""
+    """Evaluate a query of a sum of currents; see `uwsim.currents.flow_function`."""
     current = carray(pointer(parameters), (1,), TOTAL)[0]
     parts = carray(pointer(current.parts), (current.n,), FUNCTION)
     query = carray(pointer(values), (1,), QUERY)[0]
-    wanted = query.velocity, query.acceleration
+    addresses = query.velocity, query.acceleration
     size = 3 * query.n
-    part_of = np.empty(2 * size)  # the velocities and accelerations of one current
+    part_vectors = np.empty(2 * size)  # the velocities and accelerations of one current
     for i in range(current.n):
         if i > 0:
-            query.velocity = part_of.ctypes.data
-            query.acceleration = part_of.ctypes.data + 8 * size if wanted[1] != 0 else 0
+            query.velocity = part_vectors.ctypes.data
+            query.acceleration = part_vectors.ctypes.data + 8 * size if addresses[1] != 0 else 0
         call(parts[i].function, parts[i].parameters, values, time)
         for k in range(2 if i > 0 else 0):
-            if wanted[k] != 0:
-                total = view_doubles(wanted[k], size)
+            if addresses[k] != 0:
+                total = view_doubles(addresses[k], size)
                 for j in range(size):
-                    total[j] += part_of[k * size + j]
-    query.velocity, query.acceleration = wanted
+                    total[j] += part_vectors[k * size + j]
+    query.velocity, query.acceleration = addresses
 
 
 def bind_currents(specs: Sequence[CurrentSpec], place: Place) -> TotalCurrent:
     """Bind the currents of a scene; number i has its own random streams, ``scene/i/...``."""
-    return TotalCurrent([spec.bind(_own(place, i)) for i, spec in enumerate(specs)])
+    return TotalCurrent([spec.bind(_numbered_place(place, i)) for i, spec in enumerate(specs)])
 
 
-def _own(place: Place, i: int) -> Place:
+def _numbered_place(place: Place, i: int) -> Place:
     return replace(place, stream=lambda name: place.stream(f"scene/{i}/{name}"))

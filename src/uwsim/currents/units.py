@@ -1,6 +1,6 @@
 """Conversion of a NetCDF file's ``units`` to metres, seconds and metres per second.
 
-Names and spellings are those of UDUNITS, which the CF conventions (1.11, chapter 3.1) ask for.
+Names and spellings are those of UDUNITS, which the CF conventions (1.11, chapter 3.1) require.
 ``hours since 2000-01-01`` is a time of that unit, counted from a date.
 """
 
@@ -44,20 +44,20 @@ def unit(name: str, text: str) -> tuple[float, bool]:
     """Return a unit's factor to SI units, and whether it is a time since a date.
 
     Args:
-        name: of the variable: ``t``, ``x``, ``y``, ``z``, ``u``, ``v`` or ``w``.
-        text: its attribute ``units``; empty for SI units.
+        name: the name of the variable: ``t``, ``x``, ``y``, ``z``, ``u``, ``v`` or ``w``.
+        text: the attribute ``units``; empty for SI units.
 
     Raises:
-        ValueError: it is another unit; says which are expected.
+        ValueError: the unit is unknown; the text lists the expected units.
     """
     words = text.strip().lower()
     kind = "time" if name == "t" else "speed" if name in ("u", "v", "w") else "length"
-    plain, since, _ = words.partition(" since ")
+    unit_name, separator, _ = words.partition(" since ")
     if not words:
         return 1.0, False
     factor: float | None = None
     if kind == "time":
-        factor = TIMES.get(plain.strip())
+        factor = TIMES.get(unit_name.strip())
     elif kind == "length":
         factor = LENGTHS.get(words)
     elif parts := re.fullmatch(r"([a-z]+)(?: ?/ ?([a-z]+)|[ .*]([a-z]+)(?:\^|\*\*)?-1)", words):
@@ -65,4 +65,4 @@ def unit(name: str, text: str) -> tuple[float, bool]:
         factor = None if length is None or time is None else length / time
     if factor is None:
         raise ValueError(f"{name} is in {quote(text.strip())}; expected {EXPECTED[kind]}")
-    return factor, bool(since)
+    return factor, bool(separator)

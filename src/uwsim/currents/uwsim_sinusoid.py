@@ -28,9 +28,9 @@ from .flow_function import QUERY, FlowFunction, Record, write_everywhere
 from .random_table import ROWS, RandomTable
 
 MIN_PERIOD = 0.01
-"""No water swells and turns faster [s]."""
+"""The shortest period [s]."""
 RATE = 60.0
-"""The random factors are drawn anew this often, and held between [Hz]."""
+"""The rate of new random factors, which are constant between draws [Hz]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,40 +41,40 @@ class UwsimSinusoidSpec(CurrentSpec):
     """
 
     speed: float = element(namespaced=True, minimum=-MAX_SPEED, maximum=MAX_SPEED)
-    """Mean speed [m/s]."""
+    """The mean speed [m/s]."""
     speed_variation: float = element(
         namespaced=True, default=0.0, minimum=-MAX_SPEED, maximum=MAX_SPEED
     )
-    """Amplitude of its swelling [m/s]."""
+    """The amplitude of the variation of speed [m/s]."""
     speed_period: float = element(namespaced=True, default=1.0, minimum=MIN_PERIOD)
-    """Period of its swelling [s]."""
+    """The period of the variation of speed [s]."""
     theta: float = element(namespaced=True, default=math.pi / 2.0)
-    """Polar angle from z of L [rad]."""
+    """The polar angle from z of L [rad]."""
     theta_variation: float = element(namespaced=True, default=0.0)
-    """Amplitude of its turning in theta [rad]."""
+    """The amplitude of the variation of theta [rad]."""
     theta_period: float = element(namespaced=True, default=1.0, minimum=MIN_PERIOD)
-    """Period of its turning in theta [s]."""
+    """The period of the variation of theta [s]."""
     phi: float = element(namespaced=True, default=0.0)
-    """Azimuth from y of L towards -x of L [rad]."""
+    """The azimuth from y of L towards -x of L [rad]."""
     phi_variation: float = element(namespaced=True, default=0.0)
-    """Amplitude of its turning in phi [rad]."""
+    """The amplitude of the variation of phi [rad]."""
     phi_period: float = element(namespaced=True, default=1.0, minimum=MIN_PERIOD)
-    """Period of its turning in phi [s]."""
+    """The period of the variation of phi [s]."""
     random: float = element(namespaced=True, default=0.0, minimum=0, maximum=10)
-    """Half-width of the uniform noise on speed and both angles, relative [1]."""
+    """The half-width of the uniform noise of speed and both angles, relative [1]."""
 
     def bind(self, place: Place) -> UwsimSinusoid:
-        """Take the stream ``current``."""
+        """Make the current with the random stream ``current``."""
         return UwsimSinusoid(self, place.stream("current"))
 
 
-SWING = np.dtype([("mean", np.float64), ("variation", np.float64), ("rate", np.float64)])
+SINE = np.dtype([("mean", np.float64), ("variation", np.float64), ("rate", np.float64)])
 """A sine of time about a mean; its rate is in rad/s."""
 SINUSOID = np.dtype(
     [
-        ("speed", SWING),
-        ("theta", SWING),
-        ("phi", SWING),
+        ("speed", SINE),
+        ("theta", SINE),
+        ("phi", SINE),
         ("random", np.float64),
         ("draws", np.int64),  # the address of a record of `random_table.ROWS`
     ]
@@ -92,7 +92,7 @@ class UwsimSinusoid(CompiledCurrent):
         \phi   &= (\phi_0 + \phi_v \sin(2\pi t/T_\phi)) (1 + e\,r_3) \\
         v      &= F\,(-\sin\theta \sin\phi,\ \sin\theta \cos\phi,\ \cos\theta)
 
-    in L, with r uniform in -1..1, drawn anew every 1/60 s and held, and e = ``random``. With
+    in L, with r uniform in -1..1, drawn anew every 1/60 s and held, and e = ``rng``. With
     theta = pi/2 the water flows along y of L, and turns towards -x as phi grows.
     Source: UWSim's benchmark module. It writes 3.14 for pi, takes t from the wall clock, and
     draws at every frame; here t is simulation time.
@@ -100,9 +100,9 @@ class UwsimSinusoid(CompiledCurrent):
     Not modelled: any change with place. The acceleration leaves out the jumps of the noise.
     """
 
-    def __init__(self, spec: UwsimSinusoidSpec, random: np.random.Generator) -> None:
+    def __init__(self, spec: UwsimSinusoidSpec, rng: np.random.Generator) -> None:
         self._is_still = spec.speed == spec.speed_variation == 0.0
-        draws = RandomTable(lambda shape, _: random.uniform(-1.0, 1.0, shape), 3)
+        draws = RandomTable(lambda shape, _: rng.uniform(-1.0, 1.0, shape), 3)
         row = np.zeros(1, SINUSOID)
         for name in ("speed", "theta", "phi"):
             row[name]["mean"] = getattr(spec, name)
@@ -113,54 +113,65 @@ class UwsimSinusoid(CompiledCurrent):
         self._flow = FlowFunction(
             function=flow_sinusoid,
             parameters=row,
-            prepare=lambda until: draws.extend(draw_of(until)) if is_random else None,
-            kept=(draws,),
+            prepare=lambda end_time: draws.extend(draw_of(end_time)) if is_random else None,
+            referenced_objects=(draws,),
         )
 
     @property
     def is_uniform(self) -> bool:
-        """Whether it is the same everywhere."""
+        """True if the velocity is the same everywhere, as here."""
         return True
 
     @property
     def is_still(self) -> bool:
-        """Whether its speed is zero at all times."""
+        """True if its speed is zero at all times."""
         return self._is_still
 
 
 @njit
 def draw_of(time: float) -> int:
-    """Return the number of the random factors that hold at a time [s]."""
+    """Return the index of the random factors at a time [s]."""
     return max(0, math.floor(time * RATE + 1e-6))
 
 
 @njit
-def swung(swing: Record, factor: float, time: float) -> tuple[float, float]:
+def evaluate_sine(sine: Record, factor: float, time: float) -> tuple[float, float]:
     """Return the value of a sine at a time, and its derivative."""
-    turn = swing.rate * time
+    angle = sine.rate * time
     return (
-        factor * (swing.mean + swing.variation * math.sin(turn)),
-        factor * swing.variation * swing.rate * math.cos(turn),
+        factor * (sine.mean + sine.variation * math.sin(angle)),
+        factor * sine.variation * sine.rate * math.cos(angle),
     )
 
 
 def flow_sinusoid(parameters: int, values: int, time: float) -> None:
-    """Answer a query about UWSim's current; see `uwsim.currents.flow_function`."""
+    """Evaluate a query of UWSim's current; see `uwsim.currents.flow_function`."""
     current = carray(pointer(parameters), (1,), SINUSOID)[0]
     a, b, c, e = 1.0, 1.0, 1.0, current.random
     if e != 0.0:
-        table, first = carray(pointer(current.draws), (1,), ROWS)[0], 3 * draw_of(time)
+        table, row = carray(pointer(current.draws), (1,), ROWS)[0], 3 * draw_of(time)
         rows = view_doubles(table.rows, 3 * table.n)
-        a, b, c = 1.0 + e * rows[first], 1.0 + e * rows[first + 1], 1.0 + e * rows[first + 2]
-    speed, dspeed = swung(current.speed, a, time)
-    theta, dtheta = swung(current.theta, b, time)
-    phi, dphi = swung(current.phi, c, time)
+        a, b, c = (
+            1.0 + e * rows[row],
+            1.0 + e * rows[row + 1],
+            1.0 + e * rows[row + 2],
+        )
+    speed, speed_rate = evaluate_sine(current.speed, a, time)
+    theta, theta_rate = evaluate_sine(current.theta, b, time)
+    phi, phi_rate = evaluate_sine(current.phi, c, time)
     sine, cosine = math.sin(theta), math.cos(theta)
-    aside, along = -math.sin(phi), math.cos(phi)
-    flat, dflat = speed * sine, dspeed * sine + speed * cosine * dtheta
+    x, y = -math.sin(phi), math.cos(phi)
+    level_speed, level_rate = (
+        speed * sine,
+        speed_rate * sine + speed * cosine * theta_rate,
+    )
     velocity, acceleration = np.empty(3), np.empty(3)
-    velocity[0], velocity[1], velocity[2] = flat * aside, flat * along, speed * cosine
-    acceleration[0] = dflat * aside - flat * along * dphi
-    acceleration[1] = dflat * along + flat * aside * dphi
-    acceleration[2] = dspeed * cosine - speed * sine * dtheta
+    velocity[0], velocity[1], velocity[2] = (
+        level_speed * x,
+        level_speed * y,
+        speed * cosine,
+    )
+    acceleration[0] = level_rate * x - level_speed * y * phi_rate
+    acceleration[1] = level_rate * y + level_speed * x * phi_rate
+    acceleration[2] = speed_rate * cosine - speed * sine * theta_rate
     write_everywhere(carray(pointer(values), (1,), QUERY)[0], velocity, acceleration)

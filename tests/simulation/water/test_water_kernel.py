@@ -17,10 +17,10 @@ from uwsim.currents import (
     Constant,
     ConstituentSpec,
     Current,
+    DelayedCurrent,
     Field,
     GaussMarkovSpec,
     Grid,
-    LateCurrent,
     LayerSpec,
     LayersSpec,
     LogProfileSpec,
@@ -54,7 +54,7 @@ def a_field(outside: str = "edge") -> Field:
     axes = [np.cumsum(random.uniform(0.5, 2.0, n)) for n in (4, 5, 3, 6)]
     velocities = random.normal(scale=0.3, size=(4, 5, 3, 6, 3))
     grid = Grid((axes[0], axes[1], axes[2], axes[3]), velocities)
-    return Field(grid, start=0.4, outside=outside)
+    return Field(grid, start=0.4, outer_water=outside)
 
 
 def a_profile() -> Current:
@@ -91,8 +91,8 @@ CURRENTS: dict[str, Callable[[], Current]] = {
     "field that is still outside": lambda: a_field("still"),
     "sum": lambda: TotalCurrent([a_profile(), a_walk(), a_field()]),
     "uniform sum": lambda: TotalCurrent([a_walk(), Constant(VELOCITY), a_swell()]),
-    "late": lambda: LateCurrent(a_swell(), began=0.7, delay=0.2, offset=0.1),
-    "late field": lambda: LateCurrent(a_field(), began=0.7, delay=0.2),
+    "late": lambda: DelayedCurrent(a_swell(), start=0.7, delay=0.2, offset=0.1),
+    "late field": lambda: DelayedCurrent(a_field(), start=0.7, delay=0.2),
     "of a target": lambda: TotalCurrent([TargetCurrent(a_field(), "b"), Constant(VELOCITY)]),
     "of another target": lambda: TargetCurrent(a_profile(), "nobody"),
 }

@@ -23,7 +23,7 @@ import numpy as np
 from ...currents import (
     MAX_SPEED,
     MIN_PERIOD,
-    LateCurrent,
+    DelayedCurrent,
     Place,
     TargetCurrent,
     UwsimSinusoidSpec,
@@ -167,7 +167,7 @@ class CurrentForceUpdater(SceneUpdater):
         stage, spec = self._stage, self._spec
         sinusoid = spec.current(value).bind(Place(stream=stage.stream))
         offset = spec.time_offset
-        current = LateCurrent(sinusoid, began=stage.time, delay=delay, offset=offset)
+        current = DelayedCurrent(sinusoid, start=stage.time, delay=delay, offset=offset)
         if not spec.publish_as_force:
             has_target = "current-target" in stage.world.compatibility
             stage.set_current(TargetCurrent(current, spec.target) if has_target else current)
