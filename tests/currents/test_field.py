@@ -150,7 +150,7 @@ def test_netcdf_may_be_packed_and_steady(tmp_path: Path) -> None:
         ("x,u,v\n0,1,nan\n", r"field\.csv:2: 'nan'; expected a number"),
         ("x,u,v\n0,1,1\n1,1\n", r"field\.csv:3: 2 values; expected 3: x, u, v"),
         ("x,y,u,v\n0,0,1,1\n1,0,1,1\n1,1,1,1\n", "node t 0, x 0, y 1, z 0 is missing"),
-        ("x,u,v\n0,1,1\n0,1,1\n", "node t 0, x 0, y 0, z 0 stands twice"),
+        ("x,u,v\n0,1,1\n0,1,1\n", "node t 0, x 0, y 0, z 0 occurs twice"),
     ],
 )
 def test_what_is_wrong_with_a_table_is_reported(text: str, said: str, tmp_path: Path) -> None:
