@@ -51,7 +51,7 @@ class DelayedCurrent(Current):
                 flow.prepare(current_time)
 
         return FlowFunction(
-            function=flow_delayed, parameters=row, prepare=prepare, referenced_objects=(flow,)
+            function=flow_delayed, parameters=row, prepare=prepare, memory_owners=(flow,)
         )
 
     def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:

@@ -342,7 +342,7 @@ class Field(CompiledCurrent):
         row["velocities"], row["n_nodes"] = address_of(velocities), n_x * n_y * n_z
         row["corners"], row["n_corners"] = address_of(corners), len(corners)
         self._flow = FlowFunction(
-            function=flow_field, parameters=row, referenced_objects=(axes, velocities, corners)
+            function=flow_field, parameters=row, memory_owners=(axes, velocities, corners)
         )
 
 

@@ -46,7 +46,7 @@ class FlowFunction:
     """The array that the function reads at its address."""
     prepare: Callable[[float], None] = _prepare_nothing
     """The function that prepares random numbers up to a time [s]."""
-    referenced_objects: tuple[object, ...] = field(default=())
+    memory_owners: tuple[object, ...] = field(default=())
     """The objects whose addresses the parameters contain."""
 
     @property

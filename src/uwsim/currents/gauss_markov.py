@@ -94,7 +94,7 @@ class GaussMarkov(CompiledCurrent):
             function=flow_gauss_markov,
             parameters=row,
             prepare=lambda end: states.extend(math.floor(max(0.0, end) / spec.step + 1e-6) + 1),
-            referenced_objects=(states,),
+            memory_owners=(states,),
         )
 
     @property

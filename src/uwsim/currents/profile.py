@@ -192,9 +192,7 @@ class Layers(Profile):
         row = np.zeros(1, LAYERS)
         row["down"] = _down(place)
         row["layers"], row["n_layers"] = address_of(layers), len(layers)
-        self._flow = FlowFunction(
-            function=flow_layers, parameters=row, referenced_objects=(layers,)
-        )
+        self._flow = FlowFunction(function=flow_layers, parameters=row, memory_owners=(layers,))
 
 
 def _down(place: Place) -> npt.NDArray[np.void]:

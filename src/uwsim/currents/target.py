@@ -48,7 +48,7 @@ class TargetCurrent(Current):
             function=flow_target,
             parameters=row,
             prepare=flow.prepare,
-            referenced_objects=(flow,),
+            memory_owners=(flow,),
         )
 
     def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:

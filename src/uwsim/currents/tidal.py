@@ -113,7 +113,7 @@ class Tidal(CompiledCurrent):
             )
         row = np.zeros(1, TIDAL)
         row["start"], row["terms"], row["n_terms"] = spec.start, address_of(terms), len(terms)
-        self._flow = FlowFunction(function=flow_tidal, parameters=row, referenced_objects=(terms,))
+        self._flow = FlowFunction(function=flow_tidal, parameters=row, memory_owners=(terms,))
 
     @property
     def is_uniform(self) -> bool:

@@ -57,7 +57,7 @@ class TotalCurrent(Current):
             function=flow_total,
             parameters=row,
             prepare=prepare,
-            referenced_objects=(parts, flows),
+            memory_owners=(parts, flows),
         )
 
     def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:

@@ -114,7 +114,7 @@ class UwsimSinusoid(CompiledCurrent):
             function=flow_sinusoid,
             parameters=row,
             prepare=lambda end_time: draws.extend(draw_of(end_time)) if is_random else None,
-            referenced_objects=(draws,),
+            memory_owners=(draws,),
         )
 
     @property

@@ -145,7 +145,7 @@ def follow_mount(
     function: Callable[[int, int, float], None],
     parameters: npt.NDArray[np.void],
     n_values: int,
-    referenced_objects: tuple[object, ...],
+    memory_owners: tuple[object, ...],
 ) -> Sampler:
     """Return what takes the samples of a sensor that reads nothing that moves but its mount.
 
@@ -154,7 +154,7 @@ def follow_mount(
         function: of the module's level, which takes a sample; see `uwsim.base.numerics.calls`.
         parameters: what the function reads, (1,).
         n_values: how many numbers it writes.
-        referenced_objects: what the parameters have the addresses of, besides the mount.
+        memory_owners: what the parameters have the addresses of, besides the mount.
     """
     return Sampler(
         function=function_address(function),
@@ -162,7 +162,7 @@ def follow_mount(
         n_values=n_values,
         prepare=lambda _: mount.prepare(),
         is_alone=lambda _: mount.is_compiled,
-        memory_owners=(mount, *referenced_objects),
+        memory_owners=(mount, *memory_owners),
     )
 
 
