@@ -177,7 +177,7 @@ def test_a_flood_of_messages_is_bounded(graph: Graph, monkeypatch: pytest.Monkey
     graph.step()
     assert actual[-1].data == last
     assert len(actual) <= 1000
-    assert any("faster than the simulation takes them" in line for line in graph.printed)
+    assert any("faster than the simulation reads them" in line for line in graph.printed)
     connection.close()
     publisher.close()
 

@@ -337,7 +337,7 @@ def test_of_a_flood_of_100_000_the_newest_are_kept_and_the_log_says_so(
         time.sleep(0.01)
     thread.join()
     assert 0 < most <= 1000
-    assert any("faster than the simulation takes them" in line for line in setting.lines)
+    assert any("faster than the simulation reads them" in line for line in setting.lines)
     assert len(setting.lines) < 20
     setting.bridge.step()
     assert [int(entry.data) for entry in actual] == list(range(n - 1000, n))
