@@ -40,6 +40,15 @@ def save_measures(notes: Mapping[str, MeasureNote], directory: Path) -> None:
     write_text(directory / FILE, json.dumps(texts, indent=2, ensure_ascii=False) + "\n")
 
 
+def without_meanings(text: str) -> str:
+    """Return the text of a file without its meanings, whose words may change with the version."""
+    try:
+        notes = json.loads(text)
+        return json.dumps({name: {**note, "meaning": ""} for name, note in notes.items()}, indent=2)
+    except (ValueError, RecursionError, AttributeError, TypeError):
+        return text
+
+
 def load_measures(directory: Path) -> dict[str, MeasureNote]:
     """Read the file; return nothing where it does not exist or is damaged."""
     try:
