@@ -149,7 +149,6 @@ class _KinematicVehicle:
         data.qvel[self._v] = state.velocity if is_moving else 0.0
 
     def restore_pose(self) -> None:
-        """Restore the pose from before the step."""
         self._data.qpos[self._q] = self.state.positions
         self._data.qvel[self._v] = 0.0
 

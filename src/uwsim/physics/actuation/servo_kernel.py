@@ -60,21 +60,19 @@ def clamp_targets(joints: Records, states: Records) -> None:
 
 
 @njit
-def set_targets(
-    joints: Records, states: Records, joint_indices: JointIndices, targets: Array
-) -> None:
+def set_targets(joints: Records, states: Records, indices: JointIndices, targets: Array) -> None:
     """Set the targets of the servos of some joints; the others continue to theirs."""
-    for i in range(len(joint_indices)):
-        states[joint_indices[i]].wanted = targets[i]
-        states[joint_indices[i]].speed = 0.0
+    for i in range(len(indices)):
+        states[indices[i]].wanted = targets[i]
+        states[indices[i]].speed = 0.0
     clamp_targets(joints, states)
 
 
 @njit
-def find_first_off(states: Records, joint_indices: JointIndices) -> int:
+def find_first_off(states: Records, indices: JointIndices) -> int:
     """Return the index of the first of some joints whose servo is off; below 0 if all are on."""
-    for i in range(len(joint_indices)):
-        if states[joint_indices[i]].is_on == 0:
+    for i in range(len(indices)):
+        if states[indices[i]].is_on == 0:
             return i
     return -1
 

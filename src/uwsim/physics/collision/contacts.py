@@ -65,7 +65,7 @@ class EngineContacts:
         self._arrays: ContactArrays | None = None
 
     def invalidate(self, *, are_current: bool) -> None:
-        """Read the contacts anew when they are next needed; to be called after every step.
+        """Discard the contacts that were read; to be called after every step.
 
         Args:
             are_current: true if the engine's contacts are those of the present poses.

@@ -31,7 +31,7 @@ def self_test() -> None:
         callback.install()
     if not is_right:
         raise MujocoChanged(
-            f"The hydrodynamics kernel does not agree with itself on MuJoCo {mujoco.__version__}."
+            f"The hydrodynamics kernel fails its self-test with MuJoCo {mujoco.__version__}."
         )
 
 
@@ -63,7 +63,7 @@ def _equations_hold() -> bool:
 
 
 def _energy_is_conserved() -> bool:
-    """Return whether a free body that turns keeps its energy in a step of ``implicitfast``.
+    """Return whether a rotating free body conserves energy in a step of ``implicitfast``.
 
     MuJoCo adds a gyroscopic term there, which `free_bodies` subtracts: with another term, or none,
     the step would gain or lose energy.

@@ -135,11 +135,8 @@ def fin_row(fin: FinSpec) -> npt.NDArray[np.float64]:
     row[c.MIN_ANGLE], row[c.MAX_ANGLE] = fin.limits
     row[c.RATE], row[c.LAG] = fin.rate or math.inf, fin.time_constant
     row[c.AREA], row[c.SLOPE], row[c.STALL] = fin.area, fin.slope, fin.stall
-    row[c.DRAG], row[c.INDUCED_DRAG], row[c.PLATE] = (
-        fin.drag,
-        fin.induced_drag_slope,
-        fin.plate_drag,
-    )
+    row[c.DRAG], row[c.PLATE] = fin.drag, fin.plate_drag
+    row[c.INDUCED_DRAG] = fin.induced_drag_slope
     row[c.N_COEFFICIENTS] = len(fin.coefficients) // 3
     row[c.IS_EVEN] = float(all(angle >= 0.0 for angle in fin.coefficients[::3]))
     row[c.COEFFICIENTS : c.COEFFICIENTS + len(fin.coefficients)] = fin.coefficients

@@ -109,8 +109,8 @@ def check(model: mujoco.MjModel, data: mujoco.MjData, offsets: npt.NDArray[np.in
             right = int(value) == _read(address, width)
         if not right:
             raise MujocoChanged(
-                f"MuJoCo {mujoco.__version__} keeps {name!r} elsewhere than its own description "
-                "says; the hydrodynamics need mujoco>=4.0,<4.1."
+                f"MuJoCo {mujoco.__version__} has {name!r} at another offset than its description "
+                "states; the hydrodynamics need mujoco>=4.0,<4.1."
             )
 
 
