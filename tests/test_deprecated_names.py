@@ -92,7 +92,8 @@ def test_old_names_of_a_simulation_and_a_node_work() -> None:
             lambda: simulation.watch(look=lambda: times.append(simulation.time)), "look", "callback"
         )
         recorder = Recorder()
-        simulation.attach(recorder)
+        node: Any = simulation.attach(recorder)
+        assert warned(node.unconnected, "unconnected", "describe_unconnected_topics") == []
         topic = "uwsim/camera1_info"
         loaded.latest_message(topic)
         loaded.advance(0.25)

@@ -234,7 +234,7 @@ def test_a_vehicle_that_sways_with_a_phase_begins_within_its_swing(tmp_path: Pat
     assert np.diff(places) == pytest.approx(
         [0.1 * np.cos(0.5) * 2 * np.pi / 7 * 0.002] * 2, rel=0.01
     )
-    simulation.world.vehicles.find("girona500").put(None)
+    simulation.world.vehicles.find("girona500").reset_pose(None)
     origin = simulation.world.bodies.find("girona500").world_from_body.position
     located = simulation.world.model.scene.world_from_localized.inverse().transform(origin[None])[0]
     assert located[0] == pytest.approx(places[-1], abs=1e-3)

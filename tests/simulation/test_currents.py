@@ -42,10 +42,10 @@ def test_a_vehicle_is_put_back_where_its_file_has_it(simulation: Simulation) -> 
     )
     for _ in range(10):
         simulation.advance()
-    simulation.world.vehicles.find("girona500").put(None)
+    simulation.world.vehicles.find("girona500").reset_pose(None)
     assert place_in_l(simulation) == pytest.approx([2.0, 0.0, 2.515])
     with pytest.raises(UnknownName, match="girona500"):
-        simulation.world.vehicles.find("girona50").put(None)
+        simulation.world.vehicles.find("girona50").reset_pose(None)
 
 
 def test_a_timer_is_called_at_its_rate_until_it_is_stopped(simulation: Simulation) -> None:

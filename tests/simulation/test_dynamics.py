@@ -122,7 +122,7 @@ def test_a_vehicle_that_is_put_back_is_at_rest() -> None:
     simulation = make()
     command(simulation, 0.3, 0.0)
     run(simulation, 5.0)
-    simulation.world.vehicles.find("girona500").put(None)
+    simulation.world.vehicles.find("girona500").reset_pose(None)
     assert position(simulation) == pytest.approx([3.0, 1.5, 1.515])
     run(simulation, 5.0)
     assert position(simulation) == pytest.approx([3.0, 1.5, 1.515], abs=0.02)

@@ -70,7 +70,7 @@ def test_rudders_turn_a_vehicle_that_moves(simulation: Simulation) -> None:
 def test_a_vehicle_that_is_placed_begins_with_its_fins_at_rest(simulation: Simulation) -> None:
     say(simulation, "/remus/fins", -0.2, -0.2, 0.0, 0.0)
     advance(simulation, 0.1)
-    simulation.world.vehicles.find("remus").put(None)
+    simulation.world.vehicles.find("remus").reset_pose(None)
     other = remus()
     for each in (simulation, other):
         say(each, "/remus/propeller", 1.0)

@@ -211,7 +211,7 @@ def test_a_vehicle_that_is_put_back_is_at_rest() -> None:
     for _ in range(8):
         by_twist(simulation, 0.0)
         simulation.advance(0.1)
-    simulation.world.vehicles.find(NAME).put(None)
+    simulation.world.vehicles.find(NAME).reset_pose(None)
     motion = simulation.world.vehicles.find(NAME).moving_mount(IMU).motion()
     assert not motion.velocity.any()
     assert not motion.acceleration.any()

@@ -56,7 +56,7 @@ def by_set_pose(simulation: Simulation, pose: Pose) -> None:
 def by_service(simulation: Simulation, pose: Pose) -> None:
     # what /set_entity_state does
     world = simulation.world
-    world.vehicles.find("girona500").put(world.model.scene.world_from_localized @ pose)
+    world.vehicles.find("girona500").reset_pose(world.model.scene.world_from_localized @ pose)
 
 
 def by_message(simulation: Simulation, pose: Pose) -> None:

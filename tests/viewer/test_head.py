@@ -11,7 +11,7 @@ from tests.support.opened import open_scene
 from tests.support.packs import numbers
 from uwsim.base.geometry import Pose
 from uwsim.simulation.tracked_bodies import TrackedBodies
-from uwsim.simulation.views import FIELD, focus_of, orbit_view
+from uwsim.simulation.views import FIELD_OF_VIEW, find_focus, orbit_view
 from uwsim.viewer.head import scene_head
 from uwsim.viewer.pack import Blob
 
@@ -106,10 +106,10 @@ def test_the_view_of_the_file_is_that_of_its_camera(described: Any) -> None:
 def test_the_first_view_is_the_orbit_of_a_render_and_has_vehicle_and_task_in_it(scene: str) -> None:
     with uwsim.load(scene) as simulation:
         view = scene_head(simulation, scene, Blob())["view"]
-        orbit, corners = orbit_view(simulation, (960, 720)), focus_of(simulation).corners
+        orbit, corners = orbit_view(simulation, (960, 720)), find_focus(simulation).corners
     first = pose(view["pose"])
     assert np.abs(first.matrix - orbit.world_from_camera.matrix).max() < 1e-6
-    assert view["fovy"] == pytest.approx(FIELD)
+    assert view["fovy"] == pytest.approx(FIELD_OF_VIEW)
     ahead = np.subtract(view["at"], first.position)  # the page looks there from the same place
     assert -first.rotation[:, 2] == pytest.approx(ahead / np.linalg.norm(ahead), abs=1e-6)
     pixels = orbit.intrinsics.project(first.inverse().transform(corners))

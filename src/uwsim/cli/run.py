@@ -232,7 +232,7 @@ def run_and_report(
     if wanted.program is not None:
         with aside:
             node = simulation.attach(wanted.program(), parameters=wanted.parameters, raises=False)
-        for sentence in node.unconnected():
+        for sentence in node.describe_unconnected_topics():
             warn(sentence)
     with convert_to_run_failed(), ExitStack() as last, ExitStack() as stack:
         stack.enter_context(aside)
@@ -258,7 +258,7 @@ def run_and_report(
             if recorder is not None:
                 recorder.check()
             if node is not None and node.error is not None:
-                raise RunFailed(f"{node.name} {node.how}: {node.error}")
+                raise RunFailed(f"{node.name} {node.failure_verb}: {node.error}")
         if node is not None:
             given = node.parameters
             if note := describe_unread_parameters(node.name, given.plain_copy, given.names_read):

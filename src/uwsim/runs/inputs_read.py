@@ -41,7 +41,7 @@ def inputs_of(plan: Plan, simulation: Simulation, read_files: Iterable[InputFile
     assets += _hash_files({n: path for n, path in other_files.items() if path not in read_paths})
     assets += [
         InputFile(name, f"sha256:{digest}")
-        for name, digest in simulation.world.scenery.made_hashes.items()
+        for name, digest in simulation.world.scenery.generated_hashes.items()
     ]
     return Inputs(
         benchmark=(benchmark.name, compute_hash(benchmark)),

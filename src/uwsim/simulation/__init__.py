@@ -6,22 +6,22 @@ scene updaters set; `scenery` renders; `node` is an algorithm that runs in this 
 
 from __future__ import annotations
 
-from .nodes.calls import BEFORE, Calls, Counter, Cut, Stopped, open_call
-from .nodes.node import STOPPED, InProcessNode, latency_of, what_broke
+from .nodes.calls import NO_CALLS, Calls, CallStopped, Counter, Cut, unfinished_call
+from .nodes.node import STOPPED_VERB, InProcessNode, describe_failure, latency_of
 from .scenery.renderer_pool import RendererPool
 from .simulation import Simulation
 
 __all__ = [
-    "BEFORE",
-    "STOPPED",
+    "NO_CALLS",
+    "STOPPED_VERB",
+    "CallStopped",
     "Calls",
     "Counter",
     "Cut",
     "InProcessNode",
     "RendererPool",
     "Simulation",
-    "Stopped",
+    "describe_failure",
     "latency_of",
-    "open_call",
-    "what_broke",
+    "unfinished_call",
 ]

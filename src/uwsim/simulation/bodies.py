@@ -27,57 +27,51 @@ class SceneBody:
 
     @property
     def name(self) -> str:
-        """The route by which it was looked up."""
+        """The route by which the body was found."""
         return self._name
 
     @property
     def world_from_body(self) -> Pose:
-        """Where it is now."""
+        """The present pose."""
         return self._pose()
 
     @property
     def box(self) -> Box | None:
-        """Bounding box of its mesh in its own frame; None without a mesh."""
+        """The bounding box of the mesh in its own frame; None without a mesh."""
         return self._box
 
 
 class SceneBodies:
-    """The bodies of a scene by name.
-
-    Args:
-        model: of the scene.
-        engine: where everything is.
-    """
+    """The bodies of a scene by name."""
 
     def __init__(self, model: SceneModel, engine: Engine) -> None:
         self._bodies = name_bodies(model, engine)
 
     def find(self, name: str) -> SceneBody:
-        """Find what a route ``a/b/c`` names; nodes between the first and the last may be skipped.
+        """Find the body of a route ``a/b/c``; nodes between the first and the last may be skipped.
 
         The name of a link may have slashes itself, ``rov/bluerov2/base_link``.
 
         Raises:
-            UnknownName: nothing matches; lists what there is.
+            UnknownName: nothing matches; lists the bodies.
         """
         nodes = [node.strip() for node in name.strip().strip("/").split("/")]
         if nodes[0] == "localizedWorld" and len(nodes) > 1:
             nodes = nodes[1:]
-        for known in ("/".join(nodes), f"{nodes[0]}/{nodes[-1]}"):
-            if known in self._bodies:
-                return self._bodies[known]
+        for key in ("/".join(nodes), f"{nodes[0]}/{nodes[-1]}"):
+            if key in self._bodies:
+                return self._bodies[key]
         raise UnknownName("body", name, self._bodies)
 
 
 def name_bodies(model: SceneModel, engine: Engine) -> dict[str, SceneBody]:
-    """Give every frame of the scene its routes; where two share a name, the first has it.
+    """Name every frame of the scene by its routes; where two share a name, the first has it.
 
     ``vehicle`` is the base frame, ``vehicle/link`` and ``link`` the kinematic frame of a link,
-    ``link@visual`` its visual frame (the original's meaning of a link's name; the kinematic one
-    where nothing is seen of the link), an object its mesh frame (scale moves the frame's origin
-    and does not turn it), ``localizedWorld`` is L. The boxes of objects are as large as the
-    objects; with the compatibility ``box-scale`` their ``scaleFactor`` is left out, as in the
-    original.
+    ``link@visual`` its visual frame (the original's meaning of a link's name; the kinematic one of
+    a link without a visual), an object its mesh frame (scale moves the frame's origin and does not
+    turn it), ``localizedWorld`` is L. The boxes of objects are as large as the objects; with the
+    compatibility ``box-scale`` they do not have their ``scaleFactor``, as in the original.
     """
     scene = model.scene
     bodies = {
@@ -96,37 +90,37 @@ def name_bodies(model: SceneModel, engine: Engine) -> dict[str, SceneBody]:
             pose = partial(engine.poses.link, index, link.name)
             names = [f"{vehicle.name}/{link.name}", link.name]
             add(names, pose, None)
-            seen = [f"{name}@visual" for name in names]
+            visuals = [f"{name}@visual" for name in names]
             if link.visual is None:
-                add(seen, pose, None)
+                add(visuals, pose, None)
                 continue
             link_from_visual = Pose.from_rpy(link.visual.position, link.visual.rpy)
             mount = engine.poses.mount(index, link.name, link_from_visual)
             pose = partial(engine.poses.mount_pose, mount)
-            add(seen, pose, link_boxes[index, link.name])
-    for index, thing in enumerate(scene.objects):
-        mesh = thing.object_from_mesh
-        origin = np.array(thing.scale_factor) * mesh.position  # (3,) [m]
+            add(visuals, pose, link_boxes[index, link.name])
+    for index, spec in enumerate(scene.objects):
+        mesh = spec.object_from_mesh
+        origin = np.array(spec.scale_factor) * mesh.position  # (3,) [m]
         object_from_mesh = Pose(origin, mesh.rotation)
-        pose = partial(_attached, partial(engine.poses.object, index), object_from_mesh)
-        add([thing.name], pose().copy if engine.poses.is_fixed(index) else pose, boxes.get(index))
+        pose = partial(_attached_pose, partial(engine.poses.object, index), object_from_mesh)
+        add([spec.name], pose().copy if engine.poses.is_fixed(index) else pose, boxes.get(index))
     return bodies
 
 
 def _object_boxes(model: SceneModel) -> dict[int, Box]:
-    """Return the box of each object that is seen, by its number."""
+    """Return the box of each object that has a visual, by its number."""
     boxes = {part.object: part.model.box for part in model.parts if part.object is not None}
     if "box-scale" in model.compatibility:
         return boxes
-    things = {index: model.scene.objects[index] for index in boxes}
+    objects = {index: model.scene.objects[index] for index in boxes}
     return {
-        index: scaled_box(boxes[index], thing.object_from_mesh.rotation, thing.scale_factor)
-        for index, thing in things.items()
+        index: scaled_box(boxes[index], spec.object_from_mesh.rotation, spec.scale_factor)
+        for index, spec in objects.items()
     }
 
 
 def _link_boxes(model: SceneModel) -> dict[tuple[int, str], Box]:
-    """Return the box of each link that is seen, by the number of its vehicle and its name."""
+    """Return the box of each link that has a visual, by the number of its vehicle and its name."""
     engine = Engine(model)
     boxes = {}
     for index, robot in model.robots.items():
@@ -137,22 +131,22 @@ def _link_boxes(model: SceneModel) -> dict[tuple[int, str], Box]:
             mount = engine.poses.mount(index, link.name, link_from_visual)
             world_from_visual = engine.poses.mount_pose(mount)
             parts = [
-                each for each in model.parts if (each.vehicle, each.link) == (index, link.name)
+                part for part in model.parts if (part.vehicle, part.link) == (index, link.name)
             ]
             frame = engine.poses.link_frame(index, link.name)
-            boxes[index, link.name] = _box_of(parts, world_from_visual, frame)
+            boxes[index, link.name] = _bounding_box(parts, world_from_visual, frame)
     return boxes
 
 
-def _box_of(
+def _bounding_box(
     parts: Sequence[Part], world_from_visual: Pose, world_from_link: npt.NDArray[np.float64]
 ) -> Box:
     """Return the bounding box of all visuals of a link, in its visual frame.
 
     Args:
-        parts: what is seen.
+        parts: the visuals.
         world_from_visual: the visual frame.
-        world_from_link: the link with its vehicle's scale, (4, 4) [m].
+        world_from_link: the frame of the link with its vehicle's scale, (4, 4) [m].
     """
     visual_from_link = product(world_from_visual.inverse().matrix, world_from_link)
     corners = np.concatenate(
@@ -172,28 +166,28 @@ def scaled_box(
     """Return the bounding box, in the mesh's frame, of a mesh that is scaled along other axes.
 
     Args:
-        box: of the mesh as it is in its file.
-        object_from_mesh: how the mesh is turned in the object, (3, 3).
-        scale: along the axes of the object [1].
+        box: the box of the mesh as it is in its file.
+        object_from_mesh: the rotation of the mesh in the object, (3, 3).
+        scale: the scale along the axes of the object [1].
     """
     if scale == (1.0, 1.0, 1.0):
         return box
-    stretched = product(np.diag(scale), object_from_mesh)
-    scaling = product(object_from_mesh.T, stretched)  # in the mesh's frame
+    object_scaling = product(np.diag(scale), object_from_mesh)
+    scaling = product(object_from_mesh.T, object_scaling)  # in the mesh's frame
     corners = product(box.corners(), scaling.T)  # (8, 3) [m]
     lower, upper = corners.min(axis=0).tolist(), corners.max(axis=0).tolist()
     return Box(tuple(lower), tuple(upper))
 
 
-def touchable(name: str, scene: SceneSpec) -> tuple[Literal["vehicle", "object"], int]:
-    """Find the vehicle or object of that name that others can touch: which kind, which number.
+def find_contact_body(name: str, scene: SceneSpec) -> tuple[Literal["vehicle", "object"], int]:
+    """Find kind and number of the vehicle or object of that name, which can have contacts.
 
     Raises:
         UnknownName: there is none.
-        UwsimError: nothing can touch it.
+        UwsimError: it cannot have contacts.
     """
     vehicles = [vehicle.name for vehicle in scene.vehicles]
-    objects = [thing.name for thing in scene.objects]
+    objects = [spec.name for spec in scene.objects]
     if name not in vehicles and name not in objects:
         raise UnknownName("vehicle or object", name, [*vehicles, *objects])
     if name in vehicles:
@@ -201,20 +195,20 @@ def touchable(name: str, scene: SceneSpec) -> tuple[Literal["vehicle", "object"]
     solid = scene.solid_objects
     index = objects.index(name)
     if index not in solid:
-        have = ", ".join(objects[each] for each in solid)
-        why = (
+        solid_names = ", ".join(objects[solid_index] for solid_index in solid)
+        reason = (
             "it has no <physics>, nor <u:solid> 1"
             if scene.objects[index].is_solid is None
             else "<u:solid> is 0"
         )
-        raise untouchable(name, f"{why}; solid are: {have or 'none'}")
+        raise no_contacts_error(name, f"{reason}; solid are: {solid_names or 'none'}")
     return "object", index
 
 
-def untouchable(name: str, why: str) -> UwsimError:
-    """Report that the body of that name cannot have contacts."""
-    return UwsimError(f"{name!r} cannot be touched: {why}.", name=name)
+def no_contacts_error(name: str, reason: str) -> UwsimError:
+    """Return the error for a body that cannot have contacts."""
+    return UwsimError(f"{name!r} cannot have contacts: {reason}.", name=name)
 
 
-def _attached(pose: Callable[[], Pose], a_from_b: Pose) -> Pose:
+def _attached_pose(pose: Callable[[], Pose], a_from_b: Pose) -> Pose:
     return pose() @ a_from_b

@@ -1,4 +1,4 @@
-"""UDP packets from outside, taken over between steps."""
+"""UDP packets from outside, received between steps."""
 
 from __future__ import annotations
 
@@ -8,16 +8,16 @@ from collections.abc import Callable, Sequence
 from ..errors import UwsimError
 
 MAX_BYTES = 2048
-"""Of a packet; what is longer is cut."""
+"""The maximum size of a packet; a longer one is cut."""
 MAX_PACKETS = 1000
-"""So many are taken from a port in one step; the rest waits for the next."""
+"""The number of packets read from a port in one step; the others wait for the next."""
 
 
 class Datagrams:
-    """The UDP ports of a scene; closed at the end.
+    """The UDP ports of a scene, which are closed at the end.
 
     Args:
-        address: of this computer, at which packets are taken; None: there are none.
+        address: the address of this computer at which packets are received; None: no ports.
     """
 
     def __init__(self, address: str | None) -> None:
@@ -25,39 +25,39 @@ class Datagrams:
         self._sockets: list[socket.socket] = []
 
     def open(self, port: int) -> Callable[[], Sequence[bytes]] | None:
-        """Return what returns the packets that have come to a port since its last call, or None.
+        """Return a function that returns the packets received since its last call, or None.
 
         Raises:
             UwsimError: the port is not free, or the address is not one of this computer.
         """
         if self._address is None:
             return None
-        found = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
+        port_socket = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         try:
-            found.setblocking(False)
-            found.bind((self._address, port))
+            port_socket.setblocking(False)
+            port_socket.bind((self._address, port))
         except OSError as error:
-            found.close()
+            port_socket.close()
             self.close()
-            why = error.strerror or error
+            reason = error.strerror or error
             raise UwsimError(
-                f"UDP port {port} of {self._address} cannot be opened: {why}."
+                f"UDP port {port} of {self._address} cannot be opened: {reason}."
             ) from None
-        self._sockets.append(found)
-        return lambda: _waiting(found)
+        self._sockets.append(port_socket)
+        return lambda: _receive_packets(port_socket)
 
     def close(self) -> None:
         """Close all ports."""
-        for each in self._sockets:
-            each.close()
+        for port_socket in self._sockets:
+            port_socket.close()
         self._sockets.clear()
 
 
-def _waiting(port: socket.socket) -> list[bytes]:
+def _receive_packets(port_socket: socket.socket) -> list[bytes]:
     packets: list[bytes] = []
     while len(packets) < MAX_PACKETS:
         try:
-            packets.append(port.recv(MAX_BYTES))
+            packets.append(port_socket.recv(MAX_BYTES))
         except BlockingIOError:
             break
         except OSError:  # closed, or one that was refused elsewhere

@@ -23,24 +23,24 @@ Publish = Callable[[Any], None]
 
 @dataclass(slots=True)
 class SensorFaultState(Record):
-    """What changes of a fault on one topic."""
+    """The changing values of a fault on one topic."""
 
     times: FaultState
-    """When it is present."""
+    """The times at which the fault is present."""
     noise: np.random.Generator
     """The generator of the outliers."""
-    last: Any = None
-    """The message that it repeats; None: there is none."""
-    waiting: deque[tuple[float, Any]] = field(default_factory=deque)
-    """When messages come that it delays [s], and the messages."""
+    frozen_message: Any = None
+    """The message that a freeze repeats; None: there is none."""
+    delayed_messages: deque[tuple[float, Any]] = field(default_factory=deque)
+    """The delayed messages, each with the time at which it is due [s]."""
 
 
 @dataclass(slots=True)
 class FaultyTopicState(Record):
-    """What changes of a topic with faults."""
+    """The changing values of a topic with faults."""
 
     faults: list[SensorFaultState]
-    """What changes of each fault."""
+    """The changing values of each fault."""
 
 
 class SensorFault:
@@ -48,51 +48,57 @@ class SensorFault:
 
     Args:
         spec: the fault.
-        type_: of the messages.
-        random: for its times: the same on each topic of the sensor.
-        noise: for the outliers.
+        type_: the type of the messages.
+        times_rng: the generator of the times: the same on each topic of the sensor.
+        noise: the generator of the outliers.
     """
 
     def __init__(
-        self, spec: FaultSpec, type_: type, random: np.random.Generator, noise: np.random.Generator
+        self,
+        spec: FaultSpec,
+        type_: type,
+        times_rng: np.random.Generator,
+        noise: np.random.Generator,
     ) -> None:
         self._spec = spec
-        self.times = FaultTimes(spec, random)
-        """When it is present."""
+        self.times = FaultTimes(spec, times_rng)
+        """The times at which the fault is present."""
         self.state = SensorFaultState(self.times.state, noise)
-        """What changes of it."""
-        self._fields = tuple(measured_fields(type_(), spec.field)) if _changes(spec) else ()
+        """The changing values."""
+        self._fields = tuple(measured_fields(type_(), spec.field)) if _disturbs_values(spec) else ()
 
-    def passed(self, message: Any, time: float) -> list[Any]:
-        """Return the messages that come in the place of one at ``time`` [s]."""
-        acts, kind = self.times.acts(time), self._spec.kind
+    def apply(self, message: Any, time: float) -> list[Any]:
+        """Return the messages that replace one at ``time`` [s]."""
+        is_present, kind = self.times.acts(time), self._spec.kind
         if kind == "latency":
-            return self._delayed(message, time, acts)
-        if not acts:
-            self.state.last = message if kind == "freeze" else None
+            return self._delay(message, time, is_present)
+        if not is_present:
+            self.state.frozen_message = message if kind == "freeze" else None
             return [message]
         if kind == "dropout":
             return []
         if kind == "freeze":
-            self.state.last = self.state.last or message
-            return [_stamped(self.state.last, time)]
-        return [self._changed(message)]
+            self.state.frozen_message = self.state.frozen_message or message
+            return [_restamp(self.state.frozen_message, time)]
+        return [self._disturb(message)]
 
-    def _delayed(self, message: Any, time: float, acts: bool) -> list[Any]:
-        """What has waited long enough; when the fault is over all that is left comes at once."""
-        self.state.waiting.append((time + self._spec.delay if acts else time, message))
-        ready = []
-        while self.state.waiting and (
-            not acts or self.state.waiting[0][0] <= time + TIME_TOLERANCE
+    def _delay(self, message: Any, time: float, is_present: bool) -> list[Any]:
+        """Return the delayed messages that are due; at the end of the fault all of them."""
+        self.state.delayed_messages.append(
+            (time + self._spec.delay if is_present else time, message)
+        )
+        messages = []
+        while self.state.delayed_messages and (
+            not is_present or self.state.delayed_messages[0][0] <= time + TIME_TOLERANCE
         ):
-            ready.append(self.state.waiting.popleft()[1])
-        return ready
+            messages.append(self.state.delayed_messages.popleft()[1])
+        return messages
 
-    def _changed(self, message: Any) -> Any:
-        """The message with a bias or outliers."""
-        changed = copy.deepcopy(message)
+    def _disturb(self, message: Any) -> Any:
+        """Return the message with a bias or outliers."""
+        disturbed_copy = copy.deepcopy(message)
         for path in self._fields:
-            owner = changed
+            owner = disturbed_copy
             *parents, name = path.split(".")
             for parent in parents:
                 owner = getattr(owner, parent)
@@ -104,29 +110,31 @@ class SensorFault:
                 setattr(owner, name, (value + error).astype(value.dtype))
             else:
                 setattr(owner, name, float(value + error))
-        return changed
+        return disturbed_copy
 
 
 class FaultyTopic:
-    """A topic of a sensor with faults: messages pass one after the other."""
+    """A topic of a sensor with faults: a message passes them one after the other."""
 
     def __init__(
         self, faults: Sequence[SensorFault], publish: Publish, clock: Callable[[], float]
     ) -> None:
         self._faults, self._publish, self._clock = list(faults), publish, clock
         self.state = FaultyTopicState([fault.state for fault in faults])
-        """What changes of it."""
+        """The changing values."""
 
     def publish(self, message: object) -> None:
-        """Publish what becomes of a message."""
+        """Publish the messages that the faults make of one."""
         time, messages = self._clock(), [message]
         for fault in self._faults:
-            messages = [each for one in messages for each in fault.passed(one, time)]
-        for each in messages:
-            self._publish(each)
+            messages = [
+                output for input_message in messages for output in fault.apply(input_message, time)
+            ]
+        for output in messages:
+            self._publish(output)
 
 
-def faults_of(
+def make_faults(
     scene: SceneSpec,
     sensor: str,
     topic: str,
@@ -134,23 +142,22 @@ def faults_of(
     stream: Callable[[str], np.random.Generator],
 ) -> list[SensorFault]:
     """Return the faults of a sensor's messages of a type on a topic."""
-    found = []
+    faults = []
     for vehicle in scene.vehicles:
         for number, spec in enumerate(vehicle.parts_of(FaultSpec)):
             if spec.sensor == sensor:
-                own = f"{vehicle.name}/{sensor}/fault{number}"
-                found.append(SensorFault(spec, type_, stream(own), stream(f"{own}/{topic}")))
-    return found
+                name = f"{vehicle.name}/{sensor}/fault{number}"
+                faults.append(SensorFault(spec, type_, stream(name), stream(f"{name}/{topic}")))
+    return faults
 
 
-def _changes(spec: FaultSpec) -> bool:
+def _disturbs_values(spec: FaultSpec) -> bool:
     return spec.kind in ("bias", "outliers")
 
 
-def _stamped(message: Any, time: float) -> Any:
-    """The message with another time stamp."""
+def _restamp(message: Any, time: float) -> Any:
     if not hasattr(message, "header"):
         return message
-    again = copy.copy(message)
-    again.header = dataclasses.replace(message.header, stamp=time_from_seconds(time))
-    return again
+    message_copy = copy.copy(message)
+    message_copy.header = dataclasses.replace(message.header, stamp=time_from_seconds(time))
+    return message_copy

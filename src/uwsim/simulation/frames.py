@@ -29,43 +29,44 @@ def scene_frames(
 
 
 def _vehicle_frames(model: SceneModel, engine: Engine, vehicles: SceneVehicles) -> Iterator[Frame]:
-    """Every vehicle with its links and sensors; a sensor on a missing link is left out."""
+    """Yield every vehicle with its links and sensors; a sensor on a missing link is left out."""
     scene = model.scene
     localized_from_world = scene.world_from_localized.inverse()
     for index, (spec, vehicle) in enumerate(zip(scene.vehicles, vehicles, strict=True)):
         robot = model.robots[index]
-        yield Frame("", spec.name, _in(localized_from_world, partial(engine.poses.vehicle, index)))
+        pose = _compose(localized_from_world, partial(engine.poses.vehicle, index))
+        yield Frame("", spec.name, pose)
         yield Frame(spec.name, f"{spec.name}/{robot.root}", Pose.identity, is_fixed=True)
         links = {link.name: partial(engine.poses.link, index, link.name) for link in robot.links}
         for joint in robot.joints:
             parent, child = f"{spec.name}/{joint.parent}", f"{spec.name}/{joint.child}"
-            between = _between(links[joint.parent], links[joint.child])
-            yield Frame(parent, child, between, is_fixed=not joint.moves)
+            parent_from_child = _relative_pose(links[joint.parent], links[joint.child])
+            yield Frame(parent, child, parent_from_child, is_fixed=not joint.moves)
         for sensor in (part for owner, part in model.mounted_sensors if owner == index):
             if (link := links.get(sensor.relative_to)) is not None:
                 sensor_from_frame = Pose.from_rpy((0.0, 0.0, 0.0), sensor.frame_rpy)
-                frame = _on(vehicle.mount(sensor), sensor_from_frame)
+                frame = _frame_pose(vehicle.mount(sensor), sensor_from_frame)
                 parent = f"{spec.name}/{sensor.relative_to}"
-                yield Frame(parent, sensor.name, _between(link, frame), is_fixed=True)
+                yield Frame(parent, sensor.name, _relative_pose(link, frame), is_fixed=True)
 
 
 def _object_frames(scene: SceneSpec, bodies: SceneBodies) -> Iterator[Frame]:
-    """The mesh frames of all objects in L; of several of one name the first."""
+    """Yield the mesh frames of all objects in L; of several of one name the first."""
     localized_from_world = scene.world_from_localized.inverse()
-    for name in dict.fromkeys(thing.name for thing in scene.objects):
+    for name in dict.fromkeys(spec.name for spec in scene.objects):
         body = bodies.find(name)
-        yield Frame("", name, _in(localized_from_world, _on(body, Pose.identity())))
+        yield Frame("", name, _compose(localized_from_world, _frame_pose(body, Pose.identity())))
 
 
-def _on(body: Body, body_from_frame: Pose) -> Callable[[], Pose]:
+def _frame_pose(body: Body, body_from_frame: Pose) -> Callable[[], Pose]:
     return lambda: body.world_from_body @ body_from_frame
 
 
-def _in(a_from_world: Pose, world_from_b: Callable[[], Pose]) -> Callable[[], Pose]:
+def _compose(a_from_world: Pose, world_from_b: Callable[[], Pose]) -> Callable[[], Pose]:
     return lambda: a_from_world @ world_from_b()
 
 
-def _between(
+def _relative_pose(
     world_from_a: Callable[[], Pose], world_from_b: Callable[[], Pose]
 ) -> Callable[[], Pose]:
     return lambda: world_from_a().inverse() @ world_from_b()

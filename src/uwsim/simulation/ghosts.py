@@ -1,4 +1,4 @@
-"""Ghosts: vehicles that follow recorded odometry and joint states, whatever their dynamics say."""
+"""Ghosts: vehicles that follow recorded odometry and joint states instead of their dynamics."""
 
 from __future__ import annotations
 
@@ -18,67 +18,69 @@ from .vehicles import SceneVehicle
 
 
 class Ghost:
-    """A vehicle that is where a recording says."""
+    """A vehicle at recorded poses."""
 
     def __init__(self, vehicle: SceneVehicle, world_from_localized: Pose) -> None:
         self._vehicle, self._world_from_localized = vehicle, world_from_localized
-        vehicle.follow()
+        vehicle.start_placed_motion()
         self._pose: Pose | None = None
         self._joints: Array | None = None  # the joint vector (n,) [rad or m]
-        self._led = frozenset[Source]()  # what was led before
+        self._recorded_sources = frozenset[Source]()  # those recorded so far
 
-    def see_odometry(self, message: Odometry) -> None:
-        """Take a pose in L."""
+    def receive_odometry(self, message: Odometry) -> None:
+        """Store a pose in L."""
         pose = pose_in_localized(message.pose.pose)
         if pose is not None:
             self._pose = self._world_from_localized @ pose
 
-    def see_joints(self, message: JointState) -> None:
-        """Take the finite positions of joints; the others stay where they were."""
-        before = self._vehicle.joints if self._joints is None else self._joints
+    def receive_joints(self, message: JointState) -> None:
+        """Store the finite positions of joints; the others keep theirs."""
+        last_joints = self._vehicle.joints if self._joints is None else self._joints
         pairs = zip(message.name, message.position.tolist(), strict=False)
-        known = {name: value for name, value in pairs if math.isfinite(value)}
-        now = zip(self._vehicle.joint_names, before.tolist(), strict=True)
-        self._joints = np.array([known.get(name, value) for name, value in now])
+        positions = {name: value for name, value in pairs if math.isfinite(value)}
+        pairs_before = zip(self._vehicle.joint_names, last_joints.tolist(), strict=True)
+        self._joints = np.array([positions.get(name, value) for name, value in pairs_before])
 
     def place(self) -> None:
-        """Put the vehicle there; called in every step."""
-        known: dict[Source, object] = {"base": self._pose, "joints": self._joints}
-        now = frozenset(source for source, value in known.items() if value is not None)
-        self._vehicle.lead(self._pose, self._joints, now - self._led)
-        self._led = now
+        """Set the pose of the vehicle; called in every step."""
+        values: dict[Source, object] = {"base": self._pose, "joints": self._joints}
+        sources = frozenset(source for source, value in values.items() if value is not None)
+        self._vehicle.set_configuration(self._pose, self._joints, sources - self._recorded_sources)
+        self._recorded_sources = sources
 
 
-def follow_recorded(simulation: Simulation, recorded: Mapping[str, str]) -> tuple[str, ...]:
-    """Have the vehicles follow what was recorded of them.
+def follow_recorded(simulation: Simulation, recorded_topics: Mapping[str, str]) -> tuple[str, ...]:
+    """Make the vehicles follow their recorded topics.
 
     Args:
-        simulation: whose scene publishes odometry (``PATToROSOdom``).
-        recorded: topic, with a leading slash -> topic on the bus with what was recorded of it.
+        simulation: the simulation, whose scene publishes odometry (``PATToROSOdom``).
+        recorded_topics: topic, with a leading slash -> topic on the bus with its recording.
 
     Returns:
-        Names of the vehicles that follow.
+        The names of the vehicles that follow.
     """
     world, ghosts = simulation.world, dict[str, Ghost]()
     for spec in world.model.scene.ros_interfaces:
-        if isinstance(spec, PATToROSOdomSpec) and (topic := _of(spec.topic, recorded)):
+        if isinstance(spec, PATToROSOdomSpec) and (
+            topic := _recording(spec.topic, recorded_topics)
+        ):
             ghost = Ghost(
                 world.vehicles.find(spec.vehicle_name), world.model.scene.world_from_localized
             )
             ghosts[spec.vehicle_name] = ghost
-            world.bus.subscribe(topic, Odometry, ghost.see_odometry)
+            world.bus.subscribe(topic, Odometry, ghost.receive_odometry)
     for spec in world.model.scene.ros_interfaces:
         if isinstance(spec, ArmToROSJointStateSpec) and spec.vehicle_name in ghosts:
-            see: Callable[[JointState], None] = ghosts[spec.vehicle_name].see_joints
-            if topic := _of(spec.topic, recorded):
-                world.bus.subscribe(topic, JointState, see)
+            receive: Callable[[JointState], None] = ghosts[spec.vehicle_name].receive_joints
+            if topic := _recording(spec.topic, recorded_topics):
+                world.bus.subscribe(topic, JointState, receive)
     for ghost in ghosts.values():
         simulation.watch(ghost.place)
     return tuple(ghosts)
 
 
 def commanded_topics(simulation: Simulation, vehicles: tuple[str, ...]) -> frozenset[str]:
-    """Topics, with a leading slash, by which these vehicles take commands."""
+    """Return the topics, with a leading slash, by which these vehicles take commands."""
     return frozenset(
         f"/{getattr(spec, field).strip('/')}"
         for spec in simulation.world.model.scene.ros_interfaces
@@ -87,14 +89,14 @@ def commanded_topics(simulation: Simulation, vehicles: tuple[str, ...]) -> froze
     )
 
 
-def odometry_vehicles(simulation: Simulation, recorded: frozenset[str]) -> tuple[str, ...]:
-    """Vehicles whose odometry is among recorded topics (with a leading slash)."""
+def odometry_vehicles(simulation: Simulation, recorded_topics: frozenset[str]) -> tuple[str, ...]:
+    """Return the vehicles whose odometry is among recorded topics (with a leading slash)."""
     return tuple(
         spec.vehicle_name
         for spec in simulation.world.model.scene.ros_interfaces
-        if isinstance(spec, PATToROSOdomSpec) and f"/{spec.topic.strip('/')}" in recorded
+        if isinstance(spec, PATToROSOdomSpec) and f"/{spec.topic.strip('/')}" in recorded_topics
     )
 
 
-def _of(topic: str, recorded: Mapping[str, str]) -> str | None:
-    return recorded.get(f"/{topic.strip('/')}")
+def _recording(topic: str, recorded_topics: Mapping[str, str]) -> str | None:
+    return recorded_topics.get(f"/{topic.strip('/')}")

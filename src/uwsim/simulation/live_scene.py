@@ -1,4 +1,4 @@
-"""The live parts of one running scene, bound and put together."""
+"""The live parts of one running scene, bound and connected."""
 
 from __future__ import annotations
 
@@ -23,27 +23,27 @@ from .physical_scene import PhysicalScene
 from .scene_devices import bind_devices
 from .scene_sensors import SceneSensors
 from .scenery.renderer_pool import RendererPool
-from .trajectories import RATE, Trajectory
+from .trajectories import SAMPLE_RATE, Trajectory
 from .world_views.device_view import DeviceView
 from .world_views.measure_view import MeasureView
 from .world_views.sensor_view import SensorView
 from .world_views.stage_view import StageView
 from .world_views.topic_view import TopicView
 
-TRACE = "/network/trace"
-"""Topic of what becomes of packets."""
+TRACE_TOPIC = "/network/trace"
+"""The topic that reports the fate of packets."""
 
 
 class LiveScene:
-    """A scene at work: its engine, water, vehicles, sensors, devices, topics, and its views.
+    """A running scene: its engine, water, vehicles, sensors, devices, topics, and its views.
 
     Args:
-        model: of the scene.
-        udp_address: of this computer, at which ``<fdm>`` takes packets; None: it takes none.
-        stream_prefix: prefix of the name of every random stream.
-        runs_code: let Python code that the scene names run; without it that water is still.
-        pool: lends the renderer; without one the scene has a renderer of its own.
-        is_blind: images on topics are black, nothing is drawn for them.
+        model: the compiled scene.
+        udp_address: the address of this computer at which ``<fdm>`` receives packets, or None.
+        stream_prefix: the prefix of the names of random streams.
+        runs_code: run Python code that the scene names; without it that water is still.
+        pool: the pool of renderers; without one the scene has a renderer of its own.
+        is_blind: True for black images on topics, which need no renderer.
     """
 
     def __init__(
@@ -56,68 +56,70 @@ class LiveScene:
         pool: RendererPool | None = None,
         is_blind: bool = False,
     ) -> None:
-        physical = PhysicalScene(model, stream_prefix=stream_prefix, runs_code=runs_code, pool=pool)
+        scene = PhysicalScene(model, stream_prefix=stream_prefix, runs_code=runs_code, pool=pool)
         self.model = model
-        """What does not change while the scene runs: ``model.scene`` is its spec."""
-        self.bus = physical.bus
-        """Its topics and services."""
-        self.schedule = physical.schedule
-        """What is to be done at a later step."""
-        self.engine = physical.engine
-        """Where everything is, and what moves it."""
-        self.below_ground = physical.below_ground
-        """Whether a body has passed through the ground."""
-        self.vehicles = physical.vehicles
+        """The compiled scene, which does not change while it runs; ``model.scene`` is its spec."""
+        self.bus = scene.bus
+        """The topics and services."""
+        self.schedule = scene.schedule
+        """The timers, and the commands of the next step."""
+        self.engine = scene.engine
+        """The engine, which has the poses and moves the bodies."""
+        self.below_ground = scene.below_ground
+        """The check for bodies that have passed through the ground."""
+        self.vehicles = scene.vehicles
         """The vehicles, by their number in the file or by name."""
-        self.scenery = physical.scenery
+        self.scenery = scene.scenery
         """The visual side of the scene."""
-        self.rays = physical.rays
-        """Ray casting against the scene."""
-        self.bodies = physical.bodies
-        """Vehicles, links and objects, by name."""
-        self.contacts = physical.contacts
-        """Contacts between bodies."""
-        self.water = physical.water
-        """How its water moves."""
-        self.stream = physical.stream
-        """Returns the random generator of a name."""
-        self.sensors = SceneSensors(model, self.vehicles, SensorView(physical, is_blind=is_blind))
+        self.rays = scene.rays
+        """The ray casting against the scene."""
+        self.bodies = scene.bodies
+        """The vehicles, links and objects, by name."""
+        self.contacts = scene.contacts
+        """The contacts between bodies."""
+        self.water = scene.water
+        """The motion of the water."""
+        self.stream = scene.stream
+        """The function that returns the random generator of a name."""
+        self.sensors = SceneSensors(model, self.vehicles, SensorView(scene, is_blind=is_blind))
         """The sensors, by element and name."""
-        self.network = _network(physical)
+        self.network = _make_network(scene)
         """The packets between communication devices."""
         self._datagrams = Datagrams(udp_address)
-        world = DeviceView(physical, self.network, self._datagrams)
-        self.devices, patterns = bind_devices(physical, self.sensors, world)
-        """What acts in the step, in the file's order."""
+        world = DeviceView(scene, self.network, self._datagrams)
+        self.devices, patterns = bind_devices(scene, self.sensors, world)
+        """The devices, which act in the step, in the file's order."""
         self.files = {**model.hydrodynamics_files, **self.water.files, **patterns}
-        """Files of hydrodynamics, of currents, and of a projector's pattern, by name."""
-        self.forces = bind_forces(physical)
-        """What acts on bodies besides the water, in the file's order."""
-        self.markers = _markers(model, lambda: self.time)
-        """What programs have spawned."""
+        """The files of hydrodynamics, of currents, and of a projector's pattern, by name."""
+        self.forces = bind_forces(scene)
+        """The forces on bodies besides those of the water, in the file's order."""
+        self.markers = _make_markers(model, lambda: self.time)
+        """The markers that programs have spawned."""
         self.bus.services.serve(SERVICE, SpawnMarker, self.markers.answer)
-        self.trajectories = tuple(self._bound_trajectories())
-        """What ``showTrajectory`` asks for."""
-        topics = TopicView(physical, self.sensors, self.markers, is_blind=is_blind)
-        self.interfaces = tuple(_bound_interfaces(model.scene, topics))
-        """What publishes and listens, in the file's order."""
+        self.trajectories = tuple(self._bind_trajectories())
+        """The trajectories that ``showTrajectory`` requests."""
+        topics = TopicView(scene, self.sensors, self.markers, is_blind=is_blind)
+        self.interfaces = tuple(_bind_interfaces(model.scene, topics))
+        """The interfaces, which publish and subscribe, in the file's order."""
         self.images = {
-            each.image_topic: each for each in self.interfaces if isinstance(each, ImagePublisher)
+            interface.image_topic: interface
+            for interface in self.interfaces
+            if isinstance(interface, ImagePublisher)
         }
-        """What publishes images, by topic."""
-        self.measure_view = MeasureView(physical, self.sensors)
+        """The publishers of images, by topic."""
+        self.measure_view = MeasureView(scene, self.sensors)
         """The scene as measures and triggers see it."""
-        self.stage_view = StageView(physical, self.sensors, self.measure_view)
+        self.stage_view = StageView(scene, self.sensors, self.measure_view)
         """The scene as scene updaters see it."""
 
-    def _bound_trajectories(self) -> Iterator[Trajectory]:
-        spec = self.model.scene
-        localized_from_world = spec.world_from_localized.inverse()
-        for shown in spec.sim_params.show_trajectory:
+    def _bind_trajectories(self) -> Iterator[Trajectory]:
+        scene_spec = self.model.scene
+        localized_from_world = scene_spec.world_from_localized.inverse()
+        for spec in scene_spec.sim_params.show_trajectory:
             with suppress(UnknownName):
-                body = self.bodies.find(shown.target.strip("/"))
-                trajectory = Trajectory(shown, body, localized_from_world, lambda: self.time)
-                self.schedule.create_timer(RATE, trajectory.look)
+                body = self.bodies.find(spec.target.strip("/"))
+                trajectory = Trajectory(spec, body, localized_from_world, lambda: self.time)
+                self.schedule.create_timer(SAMPLE_RATE, trajectory.add_point)
                 yield trajectory
 
     @property
@@ -126,36 +128,35 @@ class LiveScene:
         return self.bus.state.step * self.model.timestep
 
     def close(self) -> None:
-        """Give back the graphics context and close the ports."""
+        """Release the graphics context and close the ports."""
         self.scenery.close()
         self._datagrams.close()
 
 
-def _bound_interfaces(spec: SceneSpec, world: TopicView) -> Iterator[Interface]:
+def _bind_interfaces(spec: SceneSpec, world: TopicView) -> Iterator[Interface]:
     for interface in spec.ros_interfaces:
-        # one that names what is not there is left out, as in the original
+        # one that names a missing part is left out, as in the original
         with suppress(UnknownName):
             if interface.is_simulated():
                 yield cast("SimulatedInterface", interface).bind(world)
 
 
-def _markers(model: SceneModel, clock: Callable[[], float]) -> Markers:
-    """Return the keeper of markers, which finds meshes as the scene does."""
-    place = Path(model.scene.path) if model.scene.path else None
-    return Markers(clock, partial(has_model, named_by=place, data_path=model.data_path))
+def _make_markers(model: SceneModel, clock: Callable[[], float]) -> Markers:
+    scene_path = Path(model.scene.path) if model.scene.path else None
+    return Markers(clock, partial(has_model, named_by=scene_path, data_path=model.data_path))
 
 
-def _network(physical: PhysicalScene) -> Network:
+def _make_network(scene: PhysicalScene) -> Network:
     """Return the network of a scene; of several channels of one name it has the first."""
-    spec = physical.model.scene
+    spec = scene.model.scene
     channels: dict[str, Channel] = {}
-    for custom in spec.custom_comms_channels:
-        channels.setdefault(custom.name, custom.bind())
-    for acoustic in spec.acoustic_comms_channels:
-        channels.setdefault(acoustic.name, acoustic.bind())
+    for custom_channel in spec.custom_comms_channels:
+        channels.setdefault(custom_channel.name, custom_channel.bind())
+    for acoustic_channel in spec.acoustic_comms_channels:
+        channels.setdefault(acoustic_channel.name, acoustic_channel.bind())
     surface = spec.ocean_state.ocean_surface_height
-    network = Network(physical.stream, surface=surface, channels=channels)
+    network = Network(scene.stream, surface=surface, channels=channels)
     if spec.net_tracing_script is not None:
-        publish = physical.bus.publisher(TRACE, String)
+        publish = scene.bus.publisher(TRACE_TOPIC, String)
         network.trace = lambda line: publish(String(data=line))
     return network

@@ -1,4 +1,4 @@
-"""What is in a scene before anything measures it or acts in it: bodies, water, light and time."""
+"""The parts of a scene that devices and sensors build on: bodies, water, light and time."""
 
 from __future__ import annotations
 
@@ -24,10 +24,10 @@ class PhysicalScene:
     """The parts of a scene from which its views are made, with the clock and the topics.
 
     Args:
-        model: of the scene.
-        stream_prefix: prefix of the name of every random stream.
-        runs_code: let Python code that the scene names run; without it that water is still.
-        pool: lends the renderer; without one the scene has a renderer of its own.
+        model: the compiled scene.
+        stream_prefix: the prefix of the names of random streams.
+        runs_code: run Python code that the scene names; without it that water is still.
+        pool: the pool of renderers; without one the scene has a renderer of its own.
     """
 
     def __init__(
@@ -39,30 +39,30 @@ class PhysicalScene:
         pool: RendererPool | None,
     ) -> None:
         self.model = model
-        """What does not change while the scene runs."""
+        """The compiled scene, which does not change while the scene runs."""
         self._prefix = stream_prefix
         self.bus = Bus()
-        """Its topics and services."""
+        """The topics and services."""
         self.schedule = Schedule(self.bus, model.timestep)
-        """What is to be done at a later step."""
+        """The timers, and the commands of the next step."""
         self.engine = engine = Engine(model)
-        """Where everything is, and what moves it."""
+        """The engine, which has the poses and moves the bodies."""
         if model.dynamics or model.scene.has_uwsim_physics:
             lift_from_ground(model, engine)
         self.below_ground = BelowGround(model, engine)
-        """Whether a body has passed through the ground."""
+        """The check for bodies that have passed through the ground."""
         self.vehicles = SceneVehicles(model, engine, self.bus)
         """The vehicles, by their number in the file or by name."""
         self.scenery = Scenery(model, engine, pool)
         """The visual side of the scene."""
         self.rays = SceneRays(model, engine, self.scenery.heaps)
-        """Ray casting against the scene."""
+        """The ray casting against the scene."""
         self.bodies = SceneBodies(model, engine)
-        """Vehicles, links and objects, by name."""
+        """The vehicles, links and objects, by name."""
         self.contacts = Contacts(model, engine)
-        """Contacts between bodies."""
+        """The contacts between bodies."""
         self.water = water_motion(model, self.stream, runs_code=runs_code)
-        """How its water moves."""
+        """The motion of the water."""
 
     def stream(self, name: str) -> np.random.Generator:
         """Return the random generator of that name."""

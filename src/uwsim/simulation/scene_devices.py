@@ -1,4 +1,4 @@
-"""The devices of a scene, bound in the file's order, and the light of those that shine."""
+"""The devices of a scene, bound in the file's order, and the light of lamps and projectors."""
 
 from __future__ import annotations
 
@@ -23,37 +23,37 @@ from .vehicles import SceneVehicle
 def bind_devices(
     scene: PhysicalScene, sensors: SceneSensors, world: DeviceWorld
 ) -> tuple[tuple[Device, ...], dict[str, Path]]:
-    """Bind the devices of a scene; those that measure are sensors, and lamps shine.
+    """Bind the devices of a scene, of which some are sensors or lamps.
 
     Args:
         scene: the scene.
-        sensors: get the devices that measure.
+        sensors: the sensors, to which devices that measure are added.
         world: the scene as devices see it.
 
     Returns:
         The devices, and the files that they read, by name.
 
     Raises:
-        SceneError: one names what is not there; with its line.
+        SceneError: a device names a missing part; with its line.
     """
     devices: list[Device] = []
-    visible: list[Device] = []
+    visible_devices: list[Device] = []
     for spec, vehicle in zip(scene.model.scene.vehicles, scene.vehicles, strict=True):
         for element, part in spec.all_parts():
             if not isinstance(part, DeviceSpec):
                 continue
-            device = _bound(element, part, world, vehicle)
+            device = _bind(element, part, world, vehicle)
             if device is None:
                 continue
             devices.append(device)
             if isinstance(device, Sensor):
                 sensors.add(element, getattr(part, "name", ""), device)
             if not spec.vr:
-                visible.append(device)
-    return tuple(devices), _light(scene, visible)
+                visible_devices.append(device)
+    return tuple(devices), _set_lights(scene, visible_devices)
 
 
-def _bound(
+def _bind(
     element: str, spec: DeviceSpec, world: DeviceWorld, vehicle: SceneVehicle
 ) -> Device | None:
     try:
@@ -66,16 +66,16 @@ def _bound(
         raise SceneError([diagnostic_at(spec, f"<{element}>: {error}")]) from error
 
 
-def _light(scene: PhysicalScene, devices: Sequence[Device]) -> dict[str, Path]:
-    """Let lamps, signal lamps and the last projector shine; return the file of its pattern.
+def _set_lights(scene: PhysicalScene, devices: Sequence[Device]) -> dict[str, Path]:
+    """Turn on lamps, signal lamps and the last projector; return the file of its pattern.
 
-    In a scene of the original a projector without its image does not shine.
+    In a scene of the original UWSim a projector without its image emits no light.
     """
-    lamps = [each for each in devices if isinstance(each, MountedLamp)]
-    arrays = [each for each in devices if isinstance(each, LedArray)]
-    scene.scenery.set_lamps(lamps, [led for each in arrays for led in each.leds])
+    lamps = [device for device in devices if isinstance(device, MountedLamp)]
+    led_arrays = [device for device in devices if isinstance(device, LedArray)]
+    scene.scenery.set_lamps(lamps, [led for device in led_arrays for led in device.leds])
     spec, files = scene.model.scene, dict[str, Path]()
-    for projector in [each for each in devices if isinstance(each, MountedProjector)][-1:]:
+    for projector in [device for device in devices if isinstance(device, MountedProjector)][-1:]:
         try:
             path = find_file(projector.spec.image_name, spec.path, scene.model.data_path)
         except AssetNotFound:

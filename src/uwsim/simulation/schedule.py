@@ -1,4 +1,4 @@
-"""What is to be done at a later step: samples, calls at the samples of a rate, and commands."""
+"""The calls at later steps: samples, timers of a rate, and commands."""
 
 from __future__ import annotations
 
@@ -20,19 +20,19 @@ M = TypeVar("M")
 
 @dataclass(slots=True)
 class ScheduleState(Record):
-    """What is to be done later."""
+    """The changing values of a schedule."""
 
     due: npt.NDArray[np.int64]
     """The step before which no timer is due, (1,)."""
     timers: list[TimerState] = field(default_factory=list)
-    """How far each timer is."""
+    """The state of each timer."""
     commands: list[tuple[int, object]] = field(default_factory=list)
-    """What came during this step: the number of who applies it, and the message."""
+    """The commands of this step, each with the number of its handler and the message."""
 
 
 @dataclass(frozen=True, eq=False)
 class _Timer:
-    """A timer, what it calls, and what samples it takes."""
+    """A timer, its callback, and the samples that it takes."""
 
     rate: float
     call: Callable[[], None]
@@ -40,13 +40,13 @@ class _Timer:
     sampling: Sampling | None
     state: TimerState
 
-    def is_alone(self, until: float) -> bool:
-        """Whether its samples, if it takes any, need no preparation until a time [s]."""
-        return self.sampling is None or self.sampling.sampler.is_alone(until)
+    def is_alone(self, end_time: float) -> bool:
+        """Return whether its samples, if any, need no preparation until a time [s]."""
+        return self.sampling is None or self.sampling.sampler.is_alone(end_time)
 
     @property
     def is_called(self) -> bool:
-        """Whether its call has something to do."""
+        """A flag: its callback has something to do now."""
         return self.is_needed is None or self.is_needed()
 
 
@@ -54,16 +54,16 @@ class Schedule:
     """Timers, and the commands of the next step.
 
     Args:
-        bus: counts the steps.
-        timestep: length of a step [s].
+        bus: the bus, which counts the steps.
+        timestep: the length of a step [s].
     """
 
     def __init__(self, bus: Bus, timestep: float) -> None:
         self._bus, self._timestep = bus, timestep
         self._timers: list[_Timer] = []
-        self._appliers: list[Callable[[Any], None]] = []
+        self._command_handlers: list[Callable[[Any], None]] = []
         self.state = ScheduleState(np.full(1, NO_STEP))
-        """What is to be done later."""
+        """The changing values."""
 
     def create_timer(
         self,
@@ -87,16 +87,16 @@ class Schedule:
         """
         state = TimerState.starting_at(self._bus.state.step)
         timer = _Timer(rate, call, is_needed, sampling, state)
-        self._set([*self._timers, timer])
+        self._set_timers([*self._timers, timer])
 
         def stop() -> None:
-            self._set([each for each in self._timers if each is not timer])
+            self._set_timers([each for each in self._timers if each is not timer])
 
         return stop
 
-    def _set(self, timers: list[_Timer]) -> None:
-        self._timers, self.state.timers = timers, [each.state for each in timers]
-        self.state.due[0] = min((each.counts[DUE] for each in self.state.timers), default=NO_STEP)
+    def _set_timers(self, timers: list[_Timer]) -> None:
+        self._timers, self.state.timers = timers, [timer.state for timer in timers]
+        self.state.due[0] = min((timer.counts[DUE] for timer in self.state.timers), default=NO_STEP)
         self.__dict__.pop("_rows", None)
         self.__dict__.pop("table", None)
 
@@ -122,57 +122,57 @@ class Schedule:
         table["due"], table["timestep"] = address_of(self.state.due), self._timestep
         return table
 
-    def dues(self, last: int) -> tuple[int, int]:
-        """Return when Python is needed, in steps.
+    def due_steps(self, last_step: int) -> tuple[int, int]:
+        """Return the steps at which Python is needed.
 
         Args:
-            last: the step behind which nobody asks.
+            last_step: the last step of interest.
 
         Returns:
-            The step at which compiled steps have to end, as something is due for Python; and that
-            of the first sample which compiled code cannot take without preparation.
+            The step at which compiled steps have to end, as a call of Python is due; and that of
+            the first sample which compiled code cannot take without preparation.
         """
-        for_python = unprepared = NO_STEP
+        python_due = preparation_due = NO_STEP
         for i, timer in enumerate(self._timers):
             due = int(timer.state.counts[DUE])
-            if due > last or due >= unprepared or not self._is_sampled(i, timer):
+            if due > last_step or due >= preparation_due or not self._is_sampled(i, timer):
                 continue
-            if not timer.is_alone(last * self._timestep):
-                unprepared = due
-            elif due < for_python and timer.is_called:
-                for_python = due
-        return min(for_python, unprepared), unprepared
+            if not timer.is_alone(last_step * self._timestep):
+                preparation_due = due
+            elif due < python_due and timer.is_called:
+                python_due = due
+        return min(python_due, preparation_due), preparation_due
 
     def _is_sampled(self, index: int, timer: _Timer) -> bool:
-        """Decide whether a timer takes its samples now, and tell compiled code."""
+        """Return whether a timer takes its samples now, and write this for compiled code."""
         if timer.sampling is None or timer.sampling.is_needed is None:
             return True
         is_sampled = timer.sampling.is_needed()
         self._rows["is_needed"][index] = is_sampled
         return is_sampled
 
-    def at_next_step(self, apply: Callable[[M], None]) -> Callable[[M], None]:
-        """Return what has ``apply(message)`` called at the start of the next step."""
-        self._appliers.append(apply)
-        number, state = len(self._appliers) - 1, self.state
+    def defer_to_next_step(self, apply: Callable[[M], None]) -> Callable[[M], None]:
+        """Return a function that calls ``apply(message)`` at the start of the next step."""
+        self._command_handlers.append(apply)
+        number, state = len(self._command_handlers) - 1, self.state
         return lambda message: state.commands.append((number, message))
 
     def apply_commands(self) -> None:
-        """Carry out what arrived during the last step, in its order."""
+        """Apply the commands that arrived during the last step, in their order."""
         commands, self.state.commands = self.state.commands, []
         for number, message in commands:
-            self._appliers[number](message)
+            self._command_handlers[number](message)
 
     def tick(self, step: int, *, is_sampled: bool = False) -> None:
-        """Take the samples that are due at a step, and call what is due.
+        """Take the samples that are due at a step, and make the calls that are due.
 
         Args:
-            step: that has been taken.
-            is_sampled: whether compiled code has taken the samples that are due at it.
+            step: the step that has been taken.
+            is_sampled: True if compiled code has taken the samples that are due at it.
         """
         if is_sampled:
             self._call_fired(self._timers)
-        while step >= self.state.due[0]:  # a call may have another made that is due at once
+        while step >= self.state.due[0]:  # a callback may create a timer that is due at once
             timers = self._timers
             for i, timer in enumerate(timers):
                 if timer.sampling is None or step < timer.state.counts[DUE]:
@@ -183,7 +183,7 @@ class Schedule:
             self._call_fired(timers)
 
     def _call_fired(self, timers: Sequence[_Timer]) -> None:
-        """Call those that were due when the table was walked last."""
+        """Call the timers that were due when the table was last processed."""
         for timer, is_fired in zip(timers, self._rows["is_fired"].tolist(), strict=True):
             is_stopped = timers is not self._timers and timer not in self._timers
             if is_fired and timer.is_called and not is_stopped:

@@ -25,7 +25,7 @@ from .nodes.calls import Calls
 from .nodes.node import InProcessNode
 from .scene_stepper import SceneStepper
 from .scenery.renderer_pool import RendererPool
-from .state.state import OwnIdentity, State
+from .state.state import RunningIdentity, State
 
 
 class Simulation:
@@ -53,8 +53,8 @@ class Simulation:
     ) -> None:
         if not isinstance(model, SceneModel):
             raise BadSetting(
-                f"A Simulation is made of what compile_scene returns, not of "
-                f"a {type(model).__name__}: {short_repr(model)}."
+                f"A Simulation needs a SceneModel, which compile_scene returns, not a "
+                f"{type(model).__name__}: {short_repr(model)}."
             )
         self._own_pool = RendererPool()
         self._make_scene = partial(
@@ -69,24 +69,23 @@ class Simulation:
         self._nodes: list[InProcessNode] = []
         self._open(model)
 
-    def _open(self, model: SceneModel, read: Iterable[str] = ()) -> None:
+    def _open(self, model: SceneModel, read_topics: Iterable[str] = ()) -> None:
         """Open a model at step 0 and read some topics."""
         self.world = world = self._make_scene(model)
         """The live parts of the scene."""
         self._stepper = SceneStepper(world, self._nodes, self._watchers)
-        self._access = TopicAccess(self.bus, read)
+        self._access = TopicAccess(self.bus, read_topics)
         self._state = self._make_state()
         self._stepper.animate()
 
     def _make_state(self) -> State:
-        """Put together the records of all parts."""
         world = self.world
         return State(
-            identity=OwnIdentity(world.model),
+            identity=RunningIdentity(world.model),
             bus=world.bus.state,
             engine=world.engine.state,
             vehicles=[vehicle.state for vehicle in world.vehicles],
-            sensors=[sensor.state for sensor in world.sensors.bound],
+            sensors=[sensor.state for sensor in world.sensors.bound_sensors],
             devices=[device.state for device in world.devices],
             forces=[force.state for force in world.forces],
             interfaces=[interface.state for interface in world.interfaces],
@@ -118,7 +117,9 @@ class Simulation:
         """
         if self._nodes:
             names = ", ".join(node.name for node in self._nodes)
-            raise UwsimError(f"Cannot be reset: {names} is attached, with a state of its own.")
+            raise UwsimError(
+                f"{names} is attached; its state cannot be reset. Load the scene again."
+            )
         model = self.world.model
         if seed is not None:
             model = recompile(model, arguments.check_seed(seed))
@@ -165,9 +166,9 @@ class Simulation:
         if seconds is None:
             self._stepper.advance()
             return
-        left = arguments.count_steps(seconds, self.timestep)
-        while left > 0:
-            left -= self._stepper.advance(left)
+        n_left = arguments.count_steps(seconds, self.timestep)
+        while n_left > 0:
+            n_left -= self._stepper.advance(n_left)
 
     @renamed_parameter("look", "callback")
     def watch(self, callback: Callable[[], None]) -> None:
@@ -204,7 +205,7 @@ class Simulation:
 
     @deprecated_name("latest_message")
     def latest(self, topic: str) -> Any:
-        """Return `latest_message`, whose old name this is."""
+        """Call `latest_message`, whose old name this is."""
         return self.latest_message(topic)
 
     def call(self, service: str, request: object) -> object:
@@ -258,7 +259,9 @@ class Simulation:
         """
         vehicle = self.world.vehicles.find(name)
         if not self.world.engine.is_simulated(vehicle.index):
-            raise UwsimError(f"{name!r} is kinematic (no <u:dynamics>): it has no velocity.")
+            raise UwsimError(
+                f"{name!r} is kinematic (no <u:dynamics>); only simulated vehicles have a velocity."
+            )
         return vehicle.velocity
 
     def image(self, camera: str) -> RenderedImage:

@@ -1,4 +1,4 @@
-"""What of a scene may change, as one row of numbers: poses of bodies, water, thrusters, lamps."""
+"""The changing values of a scene as one row of numbers: poses, water, thrusters, lamps."""
 
 from __future__ import annotations
 
@@ -12,49 +12,47 @@ from ..results.motion import Signal
 from .live_scene import LiveScene
 from .tracked_bodies import TrackedBodies, vehicle_labels
 
-LAMP = "lamp/"
-"""How the name of a lamp's signal begins, its brightness [0..1]."""
-BRIGHTNESS = 0.01
-"""Its resolution."""
+LAMP_PREFIX = "lamp/"
+"""The prefix of the name of a lamp's signal, which is its brightness [0..1]."""
+BRIGHTNESS_RESOLUTION = 0.01
+"""The resolution of a brightness."""
 
 
 class TrackedState:
-    """The rows of a motion track, and of a live view.
-
-    Args:
-        world: the scene.
-    """
+    """The rows of a motion track, and of a live view."""
 
     def __init__(self, world: LiveScene) -> None:
         self._world = world
         self._bodies = TrackedBodies(world)
-        self._lamps = [one for one in world.devices if isinstance(one, MountedLamp)]
-        self._before: Array | None = None  # quaternions of the last row
+        self._lamps = [device for device in world.devices if isinstance(device, MountedLamp)]
+        self._last_quaternions: Array | None = None  # quaternions of the last row
         self.bodies = self._bodies.names
-        """Names of the bodies."""
+        """The names of the bodies."""
         self.signals = tuple(self._signals())
-        """What follows the seven numbers of each body."""
+        """The signals, which follow the seven numbers of each body."""
 
     def row(self) -> Array:
         """Return the present row, (7 bodies + signals,); quaternions keep their sign."""
         rows = self._bodies.rows()
-        if self._before is not None:  # of the two quaternions of a rotation the nearer one
-            rows[(rows[:, 3:] * self._before).sum(axis=1) < 0.0, 3:] *= -1.0
-        self._before = rows[:, 3:].copy()
+        if (
+            self._last_quaternions is not None
+        ):  # the nearer one of the two quaternions of a rotation
+            rows[(rows[:, 3:] * self._last_quaternions).sum(axis=1) < 0.0, 3:] *= -1.0
+        self._last_quaternions = rows[:, 3:].copy()
         scenery, engine = self._world.scenery, self._world.engine
         signals = [scenery.state.water.fog, scenery.state.light.rate]
         for index, vehicle in enumerate(self._world.vehicles.names):
-            signals += self._water_at(engine.poses.vehicle(index).position, vehicle).tolist()
+            signals += self._water_velocity(engine.poses.vehicle(index).position, vehicle).tolist()
             if index in engine.actuation:
                 signals += engine.actuation[index].commands().tolist()
         signals += [lamp.state.brightness for lamp in self._lamps]
         return np.concatenate([rows.reshape(-1), signals])
 
-    def _water_at(self, place: Array, vehicle: str) -> Array:
-        """Velocity of the water at a vehicle in W, (3,) [m/s]."""
+    def _water_velocity(self, position: Array, vehicle: str) -> Array:
+        """Return the velocity of the water at a vehicle in W, (3,) [m/s]."""
         if self._world.water.is_still:
             return np.zeros(3)
-        velocity: Array = self._world.water.velocity(place[None], self._world.time, vehicle)[0]
+        velocity: Array = self._world.water.velocity(position[None], self._world.time, vehicle)[0]
         return velocity
 
     def _signals(self) -> Iterator[Signal]:
@@ -67,4 +65,4 @@ class TrackedState:
                 for thruster in self._world.engine.actuation[index].thrusters:
                     yield Signal(name=f"thrust/{vehicle}/{thruster}", step=0.01)
         for lamp in self._lamps:
-            yield Signal(name=f"{LAMP}{lamp.spec.name}", step=BRIGHTNESS)
+            yield Signal(name=f"{LAMP_PREFIX}{lamp.spec.name}", step=BRIGHTNESS_RESOLUTION)

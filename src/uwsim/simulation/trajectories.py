@@ -1,7 +1,7 @@
-"""Trajectories: where the bodies of ``<showTrajectory>`` went, kept for a viewer.
+"""Trajectories: the paths of the bodies of ``<showTrajectory>``, for a viewer.
 
-A point is added when the body is more than 0.02 m from the last one, looked at 60 times a second
-as the original's window does; with ``timeWindow`` above 0 points go after that time.
+A point is added when the body is more than 0.02 m from the last one. It is read 60 times a second,
+as the original's window does; with ``timeWindow`` above 0 points are removed after that time.
 """
 
 from __future__ import annotations
@@ -17,29 +17,29 @@ from ..base.record import Record
 from ..scene.sim_params import ShowTrajectorySpec
 from ..world import Body
 
-SPACING = 0.02
-"""Least distance between two points [m]."""
-RATE = 60.0
-"""How often the body is looked at [Hz]."""
+MIN_SPACING = 0.02
+"""The least distance between two points [m]."""
+SAMPLE_RATE = 60.0
+"""The rate at which the position of the body is read [Hz]."""
 MAX_POINTS = 1_000_000
-"""Most points that are kept; the oldest go first."""
+"""The maximum number of points; the oldest are removed first."""
 
 
 @dataclass(slots=True)
 class TrajectoryState(Record):
-    """Where a body went."""
+    """The path of a body."""
 
     points: deque[tuple[float, float, float, float]]
-    """When [s], and where in L [m]."""
+    """The points, each with its time [s] and its position in L [m]."""
 
 
 class Trajectory:
-    """Where a body went.
+    """The path of a body.
 
     Args:
-        spec: of whose trajectory it is, and how it is drawn.
+        spec: the body of the trajectory, and its drawing.
         body: the body.
-        localized_from_world: from W to L.
+        localized_from_world: the transform of L from W.
         clock: returns the simulation time [s].
     """
 
@@ -51,42 +51,42 @@ class Trajectory:
         clock: Callable[[], float],
     ) -> None:
         self.spec = spec
-        """Colour, style and time window."""
+        """The colour, the style and the time window."""
         self._body, self._clock = body, clock
         self._localized_from_world = localized_from_world
         self.state = TrajectoryState(deque(maxlen=MAX_POINTS))
-        """Where it went."""
+        """The path."""
 
     @property
     def points(self) -> Array:
-        """Where it was, in L, oldest first, (n, 3) [m]."""
-        self._forget()
+        """The positions in L, oldest first, (n, 3) [m]."""
+        self._remove_old_points()
         return np.array([point[1:] for point in self.state.points], dtype=float).reshape(-1, 3)
 
     @property
     def times(self) -> Array:
-        """When it was there, (n,) [s]."""
-        self._forget()
+        """The times of the positions, (n,) [s]."""
+        self._remove_old_points()
         return np.array([point[0] for point in self.state.points], dtype=float)
 
-    def look(self) -> None:
+    def add_point(self) -> None:
         """Add a point if the body has moved."""
-        world = self._body.world_from_body.position[None, :]
-        x, y, z = self._localized_from_world.transform(world)[0].tolist()
-        last = self.state.points[-1] if self.state.points else None
+        position = self._body.world_from_body.position[None, :]
+        x, y, z = self._localized_from_world.transform(position)[0].tolist()
+        last_point = self.state.points[-1] if self.state.points else None
         if (
-            last is None
-            or (x - last[1]) ** 2 + (y - last[2]) ** 2 + (z - last[3]) ** 2 > SPACING**2
+            last_point is None
+            or (x - last_point[1]) ** 2 + (y - last_point[2]) ** 2 + (z - last_point[3]) ** 2
+            > MIN_SPACING**2
         ):
             self.state.points.append((self._clock(), x, y, z))
-        self._forget()
+        self._remove_old_points()
 
     def clear(self) -> None:
-        """Forget all points."""
+        """Remove all points."""
         self.state.points.clear()
 
-    def _forget(self) -> None:
-        """Drop what is older than the time window."""
+    def _remove_old_points(self) -> None:
         window, now = self.spec.time_window, self._clock()
         while window > 0.0 and self.state.points and now - self.state.points[0][0] > window:
             self.state.points.popleft()

@@ -1,17 +1,17 @@
-"""Names of their own for things of one name: the second gets ``#2`` behind it."""
+"""Unique names for objects that share one: the second gets ``#2`` behind it."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 
 
-def unique(names: Iterable[str]) -> tuple[str, ...]:
-    """Return names of which none is there twice."""
-    found: dict[str, None] = {}
+def make_unique(names: Iterable[str]) -> tuple[str, ...]:
+    """Return the names, each of which is there once."""
+    unique_names: dict[str, None] = {}
     for name in names:
-        own, number = name, 1
-        while own in found:
+        candidate, number = name, 1
+        while candidate in unique_names:
             number += 1
-            own = f"{name}#{number}"
-        found[own] = None
-    return tuple(found)
+            candidate = f"{name}#{number}"
+        unique_names[candidate] = None
+    return tuple(unique_names)

@@ -1,4 +1,4 @@
-"""Vehicles as sensors, devices and topics see them."""
+"""Vehicles, for sensors, devices and topics."""
 
 from __future__ import annotations
 
@@ -28,14 +28,14 @@ from .moving_bodies import CompiledVehicle, MountedBody, MovingBody, MovingLink
 
 @dataclass(slots=True)
 class VehicleState(Record):
-    """What changes of a vehicle besides the engine's."""
+    """The changing values of a vehicle besides those of the engine."""
 
-    placed: LazyPart[PlacedMotion]
-    """Its motion where it is not simulated and a sensor reads it, or it follows a recording."""
+    placed_motion: LazyPart[PlacedMotion]
+    """The motion of a vehicle without dynamics that a sensor reads, or that follows a recording."""
     centre: tuple[Sequence[float], Sequence[float]] | None = None
-    """The position [m] and angles [rad] that it is displaced from; None: those of the file."""
+    """The undisplaced position [m] and angles [rad]; None: those of the file."""
     offsets: list[tuple[int, float]] = field(default_factory=list)
-    """The axis of each displacer, and the displacement [m or rad]."""
+    """The displacers, each with its axis and displacement [m or rad]."""
     losses: dict[int, list[float]] = field(default_factory=dict)
     """The losses of each thruster, one a setter [1]."""
 
@@ -43,13 +43,13 @@ class VehicleState(Record):
 class SceneVehicle:
     """One vehicle of a scene (`uwsim.vehicle.Vehicle`, `uwsim.sensors.sensor.Carrier`).
 
-    It is known by its number: of several that share a name each is one of these.
+    Its number identifies it: several vehicles may share a name.
 
     Args:
-        index: its number in the scene.
+        index: the number of the vehicle in the scene.
         frames: the vehicle at its pose in the file.
-        engine: where its links are.
-        step: returns how many steps the simulation has taken.
+        engine: the engine, which has the poses of its links.
+        step: returns the number of steps that the simulation has taken.
     """
 
     def __init__(
@@ -57,27 +57,27 @@ class SceneVehicle:
     ) -> None:
         self._frames, self._engine, self._step = frames, engine, step
         self.index = index
-        """Its number in the scene."""
+        """The number of the vehicle in the scene."""
         self.name = frames.vehicle.name
-        """Its name in the scene."""
+        """The name of the vehicle in the scene."""
         self.joint_names = tuple(joint.name for joint in frames.robot.movable_joints)
-        """Names of the joints of the joint vector."""
+        """The names of the joints of the joint vector."""
         self._lazy_motion = LazyPart(lambda: engine.placed_motion(index))
         self.state = VehicleState(self._lazy_motion)
-        """What changes of it besides the engine's."""
+        """The changing values besides those of the engine."""
 
     @property
-    def _placed(self) -> PlacedMotion | None:
+    def _motion(self) -> PlacedMotion | None:
         return self._lazy_motion.part
 
     @property
     def autopilot(self) -> Autopilot | None:
-        """Its autopilot; None if it is not simulated."""
+        """The autopilot; None if the vehicle is not simulated."""
         return self._actuation.autopilot if self._actuation else None
 
     @property
     def servos(self) -> Servos | None:
-        """Its joint servos; None if it is not simulated."""
+        """The joint servos; None if the vehicle is not simulated."""
         return self._actuation.servos if self._actuation else None
 
     @property
@@ -86,100 +86,105 @@ class SceneVehicle:
 
     @property
     def thrusters(self) -> tuple[str, ...]:
-        """Names of its thrusters as in its hydrodynamics file; none if it is not simulated."""
+        """The names of the thrusters in the hydrodynamics file; none if it is not simulated."""
         return self._actuation.thrusters if self._actuation else ()
 
     @property
     def fins(self) -> tuple[str, ...]:
-        """Names of its fins as in its hydrodynamics file; none if it is not simulated."""
+        """The names of the fins in the hydrodynamics file; none if it is not simulated."""
         return self._actuation.fins if self._actuation else ()
 
     def turn_fins(self, angles: Array) -> None:
-        """Let its fins turn to these angles, (n,) [rad]."""
+        """Turn the fins to these angles, (n,) [rad]."""
         self._engine.actuation[self.index].turn_fins(angles)
 
     @property
     def world_from_base(self) -> Pose:
-        """Where its base is now."""
+        """The present pose of the base."""
         return self._engine.poses.vehicle(self.index)
 
     @property
     def velocity(self) -> Array:
-        """Twist of its base over ground, base axes, (6,) [m/s, rad/s]."""
-        if self._placed is None:
+        """The twist of the base over ground, in its axes, (6,) [m/s, rad/s]."""
+        if self._motion is None:
             return self._engine.vehicle_velocity(self.index)
-        twist = self._placed.twist(self._step())
+        twist = self._motion.twist(self._step())
         return np.concatenate([rotate_back(self.world_from_base.rotation, twist[:3]), twist[3:]])
 
     @property
     def joints(self) -> Array:
-        """A copy of its joint vector, (n,) [rad or m]."""
+        """The joint vector, (n,) [rad or m]; a copy."""
         return self._engine.joints(self.index)
 
     def place(self, world_from_base: Pose) -> None:
-        """Set its pose; a simulated one is at rest there, another has come there from the last.
+        """Set the pose: a simulated vehicle is at rest there, another has moved there.
 
-        It is displaced from there from now on.
+        Displacements add to it from now on.
         """
-        self.lead(world_from_base, None)
+        self.set_configuration(world_from_base, None)
 
-    def follow(self) -> None:
-        """From now on it moves as `lead` says, not as it is simulated: velocities are of that."""
+    def start_placed_motion(self) -> None:
+        """Take velocities from the poses that `set_configuration` sets, not from the dynamics."""
         self._lazy_motion.get_or_make()
 
-    def lead(
-        self, world_from_base: Pose | None, joints: Array | None, starts: Collection[Source] = ()
+    def set_configuration(
+        self,
+        world_from_base: Pose | None,
+        joints: Array | None,
+        starts: Collection[Source] = (),
     ) -> None:
-        """Set its pose and its joint vector, as far as given: it has come there from the last.
+        """Set the pose and the joint vector, if not None, as moved there from the last ones.
 
         Args:
-            world_from_base: its pose.
-            joints: its joint vector, (n,) [rad or m].
-            starts: what was never led before: it has not come there, its motion starts there.
+            world_from_base: the pose.
+            joints: the joint vector, (n,) [rad or m].
+            starts: the quantities set for the first time, whose motion starts there.
         """
         if world_from_base is not None:
-            self.state.centre = self._centre_of(world_from_base)
+            self.state.centre = self._compute_centre(world_from_base)
             self._engine.place_vehicle(self.index, world_from_base)
         if joints is not None:
             self._engine.set_joints(self.index, joints)
-        if self._placed is not None:
-            self._placed.record(self._step(), starts)
+        if self._motion is not None:
+            self._motion.record(self._step(), starts)
 
-    def _come_to(self, world_from_base: Pose) -> None:
+    def _move_to(self, world_from_base: Pose) -> None:
         self._engine.place_vehicle(self.index, world_from_base)
-        if self._placed is not None:
-            self._placed.record(self._step())
+        if self._motion is not None:
+            self._motion.record(self._step())
 
     def set_joints(self, values: Array) -> None:
-        """Set its joint vector, (n,) [rad or m]; clamped to the limits."""
-        self.lead(None, values)
+        """Set the joint vector, (n,) [rad or m]; clamped to the limits."""
+        self.set_configuration(None, values)
 
-    def put(self, world_from_base: Pose | None) -> None:
-        """Set its pose, at rest; it is displaced from there from now on.
+    def reset_pose(self, world_from_base: Pose | None) -> None:
+        """Set the pose, at rest; displacements add to it from now on.
 
-        None puts it where the scene puts it now.
+        None is its pose in the scene, with the present displacements.
         """
         if world_from_base is None:
             self.state.centre = None
             world_from_base = self._displaced_pose()
         else:
-            self.state.centre = self._centre_of(world_from_base)
-        self._rest_at(world_from_base)
+            self.state.centre = self._compute_centre(world_from_base)
+        self._place_at_rest(world_from_base)
 
-    def _rest_at(self, world_from_base: Pose) -> None:
+    def _place_at_rest(self, world_from_base: Pose) -> None:
         self._engine.place_vehicle(self.index, world_from_base)
-        if self._placed is not None:
-            self._placed.record_at_rest()
+        if self._motion is not None:
+            self._motion.record_at_rest()
 
-    def _centre_of(self, world_from_base: Pose) -> tuple[Sequence[float], Sequence[float]] | None:
-        """What it is displaced from where it is displaced to a pose now; None: never displaced."""
+    def _compute_centre(
+        self, world_from_base: Pose
+    ) -> tuple[Sequence[float], Sequence[float]] | None:
+        """Compute the undisplaced pose for a displaced one; None: it is never displaced."""
         if not self.state.offsets:
             return None
         localized_from_base = self._frames.world_from_localized.inverse() @ world_from_base
         return rest_pose(localized_from_base, self.state.offsets)
 
     def _displaced_pose(self) -> Pose:
-        """Where it is by the displacements of now, ``world_from_base``."""
+        """Return the pose with the present displacements, ``world_from_base``."""
         spec = self._frames.vehicle
         position, angles = self.state.centre or (spec.position, spec.orientation)
         return self._frames.world_from_localized @ displace_pose(
@@ -188,30 +193,30 @@ class SceneVehicle:
 
     def displacer(self, axis: int) -> Callable[[float], None]:
         """Return a function that displaces it along or about an axis; displacements add up."""
-        own = len(self.state.offsets)
+        index = len(self.state.offsets)
         self.state.offsets.append((axis, 0.0))
 
         def displace(offset: float) -> None:
-            self.state.offsets[own] = (axis, offset)
-            if own == len(self.state.offsets) - 1:
-                self._come_to(self._displaced_pose())
+            self.state.offsets[index] = (axis, offset)
+            if index == len(self.state.offsets) - 1:
+                self._move_to(self._displaced_pose())
 
         return displace
 
     def loss_setter(self, thruster: str) -> Callable[[float], None]:
-        """Return a setter of the loss of a thruster [0..1]; of several the greatest counts."""
+        """Return a setter of the loss of a thruster [0..1]; of several the greatest applies."""
         if thruster not in self.thrusters:
             raise UnknownName("thruster", thruster, self.thrusters)
         number = self.thrusters.index(thruster)
         losses = self.state.losses.setdefault(number, [])
-        own = len(losses)
+        index = len(losses)
         losses.append(0.0)
 
-        def lose(loss: float) -> None:
-            self.state.losses[number][own] = loss
+        def set_loss(loss: float) -> None:
+            self.state.losses[number][index] = loss
             self._engine.actuation[self.index].set_loss(number, max(self.state.losses[number]))
 
-        return lose
+        return set_loss
 
     def hold(self, object_index: int, link: str) -> None:
         """Fix an object, by its index, to a link of the vehicle at its present pose."""
@@ -223,7 +228,7 @@ class SceneVehicle:
 
     @property
     def compiled_vehicle(self) -> CompiledVehicle:
-        """The vehicle as compiled code reads it."""
+        """The samplers of the vehicle for compiled code."""
         root = self._frames.robot.root
         return CompiledVehicle(
             f"{self.name}/{root}",
@@ -231,28 +236,28 @@ class SceneVehicle:
             self.joint_names,
             self.index,
             self._engine,
-            lambda: None if self._placed is None else self._placed.twist(self._step()),
+            lambda: None if self._motion is None else self._motion.twist(self._step()),
         )
 
     def mount(self, spec: Mounted, *, visual: bool = False) -> MountedBody:
-        """Fix something to its link; raises UnknownName if there is no such link."""
+        """Fix a part to its link; raises UnknownName if there is no such link."""
         name = f"{self.name}/{spec.relative_to}"
-        return MountedBody(name, self._engine.poses, self._record_of(spec, visual))
+        return MountedBody(name, self._engine.poses, self._make_mount(spec, visual))
 
     def moving_mount(self, spec: Mounted, *, visual: bool = False) -> MovingBody:
-        """Fix something to its link whose motion is read; UnknownName if there is no such link."""
-        record, link, engine = self._record_of(spec, visual), spec.relative_to, self._engine
+        """Fix a part to its link whose motion is read; UnknownName if there is no such link."""
+        record, link, engine = self._make_mount(spec, visual), spec.relative_to, self._engine
         body = engine.poses.link_body(self.index, link)
         if self._actuation is None:
-            self.follow()
-        moving = MovingLink(
+            self.start_placed_motion()
+        moving_link = MovingLink(
             index=self.index,
             body=body,
             motion=engine.link_motion,
-            led=lambda: self._lazy_motion.part,
+            placed_motion=lambda: self._lazy_motion.part,
             step=self._step,
         )
-        return MovingBody(f"{self.name}/{link}", engine.poses, record, moving)
+        return MovingBody(f"{self.name}/{link}", engine.poses, record, moving_link)
 
     def wrench_sampler(
         self, spec: Mounted, *, at_joint: bool = False, visual: bool = False
@@ -261,36 +266,29 @@ class SceneVehicle:
 
         See `uwsim.devices.device.DeviceVehicle`.
         """
-        record, engine = self._record_of(spec, visual), self._engine
+        record, engine = self._make_mount(spec, visual), self._engine
         is_simulated = self._actuation is not None
         if not is_simulated:
-            self.follow()  # as for a sensor of motion: its velocity stays the same
+            self.start_placed_motion()  # as for a sensor of motion: its velocity stays the same
         body = engine.poses.link_body(self.index, spec.relative_to)
         if at_joint:
             return engine.joint_wrench.sampler(body, record, is_simulated=is_simulated)
         return engine.contacts.wrench_sampler(body, record)
 
-    def _record_of(self, spec: Mounted, visual: bool) -> Mount:
-        """Return the record of something on a link."""
+    def _make_mount(self, spec: Mounted, visual: bool) -> Mount:
         link, robot = spec.relative_to, self._frames.robot
         if robot.link(link) is None:
-            raise UnknownName("link", link, [each.name for each in robot.links])
+            raise UnknownName("link", link, [robot_link.name for robot_link in robot.links])
         link_from_part = self._frames.link_from_mounted(spec, visual=visual)
         return self._engine.poses.mount(self.index, link, link_from_part)
 
 
 class SceneVehicles:
-    """The vehicles of a scene, in the file's order, which may share names.
-
-    Args:
-        model: of the scene.
-        engine: where their links are.
-        bus: counts the steps.
-    """
+    """The vehicles of a scene, in the file's order, which may share names."""
 
     def __init__(self, model: SceneModel, engine: Engine, bus: Bus) -> None:
         self.names = tuple(vehicle.name for vehicle in model.scene.vehicles)
-        """Their names, by number."""
+        """The names, by number."""
         self._actuation = engine.actuation
         self._vehicles = tuple(
             SceneVehicle(index, frames, engine, lambda: bus.state.step)
@@ -304,7 +302,7 @@ class SceneVehicles:
         return self._vehicles[self.names.index(name)]
 
     def actuators(self, name: str) -> Actuators | None:
-        """The actuators of a vehicle; None if it is not simulated; UnknownName if there is none."""
+        """Return the actuators; None if the vehicle is not simulated; raises UnknownName."""
         actuation = self._actuation.get(self.find(name).index)
         return None if actuation is None else actuation.actuators()
 
@@ -317,5 +315,5 @@ class SceneVehicles:
         return iter(self._vehicles)
 
     def __len__(self) -> int:
-        """Return how many there are."""
+        """Return the number of vehicles."""
         return len(self._vehicles)

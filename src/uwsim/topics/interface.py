@@ -121,7 +121,7 @@ class TopicWorld(TimedWorld, Protocol):
         before, needed or not.
         """
 
-    def at_next_step(self, apply: Callable[[M], None]) -> Callable[[M], None]:
+    def defer_to_next_step(self, apply: Callable[[M], None]) -> Callable[[M], None]:
         """Return a function that defers ``apply(message)`` to the start of the next step."""
 
 

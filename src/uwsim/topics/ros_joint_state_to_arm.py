@@ -40,7 +40,7 @@ class ROSJointStateToArmSpec(VehicleTopicSpec):
         world.bus.subscribe(
             self.topic,
             JointState,
-            world.at_next_step(command.apply_command),
+            world.defer_to_next_step(command.apply_command),
             remark=lambda m: find_invalid_number(m, [used_field(m)], MAX_VALUE),
         )
         return command

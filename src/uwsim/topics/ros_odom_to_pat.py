@@ -37,7 +37,7 @@ class ROSOdomToPATSpec(VehicleTopicSpec):
         world.bus.subscribe(
             self.topic,
             Odometry,
-            world.at_next_step(command.apply_command),
+            world.defer_to_next_step(command.apply_command),
             remark=check_odometry,
         )
         return command

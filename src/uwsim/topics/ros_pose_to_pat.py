@@ -35,7 +35,7 @@ class ROSPoseToPATSpec(VehicleTopicSpec):
         world.bus.subscribe(
             self.topic,
             PoseMessage,
-            world.at_next_step(command.apply_command),
+            world.defer_to_next_step(command.apply_command),
             remark=check_pose,
         )
         return command

@@ -55,7 +55,7 @@ class ROSTwistToPATSpec(VehicleTopicSpec):
     def bind(self, world: TopicWorld) -> TwistCommand:
         """Start to subscribe; raises UnknownName if there is no such vehicle."""
         command = TwistCommand(world.vehicle(self.vehicle_name), Gap(world))
-        apply_command = world.at_next_step(command.apply_command)
+        apply_command = world.defer_to_next_step(command.apply_command)
         world.bus.subscribe(
             self.topic,
             TwistStamped,
@@ -106,7 +106,7 @@ class ROSCmdVelToPATSpec(VehicleTopicSpec):
         world.bus.subscribe(
             self.topic,
             Twist,
-            world.at_next_step(command.apply_command),
+            world.defer_to_next_step(command.apply_command),
             remark=lambda m: find_invalid_number(m, CMD_VEL, MAX_COMMAND),
         )
         return command

@@ -62,7 +62,7 @@ class ROSThrustersToPATSpec(AutopilotTopicSpec):
         world.bus.subscribe(
             self.topic,
             Float64MultiArray,
-            world.at_next_step(command.apply_command),
+            world.defer_to_next_step(command.apply_command),
             check=command.check,
             remark=lambda m: find_invalid_number(m, ("data",), MAX_COMMAND),
         )
@@ -108,7 +108,7 @@ class ROSFinsToPATSpec(AutopilotTopicSpec):
         world.bus.subscribe(
             self.topic,
             Float64MultiArray,
-            world.at_next_step(command.apply_command),
+            world.defer_to_next_step(command.apply_command),
             check=command.check,
             remark=lambda m: find_invalid_number(m, ("data",), MAX_COMMAND),
         )
@@ -152,7 +152,7 @@ class ROSWrenchToPATSpec(AutopilotTopicSpec):
         world.bus.subscribe(
             self.topic,
             WrenchStamped,
-            world.at_next_step(command.apply_command),
+            world.defer_to_next_step(command.apply_command),
             remark=lambda m: find_invalid_number(m, WRENCH, MAX_COMMAND),
         )
         return command

@@ -158,10 +158,10 @@ from ..sensors.sonar.multibeam_sensor import FanSpec
 from ..sensors.virtual_camera import VirtualCameraSpec
 from ..simulation import Simulation
 from ..simulation.live_scene import LiveScene
-from ..simulation.scenery.sand import CELL, REACH, Heap
-from ..simulation.tracked_bodies import body_names, leaders, vehicle_labels
-from ..simulation.unique_names import unique
-from ..simulation.views import FIELD, focus_of, orbit_view, viewer_view
+from ..simulation.scenery.sand import CELL_WIDTH, TOOL_REACH, Heap
+from ..simulation.tracked_bodies import body_names, leading_links, vehicle_labels
+from ..simulation.unique_names import make_unique
+from ..simulation.views import FIELD_OF_VIEW, find_focus, orbit_view, viewer_view
 from .models import Models
 from .pack import Blob
 
@@ -186,7 +186,7 @@ def scene_head(simulation: Simulation, title: str, blob: Blob, *, is_live: bool 
     bodies = _Bodies(world)
     for part in world.scenery.parts:
         bodies.add(part, models)
-    names = unique(f"sand/{heap.name}" for heap in world.scenery.heaps)
+    names = make_unique(f"sand/{heap.name}" for heap in world.scenery.heaps)
     heaps = zip(names, world.scenery.heaps, strict=True)
     sand = [_sand(name, heap, bodies, models) for name, heap in heaps]
     water, light = world.scenery.state.water, world.scenery.state.light
@@ -245,7 +245,7 @@ class _Bodies:
 
     def __init__(self, world: LiveScene) -> None:
         self._world = world
-        self._leaders = {i: leaders(robot) for i, robot in world.model.robots.items()}
+        self._leaders = {i: leading_links(robot) for i, robot in world.model.robots.items()}
         self._link_names, self._object_names = body_names(world)
         self.labels = vehicle_labels(world)
         """The unique names of the vehicles."""
@@ -317,8 +317,8 @@ def _sand(name: str, heap: Heap, bodies: _Bodies, models: Models) -> Json:
         "columns": list(heap.heights.shape),
         "corner": heap.corner.tolist(),
         "cell": heap.cell,
-        "reach": REACH,
-        "bite": CELL,
+        "reach": TOOL_REACH,
+        "bite": CELL_WIDTH,
     }
 
 
@@ -413,8 +413,8 @@ def _vehicles(world: LiveScene, bodies: _Bodies) -> Iterator[Json]:
 
 def _orbit(simulation: Simulation) -> Json:
     """Return the view around vehicles and nearby objects, the same as that of `uwsim render`."""
-    eye, middle = orbit_view(simulation, SIZE).world_from_camera, focus_of(simulation).middle
-    return _view(eye, FIELD, dot(eye.position - middle, eye.rotation[:, 2]))
+    eye, middle = orbit_view(simulation, SIZE).world_from_camera, find_focus(simulation).middle
+    return _view(eye, FIELD_OF_VIEW, dot(eye.position - middle, eye.rotation[:, 2]))
 
 
 def _file_view(simulation: Simulation) -> Json | None:

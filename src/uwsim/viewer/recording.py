@@ -128,7 +128,7 @@ def _shapes(simulation: Simulation) -> MarkerArray:
     rows = bodies.rows()
 
     def frame_of(part: Part) -> tuple[str, Array]:
-        body = bodies.body_of(part)
+        body = bodies.body_number(part)
         if body is None:
             return WORLD, np.eye(4)
         world_from_body = Pose(rows[body, :3], rotation_from_quaternion(rows[body, 3:]))

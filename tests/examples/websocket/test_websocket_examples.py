@@ -153,7 +153,7 @@ def test_a_program_puts_a_mesh_into_the_scene_and_takes_it_away() -> None:
         try:
             added = spawn("add", "1", "2", "3")
             assert added == (0, "object 1 toys was successfully ADDED.\n")
-            marker = simulation.world.markers.shown["1+toys"]
+            marker = simulation.world.markers.active_markers["1+toys"]
             assert marker.mesh_resource == "package://uwsim/data/objects/sphere.osg"
             assert (marker.pose.position.x, marker.scale.z, marker.color.a) == (1.0, 1.0, 1.0)
             assert spawn("del", "0", "0", "0") == (0, "object 1 toys was successfully DELETED.\n")

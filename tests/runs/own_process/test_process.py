@@ -25,7 +25,7 @@ from uwsim.runs.planning.plan import Plan
 from uwsim.runs.run import Run
 from uwsim.runs.trial.level_row import LevelRow, TrialEnd
 from uwsim.runs.trial.trial import execute
-from uwsim.simulation import InProcessNode, Stopped
+from uwsim.simulation import CallStopped, InProcessNode
 
 LEVELS = """<sceneFogUpdater> <initialValue>0</initialValue> <finalValue>0.2</finalValue>
 <step>0.2</step> <interval>0.7</interval> </sceneFogUpdater>"""
@@ -213,10 +213,10 @@ def test_a_request_that_takes_too_long_ends_the_process() -> None:
     with OwnProcess() as process:
         ProcessAlgorithm(process, programs.Does)  # the start of the process takes as long as it may
         process._limit = 0.1
-        with pytest.raises(Stopped, match="a callback took longer than --callback-limit"):
+        with pytest.raises(CallStopped, match="a callback took longer than --callback-limit"):
             process.request(["make", sys.path, [], programs.__name__, "NeverMade"], lambda asked: 0)
         until(lambda: not is_there(process.pid))
-        with pytest.raises(Stopped, match=r"its process ended \(killed by SIGKILL\)"):
+        with pytest.raises(CallStopped, match=r"its process ended \(killed by SIGKILL\)"):
             process.request(["parameters", {}], lambda asked: 0)
 
 
@@ -239,7 +239,7 @@ def test_a_process_that_leaves_its_socket_open_is_not_waited_for(
 ) -> None:
     with OwnProcess(limit) as process:
         remote, began = ProcessAlgorithm(process, algorithm), time.monotonic()
-        with pytest.raises(Stopped, match=why):
+        with pytest.raises(CallStopped, match=why):
             remote.start(node_of(Bus()))
         assert time.monotonic() - began < 14.0
 

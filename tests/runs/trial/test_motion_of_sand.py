@@ -36,7 +36,7 @@ def recorded(folder: Path) -> tuple[bytes, list[Array]]:
                 Pose(np.array([x, 0.01, 0.1234567]), np.eye(3))
             )
             simulation.advance(0.3)
-        heap.show(())
+        heap.restore(())
         simulation.world.vehicles.find("rov").place(Pose(np.array([-0.05, 0.0, 0.1]), np.eye(3)))
         simulation.advance(0.2)
         return recorder.track(), frames
@@ -49,7 +49,7 @@ def test_sand_of_a_track_is_that_of_the_run_to_the_bit(tmp_path: Path) -> None:
     with open_scene(scene(tmp_path, 1.0), is_blind=True) as simulation:
         (heap,) = simulation.world.scenery.heaps
         for frame in (*range(len(frames)), 3, 20, 7):  # forwards, and to and fro
-            heap.show(track.sand.spots(0, frame))
+            heap.restore(track.sand.spots(0, frame))
             assert (heap.heights == frames[frame]).all(), frame
     assert (frames[5] < frames[0]).any()
     assert len({heights.tobytes() for heights in frames}) > 10

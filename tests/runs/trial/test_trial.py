@@ -12,7 +12,7 @@ from tests.support.short_benchmark import fingerprint, run, write_benchmark
 from uwsim.analysis.comparison import compare, differences, read_entries, shared_column
 from uwsim.errors import BadSetting, NeverStarted
 from uwsim.results.result_file import load
-from uwsim.simulation import what_broke
+from uwsim.simulation import describe_failure
 
 
 @pytest.fixture
@@ -134,12 +134,12 @@ def test_an_error_of_a_library_is_put_on_the_line_of_the_algorithm_that_called_i
     try:
         failing.Raises().start(None)  # type: ignore[arg-type]
     except AttributeError as error:
-        said = what_broke(error, failing.Raises)
+        said = describe_failure(error, failing.Raises)
     assert re.fullmatch(r"failing\.py:\d+: AttributeError: 'NoneType' .*", said)
     try:
         json.loads("{")
     except ValueError as error:
-        said = what_broke(error, failing.Raises)
+        said = describe_failure(error, failing.Raises)
     assert re.match(r"decoder\.py:\d+: JSONDecodeError: ", said)
 
 

@@ -15,7 +15,7 @@ from uwsim.messages import JointState, Odometry, Pose
 from uwsim.messages.simulation_control import SetSimulationState, SimulationState
 from uwsim.simulation import Simulation
 from uwsim.simulation.control.control import SimulationControl
-from uwsim.simulation.markers.lines import described, looks_of
+from uwsim.simulation.markers.lines import describe_markers, draw_markers
 
 
 def send(simulation: Simulation, name: str, message: object, *, is_request: bool) -> None:
@@ -56,7 +56,9 @@ def exchange(simulation: Simulation, seed: int, n: int) -> None:
             playing = SimulationState(SimulationState.PLAYING)
             simulation.call("set_simulation_state", SetSimulationState(state=playing))
         simulation.advance(0.006)
-        described(looks_of(world.markers.shown, world.model.scene.world_from_localized))
+        describe_markers(
+            draw_markers(world.markers.active_markers, world.model.scene.world_from_localized)
+        )
 
 
 def _request(name: str, bus: uwsim.simulation.simulation.Bus) -> object:

@@ -13,7 +13,7 @@ from tests.viewer.live.desk import Desk
 from uwsim.base.geometry import Pose as Transform
 from uwsim.messages import ColorRGBA, Marker, Point, Pose, Quaternion, SpawnMarker, Vector3
 from uwsim.simulation.markers import SERVICE, TYPES
-from uwsim.simulation.markers.lines import MAX_POINTS, described, looks_of
+from uwsim.simulation.markers.lines import MAX_POINTS, describe_markers, draw_markers
 from uwsim.viewer.live.session import LiveSession
 
 NOWHERE = Transform(np.zeros(3), np.eye(3))
@@ -35,7 +35,7 @@ def corners(lines: list[list[list[float]]]) -> tuple[list[float], list[float]]:
 @pytest.mark.parametrize("kind", [Marker.CUBE, Marker.SPHERE, Marker.CYLINDER])
 def test_a_shape_is_outlined_in_its_size_and_colour(kind: int) -> None:
     red = ColorRGBA(r=1.0, g=0.5, b=0.0, a=1.0)
-    (one,) = described(looks_of({"7+buoy": marker(type=kind, color=red)}, NOWHERE))
+    (one,) = describe_markers(draw_markers({"7+buoy": marker(type=kind, color=red)}, NOWHERE))
     assert (one["name"], one["colour"], one["at"]) == ("7+buoy", "#ff8000", [1.0, 2.0, 3.0])
     low, high = corners(one["lines"])
     assert low == pytest.approx([0.0, 1.8, 2.7], abs=1e-3)
@@ -52,7 +52,7 @@ def test_whatever_a_marker_says_the_page_gets_numbers_and_not_too_many() -> None
         for kind in TYPES
         for k, (points, size) in enumerate([(odd, 1.0), ([], float("inf")), ([], 0.0)])
     }
-    shown = described(looks_of(markers, NOWHERE))
+    shown = describe_markers(draw_markers(markers, NOWHERE))
     json.dumps(shown, allow_nan=False)
     assert [each["name"] for each in shown] == list(markers)
     assert sum(len(line) for each in shown for line in each["lines"]) <= MAX_POINTS

@@ -34,7 +34,7 @@ def test_a_marker_is_added_modified_and_deleted(simulation: uwsim.Simulation) ->
     assert (said.success, said.status_message) == (True, "object 7 buoy was successfully ADDED.")
     said = spawn(simulation, type=Marker.SPHERE)
     assert said.status_message == "object 7 buoy was successfully MODIFIED."
-    assert [(name, each.type) for name, each in markers.shown.items()] == [
+    assert [(name, each.type) for name, each in markers.active_markers.items()] == [
         ("7+buoy", Marker.SPHERE)
     ]
     said = spawn(simulation, action=Marker.DELETE)
@@ -44,7 +44,7 @@ def test_a_marker_is_added_modified_and_deleted(simulation: uwsim.Simulation) ->
     spawn(simulation, id=1)
     spawn(simulation, id=2)
     assert spawn(simulation, action=Marker.DELETEALL).success
-    assert markers.shown == {}
+    assert markers.active_markers == {}
 
 
 @pytest.mark.parametrize("kind", range(12))
@@ -75,11 +75,11 @@ def test_a_marker_goes_when_its_lifetime_is_over(simulation: uwsim.Simulation) -
     spawn(simulation, lifetime=Duration(nanosec=10_000_000))
     simulation.advance(0.008)
     saved = simulation.save()
-    assert simulation.world.markers.shown
+    assert simulation.world.markers.active_markers
     simulation.advance(0.004)
-    assert not simulation.world.markers.shown
+    assert not simulation.world.markers.active_markers
     simulation.restore(saved)
-    assert simulation.world.markers.shown
+    assert simulation.world.markers.active_markers
 
 
 def test_markers_are_on_tf_with_the_objects() -> None:

@@ -102,14 +102,14 @@ def test_topics_that_have_no_other_end_are_reported_with_the_nearest_that_has() 
     bus.publisher("odom", String)
     node.publisher("/twist", String)
     node.subscribe("odom", String, lambda _: None)
-    assert node.unconnected() == []
+    assert node.describe_unconnected_topics() == []
     node.publisher("/twst", String)
     node.subscribe("odm", String, lambda _: None)
-    assert node.unconnected() == [
+    assert node.describe_unconnected_topics() == [
         "me: it subscribes to 'odm', but it has no publisher. Did you mean 'odom'?",
         "me: it publishes on '/twst', but it has no subscriber. Did you mean 'twist'?",
     ]
-    assert node.unfed() == node.unconnected()[:1]
+    assert node.describe_unpublished_topics() == node.describe_unconnected_topics()[:1]
 
 
 def test_a_topic_unlike_all_others_is_reported_with_those_of_its_type() -> None:

@@ -190,4 +190,4 @@ def test_scenes_of_the_original_have_no_sun_shadows_unless_they_ask_for_them(
 
 def test_no_shape_of_a_urdf_is_an_input_without_a_hash(tmp_path: Path) -> None:
     simulation, _ = seen(tmp_path, f'<link name="base">{shape()}</link>')
-    assert simulation.world.scenery.made_hashes == {}
+    assert simulation.world.scenery.generated_hashes == {}

@@ -13,7 +13,7 @@ import uwsim
 from uwsim.cli import main
 from uwsim.currents import Constant
 from uwsim.messages import CameraInfo, TwistStamped, Vector3
-from uwsim.simulation.state.saved_bytes import with_checksum
+from uwsim.simulation.state.saved_bytes import append_checksum
 
 SCENES = ["currents-scene", "visibility-moving-scene", "cirs"]
 
@@ -92,7 +92,7 @@ def test_bytes_of_another_scene_or_of_none_are_refused() -> None:
             other.restore(simulation.save())
         saved = simulation.save()
         changed = saved[:300] + bytes([saved[300] ^ 1]) + saved[301:]
-        none = with_checksum(pickle.dumps([1]))
+        none = append_checksum(pickle.dumps([1]))
         for damaged in (b"", b"x" * 50, saved[:200], changed, none):
             with pytest.raises(uwsim.UwsimError, match="no saved simulation"):
                 simulation.restore(damaged)
@@ -137,8 +137,8 @@ class Evil:
 
 def test_bytes_that_would_run_code_are_refused(capsys: pytest.CaptureFixture[str]) -> None:
     with uwsim.load("visibility-scene") as simulation:
-        with pytest.raises(uwsim.UwsimError, match=r"builtins\.print has no place"):
-            simulation.restore(with_checksum(pickle.dumps({"uwsim": Evil()})))
+        with pytest.raises(uwsim.UwsimError, match=r"builtins\.print is no type of a state"):
+            simulation.restore(append_checksum(pickle.dumps({"uwsim": Evil()})))
         assert capsys.readouterr().out == ""
 
 
@@ -243,7 +243,7 @@ def test_a_current_of_a_programs_own_class_has_no_bytes() -> None:
 def test_bytes_of_another_version_are_refused_though_its_records_are_others() -> None:
     record = [0, "uwsim.simulation.state.state:State", "one field"]
     with pytest.raises(uwsim.UwsimError, match="was not saved by uwsim"):
-        uwsim.State.from_bytes(with_checksum(pickle.dumps(("0.0.1", record))))
+        uwsim.State.from_bytes(append_checksum(pickle.dumps(("0.0.1", record))))
 
 
 class Counts:

@@ -130,9 +130,11 @@ def water(current: Current) -> WaterMotion:
 @pytest.mark.parametrize("name", CURRENTS)
 def test_compiled_water_is_that_of_python_to_the_bit(name: str) -> None:
     motion = water(CURRENTS[name]())
-    assert not motion.is_asked_where_bodies_are(VEHICLES)
+    assert not motion.needs_positions(VEHICLES)
     last = range(1, round(TIMES[-1] / STEP) + 1)
-    function = motion.during(lambda: pytest.fail("asked for positions"), last, STEP, VEHICLES)
+    function = motion.motion_during(
+        lambda: pytest.fail("asked for positions"), last, STEP, VEHICLES
+    )
     assert function is not None
     found = rows_of(function, POINTS, TIMES)
     reference = water(InPython(CURRENTS[name]()))
@@ -145,7 +147,7 @@ def test_compiled_water_is_that_of_python_to_the_bit(name: str) -> None:
 @pytest.mark.parametrize("n", [1, 2, 3, 8])
 def test_however_many_bodies_there_are(n: int) -> None:
     points, vehicles = np.random.default_rng(n).uniform(0.0, 4.0, (n, 3)), ("a",) * n
-    function = water(a_field()).during(lambda: points, range(1, 2), STEP, vehicles)
+    function = water(a_field()).motion_during(lambda: points, range(1, 2), STEP, vehicles)
     assert function is not None
     velocity, acceleration, rotation = water(InPython(a_field())).at(points, 1.3, vehicles)
     expected = np.hstack([velocity, acceleration, rotation]).tobytes()
@@ -154,7 +156,7 @@ def test_however_many_bodies_there_are(n: int) -> None:
 
 def test_water_with_one_current_of_python_is_asked_of_python() -> None:
     motion = water(TotalCurrent([a_profile(), InPython(a_walk())]))
-    assert motion.is_asked_where_bodies_are(VEHICLES)
+    assert motion.needs_positions(VEHICLES)
     assert motion.drift(VEHICLES, 0.002, 1.0) is None
 
 
@@ -174,7 +176,7 @@ def test_vehicles_drift_in_compiled_steps_as_python_carries_them(name: str) -> N
         assert function is not None
         ask(function.function, function.address, rows, time)
         poses = [
-            reference.carried(pose, time, step, vehicle)
+            reference.advect(pose, time, step, vehicle)
             for pose, vehicle in zip(poses, names, strict=True)
         ]
         assert rows[:, :3].tobytes() == np.array([p.position for p in poses]).tobytes()

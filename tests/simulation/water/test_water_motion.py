@@ -118,7 +118,7 @@ def test_uniform_water_of_several_steps_is_that_of_each_step(vehicles: tuple[str
     motion.set(TotalCurrent([Constant((0.1, -0.2, 0.03)), TargetCurrent(swelling, "b")]))
     steps, timestep = range(249, 252), 0.002
     times = [step * timestep - 0.5 * timestep for step in steps]
-    found = motion.during(lambda: np.zeros((len(vehicles), 3)), steps, timestep, vehicles)
+    found = motion.motion_during(lambda: np.zeros((len(vehicles), 3)), steps, timestep, vehicles)
     assert found is not None
     rows = rows_of(found, np.zeros((len(vehicles), 3)), times)
     assert rows.shape == (3, len(vehicles), 9)
@@ -158,7 +158,7 @@ def test_uniform_water_of_python_is_asked_for_once_a_vehicle(kind: type[Asked], 
     motion.set(kind((0.1, 0.0, 0.0)))
     vehicles, points, rows = ("a", "a", "", "a", ""), np.zeros((5, 3)), []
     for first in (1, 3):
-        found = motion.during(lambda: points, range(first, first + 2), 0.1, vehicles)
+        found = motion.motion_during(lambda: points, range(first, first + 2), 0.1, vehicles)
         assert found is not None
         rows.append(rows_of(found, points, (0.1, 0.2)))
     assert Asked.asked == [("a", "")] * n
@@ -172,7 +172,7 @@ def test_another_current_or_other_bodies_are_not_taken_for_those_before() -> Non
     rows = []
     for x, vehicles in ((0.1, ("a",)), (0.2, ("a",)), (0.2, ("a", "b")), (0.1, ("a", "b"))):
         motion.set(TargetCurrent(Constant((x, 0.0, 0.0)), "a"))
-        found = motion.during(lambda: np.zeros((9, 3)), range(1, 2), 0.1, vehicles)
+        found = motion.motion_during(lambda: np.zeros((9, 3)), range(1, 2), 0.1, vehicles)
         assert found is not None
         asked = rows_of(found, np.zeros((len(vehicles), 3)), (0.1,))
         rows.append(np.linalg.norm(asked[0, :, :3], axis=1).tolist())

@@ -20,7 +20,7 @@ from uwsim.cli import main
 from uwsim.rendering.grey import grey_truncated
 from uwsim.results.journal import recorded_trials, track_path
 from uwsim.results.motion import Signal
-from uwsim.simulation.views import focus_of
+from uwsim.simulation.views import find_focus
 from uwsim.viewer.film.curves import select_curves, short_name
 from uwsim.viewer.film.film import Film, FilmSpec, save_film
 from uwsim.viewer.film.trial_scene import TrialScene
@@ -127,7 +127,7 @@ def test_title_curves_and_inset_hide_nothing_of_the_view(
 
 def film_corners(film: Film) -> np.ndarray[Any, Any]:
     """Corners of what the view is about, in W, (8, 3)."""
-    return np.asarray(focus_of(film._scene.simulation).corners)
+    return np.asarray(find_focus(film._scene.simulation).corners)
 
 
 def test_curves_of_one_measure_are_named_without_it() -> None:

@@ -12,7 +12,7 @@ import uwsim
 from tests.viewer.live.desk import Desk
 from tests.viewer.live.test_pilot_page import MAPPING, opened, server
 from uwsim.errors import BadSetting
-from uwsim.simulation.views import FIELD, view_from_pose
+from uwsim.simulation.views import FIELD_OF_VIEW, view_from_pose
 from uwsim.viewer.live.server import LiveServer
 from uwsim.viewer.live.session import LiveSession
 from uwsim.viewer.live.view import HEADER, IMAGE, _parse_view, encode_jpeg
@@ -68,7 +68,7 @@ def test_images_are_as_wide_as_the_widest_viewer_shows_them(
 
 @pytest.mark.parametrize(
     ("said", "wanted"),
-    [({"fovy": 0.5}, 0.5), ({}, FIELD), ({"fovy": 4.0}, None), ({"fovy": "wide"}, None)],
+    [({"fovy": 0.5}, 0.5), ({}, FIELD_OF_VIEW), ({"fovy": 4.0}, None), ({"fovy": "wide"}, None)],
 )
 def test_a_view_without_webgl_has_the_field_of_the_page(
     said: dict[str, Any], wanted: float | None

@@ -73,7 +73,7 @@ class Starts:
                 f"it begins {height:.3g} m above the water and falls; expected a position in it "
                 f"(up is {self._up()} in the file's frame)"
             )
-        return self._describe_depth(self._depths.of_body(body, world_from_base), world_from_base)
+        return self._describe_depth(self._depths.body_depth(body, world_from_base), world_from_base)
 
     def describe_object(self, index: int) -> str:
         """Describe an unlikely start pose of a loose object; empty if it is likely."""
@@ -81,7 +81,7 @@ class Starts:
         if spec.on_floor is not None:
             return ""
         world_from_object = self._scene.world_from_localized @ spec.localized_from_object
-        return self._describe_depth(self._depths.of_object(index), world_from_object)
+        return self._describe_depth(self._depths.object_depth(index), world_from_object)
 
     def _describe_depth(self, depth: StartDepth | None, world_from_body: Pose) -> str:
         """Describe the ground in or under which a body starts, and a position above it."""

@@ -220,7 +220,7 @@ def _attach(simulation: Simulation, bridges: Sequence[Bridge], options: Connecti
     ):
         node = simulation.attach(client, name=client.name, raises=False)
         if node.error is not None:
-            raise RunFailed(f"{client.name} {node.how}: {node.error}")
+            raise RunFailed(f"{client.name} {node.failure_verb}: {node.error}")
 
 
 def _connect(simulation: Simulation, bridges: Sequence[Bridge]) -> None:

@@ -29,7 +29,7 @@ from ...schema import format_tag
 from ...sensors import SENSORS
 from ...sensors.virtual_camera import VirtualCameraSpec
 from ...simulation import Simulation
-from ...simulation.scenery.below import below_vehicle
+from ...simulation.scenery.below import surfaces_below_vehicle
 from .topic_rows import topics
 
 Fields = dict[str, Any]
@@ -176,7 +176,7 @@ def _below(scene: SceneSpec, spec: VehicleSpec, simulation: Simulation) -> list[
     origin = simulation.world.bodies.find(spec.name).world_from_body.position
     localized_from_world = scene.world_from_localized.inverse()
     found = []
-    for each in below_vehicle(simulation.world, spec.name):
+    for each in surfaces_below_vehicle(simulation.world, spec.name):
         place = localized_from_world.transform(np.array([[origin[0], origin[1], each.height]]))[0]
         distance = float(origin[2]) - each.height
         found.append({"name": each.name, "distance": distance, "position": _rounded(place)})

@@ -22,7 +22,7 @@ from multiprocessing.process import BaseProcess
 from ...base.environment import set_environment
 from ...base.interrupts import is_user_interrupt
 from ...base.terminal import ignore_casts
-from ...simulation import BEFORE, Calls, Counter, Cut, open_call
+from ...simulation import NO_CALLS, Calls, Counter, Cut, unfinished_call
 from ..own_process.process import CALL_TIMEOUT, describe_exit
 from ..planning.trial_cache import TrialCache
 from .executor import ENVIRONMENT, Job, JobQueue, SerialExecutor, run_and_record
@@ -123,7 +123,7 @@ class WorkerProcess:
         context = multiprocessing.get_context("spawn")
         self._pipe, child_pipe = context.Pipe()
         parent, self._parent = context.Pipe(duplex=False)
-        self._counter: Counter = context.RawValue(ctypes.c_longlong, BEFORE)
+        self._counter: Counter = context.RawValue(ctypes.c_longlong, NO_CALLS)
         arguments = (child_pipe, parent, self._counter, limit)
         self._process: BaseProcess = (
             forks.make(work, arguments, settings)
@@ -141,7 +141,7 @@ class WorkerProcess:
         """The job it executes."""
         self._algorithm: str | None = None  # the only one that it runs
         # the counter, and the time since its last change [s]
-        self._last_count, self._count_age = BEFORE, 0.0
+        self._last_count, self._count_age = NO_CALLS, 0.0
 
     @property
     def handles(self) -> tuple[Connection, int]:
@@ -176,7 +176,9 @@ class WorkerProcess:
         if not is_alive:
             self._process.join()
             queue.report_loss(
-                self.job, describe_exit(self._process.exitcode), open_call(self._counter.value)
+                self.job,
+                describe_exit(self._process.exitcode),
+                unfinished_call(self._counter.value),
             )
             self.job = None
 
@@ -191,7 +193,7 @@ class WorkerProcess:
         count = self._counter.value
         self._count_age = self._count_age + wait_time if count == self._last_count else 0.0
         self._last_count = count
-        call = open_call(count)
+        call = unfinished_call(count)
         if self.job is None or call is None:
             return
         if self.job.run.plan.algorithm.own_process:

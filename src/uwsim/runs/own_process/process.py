@@ -29,7 +29,7 @@ from ...base.tracked_parameters import untracked_parameters
 from ...benchmark.plugin import Plugin
 from ...bus import Node
 from ...errors import BadSetting, RunFailed, UwsimError
-from ...simulation import Stopped
+from ...simulation import CallStopped
 from .codec import MAX_FRAME, FrameError, decode, encode
 
 PROCESS_ENDED = "its process ended"
@@ -123,7 +123,7 @@ class OwnProcess:
                 return value
             if kind == "raised" and len(rest) == 3:
                 raise _algorithm_error(str(frame[0]), *map(str, rest))
-            raise Stopped("its process sent a frame that nobody understands")
+            raise CallStopped("its process sent a frame that nobody understands")
 
     def _wait(self, wait_time: float) -> float:
         """Wait for a frame, ``wait_time`` after the request; return the time of its arrival [s].
@@ -142,7 +142,7 @@ class OwnProcess:
             # a longer time in which this process itself was stopped does not count
             wait_time += min(time.monotonic() - start, 2 * period)
         self._process.kill()
-        raise Stopped(CALL_TIMEOUT)
+        raise CallStopped(CALL_TIMEOUT)
 
     def _send(self, frame: list[object]) -> None:
         try:
@@ -154,24 +154,24 @@ class OwnProcess:
         try:
             frame: object = decode(self._pipe.recv_bytes(MAX_FRAME))
         except FrameError as error:
-            raise Stopped(f"its process sent bytes that are no frame: {error}") from None
+            raise CallStopped(f"its process sent bytes that are no frame: {error}") from None
         except BlockingIOError:  # half a frame
             self._process.kill()
-            raise Stopped(CALL_TIMEOUT) from None
+            raise CallStopped(CALL_TIMEOUT) from None
         except (EOFError, OSError):
             raise self._end_error() from None
         match frame:
             case [str(), list(), *_] if isinstance(frame, list):
                 return frame
-        raise Stopped("its process sent a frame that nobody understands")
+        raise CallStopped("its process sent a frame that nobody understands")
 
-    def _end_error(self) -> Stopped:
+    def _end_error(self) -> CallStopped:
         try:
             status = self._process.wait(END_TIMEOUT)
         except subprocess.TimeoutExpired:
             self._process.kill()
             status = self._process.wait()
-        return Stopped(f"{PROCESS_ENDED} ({describe_exit(status)})")
+        return CallStopped(f"{PROCESS_ENDED} ({describe_exit(status)})")
 
 
 class ProcessAlgorithm:
@@ -277,7 +277,7 @@ def _answer_request(
         return refusal
     try:
         return ["given", answer(request)]
-    except Stopped:
+    except CallStopped:
         raise
     except Exception as error:
         return _refusal(error)
@@ -288,7 +288,7 @@ def _publish_frames(answer: Callable[[list[Any]], object], frames: list[Any]) ->
     try:
         for frame in frames:
             answer(["publish", frame])
-    except Stopped:
+    except CallStopped:
         raise
     except Exception as error:
         return _refusal(error)

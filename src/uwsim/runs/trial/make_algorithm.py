@@ -10,8 +10,8 @@ from ...base.tracked_parameters import describe_unread_parameters
 from ...benchmark.plugin_checks import read_parameters
 from ...bus import Algorithm
 from ...errors import NeverStarted, RunFailed, UwsimError
-from ...simulation import Calls, InProcessNode, what_broke
-from ...simulation.nodes.calls import Stopped
+from ...simulation import Calls, InProcessNode, describe_failure
+from ...simulation.nodes.calls import CallStopped
 from ..own_process.process import ProcessAlgorithm
 from ..planning.plan import Plan
 from .status import to_line
@@ -33,7 +33,7 @@ def make_algorithm(
             raise
         raise NeverStarted(
             f"Algorithm {plan.algorithm.name!r} cannot be made: "
-            f"{to_line(what_broke(error, plan.algorithm.cls))}"
+            f"{to_line(describe_failure(error, plan.algorithm.cls))}"
         ) from error
 
 
@@ -53,7 +53,7 @@ def reported_parameters(
     except BaseException as error:
         if is_user_interrupt(error):
             raise
-        message = to_line(what_broke(error, plan.algorithm.cls))
+        message = to_line(describe_failure(error, plan.algorithm.cls))
         raise RunFailed(
             f"Algorithm {plan.algorithm.name!r} cannot report its parameters: {message}"
         ) from error
@@ -71,7 +71,7 @@ def unread_parameters(plan: Plan, algorithm: Algorithm, node: InProcessNode) -> 
     if isinstance(algorithm, ProcessAlgorithm):
         try:
             names_read = algorithm.names_read
-        except (RemoteError, Stopped):
+        except (RemoteError, CallStopped):
             return ()
     note = describe_unread_parameters(plan.algorithm.name, names, names_read)
     return (note,) if note else ()

@@ -8,7 +8,7 @@ from ...messages import Marker
 from ...results.motion import DrawnMarker, DugSand, MarkerChange, Spot
 from ...results.motion.dug_sand import COLUMNS, NO_VALUE
 from ...simulation import Simulation
-from ...simulation.markers.lines import MAX_POINTS, look_of, n_points
+from ...simulation.markers.lines import MAX_POINTS, count_points, draw_marker
 
 MAX_CHANGES = 100_000
 """The greatest number of marker changes in a trial; later ones are not stored."""
@@ -36,11 +36,11 @@ class SandLog:
                 continue
             self._versions[number] = heap.version
             n = len(self._known_spots[number])
-            if heap.state.taken[:n] != self._known_spots[number]:  # the sand was put back meanwhile
+            if heap.state.spots[:n] != self._known_spots[number]:  # the sand was put back meanwhile
                 self._rows.append((frame, number, NO_VALUE, NO_VALUE, NO_VALUE))
                 n = 0
-            self._rows += [(frame, number, *spot) for spot in heap.state.taken[n:]]
-            self._known_spots[number] = list(heap.state.taken)
+            self._rows += [(frame, number, *spot) for spot in heap.state.spots[n:]]
+            self._known_spots[number] = list(heap.state.spots)
 
     def sand(self) -> DugSand:
         """Return all digs so far."""
@@ -68,11 +68,11 @@ class MarkerLog:
         """Record the changes until a frame."""
         if (is_full := len(self.changes) >= MAX_CHANGES) and not self._markers:
             return
-        markers = {} if is_full else self._world.markers.shown
+        markers = {} if is_full else self._world.markers.active_markers
         old_markers, self._markers = self._markers, markers
         names = [name for name in old_markers if name not in markers]
         for name in names:
-            self._n_drawn -= n_points(self._drawings.pop(name))
+            self._n_drawn -= count_points(self._drawings.pop(name))
         self.changes += [MarkerChange(frame=frame, name=name, marker=None) for name in names]
         for name, marker in markers.items():
             if old_markers.get(name) is not marker:
@@ -84,11 +84,11 @@ class MarkerLog:
     def _renew(self, name: str, marker: Marker) -> None:
         """Draw a marker anew, with as many points as viewers accept and the track may hold."""
         if name in self._drawings:
-            self._n_drawn -= n_points(self._drawings[name])
+            self._n_drawn -= count_points(self._drawings[name])
         n_max = max(0, min(MAX_POINTS - self._n_drawn, self._n_free))
-        drawn_marker = look_of(marker, self._world.model.scene.world_from_localized, n_max)
+        drawn_marker = draw_marker(marker, self._world.model.scene.world_from_localized, n_max)
         if drawn_marker.lines not in self._shapes:
             self._shapes.add(drawn_marker.lines)
-            self._n_free -= n_points(drawn_marker)
-        self._n_drawn += n_points(drawn_marker)
+            self._n_free -= count_points(drawn_marker)
+        self._n_drawn += count_points(drawn_marker)
         self._drawings[name] = drawn_marker

@@ -14,7 +14,7 @@ from ...results.motion import RATE, Signal, TrackLevel, track_bytes
 from ...results.motion.motion_track import quantise, steps_of
 from ...results.motion.packing import Table
 from ...simulation import Simulation
-from ...simulation.tracked_state import BRIGHTNESS, LAMP, TrackedState
+from ...simulation.tracked_state import BRIGHTNESS_RESOLUTION, LAMP_PREFIX, TrackedState
 from .level_row import LevelRow
 from .motion_events import MarkerLog, SandLog
 from .triggered_measure import TriggeredMeasure
@@ -121,9 +121,9 @@ def compact_lamps(signals: Sequence[Signal], table: Table) -> tuple[Signal, ...]
     Returns:
         The signals, with the steps of the changed table.
     """
-    new_signals, n_steps = list(signals), round(1.0 / BRIGHTNESS)
+    new_signals, n_steps = list(signals), round(1.0 / BRIGHTNESS_RESOLUTION)
     for k, signal in enumerate(signals, start=-len(signals)):
-        if signal.name.startswith(LAMP) and not (table[:, k] % n_steps).any():
+        if signal.name.startswith(LAMP_PREFIX) and not (table[:, k] % n_steps).any():
             table[:, k] //= n_steps
             new_signals[k] = replace(signal, step=1.0)
     return tuple(new_signals)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from ...base.inbox import Inbox
 from ...messages import String
-from ...simulation import STOPPED, InProcessNode
+from ...simulation import STOPPED_VERB, InProcessNode
 from ..own_process.process import PROCESS_ENDED
 from .triggered_measure import TriggeredMeasure
 
@@ -18,7 +18,7 @@ MAX_SILENCE = 1.0
 
 def was_stopped(name: str, reason: str | None) -> bool:
     """Return whether a row failed because its algorithm could not be called any more."""
-    return reason is not None and reason.startswith(f"{name} {STOPPED} at ")
+    return reason is not None and reason.startswith(f"{name} {STOPPED_VERB} at ")
 
 
 def ended_its_process(name: str, reason: str | None) -> bool:
@@ -65,7 +65,7 @@ class StatusMonitor:
             elif state.strip() == "failed" and self.failure is None:
                 self.failure = text
         if self._node.error is not None and self.failure is None:
-            text = f"{self._node.name} {self._node.how} at {time:g} s: {self._node.error}"
+            text = f"{self._node.name} {self._node.failure_verb} at {time:g} s: {self._node.error}"
             self.failure = to_line(text)
 
     def status(

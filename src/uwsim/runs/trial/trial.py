@@ -279,12 +279,13 @@ class _Execution:
         while not self._triggers.may_begin():
             if node.error is not None:
                 raise NeverStarted(
-                    f"{message}: algorithm {node.name!r} {node.how} before: {to_line(node.error)}"
+                    f"{message}: algorithm {node.name!r} {node.failure_verb} before: "
+                    f"{to_line(node.error)}"
                 )
             if simulation.time - start_time >= patience:
                 reason = self._triggers.describe_wait(patience)
                 question = f"{message}: {reason}. Does algorithm {node.name!r} see to it?"
-                raise NeverStarted(" ".join([question, *node.unfed()]))
+                raise NeverStarted(" ".join([question, *node.describe_unpublished_topics()]))
             simulation.advance()
         return simulation.time > start_time
 

@@ -1,8 +1,7 @@
 """Contacts between bodies: those of the engine, and overlaps of kinematic bodies.
 
-The engine knows contacts between simulated vehicles and objects with ``<physics>``. What it does
-not simulate is looked at by `uwsim.physics.collision.kinematic_contacts`, from the first time that
-somebody asks.
+The engine computes contacts between simulated vehicles and objects with ``<physics>``. For other
+bodies `uwsim.physics.collision.kinematic_contacts` computes them, from the first request on.
 """
 
 from __future__ import annotations
@@ -19,12 +18,12 @@ from ...model.scene_model import SceneModel
 from ...physics.collision.kinematic_contacts import KinematicContacts
 from ...physics.engine import Engine
 from ...world import Contact
-from ..bodies import touchable, untouchable
+from ..bodies import find_contact_body, no_contacts_error
 
 
 @dataclass(slots=True)
 class ContactsState(Record):
-    """What is known of contacts besides the engine's."""
+    """The changing values of contacts besides those of the engine."""
 
     overlaps: LazyPart[KinematicContacts]
     """The overlaps of kinematic bodies, from the first request on."""
@@ -33,34 +32,29 @@ class ContactsState(Record):
 
 
 class Contacts:
-    """The contacts of a scene.
-
-    Args:
-        model: of the scene.
-        engine: where everything is.
-    """
+    """The contacts of a scene."""
 
     def __init__(self, model: SceneModel, engine: Engine) -> None:
         self._model, self._engine = model, engine
-        self._found: dict[str, tuple[Literal["vehicle", "object"], int]] = {}
-        self._overlaps = LazyPart(self._lay)
+        self._contact_bodies: dict[str, tuple[Literal["vehicle", "object"], int]] = {}
+        self._overlaps = LazyPart(self._make_overlaps)
         self.state = ContactsState(self._overlaps)
-        """What is known besides the engine's."""
+        """The changing values besides those of the engine."""
 
     def is_possible(self, name: str) -> bool:
-        """Whether there is a vehicle or object of that name that can touch others.
+        """Return whether there is a vehicle or object of that name that can have contacts.
 
-        One without a shape cannot, as in the original without physics.
+        A body without a shape cannot, as in the original without physics.
         """
         try:
-            kind, index = touchable(name, self._model.scene)
+            kind, index = find_contact_body(name, self._model.scene)
         except UwsimError:
             return False
         return kind == "object" or any(link.solids for link in self._model.robots[index].links)
 
     @property
-    def is_laid(self) -> bool:
-        """Whether shapes are laid over each other at every step."""
+    def has_overlaps(self) -> bool:
+        """A flag: overlaps of kinematic bodies are computed at every step."""
         return self._overlaps.part is not None
 
     def update(self, step: int) -> None:
@@ -70,34 +64,34 @@ class Contacts:
             self._overlaps.part.record(step)
 
     def find(self, name: str) -> list[Contact]:
-        """Find where the vehicle or object of that name touches others.
+        """Find the contacts of the vehicle or object of that name.
 
         Raises:
             UnknownName: there is none.
-            UwsimError: it cannot be touched.
+            UwsimError: it cannot have contacts.
         """
-        kind, index = touchable(name, self._model.scene)
+        kind, index = find_contact_body(name, self._model.scene)
         contacts = self._engine.contacts.find_contacts(kind, index)
         if contacts is None:
             if self._overlaps.part is None:
                 self._overlaps.get_or_make().record(self.state.step)
             contacts = self._overlaps.get_or_make().contacts(kind, index)
         if contacts is None:
-            what = "none of its links has a <collision> or a <visual>"
-            raise untouchable(name, what if kind == "vehicle" else "its mesh is empty")
+            reason = "none of its links has a <collision> or a <visual>"
+            raise no_contacts_error(name, reason if kind == "vehicle" else "its mesh is empty")
         return contacts
 
     def forces(self, name: str) -> Mapping[str, Array]:
-        """Forces on the vehicle or object of that name of what it touches, (3,) in W [N].
+        """Return the contact forces on the vehicle or object of that name, (3,) in W [N].
 
         Raises:
             UnknownName: there is none.
         """
-        if name not in self._found:
-            self._found[name] = touchable(name, self._model.scene)
-        return self._engine.contacts.forces(*self._found[name])
+        if name not in self._contact_bodies:
+            self._contact_bodies[name] = find_contact_body(name, self._model.scene)
+        return self._engine.contacts.forces(*self._contact_bodies[name])
 
-    def _lay(self) -> KinematicContacts:
+    def _make_overlaps(self) -> KinematicContacts:
         scene, engine, shapes = self._model.scene, self._engine, self._model.all_shapes
         poses: dict[str, Callable[[], Pose]] = {}
         for body in shapes:
@@ -108,6 +102,6 @@ class Contacts:
                 else partial(engine.poses.object, int(number))
             )
         names = {f"vehicle/{i}": vehicle.name for i, vehicle in enumerate(scene.vehicles)}
-        names |= {f"object/{i}": thing.name for i, thing in enumerate(scene.objects)}
+        names |= {f"object/{i}": spec.name for i, spec in enumerate(scene.objects)}
         timestep = self._model.timestep
         return KinematicContacts(shapes, poses, names, lambda: engine.poses.version, timestep)

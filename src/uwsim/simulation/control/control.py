@@ -47,12 +47,12 @@ INFO = (
     "uwsim. Entities are vehicles and objects; poses are in the frame of the scene file. What is "
     "spawned is a marker: it has no mass and no camera sees it. A reset is of everything."
 )
-GLANCE_S = 0.002
-"""How often a paused simulation looks for calls [s]."""
+POLL_INTERVAL = 0.002
+"""The period at which a paused simulation polls for calls [s]."""
 
 
 class Quit(Exception):
-    """A program outside has asked the simulation to end."""
+    """An exception that ends the simulation at the request of a program outside."""
 
 
 class SimulationControl:
@@ -81,7 +81,7 @@ class SimulationControl:
         self._entities.serve(bus)
 
     def begin(self) -> None:
-        """Remember the state to which a reset goes back; before the first step."""
+        """Save the state that a reset restores; before the first step."""
         try:
             self._start = self._simulation.save()
         except UwsimError:
@@ -96,7 +96,7 @@ class SimulationControl:
         while not self._is_stepping and self._state != SimulationState.PLAYING:
             if self._state == SimulationState.QUITTING:
                 raise Quit
-            time.sleep(GLANCE_S)
+            time.sleep(POLL_INTERVAL)
             self._exchange()
 
     def _features(self, _request: GetSimulatorFeatures) -> GetSimulatorFeaturesResponse:
@@ -112,19 +112,19 @@ class SimulationControl:
         return GetSimulationStateResponse(state=SimulationState(self._state))
 
     def _set_state(self, request: SetSimulationState) -> SetSimulationStateResponse:
-        wanted, states = request.state.state, SimulationState
-        if wanted not in (states.STOPPED, states.PLAYING, states.PAUSED, states.QUITTING):
+        requested_state, states = request.state.state, SimulationState
+        if requested_state not in (states.STOPPED, states.PLAYING, states.PAUSED, states.QUITTING):
             return SetSimulationStateResponse(
-                Result(Result.OPERATION_FAILED, f"There is no state {wanted}.")
+                Result(Result.OPERATION_FAILED, f"There is no state {requested_state}.")
             )
-        if wanted == self._state:
+        if requested_state == self._state:
             code = SetSimulationStateResponse.ALREADY_IN_TARGET_STATE
             return SetSimulationStateResponse(Result(code, "It is in that state."))
-        if wanted == states.STOPPED:
-            failed = self._go_back()
-            if failed is not None:
-                return SetSimulationStateResponse(failed)
-        self._state = wanted
+        if requested_state == states.STOPPED:
+            failure = self._restore_start()
+            if failure is not None:
+                return SetSimulationStateResponse(failure)
+        self._state = requested_state
         return SetSimulationStateResponse()
 
     def _step(self, request: StepSimulation) -> StepSimulationResponse:
@@ -146,10 +146,10 @@ class SimulationControl:
         if request.scope not in (ResetSimulation.SCOPE_DEFAULT, ResetSimulation.SCOPE_ALL):
             message = "Everything is reset, or nothing: scope 0 or 255."
             return ResetSimulationResponse(Result(Result.FEATURE_UNSUPPORTED, message))
-        return ResetSimulationResponse(self._go_back() or Result())
+        return ResetSimulationResponse(self._restore_start() or Result())
 
-    def _go_back(self) -> Result | None:
-        """Go back to the beginning; why not, where it cannot."""
+    def _restore_start(self) -> Result | None:
+        """Restore the state of the beginning; return the reason where there is none."""
         if self._start is None:
             message = "An algorithm is attached, whose state cannot be reset."
             return Result(Result.FEATURE_UNSUPPORTED, message)

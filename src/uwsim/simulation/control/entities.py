@@ -34,21 +34,21 @@ from ...messages.simulation_control import (
 from ..simulation import Simulation
 
 NAMESPACE = "spawned"
-"""Namespace of the markers that are spawned as entities."""
-NAME = re.compile(r"[A-Za-z0-9_./-]{1,100}")
-"""What an entity may be called."""
-MAX_FILTER = 100
-"""Longest expression over names."""
+"""The namespace of the markers that are spawned as entities."""
+NAME_PATTERN = re.compile(r"[A-Za-z0-9_./-]{1,100}")
+"""The names that an entity may have."""
+MAX_FILTER_LENGTH = 100
+"""The maximum length of an expression over names."""
 MAX_REPETITIONS = 3
-"""Repetitions in such an expression; none of a group."""
+"""The maximum number of repetitions in such an expression; a group may have none."""
 
 
 class Entities:
-    """Answers what is asked about entities."""
+    """The services of entities."""
 
     def __init__(self, simulation: Simulation) -> None:
         self._simulation = simulation
-        self._spawned: dict[str, int] = {}
+        self._marker_ids: dict[str, int] = {}
         self._n_spawned = 0
 
     def serve(self, bus: Bus) -> None:
@@ -61,16 +61,18 @@ class Entities:
 
     @property
     def names(self) -> list[str]:
-        """Vehicles, objects and what was spawned."""
+        """The names of vehicles, objects and spawned markers."""
         scene = self._simulation.world.model.scene
-        shown = self._simulation.world.markers.shown
-        self._spawned = {n: i for n, i in self._spawned.items() if f"{i}+{NAMESPACE}" in shown}
+        shown_markers = self._simulation.world.markers.active_markers
+        self._marker_ids = {
+            n: i for n, i in self._marker_ids.items() if f"{i}+{NAMESPACE}" in shown_markers
+        }
         vehicles, objects = scene.vehicles, scene.objects
-        own = [*(each.name for each in vehicles), *(each.name for each in objects)]
-        return [*own, *self._spawned]
+        scene_names = [*(spec.name for spec in vehicles), *(spec.name for spec in objects)]
+        return [*scene_names, *self._marker_ids]
 
     def get_entities(self, request: GetEntities) -> GetEntitiesResponse:
-        """List them; only names are filtered."""
+        """List the entities; only names are filtered."""
         filters = request.filters
         if filters.categories or filters.tags.tags or filters.bounds.points:
             message = "Entities are filtered by name only."
@@ -78,23 +80,23 @@ class Entities:
         try:
             check_filter(filters.filter)
             with warnings.catch_warnings(action="ignore", category=FutureWarning):
-                wanted = re.compile(filters.filter)
+                pattern = re.compile(filters.filter)
         except (re.error, OverflowError) as error:
             message = f"The filter is no regular expression: {error}."
             return GetEntitiesResponse(Result(Result.OPERATION_FAILED, message))
-        return GetEntitiesResponse(entities=[n for n in self.names if wanted.search(n)])
+        return GetEntitiesResponse(entities=[n for n in self.names if pattern.search(n)])
 
     def get_state(self, request: GetEntityState) -> GetEntityStateResponse:
-        """Return where an entity is."""
+        """Return the pose of an entity, and its twist if it is a simulated vehicle."""
         name, world = request.entity, self._simulation.world
         if name not in self.names:
-            return GetEntityStateResponse(_not_found(name))
+            return GetEntityStateResponse(_make_not_found(name))
         state = EntityState(header=header(self._simulation.time))
-        if name in self._spawned:
-            state.pose = world.markers.shown[f"{self._spawned[name]}+{NAMESPACE}"].pose
+        if name in self._marker_ids:
+            state.pose = world.markers.active_markers[f"{self._marker_ids[name]}+{NAMESPACE}"].pose
             return GetEntityStateResponse(state=state)
         pose = self._simulation.pose(name)
-        state.pose = _message(pose)
+        state.pose = _pose_message(pose)
         if name in world.vehicles.names and world.engine.is_simulated(
             world.vehicles.find(name).index
         ):
@@ -104,10 +106,10 @@ class Entities:
         return GetEntityStateResponse(state=state)
 
     def set_state(self, request: SetEntityState) -> SetEntityStateResponse:
-        """Put a vehicle somewhere, at rest."""
+        """Place a vehicle, at rest."""
         name, world = request.entity, self._simulation.world
         if name not in self.names:
-            return SetEntityStateResponse(_not_found(name))
+            return SetEntityStateResponse(_make_not_found(name))
         if name not in world.vehicles.names or request.set_twist or request.set_acceleration:
             message = "Only the pose of a vehicle can be set; it is at rest then."
             return SetEntityStateResponse(Result(Result.FEATURE_UNSUPPORTED, message))
@@ -116,7 +118,7 @@ class Entities:
             message = f"The pose is not valid; expected {EXPECTED_POSE}."
             return SetEntityStateResponse(Result(Result.OPERATION_FAILED, message))
         if request.set_pose:
-            world.vehicles.find(name).put(world.model.scene.world_from_localized @ pose)
+            world.vehicles.find(name).reset_pose(world.model.scene.world_from_localized @ pose)
         return SetEntityStateResponse()
 
     def spawn(self, request: SpawnEntity) -> SpawnEntityResponse:
@@ -127,7 +129,7 @@ class Entities:
             return code(Result(code.NO_RESOURCE, "Only a uri of a mesh can be spawned."))
         if (not name or name in self.names) and request.allow_renaming:
             name = f"{name or 'entity'}_{self._n_spawned}"
-        if not NAME.fullmatch(name):
+        if not NAME_PATTERN.fullmatch(name):
             return code(Result(code.NAME_INVALID, "Expected letters, digits and _ . / -"))
         if name in self.names:
             return code(Result(code.NAME_NOT_UNIQUE, f"There is an entity {name}."))
@@ -137,38 +139,38 @@ class Entities:
         answer = self._simulation.world.markers.answer(SpawnMarker(marker=marker))
         if not answer.success:
             is_lost = "there is no mesh" in answer.status_message
-            failed = code.MISSING_ASSETS if is_lost else code.INVALID_POSE
-            return code(Result(failed, answer.status_message))
-        self._spawned[name] = self._n_spawned
+            result_code = code.MISSING_ASSETS if is_lost else code.INVALID_POSE
+            return code(Result(result_code, answer.status_message))
+        self._marker_ids[name] = self._n_spawned
         self._n_spawned += 1
         return code(entity_name=name)
 
     def delete(self, request: DeleteEntity) -> DeleteEntityResponse:
-        """Take away a marker that was spawned."""
+        """Delete a spawned marker."""
         name = request.entity
         if name not in self.names:
-            return DeleteEntityResponse(_not_found(name))
-        if name not in self._spawned:
+            return DeleteEntityResponse(_make_not_found(name))
+        if name not in self._marker_ids:
             message = "Vehicles and objects of the scene cannot be deleted."
             return DeleteEntityResponse(Result(Result.FEATURE_UNSUPPORTED, message))
-        marker = Marker(ns=NAMESPACE, id=self._spawned.pop(name), action=Marker.DELETE)
+        marker = Marker(ns=NAMESPACE, id=self._marker_ids.pop(name), action=Marker.DELETE)
         self._simulation.world.markers.answer(SpawnMarker(marker=marker))
         return DeleteEntityResponse()
 
 
 def check_filter(filter: str) -> None:
-    """Raise re.error if an expression may take for ever: how long it takes cannot be bounded."""
-    if len(filter) > MAX_FILTER:
-        raise re.error(f"it has more than {MAX_FILTER} characters")
+    """Raise re.error if an expression may take unbounded time."""
+    if len(filter) > MAX_FILTER_LENGTH:
+        raise re.error(f"it has more than {MAX_FILTER_LENGTH} characters")
     if len(re.findall(r"[*+?{]", filter)) > MAX_REPETITIONS or re.search(r"\)[*+?{]", filter):
         raise re.error(f"it has more than {MAX_REPETITIONS} repetitions, or one of a group")
 
 
-def _not_found(name: str) -> Result:
+def _make_not_found(name: str) -> Result:
     return Result(Result.NOT_FOUND, f"There is no entity {name!r}.")
 
 
-def _message(pose: Pose) -> messages.Pose:
+def _pose_message(pose: Pose) -> messages.Pose:
     w, x, y, z = map(float, quaternion_from_rotation(pose.rotation))
-    place = messages.Point(*map(float, pose.position))
-    return messages.Pose(position=place, orientation=messages.Quaternion(x, y, z, w))
+    point = messages.Point(*map(float, pose.position))
+    return messages.Pose(position=point, orientation=messages.Quaternion(x, y, z, w))

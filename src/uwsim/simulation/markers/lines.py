@@ -18,59 +18,63 @@ from ...messages import Marker
 from ...results.motion import DrawnMarker
 
 MAX_POINTS = 2000
-"""Of all markers together; lines beyond are left out."""
-CROSS = 0.1
-"""Size of a cross [m]."""
+"""The maximum number of points of all markers together; lines beyond it are left out."""
+CROSS_SIZE = 0.1
+"""The size of a cross [m]."""
 CIRCLE = [(math.cos(turn), math.sin(turn)) for turn in np.linspace(0.0, 2.0 * math.pi, 17).tolist()]
 SQUARE = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0)]
-NAMED = (Marker.MESH_RESOURCE, Marker.TEXT_VIEW_FACING)
-"""Types of which viewers show a dot with the name."""
+NAMED_TYPES = (Marker.MESH_RESOURCE, Marker.TEXT_VIEW_FACING)
+"""The types that viewers show as a dot with the name."""
 Line = list[tuple[float, float, float]]
 
 
-def look_of(marker: Marker, world_from_localized: Pose, room: int = MAX_POINTS) -> DrawnMarker:
-    """Return how a marker is drawn.
+def draw_marker(
+    marker: Marker, world_from_localized: Pose, max_points: int = MAX_POINTS
+) -> DrawnMarker:
+    """Return the drawing of a marker.
 
     Args:
         marker: the one, its pose in L.
         world_from_localized: where L is.
-        room: points that its lines may have; lines beyond are left out.
+        max_points: points that its lines may have; lines beyond are left out.
     """
-    kept = []
+    lines = []
     for line in filter(None, _lines(marker)):
-        room -= len(line)
-        if room < 0:
+        max_points -= len(line)
+        if max_points < 0:
             break
-        kept.append(tuple(tuple(round(value, 4) for value in point) for point in line))
+        lines.append(tuple(tuple(round(value, 4) for value in point) for point in line))
     pose = world_from_localized @ localized_from_marker(marker)
     row = (*np.round(pose.position, 4).tolist(), *np.round(pose.quaternion, 5).tolist())
-    return DrawnMarker(colour=_colour(marker), pose=row, lines=tuple(kept))
+    return DrawnMarker(colour=_format_colour(marker), pose=row, lines=tuple(lines))
 
 
-def n_points(look: DrawnMarker) -> int:
-    """Return how many points the lines of a marker have."""
-    return sum(map(len, look.lines))
+def count_points(drawing: DrawnMarker) -> int:
+    """Return the number of points of the lines of a marker."""
+    return sum(map(len, drawing.lines))
 
 
-def looks_of(markers: Mapping[str, Marker], world_from_localized: Pose) -> dict[str, DrawnMarker]:
-    """Return how markers are drawn, `MAX_POINTS` of all together."""
-    looks, room = {}, MAX_POINTS
+def draw_markers(
+    markers: Mapping[str, Marker], world_from_localized: Pose
+) -> dict[str, DrawnMarker]:
+    """Return the drawings of markers, with at most `MAX_POINTS` points together."""
+    drawings, n_left = {}, MAX_POINTS
     for name, marker in markers.items():
-        looks[name] = look_of(marker, world_from_localized, room)
-        room -= n_points(looks[name])
-    return looks
+        drawings[name] = draw_marker(marker, world_from_localized, n_left)
+        n_left -= count_points(drawings[name])
+    return drawings
 
 
-def described(looks: Mapping[str, DrawnMarker]) -> list[dict[str, Any]]:
-    """Return name, colour and lines in W of each marker, as `uwsim.viewer.head` says."""
-    found: list[dict[str, Any]] = []
-    for name, look in looks.items():
-        pose = Pose.from_quaternion(np.array(look.pose[:3]), np.array(look.pose[3:]))
-        lines = [np.round(pose.transform(np.array(line)), 4).tolist() for line in look.lines]
-        found.append(
-            {"name": name, "at": list(look.pose[:3]), "colour": look.colour, "lines": lines}
+def describe_markers(drawings: Mapping[str, DrawnMarker]) -> list[dict[str, Any]]:
+    """Return name, colour and lines in W of each marker, as `uwsim.viewer.head` defines them."""
+    descriptions: list[dict[str, Any]] = []
+    for name, drawing in drawings.items():
+        pose = Pose.from_quaternion(np.array(drawing.pose[:3]), np.array(drawing.pose[3:]))
+        lines = [np.round(pose.transform(np.array(line)), 4).tolist() for line in drawing.lines]
+        descriptions.append(
+            {"name": name, "at": list(drawing.pose[:3]), "colour": drawing.colour, "lines": lines}
         )
-    return found
+    return descriptions
 
 
 def localized_from_marker(marker: Marker) -> Pose:
@@ -80,8 +84,8 @@ def localized_from_marker(marker: Marker) -> Pose:
     return pose
 
 
-def _colour(marker: Marker) -> str:
-    """As ``#rrggbb``; white where none is given."""
+def _format_colour(marker: Marker) -> str:
+    """Return the colour as ``#rrggbb``; white for a transparent or invalid one."""
     rgb = [marker.color.r, marker.color.g, marker.color.b]
     if marker.color.a <= 0.0 or not all(map(math.isfinite, rgb)):
         return "#ffffff"
@@ -89,18 +93,21 @@ def _colour(marker: Marker) -> str:
 
 
 def _lines(marker: Marker) -> list[Line]:
-    """Lines in the frame of a marker [m]."""
+    """Return the lines in the frame of a marker [m]."""
     half = 0.5 * np.array([marker.scale.x, marker.scale.y, marker.scale.z])
-    if not (np.abs(half) <= MAX_COORDINATE).all() or marker.type in NAMED:
+    if not (np.abs(half) <= MAX_COORDINATE).all() or marker.type in NAMED_TYPES:
         return []
-    points = [(each.x, each.y, each.z) for each in marker.points[:MAX_POINTS]]
+    points = [
+        (marker_point.x, marker_point.y, marker_point.z)
+        for marker_point in marker.points[:MAX_POINTS]
+    ]
     points = [point for point in points if all(abs(value) <= MAX_COORDINATE for value in point)]
     kind = marker.type
     if kind in (Marker.CUBE, Marker.CYLINDER):
-        return _scaled(_prism(SQUARE if kind == Marker.CUBE else CIRCLE), half)
+        return _scale_lines(_prism(SQUARE if kind == Marker.CUBE else CIRCLE), half)
     if kind == Marker.SPHERE:
         circles = [[(a, b, 0.0) for a, b in CIRCLE], [(a, 0.0, b) for a, b in CIRCLE]]
-        return _scaled([*circles, [(0.0, a, b) for a, b in CIRCLE]], half)
+        return _scale_lines([*circles, [(0.0, a, b) for a, b in CIRCLE]], half)
     if kind == Marker.ARROW:
         ends = (
             points[:2] if len(points) > 1 else [(0.0, 0.0, 0.0), (2.0 * float(half[0]), 0.0, 0.0)]
@@ -123,9 +130,9 @@ def _prism(base: list[tuple[float, float]]) -> list[Line]:
 
 
 def _cross(point: tuple[float, float, float]) -> Iterable[Line]:
-    for axis in np.eye(3) * (0.5 * CROSS):
+    for axis in np.eye(3) * (0.5 * CROSS_SIZE):
         yield [tuple((np.array(point) + sign * axis).tolist()) for sign in (-1.0, 1.0)]
 
 
-def _scaled(lines: list[Line], half: Array) -> list[Line]:
+def _scale_lines(lines: list[Line], half: Array) -> list[Line]:
     return [[tuple((np.array(point) * half).tolist()) for point in line] for line in lines]

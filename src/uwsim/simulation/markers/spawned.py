@@ -29,10 +29,10 @@ TYPES = {
     **{Marker.SPHERE_LIST: "SPHERE_LIST", Marker.TEXT_VIEW_FACING: "TEXT_VIEW_FACING"},
     **{Marker.MESH_RESOURCE: "MESH_RESOURCE", Marker.TRIANGLE_LIST: "TRIANGLE_LIST"},
 }
-"""Types of markers that are shown."""
+"""The types of markers that are shown."""
 MAX_MARKERS = 10_000
 MAX_POINTS = 1_000_000
-"""Most points of a marker."""
+"""The maximum number of points of a marker."""
 
 
 @dataclass(slots=True)
@@ -42,7 +42,7 @@ class MarkersState(Record):
     markers: dict[str, Marker] = field(default_factory=dict)
     """The markers by name, in the order in which they were added."""
     ends: dict[str, float] = field(default_factory=dict)
-    """When each runs out [s]."""
+    """The time at which each marker expires [s]."""
 
 
 class Markers:
@@ -59,38 +59,38 @@ class Markers:
         """The markers."""
 
     @property
-    def shown(self) -> dict[str, Marker]:
-        """Name -> marker, in the order in which they were added; without those that ran out."""
+    def active_markers(self) -> dict[str, Marker]:
+        """The markers that have not expired, by name, in the order in which they were added."""
         now, ends = self._clock(), self.state.ends
-        return {name: each for name, each in self.state.markers.items() if now < ends[name]}
+        return {name: marker for name, marker in self.state.markers.items() if now < ends[name]}
 
     def frames(self) -> list[Frame]:
         """Return the frames of the markers in L."""
-        shown = self.shown.items()
-        return [Frame("", name, partial(localized_from_marker, marker)) for name, marker in shown]
+        markers = self.active_markers.items()
+        return [Frame("", name, partial(localized_from_marker, marker)) for name, marker in markers]
 
     def answer(self, request: SpawnMarker) -> SpawnMarkerResponse:
         """Add, modify or delete a marker."""
         marker = request.marker
-        name, called = f"{marker.id}+{marker.ns}", f"object {marker.id} {marker.ns}"
-        self.state.markers = self.shown
+        name, label = f"{marker.id}+{marker.ns}", f"object {marker.id} {marker.ns}"
+        self.state.markers = self.active_markers
         if marker.action == Marker.DELETEALL:
             self.state.markers = {}
             return SpawnMarkerResponse(True, "all objects were successfully DELETED.")
         if marker.action == Marker.DELETE:
             if self.state.markers.pop(name, None) is None:
-                return SpawnMarkerResponse(False, f"{called} not found.")
-            return SpawnMarkerResponse(True, f"{called} was successfully DELETED.")
-        if wrong := self._wrong(name, marker):
-            return SpawnMarkerResponse(False, f"{called} was not added: {wrong}.")
-        done = "MODIFIED" if name in self.state.markers else "ADDED"
-        life = marker.lifetime.sec + marker.lifetime.nanosec / NANOSECONDS
+                return SpawnMarkerResponse(False, f"{label} not found.")
+            return SpawnMarkerResponse(True, f"{label} was successfully DELETED.")
+        if error := self._find_error(name, marker):
+            return SpawnMarkerResponse(False, f"{label} was not added: {error}.")
+        verb = "MODIFIED" if name in self.state.markers else "ADDED"
+        lifetime = marker.lifetime.sec + marker.lifetime.nanosec / NANOSECONDS
         self.state.markers[name] = marker
-        self.state.ends[name] = self._clock() + life if life > 0.0 else math.inf
-        return SpawnMarkerResponse(True, f"{called} was successfully {done}.")
+        self.state.ends[name] = self._clock() + lifetime if lifetime > 0.0 else math.inf
+        return SpawnMarkerResponse(True, f"{label} was successfully {verb}.")
 
-    def _wrong(self, name: str, marker: Marker) -> str | None:
-        """Why a marker cannot be shown; None: it can."""
+    def _find_error(self, name: str, marker: Marker) -> str | None:
+        """Return the reason why a marker cannot be shown; None: it can."""
         if marker.type not in TYPES:
             return f"its type is {marker.type}; expected one of {', '.join(sorted(TYPES.values()))}"
         if name not in self.state.markers and len(self.state.markers) >= MAX_MARKERS:
@@ -101,10 +101,9 @@ class Markers:
             return f"its pose is not valid; expected {EXPECTED_POSE}"
         if marker.type == Marker.TRIANGLE_LIST and len(marker.points) % 3:
             return f"its {len(marker.points)} points are no triangles"
-        return self._wrong_mesh(marker) if marker.type == Marker.MESH_RESOURCE else None
+        return self._find_mesh_error(marker) if marker.type == Marker.MESH_RESOURCE else None
 
-    def _wrong_mesh(self, marker: Marker) -> str | None:
-        """Why a marker's mesh cannot be shown; None: it can."""
+    def _find_mesh_error(self, marker: Marker) -> str | None:
         name = marker.mesh_resource
         if not name:
             return "it names no mesh_resource"

@@ -11,8 +11,8 @@ from dataclasses import dataclass
 from types import TracebackType
 from typing import Protocol
 
-BEFORE = 0
-"""What a counter holds before the first call."""
+NO_CALLS = 0
+"""The value of a counter before the first call."""
 
 
 class Counter(Protocol):
@@ -24,20 +24,20 @@ class Counter(Protocol):
 
 @dataclass(frozen=True)
 class Cut:
-    """The number of the first call that is no longer made."""
+    """The first call that is no longer made."""
 
     call: int
-    """Its number."""
-    why: str
-    """What became of it before."""
+    """The number of the call."""
+    reason: str
+    """The failure of the call in the process before."""
 
 
-class Stopped(Exception):
+class CallStopped(Exception):
     """An algorithm is not called any more."""
 
 
 class Calls:
-    """Each ``with`` block is a call into the algorithm; what is called within one is part of it.
+    """The calls into an algorithm: each ``with`` block is one, with the calls made within it.
 
     Args:
         counter: shared memory in which calls are counted; None: not shared.
@@ -55,16 +55,16 @@ class Calls:
     ) -> None:
         self._counter, self._cut = counter, cut
         self.limit = limit
-        """How long one may take [s of wall time]; None: for ever."""
+        """The time limit of a call [s of wall time]; None: no limit."""
         self._n, self._depth = 0, 0
         if counter is not None:
-            counter.value = BEFORE
+            counter.value = NO_CALLS
 
     def __enter__(self) -> None:
         """Begin a call; raises Stopped if it is the one that is not made."""
         if self._depth == 0:
             if self._cut is not None and self._n >= self._cut.call:
-                raise Stopped(self._cut.why)
+                raise CallStopped(self._cut.reason)
             if self._counter is not None:
                 self._counter.value = 2 * self._n + 1
         self._depth += 1
@@ -83,6 +83,6 @@ class Calls:
                 self._counter.value = 2 * self._n
 
 
-def open_call(count: int) -> int | None:
-    """Return the number of the call that has not come back; None where none is open."""
+def unfinished_call(count: int) -> int | None:
+    """Return the number of the call that has not returned; None if there is none."""
     return count // 2 if count % 2 else None

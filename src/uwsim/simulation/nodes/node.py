@@ -19,12 +19,12 @@ from ...base.terminal import warn
 from ...base.tracked_parameters import TrackedParameters
 from ...bus import Algorithm, Bus
 from ...errors import BadSetting, ClientLost, NeverStarted, NotAllowed, UwsimError
-from .calls import Calls, Stopped
+from .calls import Calls, CallStopped
 from .undelivered import UndeliveredMessages
 
 M = TypeVar("M")
-STOPPED = "was stopped"
-"""What befell an algorithm that is not called any more though it raised nothing."""
+STOPPED_VERB = "was stopped"
+"""The verb of an algorithm that is not called any more though it raised nothing."""
 
 
 def latency_of(parameters: Mapping[str, float | str]) -> float:
@@ -35,9 +35,9 @@ def latency_of(parameters: Mapping[str, float | str]) -> float:
     return latency
 
 
-def what_broke(error: BaseException, algorithm: type) -> str:
-    """Describe what a third-party program raised, or why it was stopped."""
-    return str(error) if isinstance(error, Stopped) else describe_exception(error, algorithm)
+def describe_failure(error: BaseException, algorithm: type) -> str:
+    """Describe the exception of a third-party program, or the reason why it was stopped."""
+    return str(error) if isinstance(error, CallStopped) else describe_exception(error, algorithm)
 
 
 @runtime_checkable
@@ -45,40 +45,36 @@ class SavesItself(Protocol):
     """An algorithm whose state is part of that of the simulation."""
 
     def save(self) -> bytes:
-        """Return its state."""
+        """Return the state."""
 
     def restore(self, data: bytes) -> None:
         """Go back, or on, to a state that `save` has returned."""
 
 
 class AlgorithmState(ExternalValue):
-    """The state of an attached algorithm.
-
-    Args:
-        algorithm: the algorithm.
-    """
+    """The state of an attached algorithm."""
 
     def __init__(self, algorithm: Algorithm) -> None:
         self._algorithm = algorithm
 
     def value(self) -> bytes:
-        """Return what its ``save`` returns.
+        """Return the bytes of the algorithm's ``save``.
 
         Raises:
             UwsimError: it has no ``save`` and ``restore``, or saves no bytes.
         """
-        name, saved = type(self._algorithm).__name__, None
+        name, data = type(self._algorithm).__name__, None
         if isinstance(self._algorithm, SavesItself):
-            saved = self._algorithm.save()
-        if not isinstance(saved, bytes):
+            data = self._algorithm.save()
+        if not isinstance(data, bytes):
             raise UwsimError(
                 f"The state cannot be saved: {name} is attached, which has no save() that returns "
                 "bytes and restore(bytes)."
             )
-        return saved
+        return data
 
     def set(self, value: object) -> None:
-        """Hand it to the ``restore`` of the algorithm."""
+        """Pass a state to the ``restore`` of the algorithm."""
         if not isinstance(value, bytes) or not isinstance(self._algorithm, SavesItself):
             raise wrong_scene_error()
         self._algorithm.restore(value)
@@ -86,30 +82,30 @@ class AlgorithmState(ExternalValue):
 
 @dataclass(slots=True)
 class NodeTimerState(Record):
-    """How far a timer of an algorithm is."""
+    """The progress of a timer of an algorithm."""
 
     due: int
-    """The step from which on it is due."""
+    """The step from which on the timer is due."""
     n_fired: int = 0
-    """How often it was called."""
+    """The number of calls so far."""
 
 
 @dataclass(slots=True)
 class NodeState(Record):
-    """What changes of an attached algorithm and its node."""
+    """The changing values of an attached algorithm and its node."""
 
     name: str
     """The name of the algorithm."""
     rng: np.random.Generator
     """The generator of the algorithm."""
     timers: list[NodeTimerState] = field(default_factory=list)
-    """How far its timers are."""
+    """The progress of its timers."""
     algorithm: AlgorithmState | None = None
-    """Its own state; None before it was started."""
+    """The state of the algorithm itself; None before it was started."""
     error: str | None = None
-    """What it raised, if it did, and where; or why it was stopped."""
-    how: str = "raised"
-    """What came before `error`: it raised, or was stopped."""
+    """The exception that it raised, if any, and where; or the reason why it was stopped."""
+    failure_verb: str = "raised"
+    """The verb of a sentence with `error`: it raised, or was stopped."""
 
 
 class _Timer:
@@ -119,7 +115,7 @@ class _Timer:
         self._start, self._period, self.callback = start, period, callback  # [steps]
         self.state = NodeTimerState(start)
 
-    def move_on(self) -> None:
+    def advance(self) -> None:
         """Advance the due time by one period."""
         self.state.n_fired += 1
         self.state.due = self._start + math.ceil(self.state.n_fired * self._period - 1e-9)
@@ -147,36 +143,36 @@ class InProcessNode:
         self._bus = bus
         self._raises = raises
         self._calls = calls or Calls()
-        self._undelivered = UndeliveredMessages()
+        self._backlog = UndeliveredMessages()
         self._thread = threading.get_ident()
         self._is_started = True
-        self._heard: dict[str, Callable[[], str | None]] = {}
-        self._published: dict[str, Callable[[], str | None]] = {}
+        self._subscriptions: dict[str, Callable[[], str | None]] = {}
+        self._publications: dict[str, Callable[[], str | None]] = {}
         self._timestep = timestep
         self.state = NodeState(name, rng)
-        """What changes of it."""
-        own = {key: value for key, value in parameters.items() if key != "latency_s"}
-        self._parameters = TrackedParameters(own)
+        """The changing values."""
+        user_parameters = {key: value for key, value in parameters.items() if key != "latency_s"}
+        self._parameters = TrackedParameters(user_parameters)
         self._timers: list[_Timer] = []
         self._delay_steps = round(latency_of(parameters) / timestep)
         self._close: list[Callable[[], None]] = []
         self._algorithm: type = object
         self.name = name
-        """Name of the algorithm."""
+        """The name of the algorithm."""
 
     @property
     def error(self) -> str | None:
-        """What it raised, if it did, and where; or why it was stopped."""
+        """The exception that it raised, if any, and where; or the reason why it was stopped."""
         return self.state.error
 
     @property
-    def how(self) -> str:
-        """What came before `error`: it raised, or was stopped."""
-        return self.state.how
+    def failure_verb(self) -> str:
+        """The verb of a sentence with `error`: it raised, or was stopped."""
+        return self.state.failure_verb
 
     @property
     def now(self) -> float:
-        """Simulation time [s]."""
+        """The simulation time [s]."""
         return self._bus.step * self._timestep
 
     @property
@@ -196,7 +192,7 @@ class InProcessNode:
         return self.rng
 
     def run(self, algorithm: Algorithm) -> None:
-        """Start the algorithm; what it raises is kept in `error`.
+        """Start the algorithm; an exception is stored in `error`.
 
         Raises:
             BadSetting: it refuses one of its parameters: that is the user's mistake, not its own.
@@ -208,7 +204,7 @@ class InProcessNode:
         except (BadSetting, NeverStarted):
             raise
         except BaseException as error:
-            self._broken_by(error)
+            self._store_failure(error)
 
     def subscribe(self, topic: str, type: type[M], callback: Callable[[M], None]) -> None:
         """Call ``callback`` with every message on ``topic``."""
@@ -218,46 +214,54 @@ class InProcessNode:
             self._guard(callback, message)
 
         self._close.append(self._bus.subscribe(topic, type, receive))
-        self._heard[f"it subscribes to {topic!r}, but "] = lambda: (
+        self._subscriptions[f"it subscribes to {topic!r}, but "] = lambda: (
             self._bus.describe_missing_publisher(topic)
         )
 
     def publisher(self, topic: str, type: type[M]) -> Callable[[M], None]:
         """Return ``publish(message)``; delayed by the parameter ``latency_s``."""
         self._check(topic)
-        self._published[f"it publishes on {topic!r}, but "] = lambda: (
+        self._publications[f"it publishes on {topic!r}, but "] = lambda: (
             self._bus.describe_missing_subscriber(topic)
         )
-        give = self._bus.publisher(topic, type, delay_steps=self._delay_steps, report=self._say)
+        send = self._bus.publisher(topic, type, delay_steps=self._delay_steps, report=self._warn)
 
         def publish(message: M) -> None:
             self._check(topic)
             if not self._bus.has_subscribers(topic) or message.__class__ is not type:
-                give(message)
+                send(message)
                 return
             try:
-                self._undelivered.add(message, step=self._bus.step, delay_steps=self._delay_steps)
-            except NotAllowed as refused:
-                self._break_rule(str(refused))
-            give(copy_message(message))
+                self._backlog.add(message, step=self._bus.step, delay_steps=self._delay_steps)
+            except NotAllowed as error:
+                self._reject_use(str(error))
+            send(copy_message(message))
 
         return publish
 
-    def _say(self, topic: str, text: str) -> None:
-        """Tell what a subscriber has to remark on one of its messages."""
+    def _warn(self, topic: str, text: str) -> None:
         warn(f"{self.name}: /{topic}: {text}")
 
+    def describe_unconnected_topics(self) -> list[str]:
+        """Return a sentence for each of its topics that has no publisher or no subscriber."""
+        return self._describe_topics({**self._subscriptions, **self._publications})
+
+    @deprecated_name("describe_unconnected_topics")
     def unconnected(self) -> list[str]:
-        """A sentence for each of its topics that has no publisher or no subscriber."""
-        return self._ends({**self._heard, **self._published})
+        """Call `describe_unconnected_topics`, whose old name this is."""
+        return self.describe_unconnected_topics()
 
-    def unfed(self) -> list[str]:
-        """A sentence for each topic that it subscribes to and that has no publisher."""
-        return self._ends(self._heard)
+    def describe_unpublished_topics(self) -> list[str]:
+        """Return a sentence for each topic that it subscribes to and that has no publisher."""
+        return self._describe_topics(self._subscriptions)
 
-    def _ends(self, topics: Mapping[str, Callable[[], str | None]]) -> list[str]:
-        found = {message: missing() for message, missing in topics.items()}
-        return [f"{self.name}: {message}{why}" for message, why in found.items() if why is not None]
+    def _describe_topics(self, topics: Mapping[str, Callable[[], str | None]]) -> list[str]:
+        reasons = {message: find_reason() for message, find_reason in topics.items()}
+        return [
+            f"{self.name}: {message}{reason}"
+            for message, reason in reasons.items()
+            if reason is not None
+        ]
 
     def serve(self, name: str, type: type[M], handler: Callable[[M], object]) -> None:
         """Offer a service; ``type`` is the class of its request."""
@@ -292,7 +296,7 @@ class InProcessNode:
         """Call the timers that are due at the current step, in the order they were set."""
         for timer in self._timers:
             if self._bus.step >= timer.state.due:
-                timer.move_on()
+                timer.advance()
                 self._guard(timer.callback)
 
     @property
@@ -316,28 +320,27 @@ class InProcessNode:
             with self._calls:
                 return callback(*arguments)
         except BaseException as error:
-            self._broken_by(error)
+            self._store_failure(error)
             return None
 
-    def _broken_by(self, error: BaseException) -> None:
-        """Keep what a third-party program raised; called in its except clause."""
+    def _store_failure(self, error: BaseException) -> None:
         if is_user_interrupt(error) or isinstance(error, ClientLost):
             raise error
-        self.state.error = what_broke(error, self._algorithm)
-        if isinstance(error, Stopped):
-            self.state.how = STOPPED
+        self.state.error = describe_failure(error, self._algorithm)
+        if isinstance(error, CallStopped):
+            self.state.failure_verb = STOPPED_VERB
         if self._raises:
             raise error
 
     def _check(self, topic: str | None = None) -> None:
-        """Refuse a forbidden use of the node; that ends the algorithm, caught or not."""
+        """Reject a forbidden use of the node; that ends the algorithm, caught or not."""
         if threading.get_ident() != self._thread:
-            self._break_rule("it uses its node from a thread of its own")
+            self._reject_use("it uses its node from a thread of its own")
         if not self._is_started:
-            self._break_rule("it uses its node after the end")
+            self._reject_use("it uses its node after the end")
         if topic is not None and self._bus.is_hidden(topic):
-            self._break_rule(f"topic {topic!r} is for observers of the run")
+            self._reject_use(f"topic {topic!r} is for observers of the run")
 
-    def _break_rule(self, message: str) -> NoReturn:
+    def _reject_use(self, message: str) -> NoReturn:
         self.state.error = self.state.error or f"NotAllowed: {message}"
         raise NotAllowed(message)

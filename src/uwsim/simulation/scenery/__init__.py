@@ -1,1 +1,1 @@
-"""What can be seen of a scene: images, rays, the sand below."""
+"""The visible side of a scene: images, rays, and the sand over buried objects."""

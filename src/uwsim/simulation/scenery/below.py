@@ -15,53 +15,57 @@ from .scenery import Scenery
 
 
 @dataclass(frozen=True)
-class Below:
+class LowerSurface:
     """A surface below a point."""
 
     name: str
-    """Of the object or link that it belongs to."""
+    """The name of the object or link that it belongs to."""
     height: float
-    """z of the surface in W [m]."""
+    """The z coordinate of the surface in W [m]."""
 
 
-def below_vehicle(world: LiveScene, vehicle: str) -> tuple[Below, ...]:
+def surfaces_below_vehicle(world: LiveScene, vehicle: str) -> tuple[LowerSurface, ...]:
     """Return the surfaces vertically below a vehicle's origin, the nearest first."""
     index = world.vehicles.find(vehicle).index
     parts = world.scenery.parts
-    others = [part for part in parts if part.vehicle != index and not part.is_hidden]
-    return below(world.engine.poses.vehicle(index).position, world.scenery, others)
+    visible_parts = [part for part in parts if part.vehicle != index and not part.is_hidden]
+    return surfaces_below(world.engine.poses.vehicle(index).position, world.scenery, visible_parts)
 
 
-def below(point: Array, scenery: Scenery, parts: Iterable[Part]) -> tuple[Below, ...]:
+def surfaces_below(
+    point: Array, scenery: Scenery, parts: Iterable[Part]
+) -> tuple[LowerSurface, ...]:
     """Return the highest surface of each of ``parts`` below a point of W, (3,) [m], highest first.
 
     A triangle is met where the point lies inside its projection along z: with the corners' signed
     areas :math:`a, b, c` (of the point with each two corners) all of one sign, at height
-    :math:`(a z_0 + b z_1 + c z_2) / (a + b + c)`. Triangles that stand upright are not met.
+    :math:`(a z_0 + b z_1 + c z_2) / (a + b + c)`. Vertical triangles are not met.
     """
-    found: dict[str, float] = {}
+    heights: dict[str, float] = {}
     for part in parts:
         frame = scenery.world_from_mesh(part)
         for mesh in part.model.meshes:
             corners = product(mesh.vertices, frame[:3, :3].T) + frame[:3, 3]  # (n, 3) [m]
-            height = _highest(point, corners[mesh.triangles])
+            height = _highest_crossing(point, corners[mesh.triangles])
             if height is not None:
-                found[part.name] = max(height, found.get(part.name, height))
-    surfaces = [Below(name, height) for name, height in found.items()]
-    return tuple(sorted(surfaces, key=lambda each: -each.height))
+                heights[part.name] = max(height, heights.get(part.name, height))
+    surfaces = [LowerSurface(name, height) for name, height in heights.items()]
+    return tuple(sorted(surfaces, key=lambda surface: -surface.height))
 
 
-def _highest(point: Array, triangles: Array) -> float | None:
-    """Return z of the highest of triangles (n, 3, 3) [m] below a point (3,) [m]."""
-    flat = triangles[:, :, :2] - point[:2]  # (n, 3, 2) [m], the point is the origin
-    following = np.roll(flat, -1, axis=1)
-    areas = flat[..., 0] * following[..., 1] - flat[..., 1] * following[..., 0]  # (n, 3) [m2]
+def _highest_crossing(point: Array, triangles: Array) -> float | None:
+    """Return z of the highest crossing of triangles (n, 3, 3) [m] below a point (3,) [m]."""
+    corners = triangles[:, :, :2] - point[:2]  # (n, 3, 2) [m], the point is the origin
+    next_corners = np.roll(corners, -1, axis=1)
+    areas = (
+        corners[..., 0] * next_corners[..., 1] - corners[..., 1] * next_corners[..., 0]
+    )  # (n, 3) [m2]
     # the area of corners i + 1 and i + 2 with the point is the weight of corner i
     total = areas.sum(axis=1)
-    inside = ((areas >= 0.0).all(axis=1) | (areas <= 0.0).all(axis=1)) & (np.abs(total) > 0.0)
-    if not inside.any():
+    is_inside = ((areas >= 0.0).all(axis=1) | (areas <= 0.0).all(axis=1)) & (np.abs(total) > 0.0)
+    if not is_inside.any():
         return None
-    weights = np.roll(areas[inside], -1, axis=1) / total[inside, None]
-    heights = (weights * triangles[inside, :, 2]).sum(axis=1)
+    weights = np.roll(areas[is_inside], -1, axis=1) / total[is_inside, None]
+    heights = (weights * triangles[is_inside, :, 2]).sum(axis=1)
     lower = heights[heights <= point[2]]
     return float(lower.max()) if lower.size else None

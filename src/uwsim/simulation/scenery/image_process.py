@@ -1,10 +1,10 @@
 """Images of cameras drawn in a process of their own, so that a paced run does not wait for them.
 
-At a sample of a camera what is seen of the state (`SEEN`) goes to the process through shared
-memory; it puts that into a simulation of the same scene and draws there, with the camera's own
-random numbers: the pixels are those that this process would have drawn, to the last bit. The image
-is published when it is there, some steps later, stamped with the time of its sample. That depends
-on the wall clock: for runs in real time only.
+At a sample of a camera the state on which images depend (`STATE_FIELDS`) goes to the process
+through shared memory. It restores that in a simulation of the same scene and draws there, with the
+camera's own random numbers: the pixels are equal to those of this process, to the last bit. The
+image is published when it is received, some steps later, stamped with the time of its sample. That
+depends on the wall clock: for runs in real time only.
 """
 
 from __future__ import annotations
@@ -28,24 +28,24 @@ from ..state.saved_bytes import pack, unpack
 if TYPE_CHECKING:
     from ..simulation import Simulation
 
-SEEN = ("engine", "scenery", "devices", "sensors", "vehicles")
-"""What of a world's state images depend on."""
-SPARE = 2**20
-"""Room for a state that grows [bytes]."""
+STATE_FIELDS = ("engine", "scenery", "devices", "sensors", "vehicles")
+"""The fields of a simulation's state on which images depend."""
+SPARE_BYTES = 2**20
+"""The memory for a state that grows [bytes]."""
 NICENESS = 5
-"""How far the process stands back behind the simulation."""
-READY = "ready"
+"""The increment of the process's nice value, which gives the simulation priority."""
+READY_MESSAGE = "ready"
 
 
 class ImageProcess:
-    """Draws the images of a simulation elsewhere; the process starts with the first image asked.
+    """A process that draws the images of a simulation; it starts with the first request.
 
-    Until it is ready, and if it ends, images are drawn in this process. A sample that is due while
-    the last one is still being drawn is left out.
+    Until it is ready, and after its end, this process draws the images. A sample that is due while
+    the last image is still being drawn is left out.
 
     Args:
-        simulation: whose images they are.
-        report: called with a line for the user.
+        simulation: the simulation of the images.
+        report: a function that prints a line for the user.
     """
 
     def __init__(self, simulation: Simulation, report: Callable[[str], object]) -> None:
@@ -54,39 +54,39 @@ class ImageProcess:
         self._pipe: Connection | None = None
         self._memory: SharedMemory | None = None
         self._slots: dict[str, tuple[int, int]] = {}  # topic -> offset, bytes
-        self._room = 0
+        self._capacity = 0
         self._is_ready = self._is_busy = False
-        self._asked: list[tuple[str, float]] = []
+        self._requests: list[tuple[str, float]] = []
         self._n_state = 0
         self.pid: int | None = None
-        """Number of the process, once it is started."""
+        """The number of the process, once it is started."""
         self.n_left_out = 0
-        """Samples left out so far."""
+        """The number of samples left out so far."""
         for publisher in simulation.world.images.values():
-            publisher.request_image = self._take
+            publisher.request_image = self._request
         simulation.watch(self.step)
 
     @property
     def is_ready(self) -> bool:
-        """Whether images are drawn there now."""
+        """A flag: the process draws images."""
         return self._is_ready
 
     @property
     def is_idle(self) -> bool:
-        """Whether nothing is being drawn there or waits to be."""
-        return not self._is_busy and not self._asked
+        """A flag: the process draws nothing and no request is pending."""
+        return not self._is_busy and not self._requests
 
     def step(self) -> None:
-        """Publish what has been drawn, and send what is asked; at the end of a step."""
+        """Publish the images that are drawn, and send the requests; at the end of a step."""
         pipe = self._pipe
         if pipe is None:
             return
         try:
             while pipe.poll():
                 self._receive(pipe.recv())
-            if self._asked and not self._is_busy:
-                pipe.send((self._n_state, self._asked))
-                self._is_busy, self._asked = True, []
+            if self._requests and not self._is_busy:
+                pipe.send((self._n_state, self._requests))
+                self._is_busy, self._requests = True, []
         except (EOFError, OSError):
             self._report("the process that draws images has ended; they are drawn in this one")
             self.close()
@@ -108,9 +108,9 @@ class ImageProcess:
             self._memory.unlink()
             self._memory = None
 
-    def _begin(self) -> None:
-        self._room = len(self._seen()) + SPARE
-        size = self._room
+    def _start_process(self) -> None:
+        self._capacity = len(self._pack_state()) + SPARE_BYTES
+        size = self._capacity
         for topic, publisher in self._simulation.world.images.items():
             pinhole = publisher.camera.intrinsics
             n_bytes = pinhole.width * pinhole.height * 3
@@ -118,84 +118,85 @@ class ImageProcess:
             size += n_bytes
         self._memory = SharedMemory(create=True, size=size)
         context = multiprocessing.get_context("spawn")
-        self._pipe, theirs = context.Pipe()
-        where = self._memory.name, self._slots
+        self._pipe, child_pipe = context.Pipe()
+        memory_layout = self._memory.name, self._slots
         self._process = context.Process(
-            target=draw_images, args=(theirs, where, self._simulation.world.model), daemon=True
+            target=draw_images,
+            args=(child_pipe, memory_layout, self._simulation.world.model),
+            daemon=True,
         )
         self._process.start()
         self.pid = self._process.pid
-        theirs.close()
+        child_pipe.close()
 
-    def _seen(self) -> bytes:
-        """What of the state is seen, as bytes."""
-        return pack(copy_fields(self._simulation.state, SEEN))
+    def _pack_state(self) -> bytes:
+        return pack(copy_fields(self._simulation.state, STATE_FIELDS))
 
-    def _take(self, publisher: ImagePublisher, time: float) -> bool:
-        """Have an image drawn; False: it has to be drawn here."""
+    def _request(self, publisher: ImagePublisher, time: float) -> bool:
+        """Request an image from the process; False: this process has to draw it."""
         if self._process is None:
-            self._begin()
+            self._start_process()
         pinhole, slot = publisher.camera.intrinsics, self._slots[publisher.image_topic]
         if not self._is_ready or pinhole.width * pinhole.height * 3 > slot[1]:
             return False
         if self._is_busy:
             self.n_left_out += 1
             return True
-        if not self._asked:
-            state = self._seen()
-            if len(state) > self._room:
+        if not self._requests:
+            state = self._pack_state()
+            if len(state) > self._capacity:
                 return False
             assert self._memory is not None
             assert self._memory.buf is not None
             self._memory.buf[: len(state)] = state
             self._n_state = len(state)
-        self._asked.append((publisher.image_topic, time))
+        self._requests.append((publisher.image_topic, time))
         return True
 
     def _receive(self, answer: Any) -> None:
-        if answer == READY:
+        if answer == READY_MESSAGE:
             self._is_ready = True
             return
         assert self._memory is not None
         for topic, time, shape in answer:
-            if time > self._simulation.time:  # the simulation has begun again
+            if time > self._simulation.time:  # the simulation was reset
                 continue
             publisher = self._simulation.world.images[topic]
             offset = self._slots[topic][0]
-            seen = np.ndarray(shape, np.uint8, self._memory.buf, offset)
+            pixels = np.ndarray(shape, np.uint8, self._memory.buf, offset)
             frame = publisher.camera.frame_id
-            publisher.deliver(image(seen.copy(), time=time, frame_id=frame))
+            publisher.deliver(image(pixels.copy(), time=time, frame_id=frame))
         self._is_busy = False
 
 
 def draw_images(
     pipe: Connection,
-    where: tuple[str, Mapping[str, tuple[int, int]]],
+    memory_layout: tuple[str, Mapping[str, tuple[int, int]]],
     model: SceneModel,
 ) -> None:
-    """Draw what is asked for until the pipe is closed; what the process does."""
+    """Draw the requested images until the pipe is closed; the main function of the process."""
     from ..simulation import Simulation
 
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     os.nice(NICENESS)
-    name, slots = where
+    name, slots = memory_layout
     memory = SharedMemory(name)
     assert memory.buf is not None
     try:
         with Simulation(model) as simulation:
             _ = simulation.world.scenery.renderer_name  # its graphics context
-            pipe.send(READY)
+            pipe.send(READY_MESSAGE)
             while True:
-                n_state, asked = pipe.recv()
+                n_state, requests = pipe.recv()
                 assign_fields(simulation.state, unpack(bytes(memory.buf[:n_state]), dict))
                 simulation.world.scenery.redraw()
-                done = []
-                for topic, time in asked:
+                images = []
+                for topic, time in requests:
                     pixels = simulation.world.images[topic].camera.capture()
                     offset = slots[topic][0]
                     np.ndarray(pixels.shape, np.uint8, memory.buf, offset)[...] = pixels
-                    done.append((topic, time, pixels.shape))
-                pipe.send(done)
+                    images.append((topic, time, pixels.shape))
+                pipe.send(images)
     except (EOFError, OSError):
         pass
     finally:

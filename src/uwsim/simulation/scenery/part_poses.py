@@ -1,4 +1,4 @@
-"""Where the models of a scene are: of one, and of all at once for an image."""
+"""The poses of the models of a scene: of one, and of all at once for an image."""
 
 from __future__ import annotations
 
@@ -15,23 +15,18 @@ from ...physics.poses import Poses
 
 
 class PartPoses:
-    """The poses of the models of a scene, with their scale.
-
-    Args:
-        parts: the models.
-        poses: the frames of their links and objects.
-    """
+    """The poses of the models of a scene, with their scale."""
 
     def __init__(self, parts: Sequence[Part], poses: Poses) -> None:
         self._parts, self._poses = parts, poses
         frames = [part.frame_from_mesh for part in parts]
         self._frame_from_mesh: Array = np.array(frames, dtype=np.float64).reshape(-1, 4, 4)
-        self._carried: list[int] | None = None  # the objects that followed links when it was found
-        self._bodies = np.zeros(0, dtype=np.int64)  # of the engine; -1: the part follows none
-        self._others: list[int] = []  # the parts that follow none
+        self._carried_objects: list[int] | None = None  # those of `_bodies`
+        self._bodies = np.zeros(0, dtype=np.int64)  # of the engine; -1: none
+        self._unattached_parts: list[int] = []  # without a body of the engine
 
     def world_from_mesh(self, part: Part) -> Array:
-        """Return where a part is now, (4, 4) [m]."""
+        """Return the present pose of a part, (4, 4) [m]."""
         if part.vehicle is None:
             assert part.object is not None
             frame = self._poses.object(part.object).matrix
@@ -39,38 +34,38 @@ class PartPoses:
             frame = self._poses.link_frame(part.vehicle, part.link)
         return product(frame, part.frame_from_mesh)
 
-    def of_all(self) -> Array:
-        """Return where the parts are now, in their order, (n, 4, 4) [m]."""
-        poses, carried = self._poses, list(self._poses.state.carriers)
-        if self._carried != carried:
+    def compute_all(self) -> Array:
+        """Return the present poses of the parts, in their order, (n, 4, 4) [m]."""
+        poses, carried_objects = self._poses, list(self._poses.state.carriers)
+        if self._carried_objects != carried_objects:
             bodies = [poses.engine_body(p.vehicle, p.link, p.object) for p in self._parts]
             self._bodies = np.array(bodies, dtype=np.int64)
-            self._others = np.flatnonzero(self._bodies < 0).tolist()
-            self._carried = carried
+            self._unattached_parts = np.flatnonzero(self._bodies < 0).tolist()
+            self._carried_objects = carried_objects
         poses.refresh()
-        found = np.empty_like(self._frame_from_mesh)
-        _place(poses.origins, poses.axes, self._bodies, self._frame_from_mesh, found)
-        for number in self._others:
-            found[number] = self.world_from_mesh(self._parts[number])
-        return found
+        poses_now = np.empty_like(self._frame_from_mesh)
+        _write_poses(poses.origins, poses.axes, self._bodies, self._frame_from_mesh, poses_now)
+        for number in self._unattached_parts:
+            poses_now[number] = self.world_from_mesh(self._parts[number])
+        return poses_now
 
 
 @njit
-def _place(
+def _write_poses(
     origins: Array,
     axes: Array,
     bodies: npt.NDArray[np.int64],
     frame_from_mesh: Array,
     world_from_mesh: Array,
 ) -> None:
-    """Write where parts on bodies of the engine are, (n, 4, 4) [m], those with a body alone.
+    """Write the poses of the parts that move with bodies of the engine, (n, 4, 4) [m].
 
     Args:
-        origins: of the engine's bodies, (m, 3) [m].
-        axes: of these, (m, 3, 3).
-        bodies: of the parts, (n,); -1: none.
-        frame_from_mesh: the parts on their bodies, (n, 4, 4) [m].
-        world_from_mesh: which is written.
+        origins: the origins of the engine's bodies, (m, 3) [m].
+        axes: the axes of these, (m, 3, 3).
+        bodies: the bodies of the parts, (n,); -1: none.
+        frame_from_mesh: the poses of the parts on their bodies, (n, 4, 4) [m].
+        world_from_mesh: the poses that are written.
     """
     frame = np.eye(4)
     for n in range(len(bodies)):

@@ -1,6 +1,6 @@
 """Renderers that are reused by one simulation after another.
 
-A new OpenGL context has to compile its shaders and take in every texture again, which costs as
+A new OpenGL context has to compile its shaders and load every texture again, which costs as
 much as dozens of images. A pool is shared by several simulations of one process.
 """
 
@@ -13,13 +13,13 @@ if TYPE_CHECKING:
 
 
 class RendererPool:
-    """Owns renderers and lends them, each to one simulation at a time.
+    """A pool of renderers, each lent to one simulation at a time.
 
-    What is drawn does not depend on who had the renderer before. Use it from one thread.
+    Images do not depend on earlier use of a renderer. Use the pool from one thread.
     """
 
     def __init__(self) -> None:
-        self._idle: list[Renderer] = []
+        self._idle_renderers: list[Renderer] = []
 
     def acquire(self) -> Renderer:
         """Return an empty renderer, a new one if none is idle.
@@ -29,14 +29,14 @@ class RendererPool:
         """
         from ...rendering.renderer import Renderer
 
-        return self._idle.pop() if self._idle else Renderer()
+        return self._idle_renderers.pop() if self._idle_renderers else Renderer()
 
     def release(self, renderer: Renderer) -> None:
         """Take a renderer back; its models stay on the GPU."""
         renderer.clear()
-        self._idle.append(renderer)
+        self._idle_renderers.append(renderer)
 
     def close(self) -> None:
         """Release the graphics contexts of all idle renderers."""
-        while self._idle:
-            self._idle.pop().close()
+        while self._idle_renderers:
+            self._idle_renderers.pop().close()

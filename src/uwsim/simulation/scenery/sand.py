@@ -1,14 +1,14 @@
-r"""Sand over buried objects, and what dredging takes of it.
+r"""Sand over buried objects, and its removal by dredging.
 
 An object of the attribute ``buried`` = b lies in a heap over its box in W: as high as b times the
 height h of the box, level over it, with a skirt around it of the length 3 b h that falls as
 
 .. math:: b h \Bigl(1 - \bigl(\frac{d}{3 b h}\bigr)^2\Bigr)
 
-with the distance d from the level part. It is a grid of columns `CELL` wide; larger heaps have
-`MAX_COLUMNS` of them a side. Cameras and rays meet it. Places at which sand is taken are rounded to
-`GRAIN`, so that replays dig the same sand from the places alone. Not modelled: forces of the sand
-on bodies, slopes that slide, sand that settles elsewhere, particles in the water.
+with the distance d from the level part. It is a grid of columns, each `CELL_WIDTH` wide; larger
+heaps have `MAX_COLUMNS` of them a side. Cameras and rays meet it. Places of removed sand are
+rounded to `GRAIN`, so that replays remove the same sand. Not modelled: forces of the sand on
+bodies, slopes that slide, sand that settles elsewhere, particles in the water.
 """
 
 from __future__ import annotations
@@ -24,15 +24,15 @@ from ...base.record import Record
 from ...results.motion import GRAIN, Spot
 from ...scene.spec import SceneSpec
 
-CELL = 0.01
-"""Width of a column, and what is taken of one at once [m]."""
+CELL_WIDTH = 0.01
+"""The width of a column, and the height removed from one at once [m]."""
 MAX_COLUMNS = 256
-"""Of a heap along a side."""
-REACH = 0.1
-"""Columns whose top is as near as this to a tool lose sand [m]."""
+"""The maximum number of columns of a heap along a side."""
+TOOL_REACH = 0.1
+"""The distance from a tool within which the top of a column loses sand [m]."""
 COLOUR = (0.72, 0.64, 0.46)
-FAR = 2**31
-"""Of a heap's lower corner: nothing is taken so far away [`GRAIN`]."""
+MAX_OFFSET = 2**31
+"""The distance from a heap's lower corner beyond which no sand is removed [`GRAIN`]."""
 
 
 @dataclass(slots=True)
@@ -42,96 +42,102 @@ class HeapState(Record):
     heights: Array
     """The heights of the columns above the bottom, (along x, along y) [m]."""
     version: int = 0
-    """A number that changes whenever sand is taken or put back."""
-    taken: list[Spot] = field(default_factory=list)
-    """Where sand was taken so far, in order."""
+    """A number that changes whenever sand is removed or put back."""
+    spots: list[Spot] = field(default_factory=list)
+    """The places at which sand was removed, in order."""
 
 
 class Heap:
     """The sand over one object.
 
     Args:
-        name: of the object.
-        lower: of its box, the smallest coordinates in W, (3,) [m].
-        upper: the largest.
-        buried: how much of its height is under sand [1].
+        name: the name of the object.
+        lower: the smallest coordinates of its box in W, (3,) [m].
+        upper: the largest coordinates, (3,) [m].
+        buried_share: the share of its height that is under sand [1].
     """
 
-    def __init__(self, name: str, lower: Array, upper: Array, buried: float) -> None:
+    def __init__(self, name: str, lower: Array, upper: Array, buried_share: float) -> None:
         self.name = name
-        """Of the object."""
-        top = float(upper[2] - lower[2]) * buried
+        """The name of the object."""
+        top = float(upper[2] - lower[2]) * buried_share
         skirt = 3.0 * top
         low, high = lower[:2] - skirt, upper[:2] + skirt
-        cell = max(CELL, float((high - low).max()) / MAX_COLUMNS)
+        cell = max(CELL_WIDTH, float((high - low).max()) / MAX_COLUMNS)
         counts = np.maximum(2, np.ceil((high - low) / cell).astype(int) + 1)
         self._x, self._y = (low[i] + cell * np.arange(counts[i]) for i in (0, 1))
-        away_x, away_y = (
+        distance_x, distance_y = (
             np.maximum(0.0, np.maximum(lower[i] - axis, axis - upper[i]))
             for i, axis in enumerate((self._x, self._y))
         )
-        away = np.minimum(np.hypot(away_x[:, None], away_y[None, :]) / skirt, 1.0)
+        distance = np.minimum(np.hypot(distance_x[:, None], distance_y[None, :]) / skirt, 1.0)
         self._bottom = float(lower[2])
-        self._untouched: Array = top * (1.0 - away**2)
-        self.state = HeapState(self._untouched.copy())
-        """Its sand."""
+        self._initial_heights: Array = top * (1.0 - distance**2)
+        self.state = HeapState(self._initial_heights.copy())
+        """The sand."""
 
     @property
     def version(self) -> int:
-        """A number that changes whenever sand is taken or put back."""
+        """A number that changes whenever sand is removed or put back."""
         return self.state.version
 
     @property
     def corner(self) -> Array:
-        """Its lower corner in W, (3,) [m]."""
+        """The lower corner in W, (3,) [m]."""
         return np.array([self._x[0], self._y[0], self._bottom])
 
     @property
     def cell(self) -> float:
-        """Width of a column [m]."""
+        """The width of a column [m]."""
         return float(self._x[1] - self._x[0])
 
     @property
     def heights(self) -> Array:
-        """Heights of the columns above the bottom now, (along x, along y) [m]; a copy."""
+        """The heights of the columns above the bottom, (along x, along y) [m]; a copy."""
         return self.state.heights.copy()
 
     def height(self, x: float, y: float) -> float:
         """Return the height of the nearest column, in W [m]; its bottom beside the heap."""
         i, j = np.abs(self._x - x).argmin(), np.abs(self._y - y).argmin()
-        is_there = self._x[0] <= x <= self._x[-1] and self._y[0] <= y <= self._y[-1]
-        return self._bottom + (float(self.state.heights[i, j]) if is_there else 0.0)
+        is_inside = self._x[0] <= x <= self._x[-1] and self._y[0] <= y <= self._y[-1]
+        return self._bottom + (float(self.state.heights[i, j]) if is_inside else 0.0)
 
     def dig(self, point: Array) -> int:
-        """Take sand around a point in W (3,) [m]; returns how many columns lost some."""
+        """Remove sand around a point in W (3,) [m]; return the number of columns that lost some."""
         steps = np.rint((point - self.corner) / GRAIN)
-        if not (np.abs(steps) < FAR).all():
+        if not (np.abs(steps) < MAX_OFFSET).all():
             return 0
         x, y, z = (int(step) for step in steps)
-        return self._take((x, y, z))
+        return self._remove_sand((x, y, z))
 
-    def show(self, spots: Sequence[Spot]) -> None:
-        """Make it what it is when sand has been taken at some places, one after the other."""
-        n = len(self.state.taken)
-        if self.state.taken != list(spots[:n]):
-            np.copyto(self.state.heights, self._untouched)
-            self.state.taken, n = [], 0
+    def restore(self, spots: Sequence[Spot]) -> None:
+        """Restore the heap from which sand was removed at some places, one after the other."""
+        n = len(self.state.spots)
+        if self.state.spots != list(spots[:n]):
+            np.copyto(self.state.heights, self._initial_heights)
+            self.state.spots, n = [], 0
             self.state.version += 1
         for spot in spots[n:]:
-            self._take(spot)
+            self._remove_sand(spot)
 
-    def _take(self, spot: Spot) -> int:
+    def _remove_sand(self, spot: Spot) -> int:
         x, y, z = (step * GRAIN for step in spot)
-        across = (self._x[:, None] - self._x[0] - x) ** 2 + (self._y[None, :] - self._y[0] - y) ** 2
-        lost = (across + (self.state.heights - z) ** 2 < REACH**2) & (self.state.heights > 0.0)
-        if n := int(np.count_nonzero(lost)):
-            self.state.heights[lost] = np.maximum(0.0, self.state.heights[lost] - CELL)
-            self.state.taken.append(spot)
+        squares = (self._x[:, None] - self._x[0] - x) ** 2 + (
+            self._y[None, :] - self._y[0] - y
+        ) ** 2
+        is_lower = (squares + (self.state.heights - z) ** 2 < TOOL_REACH**2) & (
+            self.state.heights > 0.0
+        )
+        if n := int(np.count_nonzero(is_lower)):
+            self.state.heights[is_lower] = np.maximum(
+                0.0, self.state.heights[is_lower] - CELL_WIDTH
+            )
+            self.state.spots.append(spot)
             self.state.version += 1
         return n
 
     def mesh(self) -> Mesh:
-        """The surface as it is now, in W."""
+        """Return the present surface, in W."""
         shape = self.state.heights.shape
         x, y = np.meshgrid(self._x, self._y, indexing="ij")
         points = np.stack([x, y, self._bottom + self.state.heights], axis=2).reshape(-1, 3)
@@ -141,7 +147,7 @@ class Heap:
         number = np.arange(x.size).reshape(shape)
         a, b, c, d = number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]
         triangles = np.concatenate(
-            [np.stack(each, axis=2).reshape(-1, 3) for each in ((a, b, c), (a, c, d))]
+            [np.stack(corners, axis=2).reshape(-1, 3) for corners in ((a, b, c), (a, c, d))]
         )
         return Mesh(
             vertices=points.astype(np.float32),
@@ -152,23 +158,23 @@ class Heap:
         )
 
     def model(self) -> Model:
-        """The surface as it is now, as a model."""
+        """Return the present surface as a model."""
         return Model(name=f"sand/{self.name}", meshes=(self.mesh(),), source="stand-in")
 
 
-def heaps_of(scene: SceneSpec, corners: Sequence[tuple[int, Array]]) -> tuple[Heap, ...]:
-    """The heaps of a scene, in the file's order.
+def make_heaps(scene: SceneSpec, corners: Sequence[tuple[int, Array]]) -> tuple[Heap, ...]:
+    """Return the heaps of a scene, in the file's order.
 
     Args:
-        scene: spec of the scene.
-        corners: number of an object and corners of a part of it in W, (n, 3) [m].
+        scene: the spec of the scene.
+        corners: the number of an object and the corners of a part of it in W, (n, 3) [m].
     """
     heaps = []
-    for index, thing in enumerate(scene.objects):
-        own = [points for number, points in corners if number == index]
-        if thing.buried > 0.0 and own:
-            points = np.concatenate(own)
+    for index, spec in enumerate(scene.objects):
+        clouds = [points for number, points in corners if number == index]
+        if spec.buried > 0.0 and clouds:
+            points = np.concatenate(clouds)
             lower, upper = points.min(axis=0), points.max(axis=0)
             if upper[2] > lower[2]:
-                heaps.append(Heap(thing.name, lower, upper, min(thing.buried, 1.0)))
+                heaps.append(Heap(spec.name, lower, upper, min(spec.buried, 1.0)))
     return tuple(heaps)

@@ -22,11 +22,6 @@ class SceneRays:
     """Rays against the models of a scene (`uwsim.world.Rays`); ghosts (``vr``) are not met.
 
     The triangles of a scene are sorted when the first ray is cast.
-
-    Args:
-        model: of the scene.
-        engine: where everything is.
-        heaps: the sand over buried objects.
     """
 
     def __init__(
@@ -38,22 +33,26 @@ class SceneRays:
         self._bodies, self._heaps = model.ray_bodies, tuple(heaps)
         self._engine = engine
         self._cast_heaps: dict[int, tuple[int, RayScene]] = {}
-        self._carried: list[int] | None = None  # the objects that followed links when it was laid
-        self._laid: RayScene | None = None  # fixed bodies as the first body, then all that move
-        self._placed: list[tuple[int, Callable[[], Array]]] = []  # those that follow no engine's
-        self._noted: RayScene | None = None  # whose record is the first of these
-        self._records = np.zeros(1 + len(heaps), SCENE)  # of what was laid, and of each heap
+        self._carried_objects: list[int] | None = None  # those of `_ray_scene`
+        self._ray_scene: RayScene | None = (
+            None  # fixed bodies as the first body, then all that move
+        )
+        self._placed_bodies: list[
+            tuple[int, Callable[[], Array]]
+        ] = []  # those without a body of the engine
+        self._recorded_scene: RayScene | None = None  # the scene of the first record
+        self._records = np.zeros(1 + len(heaps), SCENE)  # of `_ray_scene`, and of each heap
         self.materials: tuple[Material, ...] = (
             *self._bodies.materials,
             *(MATERIALS["sand"] for _ in heaps),
         )
-        """Of each surface, by its number."""
+        """The material of each surface, by its number."""
         self.vehicles: tuple[str, ...] = (*self._bodies.vehicles, *("" for _ in heaps))
-        """Name of the vehicle that each surface belongs to, by its number; or empty."""
+        """The name of the vehicle that each surface belongs to, by its number; or empty."""
 
     @cached_property
     def functions(self) -> npt.NDArray[np.void]:
-        """What casts rays from compiled code, a record of `uwsim.rays.scene_record.RAYS`, (1,)."""
+        """The rays for compiled code, a record of `uwsim.rays.scene_record.RAYS`, (1,)."""
         return rays_record(self._records)
 
     def cast(
@@ -69,62 +68,63 @@ class SceneRays:
 
     @property
     def is_compiled(self) -> bool:
-        """Whether compiled code finds everything where it is in compiled steps without `prepare`.
+        """A flag: compiled steps update the poses that rays read without `prepare`.
 
-        It does where all follow bodies of the engine; sand, and what is placed or carried, do not.
+        They do where all follow bodies of the engine; sand and placed or carried objects do not.
         """
         return (
-            self._laid is not None
+            self._ray_scene is not None
             and not self._heaps
-            and not self._placed
+            and not self._placed_bodies
             and not self._engine.poses.state.carriers
         )
 
     def prepare(self) -> None:
-        """Bring what compiled code reads up to date."""
-        laid = self._scene
-        if self._noted is not laid:
-            self._records[0], self._noted = laid.record[0], laid
+        """Update the records that compiled code reads."""
+        scene = self._scene
+        if self._recorded_scene is not scene:
+            self._records[0], self._recorded_scene = scene.record[0], scene
         for number, heap in enumerate(self._heaps, start=1):
-            self._records[number] = self._sand(number - 1, heap).record[0]
+            self._records[number] = self._sand_scene(number - 1, heap).record[0]
 
     def balls(self) -> Balls:
-        """Balls that cover each surface, but for the sand of heaps; see `RayScene.balls`."""
+        """Return balls that cover each surface, except the sand of heaps; see `RayScene.balls`."""
         return self._scene.balls()
 
     @property
     def _scene(self) -> RayScene:
-        """The bodies of the scene, where they are now."""
-        poses, carried = self._engine.poses, list(self._engine.poses.state.carriers)
+        """The bodies of the scene at their present poses."""
+        poses, carried_objects = self._engine.poses, list(self._engine.poses.state.carriers)
         poses.refresh()
-        if self._laid is None or self._carried != carried:
+        if self._ray_scene is None or self._carried_objects != carried_objects:
             movers = self._bodies.movers
-            engine = np.array([-1, *(poses.engine_body(*each) for each in movers)], np.int32)
-            self._laid = self._bodies.scene.with_engine(engine, poses.origins, poses.axes)
-            self._carried = carried
-            self._placed = [
+            engine = np.array([-1, *(poses.engine_body(*mover) for mover in movers)], np.int32)
+            self._ray_scene = self._bodies.scene.with_engine(engine, poses.origins, poses.axes)
+            self._carried_objects = carried_objects
+            self._placed_bodies = [
                 (number, self._frame(*owner))
                 for number, owner in enumerate(movers, start=1)
                 if engine[number] < 0
             ]
-        for body, frame in self._placed:
-            self._laid.place(body, frame())
-        return self._laid
+        for body, frame in self._placed_bodies:
+            self._ray_scene.place(body, frame())
+        return self._ray_scene
 
-    def _sand(self, number: int, heap: Heap) -> RayScene:
-        """The triangles of a heap as it is now."""
-        if (known := self._cast_heaps.get(number)) is None or known[0] != heap.version:
+    def _sand_scene(self, number: int, heap: Heap) -> RayScene:
+        if (entry := self._cast_heaps.get(number)) is None or entry[0] != heap.version:
             mesh = heap.mesh()
             triangles = mesh.vertices.astype(np.float64)[mesh.triangles]
             surface = len(self.materials) - len(self._heaps) + number
-            known = heap.version, RayScene([[Surface(surface, triangles)]])
-            self._cast_heaps[number] = known
-        return known[1]
+            entry = heap.version, RayScene([[Surface(surface, triangles)]])
+            self._cast_heaps[number] = entry
+        return entry[1]
 
-    def _frame(self, vehicle: int | None, link: str, thing: int | None) -> Callable[[], Array]:
-        """The present pose of a link or an object, (4, 4) [m]."""
+    def _frame(
+        self, vehicle: int | None, link: str, object_index: int | None
+    ) -> Callable[[], Array]:
+        """Return a function of the present pose of a link or an object, (4, 4) [m]."""
         engine = self._engine
         if vehicle is not None:
             return lambda: engine.poses.link_frame(vehicle, link)
-        assert thing is not None
-        return lambda: engine.poses.object(thing).matrix
+        assert object_index is not None
+        return lambda: engine.poses.object(object_index).matrix

@@ -29,24 +29,24 @@ from ...rendering.rendered_image import RenderedImage
 from ...rendering.smoothing import mean_of_squares
 from ...rendering.water import Light, Water
 from ...scene.spec import SceneSpec
-from ..unique_names import unique
+from ..unique_names import make_unique
 from .part_poses import PartPoses
 from .renderer_pool import RendererPool
-from .sand import HeapState, heaps_of
+from .sand import HeapState, make_heaps
 
 if TYPE_CHECKING:
     from ...rendering.renderer import Renderer
 
-MAX_SMOOTH = 8192
-"""Larger images are not drawn larger still to be smoothed [px]."""
-SAMPLES = 2
-"""Of a pixel of a polished camera, in width and in height."""
+MAX_SMOOTHED_SIZE = 8192
+"""The size above which images are not drawn larger to be smoothed [px]."""
+POLISHED_SAMPLES = 2
+"""The samples of a pixel of a polished camera, in width and in height."""
 ALL_TARGETS = frozenset({"colour", "range", "ids"})
 
 
 @dataclass(slots=True)
 class SceneryState(Record):
-    """What changes of what is seen, besides the poses."""
+    """The changing values of the visible side, besides the poses."""
 
     water: Water
     """The water; scene updaters change its fog."""
@@ -60,9 +60,9 @@ class Scenery:
     """The models of a scene in its water; acquires a renderer for the first image.
 
     Args:
-        model: of the scene.
-        engine: where everything is.
-        pool: lends the renderer; without one the scenery has a renderer of its own.
+        model: the compiled scene.
+        engine: the engine, which has the poses.
+        pool: the pool of renderers; without one the scenery has a renderer of its own.
     """
 
     def __init__(self, model: SceneModel, engine: Engine, pool: RendererPool | None) -> None:
@@ -74,19 +74,19 @@ class Scenery:
         self._handles: list[int] = []  # of each part
         self._drawn_version = -1
         self._vehicle_names = tuple(vehicle.name for vehicle in scene.vehicles)
-        self._vehicle_labels = unique(self._vehicle_names)
+        self._vehicle_labels = make_unique(self._vehicle_names)
         self.parts = model.parts
-        """The models of the scene and whose they are."""
+        """The models of the scene, each with its vehicle or object."""
         self._poses = PartPoses(self.parts, engine.poses)
-        self._hidden = frozenset(part.id for part in self.parts if part.is_hidden)
+        self._hidden_ids = frozenset(part.id for part in self.parts if part.is_hidden)
         self.mounted_lamps: tuple[MountedLamp | Led, ...] = ()
         """The lamps and signal lamps of the scene."""
         self.mounted_projector: tuple[MountedProjector, npt.NDArray[np.uint8]] | None = None
         """The projector of the scene, and its pattern (h, w, 4)."""
         self._projector: Projector | None = None
-        buried = {index for index, thing in enumerate(scene.objects) if thing.buried > 0.0}
-        self.heaps = heaps_of(
-            scene, [(p.object, self.corners(p)) for p in self.parts if p.object in buried]
+        buried_objects = {index for index, spec in enumerate(scene.objects) if spec.buried > 0.0}
+        self.heaps = make_heaps(
+            scene, [(p.object, self.corners(p)) for p in self.parts if p.object in buried_objects]
         )
         """The sand over buried objects."""
         self.state = SceneryState(
@@ -94,19 +94,18 @@ class Scenery:
             Light(rate=scene.sim_params.light_rate, shadows=_has_sun_shadows(scene)),
             [heap.state for heap in self.heaps],
         )
-        """What changes of it."""
+        """The changing values."""
         self._drawn_heaps: dict[int, tuple[int, int, Model]] = {}  # version, handle, model
 
     def set_lamps(self, lamps: Sequence[MountedLamp], leds: Sequence[Led] = ()) -> None:
-        """Set the lamps of the scene, and its signal lamps.
+        """Set the lamps and the signal lamps of the scene.
 
         Raises:
-            UwsimError: there are too many lamps; of signal lamps those shine for which there is
-                room.
+            UwsimError: there are too many lamps. Signal lamps beyond the limit are not drawn.
         """
         self.mounted_lamps = (*lamps, *leds)
         if (n_lamps := len(lamps)) > MAX_LAMPS:
-            raise UwsimError(f"{n_lamps} lamps shine in the scene; at most {MAX_LAMPS} may.")
+            raise UwsimError(f"{n_lamps} lamps are in the scene; expected at most {MAX_LAMPS}.")
 
     def set_projector(self, projector: MountedProjector, pattern: npt.NDArray[np.uint8]) -> None:
         """Set the projector of the scene, and its pattern (h, w, 4)."""
@@ -121,15 +120,15 @@ class Scenery:
         self.state.water = replace(self.state.water, fog=density)
 
     def set_light_rate(self, rate: float) -> None:
-        """Scale the light of the scene; 1 is as usual."""
+        """Scale the light of the scene, 1 by default."""
         self.state.light = replace(self.state.light, rate=rate)
 
     def world_from_mesh(self, part: Part) -> npt.NDArray[np.float64]:
-        """The present pose of a part, with its scale, (4, 4) [m]."""
+        """Return the present pose of a part, with its scale, (4, 4) [m]."""
         return self._poses.world_from_mesh(part)
 
     def corners(self, part: Part) -> Array:
-        """Return the corners of a part's box where it is now, in W, (8, 3) [m]."""
+        """Return the corners of a part's box at its present pose, in W, (8, 3) [m]."""
         world_from_mesh = self.world_from_mesh(part)
         return product(part.model.box.corners(), world_from_mesh[:3, :3].T) + world_from_mesh[:3, 3]
 
@@ -147,35 +146,35 @@ class Scenery:
 
         Polished: as `render_clean` has it.
         """
-        rendered = self._draw_smooth(
+        image = self._draw_smooth(
             world_from_camera,
             intrinsics,
             self.state.water,
             light=self._light(is_polished=is_polished),
             colour="linear16" if std > 0.0 else "uint8",
-            samples=SAMPLES if is_polished else 1,
+            samples=POLISHED_SAMPLES if is_polished else 1,
         )
-        assert rendered.colour is not None
-        if rendered.colour.dtype == np.uint16:
-            pixels = add_noise(rendered.colour.view(np.uint16), std, rng)
+        assert image.colour is not None
+        if image.colour.dtype == np.uint16:
+            pixels = add_noise(image.colour.view(np.uint16), std, rng)
         else:
-            pixels = rendered.colour.view(np.uint8)
+            pixels = image.colour.view(np.uint8)
         return grey_truncated(pixels) if grey else pixels
 
     def depth(self, world_from_camera: Pose, intrinsics: Intrinsics) -> npt.NDArray[np.float64]:
         """Render the distance along the optical axis, (h, w) [m]; +inf = nothing there."""
-        wanted = frozenset({"range"})
-        rendered = self._draw(world_from_camera, intrinsics, self.state.water, targets=wanted)
-        return rendered.depth.astype(np.float64)
+        targets = frozenset({"range"})
+        image = self._draw(world_from_camera, intrinsics, self.state.water, targets=targets)
+        return image.depth.astype(np.float64)
 
     def segmentation(
         self, world_from_camera: Pose, intrinsics: Intrinsics
     ) -> npt.NDArray[np.uint16]:
         """Render the number of the body that each pixel sees, (h, w); 0: none."""
-        wanted = frozenset({"ids"})
-        rendered = self._draw(world_from_camera, intrinsics, self.state.water, targets=wanted)
-        assert rendered.ids is not None
-        return rendered.ids
+        targets = frozenset({"ids"})
+        image = self._draw(world_from_camera, intrinsics, self.state.water, targets=targets)
+        assert image.ids is not None
+        return image.ids
 
     def render_clean(
         self,
@@ -188,7 +187,7 @@ class Scenery:
     ) -> RenderedImage:
         """Render a noise-free image with range and ids, optionally at another fog density.
 
-        Polished: in the light of `Light.is_polished`; if colour alone is wanted, edges are smooth.
+        Polished: in the light of `Light.is_polished`; edges are smooth if only colour is drawn.
         A pixel has one range and one id, so that with these its colour is that of its centre.
         """
         return self._draw_smooth(
@@ -197,7 +196,7 @@ class Scenery:
             self.state.water if fog is None else replace(self.state.water, fog=fog),
             light=self._light(is_polished=is_polished),
             targets=frozenset(targets),
-            samples=SAMPLES if is_polished and set(targets) == {"colour"} else 1,
+            samples=POLISHED_SAMPLES if is_polished and set(targets) == {"colour"} else 1,
         )
 
     def render_view(
@@ -206,20 +205,20 @@ class Scenery:
         intrinsics: Intrinsics,
         *,
         targets: Collection[str] = ALL_TARGETS,
-        hidden: frozenset[int] = frozenset(),
+        hidden_ids: frozenset[int] = frozenset(),
         fog: float | None = None,
         samples: int = 1,
     ) -> RenderedImage:
         """Render the view of an observer: with ghosts, and with air above the water; polished.
 
         Args:
-            world_from_camera: where the viewer is; OpenGL axes.
+            world_from_camera: the pose of the viewer; OpenGL axes.
             intrinsics: the pinhole.
             targets: some of colour, range, ids.
-            hidden: numbers of parts that are left out.
-            fog: density of the fog instead of the scene's [1/m].
-            samples: the colour of a pixel is the mean of so many in width and in height, so that
-                edges are smooth; range and ids are not drawn then.
+            hidden_ids: the numbers of parts that are left out.
+            fog: the density of the fog instead of the scene's [1/m].
+            samples: the number of samples of a pixel in width and in height; more than one smooths
+                edges, and draws no range and ids.
         """
         density = self.state.water.fog if fog is None else fog
         return self._draw_smooth(
@@ -228,12 +227,11 @@ class Scenery:
             replace(self.state.water, fog=density, has_air=True, fog_distance="ray"),
             light=self._light(is_polished=True),
             targets=frozenset(targets),
-            hidden=hidden,
+            hidden_ids=hidden_ids,
             samples=samples,
         )
 
     def _light(self, *, is_polished: bool) -> Light:
-        """The scene's light, for an image that is polished or not."""
         return replace(self.state.light, is_polished=True) if is_polished else self.state.light
 
     def _draw_smooth(
@@ -246,13 +244,13 @@ class Scenery:
         samples: int,
         targets: frozenset[str] = frozenset({"colour"}),
         colour: str = "uint8",
-        hidden: frozenset[int] | None = None,
+        hidden_ids: frozenset[int] | None = None,
     ) -> RenderedImage:
         """Render an image of which each pixel is the mean of ``samples`` in width and in height.
 
         With several only the colour is drawn. Images that would be too large have one.
         """
-        if samples == 1 or max(intrinsics.width, intrinsics.height) * samples > MAX_SMOOTH:
+        if samples == 1 or max(intrinsics.width, intrinsics.height) * samples > MAX_SMOOTHED_SIZE:
             return self._draw(
                 world_from_camera,
                 intrinsics,
@@ -260,19 +258,19 @@ class Scenery:
                 light=light,
                 targets=targets,
                 colour=colour,
-                hidden=hidden,
+                hidden_ids=hidden_ids,
             )
-        drawn = self._draw(
+        colours = self._draw(
             world_from_camera,
             intrinsics.with_size(intrinsics.width * samples, intrinsics.height * samples),
             water,
             light=light,
             targets=frozenset({"colour"}),
             colour=colour,
-            hidden=hidden,
+            hidden_ids=hidden_ids,
         ).colour
-        assert drawn is not None
-        return RenderedImage(intrinsics=intrinsics, colour=mean_of_squares(drawn, samples))
+        assert colours is not None
+        return RenderedImage(intrinsics=intrinsics, colour=mean_of_squares(colours, samples))
 
     def _draw(
         self,
@@ -283,22 +281,22 @@ class Scenery:
         light: Light | None = None,
         targets: frozenset[str] = ALL_TARGETS,
         colour: str = "uint8",
-        hidden: frozenset[int] | None = None,
+        hidden_ids: frozenset[int] | None = None,
     ) -> RenderedImage:
-        """Render an image in the scene's light, unless in another; without the parts ``hidden``.
+        """Render an image in the scene's light or another, without the parts ``hidden_ids``.
 
-        ``hidden`` None: without ghosts.
+        Without ``hidden_ids`` it has no ghosts.
         """
         renderer = self._open()
         if not self._handles:
             self._handles = [renderer.add(part.model, part.id) for part in self.parts]
         if self._drawn_version != self._engine.poses.version:
-            renderer.place_all(self._handles, self._poses.of_all())
+            renderer.place_all(self._handles, self._poses.compute_all())
             if self.mounted_projector is not None:
-                self._projector = _projecting(*self.mounted_projector)
+                self._projector = _make_projector(*self.mounted_projector)
             self._drawn_version = self._engine.poses.version
         self._draw_heaps(renderer)
-        shining = [lamp for lamp in self.mounted_lamps if lamp.is_on]
+        lit_lamps = [lamp for lamp in self.mounted_lamps if lamp.is_on]
         return renderer.draw(
             world_from_camera,
             intrinsics,
@@ -306,54 +304,55 @@ class Scenery:
             self.state.light if light is None else light,
             targets=targets,
             colour=colour,
-            hidden=self._hidden if hidden is None else hidden,
-            lamps=tuple(map(_shining, shining[:MAX_LAMPS])),
+            hidden=self._hidden_ids if hidden_ids is None else hidden_ids,
+            lamps=tuple(map(_make_lamp, lit_lamps[:MAX_LAMPS])),
             projector=self._projector,
         )
 
     def _draw_heaps(self, renderer: Renderer) -> None:
-        """Give the renderer the heaps of sand that have changed."""
         for number, heap in enumerate(self.heaps):
-            drawn = self._drawn_heaps.get(number)
-            if drawn is not None and drawn[0] == heap.version:
+            drawing = self._drawn_heaps.get(number)
+            if drawing is not None and drawing[0] == heap.version:
                 continue
-            if drawn is not None:
-                renderer.remove(drawn[1])
-                renderer.discard(drawn[2])
+            if drawing is not None:
+                renderer.remove(drawing[1])
+                renderer.discard(drawing[2])
             model = heap.model()
-            handle = renderer.add(model, self.number_of_heap(number))
+            handle = renderer.add(model, self.heap_id(number))
             self._drawn_heaps[number] = heap.version, handle, model
 
-    def number_of_heap(self, number: int) -> int:
-        """The number in segmentation images of a heap of sand."""
+    def heap_id(self, number: int) -> int:
+        """Return the number of a heap of sand in segmentation images."""
         return max((part.id for part in self.parts), default=0) + 1 + number
 
     @property
     def renderer_name(self) -> str:
-        """Name of the renderer; makes the graphics context if there is none yet."""
+        """The name of the renderer; makes the graphics context if there is none yet."""
         return self._open().description
 
     @property
     def part_names(self) -> dict[int, str]:
-        """Number in segmentation images -> ``vehicle/link`` or object; the second gets ``#2``."""
+        """The names of parts, number in segmentation images -> ``vehicle/link`` or object."""
         names = {}
         for part in self.parts:
             names[part.id] = part.name
             if part.vehicle is not None:
-                own = self._vehicle_names[part.vehicle]
-                names[part.id] = self._vehicle_labels[part.vehicle] + part.name.removeprefix(own)
+                name = self._vehicle_names[part.vehicle]
+                names[part.id] = self._vehicle_labels[part.vehicle] + part.name.removeprefix(name)
         heaps = enumerate(self.heaps)
-        names |= {self.number_of_heap(i): f"sand/{heap.name}" for i, heap in heaps}
-        return dict(zip(names, unique(names.values()), strict=True))
+        names |= {self.heap_id(i): f"sand/{heap.name}" for i, heap in heaps}
+        return dict(zip(names, make_unique(names.values()), strict=True))
 
     @property
-    def made_hashes(self) -> dict[str, str]:
-        """Name of each model that is of no file -> sha256 of its arrays, sorted by name.
+    def generated_hashes(self) -> dict[str, str]:
+        """The generated models, name -> sha256 of the arrays, sorted by name.
 
-        Boxes, cylinders and spheres have none: the file of their robot or scene has their sizes.
+        Boxes, cylinders and spheres are left out: the file of their robot or scene has their sizes.
         """
-        made = [part.model for part in self.parts if part.model.sha256 and not part.model.files]
-        models = {model.name: model.sha256 for model in made}
+        generated_models = [
+            part.model for part in self.parts if part.model.sha256 and not part.model.files
+        ]
+        models = {model.name: model.sha256 for model in generated_models}
         return {name: models[name] for name in sorted(models)}
 
     def redraw(self) -> None:
@@ -376,8 +375,7 @@ class Scenery:
         self._own_pool.close()
 
 
-def _shining(lamp: MountedLamp | Led) -> Lamp:
-    """The lamp at its present pose."""
+def _make_lamp(lamp: MountedLamp | Led) -> Lamp:
     spec = lamp.spec
     return Lamp(
         world_from_lamp=lamp.world_from_lamp,
@@ -389,8 +387,7 @@ def _shining(lamp: MountedLamp | Led) -> Lamp:
     )
 
 
-def _projecting(projector: MountedProjector, pattern: npt.NDArray[np.uint8]) -> Projector:
-    """The projector at its present pose."""
+def _make_projector(projector: MountedProjector, pattern: npt.NDArray[np.uint8]) -> Projector:
     return Projector(
         world_from_projector=projector.world_from_projector,
         fovy=math.radians(projector.spec.fov),
@@ -400,6 +397,6 @@ def _projecting(projector: MountedProjector, pattern: npt.NDArray[np.uint8]) -> 
 
 
 def _has_sun_shadows(scene: SceneSpec) -> bool:
-    """Whether vehicles and objects cast the sun's shadow."""
-    asked = scene.sim_params.sun_shadow
-    return not scene.is_original if asked is None else asked
+    """Return whether vehicles and objects cast the sun's shadow."""
+    sun_shadow = scene.sim_params.sun_shadow
+    return not scene.is_original if sun_shadow is None else sun_shadow

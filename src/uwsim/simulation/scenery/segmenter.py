@@ -1,4 +1,4 @@
-"""Images of the bodies that pixels see, by the renderer or by rays."""
+"""Images of the bodies at pixels, by the renderer or by rays."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from .scenery import Scenery
 
 
 class SceneSegmenter:
-    """What tells which body a pixel sees (`uwsim.topics.interface.Segmenter`).
+    """The segmentation of images by body (`uwsim.topics.interface.Segmenter`).
 
     Args:
-        scenery: what is seen.
-        rays: rays against it.
-        is_blind: cast rays, which meet no ghosts; else render.
+        scenery: the visible side of the scene.
+        rays: the rays against it.
+        is_blind: cast rays, which meet no ghosts, instead of rendering.
     """
 
     def __init__(self, scenery: Scenery, rays: SceneRays, *, is_blind: bool) -> None:
@@ -27,13 +27,13 @@ class SceneSegmenter:
 
     @property
     def part_names(self) -> Mapping[int, str]:
-        """Number in segmentation images -> ``vehicle/link`` or object."""
+        """The names of parts, number in segmentation images -> ``vehicle/link`` or object."""
         return self._scenery.part_names
 
     def segmentation(
         self, world_from_camera: Pose, intrinsics: Intrinsics
     ) -> npt.NDArray[np.uint16]:
-        """Return the number of the body that each pixel sees, (h, w); 0: none."""
+        """Return the number of the body at each pixel, (h, w); 0: none."""
         if self._is_blind:
             return cast_surfaces(self._rays, world_from_camera, intrinsics)
         return self._scenery.segmentation(world_from_camera, intrinsics)

@@ -18,7 +18,7 @@ from ...errors import UwsimError
 from ...version import __version__
 
 T = TypeVar("T")
-ALLOWED = {
+ALLOWED_CLASSES = {
     ("numpy", "dtype"),
     ("numpy", "ndarray"),
     ("numpy._core.multiarray", "_reconstruct"),
@@ -26,55 +26,55 @@ ALLOWED = {
     ("numpy._core.numeric", "_frombuffer"),
     ("collections", "deque"),
 }
-"""Types allowed in bytes, besides numbers, texts and dataclasses of uwsim and rosbags."""
+"""The classes allowed in bytes, besides numbers, texts and dataclasses of uwsim and rosbags."""
 
-PLAIN = (bool, int, float, str, bytes, tuple, type(None), np.generic, np.dtype)
-"""Types of which bytes are made as they are."""
+PLAIN_TYPES = (bool, int, float, str, bytes, tuple, type(None), np.generic, np.dtype)
+"""The types that are pickled as they are."""
 OWN_PACKAGES = ("uwsim.", "rosbags.")
-CHECKSUM = 4
-"""Bytes of a checksum."""
+CHECKSUM_SIZE = 4
+"""The number of bytes of a checksum."""
 
 
 def pack(value: object) -> bytes:
     """Return the present value of a record as bytes, with the version of uwsim.
 
     Raises:
-        UwsimError: something in it has no bytes.
+        UwsimError: a value in it cannot be saved.
     """
     try:
         pickler = pickle.Pickler(stream := io.BytesIO(), protocol=5)
         pickler.fast = True  # the same bytes whichever values are one object
-        pickler.dump((__version__, _FLAT[type(value)](value)))
+        pickler.dump((__version__, _FLATTENERS[type(value)](value)))
         stream.write(_checksum(stream.getbuffer()))
         return stream.getvalue()
     except (pickle.PicklingError, AttributeError, TypeError) as error:
         raise UwsimError(f"The state cannot be saved: {error}.") from None
 
 
-def with_checksum(payload: bytes) -> bytes:
-    """Return bytes with their checksum behind them."""
+def append_checksum(payload: bytes) -> bytes:
+    """Return bytes followed by their checksum."""
     return payload + _checksum(payload)
 
 
 def _checksum(payload: bytes | memoryview) -> bytes:
-    return zlib.crc32(payload).to_bytes(CHECKSUM, "little")
+    return zlib.crc32(payload).to_bytes(CHECKSUM_SIZE, "little")
 
 
 def unpack(data: bytes, kind: type[T]) -> T:
     """Read a value of a type from bytes.
 
     Raises:
-        UwsimError: these are no such bytes, or another version of uwsim wrote them.
+        UwsimError: the bytes are damaged, or another version of uwsim wrote them.
     """
     if not isinstance(data, bytes):
         raise UwsimError(f"A {type(data).__name__} is no saved simulation; expected bytes.")
-    payload = data[:-CHECKSUM]
-    if len(data) <= CHECKSUM or with_checksum(payload) != data:
+    payload = data[:-CHECKSUM_SIZE]
+    if len(data) <= CHECKSUM_SIZE or append_checksum(payload) != data:
         raise UwsimError("These bytes are no saved simulation, or they were changed.")
     try:
-        version, flat = _Unpickler(io.BytesIO(payload)).load()
-        value = _raised(flat) if version == __version__ else None  # records differ by version
-    except Exception as error:  # whatever damaged bytes make of themselves
+        version, lists = _Unpickler(io.BytesIO(payload)).load()
+        value = _rebuild(lists) if version == __version__ else None  # records differ by version
+    except Exception as error:  # damaged bytes can raise any exception
         raise UwsimError(f"These bytes are no saved simulation: {error}.") from None
     if version != __version__:
         raise UwsimError(f"The simulation was not saved by uwsim {__version__}.")
@@ -83,21 +83,21 @@ def unpack(data: bytes, kind: type[T]) -> T:
     return value
 
 
-class _Flat(dict[type, Callable[[Any], Any]]):
-    """What makes lists of a value, by its type: pickle takes longer for records and arrays.
+class _Flatteners(dict[type, Callable[[Any], Any]]):
+    """The functions that make lists of values, as pickle is slower for records and arrays.
 
-    A list in what it makes begins with a tag. Numbers, texts, tuples and messages stay.
+    Each list begins with a tag. Numbers, texts, tuples and messages stay.
     """
 
     def __missing__(self, kind: type) -> Callable[[Any], Any]:
         if issubclass(kind, ExternalValue):
-            self[kind] = lambda part: _flat(part.value())
+            self[kind] = lambda part: _flatten(part.value())
         elif _is_allowed(kind) and "__slots__" in vars(kind):
             self[kind] = _record_flattener(kind)
-        elif _is_allowed(kind) or issubclass(kind, PLAIN):
-            self[kind] = _itself
+        elif _is_allowed(kind) or issubclass(kind, PLAIN_TYPES):
+            self[kind] = _keep
         else:
-            raise TypeError(f"{kind.__module__}.{kind.__qualname__} has no place in bytes")
+            raise TypeError(f"{kind.__module__}.{kind.__qualname__} is no type of a state")
         return self[kind]
 
 
@@ -105,74 +105,73 @@ RECORD, ARRAY, LIST, DICT, QUEUE = range(5)
 
 
 def _record_flattener(kind: type) -> Callable[[Any], list[Any]]:
-    """Return what makes lists of the records of a class: most fields stay as they are."""
+    """Return the function that makes lists of the records of a class: most fields stay."""
     name = f"{kind.__module__}:{kind.__qualname__}"
-    places, flat = [2 + place for place in changing_fields(kind)], _FLAT
+    places, flatteners = [2 + place for place in changing_fields(kind)], _FLATTENERS
 
     def flatten(record: Any) -> list[Any]:
         values = [RECORD, name, *field_values(record)]
         for place in places:
             value = values[place]
-            values[place] = flat[type(value)](value)
+            values[place] = flatteners[type(value)](value)
         return values
 
     return flatten
 
 
-def _flat(value: Any) -> Any:
-    return _FLAT[type(value)](value)
+def _flatten(value: Any) -> Any:
+    return _FLATTENERS[type(value)](value)
 
 
-def _itself(value: Any) -> Any:
+def _keep(value: Any) -> Any:
     return value
 
 
-def _flat_array(array: Any) -> list[Any]:
+def _flatten_array(array: Any) -> list[Any]:
     kind = array.dtype
     return [ARRAY, kind if kind.names else kind.str, array.shape, array.tobytes()]
 
 
-_FLAT: _Flat = _Flat(
+_FLATTENERS: _Flatteners = _Flatteners(
     {
-        np.ndarray: _flat_array,
-        np.random.Generator: lambda value: _flat(GeneratorState.from_generator(value)),
-        list: lambda value: [LIST, *[_FLAT[type(each)](each) for each in value]],
-        dict: lambda value: [DICT, *value, *[_FLAT[type(each)](each) for each in value.values()]],
-        deque: lambda value: [QUEUE, value.maxlen, *[_FLAT[type(each)](each) for each in value]],
+        np.ndarray: _flatten_array,
+        np.random.Generator: lambda value: _flatten(GeneratorState.from_generator(value)),
+        list: lambda value: [LIST, *map(_flatten, value)],
+        dict: lambda value: [DICT, *value, *map(_flatten, value.values())],
+        deque: lambda value: [QUEUE, value.maxlen, *map(_flatten, value)],
     }
 )
 
 
-def _raised(flat: Any) -> Any:
-    """Return the value that lists were made of."""
-    if type(flat) is not list:
-        return flat
-    tag, *rest = flat
+def _rebuild(lists: Any) -> Any:
+    """Return the value from which lists were made."""
+    if type(lists) is not list:
+        return lists
+    tag, *rest = lists
     if tag == RECORD:
-        return _allowed_dataclass(*rest[0].split(":"))(*map(_raised, rest[1:]))
+        return _allowed_dataclass(*rest[0].split(":"))(*map(_rebuild, rest[1:]))
     if tag == ARRAY:
         kind, shape, data = rest
         return np.frombuffer(data, kind).reshape(shape).copy()
     if tag == LIST:
-        return [_raised(each) for each in rest]
+        return [_rebuild(part) for part in rest]
     if tag == QUEUE:
-        return deque(map(_raised, rest[1:]), rest[0])
+        return deque(map(_rebuild, rest[1:]), rest[0])
     n = len(rest) // 2
-    return dict(zip(rest[:n], map(_raised, rest[n:]), strict=True))
+    return dict(zip(rest[:n], map(_rebuild, rest[n:]), strict=True))
 
 
 def _allowed_dataclass(module: str, name: str) -> Any:
-    """Return a dataclass of uwsim or rosbags; raises UnpicklingError for all else."""
-    found = None
+    """Return a dataclass of uwsim or rosbags; raise UnpicklingError for other classes."""
+    record_class = None
     if module.startswith(OWN_PACKAGES):
-        found = getattr(importlib.import_module(module), name, None)
-    if not _is_allowed(found):
-        raise pickle.UnpicklingError(f"{module}.{name} has no place in them")
-    return found
+        record_class = getattr(importlib.import_module(module), name, None)
+    if not _is_allowed(record_class):
+        raise pickle.UnpicklingError(f"{module}.{name} is no type of a state")
+    return record_class
 
 
 def _is_allowed(kind: object) -> bool:
-    """Whether this is a dataclass of uwsim or rosbags."""
     return (
         isinstance(kind, type)
         and dataclasses.is_dataclass(kind)
@@ -181,9 +180,9 @@ def _is_allowed(kind: object) -> bool:
 
 
 class _Unpickler(pickle.Unpickler):
-    """Makes numbers, arrays, messages and records, and calls nothing else."""
+    """An unpickler of numbers, arrays, messages and records, which calls nothing else."""
 
     def find_class(self, module: str, name: str) -> Any:
-        if (module, name) in ALLOWED:
+        if (module, name) in ALLOWED_CLASSES:
             return super().find_class(module, name)
         return _allowed_dataclass(module, name)

@@ -27,7 +27,7 @@ from .saved_bytes import pack, unpack
 
 @dataclass(frozen=True, slots=True)
 class Identity:
-    """What does not change while a simulation runs: its states fit no other."""
+    """The values that identify a simulation and do not change: its states fit no other."""
 
     seed: int
     """The seed of every random stream."""
@@ -39,12 +39,8 @@ class Identity:
     """The hash of the scene, with its variations."""
 
 
-class OwnIdentity(ExternalValue):
-    """The identity of a running simulation.
-
-    Args:
-        model: of the scene.
-    """
+class RunningIdentity(ExternalValue):
+    """The identity of a running simulation."""
 
     def __init__(self, model: SceneModel) -> None:
         self._model = model
@@ -59,24 +55,25 @@ class OwnIdentity(ExternalValue):
         return self._identity
 
     def set(self, value: object) -> None:
-        """Raise UwsimError where a state is of another simulation."""
-        own = self.value()
+        """Raise UwsimError if a state belongs to another simulation."""
+        identity = self.value()
         if not isinstance(value, Identity):
             raise wrong_scene_error()
         for name in ("seed", "timestep", "compatibility"):
-            mine, theirs = getattr(own, name), getattr(value, name)
-            if mine != theirs:
+            own_value, saved_value = getattr(identity, name), getattr(value, name)
+            if own_value != saved_value:
                 unit = " s" if name == "timestep" else ""
                 raise UwsimError(
-                    f"The saved simulation has {name} {theirs}{unit}; this one has {mine}{unit}."
+                    f"The saved simulation has {name} {saved_value}{unit}; "
+                    f"this one has {own_value}{unit}."
                 )
-        if own.scene != value.scene:
+        if identity.scene != value.scene:
             raise wrong_scene_error()
 
 
 @dataclass(slots=True, eq=False)
 class State(Record):
-    """All that changes of a simulation while it runs.
+    """The values of a simulation that change while it runs.
 
     `uwsim.Simulation.state` is that of the running simulation and changes with it; a `copy` does
     not, but it shares messages, which nobody may change once they are published. Two states are
@@ -87,42 +84,42 @@ class State(Record):
     that offer no ``save`` and ``restore``.
     """
 
-    identity: OwnIdentity
-    """The simulation that it belongs to; a state of another one cannot be set."""
+    identity: RunningIdentity
+    """The simulation to which the state belongs; a state of another one cannot be set."""
     bus: BusState
-    """The step, and the messages on their way."""
+    """The step, and the undelivered messages."""
     engine: EngineState
-    """Poses, velocities, actuators: the physics."""
+    """The poses, velocities and actuators: the physics."""
     vehicles: list[VehicleState]
-    """What changes of each vehicle besides the physics."""
+    """The changing values of each vehicle besides the physics."""
     sensors: list[Record]
-    """What changes of each sensor."""
+    """The changing values of each sensor."""
     devices: list[Record]
-    """What changes of each device."""
+    """The changing values of each device."""
     forces: list[Record]
-    """What changes of each force."""
+    """The changing values of each force."""
     interfaces: list[Record]
-    """What changes of each element of ``<rosInterfaces>``."""
+    """The changing values of each element of ``<rosInterfaces>``."""
     faults: list[FaultyTopicState]
-    """What changes of each topic of a sensor with faults."""
+    """The changing values of each topic of a sensor with faults."""
     scenery: SceneryState
-    """Fog, light and sand."""
+    """The fog, the light and the sand."""
     water: WaterState
     """The current that a program has set."""
     contacts: ContactsState
-    """What is known of contacts besides the engine's."""
+    """The contacts besides those of the engine."""
     below_ground: BelowGroundState
-    """What the last look for bodies below the ground has found."""
+    """The result of the last check for bodies below the ground."""
     schedule: ScheduleState
-    """What is to be done later."""
+    """The timers and the commands of the next step."""
     network: NetworkState
-    """Packets between communication devices."""
+    """The packets between communication devices."""
     markers: MarkersState
-    """What programs have spawned."""
+    """The markers that programs have spawned."""
     trajectories: list[TrajectoryState]
-    """Where bodies went."""
+    """The paths of bodies."""
     access: AccessState
-    """What a program has read, and whether the first samples are published."""
+    """The topics that a program has read, and whether the first samples are published."""
     nodes: list[NodeState]
     """The timers and the states of attached algorithms."""
 
@@ -131,7 +128,7 @@ class State(Record):
         return copy_record(self)
 
     def to_bytes(self) -> bytes:
-        """Return it as bytes, for the same version of uwsim.
+        """Return the state as bytes, for the same version of uwsim.
 
         Raises:
             UwsimError: a part of it, as a current of a program's own class, has no bytes.
@@ -140,7 +137,7 @@ class State(Record):
 
     @classmethod
     def from_bytes(cls, data: bytes) -> Self:
-        """Read it from bytes.
+        """Read a state from bytes.
 
         Raises:
             UwsimError: the bytes are damaged, or another version of uwsim has written them.

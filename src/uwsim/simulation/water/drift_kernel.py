@@ -19,41 +19,41 @@ DRIFT = np.dtype(
         ("timestep", np.float64),  # [s]
         ("rotation", np.float64, (3, 3)),  # of W from L
         ("position", np.float64, 3),
-        ("back", np.float64, (3, 3)),  # of L from W
-        ("origin", np.float64, 3),
+        ("inverse_rotation", np.float64, (3, 3)),  # of L from W
+        ("inverse_position", np.float64, 3),
     ],
     align=True,
 )
-"""What drifts, for compiled code."""
+"""The record of drifting vehicles, for compiled code."""
 
 
-def of_drift(
+def drift_function(
     flow: FlowFunction, world_from_localized: Pose, vehicles: npt.NDArray[np.int64], timestep: float
 ) -> DriftFunction:
-    """Return the function of vehicles that drift as a compiled function says.
+    """Return the function of vehicles that drift in the flow of a compiled function.
 
     Args:
         flow: the function, in L.
         world_from_localized: W from L.
-        vehicles: the number that ``flow`` has for each, (n,).
-        timestep: length of a step [s].
+        vehicles: the number of each in ``flow``, (n,).
+        timestep: the length of a step [s].
     """
-    query, *kept = query_of(vehicles)
+    query, *arrays = query_of(vehicles)
     query["acceleration"] = 0
-    back = world_from_localized.inverse()
+    inverse = world_from_localized.inverse()
     row = np.zeros(1, DRIFT)
     row["flow"], row["query"], row["timestep"] = flow.addresses, address_of(query), timestep
     row["rotation"], row["position"] = world_from_localized.rotation, world_from_localized.position
-    row["back"], row["origin"] = back.rotation, back.position
+    row["inverse_rotation"], row["inverse_position"] = inverse.rotation, inverse.position
     return DriftFunction(
-        function=function_address(drift), parameters=row, memory_owners=(flow, query, kept)
+        function=function_address(drift), parameters=row, memory_owners=(flow, query, arrays)
     )
 
 
 def drift(parameters: int, values: int, time: float) -> None:
     """Move vehicles by a step; see `DriftFunction`."""
-    drifting = carray(pointer(parameters), (1,), DRIFT)[0]
-    query = carray(pointer(drifting.query), (1,), QUERY)[0]
+    record = carray(pointer(parameters), (1,), DRIFT)[0]
+    query = carray(pointer(record.query), (1,), QUERY)[0]
     poses = view_doubles(values, 7 * query.n).reshape((query.n, 7))
     points, velocities = (
         view_doubles(query.points, 3 * query.n),
@@ -62,15 +62,16 @@ def drift(parameters: int, values: int, time: float) -> None:
     for i in range(query.n):
         x, y, z = poses[i, 0], poses[i, 1], poses[i, 2]
         for k in range(3):
-            turn = drifting.back[k]
-            points[3 * i + k] = turn[0] * x + turn[1] * y + turn[2] * z + drifting.origin[k]
-    call(drifting.flow.function, drifting.flow.parameters, drifting.query, time)
+            turn = record.inverse_rotation[k]
+            point = turn[0] * x + turn[1] * y + turn[2] * z
+            points[3 * i + k] = point + record.inverse_position[k]
+    call(record.flow.function, record.flow.parameters, record.query, time)
     for i in range(query.n):
         for k in range(3):
-            points[3 * i + k] += velocities[3 * i + k] * drifting.timestep
+            points[3 * i + k] += velocities[3 * i + k] * record.timestep
         x, y, z = points[3 * i], points[3 * i + 1], points[3 * i + 2]
         for k in range(3):
-            turn = drifting.rotation[k]
-            poses[i, k] = turn[0] * x + turn[1] * y + turn[2] * z + drifting.position[k]
+            turn = record.rotation[k]
+            poses[i, k] = turn[0] * x + turn[1] * y + turn[2] * z + record.position[k]
         rotation = engine_rotation(poses[i, 3], poses[i, 4], poses[i, 5], poses[i, 6])
         write_quaternion(rotation, poses[i, 3:7])

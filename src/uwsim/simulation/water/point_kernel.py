@@ -8,7 +8,7 @@ from ...base.geometry import Pose
 from ...base.numerics.calls import FUNCTION, CompiledFunction, address_of, call, function_address
 from ...base.numerics.memory import carray, pointer, view_doubles
 from ...currents.flow_function import QUERY, FlowFunction, query_of
-from .water_kernel import turn_into
+from .water_kernel import globalize
 
 POINTS = np.dtype(
     [
@@ -19,18 +19,20 @@ POINTS = np.dtype(
     ],
     align=True,
 )
-"""The water at some points, for compiled code."""
+"""The record of the water at some points, for compiled code."""
 
 
-def at_points(flow: FlowFunction | None, localized_from_world: Pose, n: int) -> CompiledFunction:
-    """Return the water at points that one vehicle asks about.
+def point_function(
+    flow: FlowFunction | None, localized_from_world: Pose, n: int
+) -> CompiledFunction:
+    """Return the function of the water at points around one vehicle.
 
     Args:
-        flow: how it flows in L, for this vehicle alone; None: it is still.
+        flow: the flow in L, for this vehicle alone; None: the water is still.
         localized_from_world: L from W.
-        n: how many points.
+        n: the number of points.
     """
-    query, *kept = query_of(np.zeros(n, dtype=np.int64))
+    query, *arrays = query_of(np.zeros(n, dtype=np.int64))
     query["acceleration"] = 0
     row = np.zeros(1, POINTS)
     row["query"] = address_of(query)
@@ -41,16 +43,16 @@ def at_points(flow: FlowFunction | None, localized_from_world: Pose, n: int) -> 
     return CompiledFunction(
         addresses=(function_address(write_velocities), address_of(row)),
         prepare=(lambda _: None) if flow is None else flow.prepare,
-        memory_owners=(row, flow, query, kept),
+        memory_owners=(row, flow, query, arrays),
     )
 
 
 def write_velocities(parameters: int, values: int, time: float) -> None:
-    """Write velocities behind the points, see `uwsim.world.mounts.read_water`."""
+    """Write velocities after the points, see `uwsim.world.mounts.read_water`."""
     water = carray(pointer(parameters), (1,), POINTS)[0]
     query = carray(pointer(water.query), (1,), QUERY)[0]
-    found = view_doubles(values, 6 * query.n).reshape((2, query.n, 3))
-    found[1] = 0.0
+    rows = view_doubles(values, 6 * query.n).reshape((2, query.n, 3))
+    rows[1] = 0.0
     if water.flow.function == 0:
         return
     points, velocities = (
@@ -61,11 +63,11 @@ def write_velocities(parameters: int, values: int, time: float) -> None:
         for k in range(3):
             turn = water.rotation[k]
             points[3 * i + k] = (
-                turn[0] * found[0, i, 0]
-                + turn[1] * found[0, i, 1]
-                + turn[2] * found[0, i, 2]
+                turn[0] * rows[0, i, 0]
+                + turn[1] * rows[0, i, 1]
+                + turn[2] * rows[0, i, 2]
                 + water.position[k]
             )
     call(water.flow.function, water.flow.parameters, water.query, time)
     for i in range(query.n):
-        turn_into(water.rotation, velocities[3 * i : 3 * i + 3], found[1, i])
+        globalize(water.rotation, velocities[3 * i : 3 * i + 3], rows[1, i])

@@ -1,12 +1,12 @@
 r"""The motion of the water at bodies, in compiled code.
 
-In W, from the velocity :math:`u` and its change :math:`\partial u/\partial t` that the flow says in
-L: the acceleration of the water which passes a point, and how fast it turns,
+In W, from the velocity :math:`u` and its change :math:`\partial u/\partial t` of the flow in L: the
+acceleration of the water which passes a point, and its rotation,
 
 .. math:: \frac{Du}{Dt} = \frac{\partial u}{\partial t} + (u \cdot \nabla) u, \qquad
     \tfrac12 \nabla \times u
 
-with central differences over `NEARBY`.
+with central differences over `SHEAR_DISTANCE`.
 """
 
 from __future__ import annotations
@@ -30,10 +30,10 @@ from ...physics.hydrodynamics.water_function import (
     WaterFunction,
 )
 
-NEARBY = 0.05
-"""Half the distance over which shear is taken [m]."""
+SHEAR_DISTANCE = 0.05
+"""The half distance over which shear is taken [m]."""
 N_AROUND = 6
-"""Points around a body: along x, y and z of L, ahead of it and behind it."""
+"""The number of points around a body: along x, y and z of L, ahead of it and behind it."""
 
 WATER = np.dtype(
     [
@@ -43,18 +43,18 @@ WATER = np.dtype(
         ("rotation", np.float64, (3, 3)),  # of L from W
         ("position", np.float64, 3),
         ("at_bodies", np.int64),  # the address of a record of `QUERY`
-        ("around_them", np.int64),  # likewise, with `N_AROUND` points a body
+        ("around_bodies", np.int64),  # likewise, with `N_AROUND` points a body
     ],
     align=True,
 )
-"""The water of a scene, for compiled code."""
+"""The record of the water of a scene, for compiled code."""
 ROWS = np.dtype([("rows", np.int64), ("n_left", np.int64), ("n", np.int64)])
-"""The address of rows that were computed beforehand, how many steps have one, and bodies."""
+"""The address of rows computed beforehand, the number of steps that have one, and of bodies."""
 
 Record = Any
 
 
-def of_flow(
+def flow_function(
     flow: FlowFunction,
     localized_from_world: Pose,
     vehicles: npt.NDArray[np.int64],
@@ -62,37 +62,37 @@ def of_flow(
     is_uniform: bool,
     is_steady: bool,
 ) -> WaterFunction:
-    """Return the function of water that flows as a compiled function says.
+    """Return the function of water that flows as a compiled function describes.
 
     Args:
         flow: the function, in L.
         localized_from_world: L from W.
-        vehicles: the number that ``flow`` has for the vehicle at each body, (n,).
-        is_uniform: whether it flows the same everywhere.
-        is_steady: whether it is uniform and flows the same at all times.
+        vehicles: the number in ``flow`` of the vehicle at each body, (n,).
+        is_uniform: True if the flow is the same everywhere.
+        is_steady: True if the flow is uniform and the same at all times.
     """
-    at_bodies, *kept = query_of(vehicles)
-    around_them, *others = query_of(np.repeat(vehicles, N_AROUND))
+    at_bodies, *body_arrays = query_of(vehicles)
+    around_bodies, *neighbour_arrays = query_of(np.repeat(vehicles, N_AROUND))
     row = np.zeros(1, WATER)
     row["flow"], row["n"], row["is_uniform"] = flow.addresses, len(vehicles), is_uniform
     row["rotation"] = localized_from_world.rotation
     row["position"] = localized_from_world.position
-    row["at_bodies"], row["around_them"] = address_of(at_bodies), address_of(around_them)
+    row["at_bodies"], row["around_bodies"] = address_of(at_bodies), address_of(around_bodies)
     return WaterFunction(
         function=function_address(write_water),
         parameters=row,
         needs_points=not is_uniform,
         is_steady=is_steady,
-        memory_owners=(flow, at_bodies, around_them, kept, others),
+        memory_owners=(flow, at_bodies, around_bodies, body_arrays, neighbour_arrays),
     )
 
 
-def of_rows(rows: Array) -> WaterFunction:
+def row_function(rows: Array) -> WaterFunction:
     """Return the function of water that was computed beforehand.
 
     Args:
         rows: velocity, acceleration and rotation of the water in each step, (steps, n, 9); a single
-            one counts for all steps.
+            one applies to all steps.
     """
     parameters = np.zeros(1, ROWS)
     parameters["rows"], parameters["n_left"], parameters["n"] = (
@@ -114,32 +114,33 @@ def write_next_rows(parameters: int, values: int, time: float) -> None:
     if table.n_left == 0:
         return
     size = WATER_ROW - VELOCITY
-    ready, rows = (
+    source, rows = (
         view_doubles(table.rows, size * table.n),
         view_doubles(values, WATER_ROW * table.n),
     )
     for i in range(table.n):
         for k in range(size):
-            rows[WATER_ROW * i + VELOCITY + k] = ready[size * i + k]
+            rows[WATER_ROW * i + VELOCITY + k] = source[size * i + k]
     table.rows += 8 * size * table.n
     table.n_left -= 1
 
 
 def write_water(parameters: int, values: int, time: float) -> None:
-    """Write how the water moves; see `WaterFunction`."""
+    """Write the motion of the water; see `WaterFunction`."""
     water = carray(pointer(parameters), (1,), WATER)[0]
     query = carray(pointer(water.at_bodies), (1,), QUERY)[0]
     rows = view_doubles(values, WATER_ROW * water.n).reshape((water.n, WATER_ROW))
+    points = view_doubles(query.points, 3 * water.n)
     if water.is_uniform == 0:
-        localize(water, rows, view_doubles(query.points, 3 * water.n))
+        localize(water, rows, points)
     call(water.flow.function, water.flow.parameters, water.at_bodies, time)
     velocities = view_doubles(query.velocity, 3 * water.n)
     accelerations = view_doubles(query.acceleration, 3 * water.n)
     if water.is_uniform == 0:
-        shear(water, rows, view_doubles(query.points, 3 * water.n), velocities, accelerations, time)
+        add_shear(water, rows, points, velocities, accelerations, time)
     for i in range(water.n):
-        turn_into(water.rotation, velocities[3 * i : 3 * i + 3], rows[i, VELOCITY:ACCELERATION])
-        turn_into(water.rotation, accelerations[3 * i : 3 * i + 3], rows[i, ACCELERATION:ROTATION])
+        globalize(water.rotation, velocities[3 * i : 3 * i + 3], rows[i, VELOCITY:ACCELERATION])
+        globalize(water.rotation, accelerations[3 * i : 3 * i + 3], rows[i, ACCELERATION:ROTATION])
 
 
 @njit
@@ -153,40 +154,40 @@ def localize(water: Record, rows: Array, points: Array) -> None:
 
 
 @njit
-def shear(
+def add_shear(
     water: Record, rows: Array, points: Array, velocities: Array, accelerations: Array, time: float
 ) -> None:
-    """Add to the accelerations in L what comes of shear, and write the rotations into the rows."""
-    query = carray(pointer(water.around_them), (1,), QUERY)[0]
-    around = view_doubles(query.points, 3 * N_AROUND * water.n).reshape((water.n, 3, 2, 3))
+    """Add the effect of shear to the accelerations in L, and write the rotations into the rows."""
+    query = carray(pointer(water.around_bodies), (1,), QUERY)[0]
+    neighbours = view_doubles(query.points, 3 * N_AROUND * water.n).reshape((water.n, 3, 2, 3))
     for i in range(water.n):
         for j in range(3):
             for side in range(2):
                 for k in range(3):
-                    around[i, j, side, k] = points[3 * i + k]
-                around[i, j, side, j] += NEARBY if side == 0 else -NEARBY
+                    neighbours[i, j, side, k] = points[3 * i + k]
+                neighbours[i, j, side, j] += SHEAR_DISTANCE if side == 0 else -SHEAR_DISTANCE
     query.acceleration = 0
-    call(water.flow.function, water.flow.parameters, water.around_them, time)
-    found = view_doubles(query.velocity, 3 * N_AROUND * water.n).reshape((water.n, 3, 2, 3))
+    call(water.flow.function, water.flow.parameters, water.around_bodies, time)
+    flows = view_doubles(query.velocity, 3 * N_AROUND * water.n).reshape((water.n, 3, 2, 3))
     gradient, rotation = np.empty((3, 3)), np.empty(3)  # rows of the gradient are components
     for i in range(water.n):
         for k in range(3):
-            carried = 0.0
+            convection = 0.0
             for j in range(3):
-                gradient[k, j] = (found[i, j, 0, k] - found[i, j, 1, k]) / (2.0 * NEARBY)
-                carried += gradient[k, j] * velocities[3 * i + j]
-            accelerations[3 * i + k] += carried
+                gradient[k, j] = (flows[i, j, 0, k] - flows[i, j, 1, k]) / (2.0 * SHEAR_DISTANCE)
+                convection += gradient[k, j] * velocities[3 * i + j]
+            accelerations[3 * i + k] += convection
         for k in range(3):
-            following, last = (k + 1) % 3, (k + 2) % 3
-            rotation[k] = 0.5 * (gradient[last, following] - gradient[following, last])
-        turn_into(water.rotation, rotation, rows[i, ROTATION:WATER_ROW])
+            axis_1, axis_2 = (k + 1) % 3, (k + 2) % 3
+            rotation[k] = 0.5 * (gradient[axis_2, axis_1] - gradient[axis_1, axis_2])
+        globalize(water.rotation, rotation, rows[i, ROTATION:WATER_ROW])
 
 
 @njit
-def turn_into(rotation: Array, vector: Array, found: Array) -> None:
+def globalize(rotation: Array, vector: Array, world_vector: Array) -> None:
     """Write a vector of L in W, by the rotation of L from W."""
     for k in range(3):
-        found[k] = (
+        world_vector[k] = (
             0.0
             + vector[0] * rotation[0, k]
             + vector[1] * rotation[1, k]

@@ -24,7 +24,7 @@ class SceneAttachment:
         pose: where the frame is.
         motion: how it moves.
         engine_body: number of the engine's body; None where forces do not move it.
-        on_body: where the frame's origin is in the frame of that body, (3,) [m].
+        position_on_body: where the frame's origin is in the frame of that body, (3,) [m].
     """
 
     def __init__(
@@ -34,18 +34,18 @@ class SceneAttachment:
         pose: Callable[[], Pose],
         motion: Callable[[], BodyMotion],
         engine_body: int | None,
-        on_body: Array,
+        position_on_body: Array,
     ) -> None:
         self.name, self.vehicle = name, vehicle
         self._pose, self.motion = pose, motion
         self.engine_body = engine_body
-        """Number of the engine's body; None where forces do not move it."""
-        self.on_body = on_body
-        """Where the frame's origin is in the frame of that body, (3,) [m]."""
+        """The number of the engine's body; None where forces do not move it."""
+        self.position_on_body = position_on_body
+        """The position of the frame's origin in the frame of that body, (3,) [m]."""
 
     @property
     def world_from_body(self) -> Pose:
-        """Where the frame is now."""
+        """The present pose of the frame."""
         return self._pose()
 
 
@@ -59,22 +59,18 @@ class _Mount:
 
 
 class ForceView:
-    """A scene as its forces see it (`uwsim.world.ForceWorld`).
-
-    Args:
-        scene: the scene.
-    """
+    """A scene as its forces see it (`uwsim.world.ForceWorld`)."""
 
     def __init__(self, scene: PhysicalScene) -> None:
         spec = scene.model.scene
         self._scene = scene
         self._bodies = attachable_bodies(spec, scene.model.robots)
         self.timestep = scene.model.timestep
-        """Length of a step [s]."""
+        """The length of a step [s]."""
         self.world_from_localized = spec.world_from_localized
-        """W from L: the scene's offset."""
+        """The transform of W from L: the scene's offset."""
         self.surface_height = spec.ocean_state.ocean_surface_height
-        """Height of the water's surface in W [m]."""
+        """The height of the water's surface in W [m]."""
         self.water_velocity = scene.water.velocity
         self.stream = scene.stream
         depths, densities = np.array(scene.model.density_levels).T
@@ -88,7 +84,7 @@ class ForceView:
         body = self._bodies[name]
         index, link = body.index, body.link
         if body.kind == "object":
-            return self._on_object(name, index, np.array([x, y, z]))
+            return self._attach_to_object(name, index, np.array([x, y, z]))
         engine, vehicle = self._scene.engine, self._scene.vehicles[index]
         mount = vehicle.moving_mount(_Mount(link, (x, y, z)))
         return SceneAttachment(
@@ -100,10 +96,10 @@ class ForceView:
             np.array([x, y, z]),
         )
 
-    def _on_object(self, name: str, index: int, position: Array) -> SceneAttachment:
-        engine, thing = self._scene.engine, self._scene.model.scene.objects[index]
-        body, mesh = engine.poses.loose_body(index), thing.object_from_mesh
-        origin = np.array(thing.scale_factor) * mesh.position  # (3,) [m]
+    def _attach_to_object(self, name: str, index: int, position: Array) -> SceneAttachment:
+        engine, spec = self._scene.engine, self._scene.model.scene.objects[index]
+        body, mesh = engine.poses.loose_body(index), spec.object_from_mesh
+        origin = np.array(spec.scale_factor) * mesh.position  # (3,) [m]
         object_from_frame = Pose(origin + rotate(mesh.rotation, position), mesh.rotation)
 
         def pose() -> Pose:

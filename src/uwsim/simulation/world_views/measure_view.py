@@ -8,17 +8,12 @@ from .scene_view import SceneView
 
 
 class MeasureView(SceneView):
-    """A scene as its measures and triggers see it (`uwsim.world.World`).
-
-    Args:
-        scene: the scene.
-        sensors: its sensors.
-    """
+    """A scene as its measures and triggers see it (`uwsim.world.World`)."""
 
     def __init__(self, scene: PhysicalScene, sensors: SceneSensors) -> None:
         super().__init__(scene)
         self.world_from_localized = scene.model.scene.world_from_localized
-        """W from L: the scene's offset."""
+        """The transform of W from L: the scene's offset."""
         self.compatibility = scene.model.compatibility
         """The compatibility quirks that are on."""
         self.body = scene.bodies.find

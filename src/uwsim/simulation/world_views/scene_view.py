@@ -6,21 +6,17 @@ from ..physical_scene import PhysicalScene
 
 
 class SceneView:
-    """The base of the views of a scene (`uwsim.world.TimedWorld`).
-
-    Args:
-        scene: the scene.
-    """
+    """The base of the views of a scene (`uwsim.world.TimedWorld`)."""
 
     def __init__(self, scene: PhysicalScene) -> None:
         self.bus = scene.bus
-        """Its topics and services."""
+        """The topics and services."""
         self.timestep = scene.model.timestep
-        """Length of a step [s]."""
+        """The length of a step [s]."""
 
     @property
     def step(self) -> int:
-        """Physics steps since the simulation began."""
+        """The number of physics steps since the simulation began."""
         return self.bus.state.step
 
     @property

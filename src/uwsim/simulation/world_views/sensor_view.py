@@ -24,20 +24,20 @@ class SensorView(SceneView):
         spec = scene.model.scene
         self._scenery, self._is_blind = scene.scenery, is_blind
         self.world_from_localized = spec.world_from_localized
-        """W from L: the scene's offset."""
+        """The transform of W from L: the scene's offset."""
         self.compatibility = scene.model.compatibility
         """The compatibility quirks that are on."""
         self.rays = scene.rays
-        """The surfaces of the scene where they are now."""
+        """The surfaces of the scene at their present poses."""
         self.sea_water = spec.ocean_state.sea_water
         """The water as an acoustic medium."""
         self.surface_height = spec.ocean_state.ocean_surface_height
-        """Height of the water's surface in W [m]."""
+        """The height of the water's surface in W [m]."""
         self.density_levels = scene.model.density_levels
-        """Depth [m] and density [kg/m3] of the water's levels; one level of uniform water."""
+        """The depth [m] and density [kg/m3] of the water's levels; one level of uniform water."""
         self.earth_origin = spec.earth_origin
-        """Where on Earth the origin of W is; None if the scene does not say."""
-        self.compiled_water = scene.water.at_points
+        """The geodetic position of the origin of W; None if the scene states none."""
+        self.compiled_water = scene.water.velocity_function
         self.water_velocity = scene.water.velocity
         self.render = scene.scenery.render
         self.stream = scene.stream

@@ -13,22 +13,16 @@ from .scene_view import SceneView
 
 
 class StageView(SceneView):
-    """A scene as its updaters see it: its setters (`uwsim.world.Stage`).
-
-    Args:
-        scene: the scene.
-        sensors: its sensors.
-        world: the scene as its measures see it.
-    """
+    """A scene as its updaters see it: its setters (`uwsim.world.Stage`)."""
 
     def __init__(self, scene: PhysicalScene, sensors: SceneSensors, world: World) -> None:
         super().__init__(scene)
         self._scenery, self._sensors = scene.scenery, sensors
         self._vehicles, self._data_path = scene.vehicles, scene.model.data_path
         self.world = world
-        """Bodies, cameras and contacts, as measures see them."""
+        """The bodies, cameras and contacts, as measures see them."""
         self.vehicles = scene.vehicles.names
-        """Names of the vehicles, in the file's order."""
+        """The names of the vehicles, in the file's order."""
         self.set_fog = scene.scenery.set_fog
         self.set_light_rate = scene.scenery.set_light_rate
         self.set_current = scene.water.set
@@ -37,7 +31,7 @@ class StageView(SceneView):
 
     @property
     def fog_colour(self) -> tuple[float, float, float]:
-        """Colour of the fog [0..1]."""
+        """The colour of the fog [0..1]."""
         return self._scenery.state.water.fog_colour
 
     def find(self, name: str, *, named_by: str) -> Path:
@@ -51,13 +45,13 @@ class StageView(SceneView):
 
     def set_joints(self, vehicle: str, values: Mapping[int, float]) -> None:
         """Set joints by their number in the joint vector [rad or m], clamped to limits."""
-        moved = self._vehicles.find(vehicle)
-        joints = moved.joints
+        scene_vehicle = self._vehicles.find(vehicle)
+        joints = scene_vehicle.joints
         for number, value in values.items():
             if 0 <= number < len(joints):
                 joints[number] = value
-        moved.set_joints(joints)
+        scene_vehicle.set_joints(joints)
 
     def put_back(self, vehicle: str) -> None:
-        """Put a vehicle where the scene put it, at rest; UnknownName if there is none."""
-        self._vehicles.find(vehicle).put(None)
+        """Place a vehicle at its pose in the scene, at rest; UnknownName if there is none."""
+        self._vehicles.find(vehicle).reset_pose(None)

@@ -20,7 +20,7 @@ class TopicView(SceneView):
         scene: the scene.
         sensors: its sensors, and its devices that measure.
         markers: the markers in it.
-        is_blind: images are black, and nothing is drawn.
+        is_blind: True for black images; nothing is drawn.
     """
 
     def __init__(
@@ -29,9 +29,9 @@ class TopicView(SceneView):
         super().__init__(scene)
         self._scene = scene
         self.is_blind = is_blind
-        """Whether images are black and nothing is drawn."""
+        """A flag: images are black and nothing is drawn."""
         self.world_from_localized = scene.model.scene.world_from_localized
-        """W from L: the scene's offset."""
+        """The transform of W from L: the scene's offset."""
         self.compatibility = scene.model.compatibility
         """The compatibility quirks that are on."""
         self.sensors = sensors
@@ -39,12 +39,12 @@ class TopicView(SceneView):
         self.contacts = scene.contacts
         """Contacts between bodies."""
         self.segmenter = SceneSegmenter(scene.scenery, scene.rays, is_blind=is_blind)
-        """What tells which body a pixel sees."""
+        """The segmentation of images by body."""
         self.body = scene.bodies.find
         self.vehicle = scene.vehicles.find
         self.marker_frames = markers.frames
         self.create_timer = scene.schedule.create_timer
-        self.at_next_step = scene.schedule.at_next_step
+        self.defer_to_next_step = scene.schedule.defer_to_next_step
 
     def frames(self, *, with_objects: bool) -> Sequence[Frame]:
         """List the frames of vehicles, their links and sensors, and those of objects."""

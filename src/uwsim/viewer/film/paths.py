@@ -12,7 +12,7 @@ from ...base.geometry import Array, Intrinsics, Pose, rotation_z
 from ...base.numerics.linear import product
 from ...errors import BadSetting, did_you_mean
 from ...scene.mounts import camera_axes
-from ...simulation.views import Size, focus_of, orbit_view
+from ...simulation.views import Size, find_focus, orbit_view
 from .trial_scene import TrialScene, frame_at
 
 ViewKind = Literal["orbit", "chase", "fixed", "camera"]
@@ -64,9 +64,9 @@ class CameraPath:
         self.intrinsics: Intrinsics = view.intrinsics
         """The intrinsics of the camera."""
         self._initial_pose = view.world_from_camera
-        focus = focus_of(scene.simulation)
+        focus = find_focus(scene.simulation)
         self._radius = 0.5 * float(np.linalg.norm(np.ptp(focus.corners, axis=0)))
-        self._vehicle_path = smooth_vehicle_path(scene, focus.middle, focus.ahead)
+        self._vehicle_path = smooth_vehicle_path(scene, focus.middle, focus.bow_direction)
         self._middle = focus.middle
         self._start_position = self._vehicle_path.positions[frame_at(scene.track, start)[0]]
 

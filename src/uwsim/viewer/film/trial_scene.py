@@ -12,7 +12,7 @@ from ...physics.compile_scene import compile_scene
 from ...results.motion import DrawnMarker, MotionTrack, markers_at
 from ...simulation import Simulation
 from ...simulation.tracked_bodies import TrackedBodies
-from ...simulation.tracked_state import LAMP
+from ...simulation.tracked_state import LAMP_PREFIX
 from ..recorded import RecordedTrial
 
 
@@ -53,10 +53,10 @@ class TrialScene:
             world.scenery.set_light_rate(light)
         for lamp in world.devices:
             if isinstance(lamp, MountedLamp):
-                brightness = self.signal(f"{LAMP}{lamp.spec.name}", frame)
+                brightness = self.signal(f"{LAMP_PREFIX}{lamp.spec.name}", frame)
                 lamp.state.brightness = 1.0 if brightness is None else brightness
         for number, heap in enumerate(world.scenery.heaps):
-            heap.show(self.track.sand.spots(number, frame))
+            heap.restore(self.track.sand.spots(number, frame))
 
     def signal(self, name: str, frame: int) -> float | None:
         """Return a signal in a frame; None where there is none."""

@@ -26,9 +26,9 @@ from ...rendering.grey import grey_truncated
 from ...runs.trial.level_row import LevelRow
 from ...runs.trial.triggered_measure import TriggeredMeasure
 from ...simulation import Simulation
-from ...simulation.markers.lines import described, looks_of
+from ...simulation.markers.lines import describe_markers, draw_markers
 from ...simulation.tracked_state import TrackedState
-from ...simulation.views import FIELD, view_from_pose
+from ...simulation.views import FIELD_OF_VIEW, view_from_pose
 from .head import head_of
 from .readings import Readings
 from .server import LiveServer, Message
@@ -192,11 +192,13 @@ class LiveView:
 
     def _send_markers(self) -> None:
         world = self._simulation.world
-        spawned_markers = world.markers.shown
+        spawned_markers = world.markers.active_markers
         if list(map(id, spawned_markers.values())) == list(map(id, self._markers.values())):
             return
         self._markers = spawned_markers
-        markers = described(looks_of(spawned_markers, world.model.scene.world_from_localized))
+        markers = describe_markers(
+            draw_markers(spawned_markers, world.model.scene.world_from_localized)
+        )
         self._server.publish("markers", json.dumps({"type": "markers", "markers": markers}))
 
     def _send_sand(self) -> None:
@@ -271,7 +273,7 @@ def encode_jpeg(image: npt.NDArray[np.uint8]) -> bytes:
 def _parse_view(message: Message) -> tuple[Pose, tuple[int, int], float]:
     """Read pose, size and vertical field of a view; raise BadSetting if they are invalid."""
     pose, size = message.get("pose"), (message.get("width"), message.get("height"))
-    field = message.get("fovy", FIELD)
+    field = message.get("fovy", FIELD_OF_VIEW)
     values = [*pose, *size, field] if isinstance(pose, list) and len(pose) == 7 else []
     numbers = [number for value in values if (number := read_number(value)) is not None]
     if len(numbers) != 10:
