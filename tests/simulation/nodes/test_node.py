@@ -118,6 +118,6 @@ def test_a_topic_unlike_all_others_is_reported_with_those_of_its_type() -> None:
     bus.publisher("/front", String)
     bus.publisher("/other", Float32MultiArray)
     node.subscribe("camera1", String, lambda _: None)
-    assert node.unfed() == [
+    assert node.describe_unpublished_topics() == [
         "me: it subscribes to 'camera1', but it has no publisher. Topics of its type: 'front'."
     ]
