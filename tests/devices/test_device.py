@@ -23,7 +23,7 @@ class FakeState:
 
     def __init__(self) -> None:
         self.losses: list[tuple[int, float]] = []
-        self.placed_motion: list[Pose] = []
+        self.placed: list[Pose] = []
         self.actuation = {
             0: SimpleNamespace(
                 thrusters=("port", "starboard"),
@@ -32,7 +32,7 @@ class FakeState:
         }
 
     def place_vehicle(self, index: int, pose: Pose) -> None:
-        self.placed_motion.append(pose)
+        self.placed.append(pose)
 
 
 def vehicle_on(state: FakeState) -> SceneVehicle:
@@ -74,6 +74,6 @@ def test_displacements_add_up_and_the_last_one_moves_the_vehicle() -> None:
     along, again, up = vehicle.displacer(0), vehicle.displacer(0), vehicle.displacer(2)
     along(0.5)
     again(0.25)
-    assert state.placed_motion == []
+    assert state.placed == []
     up(-1.0)
-    assert state.placed_motion[0].position.tolist() == [1.75, 2.0, 2.0]
+    assert state.placed[0].position.tolist() == [1.75, 2.0, 2.0]

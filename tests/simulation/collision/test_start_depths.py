@@ -175,12 +175,13 @@ def test_check_names_a_position_that_clears_it(depth: float, frame: str, floor: 
         objects=(thing, replace(floor, orientation=flip)),
         vehicles=tuple(read_scene(SCENE).vehicles),
     )
-    said = Starts(resolved(scene)).object_depth(0)
+    said = Starts(resolved(scene)).describe_object(0)
     found = re.search(r"expected above it, at z (-?\d+\.\d+): <u:onFloor/> sets it there", said)
     assert found, said
     clear = replace(thing, position=(at[0], at[1], float(found[1])))
     assert (
-        Starts(resolved(replace(scene, objects=(clear, *scene.objects[1:])))).object_depth(0) == ""
+        Starts(resolved(replace(scene, objects=(clear, *scene.objects[1:])))).describe_object(0)
+        == ""
     )
 
 

@@ -139,7 +139,7 @@ def test_compiled_water_is_that_of_python_to_the_bit(name: str) -> None:
     found = rows_of(function, POINTS, TIMES)
     reference = water(InPython(CURRENTS[name]()))
     for row, time in zip(found, TIMES, strict=True):
-        velocity, acceleration, rotation = reference.at(POINTS, time, VEHICLES)
+        velocity, acceleration, rotation = reference.motion_at(POINTS, time, VEHICLES)
         turning = np.zeros_like(velocity) if rotation is None else rotation
         assert row.tobytes() == np.hstack([velocity, acceleration, turning]).tobytes()
 
@@ -149,7 +149,7 @@ def test_however_many_bodies_there_are(n: int) -> None:
     points, vehicles = np.random.default_rng(n).uniform(0.0, 4.0, (n, 3)), ("a",) * n
     function = water(a_field()).motion_during(lambda: points, range(1, 2), STEP, vehicles)
     assert function is not None
-    velocity, acceleration, rotation = water(InPython(a_field())).at(points, 1.3, vehicles)
+    velocity, acceleration, rotation = water(InPython(a_field())).motion_at(points, 1.3, vehicles)
     expected = np.hstack([velocity, acceleration, rotation]).tobytes()
     assert rows_of(function, points, [1.3])[0].tobytes() == expected
 

@@ -45,7 +45,7 @@ def test_an_eddy_accelerates_towards_its_middle_and_turns() -> None:
     motion = WaterMotion(scene, Place(stream=lambda _: np.random.default_rng()))
     motion.set(Linear(EDDY))
     at = scene.world_from_localized.transform(np.array([[10.0, 0.0, 0.0]]))
-    velocity, acceleration, rotation = motion.at(at, 0.0, ("",))
+    velocity, acceleration, rotation = motion.motion_at(at, 0.0, ("",))
     back = scene.world_from_localized.rotation
     assert velocity[0] == pytest.approx(back @ [0.0, 1.0, 0.0], abs=1e-9)
     assert acceleration[0] == pytest.approx(back @ [-0.1, 0.0, 0.0], abs=1e-9)
@@ -123,7 +123,9 @@ def test_uniform_water_of_several_steps_is_that_of_each_step(vehicles: tuple[str
     rows = rows_of(found, np.zeros((len(vehicles), 3)), times)
     assert rows.shape == (3, len(vehicles), 9)
     for row, time in zip(rows, times, strict=True):
-        velocity, acceleration, rotation = motion.at(np.ones((len(vehicles), 3)), time, vehicles)
+        velocity, acceleration, rotation = motion.motion_at(
+            np.ones((len(vehicles), 3)), time, vehicles
+        )
         assert rotation is None
         assert (
             row.tobytes() == np.hstack([velocity, acceleration, np.zeros_like(velocity)]).tobytes()
