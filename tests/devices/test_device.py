@@ -37,7 +37,7 @@ class FakeState:
 
 def vehicle_on(state: FakeState) -> SceneVehicle:
     spec = VehicleSpec(name="v", file="v.urdf", position=(1.0, 2.0, 3.0))
-    robot = SimpleNamespace(movable=())
+    robot = SimpleNamespace(movable_joints=())
     frames = MountFrames(spec, robot, Pose.identity())  # type: ignore[arg-type]
     return SceneVehicle(0, frames, state, lambda: 0)  # type: ignore[arg-type]
 
