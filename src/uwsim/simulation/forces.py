@@ -43,7 +43,7 @@ def bind_forces(scene: PhysicalScene) -> tuple[Force, ...]:
 def engine_wrenches(
     forces: Sequence[tuple[ForceSpec, Force]], time: float
 ) -> Iterator[tuple[int, Array, Array]]:
-    """Return the wrenches of forces in the step that begins at ``time`` [s], as `Engine.apply_wrenches` does.
+    """Yield the wrenches of a step that begins at ``time`` [s], for `Engine.apply_wrenches`.
 
     Raises:
         SimulationFailed: a force raises, or returns no pairs of an attachment and six numbers.

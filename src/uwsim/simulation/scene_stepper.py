@@ -146,9 +146,7 @@ class SceneStepper:
             not engine.is_dynamic
             or engine.places_bodies  # a held object is placed beside a vehicle that has drifted
             or bool(self._forces)
-            or any(
-                vehicle.state.placed_motion.part is not None for vehicle in self._kinematic
-            )  # recorded
+            or any(v.state.placed_motion.part is not None for v in self._kinematic)  # recorded
             or water.drift(self._kinematic_names, self._timestep, self._time) is None
         )
 

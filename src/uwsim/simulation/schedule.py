@@ -73,24 +73,24 @@ class Schedule:
         is_needed: Callable[[], bool] | None = None,
         sampling: Sampling | None = None,
     ) -> Callable[[], None]:
-        """Have ``call`` called at the samples of ``rate`` [Hz] from now on.
+        """Call ``call`` at the samples of ``rate`` [Hz] from now on.
 
         Args:
-            rate: how often [Hz].
-            call: what is called.
-            is_needed: says whether the call has something to do; None: it always has. Compiled
+            rate: the rate [Hz].
+            call: the callback.
+            is_needed: returns whether the callback has something to do; None: always. Compiled
                 steps do not end where it has nothing to do.
-            sampling: takes a sample before each call, whether or not the call is needed.
+            sampling: takes a sample before each call, needed or not.
 
         Returns:
-            How to stop.
+            A function that stops the timer.
         """
         state = TimerState.starting_at(self._bus.state.step)
         timer = _Timer(rate, call, is_needed, sampling, state)
         self._set_timers([*self._timers, timer])
 
         def stop() -> None:
-            self._set_timers([each for each in self._timers if each is not timer])
+            self._set_timers([t for t in self._timers if t is not timer])
 
         return stop
 

@@ -1,6 +1,6 @@
 """The depths at which vehicles and objects begin in the ground, and their lifting out of it.
 
-Ground is each fixed object with contacts, on its own. Bodies that begin deeper than a share of
+The ground is each fixed object with contacts, on its own. Bodies that begin deeper than a share of
 their height are a mistake of the scene, of which `uwsim check` warns. Those whose origin is less
 than their own height below the surface are lifted when the run begins
 (`uwsim.physics.kinematics.lift`), unless the scene accepts their start. Deeper bodies stay.

@@ -1,7 +1,7 @@
 """Play, pause, step, reset and quit, as the services of ROS 2's simulation_interfaces.
 
-They are offered on the bus, so that every transport has them. What they are called there has no
-prefix: ``/get_simulation_state``, ``/step_simulation`` and so on.
+The bus offers them, so that every transport has them. Their names there have no prefix:
+``/get_simulation_state``, ``/step_simulation`` and so on.
 """
 
 from __future__ import annotations
@@ -58,12 +58,12 @@ class Quit(Exception):
 class SimulationControl:
     """The state of a simulation that programs outside control.
 
-    `hold` is called at the end of each step, after the transports; it comes back when the next step
+    `hold` is called at the end of each step, after the transports; it returns when the next step
     may begin.
 
     Args:
-        simulation: what is controlled.
-        exchange: lets the transports answer calls while the simulation is paused.
+        simulation: the simulation to control.
+        exchange: a function that answers calls of the transports during a pause.
     """
 
     def __init__(self, simulation: Simulation, exchange: Callable[[], None]) -> None:
@@ -91,7 +91,7 @@ class SimulationControl:
         """Wait while the simulation is paused or stopped, and answer calls.
 
         Raises:
-            Quit: somebody asked for it.
+            Quit: a program requested it.
         """
         while not self._is_stepping and self._state != SimulationState.PLAYING:
             if self._state == SimulationState.QUITTING:

@@ -2,7 +2,7 @@
 
 Poses and velocities are in the frame of the scene file, L, as on all topics. Velocities are those
 of simulated vehicles, over ground, with the axes of L; accelerations are not computed. A vehicle
-may be placed, at rest. What is spawned is a marker with a mesh (`uwsim.simulation.markers`).
+may be placed, at rest. A spawned entity is a marker with a mesh (`uwsim.simulation.markers`).
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
 """Spawned markers as lines that viewers draw over their images.
 
-Cubes, spheres, cylinders and arrows are outlines; lists of points and of shapes a cross at each;
-what is a mesh or a text is a dot with its name.
+Cubes, spheres, cylinders and arrows are outlines, lists of points and of shapes have a cross at
+each, meshes and texts are a dot with their name.
 """
 
 from __future__ import annotations
@@ -34,9 +34,9 @@ def draw_marker(
     """Return the drawing of a marker.
 
     Args:
-        marker: the one, its pose in L.
-        world_from_localized: where L is.
-        max_points: points that its lines may have; lines beyond are left out.
+        marker: the marker, with its pose in L.
+        world_from_localized: the transform of W from L.
+        max_points: the limit of points of its lines; lines beyond it are left out.
     """
     lines = []
     for line in filter(None, _lines(marker)):

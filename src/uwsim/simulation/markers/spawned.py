@@ -1,9 +1,9 @@
 """Markers that programs add by the service ``SpawnMarker``, for a viewer and on ``/tf``.
 
-A marker is named ``<id>+<ns>``. One that is there already is modified; ``DELETE`` removes it, and
-``DELETEALL`` all of them. Poses are in L, whatever frame the header names. Markers have no mass,
-touch nothing, and are not in the images of virtual cameras. A mesh is looked for as those of the
-scene are; one that is not there is refused.
+A marker is named ``<id>+<ns>``. A second marker of a name replaces the first; ``DELETE`` removes
+it, and ``DELETEALL`` all of them. Poses are in L, whatever frame the header names. Markers have no
+mass and no contacts, and are not in the images of virtual cameras. The folders of the scene are
+searched for a mesh; a marker without its mesh is rejected.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ class Markers:
 
     Args:
         clock: returns the simulation time [s].
-        has_mesh: whether there is a mesh of a name; raises AssetError where it may not be read.
+        has_mesh: returns whether there is a mesh of a name; raises AssetError if it is unreadable.
     """
 
     def __init__(self, clock: Callable[[], float], has_mesh: Callable[[str], bool]) -> None:

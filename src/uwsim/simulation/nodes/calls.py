@@ -1,8 +1,8 @@
 """Calls into an algorithm, counted in memory shared with the parent process.
 
-A process that dies takes with it what it knew. Its employer still sees the counter: an odd number
-says that the algorithm had been called and had not come back. Run again with that call cut out,
-everything before it is the same, and the algorithm is not called any more.
+The counter remains readable when the process dies: an odd number means that a call of the algorithm
+has not returned. The parent runs the trial again without that call: everything before it is the
+same, and the algorithm is not called any more.
 """
 
 from __future__ import annotations
@@ -33,17 +33,17 @@ class Cut:
 
 
 class CallStopped(Exception):
-    """An algorithm is not called any more."""
+    """An exception instead of a call: the algorithm is not called any more."""
 
 
 class Calls:
     """The calls into an algorithm: each ``with`` block is one, with the calls made within it.
 
     Args:
-        counter: shared memory in which calls are counted; None: not shared.
+        counter: the counter in shared memory; None: none.
         cut: the call that is not made.
-        limit: how long one may take [s of wall time], where the algorithm has a process of its
-            own; None: for ever.
+        limit: the time limit of a call [s of wall time], if the algorithm has its own process;
+            None: no limit.
     """
 
     def __init__(

@@ -61,7 +61,7 @@ class AlgorithmState(ExternalValue):
         """Return the bytes of the algorithm's ``save``.
 
         Raises:
-            UwsimError: it has no ``save`` and ``restore``, or saves no bytes.
+            UwsimError: the algorithm has no ``save`` and ``restore``, or saves no bytes.
         """
         name, data = type(self._algorithm).__name__, None
         if isinstance(self._algorithm, SavesItself):
@@ -125,8 +125,8 @@ class InProcessNode:
     """A `uwsim.bus.Node` in lock-step: callbacks run inside the step, time waits for them.
 
     An exception in a callback, of whatever kind, is the algorithm's failure, not the simulator's:
-    it is kept in `error`, and the algorithm is not called any more. With ``raises`` it goes on to
-    who drives the simulation. Messages are copied when they are published.
+    it is stored in `error`, and the algorithm is not called any more. With ``raises`` the caller of
+    the simulation receives it. Messages are copied when they are published.
     """
 
     def __init__(
@@ -195,7 +195,7 @@ class InProcessNode:
         """Start the algorithm; an exception is stored in `error`.
 
         Raises:
-            BadSetting: it refuses one of its parameters: that is the user's mistake, not its own.
+            BadSetting: it rejects one of its parameters, which is a mistake of the user.
         """
         self._algorithm, self.state.algorithm = type(algorithm), AlgorithmState(algorithm)
         try:

@@ -32,7 +32,6 @@ class UndeliveredMessages:
         if len(self._deliveries) >= MAX_MESSAGES:
             raise NotAllowed(f"more than {MAX_MESSAGES} of its messages wait to be delivered")
         if self._n_bytes + size > MAX_BYTES:
-            limit = f"{MAX_BYTES // 2**20} MiB"
-            raise NotAllowed(f"messages of more than {limit} wait to be delivered")
+            raise NotAllowed(f"messages of more than {MAX_BYTES // 2**20} MiB wait to be delivered")
         self._deliveries.append((step + delay_steps, size))
         self._n_bytes += size

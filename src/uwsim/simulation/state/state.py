@@ -75,13 +75,13 @@ class RunningIdentity(ExternalValue):
 class State(Record):
     """The values of a simulation that change while it runs.
 
-    `uwsim.Simulation.state` is that of the running simulation and changes with it; a `copy` does
-    not, but it shares messages, which nobody may change once they are published. Two states are
+    `uwsim.Simulation.state` is the state of the running simulation and changes with it; a `copy`
+    does not, but it shares messages, which must not change once they are published. Two states are
     equal if all their numbers are, to the bit. These include frames of bodies, which are computed
-    when they are asked for: `Simulation.pose` or an image makes a state another one.
+    on request: the state differs after `Simulation.pose` or an image.
 
-    Not part of it: callbacks, the hash of the images published so far, and what algorithms keep
-    that offer no ``save`` and ``restore``.
+    Not part of it: callbacks, the hash of the images published so far, and the values of algorithms
+    without ``save`` and ``restore``.
     """
 
     identity: RunningIdentity
@@ -131,7 +131,7 @@ class State(Record):
         """Return the state as bytes, for the same version of uwsim.
 
         Raises:
-            UwsimError: a part of it, as a current of a program's own class, has no bytes.
+            UwsimError: a part of it, such as a current of a class of a program, cannot be saved.
         """
         return pack(self)
 

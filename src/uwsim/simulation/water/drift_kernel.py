@@ -1,4 +1,4 @@
-"""The drift of vehicles that are not simulated, in compiled code: `WaterMotion.carried`."""
+"""The drift of vehicles that are not simulated, in compiled code: `WaterMotion.advect`."""
 
 from __future__ import annotations
 
