@@ -60,11 +60,11 @@ class SceneRays:
         world_from_sensor: Pose,
         directions: Array,
         reach: float,
-        begins: Array | None = None,
+        starts: Array | None = None,
     ) -> Hits:
         """Cast rays from the origin of a sensor; see `RayScene.cast`."""
         self.prepare()
-        return cast(self.functions, world_from_sensor, directions, reach, begins)
+        return cast(self.functions, world_from_sensor, directions, reach, starts)
 
     @property
     def is_compiled(self) -> bool:
