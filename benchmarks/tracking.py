@@ -16,8 +16,8 @@ import numpy as np
 from measure import main
 
 from uwsim.algorithms import ALGORITHMS
-from uwsim.algorithms.esm.homography import between, warp
-from uwsim.algorithms.esm.pyramid import grey
+from uwsim.algorithms.esm.homography import homography_between, warp
+from uwsim.algorithms.esm.pyramid import to_grey
 from uwsim.algorithms.tracker import LossTest, Tracker
 from uwsim.algorithms.tracker_node import TrackerNode
 
@@ -46,7 +46,7 @@ def moving_images(quad: np.ndarray, step: float, sigma: float, *, rgb: bool) -> 
     points = np.stack([u.ravel(), v.ravel()], axis=1)
     position, result = np.zeros(2), []
     for i in range(IMAGES + 1):
-        inverse = between(quad + position, quad)
+        inverse = homography_between(quad + position, quad)
         plain = np.cos(warp(inverse, points) @ k + phase).sum(axis=1).reshape(HEIGHT, WIDTH)
         plain = 128.0 + 30.0 * plain / math.sqrt(12.0)
         if rgb:
@@ -61,14 +61,14 @@ def moving_images(quad: np.ndarray, step: float, sigma: float, *, rgb: bool) -> 
 def cost(name: str, quad: np.ndarray, images: list[np.ndarray], target: float | None) -> object:
     node = ALGORITHMS[name]()
     assert isinstance(node, TrackerNode)
-    tracker = node.follow(grey(images[0]), quad)
+    tracker = node.make_tracker(to_grey(images[0]), quad)
     assert isinstance(tracker, Tracker)
     loss = LossTest(zncc_threshold=0.5, frames=5)
-    tracker.step(grey(images[0]))  # compiles
+    tracker.step(to_grey(images[0]))  # compiles
     cpu, wall, iterations = [], [], []
     for image in images[1:]:
         began_cpu, began_wall = time.process_time_ns(), time.perf_counter_ns()
-        estimate = tracker.step(grey(image))
+        estimate = tracker.step(to_grey(image))
         why = loss.check(estimate, WIDTH, HEIGHT)
         cpu.append((time.process_time_ns() - began_cpu) / 1e6)
         wall.append((time.perf_counter_ns() - began_wall) / 1e6)

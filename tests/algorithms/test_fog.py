@@ -11,9 +11,9 @@ import pytest
 from tests.algorithms.textures import Texture, rectangle, through_fog
 from uwsim.algorithms.direct_tracker import DirectTracker
 from uwsim.algorithms.esm.alignment import Method
-from uwsim.algorithms.esm.homography import between
-from uwsim.algorithms.esm.pyramid import grey
-from uwsim.algorithms.esm.template import take_template
+from uwsim.algorithms.esm.homography import homography_between
+from uwsim.algorithms.esm.pyramid import to_grey
+from uwsim.algorithms.esm.template import extract_template
 from uwsim.algorithms.tracker import LossTest
 
 QUAD = rectangle(80.0, 40.0, 93.0, 28.0)
@@ -25,15 +25,15 @@ def contrast_at_loss(sigma: float, zncc_threshold: float, *, seed: int) -> float
     """Share of the contrast that is left when esm says lost; 10 images a level, 2 % a level."""
     clear = Texture(seed).image(width=SIZE[0], height=SIZE[1])
     rng = np.random.Generator(np.random.Philox(seed))
-    first = grey(through_fog(clear, 1.0, rng, sigma=sigma))
-    tracker = DirectTracker.remember(first, QUAD, levels=3, method=Method())
+    first = to_grey(through_fog(clear, 1.0, rng, sigma=sigma))
+    tracker = DirectTracker.from_image(first, QUAD, levels=3, method=Method())
     assert isinstance(tracker, DirectTracker)
     loss = LossTest(zncc_threshold=zncc_threshold, frames=5)
     transmission = 1.5 * law(clear, sigma, zncc_threshold)
     while transmission > 0.01:
         transmission *= 0.98
         for _ in range(10):
-            image = grey(through_fog(clear, transmission, rng, sigma=sigma))
+            image = to_grey(through_fog(clear, transmission, rng, sigma=sigma))
             if loss.check(tracker.step(image), *SIZE):
                 return transmission
     raise AssertionError("never lost")
@@ -41,7 +41,7 @@ def contrast_at_loss(sigma: float, zncc_threshold: float, *, seed: int) -> float
 
 def law(clear: np.ndarray, sigma: float, zncc_threshold: float) -> float:
     """T = sigma / (S sqrt(1/z^2 - 1))."""
-    template = take_template(clear, QUAD)
+    template = extract_template(clear, QUAD)
     assert template is not None
     return sigma / (template.contrast * math.sqrt(1.0 / zncc_threshold**2 - 1.0))
 
@@ -71,15 +71,17 @@ def sweep(name: str) -> tuple[tuple[float, ...], float]:
         for k in range(8):
             phase = 0.25 * (8 * level + k)
             sway = np.array([6.0 * math.sin(phase), 4.0 * math.sin(1.4 * phase)])
-            clear = texture.image(between(QUAD, QUAD + sway), width=SIZE[0], height=SIZE[1])
+            clear = texture.image(
+                homography_between(QUAD, QUAD + sway), width=SIZE[0], height=SIZE[1]
+            )
             transmission = math.exp(-((fog * DISTANCE) ** 2))
-            image = grey(through_fog(clear, transmission, rng, sigma=3.4))
+            image = to_grey(through_fog(clear, transmission, rng, sigma=3.4))
             if name == "frozen":
                 sum_of_errors += float(np.linalg.norm(np.tile(sway, 4)))
                 continue
             if tracker is None:
                 method = Method(photometric=name == "esm")
-                made = DirectTracker.remember(image, QUAD, levels=3, method=method)
+                made = DirectTracker.from_image(image, QUAD, levels=3, method=method)
                 assert isinstance(made, DirectTracker)
                 tracker = made
             estimate = tracker.step(image)
@@ -113,7 +115,7 @@ def test_a_plane_that_moves_distinguishes_trackers_from_frozen(name: str) -> Non
 
 def test_a_low_image_alone_is_not_a_loss_but_five_are() -> None:
     texture = Texture(1)
-    tracker = DirectTracker.remember(
+    tracker = DirectTracker.from_image(
         texture.image(width=SIZE[0], height=SIZE[1]), QUAD, levels=3, method=Method()
     )
     assert isinstance(tracker, DirectTracker)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from uwsim.algorithms.scripted import Scripted, twist_of
+from uwsim.algorithms.scripted import ScriptedPilot, parse_twist
 from uwsim.assets.bundled import bundled_files
 from uwsim.benchmark.reader import read_benchmark
 from uwsim.errors import BadSetting, NeverStarted
@@ -48,7 +48,7 @@ def rows(
         benchmark=read_benchmark(file),
         scene=replace(scene, ros_interfaces=(twist, odometry)),
         algorithm=AlgorithmUnderTest(
-            cls=Scripted,
+            cls=ScriptedPilot,
             name="scripted",
             parameters=given,  # type: ignore[arg-type]
         ),
@@ -92,4 +92,4 @@ def test_without_its_call_nothing_starts(tmp_path: Path) -> None:
 @pytest.mark.parametrize("text", ["", "1 2 3", "0 0 0 0 0 nan", "a b c d e f"])
 def test_a_twist_is_six_numbers(text: str) -> None:
     with pytest.raises(BadSetting, match="expected six numbers"):
-        twist_of(text)
+        parse_twist(text)

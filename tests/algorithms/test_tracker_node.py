@@ -6,7 +6,7 @@ import pytest
 from tests.algorithms.fake_node import FakeNode
 from tests.algorithms.textures import Texture, rectangle, through_fog
 from uwsim.algorithms import ALGORITHMS, check_parameters
-from uwsim.algorithms.esm.homography import between, warp
+from uwsim.algorithms.esm.homography import homography_between, warp
 from uwsim.algorithms.tracker import Estimate, LossTest
 from uwsim.errors import BadSetting
 
@@ -70,7 +70,7 @@ def test_a_plane_that_moves_is_followed(name: str) -> None:
     node.auto_init(QUAD)
     for k in range(1, 8):
         target = QUAD + np.array([2.0 * k, 1.5 * k]) + 0.3 * k * np.array([[1, 0], [0, 1]] * 2)
-        node.show(texture.image(between(QUAD, target)))
+        node.show(texture.image(homography_between(QUAD, target)))
         assert np.abs(node.corners[-1] - target).max() < (5.0 if name == "orb" else 0.1)
     assert node.statuses == ["tracking"]
 
@@ -88,7 +88,9 @@ def test_frozen_echoes_exactly_what_auto_init_gave() -> None:
 
 def moved(shift: float) -> np.ndarray:
     """The texture's image with everything in it ``shift`` [px] to the right."""
-    return Texture(shortest=6.0, waves=40).image(between(QUAD, QUAD + np.array([shift, 0.0])))
+    return Texture(shortest=6.0, waves=40).image(
+        homography_between(QUAD, QUAD + np.array([shift, 0.0]))
+    )
 
 
 @pytest.mark.parametrize("name", LOOKING)
@@ -225,7 +227,7 @@ def test_a_patch_whose_centre_leaves_the_image_is_lost_at_once() -> None:
     node.show(texture.image())
     node.auto_init(QUAD)
     for k in range(1, 40):
-        node.show(texture.image(between(QUAD, QUAD + np.array([7.0 * k, 0.0]))))
+        node.show(texture.image(homography_between(QUAD, QUAD + np.array([7.0 * k, 0.0]))))
     assert node.statuses[1].startswith("lost: ")
     assert "centre (32" in node.statuses[1] or "ZNCC" in node.statuses[1]
 
@@ -308,7 +310,7 @@ def test_colour_images_are_followed_by_their_luma() -> None:
     node = started("esm")
     texture = Texture()
     target = QUAD + np.array([2.0, 1.0])
-    for image in (texture.image(), texture.image(between(QUAD, target))):
+    for image in (texture.image(), texture.image(homography_between(QUAD, target))):
         node.show(np.repeat(image[:, :, None], 3, axis=2))
         node.auto_init(QUAD)
     assert np.abs(node.corners[-1] - target).max() < 0.05

@@ -492,7 +492,9 @@ def test_an_algorithm_of_a_file_runs_in_workers_and_is_found_again_where_it_was(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     program = tmp_path / "hold.py"
-    program.write_text("from uwsim.algorithms import Frozen\n\n\nclass Hold(Frozen):\n    pass\n")
+    program.write_text(
+        "from uwsim.algorithms import FrozenTracker\n\n\nclass Hold(FrozenTracker):\n    pass\n"
+    )
     call = ["bench", str(write_benchmark(tmp_path, "0.2")), "--algorithm", f"{program}:Hold"]
     assert main([*call, "--out", str(tmp_path / "out")]) == 0
     assert main(["verify", str(tmp_path / "out")]) == 0

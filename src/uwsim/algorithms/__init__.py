@@ -1,4 +1,4 @@
-"""Bundled algorithms under test: pure cores, wired to topics as a third-party program is."""
+"""The bundled algorithms under test; they use topics and services as third-party programs do."""
 
 from __future__ import annotations
 
@@ -11,19 +11,19 @@ from ..errors import BadSetting, did_you_mean, type_and_text
 from .control import PI, P
 from .direct import Esm, InverseCompositional, SsdEsm
 from .ecc import Ecc
-from .frozen import Frozen
+from .frozen import FrozenTracker
 from .grasp import Grasp, GraspBlindClose, GraspNothing, GraspP, GraspTruth
 from .orb import Orb
 from .pilot import Pilot
-from .scripted import Scripted
-from .tracker_node import chosen
+from .scripted import ScriptedPilot
+from .tracker_node import merge_parameters
 
 __all__ = ["ALGORITHMS", "check_parameters", "load_algorithm", "summary"]
 
 ALGORITHMS: dict[str, type[Algorithm]] = {
     "ecc": Ecc,
     "esm": Esm,
-    "frozen": Frozen,
+    "frozen": FrozenTracker,
     "grasp": Grasp,
     "grasp-blind-close": GraspBlindClose,
     "grasp-nothing": GraspNothing,
@@ -34,7 +34,7 @@ ALGORITHMS: dict[str, type[Algorithm]] = {
     "p": P,
     "pi": PI,
     "pilot": Pilot,
-    "scripted": Scripted,
+    "scripted": ScriptedPilot,
     "ssd-esm": SsdEsm,
 }
 
@@ -45,16 +45,16 @@ def summary(algorithm: type[Algorithm]) -> str:
 
 
 def load_algorithm(name: str, table: Mapping[str, type[Algorithm]] = ALGORITHMS) -> type[Algorithm]:
-    """Find an algorithm by its name in ``table``, or a third-party one by ``module:Class``.
+    """Return an algorithm by its name in ``table``, or a third-party one by ``module:Class``.
 
     Raises:
-        BadSetting: there is no such algorithm; says what there is.
+        BadSetting: there is no such algorithm; the message lists the valid names.
     """
     if ":" not in name:
         if name not in table:
             raise BadSetting(
                 f"No algorithm is called {name!r}.{did_you_mean(name, table)} "
-                f"Known: {', '.join(table)}; your own: module:Class, or of a --plugin."
+                f"Known: {', '.join(table)}; or your own as module:Class or in a --plugin."
             )
         return table[name]
     module_name, _, class_name = name.partition(":")
@@ -65,32 +65,33 @@ def load_algorithm(name: str, table: Mapping[str, type[Algorithm]] = ALGORITHMS)
             raise
         raise BadSetting(
             f"Algorithm {name!r}: the module {module_name!r} cannot be imported: "
-            f"{type_and_text(error)}. (A file in this folder is found with PYTHONPATH=.)"
+            f"{type_and_text(error)}. (PYTHONPATH=. finds the files of this folder.)"
         ) from error
-    found = getattr(module, class_name, None)
-    if not isinstance(found, type):
+    algorithm = getattr(module, class_name, None)
+    if not isinstance(algorithm, type):
         classes = [key for key, value in vars(module).items() if isinstance(value, type)]
         raise BadSetting(
             f"Algorithm {name!r}: the module {module_name!r} has no class {class_name!r}."
             f"{did_you_mean(class_name, classes)}"
         )
-    if not callable(getattr(found, "start", None)):
+    if not callable(getattr(algorithm, "start", None)):
         raise BadSetting(f"Algorithm {name!r}: the class has no method start(node).")
-    return found
+    return algorithm
 
 
 def check_parameters(algorithm: type[Algorithm], parameters: Mapping[str, float | str]) -> None:
-    """Refuse a parameter that a bundled algorithm would refuse at its start.
+    """Reject a parameter that a bundled algorithm rejects when it starts.
 
     A third-party class is checked against its ``PARAMETERS``, and by its ``check_parameters``, if
-    it has them. ``latency_s`` is the bus's own and always allowed.
+    it has them. ``latency_s`` is a parameter of the bus and always valid.
 
     Raises:
-        BadSetting: an unknown name, or a value that cannot be used.
+        BadSetting: a name is unknown, or a value is invalid.
     """
     defaults = getattr(algorithm, "PARAMETERS", None)
     if isinstance(defaults, Mapping):
-        chosen(defaults, {name: parameters[name] for name in parameters if name != "latency_s"})
+        own_parameters = {name: parameters[name] for name in parameters if name != "latency_s"}
+        merge_parameters(defaults, own_parameters)
     check = getattr(algorithm, "check_parameters", None)
     if callable(check):
         check(parameters)

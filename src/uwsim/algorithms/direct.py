@@ -10,24 +10,24 @@ from .direct_tracker import DirectTracker
 from .esm.alignment import Method
 from .esm.pyramid import Grey
 from .tracker import Tracker
-from .tracker_node import INPUT, LOSS, TrackerNode
+from .tracker_node import INPUT_PARAMETERS, LOSS_PARAMETERS, TrackerNode
 
 
 class Esm(TrackerNode):
     """ESM on SL(3), patches of zero mean and unit variance, 3 pyramid levels."""
 
     PARAMETERS: ClassVar[Mapping[str, float | str]] = {
-        **INPUT,
+        **INPUT_PARAMETERS,
         "levels": 3.0,
         "max_iterations": 20.0,
         "precision": 1e-4,
-        **LOSS,
+        **LOSS_PARAMETERS,
     }
     BLEND: ClassVar[str] = "esm"
     PHOTOMETRIC: ClassVar[bool] = True
 
-    def follow(self, image: Grey, quad: Array) -> Tracker | str:
-        """Remember the patch on every level."""
+    def make_tracker(self, image: Grey, quad: Array) -> Tracker | str:
+        """Make a tracker with a template of the quad at every pyramid level."""
         method = Method(
             blend=self.BLEND,
             photometric=self.PHOTOMETRIC,
@@ -35,16 +35,16 @@ class Esm(TrackerNode):
             precision=self.number("precision"),
         )
         levels = max(int(self.number("levels")), 1)
-        return DirectTracker.remember(image, quad, levels=levels, method=method)
+        return DirectTracker.from_image(image, quad, levels=levels, method=method)
 
 
 class SsdEsm(Esm):
-    """ESM on SL(3) on plain grey levels: what fog does to ESM without normalisation."""
+    """ESM on SL(3) on grey levels without normalisation, to measure the effect of fog."""
 
     PHOTOMETRIC: ClassVar[bool] = False
 
 
 class InverseCompositional(Esm):
-    """Inverse compositional (Baker and Matthews 2004), normalised like esm."""
+    """The inverse compositional method (Baker and Matthews 2004), normalised like esm."""
 
     BLEND: ClassVar[str] = "ic"

@@ -1,4 +1,4 @@
-"""A tracker that aligns a template coarse to fine, beginning where the patch was last seen."""
+"""A tracker that aligns a template from coarse to fine, starting at its last estimate."""
 
 from __future__ import annotations
 
@@ -7,36 +7,35 @@ import numpy as np
 from ..base.geometry import Array
 from ..base.numerics.linear import product
 from .esm.alignment import Method, align, zncc
-from .esm.homography import between, unimodular, warp
+from .esm.homography import homography_between, normalize_determinant, warp
 from .esm.pyramid import Grey, level_from_image, pyramid
-from .esm.template import Template, take_template
+from .esm.template import Template, extract_template
 from .tracker import Estimate, Tracker
 
 
 class DirectTracker(Tracker):
-    """Direct alignment of grey levels on a pyramid (`uwsim.algorithms.esm.alignment`).
+    """A tracker by direct alignment of grey levels (`uwsim.algorithms.esm.alignment`).
 
-    Levels on which the patch has fewer than 8 rows or columns are left out. A level's result is
-    taken only as far as it raised the correlation, so a coarse level that fits nothing does no
-    harm. At the start the template's pixels are those of the image, anywhere else they are
-    interpolated and a little blurred: of a target at rest in images with little noise every step
-    may be refused, and the result is then exactly the start.
+    Levels on which the patch has fewer than 8 rows or columns are omitted. A step is accepted only
+    if it increases the correlation, so a coarse level without a match does no harm. At the start
+    the template's pixels are those of the image; elsewhere interpolation blurs them. If the target
+    is at rest and the noise is low, every step may be rejected, and the estimate stays the same.
     """
 
     def __init__(self, templates: list[Template], quad: Array, method: Method) -> None:
         self._templates = templates
         self._quad = quad
-        self._centre = crossing(quad)
+        self._centre = diagonal_intersection(quad)
         self._method = method
         self.homography = np.eye(3)
-        """Sends points of the template's image to the last image, (3, 3)."""
+        """The homography from the image of the template to the last image, (3, 3)."""
 
     @staticmethod
-    def remember(image: Grey, quad: Array, *, levels: int, method: Method) -> DirectTracker | str:
-        """Take a template, or return why the patch cannot be tracked."""
+    def from_image(image: Grey, quad: Array, *, levels: int, method: Method) -> DirectTracker | str:
+        """Make a tracker of a quad; return the reason as text if it cannot be tracked."""
         templates: list[Template] = []
-        for level, smaller in enumerate(pyramid(image, levels)):
-            template = take_template(smaller, warp(level_from_image(level), quad))
+        for level, level_image in enumerate(pyramid(image, levels)):
+            template = extract_template(level_image, warp(level_from_image(level), quad))
             if template is None:
                 break
             templates.append(template)
@@ -44,21 +43,21 @@ class DirectTracker(Tracker):
             return "the quad is smaller than 8 px or has no contrast"
         return DirectTracker(templates, quad, method)
 
-    def place(self, quad: Array) -> None:
-        """Begin the next alignment at ``quad``."""
-        self.homography = between(self._quad, quad)
+    def set_quad(self, quad: Array) -> None:
+        """Set the start of the next alignment to ``quad``."""
+        self.homography = homography_between(self._quad, quad)
 
     def step(self, image: Grey) -> Estimate:
         """Find the patch in the next image."""
         images = pyramid(image, len(self._templates))
         homography, iterations = self.homography, 0
         for level in range(min(len(images), len(self._templates)) - 1, -1, -1):
-            shrink, grow = level_from_image(level), level_from_image(-level)
-            guess = product(product(shrink, homography), grow)
-            result = align(images[level], self._templates[level], guess, self._method)
-            homography = product(product(grow, result.homography), shrink)
-            iterations += result.iterations
-        self.homography = unimodular(homography)
+            level_from_full, full_from_level = level_from_image(level), level_from_image(-level)
+            guess = product(product(level_from_full, homography), full_from_level)
+            alignment = align(images[level], self._templates[level], guess, self._method)
+            homography = product(product(full_from_level, alignment.homography), level_from_full)
+            iterations += alignment.iterations
+        self.homography = normalize_determinant(homography)
         return Estimate(
             corners=warp(self.homography, self._quad),
             centroid=warp(self.homography, self._centre[None])[0],
@@ -67,12 +66,12 @@ class DirectTracker(Tracker):
         )
 
 
-def crossing(quad: Array) -> Array:
-    """Where the diagonals of a convex quad (4, 2) cross, (2,)."""
-    along, across = quad[2] - quad[0], quad[3] - quad[1]
+def diagonal_intersection(quad: Array) -> Array:
+    """Return the intersection of the diagonals of a convex quad (4, 2), (2,)."""
+    diagonal, other_diagonal = quad[2] - quad[0], quad[3] - quad[1]
     offset = quad[1] - quad[0]
-    share = (offset[0] * across[1] - offset[1] * across[0]) / (
-        along[0] * across[1] - along[1] * across[0]
+    share = (offset[0] * other_diagonal[1] - offset[1] * other_diagonal[0]) / (
+        diagonal[0] * other_diagonal[1] - diagonal[1] * other_diagonal[0]
     )
-    point: Array = quad[0] + share * along
+    point: Array = quad[0] + share * diagonal
     return point

@@ -10,29 +10,29 @@ import numpy as np
 from ..base.geometry import Array
 from ..base.numerics.linear import determinant, inverse, product
 from ..base.numerics.opencv import deterministic_opencv
-from .direct_tracker import crossing
+from .direct_tracker import diagonal_intersection
 from .esm.alignment import zncc
-from .esm.homography import between, unimodular, warp
+from .esm.homography import homography_between, normalize_determinant, warp
 from .esm.pyramid import Grey
-from .esm.template import Template, take_template
+from .esm.template import Template, extract_template
 from .tracker import Estimate, Tracker
-from .tracker_node import INPUT, LOSS, TrackerNode
+from .tracker_node import INPUT_PARAMETERS, LOSS_PARAMETERS, TrackerNode
 
 
 class Ecc(TrackerNode):
-    """Enhanced correlation coefficient with a homography (OpenCV's findTransformECC)."""
+    """The enhanced correlation coefficient with a homography (OpenCV's findTransformECC)."""
 
     PARAMETERS: ClassVar[Mapping[str, float | str]] = {
-        **INPUT,
+        **INPUT_PARAMETERS,
         "max_iterations": 50.0,
         "precision": 1e-5,
         "smoothing": 5.0,
-        **LOSS,
+        **LOSS_PARAMETERS,
     }
 
-    def follow(self, image: Grey, quad: Array) -> Tracker | str:
-        """Remember the upright box around the quad."""
-        template = take_template(image, quad)
+    def make_tracker(self, image: Grey, quad: Array) -> Tracker | str:
+        """Make a tracker of the axis-aligned bounding box of the quad."""
+        template = extract_template(image, quad)
         if template is None:
             return "the quad is smaller than 8 px or has no contrast"
         return EccTracker(
@@ -46,12 +46,12 @@ class Ecc(TrackerNode):
 
 
 class EccTracker(Tracker):
-    """Maximises the correlation from the last estimate; fails on an image when OpenCV does.
+    """A tracker that maximises the correlation, starting at its last estimate.
 
-    OpenCV compares the upright box around the quad, both images smoothed by a Gaussian of
-    ``smoothing`` pixels. We smooth them before the patch is cut out: OpenCV would smooth the patch
-    as if it were mirrored at its rim, which moves its corners by a quarter of a pixel. There is no
-    pyramid.
+    OpenCV compares the axis-aligned bounding box of the quad, in images that a Gaussian of
+    ``smoothing`` pixels has smoothed. We smooth the whole image before the patch is cut out:
+    OpenCV would mirror the patch at its border, which moves its corners by a quarter of a pixel.
+    There is no pyramid. An image on which OpenCV fails has no estimate.
     """
 
     @deterministic_opencv()
@@ -69,13 +69,13 @@ class EccTracker(Tracker):
 
         height, width = template.values.shape
         self._smoothing = (smoothing, smoothing)
-        smooth = cv2.GaussianBlur(image, self._smoothing, 0.0)
-        self._patch = smooth[template.top :, template.left :][:height, :width].copy()
-        self._everywhere = np.ones(image.shape, np.uint8)
+        smoothed_image = cv2.GaussianBlur(image, self._smoothing, 0.0)
+        self._patch = smoothed_image[template.top :, template.left :][:height, :width].copy()
+        self._image_mask = np.ones(image.shape, np.uint8)
         self._image_from_patch = np.array(
             [[1.0, 0.0, template.left], [0.0, 1.0, template.top], [0.0, 0.0, 1.0]]
         )
-        self._template, self._quad, self._centre = template, quad, crossing(quad)
+        self._template, self._quad, self._centre = template, quad, diagonal_intersection(quad)
         self._homography = np.eye(3)
         self._criteria = (
             cv2.TERM_CRITERIA_EPS | cv2.TERM_CRITERIA_COUNT,
@@ -83,9 +83,9 @@ class EccTracker(Tracker):
             precision,
         )
 
-    def place(self, quad: Array) -> None:
-        """Begin the next search at ``quad``."""
-        self._homography = between(self._quad, quad)
+    def set_quad(self, quad: Array) -> None:
+        """Set the start of the next search to ``quad``."""
+        self._homography = homography_between(self._quad, quad)
 
     @deterministic_opencv()
     def step(self, image: Grey) -> Estimate:
@@ -93,27 +93,27 @@ class EccTracker(Tracker):
         import cv2
 
         guess = product(self._homography, self._image_from_patch)
-        found = True
+        is_found = True
         try:
-            _, warped = cv2.findTransformECC(
+            _, image_from_patch = cv2.findTransformECC(
                 self._patch,
                 cv2.GaussianBlur(image, self._smoothing, 0.0),
                 (guess / guess[2, 2]).astype(np.float32),
                 cv2.MOTION_HOMOGRAPHY,
                 self._criteria,
-                self._everywhere,
+                self._image_mask,
                 1,
             )
         except cv2.error:
-            found = False
+            is_found = False
         else:
-            matrix = product(warped.astype(np.float64), inverse(self._image_from_patch))
-            found = bool(np.all(np.isfinite(matrix)) and determinant(matrix) > 1e-9)
-            if found:
-                self._homography = unimodular(matrix)
+            matrix = product(image_from_patch.astype(np.float64), inverse(self._image_from_patch))
+            is_found = bool(np.all(np.isfinite(matrix)) and determinant(matrix) > 1e-9)
+            if is_found:
+                self._homography = normalize_determinant(matrix)
         return Estimate(
             corners=warp(self._homography, self._quad),
             centroid=warp(self._homography, self._centre[None])[0],
             zncc=zncc(image, self._template, self._homography),
-            found=found,
+            is_found=is_found,
         )

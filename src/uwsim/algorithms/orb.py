@@ -11,34 +11,34 @@ import numpy.typing as npt
 from ..base.geometry import Array
 from ..base.numerics.linear import determinant
 from ..base.numerics.opencv import deterministic_opencv
-from .direct_tracker import crossing
+from .direct_tracker import diagonal_intersection
 from .esm.alignment import zncc
-from .esm.homography import between, unimodular, warp
+from .esm.homography import homography_between, normalize_determinant, warp
 from .esm.pyramid import Grey
-from .esm.template import Template, take_template
+from .esm.template import Template, extract_template
 from .tracker import Estimate, Tracker
-from .tracker_node import INPUT, LOSS, TrackerNode
+from .tracker_node import INPUT_PARAMETERS, LOSS_PARAMETERS, TrackerNode
 
-MARGIN = 15
-"""How far from an image's rim ORB looks for features, and half its smallest patch [px]."""
+EDGE_MARGIN = 15
+"""The margin at the border of an image without features; half ORB's smallest patch [px]."""
 
 
 class Orb(TrackerNode):
     """ORB features detected in every image, and a homography by MAGSAC++ (OpenCV)."""
 
     PARAMETERS: ClassVar[Mapping[str, float | str]] = {
-        **INPUT,
+        **INPUT_PARAMETERS,
         "features": 1000.0,
         "fast_threshold": 7.0,
         "ratio": 0.85,
         "inlier_distance": 2.0,
         "min_inliers": 8.0,
-        **LOSS,
+        **LOSS_PARAMETERS,
     }
 
-    def follow(self, image: Grey, quad: Array) -> Tracker | str:
-        """Remember the features inside the quad."""
-        template = take_template(image, quad)
+    def make_tracker(self, image: Grey, quad: Array) -> Tracker | str:
+        """Make a tracker with the features inside the quad."""
+        template = extract_template(image, quad)
         if template is None:
             return "the quad is smaller than 8 px or has no contrast"
         tracker = OrbTracker(
@@ -57,10 +57,10 @@ class Orb(TrackerNode):
 
 
 class OrbTracker(Tracker):
-    """Matches the template's features in each image; remembers no motion.
+    """A tracker that matches the template's features in each image, without a motion model.
 
-    Matches are mutual nearest neighbours by Hamming distance that pass the ratio test. The random
-    draws of MAGSAC begin anew from the same seed in every image.
+    Matches are mutual nearest neighbours by Hamming distance that pass the ratio test. MAGSAC's
+    random generator has the same seed in every image.
     """
 
     @deterministic_opencv()
@@ -80,28 +80,28 @@ class OrbTracker(Tracker):
 
         self._orb = cv2.ORB.create(
             nfeatures=features,
-            edgeThreshold=MARGIN,
-            patchSize=2 * MARGIN + 1,
+            edgeThreshold=EDGE_MARGIN,
+            patchSize=2 * EDGE_MARGIN + 1,
             fastThreshold=fast_threshold,
         )
         self._matcher = cv2.BFMatcher(cv2.NORM_HAMMING)
         self._ratio, self._min_inliers = ratio, min_inliers
         self._inlier_distance = inlier_distance
-        self._template, self._quad, self._centre = template, quad, crossing(quad)
+        self._template, self._quad, self._centre = template, quad, diagonal_intersection(quad)
         self._homography = np.eye(3)
         mask = np.zeros(image.shape, np.uint8)
-        for row, (first, last) in enumerate(template.runs):
-            mask[template.top + row, template.left + first : template.left + last] = 255
+        for row, (start, end) in enumerate(template.runs):
+            mask[template.top + row, template.left + start : template.left + end] = 255
         self._points, self._descriptors = self._detect(image, mask)
 
     @property
     def n_features(self) -> int:
-        """Number of features remembered."""
+        """The number of features of the template."""
         return len(self._points)
 
-    def place(self, quad: Array) -> None:
-        """Set the last estimate to ``quad``; the next image is searched as a whole all the same."""
-        self._homography = between(self._quad, quad)
+    def set_quad(self, quad: Array) -> None:
+        """Set the last estimate to ``quad``; `step` searches the whole image in any case."""
+        self._homography = homography_between(self._quad, quad)
 
     @deterministic_opencv()
     def step(self, image: Grey) -> Estimate:
@@ -113,12 +113,12 @@ class OrbTracker(Tracker):
             corners=warp(self._homography, self._quad),
             centroid=warp(self._homography, self._centre[None])[0],
             zncc=zncc(image, self._template, self._homography),
-            found=homography is not None,
+            is_found=homography is not None,
         )
 
     def _detect(self, image: Grey, mask: npt.NDArray[np.uint8] | None) -> tuple[Array, Any]:
-        bytes_image = np.clip(np.rint(image), 0, 255).astype(np.uint8)
-        keypoints, descriptors = self._orb.detectAndCompute(bytes_image, mask)
+        image_8bit = np.clip(np.rint(image), 0, 255).astype(np.uint8)
+        keypoints, descriptors = self._orb.detectAndCompute(image_8bit, mask)
         points = np.array([keypoint.pt for keypoint in keypoints]).reshape(-1, 2)
         return points, descriptors
 
@@ -128,13 +128,14 @@ class OrbTracker(Tracker):
         points, descriptors = self._detect(image, None)
         if len(points) < max(self._min_inliers, 2):
             return None
-        there = self._matcher.knnMatch(self._descriptors, descriptors, k=2)
-        back = {m.queryIdx: m.trainIdx for m in self._matcher.match(descriptors, self._descriptors)}
+        neighbours = self._matcher.knnMatch(self._descriptors, descriptors, k=2)
+        reverse_matches = self._matcher.match(descriptors, self._descriptors)
+        query_indices = {match.queryIdx: match.trainIdx for match in reverse_matches}
         pairs = [
-            (best.queryIdx, best.trainIdx)
-            for best, second in there
-            if best.distance < self._ratio * second.distance
-            and back[best.trainIdx] == best.queryIdx
+            (nearest_match.queryIdx, nearest_match.trainIdx)
+            for nearest_match, second_match in neighbours
+            if nearest_match.distance < self._ratio * second_match.distance
+            and query_indices[nearest_match.trainIdx] == nearest_match.queryIdx
         ]
         if len(pairs) < self._min_inliers:
             return None
@@ -148,4 +149,4 @@ class OrbTracker(Tracker):
         )
         if matrix is None or int(inliers.sum()) < self._min_inliers:
             return None
-        return unimodular(matrix) if determinant(matrix) > 1e-9 else None
+        return normalize_determinant(matrix) if determinant(matrix) > 1e-9 else None

@@ -1,4 +1,4 @@
-"""``pilot``: a human at the live view, who is scored like an algorithm."""
+"""``pilot``: a person at the live view, who is scored like an algorithm."""
 
 from __future__ import annotations
 
@@ -21,19 +21,19 @@ from ..messages import (
     TwistStamped,
     header,
 )
-from .scripted import odometry, twist_of
-from .tracker_node import chosen
+from .scripted import odometry_message, parse_twist
+from .tracker_node import merge_parameters
 
 TOPIC = "pilotInputs"
-"""Topic on which a pilot's inputs come, one number an axis, -1..1; axes without one are at 0."""
+"""The topic of the pilot's inputs: one number an axis, -1..1; missing axes are 0."""
 N_JOINTS = 6
-"""Joints that have an axis, beside the jaw."""
+"""The number of joints that have an axis, without the jaw."""
 N_THRUSTERS = 12
-"""Thrusters that have an axis."""
+"""The number of thrusters that have an axis."""
 TWIST_AXES = ("surge", "sway", "heave", "roll", "pitch", "yaw")
-"""Of the vehicle: ahead, to starboard, up; starboard down, bow up, to starboard."""
+"""The axes of the vehicle: ahead, to starboard, up; starboard down, bow up, to starboard."""
 THRUSTER_AXES = tuple(f"thruster{k}" for k in range(1, N_THRUSTERS + 1))
-"""Of single thrusters, in the order of the vehicle's hydrodynamics file: their commands."""
+"""The axes of the thrusters' commands, in the order of the vehicle's hydrodynamics file."""
 AXES = (
     *TWIST_AXES,
     "jaw",
@@ -41,24 +41,24 @@ AXES = (
     *THRUSTER_AXES,
     "lamps",
 )
-"""What the numbers are, new ones last: twist; jaw open; joints on; thrusters; brighter lamps."""
+"""The axes of an input: twist, jaw opening, joints, thrusters, brightness. Append new axes."""
 PERIOD = 0.05
-"""Between two commands while no input changes [s]."""
+"""The time between two commands while no input changes [s]."""
 
 
 class Pilot:
-    """A human pilot: inputs of the live view become commands of a vehicle and its joints.
+    """A human pilot: converts inputs of the live view to commands of a vehicle and its joints.
 
-    An input within the dead zone counts as none; what is commanded follows the input at a limited
-    rate: an input that changes is followed at once, as far as it may be in `PERIOD` after a rest.
-    Before the first input nothing is commanded. A vehicle that takes twists and commands of
-    single thrusters gets those whose axes were moved last; at first twists. All lamps are dimmed
-    together, from full brightness on. Services and topics are named with blanks between them;
-    those of the scene are found without being given.
+    An input in the dead zone is 0. The command approaches the input at a limited rate. When an
+    input changes, a command is published at once; its step is at most that of one `PERIOD`.
+    Before the first input there are no commands. A vehicle may accept both twists and commands of
+    single thrusters: it gets those whose axes moved last, at first twists. All lamps have the same
+    brightness, at first 1. Names of services and topics are separated by blanks; the run sets
+    those of the scene unless the user does.
     """
 
     IS_PILOTED: ClassVar[bool] = True
-    """Inputs come from outside, and are kept with the result."""
+    """True if the inputs come from a person; the result then stores them."""
     PARAMETERS: ClassVar[Mapping[str, float | str]] = {
         "start": "startBench",
         "twist_topic": "",
@@ -80,110 +80,111 @@ class Pilot:
     }
 
     def start(self, node: Node) -> None:
-        """Listen to the inputs, and command from then on."""
+        """Subscribe to the inputs and start the timer of the commands."""
         self._node = node
-        self.parameters = chosen(self.PARAMETERS, node.parameters)
-        self._wanted = np.zeros(len(AXES))
-        self._given = np.zeros(len(AXES))
-        self._changed = self._commanded = -math.inf  # when what is given changed, and was sent [s]
-        self._has_begun = self._was_moving_joints = False
+        self.parameters = merge_parameters(self.PARAMETERS, node.parameters)
+        self._inputs = np.zeros(len(AXES))
+        self._commands = np.zeros(len(AXES))
+        self._change_time = self._command_time = -math.inf  # [s]
+        self._has_input = self._was_moving_joints = False
         twist, odom = (str(self.parameters[name]) for name in ("twist_topic", "odom_topic"))
         joints = str(self.parameters["joints_topic"])
-        self._say_twist = node.publisher(twist, TwistStamped) if twist else None
-        self._say_odom = None if twist or not odom else node.publisher(odom, Odometry)
-        self._say_joints = node.publisher(joints, JointState) if joints else None
+        self._publish_twist = node.publisher(twist, TwistStamped) if twist else None
+        self._publish_odom = None if twist or not odom else node.publisher(odom, Odometry)
+        self._publish_joints = node.publisher(joints, JointState) if joints else None
         thrusters = str(self.parameters["thrusters_topic"])
-        self._say_thrusters = node.publisher(thrusters, Float64MultiArray) if thrusters else None
+        self._publish_thrusts = node.publisher(thrusters, Float64MultiArray) if thrusters else None
         lamps = str(self.parameters["lamp_topics"]).split()
-        self._say_lamps = [node.publisher(topic, Float64) for topic in lamps]
+        self._publish_lamps = [node.publisher(topic, Float64) for topic in lamps]
         self._brightness = 1.0
-        self._by_thrusters = bool(thrusters) and not twist and not odom
+        self._uses_thrusters = bool(thrusters) and not twist and not odom
         names = str(self.parameters["joints"]).split()[:N_JOINTS]
         jaw = str(self.parameters["jaw"]).split()
         self._joints = [(f"joint{k}", name) for k, name in enumerate(names, start=1)]
         self._joints += [("jaw", name) for name in jaw]
         node.subscribe(TOPIC, Float64MultiArray, self._on_input)
-        node.create_timer(PERIOD, self._go_on)
+        node.create_timer(PERIOD, self._on_timer)
 
     def _on_input(self, message: Float64MultiArray) -> None:
         values = np.asarray(message.data, dtype=np.float64)
         if values.ndim != 1 or len(values) > len(AXES) or not np.isfinite(values).all():
             return
-        dead = float(self.parameters["dead_zone"])
+        dead_zone = float(self.parameters["dead_zone"])
         values = np.clip(values, -1.0, 1.0)
-        wanted = np.zeros(len(AXES))
-        wanted[: len(values)] = np.where(np.abs(values) <= dead, 0.0, values)
-        is_news = not self._has_begun or not np.array_equal(wanted, self._wanted)
-        self._wanted, self._has_begun = wanted, True
-        if is_news:
-            self._command()
+        inputs = np.zeros(len(AXES))
+        inputs[: len(values)] = np.where(np.abs(values) <= dead_zone, 0.0, values)
+        is_changed = not self._has_input or not np.array_equal(inputs, self._inputs)
+        self._inputs, self._has_input = inputs, True
+        if is_changed:
+            self._publish_commands()
 
-    def _go_on(self) -> None:
+    def _on_timer(self) -> None:
         for service in str(self.parameters["start"]).split():
-            with suppress(UnknownName):  # nobody waits for it just now
+            with suppress(UnknownName):  # the benchmark does not wait for it now
                 self._node.call(service, Empty())
-        if self._has_begun:
-            self._command()
+        if self._has_input:
+            self._publish_commands()
 
-    def _command(self) -> None:
+    def _publish_commands(self) -> None:
         now = self._node.now
-        passed, self._commanded = min(PERIOD, now - self._commanded), now
-        step = float(self.parameters["rate"]) * min(PERIOD, now - self._changed)
-        change = np.clip(self._wanted - self._given, -step, step)
+        dt, self._command_time = min(PERIOD, now - self._command_time), now
+        step = float(self.parameters["rate"]) * min(PERIOD, now - self._change_time)
+        change = np.clip(self._inputs - self._commands, -step, step)
         if change.any():
-            self._given, self._changed = self._given + change, now
-        given = dict(zip(AXES, self._given.tolist(), strict=True))
-        if self._takes_thrusters(given):
-            self._thrust(given)
+            self._commands, self._change_time = self._commands + change, now
+        commands = dict(zip(AXES, self._commands.tolist(), strict=True))
+        if self._select_thrusters(commands):
+            self._publish_thrust(commands)
         else:
-            self._drive(given)
-        self._move_joints(given)
-        self._dim(given["lamps"] * passed)
+            self._publish_twist_command(commands)
+        self._publish_joint_speeds(commands)
+        self._publish_brightness(commands["lamps"] * dt)
 
-    def _takes_thrusters(self, given: Mapping[str, float]) -> bool:
-        """Whether single thrusters are commanded now, and no twist."""
-        if self._say_thrusters is None or (self._say_twist is None and self._say_odom is None):
-            return self._by_thrusters
-        thrusts = any(given[axis] for axis in THRUSTER_AXES)
-        if thrusts != any(given[axis] for axis in TWIST_AXES):  # both at once: as before
-            self._by_thrusters = thrusts
-        return self._by_thrusters
+    def _select_thrusters(self, commands: Mapping[str, float]) -> bool:
+        """Return whether to command single thrusters instead of a twist."""
+        takes_twists = self._publish_twist is not None or self._publish_odom is not None
+        if self._publish_thrusts is None or not takes_twists:
+            return self._uses_thrusters
+        has_thrust = any(commands[axis] for axis in THRUSTER_AXES)
+        if has_thrust != any(commands[axis] for axis in TWIST_AXES):  # both or neither: no change
+            self._uses_thrusters = has_thrust
+        return self._uses_thrusters
 
-    def _thrust(self, given: Mapping[str, float]) -> None:
-        """Command all thrusters; those without an axis stand still."""
-        assert self._say_thrusters is not None
-        commands = np.zeros(int(float(self.parameters["n_thrusters"])))
-        axes = THRUSTER_AXES[: len(commands)]
-        commands[: len(axes)] = [float(self.parameters["thrust"]) * given[axis] for axis in axes]
+    def _publish_thrust(self, commands: Mapping[str, float]) -> None:
+        """Command all thrusters; those without an axis get 0."""
+        assert self._publish_thrusts is not None
+        thrusts = np.zeros(int(float(self.parameters["n_thrusters"])))
+        axes = THRUSTER_AXES[: len(thrusts)]
+        thrusts[: len(axes)] = [float(self.parameters["thrust"]) * commands[axis] for axis in axes]
         layout = MultiArrayLayout(dim=[], data_offset=0)
-        self._say_thrusters(Float64MultiArray(layout=layout, data=commands))
+        self._publish_thrusts(Float64MultiArray(layout=layout, data=thrusts))
 
-    def _drive(self, given: Mapping[str, float]) -> None:
+    def _publish_twist_command(self, commands: Mapping[str, float]) -> None:
         speed, turn = float(self.parameters["speed"]), float(self.parameters["turn"])
-        down = 1.0 if float(self.parameters["z_is_down"]) > 0.0 else -1.0
-        numbers = (
-            speed * given["surge"],
-            speed * down * given["sway"],
-            -speed * down * given["heave"],
-            turn * given["roll"],
-            turn * down * given["pitch"],
-            turn * down * given["yaw"],
+        z_sign = 1.0 if float(self.parameters["z_is_down"]) > 0.0 else -1.0
+        components = (
+            speed * commands["surge"],
+            speed * z_sign * commands["sway"],
+            -speed * z_sign * commands["heave"],
+            turn * commands["roll"],
+            turn * z_sign * commands["pitch"],
+            turn * z_sign * commands["yaw"],
         )
-        twist = twist_of(" ".join(f"{number:.9g}" for number in numbers))
+        twist = parse_twist(" ".join(f"{component:.9g}" for component in components))
         now = self._node.now
-        if self._say_twist is not None:
-            self._say_twist(TwistStamped(header=header(now), twist=twist))
-        if self._say_odom is not None:
-            self._say_odom(odometry(now, twist))
+        if self._publish_twist is not None:
+            self._publish_twist(TwistStamped(header=header(now), twist=twist))
+        if self._publish_odom is not None:
+            self._publish_odom(odometry_message(now, twist))
 
-    def _move_joints(self, given: Mapping[str, float]) -> None:
-        """Command speeds of the joints while one is moved, and once more when they stop."""
-        speeds = np.array([given[axis] for axis, _ in self._joints])
-        moves = bool(speeds.any())
-        if self._say_joints is None or not (moves or self._was_moving_joints):
+    def _publish_joint_speeds(self, commands: Mapping[str, float]) -> None:
+        """Command speeds of the joints while an axis is moved, and 0 once at the end."""
+        speeds = np.array([commands[axis] for axis, _ in self._joints])
+        is_moving = bool(speeds.any())
+        if self._publish_joints is None or not (is_moving or self._was_moving_joints):
             return
-        self._was_moving_joints = moves
-        self._say_joints(
+        self._was_moving_joints = is_moving
+        self._publish_joints(
             JointState(
                 header=header(self._node.now),
                 name=[name for _, name in self._joints],
@@ -193,11 +194,11 @@ class Pilot:
             )
         )
 
-    def _dim(self, moved: float) -> None:
-        """Command the brightness of all lamps when it changes; ``moved``: the axis times time."""
-        change = float(self.parameters["dim_rate"]) * moved
+    def _publish_brightness(self, input_time: float) -> None:
+        """Command the brightness of all lamps if it changes (``input_time``: axis times dt)."""
+        change = float(self.parameters["dim_rate"]) * input_time
         brightness = min(1.0, max(0.0, self._brightness + change))
         if brightness != self._brightness:
             self._brightness = brightness
-            for say in self._say_lamps:
-                say(Float64(data=brightness))
+            for publish in self._publish_lamps:
+                publish(Float64(data=brightness))

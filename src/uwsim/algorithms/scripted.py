@@ -1,4 +1,4 @@
-"""``scripted``: calls services and publishes at given times, and drives at a constant twist."""
+"""``scripted``: starts and stops benchmarks at set times and commands a constant twist."""
 
 from __future__ import annotations
 
@@ -25,19 +25,19 @@ from ..messages import (
     Vector3,
     header,
 )
-from .tracker_node import chosen
+from .tracker_node import merge_parameters
 
 PERIOD = 0.1
-"""Between two twists, and between two calls of what starts [s]."""
+"""The time between two twists, and between two start signals [s]."""
 
 
-class Scripted:
-    """Starts and stops benchmarks on time, and drives at a constant twist: no tracker at all.
+class ScriptedPilot:
+    """A script: starts and stops benchmarks at set times and commands a constant twist.
 
-    Services and topics are named with blanks between them. What starts is called, or told yes
-    (std_msgs/Bool), again and again, so that every level and measure that waits for it begins;
-    what stops is used every ``stop_after`` seconds, so that it ends one level after the other.
-    Services that are not offered are skipped.
+    Names of services and topics are separated by blanks. A signal calls the services and publishes
+    true (std_msgs/Bool) on the topics. The start signal is sent every `PERIOD`, so that every level
+    and measure that waits for it starts. The stop signal is sent every ``stop_after`` seconds and
+    ends one level after the other. Services that are not offered are skipped.
     """
 
     PARAMETERS: ClassVar[Mapping[str, float | str]] = {
@@ -53,61 +53,61 @@ class Scripted:
     }
 
     def start(self, node: Node) -> None:
-        """Set the timers."""
+        """Read the parameters and start the timers."""
         self._node = node
-        self.parameters = chosen(self.PARAMETERS, node.parameters)
-        begun, start_after = node.now, float(self.parameters["start_after"])
+        self.parameters = merge_parameters(self.PARAMETERS, node.parameters)
+        start_time, start_after = node.now, float(self.parameters["start_after"])
         stop_after = float(self.parameters["stop_after"])
-        starts, stops = self._doer("start"), self._doer("stop")
+        send_start, send_stop = self._signal("start"), self._signal("stop")
 
         def begin() -> None:
-            if node.now >= begun + start_after - 1e-9:
-                starts()
+            if node.now >= start_time + start_after - 1e-9:
+                send_start()
 
         def end() -> None:
-            if node.now > begun:  # a timer goes off at once, too
-                stops()
+            if node.now > start_time:  # a timer calls at once, too
+                send_stop()
 
         node.create_timer(PERIOD, begin)
         if stop_after > 0.0:
             node.create_timer(stop_after, end)
-        twist = twist_of(str(self.parameters["twist"]))
+        twist = parse_twist(str(self.parameters["twist"]))
         if topic := str(self.parameters["twist_topic"]):
-            say = node.publisher(topic, TwistStamped)
+            publish_twist = node.publisher(topic, TwistStamped)
             node.create_timer(
-                PERIOD, lambda: say(TwistStamped(header=header(node.now), twist=twist))
+                PERIOD, lambda: publish_twist(TwistStamped(header=header(node.now), twist=twist))
             )
         if topic := str(self.parameters["odom_topic"]):
-            tell = node.publisher(topic, Odometry)
-            node.create_timer(PERIOD, lambda: tell(odometry(node.now, twist)))
+            publish_odometry = node.publisher(topic, Odometry)
+            node.create_timer(PERIOD, lambda: publish_odometry(odometry_message(node.now, twist)))
 
-    def _doer(self, what: str) -> Doer:
-        services = str(self.parameters[what]).split()
-        topics = str(self.parameters[f"{what}_topics"]).split()
-        return Doer(self._node, services, topics)
+    def _signal(self, name: str) -> Signal:
+        services = str(self.parameters[name]).split()
+        topics = str(self.parameters[f"{name}_topics"]).split()
+        return Signal(self._node, services, topics)
 
 
-class Doer:
-    """Calls services and publishes true on topics."""
+class Signal:
+    """A signal: calls services and publishes true on topics."""
 
     def __init__(self, node: Node, services: list[str], topics: list[str]) -> None:
         self._node, self._services = node, services
-        self._say = [node.publisher(topic, Bool) for topic in topics]
+        self._publishers = [node.publisher(topic, Bool) for topic in topics]
 
     def __call__(self) -> None:
         """Call the services and publish on the topics."""
         for service in self._services:
-            with suppress(UnknownName):  # nobody waits for it just now
+            with suppress(UnknownName):  # the benchmark does not wait for it now
                 self._node.call(service, Empty())
-        for say in self._say:
-            say(Bool(data=True))
+        for publish in self._publishers:
+            publish(Bool(data=True))
 
 
-def twist_of(text: str) -> Twist:
-    """A twist from six numbers: along x, y, z [m/s] and about them [rad/s].
+def parse_twist(text: str) -> Twist:
+    """Parse a twist of six numbers: along x, y, z [m/s] and about them [rad/s].
 
     Raises:
-        BadSetting: it is no six finite numbers.
+        BadSetting: the text is not six finite numbers.
     """
     try:
         numbers = [float(word) for word in text.split()]
@@ -122,13 +122,13 @@ def twist_of(text: str) -> Twist:
     return Twist(linear=Vector3(x=vx, y=vy, z=vz), angular=Vector3(x=wx, y=wy, z=wz))
 
 
-def odometry(time: float, twist: Twist) -> Odometry:
-    """A message with a twist for ``ROSOdomToPAT``: its pose is all zero."""
-    upright = Quaternion(x=0.0, y=0.0, z=0.0, w=1.0)
-    nowhere = Pose(position=Point(x=0.0, y=0.0, z=0.0), orientation=upright)
+def odometry_message(time: float, twist: Twist) -> Odometry:
+    """Make a message with a twist for ``ROSOdomToPAT``; its pose is the identity."""
+    identity = Quaternion(x=0.0, y=0.0, z=0.0, w=1.0)
+    origin = Pose(position=Point(x=0.0, y=0.0, z=0.0), orientation=identity)
     return Odometry(
         header=header(time),
         child_frame_id="",
-        pose=PoseWithCovariance(pose=nowhere, covariance=np.zeros(36)),
+        pose=PoseWithCovariance(pose=origin, covariance=np.zeros(36)),
         twist=TwistWithCovariance(twist=twist, covariance=np.zeros(36)),
     )

@@ -1,4 +1,4 @@
-"""The interface of trackers, and the test whether a tracker is lost."""
+"""The interface of trackers, and the test for the loss of a target."""
 
 from __future__ import annotations
 
@@ -12,18 +12,18 @@ from .esm.pyramid import Grey
 
 @dataclass(frozen=True, eq=False)
 class Estimate:
-    """A tracker's estimate of the patch in an image, in pixels from the centre of the first."""
+    """The estimate of a patch in an image, in pixels from the centre of the first pixel."""
 
     corners: Array
-    """The corners in the order they were handed in, (4, 2) [px]."""
+    """The corners in the order of the initial quad, (4, 2) [px]."""
     centroid: Array
-    """Where the diagonals of the corners cross: the image of the patch's centre, (2,) [px]."""
+    """The intersection of the diagonals: the image of the patch's centre, (2,) [px]."""
     zncc: float
-    """Correlation of template and image there, -1..1 (`esm.alignment.zncc`)."""
-    found: bool = True
-    """False when the method itself gave up; corners and centroid are then the last ones."""
+    """The correlation of template and image at the estimate, -1..1 (`esm.alignment.zncc`)."""
+    is_found: bool = True
+    """True if the method converged; otherwise corners and centroid are the last ones."""
     iterations: int = 0
-    """Steps taken, over all pyramid levels."""
+    """The number of steps, over all pyramid levels."""
 
 
 class Tracker(abc.ABC):
@@ -34,31 +34,31 @@ class Tracker(abc.ABC):
         """Find the patch in the next image (h, w) [grey level]."""
 
     @abc.abstractmethod
-    def place(self, quad: Array) -> None:
-        """Set the estimate to the convex ``quad`` (4, 2) [px]; the template stays."""
+    def set_quad(self, quad: Array) -> None:
+        """Set the estimate to the convex ``quad`` (4, 2) [px] and keep the template."""
 
 
 class LossTest:
-    """The test whether a tracker is lost.
+    """The test for the loss of a target.
 
-    Lost is: a ZNCC below the threshold (or nothing found) on so many images in a row; or a quad
-    that is not convex; or one that has left the image: its centre is outside, so about half of it
-    is. Images in between may still be low.
+    A target is lost if the ZNCC is below the threshold, or nothing is found, on ``frames``
+    consecutive images. It is also lost if its quad is not convex, or if the centre of the quad is
+    outside the image.
     """
 
     def __init__(self, *, zncc_threshold: float, frames: int) -> None:
         self._threshold = zncc_threshold
-        self._frames = frames
-        self._low = 0
+        self._max_low = frames
+        self._n_low = 0
 
     def check(self, estimate: Estimate, width: int, height: int) -> str | None:
-        """Why the tracker is lost with this estimate; None when it is not."""
-        good = estimate.found and estimate.zncc >= self._threshold
-        self._low = 0 if good else self._low + 1
-        if self._low >= self._frames:
-            what = f"ZNCC {estimate.zncc:.2f}" if estimate.found else "nothing found"
-            return f"{what} on {self._frames} frames"
-        if not estimate.found:
+        """Return the reason why the target is lost; None if it is not lost."""
+        is_good = estimate.is_found and estimate.zncc >= self._threshold
+        self._n_low = 0 if is_good else self._n_low + 1
+        if self._n_low >= self._max_low:
+            reason = f"ZNCC {estimate.zncc:.2f}" if estimate.is_found else "nothing found"
+            return f"{reason} on {self._max_low} frames"
+        if not estimate.is_found:
             return None
         u, v = estimate.centroid
         if not is_in_image(u, v, width, height):
@@ -67,7 +67,7 @@ class LossTest:
 
 
 def quad_error(quad: Array, width: int, height: int) -> str | None:
-    """What makes a quad (4, 2) [px] impossible to follow in an image; None when nothing does."""
+    """Return why a quad (4, 2) [px] cannot be tracked in an image; None if it can."""
     names = ("NW", "NE", "SE", "SW")
     for name, (u, v) in zip(names, quad, strict=True):
         if not is_in_image(u, v, width, height):

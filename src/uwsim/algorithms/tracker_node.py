@@ -1,12 +1,12 @@
-"""The node of all trackers: images in, corners, centroid and status out.
+"""The algorithm that all trackers share: it reads images and publishes corners, centroid, status.
 
 It subscribes to the images, offers ``autoInit`` and, after the first image, calls
-``startBench``. The template is the last image inside the first quad that ``autoInit`` hands in;
-every later quad is where the patch is now. A tracker that is lost says so once and stays silent
-until ``autoInit`` tells it where to track again; one that could not begin has to be created anew.
-Estimates carry no stamp; they are published while the image's callback runs.
+``startBench``. The first quad of ``autoInit`` selects the template in the last image;
+every later quad is the present position of the patch. A lost tracker publishes its loss once, and
+no estimates until the next ``autoInit``. A tracker that failed at its first quad never restarts.
+Estimates have no stamp; they are published while the image's callback runs.
 
-Without ``autoInit`` the quad is a parameter, ``corners``, and the template the first image.
+Without ``autoInit`` the quad is the parameter ``corners``, and the template the first image.
 """
 
 from __future__ import annotations
@@ -31,27 +31,27 @@ from ..messages import (
     floats,
     pixels_of,
 )
-from .esm.pyramid import Grey, grey
+from .esm.pyramid import Grey, to_grey
 from .tracker import LossTest, Tracker, quad_error
 
-INPUT: Mapping[str, float | str] = {"image_topic": "/uwsim/camera1", "corners": ""}
-"""Parameters of what it looks at: the topic of the images; x, y of the quad NW NE SE SW [px] in
-the first image, eight numbers, for a benchmark in which nobody calls ``autoInit``."""
-LOSS = {"zncc_threshold": 0.5, "lost_frames": 5.0}
-"""Parameters of the loss test, the same in every tracker."""
+INPUT_PARAMETERS: Mapping[str, float | str] = {"image_topic": "/uwsim/camera1", "corners": ""}
+"""The parameters of the input: the topic of the images; the quad in the first image, for a
+benchmark that does not call ``autoInit``: x, y of NW NE SE SW [px], eight numbers."""
+LOSS_PARAMETERS = {"zncc_threshold": 0.5, "lost_frames": 5.0}
+"""The parameters of the loss test, which all trackers share."""
 
 
 class TrackerNode(abc.ABC):
-    """An algorithm under test that follows a quad; a tracker adds `PARAMETERS` and `follow`."""
+    """An algorithm that tracks a quad; a derived class has `PARAMETERS` and `make_tracker`."""
 
     PARAMETERS: ClassVar[Mapping[str, float | str]]
-    """Every parameter with its default; others are refused."""
+    """The parameters with their defaults; other names are rejected."""
 
     def __init__(self) -> None:
         self._parameters: dict[str, float | str] = dict(self.PARAMETERS)
         self._image: Image | None = None
         self._quad: Array | None = None
-        self._told_by = "corners"  # who gave that quad
+        self._quad_source = "corners"  # the parameter or the service
         self._tracker: Tracker | None = None
         self._loss: LossTest | None = None
         self._is_lost = False
@@ -64,15 +64,15 @@ class TrackerNode(abc.ABC):
 
     @staticmethod
     def check_parameters(parameters: Mapping[str, float | str]) -> None:
-        """Refuse ``corners`` that are no eight numbers, with BadSetting."""
-        corners_of(parameters)
+        """Raise BadSetting if ``corners`` is not eight numbers."""
+        parse_corners(parameters)
 
     @abc.abstractmethod
-    def follow(self, image: Grey, quad: Array) -> Tracker | str:
-        """Take a template of ``quad`` (4, 2) [px], or return why it cannot be tracked."""
+    def make_tracker(self, image: Grey, quad: Array) -> Tracker | str:
+        """Make a tracker of ``quad`` (4, 2) [px]; return the reason if it cannot be tracked."""
 
     def loss_test(self) -> LossTest | None:
-        """Make the test whether it is lost; None for one that never is."""
+        """Make the loss test; None for an algorithm that is never lost."""
         return LossTest(
             zncc_threshold=self.number("zncc_threshold"),
             frames=max(int(self.number("lost_frames")), 1),
@@ -80,99 +80,98 @@ class TrackerNode(abc.ABC):
 
     def start(self, node: Node) -> None:
         """Read the parameters and connect to the bus."""
-        self._parameters = chosen(self.PARAMETERS, node.parameters)
-        self._quad = corners_of(self._parameters)
+        self._parameters = merge_parameters(self.PARAMETERS, node.parameters)
+        self._quad = parse_corners(self._parameters)
         self._node = node
-        self._say_status = node.publisher("algorithmStatus", String)
-        self._say_corners = node.publisher("cornersTopic", Float32MultiArray)
-        self._say_centroid = node.publisher("centroidTopic", Float32MultiArray)
+        self._publish_status = node.publisher("algorithmStatus", String)
+        self._publish_corners = node.publisher("cornersTopic", Float32MultiArray)
+        self._publish_centroid = node.publisher("centroidTopic", Float32MultiArray)
         node.serve("autoInit", GTpublish, self._on_auto_init)
         node.subscribe(self.text("image_topic"), Image, self._on_image)
 
     def number(self, name: str) -> float:
-        """A parameter that is a number."""
+        """Return a parameter as a number."""
         return float(self._parameters[name])
 
     def text(self, name: str) -> str:
-        """A parameter that is a text."""
+        """Return a parameter as text."""
         return str(self._parameters[name])
 
     def _on_image(self, message: Image) -> None:
-        first = self._image is None
+        is_first = self._image is None
         self._image = message
-        if first:
+        if is_first:
             self._call_start_bench()
             if self._quad is not None and self._tracker is None and not self._has_failed:
-                self._begin(message, self._quad, self._told_by)
+                self._start_track(message, self._quad, self._quad_source)
             return
         if self._tracker is None or self._is_lost:
             return
-        estimate = self._tracker.step(grey(pixels_of(message)))
-        if estimate.found:
-            self._say_corners(floats(estimate.corners.reshape(-1)))
-            self._say_centroid(floats(estimate.centroid))
-        why = self._loss and self._loss.check(estimate, message.width, message.height)
-        if why:
-            self._lose(why)
+        estimate = self._tracker.step(to_grey(pixels_of(message)))
+        if estimate.is_found:
+            self._publish_corners(floats(estimate.corners.reshape(-1)))
+            self._publish_centroid(floats(estimate.centroid))
+        reason = self._loss and self._loss.check(estimate, message.width, message.height)
+        if reason:
+            self._report_loss(reason)
 
     def _call_start_bench(self) -> None:
         try:
             self._node.call("startBench", Empty())
         except UnknownName:
-            return  # the benchmark does not wait for us
+            return  # the benchmark does not wait for the call
 
     def _on_auto_init(self, request: GTpublish) -> GTpublishResponse:
-        truth = np.asarray(request.groundTruth, dtype=np.float64)
+        values = np.asarray(request.groundTruth, dtype=np.float64)
         if self._has_failed:
             pass
-        elif truth.shape != (8,):
-            self._fail(f"autoInit gave {truth.size} numbers instead of 8")
+        elif values.shape != (8,):
+            self._report_failure(f"autoInit gave {values.size} numbers instead of 8")
         elif self._image is None:
-            self._quad, self._told_by = truth.reshape(4, 2), "autoInit"
+            self._quad, self._quad_source = values.reshape(4, 2), "autoInit"
         elif self._tracker is None:
-            self._begin(self._image, truth.reshape(4, 2), "autoInit")
+            self._start_track(self._image, values.reshape(4, 2), "autoInit")
         else:
-            self._place(self._tracker, self._image, truth.reshape(4, 2))
+            self._set_quad(self._tracker, self._image, values.reshape(4, 2))
         return GTpublishResponse()
 
-    def _begin(self, message: Image, quad: Array, told_by: str) -> None:
-        """Take the template."""
-        why = quad_error(quad, message.width, message.height)
-        tracker = why or self.follow(grey(pixels_of(message)), quad)
+    def _start_track(self, message: Image, quad: Array, source: str) -> None:
+        reason = quad_error(quad, message.width, message.height)
+        tracker = reason or self.make_tracker(to_grey(pixels_of(message)), quad)
         if isinstance(tracker, str):
-            self._fail(f"{told_by}: {tracker}")
+            self._report_failure(f"{source}: {tracker}")
             return
         self._tracker = tracker
-        self._track()
+        self._report_tracking()
 
-    def _place(self, tracker: Tracker, message: Image, quad: Array) -> None:
+    def _set_quad(self, tracker: Tracker, message: Image, quad: Array) -> None:
         """Set the estimate to another quad and keep the template."""
-        if why := quad_error(quad, message.width, message.height):
-            self._lose(f"autoInit: {why}")
+        if reason := quad_error(quad, message.width, message.height):
+            self._report_loss(f"autoInit: {reason}")
             return
-        tracker.place(quad)
-        self._track()
+        tracker.set_quad(quad)
+        self._report_tracking()
 
-    def _track(self) -> None:
+    def _report_tracking(self) -> None:
         self._is_lost = False
         self._loss = self.loss_test()
-        self._say_status(String(data="tracking"))
+        self._publish_status(String(data="tracking"))
 
-    def _lose(self, why: str) -> None:
+    def _report_loss(self, reason: str) -> None:
         self._is_lost = True
-        self._say_status(String(data=f"lost: {why}"))
+        self._publish_status(String(data=f"lost: {reason}"))
 
-    def _fail(self, why: str) -> None:
+    def _report_failure(self, reason: str) -> None:
         self._has_failed = True
         self._tracker = None
-        self._say_status(String(data=f"failed: {why}"))
+        self._publish_status(String(data=f"failed: {reason}"))
 
 
-def corners_of(parameters: Mapping[str, float | str]) -> Array | None:
-    """Return the parameter ``corners`` as a quad (4, 2) [px]; None where it is empty.
+def parse_corners(parameters: Mapping[str, float | str]) -> Array | None:
+    """Parse the parameter ``corners`` as a quad (4, 2) [px]; None if it is empty.
 
     Raises:
-        BadSetting: it is not eight finite numbers.
+        BadSetting: the parameter is not eight finite numbers.
     """
     text = str(parameters.get("corners", ""))
     if not text.strip():
@@ -189,30 +188,30 @@ def corners_of(parameters: Mapping[str, float | str]) -> Array | None:
     return numbers.reshape(4, 2)
 
 
-def chosen(
-    defaults: Mapping[str, float | str], given: Mapping[str, float | str]
+def merge_parameters(
+    defaults: Mapping[str, float | str], parameters: Mapping[str, float | str]
 ) -> dict[str, float | str]:
-    """The defaults, overridden by what was given.
+    """Return the defaults, overridden by the parameters of the user.
 
     Raises:
-        BadSetting: a name that is not among the defaults, or text or less than 0 for a number.
+        BadSetting: a name has no default, or a number is negative or text.
     """
-    result = dict(defaults)
-    for name, value in given.items():
+    settings = dict(defaults)
+    for name, value in parameters.items():
         if name not in defaults:
             raise BadSetting(
                 f"The algorithm has no parameter {name!r}.{did_you_mean(name, defaults)} "
                 f"Known: {', '.join(sorted(defaults))}."
             )
         if isinstance(defaults[name], str):
-            result[name] = str(value)
+            settings[name] = str(value)
             continue
         try:
-            result[name] = float(value)
+            settings[name] = float(value)
         except ValueError:
-            result[name] = math.nan
-        if not 0.0 <= float(result[name]) < math.inf:
+            settings[name] = math.nan
+        if not 0.0 <= float(settings[name]) < math.inf:
             raise BadSetting(
                 f"Parameter {name!r} of the algorithm is {value!r}; expected a number >= 0."
             )
-    return result
+    return settings

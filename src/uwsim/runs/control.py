@@ -44,10 +44,10 @@ def _cameras(plan: Plan) -> list[str | None]:
 def control_of(run: Run) -> Run:
     """Return the same run with `frozen`, into ``control/``."""
     from ..algorithms import load_algorithm
-    from ..algorithms.tracker_node import INPUT
+    from ..algorithms.tracker_node import INPUT_PARAMETERS
     from ..results.directory import CONTROL as FOLDER
 
-    topic, default_topic = image_topic(run.plan), str(INPUT["image_topic"])
+    topic, default_topic = image_topic(run.plan), str(INPUT_PARAMETERS["image_topic"])
     is_default = topic is None or topic.strip("/") == default_topic.strip("/")
     plan = replace(
         run.plan,

@@ -8,10 +8,10 @@ from scipy.linalg import expm
 
 from tests.algorithms.textures import rectangle
 from uwsim.algorithms.esm.homography import (
-    between,
     exponential,
+    homography_between,
     is_convex,
-    unimodular,
+    normalize_determinant,
     warp,
 )
 
@@ -69,14 +69,14 @@ def test_each_generator_moves_points_as_the_jacobian_says(index: int, motion) ->
 @given(st.lists(st.floats(-0.4, 0.4), min_size=8, max_size=8))
 def test_a_homography_between_quads_sends_corner_to_corner(offsets: list[float]) -> None:
     target = QUAD + np.array(offsets).reshape(4, 2)
-    homography = between(QUAD, target)
+    homography = homography_between(QUAD, target)
     assert warp(homography, QUAD) == pytest.approx(target, abs=1e-9)
     assert np.linalg.det(homography) == pytest.approx(1.0)
 
 
 def test_scaling_to_determinant_one_does_not_move_points() -> None:
-    homography = 7.0 * between(QUAD, QUAD + 0.1 * QUAD[::-1])
-    assert warp(unimodular(homography), QUAD) == pytest.approx(warp(homography, QUAD))
+    homography = 7.0 * homography_between(QUAD, QUAD + 0.1 * QUAD[::-1])
+    assert warp(normalize_determinant(homography), QUAD) == pytest.approx(warp(homography, QUAD))
 
 
 def test_convex_is_both_ways_round_but_neither_crossed_nor_flat_nor_bent_in() -> None:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from tests.algorithms.textures import Texture, rectangle
-from uwsim.algorithms.esm.template import runs_inside, take_template
+from uwsim.algorithms.esm.template import extract_template, runs_in_quad
 
 IMAGE = Texture().image()
 
@@ -16,7 +16,7 @@ def turned(angle: float) -> np.ndarray:
 
 @pytest.mark.parametrize("angle", [0.0, 0.3, np.pi / 4, 1.2, np.pi / 2])
 def test_the_runs_hold_the_pixels_whose_centres_are_inside(angle: float) -> None:
-    top, runs = runs_inside(turned(angle), 320, 240)
+    top, runs = runs_in_quad(turned(angle), 320, 240)
     v, u = np.mgrid[0:240, 0:320].astype(float)
     c, s = np.cos(angle), np.sin(angle)
     along, across = (u - 159.5) * c + (v - 119.5) * s, -(u - 159.5) * s + (v - 119.5) * c
@@ -30,7 +30,7 @@ def test_the_runs_hold_the_pixels_whose_centres_are_inside(angle: float) -> None
 
 @pytest.mark.parametrize("angle", [0.0, 0.3, np.pi / 4])
 def test_values_have_zero_mean_and_unit_variance_inside(angle: float) -> None:
-    template = take_template(IMAGE, turned(angle))
+    template = extract_template(IMAGE, turned(angle))
     assert template is not None
     cells = [template.values[row, a:b] for row, (a, b) in enumerate(template.runs)]
     values = np.concatenate(cells).astype(float)
@@ -41,7 +41,7 @@ def test_values_have_zero_mean_and_unit_variance_inside(angle: float) -> None:
 
 def test_slopes_are_those_of_the_image_in_normalised_coordinates() -> None:
     v, u = np.mgrid[0:240, 0:320].astype(float)
-    template = take_template(
+    template = extract_template(
         (3.0 * u - 2.0 * v).astype(np.float32), rectangle(159.5, 119.5, 80, 40)
     )
     assert template is not None
@@ -50,14 +50,15 @@ def test_slopes_are_those_of_the_image_in_normalised_coordinates() -> None:
 
 
 def test_the_rim_of_the_image_is_left_out() -> None:
-    template = take_template(IMAGE, rectangle(159.5, 119.5, 320, 240))
+    template = extract_template(IMAGE, rectangle(159.5, 119.5, 320, 240))
     assert template is not None
     assert (template.left, template.top, template.n) == (1, 1, 318 * 238)
 
 
 def test_there_is_no_template_of_a_speck_or_of_nothing() -> None:
-    assert take_template(IMAGE, rectangle(159.5, 119.5, 6.5, 40)) is None
-    assert take_template(IMAGE, rectangle(159.5, 119.5, 40, 6.5)) is None
+    assert extract_template(IMAGE, rectangle(159.5, 119.5, 6.5, 40)) is None
+    assert extract_template(IMAGE, rectangle(159.5, 119.5, 40, 6.5)) is None
     assert (
-        take_template(np.full((240, 320), 9, np.float32), rectangle(159.5, 119.5, 40, 40)) is None
+        extract_template(np.full((240, 320), 9, np.float32), rectangle(159.5, 119.5, 40, 40))
+        is None
     )

@@ -19,7 +19,7 @@ PLACES = [(-0.6, 0.0, 0.0), (-0.5, 0.2, 0.7), (-0.8, -0.3, 1.5), (-0.9, 0.4, 2.4
 
 def track(image: np.ndarray, quad: np.ndarray) -> DirectTracker | str:
     method = Method(blend="esm", photometric=True, max_iterations=10, precision=1e-3)
-    return DirectTracker.remember(image, quad, levels=2, method=method)
+    return DirectTracker.from_image(image, quad, levels=2, method=method)
 
 
 def off(sighting: Sighting | None, true: BoxPose) -> tuple[float, float]:

@@ -46,7 +46,7 @@ class Voyage:
         for _ in range(round(seconds * RATE)):
             t, r = self.time, self.rotation(self.time)
             turned = rotation_from_rpy(*self.noise(spec.attitude)) @ r
-            self.filter.imu(
+            self.filter.update_imu(
                 t,
                 quaternion_from_rotation(turned),
                 self.rate(t) + self.bias + self.noise(spec.gyro * math.sqrt(RATE)),
@@ -55,9 +55,9 @@ class Voyage:
             if self.count % 10 == 0:
                 place = np.array(spec.dvl_place)
                 seen = r.T @ self.velocity(t) + np.cross(self.rate(t), place)
-                self.filter.dvl(seen + self.noise(spec.dvl))
+                self.filter.update_dvl(seen + self.noise(spec.dvl))
                 height = (self.position(t) + r @ np.array(spec.depth_place))[2]
-                self.filter.depth(float(height + self.noise(spec.depth, 1)[0]))
+                self.filter.update_depth(float(height + self.noise(spec.depth, 1)[0]))
             self.count += 1
             self.time += 1.0 / RATE
 
@@ -109,8 +109,8 @@ def test_one_wrong_velocity_is_ignored() -> None:
     voyage = Voyage(4, NavigationSpec())
     voyage.sail(20.0)
     before = voyage.filter.velocity.copy()
-    voyage.filter.dvl(np.array([3.0, -2.0, 1.0]))
-    voyage.filter.dvl(np.full(3, np.nan))
+    voyage.filter.update_dvl(np.array([3.0, -2.0, 1.0]))
+    voyage.filter.update_dvl(np.full(3, np.nan))
     assert np.array_equal(voyage.filter.velocity, before)
 
 
@@ -118,15 +118,15 @@ def test_a_sensor_that_insists_is_believed() -> None:
     voyage = Voyage(4, NavigationSpec())
     voyage.sail(20.0)
     for _ in range(40):
-        voyage.filter.depth(7.0)
+        voyage.filter.update_depth(7.0)
     assert voyage.filter.position[2] == pytest.approx(7.0, abs=0.3)
 
 
 def test_it_is_ready_with_the_first_attitude() -> None:
     nav = NavigationFilter()
     assert not nav.is_ready
-    nav.imu(0.0, np.array([np.nan, 0, 0, 0]), np.zeros(3), UP)
+    nav.update_imu(0.0, np.array([np.nan, 0, 0, 0]), np.zeros(3), UP)
     assert not nav.is_ready
-    nav.imu(0.0, quaternion_from_rotation(rotation_from_rpy(0, 0, 1.0)), np.zeros(3), UP)
+    nav.update_imu(0.0, quaternion_from_rotation(rotation_from_rpy(0, 0, 1.0)), np.zeros(3), UP)
     assert nav.is_ready
     assert nav.heading == pytest.approx(1.0)

@@ -1,4 +1,4 @@
-"""Controllers as algorithms under test: images of a camera in, twists out."""
+"""Controllers as algorithms under test: they read images of a camera and publish twists."""
 
 from __future__ import annotations
 

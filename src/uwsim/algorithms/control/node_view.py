@@ -1,4 +1,4 @@
-"""The node of an algorithm for a part of it that has parameters of its own."""
+"""The node of an algorithm, with other parameters for a part of the algorithm."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ M = TypeVar("M")
 
 
 class NodeView:
-    """A `uwsim.bus.Node` that delegates to another one and has its own parameters."""
+    """A `uwsim.bus.Node` that delegates to another node but has its own parameters."""
 
     def __init__(self, node: Node, parameters: Mapping[str, float | str]) -> None:
         self._node, self._parameters = node, dict(parameters)
 
     @property
     def now(self) -> float:
-        """Simulation time [s]."""
+        """The simulation time [s]."""
         return self._node.now
 
     @property
@@ -34,7 +34,7 @@ class NodeView:
         return self._node.rng
 
     def subscribe(self, topic: str, type: type[M], callback: Callable[[M], None]) -> None:
-        """Have ``callback`` called with every message on ``topic``."""
+        """Call ``callback`` with every message on ``topic``."""
         self._node.subscribe(topic, type, callback)
 
     def publisher(self, topic: str, type: type[M]) -> Callable[[M], None]:
@@ -50,5 +50,5 @@ class NodeView:
         return self._node.call(name, request)
 
     def create_timer(self, period_s: float, callback: Callable[[], None]) -> None:
-        """Have ``callback`` called every ``period_s``."""
+        """Call ``callback`` every ``period_s`` [s] of simulation time."""
         self._node.create_timer(period_s, callback)

@@ -9,6 +9,6 @@ from .controller import ControllerNode
 
 
 class PI(ControllerNode):
-    """Proportional and integral control over the ESM tracker: a steady current leaves no offset."""
+    """A proportional-integral controller with the ESM tracker: no offset in a steady current."""
 
     PARAMETERS: ClassVar[Mapping[str, float | str]] = {**ControllerNode.PARAMETERS, "ki": 0.04}

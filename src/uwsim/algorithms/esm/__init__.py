@@ -1,1 +1,1 @@
-"""Efficient second-order minimisation (ESM) and its relatives: the pure core."""
+"""Efficient second-order minimisation (ESM) and related methods, independent of the bus."""

@@ -1,4 +1,4 @@
-r"""Alignment of an image with a template: ESM, and its first-order relatives.
+r"""Alignment of an image with a template by ESM and related first-order methods.
 
 With :math:`p` a template pixel, :math:`w` the warp and :math:`\hat H` the guess, the residual
 :math:`s_p(x) = I(w(\hat H e^{x}, p)) - I^*(p)` is linearised with
@@ -10,9 +10,9 @@ where :math:`J_I` is the gradient of the warped image and :math:`J_{I^*}` that o
 a = b = 1/2 is ESM (Benhimane and Malis 2004, 2007): second order without second derivatives.
 a = 0, b = 1 is inverse compositional (Baker and Matthews 2004), a = 1, b = 0 forward compositional.
 
-*Photometry.* Both patches are brought to zero mean and unit variance, and what a change of gain and
-bias would explain of J is taken out of it (projection onto the complement of 1 and I*), so that
-light and fog do not look like motion. Without it the grey levels are compared as they are.
+*Photometry.* Both patches are normalised to zero mean and unit variance. J is projected onto the
+complement of 1 and I*, the effects of gain and bias, so that changes of light and fog cause no
+motion. Without it, the grey levels are compared without normalisation.
 """
 
 from __future__ import annotations
@@ -27,22 +27,22 @@ from .patch import Patch
 from .pyramid import Grey
 from .template import Template
 
-BLENDS = {"esm": (0.5, 0.5), "ic": (0.0, 1.0), "fc": (1.0, 0.0)}
-"""Share (a, b) of the image's and of the template's gradient in J."""
+GRADIENT_SHARES = {"esm": (0.5, 0.5), "ic": (0.0, 1.0), "fc": (1.0, 0.0)}
+"""The shares (a, b) of the image's and of the template's gradient in J."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Method:
-    """Linearisation and stopping criteria of an alignment."""
+    """The linearisation and the stopping criteria of an alignment."""
 
     blend: str = "esm"
     """``esm``, ``ic`` or ``fc``."""
     photometric: bool = True
-    """Compare patches of zero mean and unit variance."""
+    """True if patches are normalised to zero mean and unit variance."""
     max_iterations: int = 20
-    """At most so many steps in one call."""
+    """The most steps in one call."""
     precision: float = 1e-4
-    """A step shorter than this, in normalised coordinates, is the last."""
+    """The length of a step, in normalised coordinates, below which it is the last."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,16 +50,16 @@ class Alignment:
     """The result of an alignment."""
 
     homography: Array
-    """Sends template points to the image, (3, 3); the best seen on the way."""
+    """The homography from template to image points, (3, 3), with the best score."""
     correlation: float
-    """Correlation with the interpolated image, -1..1; -1 when too little is in the image."""
+    """The correlation with the interpolated image, -1..1; -1 if too few pixels are in it."""
     iterations: int
-    """Steps taken."""
+    """The number of steps."""
 
 
 def align(image: Grey, template: Template, guess: Array, method: Method) -> Alignment:
-    """Refine ``guess`` (3, 3), which sends template points to ``image`` points [px]."""
-    a, b = BLENDS[method.blend]
+    """Refine ``guess`` (3, 3), a homography from template to ``image`` points [px]."""
+    a, b = GRADIENT_SHARES[method.blend]
     patch = Patch(
         runs=template.runs,
         values=template.values,
@@ -82,12 +82,12 @@ def align(image: Grey, template: Template, guess: Array, method: Method) -> Alig
 
 
 def zncc(image: Grey, template: Template, homography: Array) -> float:
-    """Zero-mean normalised cross-correlation of the template with the image's nearest pixels.
+    """Return the zero-mean normalised cross-correlation of template and nearest image pixels.
 
-    Pixels are taken as they are, not interpolated: bilinear interpolation averages the noise of
-    four pixels, so that a correlation of it stays high where nothing can be seen any more. With
-    noise sigma in the image and contrast S T left of the template, the result is
-    ``S T / sqrt((S T)^2 + sigma^2)``. -1 when less than a quarter of the patch is in the image.
+    Pixels are not interpolated: bilinear interpolation averages the noise of four pixels, so that
+    the correlation stays high where the target is not visible. With noise sigma in the image
+    and contrast S T left of the template, the result is ``S T / sqrt((S T)^2 + sigma^2)``.
+    It is -1 if less than a quarter of the patch is in the image.
     """
     return nearest_zncc(
         image,

@@ -13,25 +13,25 @@ from .template import Runs
 
 
 class Statistics(NamedTuple):
-    """Of the pixels of a patch and what the image has there."""
+    """The statistics of the template and the image over the pixels of a patch."""
 
     n: float
-    """How many pixels count."""
+    """The number of pixels."""
     mean_i: float
-    """Mean of the image."""
+    """The mean of the image."""
     deviation_i: float
-    """Standard deviation of the image."""
+    """The standard deviation of the image."""
     mean_t: float
-    """Mean of the template."""
+    """The mean of the template."""
     square_t: float
-    """Sum of the squares of the template, about its mean."""
+    """The sum of the squares of the template, about its mean."""
     cross: float
-    """Sum of the products of both, about the means."""
+    """The sum of the products of both, about their means."""
 
 
 @njit
 def nearest_zncc(image: Grey, runs: Runs, values: Grey, homography: Array) -> float:
-    """ZNCC of a template with the nearest pixels of the image; see `alignment.zncc`."""
+    """Return the ZNCC of a template with the nearest image pixels; see `alignment.zncc`."""
     height, width = values.shape
     total = n = sum_i = sum_ii = sum_t = sum_tt = sum_it = 0.0
     for row in range(height):
@@ -44,7 +44,7 @@ def nearest_zncc(image: Grey, runs: Runs, values: Grey, homography: Array) -> fl
                 continue
             x = (homography[0, 0] * u + homography[0, 1] * v + homography[0, 2]) / w
             y = (homography[1, 0] * u + homography[1, 1] * v + homography[1, 2]) / w
-            x, y = x + 0.5, y + 0.5  # from the corner: its whole part is the nearest pixel's index
+            x, y = x + 0.5, y + 0.5  # their integer parts are the indices of the nearest pixel
             if 0.0 <= x < image.shape[1] and 0.0 <= y < image.shape[0]:
                 i, t = float(image[int(y), int(x)]), float(values[row, column])
                 n += 1.0
@@ -62,14 +62,14 @@ def nearest_zncc(image: Grey, runs: Runs, values: Grey, homography: Array) -> fl
 
 
 @njit
-def statistics(runs: Runs, values: Grey, warped: Grey, valid: Grey) -> Statistics:
-    """Sums over the pixels whose four neighbours are in the image."""
+def statistics(runs: Runs, values: Grey, samples: Grey, mask: Grey) -> Statistics:
+    """Compute the statistics over the pixels whose four neighbours are in the image."""
     n = sum_i = sum_ii = sum_t = sum_tt = sum_it = 0.0
     for row in range(runs.shape[0]):
         for column in range(runs[row, 0], runs[row, 1]):
-            w = valid[row + 1, column + 1] * valid[row, column + 1] * valid[row + 2, column + 1]
-            if w * valid[row + 1, column] * valid[row + 1, column + 2] > 0.0:
-                i, t = float(warped[row + 1, column + 1]), float(values[row, column])
+            w = mask[row + 1, column + 1] * mask[row, column + 1] * mask[row + 2, column + 1]
+            if w * mask[row + 1, column] * mask[row + 1, column + 2] > 0.0:
+                i, t = float(samples[row + 1, column + 1]), float(values[row, column])
                 n += 1.0
                 sum_i += i
                 sum_ii += i * i

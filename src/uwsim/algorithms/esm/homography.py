@@ -2,7 +2,7 @@ r"""Homographies as elements of SL(3), the group of 3x3 matrices of determinant 
 
 A step of a tracker is a point :math:`x` of the tangent space sl(3); it is applied as
 :math:`H \leftarrow H \exp(\sum_i x_i A_i)` (Benhimane and Malis, IROS 2004).
-Points are image coordinates [px] from the centre of the first pixel, unless they are called
+Points are image coordinates [px] from the centre of the first pixel, unless their name is
 normalised.
 """
 
@@ -29,25 +29,25 @@ def exponential(x: Array) -> Array:
     a[0, 0], a[0, 1], a[0, 2] = x[4] + x[5] / 3.0, x[2], x[0]
     a[1, 0], a[1, 1], a[1, 2] = x[3], -x[4] + x[5] / 3.0, x[1]
     a[2, 0], a[2, 1], a[2, 2] = x[6], x[7], -2.0 * x[5] / 3.0
-    largest = np.abs(a).max()
+    max_entry = np.abs(a).max()
     halvings = 0
-    while largest > 0.1 and halvings < 30:
-        largest *= 0.5
+    while max_entry > 0.1 and halvings < 30:
+        max_entry *= 0.5
         halvings += 1
     a *= 0.5**halvings
-    result = np.eye(3)
+    matrix = np.eye(3)
     term = np.eye(3)
     for order in range(1, 9):
         term = multiply(term, a) / order
-        result += term
+        matrix += term
     for _ in range(halvings):
-        result = multiply(result, result)
-    return result
+        matrix = multiply(matrix, matrix)
+    return matrix
 
 
 @njit
 def multiply(left: Array, right: Array) -> Array:
-    """Product of two (3, 3) matrices, in a fixed order of additions."""
+    """Multiply two (3, 3) matrices, in a fixed order of additions."""
     product = np.empty((3, 3))
     for i in range(3):
         for j in range(3):
@@ -57,42 +57,42 @@ def multiply(left: Array, right: Array) -> Array:
     return product
 
 
-def unimodular(homography: Array) -> Array:
-    """The same homography scaled to determinant 1."""
-    scaled: Array = homography / math.cbrt(determinant(homography))
-    return scaled
+def normalize_determinant(homography: Array) -> Array:
+    """Scale a homography to determinant 1."""
+    matrix: Array = homography / math.cbrt(determinant(homography))
+    return matrix
 
 
 def warp(homography: Array, points: Array) -> Array:
-    """Points (n, 2) sent through a homography, (n, 2)."""
-    sent = product(points, homography[:, :2].T) + homography[:, 2]
-    warped: Array = sent[:, :2] / sent[:, 2:]
-    return warped
+    """Apply a homography to points (n, 2), (n, 2)."""
+    homogeneous_points = product(points, homography[:, :2].T) + homography[:, 2]
+    image_points: Array = homogeneous_points[:, :2] / homogeneous_points[:, 2:]
+    return image_points
 
 
-def between(source: Array, target: Array) -> Array:
-    """The homography of determinant 1 that sends four points (4, 2) to four others (4, 2).
+def homography_between(source: Array, target: Array) -> Array:
+    """Compute the homography of determinant 1 from four points (4, 2) to four others (4, 2).
 
     Raises:
-        numpy.linalg.LinAlgError: three of the points are on a line.
+        numpy.linalg.LinAlgError: three points are collinear.
     """
     rows = []
     for (u, v), (x, y) in zip(source, target, strict=True):
         rows.append([u, v, 1.0, 0.0, 0.0, 0.0, -x * u, -x * v])
         rows.append([0.0, 0.0, 0.0, u, v, 1.0, -y * u, -y * v])
     entries = solve(np.array(rows), target.reshape(8))
-    return unimodular(np.append(entries, 1.0).reshape(3, 3))
+    return normalize_determinant(np.append(entries, 1.0).reshape(3, 3))
 
 
-def turns(quad: Array) -> Array:
-    """Twice the signed areas of the four corner triangles of a quad (4, 2) [px^2], (4,)."""
-    ahead = np.roll(quad, -1, axis=0) - quad
-    behind = quad - np.roll(quad, 1, axis=0)
-    areas: Array = behind[:, 0] * ahead[:, 1] - behind[:, 1] * ahead[:, 0]
+def corner_areas(quad: Array) -> Array:
+    """Return twice the signed areas of the corner triangles of a quad (4, 2) [px^2], (4,)."""
+    next_edges = np.roll(quad, -1, axis=0) - quad
+    previous_edges = quad - np.roll(quad, 1, axis=0)
+    areas: Array = previous_edges[:, 0] * next_edges[:, 1] - previous_edges[:, 1] * next_edges[:, 0]
     return areas
 
 
 def is_convex(quad: Array) -> bool:
-    """Whether a quad (4, 2) turns the same way at every corner."""
-    areas = turns(quad)
+    """Return whether a quad (4, 2) is convex."""
+    areas = corner_areas(quad)
     return bool(np.all(areas > 0.0) or np.all(areas < 0.0))

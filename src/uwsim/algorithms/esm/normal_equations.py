@@ -13,7 +13,7 @@ from .pyramid import Grey
 
 
 class Weights(NamedTuple):
-    """What turns the pixels of a run into columns of J."""
+    """The factors that convert the pixels of a run to columns of J."""
 
     offset: np.float32
     gain: np.float32
@@ -23,12 +23,12 @@ class Weights(NamedTuple):
 
 
 class Run(NamedTuple):
-    """The pixels of one row of the patch, n of them, with one around them in the image."""
+    """The n pixels of one row of the patch, with their neighbours in the image."""
 
     abscissa: Grey
     v: np.float32
-    warped: Grey
-    valid: Grey
+    samples: Grey
+    mask: Grey
     values: Grey
     slope_u: Grey
     slope_v: Grey
@@ -37,19 +37,19 @@ class Run(NamedTuple):
 @njit
 def normal_equations(
     patch: Patch,
-    sampled: tuple[Grey, Grey],
+    image_samples: tuple[Grey, Grey],
     brightness: tuple[float, float],
     a: float,
     b: float,
 ) -> Array:
-    """Products of the eight columns of J with each other, the image, the template and 1.
+    """Compute the products of the eight columns of J with each other, image, template and 1.
 
-    ``sampled`` is the warped image and where it is valid, ``brightness`` offset and gain. Returns
-    (8, 11): J^T [J, (I - offset) gain, I*, 1]. Sums run down the columns of the patch in
-    float32, side by side, so that the processor does several at once, then across in float64.
+    ``image_samples`` is the warped image and its mask, ``brightness`` offset and gain. Returns
+    (8, 11): J^T [J, (I - offset) gain, I*, 1]. The columns of the patch are summed in float32,
+    several at once in the processor; then their sums are added in float64.
     """
     height, width = patch.values.shape
-    warped, valid = sampled
+    samples, mask = image_samples
     offset, gain = brightness
     sums = np.zeros((60, width), np.float32)
     columns = np.empty((11, width), np.float32)
@@ -64,68 +64,68 @@ def normal_equations(
         np.float32(b),
     )
     for row in range(height):
-        first, last = patch.runs[row, 0], patch.runs[row, 1]
+        start, end = patch.runs[row, 0], patch.runs[row, 1]
         v = np.float32((2.0 * row + 1.0) / height - 1.0)
         run = Run(
-            abscissa[first:last],
+            abscissa[start:end],
             v,
-            warped[row : row + 3, first : last + 2],
-            valid[row : row + 3, first : last + 2],
-            patch.values[row, first:last],
-            patch.slope_u[row, first:last],
-            patch.slope_v[row, first:last],
+            samples[row : row + 3, start : end + 2],
+            mask[row : row + 3, start : end + 2],
+            patch.values[row, start:end],
+            patch.slope_u[row, start:end],
+            patch.slope_v[row, start:end],
         )
         fill_columns(columns, run, weights)
         index = 0
         for i in range(8):
             for k in range(i, 11):
-                for c in range(last - first):
+                for c in range(end - start):
                     sums[index, c] += columns[i, c] * columns[k, c]
                 index += 1
-    result = np.empty((8, 11))
+    products = np.empty((8, 11))
     index = 0
     for i in range(8):
         for k in range(i, 11):
             total = 0.0
             for c in range(width):
                 total += sums[index, c]
-            result[i, k] = total
+            products[i, k] = total
             if k < 8:
-                result[k, i] = total
+                products[k, i] = total
             index += 1
-    return result
+    return products
 
 
 @njit
 def fill_columns(columns: Grey, run: Run, weights: Weights) -> None:
     """Write the eight columns of J, the image, the template and 1 for one run of pixels."""
-    abscissa, v, warped, valid, values, slope_u, slope_v = run
+    abscissa, v, samples, mask, values, slope_u, slope_v = run
     offset, gain, from_u, from_v, share = weights
-    above, here, below = warped[0], warped[1], warped[2]
-    valid_above, valid_here, valid_below = valid[0], valid[1], valid[2]
+    upper_row, centre_row, lower_row = samples[0], samples[1], samples[2]
+    valid_upper, valid_centre, valid_lower = mask[0], mask[1], mask[2]
     for c in range(abscissa.size):
-        w = valid_above[c + 1] * valid_below[c + 1]
-        w *= valid_here[c] * valid_here[c + 1] * valid_here[c + 2]
+        w = valid_upper[c + 1] * valid_lower[c + 1]
+        w *= valid_centre[c] * valid_centre[c + 1] * valid_centre[c + 2]
         u = abscissa[c]
-        gu = w * (from_u * (here[c + 2] - here[c]) + share * slope_u[c])
-        gv = w * (from_v * (below[c + 1] - above[c + 1]) + share * slope_v[c])
-        outward = gu * u + gv * v
+        gu = w * (from_u * (centre_row[c + 2] - centre_row[c]) + share * slope_u[c])
+        gv = w * (from_v * (lower_row[c + 1] - upper_row[c + 1]) + share * slope_v[c])
+        radial_slope = gu * u + gv * v
         columns[0, c] = gu
         columns[1, c] = gv
         columns[2, c] = gu * v
         columns[3, c] = gv * u
         columns[4, c] = gu * u - gv * v
-        columns[5, c] = outward
-        columns[6, c] = -u * outward
-        columns[7, c] = -v * outward
-        columns[8, c] = (here[c + 1] - offset) * gain
+        columns[5, c] = radial_slope
+        columns[6, c] = -u * radial_slope
+        columns[7, c] = -v * radial_slope
+        columns[8, c] = (centre_row[c + 1] - offset) * gain
         columns[9, c] = values[c]
         columns[10, c] = np.float32(1.0)
 
 
 @njit
 def solve(matrix: Array, right: Array) -> tuple[Array, bool]:
-    """Solve a symmetric positive definite system (8, 8) by Cholesky; False when it is not one."""
+    """Solve a symmetric system (8, 8) by Cholesky; False if it is not positive definite."""
     n = right.size
     lower = np.zeros((n, n))
     x = right.copy()

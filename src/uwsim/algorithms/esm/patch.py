@@ -9,7 +9,7 @@ from .template import Runs
 
 
 class Patch(NamedTuple):
-    """What the loop reads of a `template.Template`."""
+    """The fields of a `template.Template` that the iterations read."""
 
     runs: Runs
     values: Grey

@@ -1,7 +1,7 @@
 """The template of a tracker: the pixels of one image inside a quad, at one pyramid level.
 
-The template is the image's own pixels, never resampled, so that its noise stays what the camera
-made it. A quad cuts every row of pixels in one run, which is all that has to be remembered of it.
+The template has the pixels of the image without resampling, so that its noise is that of the
+camera. The intersection of a convex quad with a row of pixels is one run of pixels.
 """
 
 from __future__ import annotations
@@ -19,37 +19,38 @@ Runs = npt.NDArray[np.int64]
 
 @dataclass(frozen=True, eq=False)
 class Template:
-    """Pixels inside a quad, with what the alignment needs of them."""
+    """The pixels inside a quad, normalised, with their slopes."""
 
     left: int
-    """Column of the image that is column 0 here."""
+    """The column of the image that is column 0 of the template."""
     top: int
-    """Row of the image that is row 0 here."""
+    """The row of the image that is row 0 of the template."""
     runs: Runs
-    """First and one-past-last column inside the quad, for each row, (h, 2)."""
+    """The first and one-past-last column inside the quad, for each row, (h, 2)."""
     values: Grey
-    """Zero mean and unit variance inside the quad, (h, w)."""
+    """The pixels, with zero mean and unit variance inside the quad, (h, w)."""
     slope_u: Grey
     """d values / d normalised u, central differences, (h, w)."""
     slope_v: Grey
     """d values / d normalised v, (h, w)."""
     mean: float
-    """Mean of the pixels [grey level]."""
+    """The mean of the pixels [grey level]."""
     contrast: float
-    """Standard deviation of the pixels [grey level]."""
+    """The standard deviation of the pixels [grey level]."""
     image_from_normalised: Array
-    """Sends the square [-1, 1]^2 onto the bounding box of the quad, (3, 3)."""
+    """The homography from the square [-1, 1]^2 to the bounding box of the quad, (3, 3)."""
 
     @property
     def n(self) -> int:
-        """Number of pixels."""
+        """The number of pixels."""
         return int((self.runs[:, 1] - self.runs[:, 0]).sum())
 
 
-def runs_inside(quad: Array, width: int, height: int) -> tuple[int, Runs]:
-    """First row, and for each row the run of pixels whose centres lie in a convex quad (4, 2).
+def runs_in_quad(quad: Array, width: int, height: int) -> tuple[int, Runs]:
+    """Return the first row and, for each row, the run of pixels in a convex quad (4, 2).
 
-    Pixels on the rim of the image are left out: they have no central difference.
+    A pixel is in the quad if its centre is. Pixels at the border of the image have no central
+    difference and are omitted.
     """
     top = max(int(np.ceil(quad[:, 1].min())), 1)
     bottom = min(int(np.floor(quad[:, 1].max())), height - 2)
@@ -61,22 +62,22 @@ def runs_inside(quad: Array, width: int, height: int) -> tuple[int, Runs]:
             if min(v0, v1) <= v <= max(v0, v1) and v0 != v1:
                 crossings.append(u0 + (u1 - u0) * (v - v0) / (v1 - v0))
         if crossings:
-            first = max(int(np.ceil(min(crossings))), 1)
-            runs[row] = first, max(min(int(np.floor(max(crossings))), width - 2) + 1, first)
+            start = max(int(np.ceil(min(crossings))), 1)
+            runs[row] = start, max(min(int(np.floor(max(crossings))), width - 2) + 1, start)
     return top, runs
 
 
-def take_template(image: Grey, quad: Array) -> Template | None:
-    """Remember the pixels of ``image`` inside the convex ``quad`` (4, 2) [px].
+def extract_template(image: Grey, quad: Array) -> Template | None:
+    """Extract the pixels of ``image`` inside the convex ``quad`` (4, 2) [px].
 
-    Returns None when there are fewer than 8 rows or columns, or no contrast at all.
+    Returns None if there are fewer than 8 rows or columns, or no contrast.
     """
-    top, runs = runs_inside(quad, image.shape[1], image.shape[0])
-    full = runs[:, 1] > runs[:, 0]
-    if np.count_nonzero(full) < 8:
+    top, runs = runs_in_quad(quad, image.shape[1], image.shape[0])
+    has_pixels = runs[:, 1] > runs[:, 0]
+    if np.count_nonzero(has_pixels) < 8:
         return None
-    first_row = int(np.argmax(full))
-    runs = runs[first_row : len(full) - int(np.argmax(full[::-1]))]
+    first_row = int(np.argmax(has_pixels))
+    runs = runs[first_row : len(has_pixels) - int(np.argmax(has_pixels[::-1]))]
     top += first_row
     left, right = int(runs[:, 0].min()), int(runs[:, 1].max())
     if right - left < 8:
@@ -85,9 +86,9 @@ def take_template(image: Grey, quad: Array) -> Template | None:
     height, width = runs.shape[0], right - left
 
     box = image[top - 1 : top + height + 1, left - 1 : right + 1].astype(np.float64)
-    inside = (np.arange(width) >= runs[:, :1]) & (np.arange(width) < runs[:, 1:])
+    is_inside = (np.arange(width) >= runs[:, :1]) & (np.arange(width) < runs[:, 1:])
     pixels = box[1:-1, 1:-1]
-    mean, contrast = float(pixels[inside].mean()), float(pixels[inside].std())
+    mean, contrast = float(pixels[is_inside].mean()), float(pixels[is_inside].std())
     if contrast < 1e-3:
         return None
     matrix = np.array(
@@ -103,9 +104,9 @@ def take_template(image: Grey, quad: Array) -> Template | None:
         left=left,
         top=top,
         runs=runs,
-        values=((pixels - mean) / contrast * inside).astype(np.float32),
-        slope_u=(slope_u * inside).astype(np.float32),
-        slope_v=(slope_v * inside).astype(np.float32),
+        values=((pixels - mean) / contrast * is_inside).astype(np.float32),
+        slope_u=(slope_u * is_inside).astype(np.float32),
+        slope_v=(slope_v * is_inside).astype(np.float32),
         mean=mean,
         contrast=contrast,
         image_from_normalised=matrix,

@@ -35,7 +35,7 @@ from ..esm.alignment import Method
 from ..esm.pyramid import Grey
 from ..navigation import NavigationSpec, Navigator
 from ..tracker import Tracker
-from ..tracker_node import chosen
+from ..tracker_node import merge_parameters
 from .arm import Arm5e, Kinematics
 from .box import BoxSpec
 from .camera import Pinhole, View
@@ -117,7 +117,7 @@ class Grasp:
     def tracker(self, image: Grey, quad: Array) -> Tracker | str:
         """Return a tracker of the top face, a quad (4, 2) [px], or why there is none."""
         method = Method(blend="esm", photometric=True, max_iterations=10, precision=1e-3)
-        return DirectTracker.remember(image, quad, levels=2, method=method)
+        return DirectTracker.from_image(image, quad, levels=2, method=method)
 
     def controller(self) -> StationLaw:
         """Return the law that keeps station."""
@@ -154,7 +154,7 @@ class Grasp:
 
     def start(self, node: Node) -> None:
         """Make the parts and connect to the bus."""
-        self._parameters = chosen(self.PARAMETERS, node.parameters)
+        self._parameters = merge_parameters(self.PARAMETERS, node.parameters)
         self.check_parameters(self._parameters)
         self._node = node
         status = node.publisher("algorithmStatus", String)

@@ -15,7 +15,7 @@ import numpy as np
 
 from ...base.geometry import Array
 from ...base.numerics.linear import transform_points
-from ..esm.pyramid import Grey, grey
+from ..esm.pyramid import Grey, to_grey
 from ..tracker import Tracker, quad_error
 from .box import BoxPose, BoxSpec
 from .box_pose import Sighting, pose_from_face, pose_from_outline
@@ -124,14 +124,14 @@ class Perception:
         height, width = image.shape[:2]
         if not np.isfinite(quad).all() or quad_error(quad, width, height):
             return
-        tracker = self._make_tracker(grey(image), quad)
+        tracker = self._make_tracker(to_grey(image), quad)
         self._tracker = None if isinstance(tracker, str) else tracker
 
     def _track(self, image: Pixels, view: View, target: Target) -> Sighting | None:
         assert self._tracker is not None
-        estimate = self._tracker.step(grey(image))
+        estimate = self._tracker.step(to_grey(image))
         height, width = image.shape[:2]
-        lost = not estimate.found or estimate.zncc < MIN_ZNCC
+        lost = not estimate.is_found or estimate.zncc < MIN_ZNCC
         if lost or target.pose is None or quad_error(estimate.corners, width, height):
             self._tracker = None
             return None

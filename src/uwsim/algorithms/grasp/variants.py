@@ -28,7 +28,7 @@ from ...messages import (
     header,
 )
 from ..navigation import BottomPlane, Navigator
-from ..tracker_node import chosen
+from ..tracker_node import merge_parameters
 from .arm import CLOSED, DOWN, JAW, JOINTS, OPEN
 from .box import BoxPose
 from .box_pose import Sighting
@@ -77,7 +77,7 @@ class GraspTruth(Grasp):
             pose = Pose.from_quaternion(np.array([t.x, t.y, t.z]), np.array([q.w, q.x, q.y, q.z]))
             true = BoxPose.from_pose(pose)
             depth = float(true.place[2]) + self.box().size[2] / 2.0
-            self._navigator.bottom.put(depth)
+            self._navigator.bottom.set_depth(depth)
             if self._phase is not None and self._phase.looks:
                 found = Sighting(pose=true, covariance=SURE, residual=0.0, source="truth")
                 self.task.target.take(found, self._node.now)
@@ -122,7 +122,7 @@ class GraspNothing:
 
     def start(self, node: Node) -> None:
         """Say that it gives up searching at once."""
-        self.parameters = chosen(self.PARAMETERS, node.parameters)
+        self.parameters = merge_parameters(self.PARAMETERS, node.parameters)
         say = node.publisher("phase", String)
         say(String(data="search"))
 
@@ -139,7 +139,7 @@ class GraspBlindClose:
     def start(self, node: Node) -> None:
         """Begin the rounds."""
         self._node = node
-        self.parameters = chosen(self.PARAMETERS, node.parameters)
+        self.parameters = merge_parameters(self.PARAMETERS, node.parameters)
         self._say_phase = node.publisher("phase", String)
         self._say_twist = node.publisher(str(self.parameters["twist_topic"]), TwistStamped)
         self._say_joints = node.publisher(str(self.parameters["arm_topic"]), JointState)

@@ -1,4 +1,4 @@
-"""Where a vehicle is, from its DVL, IMU and depth sensor."""
+"""The estimation of a vehicle's pose from its DVL, IMU and depth sensor."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 r"""An extended Kalman filter over an IMU, a DVL and a depth sensor.
 
-Navigation frame: axes north, east, down (those of L in a scene with the usual offset); its origin
-is where the filter began, but for the depth, which is that below the surface. The error state is
+The navigation frame has the axes north, east, down (those of L in a scene with the usual offset).
+Its origin is the start of the filter, at the depth of the surface. The error state is
 
 .. math:: \delta x = (\delta p, \delta v, \delta\theta, \delta b_g, \delta b_a) \in R^{15}
 
@@ -13,8 +13,7 @@ accelerometer. Between measurements, with the specific force f and the angular r
 
 (J. Sola, *Quaternion kinematics for the error-state Kalman filter*, 2017). Corrections: attitude of
 the IMU, velocity over ground of the DVL, depth. A measurement whose squared Mahalanobis distance
-is above `GATE` is ignored, `MAX_REJECTED` in a row at most; then the
-covariance grows until it fits.
+is above `GATE` is ignored. After `MAX_REJECTED` in a row, the covariance is scaled to accept one.
 
 Not modelled: rotation of the Earth, scale errors of the DVL, a gyroscope that is not at the base.
 """
@@ -28,166 +27,164 @@ import numpy as np
 
 from ...base.geometry import Array, rotation_from_quaternion
 from ...base.numerics.linear import cross, product, rotate, rotate_back
-from .kernel import corrected, distance, propagated, turn_between, turned_by
+from .kernel import correct, propagate, rotate_by, rotation_between, squared_distance
 
 POSITION, VELOCITY, ATTITUDE = slice(0, 3), slice(3, 6), slice(6, 9)
 GYRO_BIAS, ACCELEROMETER_BIAS = slice(9, 12), slice(12, 15)
-SIZE = 15
+STATE_SIZE = 15
 GRAVITY = np.array([0.0, 0.0, 9.81])
-"""In navigation axes [m/s2]."""
+"""The gravity in navigation axes, (3,) [m/s2]."""
 GATE = 25.0
-"""Largest squared Mahalanobis distance of a measurement that is used."""
+"""The largest squared Mahalanobis distance of a measurement that is used."""
 MAX_REJECTED = 10
-"""So many measurements of a sensor in a row are ignored; the next is used anyway."""
-IMU_SEES: Array = np.eye(3, SIZE, 6)
-"""Jacobian of the attitude, (3, 15)."""
-MAX_GAP = 0.5
-"""The IMU is not integrated over a longer silence [s]."""
+"""The most measurements of a sensor in a row that are ignored; the next is used."""
+ATTITUDE_JACOBIAN: Array = np.eye(3, STATE_SIZE, 6)
+"""The Jacobian of the attitude, (3, 15)."""
+MAX_IMU_INTERVAL = 0.5
+"""The longest time between two samples of the IMU that is integrated [s]."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class NavigationSpec:
-    """Errors of the sensors, as standard deviations, and where they are on the base."""
+    """The standard deviations of the sensors' errors, and the sensors' positions on the base."""
 
     attitude: float = 0.01
-    """Attitude of the IMU [rad]."""
+    """The error of the IMU's attitude [rad]."""
     gyro: float = 2e-3
-    """White noise of the gyroscope [rad/s/sqrt(Hz)]."""
+    """The noise density of the gyroscope [rad/s/sqrt(Hz)]."""
     accelerometer: float = 0.02
-    """White noise of the accelerometer, and of what its samples miss [m/s2/sqrt(Hz)]."""
+    """The noise density of the accelerometer, with its sampling error [m/s2/sqrt(Hz)]."""
     gyro_drift: float = 1e-5
-    """Random walk of the gyroscope's bias [rad/s/sqrt(s)]."""
+    """The random walk of the gyroscope's bias [rad/s/sqrt(s)]."""
     accelerometer_drift: float = 1e-3
-    """Random walk of the accelerometer's bias [m/s2/sqrt(s)]."""
+    """The random walk of the accelerometer's bias [m/s2/sqrt(s)]."""
     dvl: float = 0.01
-    """Each component of the DVL's velocity [m/s]."""
+    """The error of each component of the DVL's velocity [m/s]."""
     depth: float = 0.02
-    """Depth [m]."""
+    """The error of the depth [m]."""
     imu_place: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    """IMU in the base's frame [m]."""
+    """The position of the IMU in the base's frame [m]."""
     dvl_place: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    """DVL in the base's frame [m]."""
+    """The position of the DVL in the base's frame [m]."""
     depth_place: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    """Depth sensor in the base's frame [m]."""
+    """The position of the depth sensor in the base's frame [m]."""
 
 
 @dataclass(eq=False)
 class NavigationFilter:
-    """The filter: `imu` predicts and corrects the attitude; `dvl` and `depth` correct.
-
-    Raises nothing: measurements that are not finite are ignored.
-    """
+    """An error-state extended Kalman filter; updates that are not finite are ignored."""
 
     spec: NavigationSpec = field(default_factory=NavigationSpec)
     position: Array = field(default_factory=lambda: np.zeros(3))
-    """Of the base in the navigation frame, (3,) [m]."""
+    """The position of the base in the navigation frame, (3,) [m]."""
     velocity: Array = field(default_factory=lambda: np.zeros(3))
-    """Of the base over ground, navigation axes, (3,) [m/s]."""
+    """The velocity of the base over ground, navigation axes, (3,) [m/s]."""
     rotation: Array = field(default_factory=lambda: np.eye(3))
-    """Axes of the base in the navigation frame, (3, 3)."""
-    rate: Array = field(default_factory=lambda: np.zeros(3))
-    """Angular velocity without its bias, base axes, (3,) [rad/s]."""
+    """The axes of the base in the navigation frame, (3, 3)."""
+    angular_velocity: Array = field(default_factory=lambda: np.zeros(3))
+    """The angular velocity without its bias, base axes, (3,) [rad/s]."""
 
     def __post_init__(self) -> None:
         self.gyro_bias, self.accelerometer_bias = np.zeros(3), np.zeros(3)
         deviations = [0.0, 0.0, 0.5, *[0.3] * 3, *[self.spec.attitude] * 3, *[1e-3] * 3, *[0.1] * 3]
         self.covariance: Array = np.diag(np.square(deviations))
-        """Of the error state, (15, 15)."""
+        """The covariance of the error state, (15, 15)."""
         self._time: float | None = None
-        self._rejected: dict[str, int] = {}
-        white = [self.spec.accelerometer, self.spec.gyro]
-        drifts = [self.spec.gyro_drift, self.spec.accelerometer_drift]
-        self._noise: Array = np.repeat(np.square([0.0, *white, *drifts]), 3)
+        self._n_rejected: dict[str, int] = {}
+        noise_densities = [self.spec.accelerometer, self.spec.gyro]
+        bias_drifts = [self.spec.gyro_drift, self.spec.accelerometer_drift]
+        self._noise: Array = np.repeat(np.square([0.0, *noise_densities, *bias_drifts]), 3)
 
     @property
     def is_ready(self) -> bool:
-        """Whether the attitude is known."""
+        """True if the attitude is known."""
         return self._time is not None
 
     @property
     def heading(self) -> float:
-        """Of the base, from north towards east [rad]."""
+        """The heading of the base, from north towards east [rad]."""
         return math.atan2(self.rotation[1, 0], self.rotation[0, 0])
 
-    def imu(self, time: float, wxyz: Array, rate: Array, force: Array) -> None:
-        """Take a sample of the IMU, whose axes are those of the base.
+    def update_imu(self, time: float, wxyz: Array, rate: Array, force: Array) -> None:
+        """Predict the state and correct the attitude by a sample of the IMU, with the base's axes.
 
         Args:
-            time: of the sample [s].
-            wxyz: attitude, navigation frame from base, (4,).
+            time: the time of the sample [s].
+            wxyz: the attitude, navigation frame from base, (4,).
             rate: angular velocity, base axes, (3,) [rad/s].
             force: specific force, base axes, (3,) [m/s2]; 9.81 upwards at rest.
         """
-        if not math.isfinite(wxyz.sum() + rate.sum() + force.sum()):  # as any part of it is not
+        if not math.isfinite(wxyz.sum() + rate.sum() + force.sum()):  # if a term is not, no sum is
             return
-        measured = rotation_from_quaternion(wxyz)
+        measured_rotation = rotation_from_quaternion(wxyz)
         if self._time is None:
-            self._time, self.rotation = time, measured
+            self._time, self.rotation = time, measured_rotation
             return
-        step, self._time = time - self._time, time
-        if 0.0 < step <= MAX_GAP:
-            self._predict(step, rate - self.gyro_bias, force - self.accelerometer_bias)
-        turn = turn_between(self.rotation, measured)
-        self._correct("imu", turn, IMU_SEES, self.spec.attitude)
+        dt, self._time = time - self._time, time
+        if 0.0 < dt <= MAX_IMU_INTERVAL:
+            self._predict(dt, rate - self.gyro_bias, force - self.accelerometer_bias)
+        rotation_vector = rotation_between(self.rotation, measured_rotation)
+        self._correct("imu", rotation_vector, ATTITUDE_JACOBIAN, self.spec.attitude)
 
-    def dvl(self, velocity: Array) -> None:
-        """Take a velocity over ground in the axes of the base, (3,) [m/s]; NaN if not known."""
-        place = np.array(self.spec.dvl_place)
-        expected = rotate_back(self.rotation, self.velocity) + cross(self.rate, place)
-        jacobian = np.zeros((3, SIZE))
+    def update_dvl(self, velocity: Array) -> None:
+        """Correct by a velocity over ground in base axes, (3,) [m/s]; NaN if unknown."""
+        lever_arm = np.array(self.spec.dvl_place)
+        expected = rotate_back(self.rotation, self.velocity)
+        expected = expected + cross(self.angular_velocity, lever_arm)
+        jacobian = np.zeros((3, STATE_SIZE))
         jacobian[:, VELOCITY] = self.rotation.T
-        jacobian[:, ATTITUDE] = product(self.rotation.T, _cross(self.velocity))
-        jacobian[:, GYRO_BIAS] = _cross(place)
+        jacobian[:, ATTITUDE] = product(self.rotation.T, _cross_matrix(self.velocity))
+        jacobian[:, GYRO_BIAS] = _cross_matrix(lever_arm)
         self._correct("dvl", velocity - expected, jacobian, self.spec.dvl)
 
-    def depth(self, depth: float) -> None:
-        """Take the depth of the sensor below the surface [m]."""
-        arm = rotate(self.rotation, np.array(self.spec.depth_place))
-        jacobian = np.zeros((1, SIZE))
+    def update_depth(self, depth: float) -> None:
+        """Correct by the depth of the sensor below the surface [m]."""
+        lever_arm = rotate(self.rotation, np.array(self.spec.depth_place))
+        jacobian = np.zeros((1, STATE_SIZE))
         jacobian[0, 2] = 1.0
-        jacobian[0, ATTITUDE] = -_cross(arm)[2]
-        error = np.array([depth - float(self.position[2] + arm[2])])
+        jacobian[0, ATTITUDE] = -_cross_matrix(lever_arm)[2]
+        error = np.array([depth - float(self.position[2] + lever_arm[2])])
         self._correct("depth", error, jacobian, self.spec.depth)
 
-    def _predict(self, step: float, rate: Array, force: Array) -> None:
+    def _predict(self, dt: float, rate: Array, force: Array) -> None:
         spec = self.spec
-        # the IMU's place moves with the base: its centripetal force is not the base's own
+        # remove the centripetal force at the position of the IMU
         if any(spec.imu_place):
             force = force - cross(rate, cross(rate, np.array(spec.imu_place)))
         acceleration = rotate(self.rotation, force) + GRAVITY
-        self.covariance = propagated(
-            self.covariance, self.rotation, acceleration - GRAVITY, step, self._noise
+        self.covariance = propagate(
+            self.covariance, self.rotation, acceleration - GRAVITY, dt, self._noise
         )
-        self.position = self.position + step * self.velocity + 0.5 * step**2 * acceleration
-        self.velocity = self.velocity + step * acceleration
-        self.rotation = turned_by(self.rotation, step * rate, in_base=True)
-        self.rate = rate
+        self.position = self.position + dt * self.velocity + 0.5 * dt**2 * acceleration
+        self.velocity = self.velocity + dt * acceleration
+        self.rotation = rotate_by(self.rotation, dt * rate, in_base=True)
+        self.angular_velocity = rate
 
     def _correct(self, sensor: str, error: Array, jacobian: Array, deviation: float) -> None:
-        """Correct the state by the difference of measured and expected values (m,)."""
+        """Correct the state by the error (m,): measured minus expected values."""
         if not np.isfinite(error).all():
             return
-        rejected = self._rejected.get(sensor, 0)
-        off = distance(self.covariance, jacobian, error, deviation**2) / GATE
-        if off > 1.0 and rejected < MAX_REJECTED:
-            self._rejected[sensor] = rejected + 1
+        n_rejected = self._n_rejected.get(sensor, 0)
+        ratio = squared_distance(self.covariance, jacobian, error, deviation**2) / GATE
+        if ratio > 1.0 and n_rejected < MAX_REJECTED:
+            self._n_rejected[sensor] = n_rejected + 1
             return
-        if off > 1.0:  # it insists: what was believed is less sure than that
-            self.covariance = off * self.covariance
-        self._rejected[sensor] = 0
-        by, self.covariance = corrected(self.covariance, jacobian, error, deviation**2)
-        self._move(by)
+        if ratio > 1.0:  # the covariance was too small
+            self.covariance = ratio * self.covariance
+        self._n_rejected[sensor] = 0
+        correction, self.covariance = correct(self.covariance, jacobian, error, deviation**2)
+        self._add_error_state(correction)
 
-    def _move(self, by: Array) -> None:
+    def _add_error_state(self, error: Array) -> None:
         """Add an error state (15,) to the state."""
-        self.position = self.position + by[POSITION]
-        self.velocity = self.velocity + by[VELOCITY]
-        self.gyro_bias = self.gyro_bias + by[GYRO_BIAS]
-        self.accelerometer_bias = self.accelerometer_bias + by[ACCELEROMETER_BIAS]
-        self.rotation = turned_by(self.rotation, by[ATTITUDE], in_base=False)
+        self.position = self.position + error[POSITION]
+        self.velocity = self.velocity + error[VELOCITY]
+        self.gyro_bias = self.gyro_bias + error[GYRO_BIAS]
+        self.accelerometer_bias = self.accelerometer_bias + error[ACCELEROMETER_BIAS]
+        self.rotation = rotate_by(self.rotation, error[ATTITUDE], in_base=False)
 
 
-def _cross(vector: Array) -> Array:
+def _cross_matrix(vector: Array) -> Array:
     """Return the matrix of ``vector x``, (3, 3)."""
     x, y, z = vector.tolist()
     return np.array([[0.0, -z, y], [z, 0.0, -x], [-y, x, 0.0]])

@@ -1,4 +1,4 @@
-"""Covariance of the navigation filter, compiled: it is propagated at the rate of the IMU."""
+"""The covariance of the navigation filter, compiled: it is propagated at the rate of the IMU."""
 
 from __future__ import annotations
 
@@ -11,36 +11,38 @@ from ...base.numerics.jit import njit
 
 
 @njit
-def propagated(covariance: Array, rotation: Array, pull: Array, step: float, noise: Array) -> Array:
-    """Return ``F P F' + Q dt`` of the error state (15, 15).
+def propagate(
+    covariance: Array, rotation: Array, specific_force: Array, dt: float, noise: Array
+) -> Array:
+    """Compute the covariance ``F P F' + Q dt`` of the error state, (15, 15).
 
     Args:
-        covariance: P, (15, 15).
-        rotation: axes of the base in the navigation frame, (3, 3).
-        pull: specific force in navigation axes, (3,) [m/s2].
-        step: dt [s].
-        noise: diagonal of Q, (15,).
+        covariance: the covariance P, (15, 15).
+        rotation: the axes of the base in the navigation frame, (3, 3).
+        specific_force: in navigation axes, (3,) [m/s2].
+        dt: the time step [s].
+        noise: the diagonal of Q, (15,).
     """
-    moves = np.eye(15)
+    transition = np.eye(15)
     for i in range(3):
-        moves[i, 3 + i] = step
+        transition[i, 3 + i] = dt
         for k in range(3):
-            moves[3 + i, 12 + k] = -step * rotation[i, k]
-            moves[6 + i, 9 + k] = -step * rotation[i, k]
-    x, y, z = pull
-    moves[3, 7], moves[3, 8] = step * z, -step * y
-    moves[4, 6], moves[4, 8] = -step * z, step * x
-    moves[5, 6], moves[5, 7] = step * y, -step * x
-    half = _product(moves, covariance)
-    found = _times_transposed(half, moves)
+            transition[3 + i, 12 + k] = -dt * rotation[i, k]
+            transition[6 + i, 9 + k] = -dt * rotation[i, k]
+    x, y, z = specific_force
+    transition[3, 7], transition[3, 8] = dt * z, -dt * y
+    transition[4, 6], transition[4, 8] = -dt * z, dt * x
+    transition[5, 6], transition[5, 7] = dt * y, -dt * x
+    transition_covariance = _product(transition, covariance)
+    result = _product_transposed(transition_covariance, transition)
     for i in range(15):
-        found[i, i] += step * noise[i]
-    return found
+        result[i, i] += dt * noise[i]
+    return result
 
 
 @njit
-def turned_by(rotation: Array, vector: Array, *, in_base: bool) -> Array:
-    """Turn a rotation (3, 3) by a rotation vector (3,) [rad] of the base's axes, or the others."""
+def rotate_by(rotation: Array, vector: Array, *, in_base: bool) -> Array:
+    """Rotate the axes (3, 3) by a rotation vector (3,) [rad], in base or navigation axes."""
     x, y, z = vector
     angle = math.sqrt(x * x + y * y + z * z)
     if angle < 1e-12:
@@ -67,9 +69,9 @@ def turned_by(rotation: Array, vector: Array, *, in_base: bool) -> Array:
 
 
 @njit
-def turn_between(rotation: Array, other: Array) -> Array:
-    """Rotation vector (3,) [rad] of ``other @ rotation.T``, by less than half a turn."""
-    turn = _times_transposed(other, rotation)
+def rotation_between(rotation: Array, other: Array) -> Array:
+    """Return the rotation vector (3,) [rad] of ``other @ rotation.T``, shorter than pi."""
+    turn = _product_transposed(other, rotation)
     axis = np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
     axis *= 0.5
     sine = math.sqrt(axis[0] ** 2 + axis[1] ** 2 + axis[2] ** 2)
@@ -79,63 +81,66 @@ def turn_between(rotation: Array, other: Array) -> Array:
 
 
 @njit
-def distance(covariance: Array, jacobian: Array, error: Array, variance: float) -> float:
-    """Squared Mahalanobis distance of an error (m,) with a jacobian (m, 15)."""
-    solved = _solve(_innovation(covariance, jacobian, variance), error.copy().reshape(-1, 1))
+def squared_distance(covariance: Array, jacobian: Array, error: Array, variance: float) -> float:
+    """Return the squared Mahalanobis distance of an error (m,) with a Jacobian (m, 15)."""
+    weighted_error = _solve(
+        _innovation_covariance(covariance, jacobian, variance), error.copy().reshape(-1, 1)
+    )
     total = 0.0
     for i in range(len(error)):
-        total += error[i] * solved[i, 0]
+        total += error[i] * weighted_error[i, 0]
     return total
 
 
 @njit
-def corrected(
+def correct(
     covariance: Array, jacobian: Array, error: Array, variance: float
 ) -> tuple[Array, Array]:
-    """Return the correction (15,) and the covariance after it (Joseph's form)."""
-    shares = _times_transposed(covariance, jacobian)  # (15, m)
-    gain = _solve(_innovation(covariance, jacobian, variance), shares.T.copy()).T.copy()
-    kept = -_product(gain, jacobian)
+    """Return the correction (15,) and the updated covariance (Joseph's form)."""
+    cross_covariance = _product_transposed(covariance, jacobian)  # (15, m)
+    gain = _solve(
+        _innovation_covariance(covariance, jacobian, variance), cross_covariance.T.copy()
+    ).T.copy()
+    complement = -_product(gain, jacobian)
     for i in range(15):
-        kept[i, i] += 1.0
-    found = _times_transposed(_product(kept, covariance), kept)
-    found += variance * _times_transposed(gain, gain)
-    return _product(gain, error.copy().reshape(-1, 1))[:, 0], found
+        complement[i, i] += 1.0
+    updated_covariance = _product_transposed(_product(complement, covariance), complement)
+    updated_covariance += variance * _product_transposed(gain, gain)
+    return _product(gain, error.copy().reshape(-1, 1))[:, 0], updated_covariance
 
 
 @njit
-def _innovation(covariance: Array, jacobian: Array, variance: float) -> Array:
-    found = _product(jacobian, _times_transposed(covariance, jacobian))
-    for i in range(len(found)):
-        found[i, i] += variance
-    return found
+def _innovation_covariance(covariance: Array, jacobian: Array, variance: float) -> Array:
+    innovation_covariance = _product(jacobian, _product_transposed(covariance, jacobian))
+    for i in range(len(innovation_covariance)):
+        innovation_covariance[i, i] += variance
+    return innovation_covariance
 
 
 @njit
 def _product(a: Array, b: Array) -> Array:
-    found = np.zeros((a.shape[0], b.shape[1]))
+    matrix = np.zeros((a.shape[0], b.shape[1]))
     for i in range(a.shape[0]):
         for j in range(a.shape[1]):
             if a[i, j] != 0.0:
                 for k in range(b.shape[1]):
-                    found[i, k] += a[i, j] * b[j, k]
-    return found
+                    matrix[i, k] += a[i, j] * b[j, k]
+    return matrix
 
 
 @njit
-def _times_transposed(a: Array, b: Array) -> Array:
-    """``a @ b.T``."""
-    found = np.zeros((a.shape[0], b.shape[0]))
+def _product_transposed(a: Array, b: Array) -> Array:
+    matrix = np.zeros((a.shape[0], b.shape[0]))
     for i in range(a.shape[0]):
         for k in range(b.shape[0]):
             for j in range(a.shape[1]):
-                found[i, k] += a[i, j] * b[k, j]
-    return found
+                matrix[i, k] += a[i, j] * b[k, j]
+    return matrix
 
 
 @njit
 def _solve(a: Array, b: Array) -> Array:
-    """Eliminate without pivots: ``a`` (m, m) is positive definite; ``b`` (m, n)."""
+    """Solve ``a x = b``, with ``a`` (m, m) positive definite and ``b`` (m, n), without pivots."""
     a, b = a.copy(), b.copy()
     m = len(a)
     for column in range(m):

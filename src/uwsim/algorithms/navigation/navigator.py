@@ -1,4 +1,4 @@
-"""The filter on the bus: topics of the sensors in, the state of the vehicle out."""
+"""The navigation filter on the topics of the sensors."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 from ...base.geometry import Array, Pose
 from ...bus import Node
 from ...messages import DVL, Imu, Pressure, seconds
-from .bottom import BottomPlane, ranges_of
+from .bottom import BottomPlane, parse_ranges
 from .ekf import NavigationFilter, NavigationSpec
 
 TOPICS: Mapping[str, str] = {
@@ -17,15 +17,15 @@ TOPICS: Mapping[str, str] = {
     "dvl_topic": "/girona500/dvl",
     "depth_topic": "/girona500/pressure",
 }
-"""Parameters with the topics of the sensors, and their defaults."""
+"""The parameters with the topics of the sensors, and their defaults."""
 
 
 class Navigator:
-    """Feeds a `NavigationFilter` from the topics of an IMU, a DVL and a depth sensor.
+    """A `NavigationFilter` that reads the topics of an IMU, a DVL and a depth sensor.
 
-    The IMU has the axes of the base; of the DVL the velocity in the axes of the ship is used. Any
-    algorithm can have one, made in its `start`. Without a spec, the DVL is taken to be at the base:
-    give ``NavigationSpec(dvl_place=...)`` where it is elsewhere, or the estimate drifts.
+    The IMU has the axes of the base; the DVL's velocity in ship axes is used. Any algorithm can
+    make one in its `start`. Without a spec, the DVL is at the origin of the base. If it is
+    elsewhere, set ``NavigationSpec(dvl_place=...)``; otherwise the estimate drifts.
     """
 
     def __init__(
@@ -36,36 +36,36 @@ class Navigator:
     ) -> None:
         """Subscribe to the topics (`TOPICS`)."""
         self.filter = NavigationFilter(spec or NavigationSpec())
-        """The filter."""
+        """The filter with the state of the vehicle."""
         self.bottom = BottomPlane()
-        """The bottom below it, in the navigation frame."""
+        """The bottom below the vehicle, in the navigation frame."""
         node.subscribe(topics["imu_topic"], Imu, self._on_imu)
         node.subscribe(topics["dvl_topic"], DVL, self._on_dvl)
         node.subscribe(topics["depth_topic"], Pressure, self._on_depth)
 
     @property
     def is_ready(self) -> bool:
-        """Whether there is an estimate."""
+        """True if there is an estimate."""
         return self.filter.is_ready
 
     @property
     def pose(self) -> Pose:
-        """``navigation_from_base``: north, east, down from where it began; z is the depth."""
+        """The pose ``navigation_from_base``: north, east from the start; z is the depth."""
         return Pose(self.filter.position.copy(), self.filter.rotation.copy())
 
     @property
     def velocity(self) -> Array:
-        """Over ground, navigation axes, (3,) [m/s]."""
+        """The velocity over ground, navigation axes, (3,) [m/s]."""
         return self.filter.velocity.copy()
 
     @property
     def heading(self) -> float:
-        """From north towards east [rad]."""
+        """The heading, from north towards east [rad]."""
         return self.filter.heading
 
     def _on_imu(self, message: Imu) -> None:
         q, w, f = message.orientation, message.angular_velocity, message.linear_acceleration
-        self.filter.imu(
+        self.filter.update_imu(
             seconds(message.header.stamp),
             np.array([q.w, q.x, q.y, q.z]),
             np.array([w.x, w.y, w.z]),
@@ -75,12 +75,12 @@ class Navigator:
     def _on_dvl(self, message: DVL) -> None:
         if message.bs_status != "A":
             return
-        self.filter.dvl(
+        self.filter.update_dvl(
             np.array([message.bs_longitudinal, message.bs_transverse, message.bs_normal])
         )
-        here = self.pose
-        place = here.transform(np.array([self.filter.spec.dvl_place]))[0]
-        self.bottom.take(ranges_of(message), Pose(place, here.rotation))
+        pose = self.pose
+        dvl_position = pose.transform(np.array([self.filter.spec.dvl_place]))[0]
+        self.bottom.update(parse_ranges(message), Pose(dvl_position, pose.rotation))
 
     def _on_depth(self, message: Pressure) -> None:
-        self.filter.depth(message.pressure)
+        self.filter.update_depth(message.pressure)
