@@ -55,8 +55,8 @@ def test_an_image_has_the_newest_info_by_then_and_the_first_before_it(
 def test_a_storage_file_is_read_without_its_folder(tmp_path: Path, file: str) -> None:
     folder = write_bag(tmp_path, "mcap", [(time, sample_pixels(0)) for time in TIMES])
     actual = next(folder.glob("*.mcap"))
-    moved = actual.rename(tmp_path / file)
-    recording = open_bag(moved)
+    new_path = actual.rename(tmp_path / file)
+    recording = open_bag(new_path)
     assert len(list(recording.frames())) == 3
     recording.close()
 
@@ -77,32 +77,36 @@ def test_a_storage_file_is_read_without_its_folder(tmp_path: Path, file: str) ->
 def test_every_encoding_is_turned_to_red_first_or_grey(
     tmp_path: Path, encoding: str, order: list[int] | None, padding: int
 ) -> None:
-    like = {"8UC1": "mono8", "8UC3": "bgr8"}.get(encoding, encoding)
-    stored = sample_pixels(9, like)
+    template = {"8UC1": "mono8", "8UC3": "bgr8"}.get(encoding, encoding)
+    pixels = sample_pixels(9, template)
     path = write_bag(
-        tmp_path, "mcap", [(0.0, stored), (0.1, stored)], encoding=encoding, padding=padding
+        tmp_path,
+        "mcap",
+        [(0.0, pixels), (0.1, pixels)],
+        encoding=encoding,
+        padding=padding,
     )
     recording = open_bag(path)
     actual = recording.first_frame.decode()
     recording.close()
-    assert np.array_equal(actual.pixels, stored if order is None else stored[..., order])
+    assert np.array_equal(actual.pixels, pixels if order is None else pixels[..., order])
     assert actual.is_blue_first is (order == [2, 1, 0])
 
 
 @pytest.mark.parametrize("kind", ["ros1", "mcap"])
 @pytest.mark.parametrize("grey", [False, True])
 def test_compressed_images_are_unpacked(tmp_path: Path, kind: str, grey: bool) -> None:
-    stored = sample_pixels(9, "mono8" if grey else "bgr8")  # imencode takes blue first
+    pixels = sample_pixels(9, "mono8" if grey else "bgr8")  # imencode takes blue first
     path = write_bag(
         tmp_path,
         kind,
-        [(0.0, stored), (0.1, stored)],
+        [(0.0, pixels), (0.1, pixels)],
         image_type="sensor_msgs/msg/CompressedImage",
     )
     recording = open_bag(path)
     actual = recording.first_frame.decode().pixels
     recording.close()
-    assert np.array_equal(actual, stored if grey else stored[..., ::-1])
+    assert np.array_equal(actual, pixels if grey else pixels[..., ::-1])
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -171,12 +175,12 @@ def test_a_file_that_is_no_bag_is_one_clean_error(
 
 
 def test_a_bag_that_was_cut_off_is_one_clean_error(tmp_path: Path) -> None:
-    whole = write_bag(
+    data = write_bag(
         tmp_path, "ros1", [(0.1 * i, sample_pixels(i)) for i in range(20)]
     ).read_bytes()
-    for length in range(20, len(whole), len(whole) // 12):
+    for length in range(20, len(data), len(data) // 12):
         path = tmp_path / f"cut{length}.bag"
-        path.write_bytes(whole[:length])
+        path.write_bytes(data[:length])
         with pytest.raises(AssetError, match="cannot be read as a recording"):
             open_bag(path)
 
@@ -184,8 +188,8 @@ def test_a_bag_that_was_cut_off_is_one_clean_error(tmp_path: Path) -> None:
 def test_a_recordings_folder_holds_its_own_files_alone(tmp_path: Path) -> None:
     folder = write_bag(tmp_path, "mcap", [(time, sample_pixels(0)) for time in TIMES])
     storage = next(folder.glob("*.mcap"))
-    elsewhere = storage.rename(tmp_path / "elsewhere.mcap")
-    storage.symlink_to(elsewhere)
+    other_folder = storage.rename(tmp_path / "elsewhere.mcap")
+    storage.symlink_to(other_folder)
     with pytest.raises(AssetError, match=r"dive/.*\.mcap leads out of the recording's folder"):
         open_bag(folder)
     storage.unlink()

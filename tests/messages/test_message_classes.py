@@ -28,7 +28,7 @@ from uwsim.middleware.encodings import from_cdr, to_cdr, to_ros1
 from uwsim.middleware.json_encoding import to_json
 
 FOLDER = Path(messages.__file__).parent
-GOLDEN: dict[str, Any] = json.loads(Path(__file__).with_name("message_classes.json").read_text())
+CLASSES: dict[str, Any] = json.loads(Path(__file__).with_name("message_classes.json").read_text())
 
 
 def class_of(name: str) -> type:
@@ -37,23 +37,23 @@ def class_of(name: str) -> type:
     return actual
 
 
-def filled(cls: type, numbers: Iterator[int]) -> Any:
+def make_message(cls: type, numbers: Iterator[int]) -> Any:
     """Return a message with another value in every field, and two entries in every list."""
     values: dict[str, Any] = {}
     default = cls()
-    declared = {field.name: str(field.type) for field in dataclasses.fields(cls)}
-    for name, kind, inner in _definition(cls):
+    field_types = {field.name: str(field.type) for field in dataclasses.fields(cls)}
+    for name, kind, content in _definition(cls):
         if kind == "array":
             length = len(getattr(default, name)) or 3
-            values[name] = np.array([next(numbers) for _ in range(length)], dtype=inner)
-        elif kind == "list" and inner == "str":
+            values[name] = np.array([next(numbers) for _ in range(length)], dtype=content)
+        elif kind == "list" and content == "str":
             values[name] = [f"{name} {next(numbers)}" for _ in range(2)]
         elif kind in ("list", "message"):
-            part = _class_in(cls, declared[name].removeprefix("list[").removesuffix("]"))
+            part = _class_in(cls, field_types[name].removeprefix("list[").removesuffix("]"))
             assert part is not None
-            values[name] = filled(part, numbers)
+            values[name] = make_message(part, numbers)
             if kind == "list":
-                values[name] = [values[name], filled(part, numbers)]
+                values[name] = [values[name], make_message(part, numbers)]
         elif kind == "str":
             values[name] = f"{name} {next(numbers)}"
         else:
@@ -62,10 +62,10 @@ def filled(cls: type, numbers: Iterator[int]) -> Any:
 
 
 def example(cls: type) -> Any:
-    return filled(cls, itertools.cycle(range(1, 100)))
+    return make_message(cls, itertools.cycle(range(1, 100)))
 
 
-def described(cls: Any) -> dict[str, Any]:
+def describe(cls: Any) -> dict[str, Any]:
     """What users see of a class."""
     default = cls()
     return {
@@ -89,15 +89,15 @@ def on_the_wire(message: Any) -> str:
     return hashlib.sha256(b"|".join((bytes(to_cdr(message)), ros1, text))).hexdigest()[:16]
 
 
-@pytest.mark.parametrize("name", GOLDEN)
+@pytest.mark.parametrize("name", CLASSES)
 def test_a_generated_class_is_what_the_written_one_was(name: str) -> None:
-    actual, expected = described(class_of(name)), GOLDEN[name]
+    actual, expected = describe(class_of(name)), CLASSES[name]
     assert expected["constants"].items() <= actual.pop("constants").items()
     assert list(actual["fields"]) == list(expected["fields"])
     assert actual == {key: value for key, value in expected.items() if key != "constants"}
 
 
-@pytest.mark.parametrize("name", GOLDEN)
+@pytest.mark.parametrize("name", CLASSES)
 def test_a_message_survives_copies_pickles_and_a_wire(name: str) -> None:
     message = example(class_of(name))
     expected = bytes(to_cdr(message))
@@ -120,11 +120,11 @@ def put(folder: Path, text: str, name: str = "own_msgs/msg/Heading.msg") -> Path
 
 def test_comments_of_a_text_are_docstrings_and_its_defaults_are_kept(tmp_path: Path) -> None:
     text = "# A heading.\nstd_msgs/Header header\nfloat64 heading 1.5  # Yaw [rad].\nbool[3] set\n"
-    written = modules(put(tmp_path, text))["own_msgs"]
-    assert 'class Heading:\n    """A heading."""\n' in written
-    assert '    heading: float = 1.5\n    """Yaw [rad]."""\n' in written
-    assert "_BOOL__3: Any = partial(np.zeros, 3, np.bool_)" in written
-    compile(written, "own_msgs.py", "exec")
+    source = modules(put(tmp_path, text))["own_msgs"]
+    assert 'class Heading:\n    """A heading."""\n' in source
+    assert '    heading: float = 1.5\n    """Yaw [rad]."""\n' in source
+    assert "_BOOL__3: Any = partial(np.zeros, 3, np.bool_)" in source
+    compile(source, "own_msgs.py", "exec")
 
 
 @pytest.mark.parametrize(

@@ -29,9 +29,9 @@ def cloud(
     order = ">" if is_bigendian else "<"
     for i, place in enumerate(places):
         for value, kind, offset in zip(place, kinds, offsets, strict=True):
-            raw = np.array([value]).astype(order + ("f4" if kind == "f" else "f8")).tobytes()
+            item = np.array([value]).astype(order + ("f4" if kind == "f" else "f8")).tobytes()
             at = i // width * row + i % width * step + offset
-            data[at : at + len(raw)] = list(raw)
+            data[at : at + len(item)] = list(item)
     fields = [
         PointField(name=name, offset=offset, datatype=7 if kind == "f" else 8, count=1)
         for name, kind, offset in zip(names, kinds, offsets, strict=True)
@@ -69,25 +69,25 @@ def test_a_cloud_is_read_whatever_its_layout(layout: dict[str, object]) -> None:
 
 
 def test_doubles_keep_all_their_digits() -> None:
-    third = np.full((1, 3), 1.0 / 3.0)
-    assert points(cloud(third, kinds="ddd", offsets=(0, 8, 16), step=24))[0, 0] == 1.0 / 3.0
+    one_third = np.full((1, 3), 1.0 / 3.0)
+    assert points(cloud(one_third, kinds="ddd", offsets=(0, 8, 16), step=24))[0, 0] == 1.0 / 3.0
 
 
 def test_a_cloud_that_was_built_is_read_back() -> None:
-    built = point_cloud(XYZ, time=1.5, frame_id="laser")
-    assert (built.width, built.is_dense, built.header.frame_id) == (4, False, "laser")
-    assert np.array_equal(points(built), XYZ, equal_nan=True)
+    new_cloud = point_cloud(XYZ, time=1.5, frame_id="laser")
+    assert (new_cloud.width, new_cloud.is_dense, new_cloud.header.frame_id) == (4, False, "laser")
+    assert np.array_equal(points(new_cloud), XYZ, equal_nan=True)
     assert points(point_cloud(np.empty((0, 3)))).shape == (0, 3)
 
 
 def test_the_padding_of_the_last_row_may_be_missing() -> None:
-    padded = cloud(XYZ, height=2, row_padding=5)
-    padded.data = padded.data[:-5]
-    assert np.array_equal(points(padded), XYZ, equal_nan=True)
+    padded_cloud = cloud(XYZ, height=2, row_padding=5)
+    padded_cloud.data = padded_cloud.data[:-5]
+    assert np.array_equal(points(padded_cloud), XYZ, equal_nan=True)
 
 
 @pytest.mark.parametrize(
-    ("change", "says"),
+    ("change", "text"),
     [
         ({"fields": []}, "no field 'x'; its fields: none"),
         ({"fields": cloud(XYZ).fields[:2]}, "no field 'y'; its fields: 'x', 'rgb'"),
@@ -99,18 +99,18 @@ def test_the_padding_of_the_last_row_may_be_missing() -> None:
     ],
 )
 def test_a_cloud_that_makes_no_sense_is_a_clean_refusal(
-    change: dict[str, object], says: str
+    change: dict[str, object], text: str
 ) -> None:
-    broken = cloud(XYZ)
+    broken_cloud = cloud(XYZ)
     for name, value in change.items():
-        setattr(broken, name, value)
-    with pytest.raises(BadSetting, match=says):
-        points(broken)
+        setattr(broken_cloud, name, value)
+    with pytest.raises(BadSetting, match=text):
+        points(broken_cloud)
 
 
-@pytest.mark.parametrize(("datatype", "what"), [(5, "int32"), (99, "of type 99")])
-def test_coordinates_that_are_no_floats_are_refused(datatype: int, what: str) -> None:
-    broken = cloud(XYZ)
-    broken.fields[0].datatype = datatype
-    with pytest.raises(BadSetting, match=f"field 'x' is {what}; expected float32 or float64"):
-        points(broken)
+@pytest.mark.parametrize(("datatype", "type_name"), [(5, "int32"), (99, "of type 99")])
+def test_coordinates_that_are_no_floats_are_refused(datatype: int, type_name: str) -> None:
+    broken_cloud = cloud(XYZ)
+    broken_cloud.fields[0].datatype = datatype
+    with pytest.raises(BadSetting, match=f"field 'x' is {type_name}; expected float32 or float64"):
+        points(broken_cloud)

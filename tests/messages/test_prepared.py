@@ -46,14 +46,14 @@ def arrays(value: Any) -> Iterator[np.ndarray[Any, Any]]:
 
 @pytest.mark.parametrize("cls", CLASSES, ids=lambda each: each.__name__)
 def test_a_message_that_fits_has_arrays_that_are_read_only(cls: type) -> None:
-    random = RandomMessages(4, ["joint"])
+    generator = RandomMessages(4, ["joint"])
     for _ in range(8):
-        message = random.message(cls)
+        message = generator.message(cls)
         assert check_and_freeze(message) == find_invalid_field(copy_message(message)) is None
         assert not any(array.flags.writeable for array in arrays(message))
 
 
-def spoiled(field: str, value: object) -> JointState:
+def spoil(field: str, value: object) -> JointState:
     message = JointState(
         header=header(1.0),
         name=["a"],
@@ -78,17 +78,17 @@ def spoiled(field: str, value: object) -> JointState:
     ],
 )
 def test_what_does_not_fit_is_reported_and_left_as_it_is(field: str, value: object) -> None:
-    message = spoiled(field, value)
-    wrong = check_and_freeze(message)
-    assert wrong is not None
-    assert wrong == find_invalid_field(copy.copy(message))
-    assert wrong.startswith(f"{field} is ")
+    message = spoil(field, value)
+    invalid_message = check_and_freeze(message)
+    assert invalid_message is not None
+    assert invalid_message == find_invalid_field(copy.copy(message))
+    assert invalid_message.startswith(f"{field} is ")
     assert message.velocity.flags.writeable
 
 
 @pytest.mark.parametrize("value", [[1.0], (1.0,), np.ones(1, np.float32), np.ones(1, int)])
 def test_numbers_of_other_kinds_are_taken(value: object) -> None:
-    message = spoiled("position", value)
+    message = spoil("position", value)
     assert check_and_freeze(message) is None
     assert isinstance(message.position, np.ndarray)
     assert not message.position.flags.writeable
@@ -106,8 +106,8 @@ def test_numbers_are_compared_with_a_limit_one_by_one_and_at_once(n: int) -> Non
     values = np.linspace(-2.0, 2.0, n)
     assert are_within(values, 2.0)
     assert are_within(values.reshape(1, -1), 2.0)
-    for odd in (2.5, -2.5, np.nan, np.inf, -np.inf):
+    for odd_values in (2.5, -2.5, np.nan, np.inf, -np.inf):
         for place in {0, n // 2, n - 1} if n else ():
             spoilt = values.copy()
-            spoilt[place] = odd
+            spoilt[place] = odd_values
             assert not are_within(spoilt, 2.0)

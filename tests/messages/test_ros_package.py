@@ -48,7 +48,7 @@ print(json.dumps(found))
 """
 
 
-def listed(name: str) -> list[str]:
+def listed_files(name: str) -> list[str]:
     """The files that a variable of the CMake file lists."""
     actual = re.search(rf"set\({name} ([^)]*)\)", CMAKE)
     assert actual is not None
@@ -56,8 +56,8 @@ def listed(name: str) -> list[str]:
 
 
 def test_every_text_is_listed_for_the_build() -> None:
-    assert listed("MESSAGES") == sorted(path.name for path in PACKAGE.glob("msg/*"))
-    assert listed("SERVICES") == sorted(path.name for path in PACKAGE.glob("srv/*"))
+    assert listed_files("MESSAGES") == sorted(path.name for path in PACKAGE.glob("msg/*"))
+    assert listed_files("SERVICES") == sorted(path.name for path in PACKAGE.glob("srv/*"))
 
 
 def test_ros_2_gets_all_but_those_whose_names_it_refuses() -> None:
@@ -76,23 +76,23 @@ def test_the_manifest_names_the_package_and_all_that_its_texts_need() -> None:
     assert (root.tag, root.get("format")) == ("package", "3")
     assert root.findtext("name") == PACKAGE.name
     assert f"project({PACKAGE.name})" in CMAKE
-    needed = {
+    packages = {
         match[1] for path in TEXTS for match in re.finditer(r"^(\w+)/\w+", path.read_text(), re.M)
     }
-    assert needed <= {entry.text for entry in root.findall("depend")}
+    assert packages <= {entry.text for entry in root.findall("depend")}
     tools = {(entry.text, entry.get("condition")) for entry in root.findall("buildtool_depend")}
     assert ("catkin", "$ROS_VERSION == 1") in tools
     assert ("ament_cmake", "$ROS_VERSION == 2") in tools
-    for package in needed:
+    for package in packages:
         assert CMAKE.count(package) >= 3
 
 
 @needs_ros1
 def test_the_generator_of_ros_1_reads_the_texts_and_has_our_sums(tmp_path: Path) -> None:
     command = [PYTHON, "-c", GENMSG, str(PACKAGE), str(tmp_path)]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=200, env={})
-    assert done.returncode == 0, done.stderr
-    sums = json.loads(done.stdout)
+    completed_process = subprocess.run(command, capture_output=True, text=True, timeout=200, env={})
+    assert completed_process.returncode == 0, completed_process.stderr
+    sums = json.loads(completed_process.stdout)
     for kind in (messages.DVL, messages.LedLight, messages.Pressure):
         actual = wire_type(kind)
         assert actual is not None

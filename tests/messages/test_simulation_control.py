@@ -31,8 +31,8 @@ HALVES = [h for each in SIMULATION_SERVICES.values() for h in (each.request, eac
 
 @pytest.mark.parametrize("kind", [*MESSAGES, *HALVES])
 def test_classes_and_texts_have_the_same_fields_and_what_is_sent_arrives(kind: type) -> None:
-    _, defined = ros2_store().fielddefs[kind.__msgtype__]
+    _, definitions = ros2_store().fielddefs[kind.__msgtype__]
     names = [entry.name for entry in dataclasses.fields(kind) if entry.name[0] != "_"]
-    expected = [name for name, _ in defined if name != "structure_needs_at_least_one_member"]
+    expected = [name for name, _ in definitions if name != "structure_needs_at_least_one_member"]
     assert names == expected
     assert bytes(to_cdr(from_cdr(kind, to_cdr(kind())))) == bytes(to_cdr(kind()))

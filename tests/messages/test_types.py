@@ -42,7 +42,7 @@ def test_a_message_is_made_without_an_argument_and_is_what_ros_reads_from_zeros(
     name = kind.__msgtype__  # type: ignore[attr-defined]
     back = STORE.deserialize_cdr(STORE.serialize_cdr(message, name), name)
     assert back.__class__ is STORE.types[name]
-    assert same(message, back)
+    assert are_equal(message, back)
 
 
 @pytest.mark.parametrize("kind", CLASSES, ids=lambda kind: kind.__name__)
@@ -53,14 +53,14 @@ def test_fields_and_constants_are_those_of_the_definition(kind: typing.Any) -> N
     assert actual == {name: value for name, _, value in constants}
 
 
-def same(one: object, other: object) -> bool:
+def are_equal(first: object, other: object) -> bool:
     """Whether two messages hold the same, whatever their classes."""
-    if dataclasses.is_dataclass(one):
-        names = [field.name for field in dataclasses.fields(one)]
-        return all(same(getattr(one, name), getattr(other, name)) for name in names)
-    if isinstance(one, np.ndarray):
-        return one.dtype == np.asarray(other).dtype and np.array_equal(one, np.asarray(other))
-    return one == other
+    if dataclasses.is_dataclass(first):
+        names = [field.name for field in dataclasses.fields(first)]
+        return all(are_equal(getattr(first, name), getattr(other, name)) for name in names)
+    if isinstance(first, np.ndarray):
+        return first.dtype == np.asarray(other).dtype and np.array_equal(first, np.asarray(other))
+    return first == other
 
 
 @pytest.mark.parametrize("kind", CLASSES, ids=lambda kind: kind.__name__)
@@ -79,29 +79,29 @@ def test_every_number_is_zero_but_the_w_of_no_rotation(kind: type) -> None:
 
 
 def test_messages_share_nothing() -> None:
-    one, other = messages.Odometry(), messages.Odometry()
-    one.twist.twist.linear.x = 1.0
-    one.pose.covariance[0] = 1.0
+    first_message, other = messages.Odometry(), messages.Odometry()
+    first_message.twist.twist.linear.x = 1.0
+    first_message.pose.covariance[0] = 1.0
     assert other.twist.twist.linear.x == other.pose.covariance[0] == 0.0
-    assert one.pose.covariance.shape == (36,)
+    assert first_message.pose.covariance.shape == (36,)
 
 
 def test_every_message_type_that_is_public_has_defaults() -> None:
-    public = {getattr(messages, name) for name in messages.__all__}
-    known = {
+    kinds = {getattr(messages, name) for name in messages.__all__}
+    type_names = {
         *CLASSES,
         *(messages.PingInfo, messages.SonarImageData, messages.ProjectedSonarImage),
         *(messages.DVL, messages.LedLight, messages.Pressure),
     }
-    assert {kind for kind in public if "/msg/" in getattr(kind, "__msgtype__", "")} == known
+    assert {kind for kind in kinds if "/msg/" in getattr(kind, "__msgtype__", "")} == type_names
 
 
 def test_the_class_of_another_package_is_named_by_its_package() -> None:
-    foreign = STORE.types["std_msgs/msg/Bool"]
+    cls = STORE.types["std_msgs/msg/Bool"]
     publish = Bus().publisher("on", messages.Bool)
     text = r"carries std_msgs/msg/Bool, the class of uwsim\.messages\.std_msgs, not that of rosbags"
     with pytest.raises(BadMessage, match=text):
-        publish(typing.cast("messages.Bool", foreign(data=True)))
+        publish(typing.cast("messages.Bool", cls(data=True)))
 
 
 @pytest.mark.parametrize(

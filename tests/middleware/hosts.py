@@ -45,9 +45,9 @@ class Host:
 
 
 def _ip(*words: str) -> None:
-    done = subprocess.run(["ip", *words], capture_output=True, text=True)
-    if done.returncode:
-        raise OSError(f"ip {' '.join(words)}: {done.stderr.strip()}")
+    completed_process = subprocess.run(["ip", *words], capture_output=True, text=True)
+    if completed_process.returncode:
+        raise OSError(f"ip {' '.join(words)}: {completed_process.stderr.strip()}")
 
 
 @contextmanager

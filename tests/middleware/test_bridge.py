@@ -17,15 +17,15 @@ from uwsim.middleware.log import MAX_KINDS, MAX_LINES_OF_A_KIND, Log
 from uwsim.middleware.queues import LatestQueue
 
 
-class Seen(Bridge):
+class FakeBridge(Bridge):
     """A transport that keeps what it is given."""
 
     def __init__(self, bus: Bus) -> None:
-        self.printed: list[str] = []
-        super().__init__(bus, lambda: bus.step * 0.002, Log("test", self.printed.append))
+        self.lines: list[str] = []
+        super().__init__(bus, lambda: bus.step * 0.002, Log("test", self.lines.append))
         self.topics: dict[str, TopicEndpoints] = {}
         self.services: dict[str, Service] = {}
-        self.sent: list[tuple[str, object]] = []
+        self.sent_messages: list[tuple[str, object]] = []
 
     def on_topics(self, topics: Mapping[str, TopicEndpoints]) -> None:
         self.topics = dict(topics)
@@ -34,7 +34,7 @@ class Seen(Bridge):
         self.services = dict(services)
 
     def send(self, topic: str, message: object) -> None:
-        self.sent.append((topic, message))
+        self.sent_messages.append((topic, message))
 
 
 @pytest.fixture
@@ -43,11 +43,11 @@ def bus() -> Bus:
 
 
 @pytest.fixture
-def bridge(bus: Bus) -> Seen:
-    return Seen(bus)
+def bridge(bus: Bus) -> FakeBridge:
+    return FakeBridge(bus)
 
 
-def test_topics_are_followed_as_they_come(bus: Bus, bridge: Seen) -> None:
+def test_topics_are_followed_as_they_come(bus: Bus, bridge: FakeBridge) -> None:
     bus.subscribe("cmd", Twist, print)
     bridge.step()
     assert bridge.topics == {"cmd": TopicEndpoints(Twist, is_published=False, is_read=True)}
@@ -58,7 +58,7 @@ def test_topics_are_followed_as_they_come(bus: Bus, bridge: Seen) -> None:
     assert bridge.topics["cmd"].is_published
 
 
-def test_a_message_is_sent_only_while_somebody_reads(bus: Bus, bridge: Seen) -> None:
+def test_a_message_is_sent_only_while_somebody_reads(bus: Bus, bridge: FakeBridge) -> None:
     publish = bus.publisher("depth", Float64)
     publish(Float64(data=1.0))
     bridge.step()
@@ -76,10 +76,10 @@ def test_a_message_is_sent_only_while_somebody_reads(bus: Bus, bridge: Seen) -> 
     bridge.subscribers.remove("depth")
     bridge.step()
     assert not bus.has_subscribers("depth")
-    assert bridge.sent == [("depth", Float64(data=2.0)), ("depth", Float64(data=3.0))]
+    assert bridge.sent_messages == [("depth", Float64(data=2.0)), ("depth", Float64(data=3.0))]
 
 
-def test_its_own_ends_are_not_the_buses(bus: Bus, bridge: Seen) -> None:
+def test_its_own_ends_are_not_the_buses(bus: Bus, bridge: FakeBridge) -> None:
     bus.subscribe("cmd", Twist, print)
     bridge.put("cmd", Twist())
     bridge.subscribers.add("cmd")
@@ -88,7 +88,9 @@ def test_its_own_ends_are_not_the_buses(bus: Bus, bridge: Seen) -> None:
     assert bridge.topics == {"cmd": TopicEndpoints(Twist, is_published=False, is_read=True)}
 
 
-def test_messages_come_in_at_the_step_by_topic_and_in_their_order(bus: Bus, bridge: Seen) -> None:
+def test_messages_come_in_at_the_step_by_topic_and_in_their_order(
+    bus: Bus, bridge: FakeBridge
+) -> None:
     actual: list[object] = []
     for topic in ("b", "a"):
         bus.subscribe(topic, Float64, lambda message, topic=topic: actual.append((topic, message)))
@@ -103,34 +105,34 @@ def test_messages_come_in_at_the_step_by_topic_and_in_their_order(bus: Bus, brid
     ]
 
 
-def test_a_message_from_outside_is_sent_to_other_bridges_only(bus: Bus, bridge: Seen) -> None:
-    other = Seen(bus)
+def test_a_message_from_outside_is_sent_to_other_bridges_only(bus: Bus, bridge: FakeBridge) -> None:
+    other = FakeBridge(bus)
     for entry in (bridge, other):
         entry.subscribers.add("cmd")
         entry.step()
     bridge.put("cmd", Twist())
     bridge.step()
-    assert bridge.sent == []
-    assert other.sent == [("cmd", Twist())]
+    assert bridge.sent_messages == []
+    assert other.sent_messages == [("cmd", Twist())]
 
 
-def test_a_message_of_the_wrong_type_is_reported(bus: Bus, bridge: Seen) -> None:
+def test_a_message_of_the_wrong_type_is_reported(bus: Bus, bridge: FakeBridge) -> None:
     bus.subscribe("cmd", Twist, print)
     bridge.put("cmd", Float64())
     bridge.step()
-    assert "'cmd' carries geometry_msgs/msg/Twist, not std_msgs/msg/Float64" in bridge.printed[0]
+    assert "'cmd' carries geometry_msgs/msg/Twist, not std_msgs/msg/Float64" in bridge.lines[0]
 
 
-def test_a_flood_drops_the_oldest_and_is_reported_few_times(bus: Bus, bridge: Seen) -> None:
+def test_a_flood_drops_the_oldest_and_is_reported_few_times(bus: Bus, bridge: FakeBridge) -> None:
     actual: list[float] = []
     bus.subscribe("cmd", Float64, lambda message: actual.append(message.data))
     for i in range(100_000):
         bridge.put("cmd", Float64(data=float(i)))
     bridge.step()
     assert actual == [float(i) for i in range(99_000, 100_000)]
-    assert len(bridge.printed) == MAX_LINES_OF_A_KIND + 1
-    assert "dropped" in bridge.printed[0]
-    assert "not shown" in bridge.printed[-1]
+    assert len(bridge.lines) == MAX_LINES_OF_A_KIND + 1
+    assert "dropped" in bridge.lines[0]
+    assert "not shown" in bridge.lines[-1]
 
 
 def test_a_log_of_too_many_kinds_says_so_once_and_keeps_those_it_knows() -> None:
@@ -146,7 +148,7 @@ def test_a_log_of_too_many_kinds_says_so_once_and_keeps_those_it_knows() -> None
     ]
 
 
-def test_a_service_is_answered_at_the_step(bus: Bus, bridge: Seen) -> None:
+def test_a_service_is_answered_at_the_step(bus: Bus, bridge: FakeBridge) -> None:
     calls: list[object] = []
 
     def answer(request: Empty) -> EmptyResponse:
@@ -163,20 +165,20 @@ def test_a_service_is_answered_at_the_step(bus: Bus, bridge: Seen) -> None:
     assert calls == [threading.get_ident()]
 
 
-def test_a_service_that_is_not_there_is_an_error_of_the_caller(bridge: Seen) -> None:
+def test_a_service_that_is_not_there_is_an_error_of_the_caller(bridge: FakeBridge) -> None:
     future = bridge.request("reset", Empty())
     bridge.step()
     assert isinstance(future.exception(timeout=60), UnknownName)
 
 
-def test_calls_fail_when_the_simulation_ends(bridge: Seen) -> None:
+def test_calls_fail_when_the_simulation_ends(bridge: FakeBridge) -> None:
     waiting = bridge.request("reset", Empty())
     bridge.close()
     for future in (waiting, bridge.request("reset", Empty())):
         assert isinstance(future.exception(timeout=60), UwsimError)
 
 
-def test_a_withheld_topic_is_not_shown(bus: Bus, bridge: Seen) -> None:
+def test_a_withheld_topic_is_not_shown(bus: Bus, bridge: FakeBridge) -> None:
     publish = bus.publisher("truth", String)
     bus.hide_topic("truth")
     bridge.subscribers.add("truth")
@@ -184,7 +186,7 @@ def test_a_withheld_topic_is_not_shown(bus: Bus, bridge: Seen) -> None:
     publish(String(data="secret"))
     bus.deliver()
     assert bridge.topics == {}
-    assert bridge.sent == []
+    assert bridge.sent_messages == []
 
 
 def test_a_service_elsewhere_is_called_when_it_is_not_here(bus: Bus) -> None:
@@ -210,15 +212,15 @@ def test_a_queue_keeps_the_newest_within_its_bytes() -> None:
 def test_a_queue_that_is_closed_releases_who_waits() -> None:
     queue: LatestQueue[int] = LatestQueue()
     actual: list[int | None] = []
-    waiting = threading.Thread(target=lambda: actual.append(queue.get()))
-    waiting.start()
+    thread = threading.Thread(target=lambda: actual.append(queue.get()))
+    thread.start()
     queue.close()
-    waiting.join(timeout=60)
+    thread.join(timeout=60)
     assert actual == [None]
     assert queue.put(1) == 0
 
 
-def test_images_are_bounded_by_their_bytes(bus: Bus, bridge: Seen) -> None:
+def test_images_are_bounded_by_their_bytes(bus: Bus, bridge: FakeBridge) -> None:
     from uwsim.messages import Image
 
     actual: list[object] = []

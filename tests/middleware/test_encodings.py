@@ -25,23 +25,23 @@ def info() -> messages.CameraInfo:
 
 @pytest.mark.parametrize("kind", MESSAGES, ids=lambda kind: kind.__name__)
 def test_every_message_survives_both_encodings(kind: type) -> None:
-    empty = kind()
-    back = from_cdr(kind, bytes(to_cdr(empty)))
+    empty_message = kind()
+    back = from_cdr(kind, bytes(to_cdr(empty_message)))
     assert type(back) is kind
-    assert bytes(to_cdr(back)) == bytes(to_cdr(empty))
+    assert bytes(to_cdr(back)) == bytes(to_cdr(empty_message))
     if kind in (messages.MeshFile, messages.UVCoordinate):
         with pytest.raises(BadMessage, match="ROS 1 has no type"):
-            to_ros1(empty)
+            to_ros1(empty_message)
         return
-    again = from_ros1(kind, bytes(to_ros1(empty)))
-    assert type(again) is kind
-    assert bytes(to_cdr(again)) == bytes(to_cdr(empty))
+    second_data = from_ros1(kind, bytes(to_ros1(empty_message)))
+    assert type(second_data) is kind
+    assert bytes(to_cdr(second_data)) == bytes(to_cdr(empty_message))
 
 
 @pytest.mark.parametrize("name", SERVICES)
 def test_both_halves_of_every_service_survive(name: str) -> None:
-    of = SERVICES[name]
-    for half in (of.request, of.response):
+    service_type = SERVICES[name]
+    for half in (service_type.request, service_type.response):
         values = {
             "GTpublish": {"groundTruth": np.arange(8, dtype=np.float32)},
             "SpawnMarker": {"marker": messages.Marker(id=3)},

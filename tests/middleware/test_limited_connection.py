@@ -27,16 +27,16 @@ PING = b"\x89\x80\0\0\0\0"
 
 @contextlib.contextmanager
 def web_bridge() -> Iterator[WebBridge]:
-    made = WebBridge(Bus(), lambda: 0.0, WebOptions(port=0), Log("web", lambda line: None))
-    made.step()
-    yield made
-    made.close()
+    new_bridge = WebBridge(Bus(), lambda: 0.0, WebOptions(port=0), Log("web", lambda line: None))
+    new_bridge.step()
+    yield new_bridge
+    new_bridge.close()
 
 
 @pytest.fixture
 def bridge() -> Iterator[WebBridge]:
-    with web_bridge() as made:
-        yield made
+    with web_bridge() as new_bridge:
+        yield new_bridge
 
 
 @pytest.fixture
@@ -49,7 +49,7 @@ def impatient(bridge: WebBridge, monkeypatch: pytest.MonkeyPatch) -> WebBridge:
 
 
 @contextlib.contextmanager
-def served(kind: str) -> Iterator[tuple[int, str, ConnectionLimits]]:
+def serve(kind: str) -> Iterator[tuple[int, str, ConnectionLimits]]:
     """A server: its port, the address of its socket, and its limits."""
     if kind == "web":
         with web_bridge() as bridge:
@@ -63,12 +63,12 @@ def served(kind: str) -> Iterator[tuple[int, str, ConnectionLimits]]:
 
 @pytest.mark.parametrize("kind", ["web", "view"])
 def test_connections_that_say_nothing_take_few_open_files(kind: str) -> None:
-    with served(kind) as (port, address, limits), contextlib.ExitStack() as silent:
+    with serve(kind) as (port, address, limits), contextlib.ExitStack() as stack:
         n = 3 * N_WAITING
-        made = [
-            silent.enter_context(socket.create_connection(("127.0.0.1", port))) for _ in range(n)
+        clients = [
+            stack.enter_context(socket.create_connection(("127.0.0.1", port))) for _ in range(n)
         ]
-        for entry in made[: n - N_WAITING]:  # the oldest are broken off
+        for entry in clients[: n - N_WAITING]:  # the oldest are broken off
             entry.settimeout(60.0)
             with contextlib.suppress(ConnectionResetError):
                 assert entry.recv(1) == b""
@@ -82,13 +82,13 @@ def test_pings_beyond_the_share_wait(impatient: WebBridge, monkeypatch: pytest.M
     pauses: list[float] = []
     pause = LimitedConnection.pause
 
-    def counted(connection: LimitedConnection) -> float:
+    def count_pause(connection: LimitedConnection) -> float:
         assert pause.fget is not None
         actual: float = pause.fget(connection)
         pauses.extend([actual] if actual else [])
         return actual
 
-    monkeypatch.setattr(LimitedConnection, "pause", property(counted))
+    monkeypatch.setattr(LimitedConnection, "pause", property(count_pause))
     with connect(f"ws://127.0.0.1:{impatient.port}", ping_interval=None) as client:
         until(lambda: len(pauses) > 3, lambda: client.socket.sendall(PING * 1000))
     assert any("sends faster than it is read" in line for line in impatient.log.lines)
@@ -122,16 +122,16 @@ def test_a_large_frame_counts_wholly_for_its_client_and_little_for_others(
 
 def test_a_large_frame_waits_for_large_frames_of_others_alone(bridge: WebBridge) -> None:
     """A new connection has a new budget: two that take turns took half of the time."""
-    large = json.dumps({"op": "nonsense", "id": "large", "blanks": " " * LARGE_FRAME})
-    small = json.dumps({"op": "nonsense", "id": "small"})
+    large_frame = json.dumps({"op": "nonsense", "id": "large", "blanks": " " * LARGE_FRAME})
+    small_frame = json.dumps({"op": "nonsense", "id": "small"})
     address = f"ws://127.0.0.1:{bridge.port}"
     with connect(address) as client:
-        client.send(large)
+        client.send(large_frame)
         assert json.loads(client.recv(60.0))["id"] == "large"
     bridge._limits.large_frames.spend(0.3)  # [s] of another client: 15 s are to go by
     with connect(address) as client, connect(address) as other:
-        client.send(large)
-        other.send(small)
+        client.send(large_frame)
+        other.send(small_frame)
         assert json.loads(other.recv(60.0))["id"] == "small"
         with pytest.raises(TimeoutError):
             client.recv(1.0)

@@ -11,13 +11,13 @@ from uwsim.errors import BadMessage
 from uwsim.middleware.web.session import read_frame
 
 
-def nested(depth: int) -> str:
+def nested_text(depth: int) -> str:
     return "[" * depth + "]" * depth
 
 
 @pytest.mark.parametrize("depth", [1, MAX_DEPTH])
 def test_what_is_not_too_deep_is_read_as_json(depth: int) -> None:
-    assert read_peer_json(nested(depth)) == json.loads(nested(depth))
+    assert read_peer_json(nested_text(depth)) == json.loads(nested_text(depth))
     assert read_peer_json('{"a": [1, {"b": [null, true, "[[["]}]}') == {
         "a": [1, {"b": [None, True, "[[["]}]
     }
@@ -34,7 +34,7 @@ def test_many_brackets_beside_each_other_and_in_texts_are_no_depth() -> None:
 @pytest.mark.parametrize("shape", ["{}", '{{"a": {}}}', '[1, {{"b": {}}}, "]]]]"]'])
 def test_what_is_too_deep_is_refused(depth: int, shape: str) -> None:
     with pytest.raises(ValueError, match=f"nested more than {MAX_DEPTH} deep"):
-        read_peer_json(shape.format(nested(depth)))
+        read_peer_json(shape.format(nested_text(depth)))
 
 
 def test_half_of_a_character_is_refused() -> None:
@@ -45,7 +45,7 @@ def test_half_of_a_character_is_refused() -> None:
 
 def test_a_frame_whose_id_is_too_deep_is_refused() -> None:
     with pytest.raises(BadMessage, match=f"nested more than {MAX_DEPTH} deep"):
-        read_frame(f'{{"op": "call_service", "service": "/x", "id": {nested(970)}}}')
+        read_frame(f'{{"op": "call_service", "service": "/x", "id": {nested_text(970)}}}')
 
 
 @pytest.mark.parametrize("end", ["", "\\", '"'])

@@ -27,8 +27,8 @@ def test_every_stamp_of_a_list_is_moved() -> None:
 
 def test_a_stamp_that_was_not_set_stays_so_on_its_way_in() -> None:
     assert to_sim_time(messages.TwistStamped()).header.stamp == Time()
-    early = messages.TwistStamped(header=messages.Header(stamp=Time(sec=0, nanosec=5)))
-    assert to_sim_time(early).header.stamp == Time()
+    early_stamp = messages.TwistStamped(header=messages.Header(stamp=Time(sec=0, nanosec=5)))
+    assert to_sim_time(early_stamp).header.stamp == Time()
 
 
 def test_a_message_without_a_header_is_the_same_object() -> None:

@@ -60,11 +60,11 @@ def hosts() -> Iterator[tuple[Host, Host]]:
         yield actual
 
 
-def simulation(host: Host, *options: str, **more: str) -> None:
+def simulation(host: Host, *options: str, **variables: str) -> None:
     """Run a scene of two vehicles there, and wait until it listens."""
     run = host.start(
         *(sys.executable, "-m", "uwsim", "run", "two-vehicles-scene", *options),
-        env={**os.environ, **more},
+        env={**os.environ, **variables},
     )
     assert run.stderr is not None
     text = ""

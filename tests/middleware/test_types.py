@@ -72,19 +72,21 @@ def test_a_class_without_a_definition_has_no_type() -> None:
 
 
 @pytest.mark.parametrize(
-    ("of", "name", "md5"),
+    ("wire", "name", "md5"),
     [
         (EMPTY_SERVICE, "std_srvs/Empty", "d41d8cd98f00b204e9800998ecf8427e"),
         (GT_PUBLISH, "underwater_sensor_msgs/GTpublish", "0b412ada447d72a7ae228bb70b64a2cb"),
         (SPAWN_MARKER, "underwater_sensor_msgs/SpawnMarker", "a7395a01b635e68c485c6bc7fed0b5a1"),
     ],
 )
-def test_a_service_has_its_name_and_sum_in_ros_1(of: messages.Service, name: str, md5: str) -> None:
-    actual = wire_service(of)
+def test_a_service_has_its_name_and_sum_in_ros_1(
+    wire: messages.Service, name: str, md5: str
+) -> None:
+    actual = wire_service(wire)
     assert (actual.ros1_name, actual.md5) == (name, md5)
-    assert service(name) is of
-    assert service(of.name) is of
-    assert service_of(of.request) is of
+    assert service(name) is wire
+    assert service(wire.name) is wire
+    assert service_of(wire.request) is wire
     assert actual.request.ros1_name == f"{name}Request"
 
 

@@ -19,7 +19,7 @@ from uwsim.middleware.work_budget import WorkBudget
 
 
 def test_work_is_limited_to_a_share_of_the_time() -> None:
-    now, worked = 0.0, 0.0
+    now, work_time = 0.0, 0.0
     budget = WorkBudget(0.02, 0.1, lambda: now)
     while now < 100.0:
         if (delay := budget.delay) > 0.0:
@@ -27,8 +27,8 @@ def test_work_is_limited_to_a_share_of_the_time() -> None:
             continue
         budget.spend(0.01)
         now += 0.01
-        worked += 0.01
-    assert worked == pytest.approx(0.02 * 100.0 + 0.1, rel=0.02)
+        work_time += 0.01
+    assert work_time == pytest.approx(0.02 * 100.0 + 0.1, rel=0.02)
 
 
 def test_after_a_rest_there_is_one_burst_and_no_more() -> None:
@@ -41,7 +41,7 @@ def test_after_a_rest_there_is_one_burst_and_no_more() -> None:
     assert budget.delay == pytest.approx(0.2)
 
 
-class Plain(Bridge):
+class PlainBridge(Bridge):
     """A bridge without a transport."""
 
     def on_topics(self, topics: object) -> None:
@@ -67,7 +67,7 @@ def test_a_flood_of_calls_is_spread_over_the_steps() -> None:
         return EmptyResponse()
 
     bus.services.serve("slow", Empty, slow)
-    bridge = Plain(bus, lambda: 0.0, Log("plain", [].append))
+    bridge = PlainBridge(bus, lambda: 0.0, Log("plain", [].append))
     try:
         bridge.step()
         futures = [bridge.request("slow", Empty()) for _ in range(200)]
@@ -78,9 +78,9 @@ def test_a_flood_of_calls_is_spread_over_the_steps() -> None:
         assert 1 <= answers < 100
         while not all(future.done() for future in futures[:answers]):
             bridge.step()
-        few = answers
+        n_calls = answers
         bridge.step()
-        assert answers - few <= 1
+        assert answers - n_calls <= 1
     finally:
         bridge.close()
 
@@ -88,7 +88,7 @@ def test_a_flood_of_calls_is_spread_over_the_steps() -> None:
 def test_few_calls_are_answered_at_the_next_step_whatever_they_take() -> None:
     bus = Bus()
     bus.services.serve("slow", Empty, lambda request: (time.sleep(0.01), EmptyResponse())[1])
-    bridge = Plain(bus, lambda: 0.0, Log("plain", [].append))
+    bridge = PlainBridge(bus, lambda: 0.0, Log("plain", [].append))
     try:
         for _ in range(20):
             future = bridge.request("slow", Empty())

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from tests.middleware.ros1.nodes import Graph
-from tests.middleware.test_bridge import Seen
+from tests.middleware.test_bridge import FakeBridge
 from tests.middleware.web.test_web import Setting, send
 from tests.simulation.girona500 import make
 from tests.support.waiting import until
@@ -139,12 +139,12 @@ def test_an_algorithm_that_sends_it_is_named(
 def test_a_client_that_sends_it_is_named_in_the_log_of_its_transport(
     simulation: Simulation,
 ) -> None:
-    bridge = Seen(simulation.bus)
+    bridge = FakeBridge(simulation.bus)
     for _ in range(3):
         bridge.put("/twist", twist(math.nan), "client 127.0.0.1:1")
         bridge.step()
     said = "/twist: in a message of client 127.0.0.1:1, twist.linear.x is nan"
-    assert bridge.printed == [f"uwsim: test: {said}; {FINITE}"]
+    assert bridge.lines == [f"uwsim: test: {said}; {FINITE}"]
 
 
 def test_a_node_of_ros_1_that_sends_it_is_named() -> None:
@@ -155,11 +155,11 @@ def test_a_node_of_ros_1_that_sends_it_is_named() -> None:
             "twist", TwistStamped, lambda _: None, remark=lambda _: ("it is odd", "another")
         )
         publish = other.bus.publisher("twist", TwistStamped)
-        graph.ready()
+        graph.wait_until_ready()
         until(lambda: other.bus.has_subscribers("twist"), graph.step)
         publish(twist(1.0))
-        until(lambda: "it is odd" in "".join(graph.printed), graph.step)
-        [line] = [line for line in graph.printed if "it is odd" in line]
+        until(lambda: "it is odd" in "".join(graph.lines), graph.step)
+        [line] = [line for line in graph.lines if "it is odd" in line]
         said = "/twist: in a message of node /my_pilot, it is odd; expected another"
         assert line == f"uwsim: test: {said}"
     finally:

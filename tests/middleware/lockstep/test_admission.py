@@ -25,7 +25,7 @@ from uwsim.middleware.web.options import WebOptions
 from uwsim.simulation import InProcessNode
 
 TIMESTEP = 0.1
-ITS, OTHER = "client 127.0.0.1:4001", "client 127.0.0.1:4002"
+OWN_SENDER, OTHER = "client 127.0.0.1:4001", "client 127.0.0.1:4002"
 
 
 class FakeBridge(Bridge):
@@ -34,8 +34,8 @@ class FakeBridge(Bridge):
     def __init__(self, bus: Bus) -> None:
         super().__init__(bus, lambda: bus.step * TIMESTEP, Log("test", lambda line: None))
         self.ticks: list[dict[str, Any]] = []
-        self.told: list[tuple[str, str]] = []
-        self.alone: list[tuple[str, dict[str, Any]]] = []
+        self.reports: list[tuple[str, str]] = []
+        self.single_messages: list[tuple[str, dict[str, Any]]] = []
 
     def on_topics(self, topics: Mapping[str, TopicEndpoints]) -> None:
         pass
@@ -51,41 +51,41 @@ class FakeBridge(Bridge):
 
     def answer(self, text: dict[str, Any]) -> None:
         """The program acknowledges; before that, it and the other publish."""
-        for sender, value in ((OTHER, 99.0), (ITS, 1.0), (OTHER, 99.0)):
+        for sender, value in ((OTHER, 99.0), (OWN_SENDER, 1.0), (OTHER, 99.0)):
             self.put("estimate", Float64(data=value), sender)
-        self.says(ACK, sender=OTHER, tick=text["tick"], published={"/estimate": 3})
-        self.says(ACK, sender=ITS, tick=text["tick"], published={"/estimate": 1})
+        self.send_text(ACK, sender=OTHER, tick=text["tick"], published={"/estimate": 3})
+        self.send_text(ACK, sender=OWN_SENDER, tick=text["tick"], published={"/estimate": 1})
 
-    def says(self, topic: str, *, sender: str, **content: Any) -> None:
+    def send_text(self, topic: str, *, sender: str, **content: Any) -> None:
         self.put(topic, String(data=json.dumps({"client": "a", **content})), sender)
 
     def send_to(self, sender: str, topic: str, message: object) -> None:
         assert (topic, type(message)) == (TICK, String)
-        self.alone.append((sender, json.loads(message.data)))
+        self.single_messages.append((sender, json.loads(message.data)))
 
     def report_error(self, sender: str, text: str) -> None:
-        self.told.append((sender, text))
+        self.reports.append((sender, text))
 
 
 class Run:
     """A run of one program outside."""
 
-    def __init__(self, sync: Sync = "ack", **more: Any) -> None:
+    def __init__(self, sync: Sync = "ack", **options: Any) -> None:
         self.bus = Bus()
         self.bus.publisher("depth", Float64)
         self.estimates = self.bus.inbox("estimate", Float64)
         self.status = self.bus.inbox("status", String)
         self.n_started = 0
         self.bus.services.serve("startBench", Empty, self._start)
-        self.outside = FakeBridge(self.bus)
+        self.bridge = FakeBridge(self.bus)
         spec = ClientSpec(
             name="a",
             connection=ConnectionSpec(web=WebOptions(port=0)),
             limit=5.0,
             sync=sync,
-            **more,
+            **options,
         )
-        self.client: Any = make_client(spec, [self.outside], timestep=TIMESTEP)
+        self.client: Any = make_client(spec, [self.bridge], timestep=TIMESTEP)
         self.node = InProcessNode(
             self.bus, name="a", timestep=TIMESTEP, rng=np.random.default_rng(0), parameters={}
         )
@@ -100,15 +100,15 @@ class Run:
 
     def step(self) -> None:
         self.bus.step += 1
-        self.outside.step()
+        self.bridge.step()
         self.bus.deliver()
         self.node.tick()
         self.bus.deliver()
 
-    def called(self, sender: str) -> str | None:
+    def call_error(self, sender: str) -> str | None:
         """Call startBench; returns the error."""
-        future = self.outside.request("startBench", Empty(), sender)
-        self.outside.step()
+        future = self.bridge.request("startBench", Empty(), sender)
+        self.bridge.step()
         error = future.exception(timeout=5.0)
         assert error is None or isinstance(error, UwsimError)
         return None if error is None else str(error)
@@ -116,12 +116,12 @@ class Run:
 
 def test_after_the_join_only_the_joined_connection_publishes_and_calls() -> None:
     run = Run()
-    run.outside.says(JOIN, sender=ITS, topics=["/depth"], next=0.0)
+    run.bridge.send_text(JOIN, sender=OWN_SENDER, topics=["/depth"], next=0.0)
     run.start()
     run.step()
-    run.outside.put("status", String(data="failed: falsified"), OTHER)
-    assert "takes part" in str(run.called(OTHER))
-    assert run.called(ITS) is None
+    run.bridge.put("status", String(data="failed: falsified"), OTHER)
+    assert "takes part" in str(run.call_error(OTHER))
+    assert run.call_error(OWN_SENDER) is None
     assert (run.n_started, [m.data for m in run.estimates.take()]) == (1, [1.0])
     assert run.status.take() == []
     assert run.client.take_refusals() == (
@@ -131,46 +131,52 @@ def test_after_the_join_only_the_joined_connection_publishes_and_calls() -> None
         (OTHER, f"/{ACK}", 1),
     )
     assert run.client.take_refusals() == ()
-    assert {sender for sender, _ in run.outside.told} == {OTHER}
+    assert {sender for sender, _ in run.bridge.reports} == {OTHER}
 
 
 def test_what_the_program_publishes_before_its_join_is_kept_and_that_of_others_is_not() -> None:
     run = Run()
-    for sender, text in ((OTHER, "failed: falsified"), (ITS, "tracking"), (OTHER, "lost: no")):
-        run.outside.put("status", String(data=text), sender)
-    assert "takes part" in str(run.called(OTHER))
-    run.outside.says(JOIN, sender=ITS, topics=["/depth"])
+    for sender, text in (
+        (OTHER, "failed: falsified"),
+        (OWN_SENDER, "tracking"),
+        (OTHER, "lost: no"),
+    ):
+        run.bridge.put("status", String(data=text), sender)
+    assert "takes part" in str(run.call_error(OTHER))
+    run.bridge.send_text(JOIN, sender=OWN_SENDER, topics=["/depth"])
     run.start()
     assert [message.data for message in run.status.take()] == ["tracking"]
 
 
-@pytest.mark.parametrize("sender", [ITS, OTHER, ""])
+@pytest.mark.parametrize("sender", [OWN_SENDER, OTHER, ""])
 def test_answers_from_before_the_join_are_dropped(sender: str) -> None:
     run = Run()
-    run.outside.says(ACK, sender=sender, tick=1)
-    run.outside.says(ACK, sender=sender, call=1, values={})
-    run.outside.says(JOIN, sender=ITS, topics=["/depth"], next=0.0)
-    run.outside.answer = lambda text: None  # type: ignore[method-assign]
+    run.bridge.send_text(ACK, sender=sender, tick=1)
+    run.bridge.send_text(ACK, sender=sender, call=1, values={})
+    run.bridge.send_text(JOIN, sender=OWN_SENDER, topics=["/depth"], next=0.0)
+    run.bridge.answer = lambda text: None  # type: ignore[method-assign]
     run.start()
-    run.outside.wait_for(lambda: False, 0.01)
+    run.bridge.wait_for(lambda: False, 0.01)
     run.client._limit = 0.05
     with pytest.raises(UwsimError, match="did not answer the tick"):
         run.step()
 
 
-@pytest.mark.parametrize("given", [None, "", "guess", "opensesame ", 7, ["opensesame"]])
-def test_a_join_without_the_secret_is_refused_and_the_right_one_still_counts(given: object) -> None:
+@pytest.mark.parametrize("secret", [None, "", "guess", "opensesame ", 7, ["opensesame"]])
+def test_a_join_without_the_secret_is_refused_and_the_right_one_still_counts(
+    secret: object,
+) -> None:
     run = Run(secret="opensesame")
-    more = {} if given is None else {"secret": given}
+    fields = {} if secret is None else {"secret": secret}
     for _ in range(150):  # more than the joins that wait
-        run.outside.says(JOIN, sender=OTHER, topics=["/depth"], **more)
-    run.outside.says(JOIN, sender=ITS, topics=["/depth"], secret="opensesame", next=0.0)
+        run.bridge.send_text(JOIN, sender=OTHER, topics=["/depth"], **fields)
+    run.bridge.send_text(JOIN, sender=OWN_SENDER, topics=["/depth"], secret="opensesame", next=0.0)
     for _ in range(150):
-        run.outside.says(JOIN, sender=OTHER, topics=["/depth"], **more)
+        run.bridge.send_text(JOIN, sender=OTHER, topics=["/depth"], **fields)
     run.start()
     run.step()
     assert [message.data for message in run.estimates.take()] == [1.0]
-    assert any(sender == OTHER and "secret" in text for sender, text in run.outside.told)
+    assert any(sender == OTHER and "secret" in text for sender, text in run.bridge.reports)
 
 
 @pytest.mark.parametrize(
@@ -183,8 +189,8 @@ def test_a_join_without_the_secret_is_refused_and_the_right_one_still_counts(giv
 )
 def test_a_join_that_cannot_be_read_is_none(text: str) -> None:
     run = Run(secret="opensesame" if "secret" in text else None)
-    run.outside.put(JOIN, String(data=text), OTHER)
-    run.outside.says(JOIN, sender=ITS, topics=["/depth"], next=0.0, secret="opensesame")
+    run.bridge.put(JOIN, String(data=text), OTHER)
+    run.bridge.send_text(JOIN, sender=OWN_SENDER, topics=["/depth"], next=0.0, secret="opensesame")
     run.start()
     run.step()
     assert [message.data for message in run.estimates.take()] == [1.0]
@@ -196,46 +202,48 @@ def test_a_join_that_cannot_be_read_is_none(text: str) -> None:
 def test_a_join_that_is_refused_is_told_to_who_sent_it_alone(join: dict[str, Any]) -> None:
     """The program that is waited for read that its own was refused, and ended."""
     run = Run(secret="opensesame")
-    run.outside.says(JOIN, sender=OTHER, id="others", next=0.0, **join)
-    run.outside.says(JOIN, sender=ITS, id="its", topics=["/depth"], secret="opensesame", next=0.0)
+    run.bridge.send_text(JOIN, sender=OTHER, id="others", next=0.0, **join)
+    run.bridge.send_text(
+        JOIN, sender=OWN_SENDER, id="its", topics=["/depth"], secret="opensesame", next=0.0
+    )
     run.start()
-    ((sender, text),) = run.outside.alone
+    ((sender, text),) = run.bridge.single_messages
     assert (sender, text["client"], text["id"]) == (OTHER, "a", "others")
     assert "its join was refused" in text["error"]
-    assert not any("error" in tick for tick in run.outside.ticks)
+    assert not any("error" in tick for tick in run.bridge.ticks)
 
 
 def test_with_a_secret_nobody_else_can_join() -> None:
     run = Run(secret="opensesame")
     run.client._limit = 0.05
-    run.outside.says(JOIN, sender=OTHER, topics=["/depth"], secret="sesame")
+    run.bridge.send_text(JOIN, sender=OTHER, topics=["/depth"], secret="sesame")
     with pytest.raises(NeverStarted, match="No client 'a' has joined"):
         run.client.start(run.node)
 
 
 def test_a_program_that_is_known_by_an_id_alone_is_not_answered_for_without_it() -> None:
     run = Run()
-    run.outside.answer = lambda text: None  # type: ignore[method-assign]
-    run.outside.says(JOIN, sender="", topics=["/depth"], next=0.0, id="7f")
+    run.bridge.answer = lambda text: None  # type: ignore[method-assign]
+    run.bridge.send_text(JOIN, sender="", topics=["/depth"], next=0.0, id="7f")
     run.start()
     run.client._limit = 0.05
-    run.outside.says(ACK, sender="", tick=1)
-    run.outside.says(ACK, sender="", tick=1, id="8a")
+    run.bridge.send_text(ACK, sender="", tick=1)
+    run.bridge.send_text(ACK, sender="", tick=1, id="8a")
     with pytest.raises(UwsimError, match="did not answer the tick"):
         run.step()
 
 
 def test_of_a_program_that_takes_the_steps_the_first_caller_takes_part() -> None:
     run = Run("step")
-    run.outside.put("estimate", Float64(data=99.0), OTHER)
-    run.outside.put("estimate", Float64(data=1.0), ITS)
-    assert "takes part" in str(run.called(OTHER))
-    first = run.outside.request("step_simulation", StepSimulation(steps=2), ITS)
-    second = run.outside.request("step_simulation", StepSimulation(steps=1), OTHER)
+    run.bridge.put("estimate", Float64(data=99.0), OTHER)
+    run.bridge.put("estimate", Float64(data=1.0), OWN_SENDER)
+    assert "takes part" in str(run.call_error(OTHER))
+    first_call = run.bridge.request("step_simulation", StepSimulation(steps=2), OWN_SENDER)
+    second = run.bridge.request("step_simulation", StepSimulation(steps=1), OTHER)
     run.start()
     assert "takes part" in str(second.exception(timeout=5.0))
     assert [message.data for message in run.estimates.take()] == [1.0]
-    assert not first.done()
+    assert not first_call.done()
 
 
 OUTPUTS = (OutputSpec(topic="estimate", input_topic="depth"), OutputSpec(topic="speed", rate=10.0))
@@ -243,16 +251,16 @@ OUTPUTS = (OutputSpec(topic="estimate", input_topic="depth"), OutputSpec(topic="
 
 def test_outputs_belong_to_who_published_them_first_and_else_only_they_publish() -> None:
     run = Run("output", outputs=OUTPUTS)
-    put, admission = run.outside.put, run.outside.admission
-    assert run.called(OTHER) is None  # a tracker starts the benchmark before its first output
+    put, admission = run.bridge.put, run.bridge.admission
+    assert run.call_error(OTHER) is None  # a tracker starts the benchmark before its first output
     put("status", String(data="failed: falsified"), OTHER)
-    put("status", String(data="tracking"), ITS)
-    for value, sender in ((1.0, ITS), (99.0, OTHER)):
+    put("status", String(data="tracking"), OWN_SENDER)
+    for value, sender in ((1.0, OWN_SENDER), (99.0, OTHER)):
         put("estimate", Float64(data=value), sender)
     put("speed", Float64(data=0.5), "node /another_part")
-    assert "takes part" in str(run.called(OTHER))
-    assert run.outside.arrivals.n_arrived == {"estimate": 1, "status": 1, "speed": 1}
-    run.outside.step()
+    assert "takes part" in str(run.call_error(OTHER))
+    assert run.bridge.arrivals.n_arrived == {"estimate": 1, "status": 1, "speed": 1}
+    run.bridge.step()
     assert [message.data for message in run.estimates.take()] == [1.0]
     assert [message.data for message in run.status.take()] == ["tracking"]
     put("status", String(data="failed: falsified"), OTHER)
@@ -262,24 +270,24 @@ def test_outputs_belong_to_who_published_them_first_and_else_only_they_publish()
 
 def test_in_real_time_each_topic_belongs_to_who_published_it_first_until_it_leaves() -> None:
     run = Run("none")
-    put, admission = run.outside.put, run.outside.admission
-    for value, sender in ((1.0, ITS), (99.0, OTHER), (2.0, ITS)):
+    put, admission = run.bridge.put, run.bridge.admission
+    for value, sender in ((1.0, OWN_SENDER), (99.0, OTHER), (2.0, OWN_SENDER)):
         put("estimate", Float64(data=value), sender)
     put("status", String(data="tracking"), OTHER)  # a system of several programs
-    run.outside.step()
+    run.bridge.step()
     assert [message.data for message in run.estimates.take()] == [1.0, 2.0]
     assert [message.data for message in run.status.take()] == ["tracking"]
     assert admission is not None
-    admission.remove(ITS)
+    admission.remove(OWN_SENDER)
     put("estimate", Float64(data=3.0), OTHER)
-    run.outside.step()
+    run.bridge.step()
     assert [message.data for message in run.estimates.take()] == [3.0]
 
 
 def test_a_flood_of_senders_and_topics_is_counted_without_growing() -> None:
     lines: list[str] = []
     admission = SingleProgram(lambda sender, text: lines.append(text))
-    admission.admit(ITS)
+    admission.admit(OWN_SENDER)
     for n in range(10 * MAX_KINDS):
         assert not admission.may_publish(f"t{n % 333}", f"client {n}", lambda: None, 8)
     refusals = admission.take_refusals()

@@ -38,7 +38,7 @@ class FakeBridge(Bridge):
         self.answer = answer
         self.ticks: list[dict[str, Any]] = []
         self.errors: list[str] = []
-        self.told: list[tuple[str, str]] = []
+        self.reports: list[tuple[str, str]] = []
 
     def on_topics(self, topics: Mapping[str, TopicEndpoints]) -> None:
         pass
@@ -55,29 +55,29 @@ class FakeBridge(Bridge):
             self.ticks.append(text)
             self.answer(self, text)
 
-    def says(self, topic: str, *, sender: str = "", **content: Any) -> None:
+    def send_text(self, topic: str, *, sender: str = "", **content: Any) -> None:
         self.put(topic, String(data=json.dumps(content)), sender)
 
     def report_error(self, sender: str, text: str) -> None:
-        self.told.append((sender, text))
+        self.reports.append((sender, text))
 
 
 def echoes(bridge: FakeBridge, tick: dict[str, Any]) -> None:
     """Answer with the time, and acknowledge."""
     bridge.put("answer", Float64(data=tick["time"]))
-    bridge.says(ACK, client=tick["client"], tick=tick["tick"])
+    bridge.send_text(ACK, client=tick["client"], tick=tick["tick"])
 
 
 def is_silent(bridge: FakeBridge, tick: dict[str, Any]) -> None:
     """Do nothing."""
 
 
-def started(
+def start_clients(
     bus: Bus, bridge: FakeBridge, *names: str, limit: float = 60.0, **join: Any
 ) -> list[InProcessNode]:
     clients = lockstep_clients([bridge], names, timestep=TIMESTEP, limit=limit)
     for name in names:
-        bridge.says(JOIN, client=name, topics=["/depth"], **join)
+        bridge.send_text(JOIN, client=name, topics=["/depth"], **join)
     return [node_of(bus, client) for client in clients]
 
 
@@ -101,7 +101,7 @@ def step(bus: Bus, nodes: list[InProcessNode]) -> None:
 def test_a_client_is_ticked_in_steps_with_messages_and_answers_in_the_same_step() -> None:
     bus = Bus()
     bridge = FakeBridge(bus, echoes)
-    nodes = started(bus, bridge, "a")
+    nodes = start_clients(bus, bridge, "a")
     answers = bus.inbox("answer", Float64)
     say = bus.publisher("depth", Float64)
     for n in range(6):
@@ -119,10 +119,10 @@ def test_a_client_names_when_its_timers_are_due() -> None:
     bus = Bus()
 
     def every_third(bridge: FakeBridge, tick: dict[str, Any]) -> None:
-        bridge.says(ACK, client="a", tick=tick["tick"], next=tick["time"] + 3 * TIMESTEP)
+        bridge.send_text(ACK, client="a", tick=tick["tick"], next=tick["time"] + 3 * TIMESTEP)
 
     bridge = FakeBridge(bus, every_third)
-    nodes = started(bus, bridge, "a", next=0.2)
+    nodes = start_clients(bus, bridge, "a", next=0.2)
     for _ in range(9):
         step(bus, nodes)
     assert [round(tick["time"] / TIMESTEP) for tick in bridge.ticks] == [2, 5, 8]
@@ -131,15 +131,15 @@ def test_a_client_names_when_its_timers_are_due() -> None:
 def test_several_clients_answer_in_the_order_of_their_names() -> None:
     bus = Bus()
     bridge = FakeBridge(bus, echoes)
-    nodes = started(bus, bridge, "b", "a")
+    nodes = start_clients(bus, bridge, "b", "a")
     bus.publisher("depth", Float64)(Float64(data=1.0))
     step(bus, nodes)
     assert [tick["client"] for tick in bridge.ticks] == ["a", "b"]
 
 
-@pytest.mark.parametrize("slow", ["a", "b"])
+@pytest.mark.parametrize("slow_name", ["a", "b"])
 def test_answers_of_several_clients_keep_the_order_of_their_names_whoever_is_slow(
-    slow: str,
+    slow_name: str,
 ) -> None:
     bus = Bus()
     threads = []
@@ -147,16 +147,16 @@ def test_answers_of_several_clients_keep_the_order_of_their_names_whoever_is_slo
     def names_itself(bridge: FakeBridge, tick: dict[str, Any]) -> None:
         def answer() -> None:
             bridge.put("answer", String(data=tick["client"]))
-            bridge.says(ACK, client=tick["client"], tick=tick["tick"])
+            bridge.send_text(ACK, client=tick["client"], tick=tick["tick"])
 
-        if tick["client"] != slow:
+        if tick["client"] != slow_name:
             answer()
             return
         threads.append(threading.Thread(target=answer))
         threads[-1].start()
 
     bridge = FakeBridge(bus, names_itself)
-    nodes = started(bus, bridge, "b", "a")
+    nodes = start_clients(bus, bridge, "b", "a")
     answers = bus.inbox("answer", String)
     say = bus.publisher("depth", Float64)
     for _ in range(3):
@@ -171,12 +171,12 @@ def test_what_is_published_waits_for_the_ack_and_for_all_that_it_announces() -> 
     bus = Bus()
 
     def announces_first(bridge: FakeBridge, tick: dict[str, Any]) -> None:
-        bridge.says(ACK, client="a", tick=tick["tick"], published={"/answer": 2})
+        bridge.send_text(ACK, client="a", tick=tick["tick"], published={"/answer": 2})
         for value in (1.0, 2.0):
             bridge.put("answer", Float64(data=value))
 
     bridge = FakeBridge(bus, announces_first)
-    nodes = started(bus, bridge, "a")
+    nodes = start_clients(bus, bridge, "a")
     answers = bus.inbox("answer", Float64)
     bus.publisher("depth", Float64)(Float64(data=1.0))
     step(bus, nodes)
@@ -187,15 +187,15 @@ def test_acks_of_other_ticks_and_nonsense_do_not_count() -> None:
     bus = Bus()
 
     def babbles(bridge: FakeBridge, tick: dict[str, Any]) -> None:
-        bridge.says(ACK, client="a", tick=99)
-        bridge.says(ACK, client="stranger", tick=tick["tick"])
+        bridge.send_text(ACK, client="a", tick=99)
+        bridge.send_text(ACK, client="stranger", tick=tick["tick"])
         for text in ("", "[1]", "[" * 100_000, '{"client": {}}'):
             bridge.put(ACK, String(data=text))
         bridge.put(ACK, Float64(data=1.0))
         echoes(bridge, tick)
 
     bridge = FakeBridge(bus, babbles)
-    nodes = started(bus, bridge, "a")
+    nodes = start_clients(bus, bridge, "a")
     bus.publisher("depth", Float64)(Float64(data=1.0))
     step(bus, nodes)
     assert len(bridge.ticks) == 1
@@ -207,13 +207,15 @@ def test_a_client_offers_a_service_by_the_topics_of_lock_step() -> None:
     def replies(bridge: FakeBridge, tick: dict[str, Any]) -> None:
         if "call" in tick:
             assert tick["args"] == {"groundTruth": [1.5, 0.25]}
-            bridge.says(ACK, client="a", call=99, values={"nonsense": 1})
-            bridge.says(ACK, client="a", call=tick["call"], values={}, published={"/answer": 1})
+            bridge.send_text(ACK, client="a", call=99, values={"nonsense": 1})
+            bridge.send_text(
+                ACK, client="a", call=tick["call"], values={}, published={"/answer": 1}
+            )
             bridge.put("answer", Float64(data=7.0))
 
     bridge = FakeBridge(bus, replies)
     kind = "underwater_sensor_msgs/srv/GTpublish"
-    nodes = started(bus, bridge, "a", services={"/autoInit": kind})
+    nodes = start_clients(bus, bridge, "a", services={"/autoInit": kind})
     answers = bus.inbox("answer", Float64)
     truth = np.array([1.5, 0.25], np.float32)
     assert bus.services.call("autoInit", GTpublish(groundTruth=truth)) == GTpublishResponse()
@@ -226,14 +228,14 @@ def test_a_service_that_is_not_answered_ends_the_run_and_a_wrong_answer_is_an_er
     bus = Bus()
     kind = "underwater_sensor_msgs/srv/GTpublish"
     request = GTpublish(groundTruth=np.zeros(8, np.float32))
-    started(bus, FakeBridge(bus, is_silent), "a", limit=0.01, services={"/autoInit": kind})
+    start_clients(bus, FakeBridge(bus, is_silent), "a", limit=0.01, services={"/autoInit": kind})
     with pytest.raises(ClientLost, match=r"'a' did not answer the call of /autoInit within 0.01 s"):
         bus.services.call("autoInit", request)
 
-    def wrong(bridge: FakeBridge, tick: dict[str, Any]) -> None:
-        bridge.says(ACK, client="b", call=tick["call"], values={"nonsense": 1})
+    def answer_wrongly(bridge: FakeBridge, tick: dict[str, Any]) -> None:
+        bridge.send_text(ACK, client="b", call=tick["call"], values={"nonsense": 1})
 
-    (node,) = started(bus, FakeBridge(bus, wrong), "b", services={"/other": kind})
+    (node,) = start_clients(bus, FakeBridge(bus, answer_wrongly), "b", services={"/other": kind})
     assert bus.services.call("other", request) is None
     assert "Client 'b': service /other: " in str(node.error)
 
@@ -246,7 +248,7 @@ def test_topics_that_a_client_publishes_itself_are_not_waited_for() -> None:
         bridge.subscribers.add(topic)
     (client,) = lockstep_clients([bridge], ["a"], timestep=TIMESTEP, limit=60.0)
     own_names = {"/mine": "std_msgs/Float64"}
-    bridge.says(JOIN, client="a", topics=["/depth", "/mine"], publishes=own_names)
+    bridge.send_text(JOIN, client="a", topics=["/depth", "/mine"], publishes=own_names)
     node_of(bus, client)
 
 
@@ -254,7 +256,7 @@ def test_a_tick_says_in_which_order_the_messages_came() -> None:
     bus = Bus()
     bridge = FakeBridge(bus, echoes)
     (client,) = lockstep_clients([bridge], ["a"], timestep=TIMESTEP, limit=60.0)
-    bridge.says(JOIN, client="a", topics=["/depth", "/alarm"])
+    bridge.send_text(JOIN, client="a", topics=["/depth", "/alarm"])
     nodes = [node_of(bus, client)]
     for topic in ("depth", "alarm", "depth"):
         bus.publisher(topic, Float64)(Float64(data=1.0))
@@ -269,10 +271,10 @@ def test_a_service_that_nobody_offers_is_reported_and_the_run_goes_on() -> None:
     bus = Bus()
 
     def calls(bridge: FakeBridge, tick: dict[str, Any]) -> None:
-        bridge.says(ACK, client="a", tick=tick["tick"], calls=["startBench"])
+        bridge.send_text(ACK, client="a", tick=tick["tick"], calls=["startBench"])
 
     bridge = FakeBridge(bus, calls)
-    nodes = started(bus, bridge, "a")
+    nodes = start_clients(bus, bridge, "a")
     bus.publisher("depth", Float64)(Float64(data=1.0))
     step(bus, nodes)
     assert any("startBench: nobody offers it" in line for line in bridge.lines)
@@ -281,7 +283,7 @@ def test_a_service_that_nobody_offers_is_reported_and_the_run_goes_on() -> None:
 def test_a_client_that_does_not_answer_ends_the_run() -> None:
     bus = Bus()
     bridge = FakeBridge(bus, is_silent)
-    nodes = started(bus, bridge, "a", limit=0.01)
+    nodes = start_clients(bus, bridge, "a", limit=0.01)
     bus.publisher("depth", Float64)(Float64(data=1.0))
     with pytest.raises(ClientLost, match=r"'a' did not answer the tick at 0.1 s within 0.01 s"):
         step(bus, nodes)
@@ -289,8 +291,8 @@ def test_a_client_that_does_not_answer_ends_the_run() -> None:
 
 def test_a_client_that_leaves_ends_the_run_at_once() -> None:
     bus = Bus()
-    bridge = FakeBridge(bus, lambda bridge, tick: bridge.says(JOIN, client="a", left=True))
-    nodes = started(bus, bridge, "a")
+    bridge = FakeBridge(bus, lambda bridge, tick: bridge.send_text(JOIN, client="a", left=True))
+    nodes = start_clients(bus, bridge, "a")
     bus.publisher("depth", Float64)(Float64(data=1.0))
     with pytest.raises(ClientLost, match="'a' left at"):
         step(bus, nodes)
@@ -302,7 +304,7 @@ def test_a_client_that_leaves_without_a_word_ends_the_run_where_that_is_seen() -
     bridge.traits = TransportTraits(detects_leaving=True)  # type: ignore[misc]
     bridge.subscribers.add(TICK)
     kind = "underwater_sensor_msgs/srv/GTpublish"
-    nodes = started(bus, bridge, "a", services={"/init": kind})
+    nodes = start_clients(bus, bridge, "a", services={"/init": kind})
     bus.publisher("depth", Float64)(Float64(data=1.0))
     with pytest.raises(ClientLost, match=r"'a' left at 0\.1 s"):
         step(bus, nodes)
@@ -314,11 +316,11 @@ def test_a_program_is_told_from_another_by_its_id_where_the_transport_cannot_tel
     bus = Bus()
 
     def answer(bridge: FakeBridge, tick: dict[str, Any]) -> None:
-        bridge.says(ACK, client="a", tick=tick["tick"], id="second", next="soon")
-        bridge.says(ACK, client="a", tick=tick["tick"], id="first")
+        bridge.send_text(ACK, client="a", tick=tick["tick"], id="second", next="soon")
+        bridge.send_text(ACK, client="a", tick=tick["tick"], id="first")
 
     bridge = FakeBridge(bus, answer)
-    nodes = started(bus, bridge, "a", id="first")
+    nodes = start_clients(bus, bridge, "a", id="first")
     bus.publisher("depth", Float64)(Float64(data=1.0))
     step(bus, nodes)
     assert len(bridge.ticks) == 1
@@ -329,14 +331,14 @@ def test_a_second_program_that_joined_and_left_before_the_start_changes_nothing(
     bus = Bus()
     bridge = FakeBridge(bus, echoes)
     (client,) = lockstep_clients([bridge], ["a"], timestep=TIMESTEP, limit=60.0)
-    bridge.says(JOIN, client="a", topics=["/depth"], sender="first")
-    bridge.says(JOIN, client="a", topics=["/depth"], sender="second")
-    bridge.says(JOIN, client="a", left=True, sender="second")
+    bridge.send_text(JOIN, client="a", topics=["/depth"], sender="first")
+    bridge.send_text(JOIN, client="a", topics=["/depth"], sender="second")
+    bridge.send_text(JOIN, client="a", left=True, sender="second")
     nodes = [node_of(bus, client)]
     bus.publisher("depth", Float64)(Float64(data=1.0))
     step(bus, nodes)
     assert len(bridge.ticks) == 1
-    assert bridge.told == [("second", "client 'a' is first already; second is ignored")]
+    assert bridge.reports == [("second", "client 'a' is first already; second is ignored")]
 
 
 def test_a_flood_of_joins_and_answers_is_bounded_and_a_huge_one_is_told() -> None:
@@ -344,15 +346,15 @@ def test_a_flood_of_joins_and_answers_is_bounded_and_a_huge_one_is_told() -> Non
 
     def floods(bridge: FakeBridge, tick: dict[str, Any]) -> None:
         for n in range(10_000):
-            bridge.says(ACK, client="a", tick=n)
-        bridge.says(ACK, client="a", tick=1, id="x" * MAX_LENGTH)
+            bridge.send_text(ACK, client="a", tick=n)
+        bridge.send_text(ACK, client="a", tick=1, id="x" * MAX_LENGTH)
         assert len(client._acks) <= MAX_WAITING
-        bridge.says(ACK, client="a", tick=tick["tick"])
+        bridge.send_text(ACK, client="a", tick=tick["tick"])
 
     bridge = FakeBridge(bus, floods)
     (client,) = lockstep_clients([bridge], ["a"], timestep=TIMESTEP, limit=60.0)
     for _ in range(10_000):
-        bridge.says(JOIN, client="a", topics=["/depth"])
+        bridge.send_text(JOIN, client="a", topics=["/depth"])
     assert len(client._joins) <= MAX_WAITING
     nodes = [node_of(bus, client)]
     bus.publisher("depth", Float64)(Float64(data=1.0))
@@ -364,9 +366,9 @@ def test_a_program_that_left_before_the_start_gives_way_to_the_next_of_its_name(
     bus = Bus()
     bridge = FakeBridge(bus, echoes)
     (client,) = lockstep_clients([bridge], ["a"], timestep=TIMESTEP, limit=60.0)
-    bridge.says(JOIN, client="a", topics=["/nothing"], sender="first")
-    bridge.says(JOIN, client="a", left=True, sender="first")
-    bridge.says(JOIN, client="a", topics=["/depth"], sender="second")
+    bridge.send_text(JOIN, client="a", topics=["/nothing"], sender="first")
+    bridge.send_text(JOIN, client="a", left=True, sender="first")
+    bridge.send_text(JOIN, client="a", topics=["/depth"], sender="second")
     nodes = [node_of(bus, client)]
     bus.publisher("depth", Float64)(Float64(data=1.0))
     step(bus, nodes)
@@ -378,9 +380,9 @@ def test_a_client_that_answers_itself_without_end_is_stopped() -> None:
 
     def asks_again(bridge: FakeBridge, tick: dict[str, Any]) -> None:
         bridge.put("depth", Float64(data=1.0))
-        bridge.says(ACK, client="a", tick=tick["tick"])
+        bridge.send_text(ACK, client="a", tick=tick["tick"])
 
-    nodes = started(bus, FakeBridge(bus, asks_again), "a")
+    nodes = start_clients(bus, FakeBridge(bus, asks_again), "a")
     bus.publisher("depth", Float64)(Float64(data=1.0))
     with pytest.raises(ClientLost, match="without end"):
         step(bus, nodes)
@@ -419,12 +421,12 @@ def test_a_join_that_is_wrong_is_refused_with_the_field_and_the_client_told(case
     bridge = FakeBridge(bus, echoes)
     (client,) = lockstep_clients([bridge], ["a"], timestep=TIMESTEP, limit=60.0)
     wrong, text = JOINS[case]
-    bridge.says(JOIN, client="a", **{"topics": ["/depth"], **wrong}, sender="who")
-    bridge.says(JOIN, client="a", topics=["/depth"])
+    bridge.send_text(JOIN, client="a", **{"topics": ["/depth"], **wrong}, sender="who")
+    bridge.send_text(JOIN, client="a", topics=["/depth"])
     nodes = [node_of(bus, client)]
     assert text in bridge.errors[0]
     assert bridge.errors[0].startswith("its join was refused: ")
-    assert bridge.told == [("who", f"client 'a': {bridge.errors[0]}")]
+    assert bridge.reports == [("who", f"client 'a': {bridge.errors[0]}")]
     assert bridge.lines == [f"uwsim: test: client 'a' (who): {bridge.errors[0]}"]
     bus.publisher("depth", Float64)(Float64(data=1.0))
     step(bus, nodes)
@@ -435,7 +437,7 @@ def test_a_run_whose_client_does_not_join_rightly_says_what_was_wrong() -> None:
     bus = Bus()
     bridge = FakeBridge(bus, is_silent)
     (client,) = lockstep_clients([bridge], ["a"], timestep=TIMESTEP, limit=0.05)
-    bridge.says(JOIN, client="a")
+    bridge.send_text(JOIN, client="a")
     with pytest.raises(NeverStarted, match="its join was refused: topics is missing; expected a l"):
         node_of(bus, client)
 
@@ -461,10 +463,10 @@ def test_an_answer_that_is_wrong_ends_the_run_at_once_and_the_client_is_told(cas
     wrong, text = ANSWERS[case]
 
     def answer(bridge: FakeBridge, tick: dict[str, Any]) -> None:
-        bridge.says(ACK, client="a", **{"tick": tick["tick"], **wrong})
+        bridge.send_text(ACK, client="a", **{"tick": tick["tick"], **wrong})
 
     bridge = FakeBridge(bus, answer)
-    nodes = started(bus, bridge, "a")
+    nodes = start_clients(bus, bridge, "a")
     bus.publisher("depth", Float64)(Float64(data=1.0))
     with pytest.raises(ClientLost) as excinfo:
         step(bus, nodes)
@@ -476,10 +478,10 @@ def test_an_answer_to_a_call_that_is_wrong_ends_the_run() -> None:
     bus = Bus()
 
     def answer(bridge: FakeBridge, tick: dict[str, Any]) -> None:
-        bridge.says(ACK, client="a", call=tick["call"], values=[1])
+        bridge.send_text(ACK, client="a", call=tick["call"], values=[1])
 
     bridge = FakeBridge(bus, answer)
-    started(bus, bridge, "a", services={"/init": "underwater_sensor_msgs/srv/GTpublish"})
+    start_clients(bus, bridge, "a", services={"/init": "underwater_sensor_msgs/srv/GTpublish"})
     with pytest.raises(
         ClientLost, match=r"call of /init was refused: values is \[1\]; expected an"
     ):
@@ -490,10 +492,10 @@ def test_a_wish_may_lie_beyond_all_times() -> None:
     bus = Bus()
 
     def answer(bridge: FakeBridge, tick: dict[str, Any]) -> None:
-        bridge.says(ACK, client="a", tick=tick["tick"], next=float("inf"))
+        bridge.send_text(ACK, client="a", tick=tick["tick"], next=float("inf"))
 
     bridge = FakeBridge(bus, answer)
-    nodes = started(bus, bridge, "a", next=10**400)
+    nodes = start_clients(bus, bridge, "a", next=10**400)
     bus.publisher("depth", Float64)(Float64(data=1.0))
     for _ in range(3):
         step(bus, nodes)
@@ -504,19 +506,19 @@ def test_another_program_of_the_same_name_is_told_and_changes_nothing() -> None:
     bus = Bus()
 
     def answer(bridge: FakeBridge, tick: dict[str, Any]) -> None:
-        bridge.says(JOIN, client="a", topics=["/depth"], sender="second")
-        bridge.says(ACK, client="a", tick=99, sender="second")
-        bridge.says(JOIN, client="a", left=True, sender="second")
-        bridge.says(ACK, client="a", tick=tick["tick"], sender="first")
+        bridge.send_text(JOIN, client="a", topics=["/depth"], sender="second")
+        bridge.send_text(ACK, client="a", tick=99, sender="second")
+        bridge.send_text(JOIN, client="a", left=True, sender="second")
+        bridge.send_text(ACK, client="a", tick=tick["tick"], sender="first")
 
     bridge = FakeBridge(bus, answer)
-    nodes = started(bus, bridge, "a", sender="first")
+    nodes = start_clients(bus, bridge, "a", sender="first")
     for _ in range(2):
         bus.publisher("depth", Float64)(Float64(data=1.0))
         step(bus, nodes)
     assert len(bridge.ticks) == 2
     text = "client 'a' is first already; second is ignored"
-    assert bridge.told == 4 * [("second", text)]
+    assert bridge.reports == 4 * [("second", text)]
     assert f"uwsim: test: {text}" in bridge.lines
 
 
@@ -524,7 +526,7 @@ def test_a_client_that_does_not_join_is_one_line() -> None:
     bus = Bus()
     bridge = FakeBridge(bus, is_silent)
     (client,) = lockstep_clients([bridge], ["a"], timestep=TIMESTEP, limit=0.01)
-    bridge.says(JOIN, client="b", topics=[])
+    bridge.send_text(JOIN, client="b", topics=[])
     with pytest.raises(NeverStarted, match=r"No client 'a' has joined within 0.01 s"):
         node_of(bus, client)
 
@@ -534,7 +536,7 @@ def test_a_topic_for_observers_is_not_for_clients() -> None:
     bus.hide_topic("depth")
     bridge = FakeBridge(bus, is_silent)
     (client,) = lockstep_clients([bridge], ["a"], timestep=TIMESTEP, limit=60.0)
-    bridge.says(JOIN, client="a", topics=["/depth"])
+    bridge.send_text(JOIN, client="a", topics=["/depth"])
     node = InProcessNode(
         bus, name="a", timestep=TIMESTEP, rng=np.random.default_rng(0), parameters={}
     )

@@ -54,8 +54,8 @@ def scored_in_process(benchmark: Path, out: Path) -> dict[str, Any]:
     """Score the class."""
     algorithm = f"{original_tracker.__file__}:OriginalTracker"
     words = command(benchmark, out, "--algorithm", algorithm)
-    done = subprocess.run(words, capture_output=True, text=True, timeout=LIMIT)
-    assert done.returncode == 0, done.stderr
+    completed_process = subprocess.run(words, capture_output=True, text=True, timeout=LIMIT)
+    assert completed_process.returncode == 0, completed_process.stderr
     return result_in(out)
 
 
@@ -81,7 +81,7 @@ def scored_outside(words: list[str], environment: dict[str, str], start: Start) 
                 process.wait()
 
 
-def over_ros1(benchmark: Path, out: Path, folder: Path) -> None:
+def run_over_ros1(benchmark: Path, out: Path, folder: Path) -> None:
     """Score the program of rospy."""
     folder.mkdir()
     program = folder / "tracker.py"
@@ -96,50 +96,50 @@ def over_ros1(benchmark: Path, out: Path, folder: Path) -> None:
             words = [PYTHON, str(program), md5]
             return subprocess.Popen(words, env=graph.environment, text=True, stderr=subprocess.PIPE)
 
-        how = ("--ros1", "--client", "tracker", "--sync", "output", "--settle", "0.05")
-        words = command(benchmark, out, *how, "--client-limit", "20", *original_tracker.OUTPUTS)
+        options = ("--ros1", "--client", "tracker", "--sync", "output", "--settle", "0.05")
+        words = command(benchmark, out, *options, "--client-limit", "20", *original_tracker.OUTPUTS)
         scored_outside(words, {**os.environ, **own_names}, start)
 
 
-def over_web(benchmark: Path, out: Path, folder: Path) -> None:
+def run_over_web(benchmark: Path, out: Path, folder: Path) -> None:
     """Score the program that speaks rosbridge."""
     folder.mkdir()
     program = folder / "tracker.py"
     program.write_text(original_tracker.WEB)
     port = free_port()
 
-    def listens() -> bool:
+    def is_listening() -> bool:
         with suppress(OSError), socket.create_connection(("127.0.0.1", port)):
             return True
         return False
 
     def start() -> subprocess.Popen[str]:
-        until(listens)
+        until(is_listening)
         words = [sys.executable, str(program), f"ws://127.0.0.1:{port}"]
         return subprocess.Popen(words, text=True, stderr=subprocess.PIPE)
 
-    how = ("--web", str(port), "--client", "tracker", "--sync", "output")
-    words = command(benchmark, out, *how, "--client-limit", "20", *original_tracker.OUTPUTS)
+    options = ("--web", str(port), "--client", "tracker", "--sync", "output")
+    words = command(benchmark, out, *options, "--client-limit", "20", *original_tracker.OUTPUTS)
     scored_outside(words, dict(os.environ), start)
 
 
 @pytest.mark.parametrize(
     ("score", "way"),
     [
-        pytest.param(over_ros1, "ros1, grade (c), not guaranteed", id="ros1", marks=needs_ros1),
-        pytest.param(over_web, "web, grade (c)", id="web"),
+        pytest.param(run_over_ros1, "ros1, grade (c), not guaranteed", id="ros1", marks=needs_ros1),
+        pytest.param(run_over_web, "web, grade (c)", id="web"),
     ],
 )
 def test_a_tracker_with_two_outputs_that_is_silent_until_auto_init_has_the_rows_of_its_class(
     tmp_path: Path, score: Callable[[Path, Path, Path], None], way: str
 ) -> None:
     benchmark = benchmark_of_two_outputs(tmp_path)
-    inside = scored_in_process(benchmark, tmp_path / "inside")
+    local_rows = scored_in_process(benchmark, tmp_path / "inside")
     score(benchmark, tmp_path / "outside", tmp_path / "program")
-    outside = result_in(tmp_path / "outside")
-    names = [column["name"] for column in inside["columns"]]
-    rows = [dict(zip(names, row, strict=True)) for row in inside["rows"]]
+    external_rows = result_in(tmp_path / "outside")
+    names = [column["name"] for column in local_rows["columns"]]
+    rows = [dict(zip(names, row, strict=True)) for row in local_rows["rows"]]
     assert [row["status"] for row in rows] == ["ok"] * 3
     assert len({row["corners"] for row in rows}) == 3  # answers depend on the images
-    assert outside["rows"] == inside["rows"]
-    assert outside["run"]["clients"] == [["tracker", f"lock-step, {way}"]]
+    assert external_rows["rows"] == local_rows["rows"]
+    assert external_rows["run"]["clients"] == [["tracker", f"lock-step, {way}"]]

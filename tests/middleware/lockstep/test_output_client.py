@@ -36,10 +36,10 @@ class FakeBridge(Bridge):
 
     def __init__(self, bus: Bus) -> None:
         super().__init__(bus, lambda: bus.step * TIMESTEP, Log("test", lambda line: None))
-        self.said: list[str] = []
+        self.lines: list[str] = []
         self.on_clock: Callable[[float], None] = lambda time: None
         self.on_message: Callable[[object], None] = lambda message: None
-        self.fed = True
+        self.published_topics = True
 
     def on_topics(self, topics: Mapping[str, TopicEndpoints]) -> None:
         pass
@@ -48,14 +48,14 @@ class FakeBridge(Bridge):
         pass
 
     def has_publisher(self, topic: str) -> bool:
-        return self.fed
+        return self.published_topics
 
     def send(self, topic: str, message: object) -> None:
-        self.said.append(topic)
+        self.lines.append(topic)
         self.on_message(message)
 
     def _publish_clock(self) -> None:
-        self.said.append("clock")
+        self.lines.append("clock")
         self.on_clock(self.clock_topic.time())
 
 
@@ -70,20 +70,20 @@ class Sea:
 
     def __init__(self, *outputs: OutputSpec, limit: float = 60.0) -> None:
         self.bus = Bus()
-        self.outside = FakeBridge(self.bus)
+        self.bridge = FakeBridge(self.bus)
         self.say = self.bus.publisher("depth", Float64)
         self.commands = self.bus.inbox("cmd", Float64)
         connection = ConnectionSpec(ros1=True)
         spec = ClientSpec(
             name="n", connection=connection, limit=limit, sync="output", outputs=outputs, settle=0.0
         )
-        self.client = OutputClient(self.outside, spec, timestep=TIMESTEP)
+        self.client = OutputClient(self.bridge, spec, timestep=TIMESTEP)
         self.node = InProcessNode(
             self.bus, name="n", timestep=TIMESTEP, rng=np.random.default_rng(0), parameters={}
         )
 
     def start(self) -> None:
-        self.outside.subscribers.add("depth")
+        self.bridge.subscribers.add("depth")
         self.node.run(self.client)
         assert self.node.error is None
 
@@ -104,27 +104,27 @@ def test_a_timer_of_the_node_is_waited_for_in_the_step_in_which_it_is_due() -> N
     def fire(time: float) -> None:
         if time >= due[-1] + 1 / 30 - 1e-9:
             due.append(due[-1] + 1 / 30)
-            sea.outside.put("cmd", Float64(data=time))
+            sea.bridge.put("cmd", Float64(data=time))
 
-    sea.outside.on_clock = fire
-    came = {n: actual for n in range(1, 60) if (actual := sea.step())}
-    assert came == {17: [0.034], 34: [0.068], 50: [0.1]}
+    sea.bridge.on_clock = fire
+    arrivals = {n: actual for n in range(1, 60) if (actual := sea.step())}
+    assert arrivals == {17: [0.034], 34: [0.068], 50: [0.1]}
 
 
 def test_messages_are_sent_before_the_time_is_told() -> None:
     sea = Sea(OutputSpec(topic="cmd", input_topic="depth"))
     sea.start()
-    sea.outside.said.clear()
-    sea.outside.on_message = lambda message: sea.outside.put("cmd", message)
+    sea.bridge.lines.clear()
+    sea.bridge.on_message = lambda message: sea.bridge.put("cmd", message)
     sea.say(Float64(data=1.0))
     assert sea.step() == [1.0]
-    assert sea.outside.said == ["depth", "clock"]
+    assert sea.bridge.lines == ["depth", "clock"]
 
 
 def test_each_message_of_an_input_has_its_output_in_the_same_step() -> None:
     sea = Sea(OutputSpec(topic="cmd", input_topic="depth"))
     sea.start()
-    sea.outside.on_message = lambda message: sea.outside.put("cmd", message)
+    sea.bridge.on_message = lambda message: sea.bridge.put("cmd", message)
     assert sea.step() == []
     for value in (1.0, 2.0):
         sea.say(Float64(data=value))
@@ -137,14 +137,14 @@ def two_outputs(*, limit: float = 60.0) -> Sea:
     sea = Sea(limit=limit)
     sea.bus.inbox("status", Float64)
     spec = replace(sea.client._spec, outputs=tuple(outputs))
-    sea.client = OutputClient(sea.outside, spec, timestep=TIMESTEP)
+    sea.client = OutputClient(sea.bridge, spec, timestep=TIMESTEP)
     return sea
 
 
 def answer_on(sea: Sea, *topics: str) -> Callable[[object], None]:
     def answer(message: object) -> None:
         for topic in topics:
-            sea.outside.put(topic, message)
+            sea.bridge.put(topic, message)
 
     return answer
 
@@ -152,21 +152,21 @@ def answer_on(sea: Sea, *topics: str) -> Callable[[object], None]:
 def test_two_outputs_follow_one_input() -> None:
     sea = two_outputs(limit=0.5)
     sea.start()
-    sea.outside.on_message = answer_on(sea, "cmd", "status")
+    sea.bridge.on_message = answer_on(sea, "cmd", "status")
     for value in (1.0, 2.0, 3.0):
         sea.say(Float64(data=value))
         assert sea.step() == [value]
-    n_arrived = sea.outside.arrivals.n_arrived
+    n_arrived = sea.bridge.arrivals.n_arrived
     assert (n_arrived["cmd"], n_arrived["status"]) == (3, 3)
 
 
 def test_of_two_outputs_the_one_that_is_missing_is_named() -> None:
     sea = two_outputs(limit=0.02)
     sea.start()
-    sea.outside.on_message = answer_on(sea, "cmd", "status")
+    sea.bridge.on_message = answer_on(sea, "cmd", "status")
     sea.say(Float64(data=1.0))
     sea.step()
-    sea.outside.on_message = answer_on(sea, "cmd")
+    sea.bridge.on_message = answer_on(sea, "cmd")
     sea.say(Float64(data=2.0))
     with pytest.raises(ClientLost, match="did not publish on /status"):
         sea.step()
@@ -181,16 +181,18 @@ def test_a_node_that_answers_nothing_until_it_is_initialised_is_waited_for_from_
     for value in range(n_silent):
         sea.say(Float64(data=float(value)))
         assert sea.step() == []
-    sea.outside.external_services.n_called += 1  # autoInit
-    sea.outside.on_message = answer_on(sea, "cmd", "status")
+    sea.bridge.external_services.n_called += 1  # autoInit
+    sea.bridge.on_message = answer_on(sea, "cmd", "status")
     for value in (10.0, 11.0):
         sea.say(Float64(data=value))
         assert sea.step() == [value]
-    late = Thread(target=lambda: (sleep(0.05), answer_on(sea, "cmd", "status")(Float64(data=12.0))))
-    sea.outside.on_message = lambda message: late.start()
+    late_answer = Thread(
+        target=lambda: (sleep(0.05), answer_on(sea, "cmd", "status")(Float64(data=12.0)))
+    )
+    sea.bridge.on_message = lambda message: late_answer.start()
     sea.say(Float64(data=12.0))
     assert sea.step() == [12.0]
-    late.join()
+    late_answer.join()
 
 
 def test_an_initialised_node_that_answers_nothing_ends_the_run() -> None:
@@ -198,7 +200,7 @@ def test_an_initialised_node_that_answers_nothing_ends_the_run() -> None:
     sea.start()
     sea.say(Float64(data=1.0))
     sea.step()
-    sea.outside.external_services.n_called += 1
+    sea.bridge.external_services.n_called += 1
     sea.say(Float64(data=2.0))
     with pytest.raises(ClientLost, match="did not publish on /cmd"):
         sea.step()
@@ -224,13 +226,13 @@ def test_a_slow_first_answer_delays_no_later_one(monkeypatch: pytest.MonkeyPatch
     sea.say(Float64(data=1.0))
     assert sea.step() == []
     node = Thread(
-        target=lambda: [(sleep(0.03), sea.outside.put("cmd", Float64(data=x))) for x in (1.0, 2.0)]
+        target=lambda: [(sleep(0.03), sea.bridge.put("cmd", Float64(data=x))) for x in (1.0, 2.0)]
     )
-    sea.outside.on_message = lambda message: node.start()
+    sea.bridge.on_message = lambda message: node.start()
     sea.say(Float64(data=2.0))
     assert sea.step() == [1.0, 2.0]
     node.join()
-    sea.outside.on_message = answer_on(sea, "cmd")
+    sea.bridge.on_message = answer_on(sea, "cmd")
     sea.say(Float64(data=3.0))
     assert sea.step() == [3.0]
 
@@ -238,7 +240,7 @@ def test_a_slow_first_answer_delays_no_later_one(monkeypatch: pytest.MonkeyPatch
 def test_more_answers_than_inputs_end_the_run() -> None:
     sea = Sea(OutputSpec(topic="cmd", input_topic="depth"))
     sea.start()
-    sea.outside.on_message = answer_on(sea, "cmd", "cmd")
+    sea.bridge.on_message = answer_on(sea, "cmd", "cmd")
     sea.say(Float64(data=1.0))
     with pytest.raises(ClientLost, match="2 messages on /cmd"):
         sea.step()
@@ -246,10 +248,10 @@ def test_more_answers_than_inputs_end_the_run() -> None:
 
 def test_what_came_while_time_stood_is_not_taken_for_what_is_due() -> None:
     sea = Sea(OutputSpec(topic="cmd", rate=100.0), limit=0.05)
-    sea.outside.on_clock = lambda time: sea.outside.put("cmd", Float64(data=-1.0))
+    sea.bridge.on_clock = lambda time: sea.bridge.put("cmd", Float64(data=-1.0))
     sea.start()
-    sea.outside.on_clock = lambda time: None
-    assert sea.outside.arrivals.n_arrived["cmd"] > 0
+    sea.bridge.on_clock = lambda time: None
+    assert sea.bridge.arrivals.n_arrived["cmd"] > 0
     for _ in range(4):
         sea.step()
     with pytest.raises(ClientLost):
@@ -271,18 +273,18 @@ def test_a_timer_of_rospy_that_fires_twice_at_first_is_waited_for_as_any_other()
     def fire(time: float) -> None:
         if time >= due[-1] + 0.01 - 1e-9:
             for _ in range(2 if len(due) == 1 else 1):
-                sea.outside.put("cmd", Float64(data=time))
+                sea.bridge.put("cmd", Float64(data=time))
             due.append(time)
 
-    sea.outside.on_clock = fire
-    came = {n: len(actual) for n in range(1, 20) if (actual := sea.step())}
-    assert came == {5: 2, 10: 1, 15: 1}
+    sea.bridge.on_clock = fire
+    arrivals = {n: len(actual) for n in range(1, 20) if (actual := sea.step())}
+    assert arrivals == {5: 2, 10: 1, 15: 1}
 
 
 def test_a_node_that_does_not_go_by_the_clock_ends_the_run() -> None:
     sea = Sea(OutputSpec(topic="cmd", rate=10.0))
     sea.start()
-    sea.outside.on_clock = lambda time: sea.outside.put("cmd", Float64(data=time))
+    sea.bridge.on_clock = lambda time: sea.bridge.put("cmd", Float64(data=time))
     sea.step()
 
     def run_on() -> None:
@@ -295,7 +297,7 @@ def test_a_node_that_does_not_go_by_the_clock_ends_the_run() -> None:
 
 def test_who_is_not_there_is_named() -> None:
     sea = Sea(OutputSpec(topic="cmd", input_topic="depth"), limit=0.01)
-    sea.outside.fed = False
+    sea.bridge.published_topics = False
     with pytest.raises(NeverStarted, match="nobody publishes /cmd; nobody reads /depth"):
         sea.node.run(sea.client)
 

@@ -45,24 +45,24 @@ class Program:
     """Calls for steps, each next call when the one before is answered."""
 
     def __init__(self, bridge: FakeBridge, *calls: int) -> None:
-        self._outside, self._left = bridge, list(calls)
-        self.answered: list[tuple[int, int]] = []  # number of the step, code of the answer
-        self.before: Callable[[], None] = lambda: None
+        self._bridge, self._left = bridge, list(calls)
+        self.answers: list[tuple[int, int]] = []  # number of the step, code of the answer
+        self.first_call: Callable[[], None] = lambda: None
 
     def go_on(self) -> None:
         if self._left:
-            self.before()
-            requests = self._outside.request("step_simulation", StepSimulation(self._left.pop(0)))
-            requests.add_done_callback(self._answered)
+            self.first_call()
+            requests = self._bridge.request("step_simulation", StepSimulation(self._left.pop(0)))
+            requests.add_done_callback(self._take_answer)
 
-    def _answered(self, answer: Future[object]) -> None:
+    def _take_answer(self, answer: Future[object]) -> None:
         response = answer.result()
         assert isinstance(response, StepSimulationResponse)
-        self.answered.append((self._outside.bus.step, response.result.result))
+        self.answers.append((self._bridge.bus.step, response.result.result))
         self.go_on()
 
 
-def attached(bridge: FakeBridge, limit: float = 60.0) -> InProcessNode:
+def attach_client(bridge: FakeBridge, limit: float = 60.0) -> InProcessNode:
     connection = ConnectionSpec(web=WebOptions(port=0))
     spec = ClientSpec(name="s", connection=connection, limit=limit, sync="step")
     node = InProcessNode(
@@ -85,20 +85,20 @@ def test_a_call_is_answered_when_its_steps_are_done() -> None:
     bridge = FakeBridge(Bus())
     program = Program(bridge, 3, 1, 2, 1)
     program.go_on()
-    node = attached(bridge)
+    node = attach_client(bridge)
     assert "step_simulation" in bridge.services
     for _ in range(6):
         step(bridge, node)
-    assert program.answered == [(n, 1) for n in (3, 4, 6)]
+    assert program.answers == [(n, 1) for n in (3, 4, 6)]
 
 
 def test_what_was_published_before_a_call_is_on_the_bus_before_its_first_step() -> None:
     bridge = FakeBridge(Bus())
     commands = bridge.bus.inbox("cmd", Float64)
     program = Program(bridge, 2, 2, 2)
-    program.before = lambda: bridge.put("cmd", Float64(data=float(bridge.bus.step)))
+    program.first_call = lambda: bridge.put("cmd", Float64(data=float(bridge.bus.step)))
     program.go_on()
-    node = attached(bridge)
+    node = attach_client(bridge)
     arrivals = [[message.data for message in commands.take()]]
     for _ in range(4):
         step(bridge, node)
@@ -109,27 +109,27 @@ def test_what_was_published_before_a_call_is_on_the_bus_before_its_first_step() 
 def test_calls_that_cannot_be_done_are_refused_and_time_stands() -> None:
     bridge = FakeBridge(Bus())
     refusals = [bridge.request("step_simulation", StepSimulation(n)) for n in (0, 10**8)]
-    first = bridge.request("step_simulation", StepSimulation(1))
+    first_call = bridge.request("step_simulation", StepSimulation(1))
     second = bridge.request("step_simulation", StepSimulation(1))
-    attached(bridge)
+    attach_client(bridge)
     codes = [answer.result(0) for answer in (*refusals, second)]
     assert [code.result.result for code in codes] == [  # type: ignore[attr-defined]
         Result.OPERATION_FAILED,
         Result.OPERATION_FAILED,
         Result.INCORRECT_STATE,
     ]
-    assert not first.done()
+    assert not first_call.done()
 
 
 def test_a_program_that_never_calls_is_named() -> None:
     with pytest.raises(NeverStarted, match=r"'s' has not called /step_simulation within 0\.01 s"):
-        attached(FakeBridge(Bus()), limit=0.01)
+        attach_client(FakeBridge(Bus()), limit=0.01)
 
 
 def test_a_program_that_calls_no_more_ends_the_run() -> None:
     bridge = FakeBridge(Bus())
     program = Program(bridge, 1)
     program.go_on()
-    node = attached(bridge, limit=0.01)
+    node = attach_client(bridge, limit=0.01)
     with pytest.raises(ClientLost, match=r"has not called /step_simulation at 0\.002 s"):
         step(bridge, node)

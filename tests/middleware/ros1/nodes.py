@@ -12,7 +12,7 @@ from uwsim.middleware.log import Log
 from uwsim.middleware.ros1 import Master, PeerTimeouts, Ros1Bridge
 
 TIMESTEP = 0.002
-NONE: Mapping[str, Any] = MappingProxyType({})
+NO_PARAMETERS: Mapping[str, Any] = MappingProxyType({})
 
 
 class Graph:
@@ -23,13 +23,13 @@ class Graph:
     """
 
     def __init__(self, master: type[Master] = Master) -> None:
-        self.printed: list[str] = []
-        self.log = Log("test", self.printed.append)
+        self.lines: list[str] = []
+        self.log = Log("test", self.lines.append)
         self.master = master(self.log, port=free_port())
         self.nodes: list[Ros1Bridge] = []
 
     def node(
-        self, name: str = "/uwsim", parameters: Mapping[str, Any] = NONE, **waits: float
+        self, name: str = "/uwsim", parameters: Mapping[str, Any] = NO_PARAMETERS, **waits: float
     ) -> Ros1Bridge:
         """Add a node with a bus of its own; how long it waits for peers [s]."""
         bus = Bus()
@@ -52,12 +52,12 @@ class Graph:
             node.bus.deliver()
             node.step()
 
-    def ready(self) -> None:
+    def wait_until_ready(self) -> None:
         """Wait until the master knows all."""
         self.step()
         assert all(node.wait(LIMIT) for node in self.nodes)
 
-    def connected(self, topic: str) -> None:
+    def wait_for_connections(self, topic: str) -> None:
         """Wait until a topic has a subscriber outside, and the bus knows."""
         until(
             lambda: self.nodes[0].n_connected(topic) and self.nodes[0].bus.has_subscribers(topic),

@@ -18,12 +18,12 @@ class Sea:
     def __init__(self, peers: Peers) -> None:
         self.peers = peers
         self.simulation: Simulation = uwsim.load("cirs")
-        self.printed: list[str] = []
+        self.lines: list[str] = []
         self.bridge = Ros1Bridge(
             self.simulation.bus,
             lambda: self.simulation.time,
             master=peers.uri,
-            log=Log("test", self.printed.append),
+            log=Log("test", self.lines.append),
         )
         self.simulation.watch(self.bridge.step)
         self.simulation.advance(0.0)

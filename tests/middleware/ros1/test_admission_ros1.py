@@ -23,7 +23,7 @@ from uwsim.messages import (
 from uwsim.middleware.admission import SingleProgram
 from uwsim.middleware.ros1 import Ros1Bridge
 
-ITS, OTHER = "node /tracker", "node /stranger"
+OWN_NODE, OTHER = "node /tracker", "node /stranger"
 
 
 @pytest.fixture
@@ -37,7 +37,7 @@ def graph() -> Iterator[Graph]:
 def sim(graph: Graph) -> Ros1Bridge:
     actual = graph.node()
     actual.admission = SingleProgram(lambda sender, text: None)
-    actual.admission.admit(ITS)
+    actual.admission.admit(OWN_NODE)
     return actual
 
 
@@ -47,7 +47,7 @@ def test_another_node_on_the_topic_is_not_heard(graph: Graph, sim: Ros1Bridge) -
         graph.node(name).bus.publisher("corners", Float32MultiArray)
         for name in ("/stranger", "/tracker")
     ]
-    graph.ready()
+    graph.wait_until_ready()
     until(lambda: sim.n_connected("/corners") == 2, graph.step)
     assert sim.admission is not None
     arrivals: list[float] = []
@@ -71,7 +71,7 @@ def test_another_node_calls_no_service(
 ) -> None:
     sim.bus.services.serve("reset", Empty, lambda request: EmptyResponse())
     other = graph.node(caller)
-    graph.ready()
+    graph.wait_until_ready()
     answers: list[object] = []
 
     def call() -> None:
@@ -99,7 +99,7 @@ def test_another_node_is_not_given_the_ground_truth(
 
     other = graph.node(offerer)
     other.bus.services.serve("autoInit", GTpublish, answer)
-    graph.ready()
+    graph.wait_until_ready()
     answers: list[object] = []
 
     def call() -> None:
@@ -119,7 +119,7 @@ def test_another_node_is_not_given_the_ground_truth(
 def test_a_message_to_one_node_reaches_no_other(graph: Graph, sim: Ros1Bridge) -> None:
     sim.bus.publisher("tick", String)
     inboxes = [graph.node(name).bus.inbox("tick", String) for name in ("/stranger", "/tracker")]
-    graph.ready()
+    graph.wait_until_ready()
     until(lambda: sim.n_connected("/tick") == 2, graph.step)
     arrivals: list[list[str]] = [[], []]
 

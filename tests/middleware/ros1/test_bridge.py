@@ -34,9 +34,9 @@ from uwsim.middleware.types import message_class
 
 @pytest.fixture
 def graph() -> Iterator[Graph]:
-    made = Graph()
-    yield made
-    made.close()
+    new_graph = Graph()
+    yield new_graph
+    new_graph.close()
 
 
 def heard_by(node: Any, topic: str, kind: type) -> list[Any]:
@@ -58,8 +58,8 @@ def test_a_message_arrives_as_it_was_sent(graph: Graph, message: Any) -> None:
     sim, other = graph.node(), graph.node("/other")
     publish = sim.bus.publisher("/topic", type(message))
     actual = heard_by(other, "topic", type(message))
-    graph.ready()
-    graph.connected("/topic")
+    graph.wait_until_ready()
+    graph.wait_for_connections("/topic")
     publish(message)
     until(lambda: actual, graph.step)
     assert actual[0].header == message.header
@@ -69,11 +69,11 @@ def test_a_message_arrives_as_it_was_sent(graph: Graph, message: Any) -> None:
 def test_a_topic_without_subscribers_outside_is_not_read(graph: Graph) -> None:
     sim, other = graph.node(), graph.node("/other")
     sim.bus.publisher("camera", Image)
-    graph.ready()
+    graph.wait_until_ready()
     assert not sim.bus.has_subscribers("camera")
     stop = other.bus.subscribe("camera", Image, print)
-    graph.ready()
-    graph.connected("/camera")
+    graph.wait_until_ready()
+    graph.wait_for_connections("/camera")
     stop()
     until(lambda: not sim.bus.has_subscribers("camera"), graph.step)
 
@@ -82,7 +82,7 @@ def test_a_command_from_outside_arrives_with_its_stamp_in_simulation_time(graph:
     sim, other = graph.node(), graph.node("/other")
     actual = heard_by(sim, "twist", TwistStamped)
     publish = other.bus.publisher("twist", TwistStamped)
-    graph.ready()
+    graph.wait_until_ready()
     until(lambda: other.bus.has_subscribers("twist"), graph.step)
     for i in range(20):
         publish(TwistStamped(header=header(0.5 + i)))
@@ -96,7 +96,7 @@ def test_the_clock_begins_at_one_second(graph: Graph) -> None:
     sim, other = graph.node(), graph.node("/other")
     clock = message_class("rosgraph_msgs/Clock")
     actual = heard_by(other, "clock", clock)
-    graph.ready()
+    graph.wait_until_ready()
     until(lambda: sim.n_connected("/clock") and actual, graph.step)
     assert actual[0].clock.sec >= 1
 
@@ -105,14 +105,14 @@ def test_the_clock_comes_at_every_step_while_it_is_read(graph: Graph) -> None:
     """The loop of a node with a period of one step is not slowed down by the clock."""
     sim, other = graph.node(), graph.node("/other")
     actual = heard_by(other, "clock", message_class("rosgraph_msgs/Clock"))
-    graph.ready()
+    graph.wait_until_ready()
     until(lambda: sim.n_connected("/clock") and actual, graph.step)
-    first = sim.bus.step
+    first_time = sim.bus.step
     for _ in range(25):
         graph.step()
     until(lambda: _step_of(actual[-1]) >= sim.bus.step, other.step)
     steps = [_step_of(message) for message in actual]
-    assert steps[-25:] == list(range(first + 1, first + 26))
+    assert steps[-25:] == list(range(first_time + 1, first_time + 26))
 
 
 def _step_of(message: Any) -> int:
@@ -130,7 +130,7 @@ def test_a_service_is_called_from_outside(graph: Graph) -> None:
         return GTpublishResponse()
 
     sim.bus.services.serve("vision/init", GTpublish, answer)
-    graph.ready()
+    graph.wait_until_ready()
     assert other.bus.services.is_offered("/vision/init")
     import threading
 
@@ -152,7 +152,7 @@ def test_a_service_that_fails_is_an_error_of_the_caller(graph: Graph) -> None:
         raise UwsimError("the arm is stuck")
 
     sim.bus.services.serve("reset", Empty, answer)
-    graph.ready()
+    graph.wait_until_ready()
     import threading
 
     errors: list[str] = []
@@ -171,14 +171,14 @@ def test_a_service_that_fails_is_an_error_of_the_caller(graph: Graph) -> None:
 def test_a_service_of_another_type_is_refused(graph: Graph) -> None:
     sim, other = graph.node(), graph.node("/other")
     sim.bus.services.serve("reset", Empty, lambda request: EmptyResponse())
-    graph.ready()
+    graph.wait_until_ready()
     with pytest.raises(UwsimError, match="service is std_srvs/Empty"):
         other.bus.services.call("reset", GTpublish(np.zeros(8, np.float32)))
 
 
 def test_a_service_that_nobody_has_is_not_served(graph: Graph) -> None:
     sim = graph.node()
-    graph.ready()
+    graph.wait_until_ready()
     assert not sim.bus.services.is_offered("nothing")
 
 
@@ -186,15 +186,15 @@ def test_a_topic_of_another_type_is_refused_on_both_sides(graph: Graph) -> None:
     sim, other = graph.node(), graph.node("/other")
     sim.bus.publisher("depth", Float64)
     other.bus.subscribe("depth", Odometry, print)
-    graph.ready()
-    until(lambda: any("topic /depth carries std_msgs/Float64" in x for x in graph.printed))
+    graph.wait_until_ready()
+    until(lambda: any("topic /depth carries std_msgs/Float64" in x for x in graph.lines))
     assert sim.n_connected("/depth") == 0
 
 
 def test_parameters_are_set_while_the_node_is_there_and_put_back(graph: Graph) -> None:
     call(graph.master.uri, "setParam", "/x", "/use_sim_time", False)
     sim = graph.node(parameters={"/use_sim_time": True, "/uwsim/seed": 7})
-    graph.ready()
+    graph.wait_until_ready()
     until(lambda: call(graph.master.uri, "hasParam", "/x", "/uwsim/seed"))
     assert call(graph.master.uri, "getParam", "/x", "/uwsim/seed") == 7
     assert call(graph.master.uri, "getParam", "/x", "/use_sim_time") is True
@@ -208,14 +208,14 @@ def test_parameters_are_set_while_the_node_is_there_and_put_back(graph: Graph) -
 def test_a_master_that_is_restarted_knows_the_node_again(graph: Graph) -> None:
     sim = graph.node()
     sim.bus.publisher("depth", Float64)
-    graph.ready()
+    graph.wait_until_ready()
     port = int(graph.master.uri.rsplit(":", 1)[1].strip("/"))
     graph.master.close()
-    until(lambda: any("is tried again" in line for line in graph.printed))
+    until(lambda: any("is tried again" in line for line in graph.lines))
     graph.step()
     graph.master = Master(graph.log, port=port)
     until(lambda: _topics(graph.master) == ["/clock", "/depth", "/rosout"])
-    assert any("restarted" in line for line in graph.printed)
+    assert any("restarted" in line for line in graph.lines)
 
 
 def _topics(master: Master) -> list[str]:
@@ -223,19 +223,19 @@ def _topics(master: Master) -> list[str]:
 
 
 def test_a_node_whose_name_is_taken_leaves_the_graph(graph: Graph) -> None:
-    first = graph.node()
-    graph.ready()
+    first_node = graph.node()
+    graph.wait_until_ready()
     second = graph.node()
-    until(lambda: any("leave" in line for line in graph.printed), graph.step)
+    until(lambda: any("leave" in line for line in graph.lines), graph.step)
     until(lambda: call(graph.master.uri, "lookupNode", "/x", "/uwsim") == second.uri)
-    first.step()
+    first_node.step()
 
 
 def test_what_happens_is_on_rosout(graph: Graph) -> None:
     from uwsim.middleware.ros1.tcpros import encode_header, open_connection, read_frame, read_header
 
     sim = graph.node()
-    graph.ready()
+    graph.wait_until_ready()
     place = call(sim.uri, "requestTopic", "/x", "/rosout", [["TCPROS"]])
     peer = open_connection(place[1], place[2], 60.0)
     peer.sendall(encode_header({"callerid": "/x", "md5sum": "*", "topic": "/rosout", "type": "*"}))
@@ -252,7 +252,7 @@ def test_a_late_node_gets_the_newest_message_of_a_latched_topic(graph: Graph) ->
     uwsim, other = graph.node(), graph.node("/other")
     say = uwsim.bus.publisher("scene", MarkerArray)
     say(MarkerArray(markers=[Marker(ns="first")]))
-    graph.ready()
+    graph.wait_until_ready()
     say(MarkerArray(markers=[Marker(ns="second", text="x")]))
     graph.step()
     arrivals = heard_by(other, "scene", MarkerArray)
@@ -267,12 +267,12 @@ def test_a_topic_whose_name_is_none_of_ros_is_told_and_the_others_are_there(grap
         sim.bus.subscribe(f"{name}/command", Float64, print)
     publish = sim.bus.publisher("zz", Float64)
     actual = heard_by(other, "zz", Float64)
-    graph.ready()
-    graph.connected("/zz")
+    graph.wait_until_ready()
+    graph.wait_for_connections("/zz")
     publish(Float64(data=1.0))
     until(lambda: actual, graph.step)
-    reports = [line for line in graph.printed if "not on the graph" in line]
+    reports = [line for line in graph.lines if "not on the graph" in line]
     assert len(reports) == 6
     assert "uwsim: test: not on the graph: /a b: " in reports[0]
     assert "parameter [topic] contains illegal chars" in reports[0]
-    assert not any("tried again" in line for line in graph.printed)
+    assert not any("tried again" in line for line in graph.lines)

@@ -35,9 +35,9 @@ SHUTDOWN = (
 
 @pytest.fixture
 def master() -> Iterator[Master]:
-    made = Master(Log("test", lambda line: None))
-    yield made
-    made.close()
+    new_master = Master(Log("test", lambda line: None))
+    yield new_master
+    new_master.close()
 
 
 def port_of(uri: str) -> int:
@@ -69,13 +69,13 @@ def test_a_page_in_a_browser_sets_no_parameter_and_ends_no_node(headers: dict[st
     graph = Graph()
     with closing(graph):
         sim = graph.node()
-        graph.ready()
+        graph.wait_until_ready()
         body = SHUTDOWN.format("setParam", "/use_sim_time")
         assert status_of(port_of(graph.master.uri), body, headers) == 403
         assert status_of(port_of(sim.uri), SHUTDOWN.format("shutdown", "bye"), headers) == 403
         assert call(graph.master.uri, "hasParam", "/x", "/use_sim_time") is False
-        assert not any("requests that this node leaves" in line for line in graph.printed)
-        assert any("a request is refused" in line for line in graph.printed)
+        assert not any("requests that this node leaves" in line for line in graph.lines)
+        assert any("a request is refused" in line for line in graph.lines)
 
 
 @pytest.mark.parametrize(
@@ -118,7 +118,7 @@ def test_a_header_that_comes_byte_by_byte_has_a_deadline() -> None:
     graph = Graph()
     with closing(graph):
         sim = graph.node(header=0.2)
-        graph.ready()
+        graph.wait_until_ready()
         data = encode_header({"callerid": "/slow", "topic": "/clock", "md5sum": "*", "type": "*"})
         with socket.create_connection(("127.0.0.1", sim._listener.port), LIMIT) as peer:
             assert drips(peer, data, 0.02)
@@ -130,11 +130,11 @@ def test_a_request_that_comes_byte_by_byte_has_a_deadline(
     monkeypatch: pytest.MonkeyPatch, data: bytes
 ) -> None:
     monkeypatch.setattr(xmlrpc, "READ_TIMEOUT", 0.2)
-    made = Master(Log("test", lambda line: None))
-    with closing(made):
-        with socket.create_connection(("127.0.0.1", port_of(made.uri)), LIMIT) as peer:
+    server = Master(Log("test", lambda line: None))
+    with closing(server):
+        with socket.create_connection(("127.0.0.1", port_of(server.uri)), LIMIT) as peer:
             assert drips(peer, data, 0.02)
-        assert call(made.uri, "getUri", "/x") == made.uri
+        assert call(server.uri, "getUri", "/x") == server.uri
 
 
 def test_a_reader_with_a_deadline_reads_what_comes_in_time_and_leaves_the_timeout() -> None:
@@ -174,10 +174,10 @@ def test_parameters_have_a_limit_on_their_number_and_depth(monkeypatch: pytest.M
     assert 0 < codes.count(1) < 200
     assert kept_values.get_param("/x", "/n/p0")[0][0] == 1
     assert [kept_values.set_param("/x", "/n/p0", n)[0][0] for n in range(300)] == [1] * 300
-    deep: Any = 1.0
+    deep_value: Any = 1.0
     for _ in range(100):
-        deep = {"a": deep}
-    assert Parameters().set_param("/x", "/deep", deep)[0][0] == -1
+        deep_value = {"a": deep_value}
+    assert Parameters().set_param("/x", "/deep", deep_value)[0][0] == -1
     assert Parameters().set_param("/x", "/a" * 100, 1.0)[0][0] == -1
 
 

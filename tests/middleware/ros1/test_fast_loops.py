@@ -70,14 +70,14 @@ def test_the_time_that_it_integrates_is_that_of_the_simulation(
                 )
                 bridge.wait_for(lambda: False, SLEEP_S)
 
-            def integrated() -> float:
+            def has_integrated() -> float:
                 return inbox.last_message.data if inbox.last_message is not None else 0.0
 
             graph.start(PYTHON, str(program), str(timestep))
-            until(lambda: integrated() > 10 * timestep, step)
-            value_before = integrated()
+            until(lambda: has_integrated() > 10 * timestep, step)
+            value_before = has_integrated()
             for _ in range(N_STEPS):
                 step()
-            assert integrated() - value_before == pytest.approx(N_STEPS * timestep, rel=0.02)
+            assert has_integrated() - value_before == pytest.approx(N_STEPS * timestep, rel=0.02)
         finally:
             bridge.close()

@@ -29,9 +29,9 @@ from uwsim.middleware.types import wire_type
 
 @pytest.fixture
 def graph() -> Iterator[Graph]:
-    made = Graph()
-    yield made
-    made.close()
+    new_graph = Graph()
+    yield new_graph
+    new_graph.close()
 
 
 def port_of(node: Ros1Bridge, topic: str = "/clock") -> int:
@@ -98,43 +98,43 @@ class FakePublisher:
 def test_garbage_on_the_port_is_reported(graph: Graph, data: bytes, text: str) -> None:
     sim = graph.node()
     sim.bus.publisher("depth", Float64)
-    graph.ready()
+    graph.wait_until_ready()
     with connect(port_of(sim)) as peer, suppress(OSError):
         peer.sendall(data)  # the node may leave before all is read: broken, reset, not connected
         peer.shutdown(socket.SHUT_WR)
         while peer.recv(4096):
             pass
-    until(lambda: any(text in line for line in graph.printed), graph.step)
+    until(lambda: any(text in line for line in graph.lines), graph.step)
     assert call(sim.uri, "getPid", "/x") > 0
 
 
 def test_a_client_that_sends_no_header_is_left(graph: Graph) -> None:
     sim = graph.node(header=0.05)
-    graph.ready()
+    graph.wait_until_ready()
     with connect(port_of(sim)) as peer:
         assert peer.recv(1) == b""
-    until(lambda: any("sends nothing" in line for line in graph.printed), graph.step)
+    until(lambda: any("sends nothing" in line for line in graph.lines), graph.step)
 
 
 def test_a_subscriber_that_stalls_costs_bounded_memory(graph: Graph) -> None:
     sim = graph.node(send=LIMIT)
     publish = sim.bus.publisher("camera", Image)
-    graph.ready()
+    graph.wait_until_ready()
     with subscribe(sim, "/camera"):
-        graph.connected("/camera")
+        graph.wait_for_connections("/camera")
         (queue,) = sim._publications["/camera"]._queues
         pixels = np.zeros((480, 640, 3), np.uint8)
         for i in range(200):
             publish(image(pixels, time=float(i)))
             graph.step()
             assert len(queue) * pixels.nbytes <= QUEUE_BYTES
-        assert any("too slowly" in line for line in graph.printed)
+        assert any("too slowly" in line for line in graph.lines)
 
 
 def test_a_subscriber_that_stalls_is_left(graph: Graph) -> None:
     sim = graph.node(send=0.2)
     publish = sim.bus.publisher("camera", Image)
-    graph.ready()
+    graph.wait_until_ready()
     message = image(np.zeros((480, 640, 3), np.uint8), time=0.0)
 
     def step() -> None:
@@ -142,16 +142,16 @@ def test_a_subscriber_that_stalls_is_left(graph: Graph) -> None:
         graph.step()
 
     with subscribe(sim, "/camera"):
-        until(lambda: any("does not read" in line for line in graph.printed), step)
+        until(lambda: any("does not read" in line for line in graph.lines), step)
         until(lambda: not sim.bus.has_subscribers("camera"), graph.step)
 
 
 def test_a_subscriber_killed_in_mid_transfer_is_forgotten(graph: Graph) -> None:
     sim = graph.node()
     publish = sim.bus.publisher("camera", Image)
-    graph.ready()
+    graph.wait_until_ready()
     peer = subscribe(sim, "/camera")
-    graph.connected("/camera")
+    graph.wait_for_connections("/camera")
     publish(image(np.zeros((480, 640, 3), np.uint8), time=0.0))
     graph.step()
     assert peer.recv(1000)
@@ -167,17 +167,17 @@ def test_a_flood_of_messages_is_bounded(graph: Graph, monkeypatch: pytest.Monkey
     sim = graph.node()
     actual: list[Float64] = []
     sim.bus.subscribe("cmd", Float64, actual.append)
-    graph.ready()
+    graph.wait_until_ready()
     publisher = FakePublisher(graph, "/cmd", Float64)
     connection = publisher.accept()
     frames = b"".join(add_length(to_ros1(Float64(data=float(i)))) for i in range(100_000))
     connection.sendall(frames)
-    last = 99_999.0
-    until(lambda: _newest(sim, "cmd") == last)
+    last_value = 99_999.0
+    until(lambda: _newest_value(sim, "cmd") == last_value)
     graph.step()
-    assert actual[-1].data == last
+    assert actual[-1].data == last_value
     assert len(actual) <= 1000
-    assert any("faster than the simulation reads them" in line for line in graph.printed)
+    assert any("faster than the simulation reads them" in line for line in graph.lines)
     connection.close()
     publisher.close()
 
@@ -193,11 +193,11 @@ def test_a_flood_of_messages_waits_in_the_sockets(
     monkeypatch.setattr(subscription, f"{name}_SHARE", 1e-7)
     sim = graph.node()
     sim.bus.subscribe("cmd", Float64, print)
-    graph.ready()
+    graph.wait_until_ready()
     publisher = FakePublisher(graph, "/cmd", Float64)
     connection = publisher.accept()
     connection.sendall(add_length(to_ros1(Float64(data=1.0))) * N_FLOOD)
-    until(lambda: any("faster than it is read" in line for line in graph.printed))
+    until(lambda: any("faster than it is read" in line for line in graph.lines))
     assert 0 < sim.arrivals.n_arrived["cmd"] < N_FLOOD
     connection.close()
     publisher.close()
@@ -212,7 +212,7 @@ def test_a_node_that_the_run_waits_for_does_not_wait(
     sim.admission = SingleProgram(lambda sender, text: None)
     sim.admission.admit("node /x")
     sim.bus.subscribe("cmd", Float64, print)
-    graph.ready()
+    graph.wait_until_ready()
     publisher = FakePublisher(graph, "/cmd", Float64)
     connection = publisher.accept()
     connection.sendall(add_length(to_ros1(Float64(data=1.0))) * N_FLOOD)
@@ -221,7 +221,7 @@ def test_a_node_that_the_run_waits_for_does_not_wait(
     publisher.close()
 
 
-def _newest(sim: Ros1Bridge, topic: str) -> float | None:
+def _newest_value(sim: Ros1Bridge, topic: str) -> float | None:
     queue = sim.arrivals._queues.get(topic)
     items = list(queue._items) if queue else []
     return items[-1][0][0].data if items else None  # type: ignore[attr-defined]
@@ -231,7 +231,7 @@ def test_garbage_from_a_publisher_is_reported_and_the_next_message_is_read(graph
     sim = graph.node()
     actual: list[JointState] = []
     sim.bus.subscribe("joints", JointState, actual.append)
-    graph.ready()
+    graph.wait_until_ready()
     publisher = FakePublisher(graph, "/joints", JointState)
     connection = publisher.accept()
     connection.sendall(
@@ -239,7 +239,7 @@ def test_garbage_from_a_publisher_is_reported_and_the_next_message_is_read(graph
     )
     until(lambda: actual, graph.step)
     assert actual[0].name == ["a"]
-    assert any("100 bytes are not a sensor_msgs/msg/JointState" in line for line in graph.printed)
+    assert any("100 bytes are not a sensor_msgs/msg/JointState" in line for line in graph.lines)
     connection.close()
     publisher.close()
 
@@ -259,26 +259,26 @@ def test_a_publisher_that_breaks_off_is_tried_again(
     sim = graph.node()
     actual: list[Float64] = []
     sim.bus.subscribe("cmd", Float64, actual.append)
-    graph.ready()
+    graph.wait_until_ready()
     publisher = FakePublisher(graph, "/cmd", Float64)
     connection = publisher.accept()
     connection.sendall(data)
     connection.close()
-    until(lambda: any(text in line for line in graph.printed), graph.step)
-    again = publisher.accept()
-    again.sendall(add_length(to_ros1(Float64(data=3.0))))
+    until(lambda: any(text in line for line in graph.lines), graph.step)
+    next_connection = publisher.accept()
+    next_connection.sendall(add_length(to_ros1(Float64(data=3.0))))
     until(lambda: actual, graph.step)
-    again.close()
+    next_connection.close()
     publisher.close()
 
 
 def test_a_publisher_that_does_not_exist_is_reported(graph: Graph) -> None:
     sim = graph.node()
     sim.bus.subscribe("cmd", Float64, print)
-    graph.ready()
+    graph.wait_until_ready()
     call(graph.master.uri, "registerPublisher", "/x", "/cmd", "std_msgs/Float64", "http://[bad")
     call(graph.master.uri, "registerPublisher", "/y", "/cmd", "*", "http://127.0.0.1:1/")
-    until(lambda: sum("publisher http://" in line for line in graph.printed) >= 2, graph.step)
+    until(lambda: sum("publisher http://" in line for line in graph.lines) >= 2, graph.step)
 
 
 def test_a_client_of_a_service_that_sends_garbage_gets_an_error(graph: Graph) -> None:
@@ -286,7 +286,7 @@ def test_a_client_of_a_service_that_sends_garbage_gets_an_error(graph: Graph) ->
 
     sim = graph.node()
     sim.bus.services.serve("init", GTpublish, lambda request: GTpublishResponse())
-    graph.ready()
+    graph.wait_until_ready()
     with connect(port_of(sim)) as peer:
         peer.sendall(encode_header({"callerid": "/x", "md5sum": "*", "service": "/init"}))
         read_header(peer)
@@ -307,7 +307,7 @@ def test_a_client_of_a_service_killed_in_the_middle_of_its_request_is_forgotten(
         return GTpublishResponse()
 
     sim.bus.services.serve("init", GTpublish, answer)
-    graph.ready()
+    graph.wait_until_ready()
     fields = encode_header({"callerid": "/x", "md5sum": "*", "service": "/init"})
     request = add_length(to_ros1(GTpublish(groundTruth=np.ones(8, np.float32))))
     for data in (fields[:9], fields, fields + request[:5]):
@@ -344,28 +344,28 @@ def test_of_too_many_clients_that_ask_nothing_the_longest_idle_is_left(
     monkeypatch.setattr("uwsim.middleware.ros1.services.MAX_IDLE", 2)
     sim = graph.node()
     sim.bus.services.serve("reset", Empty, lambda request: EmptyResponse())
-    graph.ready()
+    graph.wait_until_ready()
     with ExitStack() as stack:
-        first, second, third = (stack.enter_context(ask_persistently(sim)) for _ in range(3))
-        assert first.recv(1) == b""
+        first_client, second, third_client = (
+            stack.enter_context(ask_persistently(sim)) for _ in range(3)
+        )
+        assert first_client.recv(1) == b""
         fourth = stack.enter_context(ask_persistently(sim))
         assert second.recv(1) == b""
-        for peer in (third, fourth, third):
+        for peer in (third_client, fourth, third_client):
             peer.sendall(add_length(b""))
             until(lambda peer=peer: select([peer], [], [], 0.0)[0], graph.step)
             assert peer.recv(5, socket.MSG_WAITALL) == b"\x01" + bytes(4)
-    until(lambda: any("it sent no request" in line for line in graph.printed))
+    until(lambda: any("it sent no request" in line for line in graph.lines))
 
 
 def test_many_connections_are_bounded(graph: Graph, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("uwsim.middleware.ros1.listener.MAX_CONNECTIONS", 5)
     sim = graph.node()
-    graph.ready()
+    graph.wait_until_ready()
     port = port_of(sim)
     peers = [connect(port) for _ in range(8)]
-    until(
-        lambda: any("more than 5 connections" in x or "one is refused" in x for x in graph.printed)
-    )
+    until(lambda: any("more than 5 connections" in x or "one is refused" in x for x in graph.lines))
     for peer in peers:
         peer.close()
     until(lambda: not sim._listener.n_connections)
@@ -374,24 +374,24 @@ def test_many_connections_are_bounded(graph: Graph, monkeypatch: pytest.MonkeyPa
 
 def test_many_connections_that_break_off_are_few_lines(graph: Graph) -> None:
     sim = graph.node()
-    graph.ready()
+    graph.wait_until_ready()
     port = port_of(sim)
     for n in range(1, 40):
         with connect(port) as peer:
             peer.sendall(struct.pack("<I", 100 + n) + bytes(n))
-    until(lambda: "further such lines" in "".join(graph.printed), graph.step)
-    assert sum("it closed the connection after" in line for line in graph.printed) == 6
+    until(lambda: "further such lines" in "".join(graph.lines), graph.step)
+    assert sum("it closed the connection after" in line for line in graph.lines) == 6
 
 
 def test_a_thousand_publishers_of_a_topic_are_bounded(graph: Graph) -> None:
     sim = graph.node()
     actual: list[Float64] = []
     sim.bus.subscribe("cmd", Float64, actual.append)
-    graph.ready()
+    graph.wait_until_ready()
     value_before = threading.active_count()
-    many = [f"http://127.0.0.1:{port}/" for port in range(1, 1001)]
-    call(sim.uri, "publisherUpdate", "/x", "/cmd", many)
-    until(lambda: any("1000 publishers; 100" in line for line in graph.printed), graph.step)
+    uris = [f"http://127.0.0.1:{port}/" for port in range(1, 1001)]
+    call(sim.uri, "publisherUpdate", "/x", "/cmd", uris)
+    until(lambda: any("1000 publishers; 100" in line for line in graph.lines), graph.step)
     assert threading.active_count() - value_before < 110
     call(sim.uri, "publisherUpdate", "/x", "/cmd", [])
     until(lambda: threading.active_count() <= value_before + 2, graph.step)

@@ -28,9 +28,9 @@ def lines() -> list[str]:
 
 @pytest.fixture
 def master(lines: list[str]) -> Iterator[Master]:
-    made = Master(Log("test", lines.append))
-    yield made
-    made.close()
+    new_master = Master(Log("test", lines.append))
+    yield new_master
+    new_master.close()
 
 
 def test_topics_are_registered_and_listed(master: Master) -> None:
@@ -89,18 +89,18 @@ def test_subscribers_hear_of_new_publishers(master: Master, lines: list[str]) ->
 
 
 def test_a_second_node_of_the_same_name_ends_the_first(master: Master, lines: list[str]) -> None:
-    ended: list[tuple[Any, ...]] = []
+    reasons: list[tuple[Any, ...]] = []
 
     def shutdown(*arguments: Any) -> Answer:
-        ended.append(arguments)
+        reasons.append(arguments)
         return [1, "", 0]
 
     node = XmlRpcServer("127.0.0.1", 0, {"shutdown": shutdown}, Log("test", lines.append), "node")
     uri = f"http://127.0.0.1:{node.port}/"
     call(master.uri, "registerPublisher", "/sim", "/a", "std_msgs/String", uri)
     call(master.uri, "registerPublisher", "/sim", "/b", "std_msgs/String", NODE)
-    until(lambda: ended)
-    assert "/sim" in ended[0][1]
+    until(lambda: reasons)
+    assert "/sim" in reasons[0][1]
     assert call(master.uri, "getPublishedTopics", "/x", "") == [["/b", "std_msgs/String"]]
     node.close()
 
@@ -169,8 +169,8 @@ def test_garbage_does_not_end_it(master: Master, data: bytes) -> None:
 
 
 def test_what_is_no_answer_of_ros_is_one_clean_error(lines: list[str]) -> None:
-    odd: dict[str, Any] = {"getUri": lambda caller: "hello", "getPid": lambda caller: 1 / 0}
-    server = XmlRpcServer("127.0.0.1", 0, odd, Log("test", lines.append), "node")
+    odd_server: dict[str, Any] = {"getUri": lambda caller: "hello", "getPid": lambda caller: 1 / 0}
+    server = XmlRpcServer("127.0.0.1", 0, odd_server, Log("test", lines.append), "node")
     uri = f"http://127.0.0.1:{server.port}/"
     for method in ("getUri", "getPid", "nothing"):
         with pytest.raises(PeerError, match="does not answer as ROS"):
@@ -180,7 +180,7 @@ def test_what_is_no_answer_of_ros_is_one_clean_error(lines: list[str]) -> None:
         call(uri, "getUri", "/x")
 
 
-WRONG: dict[str, tuple[str, tuple[Any, ...], str, object]] = {
+INVALID_CALLS: dict[str, tuple[str, tuple[Any, ...], str, object]] = {
     "no caller": ("getPid", (), "missing required caller_id parameter", -1),
     "a number for a caller": ("getPid", (5,), "caller_id must be a string", -1),
     "too few": ("registerPublisher", ("/x", "/odom"), "wrong number of arguments (2); expec", []),
@@ -244,15 +244,15 @@ WRONG: dict[str, tuple[str, tuple[Any, ...], str, object]] = {
 }
 
 
-@pytest.mark.parametrize("case", WRONG)
+@pytest.mark.parametrize("case", INVALID_CALLS)
 def test_a_wrong_call_is_answered_with_a_code_and_what_was_expected(
     master: Master, case: str
 ) -> None:
-    method, arguments, said, value = WRONG[case]
+    method, arguments, message, value = INVALID_CALLS[case]
     with xmlrpc.client.ServerProxy(master.uri, allow_none=True) as proxy:
         code, text, actual = getattr(proxy, method)(*arguments)
     assert (code, actual) == (-1, value)
-    assert text.startswith(said)
+    assert text.startswith(message)
 
 
 def test_a_method_that_is_none_is_a_fault_that_names_it(master: Master) -> None:

@@ -18,15 +18,15 @@ from uwsim.middleware.ros1.registrar import Registrar, Registrations
 from uwsim.middleware.ros1.tcpros import PeerError
 from uwsim.middleware.ros1.xmlrpc import XmlRpcServer, call
 
-DEEP = 3000
+MAX_NESTING = 3000
 INT = "<value><int>{}</int></value>"
 LIST = "<value><array><data>{}</data></array></value>"
-NESTED = "<value><array><data>" * DEEP + "</data></array></value>" * DEEP
-ODD = {
+NESTED_LISTS = "<value><array><data>" * MAX_NESTING + "</data></array></value>" * MAX_NESTING
+ODD_ANSWERS = {
     "a decimal that is none": "<value><bigdecimal>xx</bigdecimal></value>",
     "a member without a value": "<value><struct><member><name>a</name></member></struct></value>",
-    "a text of nested lists": LIST.format(INT.format(0) + NESTED + INT.format(0)),
-    "nested lists": NESTED,
+    "a text of nested lists": LIST.format(INT.format(0) + NESTED_LISTS + INT.format(0)),
+    "nested lists": NESTED_LISTS,
     "a number for the list": INT.format(1),
 }
 
@@ -54,9 +54,12 @@ def answering(value: str) -> Iterator[str]:
     server.server_close()
 
 
-@pytest.mark.parametrize("case", ODD)
+@pytest.mark.parametrize("case", ODD_ANSWERS)
 def test_an_odd_answer_is_an_error_of_the_peer(case: str) -> None:
-    with answering(ODD[case]) as uri, pytest.raises(PeerError, match="does not answer as ROS"):
+    with (
+        answering(ODD_ANSWERS[case]) as uri,
+        pytest.raises(PeerError, match="answer as ROS"),
+    ):
         call(uri, "requestTopic", "/x", timeout=LIMIT)
 
 
@@ -67,10 +70,10 @@ def test_a_publisher_with_an_odd_answer_is_asked_again(
     graph = Graph()
     sim = graph.node()
     sim.bus.subscribe("cmd", Float64, print)
-    graph.ready()
-    with answering(ODD["a text of nested lists"]) as uri:
+    graph.wait_until_ready()
+    with answering(ODD_ANSWERS["a text of nested lists"]) as uri:
         call(graph.master.uri, "registerPublisher", "/x", "/cmd", "std_msgs/Float64", uri)
-        until(lambda: sum("does not answer as ROS" in x for x in graph.printed) > 2, graph.step)
+        until(lambda: sum("does not answer as ROS" in x for x in graph.lines) > 2, graph.step)
     graph.close()
 
 

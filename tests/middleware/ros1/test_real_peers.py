@@ -20,8 +20,8 @@ pytestmark = [needs_ros1, pytest.mark.slow]
 
 @pytest.fixture(scope="module")
 def sea(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Sea]:
-    with peers(tmp_path_factory.mktemp("ros")) as made:
-        actual = Sea(made)
+    with peers(tmp_path_factory.mktemp("ros")) as new_sea:
+        actual = Sea(new_sea)
         yield actual
         actual.close()
 
@@ -32,9 +32,9 @@ def test_the_tools_see_its_topics_and_services(sea: Sea) -> None:
         topics
     )
     assert "/SpawnMarker" in sea.output(sea.peers.start("rosservice", "list"))
-    about = sea.output(sea.peers.start("rosnode", "info", "/uwsim"))
-    assert " * /uwsim/girona500/odom [nav_msgs/Odometry]" in about
-    assert " * /dataNavigator" in about
+    description = sea.output(sea.peers.start("rosnode", "info", "/uwsim"))
+    assert " * /uwsim/girona500/odom [nav_msgs/Odometry]" in description
+    assert " * /dataNavigator" in description
     assert sea.output(sea.peers.start("rosparam", "get", "/use_sim_time")).strip() == "true"
 
 
@@ -71,11 +71,11 @@ def test_a_program_of_the_originals_kind_drives_the_vehicle(sea: Sea) -> None:
         "set_vehicle_velocity.py", "/dataNavigator", *("0.2", "0", "0", "0", "0", "0")
     )
 
-    def moved() -> float:
+    def has_moved() -> float:
         now = sea.odometry().pose.pose.position
         return math.dist((now.x, now.y), (value_before.position.x, value_before.position.y))
 
-    until(lambda: moved() > 0.1, sea.advance)
+    until(lambda: has_moved() > 0.1, sea.advance)
     assert program.poll() is None
     program.kill()
 
@@ -117,12 +117,12 @@ def test_the_sums_of_types_are_those_of_ros(sea: Sea) -> None:
         for entry in vars(uwsim.messages).values()
         if isinstance(entry, type) and (actual := wire_type(entry)) is not None and actual.md5
     }
-    known = [
+    expected = [
         name for name in kinds if name.startswith(("std_msgs", "geometry_", "sensor_", "nav_"))
     ]
-    assert len(known) > 30
+    assert len(expected) > 30
     for name, line in zip(
-        known,
+        expected,
         sea.output(
             sea.peers.start(
                 "/usr/bin/python3",
@@ -132,7 +132,7 @@ def test_the_sums_of_types_are_those_of_ros(sea: Sea) -> None:
                 "    package, kind = name.split('/')\n"
                 "    module = importlib.import_module(package + '.msg')\n"
                 "    print(getattr(getattr(module, kind, None), '_md5sum', ''))",
-                *known,
+                *expected,
             )
         ).splitlines(),
         strict=True,
@@ -142,12 +142,12 @@ def test_the_sums_of_types_are_those_of_ros(sea: Sea) -> None:
 
 def test_a_master_killed_and_started_again_has_the_topics_back(sea: Sea) -> None:
     sea.peers.kill_master()
-    until(lambda: any("is tried again" in line for line in sea.printed), sea.advance)
+    until(lambda: any("is tried again" in line for line in sea.lines), sea.advance)
     sea.peers.start_master()
-    until(lambda: any("restarted" in line for line in sea.printed), sea.advance)
+    until(lambda: any("restarted" in line for line in sea.lines), sea.advance)
     assert sea.bridge.wait(LIMIT)
-    listed = sea.output(sea.peers.start("rostopic", "list"))
-    assert "/uwsim/girona500/odom" in listed
+    topic_list = sea.output(sea.peers.start("rostopic", "list"))
+    assert "/uwsim/girona500/odom" in topic_list
 
 
 def test_a_rospy_node_calls_a_service(sea: Sea, tmp_path: Path) -> None:

@@ -14,7 +14,7 @@ from uwsim.middleware.ros1 import Master
 from uwsim.middleware.ros1.xmlrpc import Answer, call
 
 
-class Overtaken(Master):
+class OvertakenAnswer(Master):
     """Its update of the publishers is there before its answer, which is older."""
 
     def _register_subscriber(self, caller: str, topic: str, kind: str, uri: str) -> Answer:
@@ -26,19 +26,19 @@ class Overtaken(Master):
 
 @pytest.fixture
 def graph() -> Iterator[Graph]:
-    made = Graph(Overtaken)
-    yield made
-    made.close()
+    new_graph = Graph(OvertakenAnswer)
+    yield new_graph
+    new_graph.close()
 
 
 def test_a_publisher_that_comes_while_a_topic_is_registered_is_kept(graph: Graph) -> None:
     other = graph.node("/other")
     publish = other.bus.publisher("topic", Float64)
-    graph.ready()
+    graph.wait_until_ready()
     sim = graph.node()
     actual: list[Any] = []
     sim.bus.subscribe("topic", Float64, actual.append)
-    graph.ready()
+    graph.wait_until_ready()
     until(lambda: other.bus.has_subscribers("topic"), graph.step)
     publish(Float64(2.5))
     until(lambda: actual, graph.step)

@@ -62,52 +62,52 @@ def test_slow_subscribers_do_not_hold_up_others(monkeypatch: pytest.MonkeyPatch)
 
     log = Log("test", lambda line: None)
     master = Master(log)
-    honest = XmlRpcServer("127.0.0.1", 0, {"publisherUpdate": update}, log, "node")
-    begun: list[str] = []
+    honest_node = XmlRpcServer("127.0.0.1", 0, {"publisherUpdate": update}, log, "node")
+    called_uris: list[str] = []
 
-    def never(uri: str, method: str, *arguments: object, max_length: int) -> object:
+    def call_slowly(uri: str, method: str, *arguments: object, max_length: int) -> object:
         """Call the honest node; of others the call lasts until the end of the tests."""
-        begun.append(uri)
-        if uri.endswith(f":{honest.port}/"):
+        called_uris.append(uri)
+        if uri.endswith(f":{honest_node.port}/"):
             return call(uri, method, *arguments, timeout=LIMIT)
         return threading.Event().wait()
 
-    monkeypatch.setattr("uwsim.middleware.ros1.master.call", never)
+    monkeypatch.setattr("uwsim.middleware.ros1.master.call", call_slowly)
     for n in range(8):
         for topic in ("/evil", "/more"):
             node = f"http://127.0.0.1:{n + 2}/"
             call(master.uri, "registerSubscriber", f"/evil{n}", topic, KIND, node)
     for topic in ("/evil", "/more"):
         call(master.uri, "registerPublisher", "/x", topic, KIND, NODE)
-    until(lambda: len(begun) == 8)
-    node = f"http://127.0.0.1:{honest.port}/"
+    until(lambda: len(called_uris) == 8)
+    node = f"http://127.0.0.1:{honest_node.port}/"
     call(master.uri, "registerSubscriber", "/honest", "/chat", KIND, node)
     call(master.uri, "registerPublisher", "/y", "/chat", KIND, NODE)
     until(lambda: arrivals)
     assert arrivals == [[NODE]]
     master.close()
     assert all(entry.daemon for entry in threading.enumerate() if "ros1-master" in entry.name)
-    honest.close()
+    honest_node.close()
 
 
 def test_the_calls_of_a_node_are_made_in_their_order_one_at_a_time() -> None:
     calls = NodeCalls()
-    made: list[str] = []
+    finished_calls: list[str] = []
     is_free = threading.Event()
 
-    def first() -> None:
+    def run_first() -> None:
         is_free.wait(LIMIT)
-        made.append("1")
+        finished_calls.append("1")
 
-    calls.add("a", "1", first)
+    calls.add("a", "1", run_first)
     until(lambda: not calls._calls["a"])  # it has begun
-    calls.add("a", "2", lambda: made.append("old"))
-    calls.add("a", "3", lambda: made.append("3"))
-    calls.add("a", "2", lambda: made.append("2"))
-    calls.add("b", "1", lambda: made.append("b"))
-    until(lambda: made)
-    assert made == ["b"]
+    calls.add("a", "2", lambda: finished_calls.append("old"))
+    calls.add("a", "3", lambda: finished_calls.append("3"))
+    calls.add("a", "2", lambda: finished_calls.append("2"))
+    calls.add("b", "1", lambda: finished_calls.append("b"))
+    until(lambda: finished_calls)
+    assert finished_calls == ["b"]
     is_free.set()
-    until(lambda: len(made) == 4)
-    assert made == ["b", "1", "2", "3"]
+    until(lambda: len(finished_calls) == 4)
+    assert finished_calls == ["b", "1", "2", "3"]
     calls.close()

@@ -84,15 +84,15 @@ def test_a_peer_is_still_there_when_more_than_a_thousand_files_are_open(
     pair: tuple[socket.socket, socket.socket],
 ) -> None:
     local_end, remote_end = pair
-    soft, hard = resource.getrlimit(resource.RLIMIT_NOFILE)
-    resource.setrlimit(resource.RLIMIT_NOFILE, (hard, hard))
+    soft_limit, hard_limit = resource.getrlimit(resource.RLIMIT_NOFILE)
+    resource.setrlimit(resource.RLIMIT_NOFILE, (hard_limit, hard_limit))
     try:
         with socket.socket(fileno=fcntl.fcntl(local_end, fcntl.F_DUPFD, 1024)) as high:
             assert not has_left(high)
             remote_end.shutdown(socket.SHUT_WR)
             assert has_left(high)
     finally:
-        resource.setrlimit(resource.RLIMIT_NOFILE, (soft, hard))
+        resource.setrlimit(resource.RLIMIT_NOFILE, (soft_limit, hard_limit))
 
 
 def test_a_long_frame_is_refused_before_it_is_read(

@@ -23,9 +23,9 @@ REQUEST = b"<methodCall><methodName>getPid</methodName></methodCall>"
 @pytest.fixture
 def server() -> Iterator[XmlRpcServer]:
     log = Log("test", lambda line: None)
-    made = XmlRpcServer("127.0.0.1", 0, {"getPid": lambda *_: [1, "", 5]}, log, "node")
-    yield made
-    made.close()
+    new_server = XmlRpcServer("127.0.0.1", 0, {"getPid": lambda *_: [1, "", 5]}, log, "node")
+    yield new_server
+    new_server.close()
 
 
 @pytest.fixture
@@ -65,18 +65,18 @@ def test_requests_that_are_refused_wait_as_well(server: XmlRpcServer) -> None:
 
 
 def test_a_short_request_does_not_wait_behind_long_ones() -> None:
-    shared = Turns()
+    shared_turns = Turns()
     order: list[int] = []
 
     def work(n_bytes: int) -> None:
-        with shared.turn(n_bytes):
+        with shared_turns.turn(n_bytes):
             order.append(n_bytes)
 
     threads = [threading.Thread(target=work, args=(n,), daemon=True) for n in (900_000, 300)]
-    with shared.turn(0):
+    with shared_turns.turn(0):
         for n_waiting, thread in enumerate(threads, 1):
             thread.start()
-            until(lambda n=n_waiting: len(shared._waiting_turns) == n)
+            until(lambda n=n_waiting: len(shared_turns._waiting_turns) == n)
         assert not order
     for thread in threads:
         thread.join(LIMIT)

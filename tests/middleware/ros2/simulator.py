@@ -33,7 +33,7 @@ class Simulator:
 
 
 @contextmanager
-def running() -> Iterator[Simulator]:
+def run_in_thread() -> Iterator[Simulator]:
     """Give one in a domain of its own."""
     with free_domain() as domain:
         actual = Simulator(domain)

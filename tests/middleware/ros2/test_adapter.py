@@ -14,7 +14,7 @@ from uwsim.messages.build import image
 
 pytest.importorskip("cyclonedds", reason="cyclonedds is not installed: pip install uwsim[ros2]")
 
-from tests.middleware.ros2.simulator import Simulator, running
+from tests.middleware.ros2.simulator import Simulator, run_in_thread
 from uwsim.middleware.types import wire_type
 
 pytestmark = needs_rclpy
@@ -23,7 +23,7 @@ RECEIVE_BUFFER = Path("/proc/sys/net/core/rmem_max")
 
 @pytest.fixture
 def simulator() -> Iterator[Simulator]:
-    with running() as actual:
+    with run_in_thread() as actual:
         yield actual
 
 
@@ -154,13 +154,13 @@ spin_until(lambda: False)
         publish(image(pixels.copy(), time=float(n)))
 
     with peer(source, simulator.domain):
-        small = np.zeros((1, 1, 3), dtype=np.uint8)
-        until(lambda: samples, lambda: (publish(image(small.copy(), time=0.0)), step()))
+        small_image = np.zeros((1, 1, 3), dtype=np.uint8)
+        until(lambda: samples, lambda: (publish(image(small_image.copy(), time=0.0)), step()))
         for n in range(1, 21):  # both ends know each other
             send(n)
             until(lambda n=n: samples[-1].startswith(f"640x480 {n} "), step)
-    large = [entry for entry in samples if not entry.startswith("1x1 ")]
-    assert large == [f"640x480 {n} 921600" for n in range(1, 21)]
+    large_image = [entry for entry in samples if not entry.startswith("1x1 ")]
+    assert large_image == [f"640x480 {n} 921600" for n in range(1, 21)]
 
 
 def test_a_late_node_gets_what_was_published_before(simulator: Simulator) -> None:

@@ -8,7 +8,7 @@ import pytest
 
 pytest.importorskip("cyclonedds", reason="cyclonedds is not installed: pip install uwsim[ros2]")
 
-from tests.middleware.ros2.simulator import Simulator, running
+from tests.middleware.ros2.simulator import Simulator, run_in_thread
 from tests.support.waiting import until
 from uwsim.messages import Empty, EmptyResponse, String
 from uwsim.middleware.admission import SingleProgram
@@ -24,7 +24,7 @@ from uwsim.middleware.types import ros2_store
 @pytest.fixture
 def simulator(monkeypatch: pytest.MonkeyPatch) -> Iterator[Simulator]:
     monkeypatch.setenv("UWSIM_ROS2", "dds")
-    with running() as actual:
+    with run_in_thread() as actual:
         actual.bridge.admission = SingleProgram(lambda sender, text: None)
         yield actual
 
@@ -38,7 +38,7 @@ def two(simulator: Simulator) -> Iterator[tuple[Participant, Participant]]:
         entry.close()
 
 
-def named(participant: Participant) -> str:
+def participant_name(participant: Participant) -> str:
     return f"participant {participant.guid[:12].hex()}"
 
 
@@ -47,12 +47,12 @@ def test_another_participant_publishes_nothing(
 ) -> None:
     inbox = simulator.bus.inbox("status", String)
     kind = raw_type(ros2_store(), "std_msgs/msg/String")
-    writers = [each.writer("rt/status", kind, Quality()) for each in two]
+    writers = [participant.writer("rt/status", kind, Quality()) for participant in two]
     simulator.step()
     until(lambda: all(writer.n_readers for writer in writers), simulator.step)
     admission = simulator.bridge.admission
     assert admission is not None
-    admission.admit(named(two[1]))
+    admission.admit(participant_name(two[1]))
     arrivals: list[str] = []
 
     def publish() -> None:
@@ -66,7 +66,7 @@ def test_another_participant_publishes_nothing(
         lambda: arrivals and refusals, publish, lambda: refusals.extend(admission.take_refusals())
     )
     assert set(arrivals) == {"tracking"}
-    assert {entry[:2] for entry in refusals} == {(named(two[0]), "/status")}
+    assert {entry[:2] for entry in refusals} == {(participant_name(two[0]), "/status")}
 
 
 def test_another_participant_calls_no_service(
@@ -81,11 +81,11 @@ def test_another_participant_calls_no_service(
     simulator.bus.services.serve("reset", Empty, answer)
     simulator.step()
     kind = raw_type(ros2_store(), "std_srvs/srv/Empty_Request", prefix=CALL_FIELDS)
-    writers = [each.writer("rq/resetRequest", kind, Quality()) for each in two]
+    writers = [participant.writer("rq/resetRequest", kind, Quality()) for participant in two]
     until(lambda: all(writer.n_readers for writer in writers), simulator.step)
     admission = simulator.bridge.admission
     assert admission is not None
-    admission.admit(named(two[1]))
+    admission.admit(participant_name(two[1]))
     data = bytes(to_cdr(Empty()))
     call = data[:CDR_HEADER] + CALL_HEADER.pack(1, 1) + data[CDR_HEADER:]
     refusals: list[tuple[str, str, int]] = []
@@ -95,5 +95,5 @@ def test_another_participant_calls_no_service(
         simulator.step,
         lambda: refusals.extend(admission.take_refusals()),
     )
-    assert (n, {entry[:2] for entry in refusals}) == ([0], {(named(two[0]), "/reset")})
+    assert (n, {entry[:2] for entry in refusals}) == ([0], {(participant_name(two[0]), "/reset")})
     until(lambda: n[0], lambda: writers[1].write(call), simulator.step)

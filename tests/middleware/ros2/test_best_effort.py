@@ -16,7 +16,7 @@ from uwsim.messages.build import image
 
 pytest.importorskip("cyclonedds", reason="cyclonedds is not installed: pip install uwsim[ros2]")
 
-from tests.middleware.ros2.simulator import running
+from tests.middleware.ros2.simulator import run_in_thread
 
 pytestmark = pytest.mark.slow
 
@@ -69,7 +69,7 @@ def test_images_of_307_kb_reach_a_reader_of_best_effort(
 ) -> None:
     monkeypatch.setenv("UWSIM_ROS2", "dds")
     pixels = np.random.default_rng(0).integers(0, 255, (480, 640), np.uint8)
-    with running() as simulator:
+    with run_in_thread() as simulator:
         publish = simulator.bus.publisher("camera", Image)
         program = subprocess.Popen(
             [

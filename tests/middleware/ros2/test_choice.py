@@ -28,7 +28,7 @@ def domain() -> Iterator[int]:
         yield actual
 
 
-def told(environment: dict[str, str], domain: int) -> list[str]:
+def reported_lines(environment: dict[str, str], domain: int) -> list[str]:
     """Open a node and close it; what was said."""
     lines: list[str] = []
     open_node(environment, domain, Log("ros2", lines.append)).close()
@@ -38,13 +38,13 @@ def told(environment: dict[str, str], domain: int) -> list[str]:
 @pytest.mark.usefixtures("no_rclpy")
 def test_without_rclpy_it_is_a_node_on_cyclone_dds_and_a_line_says_so(domain: int) -> None:
     check({}, domain)
-    assert told({}, domain) == [
+    assert reported_lines({}, domain) == [
         "uwsim: ros2: a node on Cyclone DDS, without rclpy; for nodes on this computer"
     ]
 
 
 def test_a_user_may_do_without_rclpy(domain: int) -> None:
-    lines = told({"UWSIM_ROS2": "dds"}, domain)
+    lines = reported_lines({"UWSIM_ROS2": "dds"}, domain)
     assert lines == [
         "uwsim: ros2: a node on Cyclone DDS, without rclpy; for nodes on this computer"
     ]
@@ -56,10 +56,10 @@ def test_an_rclpy_that_cannot_be_imported_is_told(
     for name in [entry for entry in sys.modules if entry.partition(".")[0] == "rclpy"]:
         monkeypatch.delitem(sys.modules, name)
     (tmp_path / "rclpy").mkdir()
-    broken = "raise ImportError('librcl.so: cannot open shared object file\\nand so on')\n"
-    (tmp_path / "rclpy" / "__init__.py").write_text(broken)
+    program = "raise ImportError('librcl.so: cannot open shared object file\\nand so on')\n"
+    (tmp_path / "rclpy" / "__init__.py").write_text(program)
     monkeypatch.syspath_prepend(tmp_path)
-    assert told({}, domain) == [
+    assert reported_lines({}, domain) == [
         "uwsim: ros2: rclpy is installed but cannot be imported: librcl.so: cannot open shared "
         "object file",
         "uwsim: ros2: a node on Cyclone DDS, without rclpy; for nodes on this computer",

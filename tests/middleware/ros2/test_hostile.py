@@ -22,7 +22,7 @@ from uwsim.messages.build import image
 
 pytest.importorskip("cyclonedds", reason="cyclonedds is not installed: pip install uwsim[ros2]")
 
-from tests.middleware.ros2.simulator import Simulator, running
+from tests.middleware.ros2.simulator import Simulator, run_in_thread
 from uwsim.middleware.encodings import from_cdr, to_cdr
 from uwsim.middleware.ros2.participant import Participant, Writer
 from uwsim.middleware.ros2.quality import Quality
@@ -49,11 +49,11 @@ domain = int(sys.argv[1])
 participant = Participant(domain, Ros2Settings(domain=domain).configuration())
 type = raw_type(ros2_store(), "sensor_msgs/msg/Image")
 """
-READS = """
+READER_PROGRAM = """
 participant.reader("rt/camera", type, Quality(), lambda sample: print("one", flush=True))
 time.sleep(1000.0)
 """
-WRITES = """
+WRITER_PROGRAM = """
 writer = participant.writer("rt/picture", type, Quality())
 data = bytes(to_cdr(image(np.zeros((960, 1280, 3), np.uint8), time=0.0)))
 while True:
@@ -84,7 +84,7 @@ def memory() -> float:
 
 @pytest.fixture
 def simulator() -> Iterator[Simulator]:
-    with running() as actual:
+    with run_in_thread() as actual:
         yield actual
 
 
@@ -152,9 +152,9 @@ def test_of_a_flood_the_newest_are_kept_and_it_is_reported(
 
     def step() -> None:
         simulator.step()
-        new = [entry.data for entry in inbox.take()]
-        assert len(new) <= MAX_KEPT
-        samples.extend(new)
+        new_samples = [entry.data for entry in inbox.take()]
+        assert len(new_samples) <= MAX_KEPT
+        samples.extend(new_samples)
 
     until(lambda: samples and samples[-1] == "end", step)
 
@@ -174,9 +174,9 @@ spin_until(lambda: False)
         publish(image(pixels.copy(), time=simulator.time))
         simulator.step()
 
-    with peer(source, simulator.domain) as first:
-        until(first.answers, step)
-        first.kill()
+    with peer(source, simulator.domain) as first_reader:
+        until(first_reader.answers, step)
+        first_reader.kill()
         with peer(source, simulator.domain) as second:
             until(second.answers, step)
             start_step = simulator.bus.step
@@ -207,7 +207,7 @@ def test_a_reader_that_is_frozen_costs_bounded_memory_and_holds_nobody_up(
         say(String(data=f"{simulator.time:.3f}"))
         simulator.step()
 
-    with process(READS, simulator.domain) as reader:
+    with process(READER_PROGRAM, simulator.domain) as reader:
         assert reader.stdout is not None
         until(reader.stdout.read, step)
         until(lambda: arrivals, step)
@@ -229,11 +229,11 @@ def test_a_writer_killed_in_the_middle_of_an_image_does_no_harm(
 ) -> None:
     inbox = simulator.bus.inbox("picture", Image)
     texts = simulator.bus.inbox("text", String)
-    with process(WRITES, simulator.domain) as writer:
+    with process(WRITER_PROGRAM, simulator.domain) as writer:
         until(lambda: inbox.last_message is not None, simulator.step)
         writer.kill()
-    mine = writer_to(simulator, other, "text")
-    mine.write(text("still here"))
+    own_samples = writer_to(simulator, other, "text")
+    own_samples.write(text("still here"))
     until(lambda: texts.last_message is not None, simulator.step)
     assert all(entry.data.size == 960 * 1280 * 3 for entry in inbox.take())
 

@@ -13,7 +13,7 @@ from uwsim.messages.build import image
 
 pytest.importorskip("cyclonedds", reason="cyclonedds is not installed: pip install uwsim[ros2]")
 
-from tests.middleware.ros2.simulator import Simulator, running
+from tests.middleware.ros2.simulator import Simulator, run_in_thread
 from uwsim.middleware.lockstep.client import lockstep_clients
 
 pytestmark = needs_rclpy
@@ -55,10 +55,10 @@ class FakeNode:
 
 @pytest.mark.slow
 def test_each_image_is_answered_in_its_step_and_two_simulations_have_a_node_each() -> None:
-    with running() as first, peer(NODE, first.domain, prelude="") as node:
-        answers_of(first, 10)
-        first.bridge.close()  # the client joins the next one
-        second = Simulator(first.domain)
+    with run_in_thread() as first_answers, peer(NODE, first_answers.domain, prelude="") as node:
+        answers_of(first_answers, 10)
+        first_answers.bridge.close()  # the client joins the next one
+        second = Simulator(first_answers.domain)
         try:
             answers_of(second, 3)
         finally:

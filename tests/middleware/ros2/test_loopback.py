@@ -34,7 +34,7 @@ def devices(value_before: set[str]) -> Iterator[tuple[str, bytes]]:
 
 
 @pytest.mark.parametrize(
-    ("more", "is_closed"),
+    ("user_xml", "is_closed"),
     [
         ({}, True),
         ({"ROS_LOCALHOST_ONLY": "1"}, True),
@@ -43,27 +43,27 @@ def devices(value_before: set[str]) -> Iterator[tuple[str, bytes]]:
     ],
 )
 def test_ports_are_bound_to_the_loopback_interface_when_the_first_line_says_so(
-    more: dict[str, str], is_closed: bool
+    user_xml: dict[str, str], is_closed: bool
 ) -> None:
     lines: list[str] = []
     with free_domain() as domain:
         value_before = open_sockets()
-        with closing(open_node({"UWSIM_ROS2": "dds", **more}, domain, Log("", lines.append))):
+        with closing(open_node({"UWSIM_ROS2": "dds", **user_xml}, domain, Log("", lines.append))):
             actual = list(devices(value_before))
     assert actual
-    reachable = [entry for entry in actual if entry[0] == "0.0.0.0" and entry[1] != b"lo"]
-    assert (not reachable) == is_closed
+    is_reachable = [entry for entry in actual if entry[0] == "0.0.0.0" and entry[1] != b"lo"]
+    assert (not is_reachable) == is_closed
     assert LINES[not is_closed] in lines[0]
 
 
 def test_a_socket_that_is_bound_to_loopback_still_hears_this_computer() -> None:
     value_before = open_sockets()
     with (
-        socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as listens,
-        socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as says,
+        socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as listener,
+        socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender,
     ):
-        listens.bind(("0.0.0.0", 0))
-        listens.settimeout(5.0)
+        listener.bind(("0.0.0.0", 0))
+        listener.settimeout(5.0)
         assert bind_to_loopback(value_before)
-        says.sendto(b"here", ("127.0.0.1", listens.getsockname()[1]))
-        assert listens.recv(10) == b"here"
+        sender.sendto(b"here", ("127.0.0.1", listener.getsockname()[1]))
+        assert listener.recv(10) == b"here"

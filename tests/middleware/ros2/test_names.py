@@ -22,5 +22,5 @@ def test_topics_services_and_types_have_the_names_that_ros_2_gives_them() -> Non
 
 def test_a_name_has_letters_digits_and_underscores_between_slashes() -> None:
     assert all(map(is_legal, ("a", "uwsim/camera1", "_a/b_2", "x" * 240)))
-    illegal = ("", "a b", "a//b", "/a", "a/", "a/1", "1", "µ", "~a", "{a}", "a\n", "x" * 241)
-    assert not any(map(is_legal, illegal))
+    illegal_names = ("", "a b", "a//b", "/a", "a/", "a/1", "1", "µ", "~a", "{a}", "a\n", "x" * 241)
+    assert not any(map(is_legal, illegal_names))

@@ -9,7 +9,7 @@ from types import ModuleType
 
 import pytest
 
-from tests.middleware.ros2.simulator import Simulator, running
+from tests.middleware.ros2.simulator import Simulator, run_in_thread
 from tests.support.ros2_peers import peer, until
 from uwsim.errors import UwsimError
 from uwsim.messages import Float32MultiArray, Odometry, ProjectedSonarImage, TwistStamped
@@ -23,7 +23,7 @@ from uwsim.middleware.ros2.rclpy_types import RclpyTypes, has_same_fields, insta
 
 @pytest.fixture
 def simulator() -> Iterator[Simulator]:
-    with running() as actual:
+    with run_in_thread() as actual:
         yield actual
 
 
@@ -230,9 +230,9 @@ def test_all_types_of_the_packages_that_rclpy_has_have_our_fields() -> None:
         for name in ros2_store().fielddefs
         if name.startswith(packages) and "_Event" not in name and name.count("/") == 2
     ]
-    wrong = [name for name in names if name not in SERVICES and not has_same_fields(name)]
+    errors = [name for name in names if name not in SERVICES and not has_same_fields(name)]
     assert len(names) > 90
-    assert wrong == []
+    assert errors == []
 
 
 def test_a_node_whose_command_is_odd_is_named(simulator: Simulator) -> None:

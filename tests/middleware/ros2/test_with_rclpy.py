@@ -16,7 +16,7 @@ from tests.support.ros2_peers import (
     of_one_version,
 )
 
-HERE = Path(__file__).parent
+FOLDER = Path(__file__).parent
 FILES = ("test_adapter.py", "test_hostile.py", "test_lockstep.py", "test_rclpy_node.py")
 
 
@@ -25,8 +25,8 @@ FILES = ("test_adapter.py", "test_hostile.py", "test_lockstep.py", "test_rclpy_n
 @pytest.mark.slow
 @pytest.mark.parametrize("file", FILES)
 def test_it_holds_for_a_node_of_rclpy(file: str) -> None:
-    done = subprocess.run(
-        [PYTHON, "-m", "pytest", "-q", "-p", "no:cacheprovider", HERE / file],
+    completed_process = subprocess.run(
+        [PYTHON, "-m", "pytest", "-q", "-p", "no:cacheprovider", FOLDER / file],
         cwd=ROOT,
         env=beside_rclpy(),
         capture_output=True,
@@ -34,4 +34,4 @@ def test_it_holds_for_a_node_of_rclpy(file: str) -> None:
         timeout=2 * BOUND_S,
         check=False,
     )
-    assert done.returncode == 0, done.stdout + done.stderr
+    assert completed_process.returncode == 0, completed_process.stdout + completed_process.stderr

@@ -11,7 +11,7 @@ import cv2
 import numpy as np
 import pytest
 
-from tests.middleware.web.test_web import Setting, heard, send
+from tests.middleware.web.test_web import Setting, receive, send
 from tests.support.waiting import LIMIT
 from uwsim.base.geometry import Pose, rotation_about
 from uwsim.messages import (
@@ -37,14 +37,14 @@ ODOMETRY = ("nav_msgs/Odometry", "nav_msgs/msg/Odometry")
 @pytest.fixture
 def setting(monkeypatch: pytest.MonkeyPatch) -> Iterator[Setting]:
     monkeypatch.setattr("uwsim.middleware.web.server.CLOSE_TIMEOUT", 0.2)  # [s]
-    made = Setting()
-    made.bus.publisher("a/odom", Odometry)
-    made.bus.publisher("b/odom", Odometry)
-    made.bus.publisher("twist", TwistStamped)
-    made.bus.services.serve("reset", Empty, lambda request: EmptyResponse())
-    made.bridge.step()
-    yield made
-    made.close()
+    new_setting = Setting()
+    new_setting.bus.publisher("a/odom", Odometry)
+    new_setting.bus.publisher("b/odom", Odometry)
+    new_setting.bus.publisher("twist", TwistStamped)
+    new_setting.bus.services.serve("reset", Empty, lambda request: EmptyResponse())
+    new_setting.bridge.step()
+    yield new_setting
+    new_setting.close()
 
 
 @pytest.mark.parametrize("type", ODOMETRY)
@@ -156,10 +156,10 @@ def test_every_topic_of_images_has_one_of_compressed_images(
     setting.step_until(lambda: not setting.bus.has_subscribers(name))
 
 
-def stamped(parent: str, child: str, pose: Pose) -> TransformStamped:
+def stamped_transform(parent: str, child: str, pose: Pose) -> TransformStamped:
     w, x, y, z = pose.quaternion.tolist()
-    moved = Transform(Vector3(*pose.position.tolist()), Quaternion(x, y, z, w))
-    return TransformStamped(header(0.0, parent), child, moved)
+    result = Transform(Vector3(*pose.position.tolist()), Quaternion(x, y, z, w))
+    return TransformStamped(header(0.0, parent), child, result)
 
 
 def test_transforms_are_republished_between_the_requested_frames(setting: Setting) -> None:
@@ -177,15 +177,15 @@ def test_transforms_are_republished_between_the_requested_frames(setting: Settin
     arm_from_camera = Pose(np.array([0.0, 0.0, 0.3]), np.eye(3))
     robot_from_arm = Pose(np.array([0.5, 0.0, 0.0]), rotation_about(z, 0.4))
     tree = [
-        stamped("world", "robot", world_from_robot),
-        stamped("arm", "camera", arm_from_camera),
-        stamped("robot", "arm", robot_from_arm),
+        stamped_transform("world", "robot", world_from_robot),
+        stamped_transform("arm", "camera", arm_from_camera),
+        stamped_transform("robot", "arm", robot_from_arm),
     ]
     for step in range(20):  # 2 s of simulation time; the camera does not move
         setting.time = 0.1 * step
         say(TFMessage(transforms=list(tree)))
         setting.bus.deliver()
-    (transform,) = heard(client)["msg"]["transforms"]
+    (transform,) = receive(client)["msg"]["transforms"]
     assert transform["header"]["frame_id"] == "robot"
     assert transform["child_frame_id"] == "camera"
     expected = robot_from_arm @ arm_from_camera
@@ -224,9 +224,9 @@ def test_transforms_are_the_feedback_of_a_goal_until_it_is_cancelled(setting: Se
     send(client, op="publish", topic=f"{action}/goal", msg=msg)
     setting.step_until(lambda: setting.bus.has_subscribers("tf"))
     pose = Pose(np.array([1.0, 2.0, 3.0]), np.eye(3))
-    say(TFMessage(transforms=[stamped("world", "robot", pose)]))
+    say(TFMessage(transforms=[stamped_transform("world", "robot", pose)]))
     setting.bus.deliver()
-    frame = heard(client)
+    frame = receive(client)
     assert (frame["op"], frame["topic"]) == ("publish", f"{action}/feedback")
     assert frame["msg"]["status"]["goal_id"]["id"] == "goal_7"
     (transform,) = frame["msg"]["feedback"]["transforms"]
@@ -234,7 +234,7 @@ def test_transforms_are_the_feedback_of_a_goal_until_it_is_cancelled(setting: Se
     send(client, op="publish", topic=f"{action}/cancel", msg={"id": "goal_7"})
     setting.ask(client, service="/rosapi/get_time")
     setting.time = 1.0
-    say(TFMessage(transforms=[stamped("world", "robot", pose)]))
+    say(TFMessage(transforms=[stamped_transform("world", "robot", pose)]))
     setting.bus.deliver()
     with pytest.raises(TimeoutError):
         client.recv(timeout=0.1)

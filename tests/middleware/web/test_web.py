@@ -88,16 +88,16 @@ class Setting:
 @pytest.fixture
 def setting(monkeypatch: pytest.MonkeyPatch) -> Iterator[Setting]:
     monkeypatch.setattr("uwsim.middleware.web.server.CLOSE_TIMEOUT", 0.2)  # [s]
-    made = Setting()
-    yield made
-    made.close()
+    new_setting = Setting()
+    yield new_setting
+    new_setting.close()
 
 
 def send(client: ClientConnection, **frame: Any) -> None:
     client.send(json.dumps(frame))
 
 
-def heard(client: ClientConnection) -> Any:
+def receive(client: ClientConnection) -> Any:
     return json.loads(client.recv(timeout=LIMIT))
 
 
@@ -111,7 +111,7 @@ def test_a_client_reads_a_topic_and_nothing_is_published_before(setting: Setting
     message.twist.linear.x = 1.0 / 3.0
     say(message)
     setting.bus.deliver()
-    frame = heard(client)
+    frame = receive(client)
     assert (frame["op"], frame["topic"]) == ("publish", "/twist")
     assert frame["msg"]["twist"]["linear"]["x"] == 1.0 / 3.0
     assert frame["msg"]["header"]["stamp"] == {"sec": 1, "nanosec": 500_000_000}
@@ -149,9 +149,9 @@ def test_a_client_calls_services_and_asks_what_there_is(setting: Setting) -> Non
     assert setting.ask(client, **requests)["values"] == {"type": "std_srvs/srv/Empty"}
     answer = setting.ask(client, service="/reset")
     assert (answer["result"], answer["values"], answer["id"]) == (True, {}, "c")
-    wrong = setting.ask(client, service="/rest")
-    assert wrong["result"] is False
-    assert "Did you mean '/reset'?" in wrong["values"]
+    error_reply = setting.ask(client, service="/rest")
+    assert error_reply["result"] is False
+    assert "Did you mean '/reset'?" in error_reply["values"]
 
 
 def test_a_client_that_comes_before_the_first_step_finds_what_there_is(setting: Setting) -> None:
@@ -161,7 +161,7 @@ def test_a_client_that_comes_before_the_first_step_finds_what_there_is(setting: 
     with pytest.raises(TimeoutError):
         client.recv(timeout=0.2)
     setting.bridge.step()
-    assert "/reset" in heard(client)["values"]["services"]
+    assert "/reset" in receive(client)["values"]["services"]
 
 
 def test_closing_does_not_wait_for_a_client_that_came_before_the_first_step() -> None:
@@ -180,16 +180,16 @@ def test_the_simulation_calls_a_service_of_a_client(setting: Setting) -> None:
     requests: list[Any] = []
 
     def answer() -> None:
-        frame = heard(client)
+        frame = receive(client)
         requests.append(frame)
         send(client, op="service_response", id=frame["id"], service="/autoInit", result=True)
 
-    outside = threading.Thread(target=answer)
-    outside.start()
+    services = threading.Thread(target=answer)
+    services.start()
     response = setting.bus.services.call(
         "autoInit", GTpublish(groundTruth=np.array([1, 2], np.float32))
     )
-    outside.join()
+    services.join()
     assert isinstance(response, GTpublishResponse)
     assert (requests[0]["op"], requests[0]["args"]) == ("call_service", {"groundTruth": [1.0, 2.0]})
 
@@ -216,12 +216,12 @@ def test_images_come_as_json_as_png_and_as_cbor(setting: Setting) -> None:
     setting.step_until(lambda: setting.bus.has_subscribers("image"))
     say(Image(height=2, width=2, encoding="rgb8", step=6, data=pixels))
     setting.bus.deliver()
-    plain = heard(clients["none"])
-    assert base64.b64decode(plain["msg"]["data"]) == pixels.tobytes()
-    png = base64.b64decode(heard(clients["png"])["data"])
+    json_image = receive(clients["none"])
+    assert base64.b64decode(json_image["msg"]["data"]) == pixels.tobytes()
+    png = base64.b64decode(receive(clients["png"])["data"])
     image = cv2.imdecode(np.frombuffer(png, np.uint8), cv2.IMREAD_COLOR)
     assert image is not None
-    assert json.loads(image[..., ::-1].tobytes()) == plain
+    assert json.loads(image[..., ::-1].tobytes()) == json_image
     binary = clients["cbor"].recv(timeout=LIMIT)
     assert isinstance(binary, bytes)
     assert b"\x64data\x4c" + pixels.tobytes() in binary
@@ -236,7 +236,7 @@ def test_throttled_and_queued_messages_are_few(setting: Setting) -> None:
         say(String(data=str(n)))
     setting.bus.deliver()
     send(client, op="unsubscribe", topic="/text")
-    assert heard(client)["msg"] == {"data": "0"}
+    assert receive(client)["msg"] == {"data": "0"}
     assert setting.ask(client, service="/rosapi/nodes")["values"] == {"nodes": ["/uwsim"]}
 
 
@@ -254,7 +254,7 @@ def test_a_reader_that_stalls_costs_a_known_amount_of_memory(setting: Setting) -
     assert any("too slowly" in line for line in setting.lines)
 
 
-BAD = [
+BAD_FRAMES = [
     "",
     "nonsense",
     "[1, 2]",
@@ -282,10 +282,10 @@ def test_frames_that_mean_nothing_are_answered_with_a_status(setting: Setting) -
     setting.bridge.step()
     client = setting.client()
     client.send(b"\x00\x01")
-    assert "binary" in heard(client)["msg"]
-    for frame in BAD:
+    assert "binary" in receive(client)["msg"]
+    for frame in BAD_FRAMES:
         client.send(frame)
-        status = heard(client)
+        status = receive(client)
         assert (status["op"], status["level"]) == ("status", "error"), frame[:80]
         assert len(status["msg"]) < 2000
     assert setting.ask(client, service="/rosapi/nodes")["result"] is True
@@ -305,7 +305,7 @@ def test_a_flood_of_messages_is_bounded_and_the_others_are_served(setting: Setti
     assert inbox.last_message is not None
 
 
-def masked(text: str) -> bytes:
+def mask(text: str) -> bytes:
     """A frame of a client with a text of less than 126 bytes; its mask is 0."""
     data = text.encode()
     assert len(data) < 126
@@ -324,19 +324,19 @@ def test_of_a_flood_of_100_000_the_newest_are_kept_and_the_log_says_so(
     flooder = setting.client()
     n = 100_000
     frames = b"".join(
-        masked(json.dumps({"op": "publish", "topic": "/text", "msg": {"data": str(i)}}))
+        mask(json.dumps({"op": "publish", "topic": "/text", "msg": {"data": str(i)}}))
         for i in range(n)
     )
     thread = threading.Thread(target=flooder.socket.sendall, args=(frames,))
     thread.start()
-    most = 0
-    until_ = time.monotonic() + LIMIT
+    max_length = 0
+    deadline = time.monotonic() + LIMIT
     while setting.bridge.arrivals.n_arrived["text"] < n:  # while it does not step
-        most = max(most, len(setting.bridge.arrivals._queues.get("text", ())))
-        assert time.monotonic() < until_, "they never came"
+        max_length = max(max_length, len(setting.bridge.arrivals._queues.get("text", ())))
+        assert time.monotonic() < deadline, "they never came"
         time.sleep(0.01)
     thread.join()
-    assert 0 < most <= 1000
+    assert 0 < max_length <= 1000
     assert any("faster than the simulation reads them" in line for line in setting.lines)
     assert len(setting.lines) < 20
     setting.bridge.step()
@@ -349,13 +349,13 @@ def test_a_publisher_that_breaks_off_in_the_middle_of_a_frame_is_forgotten(
 ) -> None:
     inbox = setting.bus.inbox("text", String)
     setting.bridge.step()
-    frame = masked('{"op": "publish", "topic": "/text", "msg": {"data": "whole"}}')
-    broken = setting.client()
-    broken.socket.sendall(frame + frame[:20])
+    frame = mask('{"op": "publish", "topic": "/text", "msg": {"data": "whole"}}')
+    broken_client = setting.client()
+    broken_client.socket.sendall(frame + frame[:20])
     setting.step_until(lambda: inbox.last_message is not None)
     linger = struct.pack("ii", 1, 0)
-    broken.socket.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, linger)
-    broken.socket.shutdown(socket.SHUT_RDWR)
+    broken_client.socket.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, linger)
+    broken_client.socket.shutdown(socket.SHUT_RDWR)
     setting.step_until(lambda: not setting.bridge._sessions)
     other = setting.client()
     other.socket.sendall(frame)
@@ -367,18 +367,18 @@ def test_bytes_that_are_no_http_a_large_frame_and_a_vanished_peer_do_no_harm(
 ) -> None:
     address = ("127.0.0.1", setting.bridge.port)
     for garbage in (b"\x00" * 1000, b"GET / HTTP/1.1\r\n\r\n", b"GET"):
-        with socket.create_connection(address, timeout=LIMIT) as raw:
-            raw.sendall(garbage)
-    stalled = socket.create_connection(address, timeout=LIMIT)
-    large = setting.client()
+        with socket.create_connection(address, timeout=LIMIT) as raw_peer:
+            raw_peer.sendall(garbage)
+    stalled_peer = socket.create_connection(address, timeout=LIMIT)
+    large_client = setting.client()
     with suppress(ConnectionClosed):
-        large.send("x" * (17 * 2**20))
+        large_client.send("x" * (17 * 2**20))
     with pytest.raises(ConnectionClosed):
-        large.recv(timeout=LIMIT)
-    vanished = setting.client()
-    vanished.socket.shutdown(socket.SHUT_RDWR)
+        large_client.recv(timeout=LIMIT)
+    vanished_client = setting.client()
+    vanished_client.socket.shutdown(socket.SHUT_RDWR)
     assert setting.ask(setting.client(), service="/rosapi/nodes")["result"] is True
-    stalled.close()
+    stalled_peer.close()
 
 
 def test_a_reader_that_breaks_off_while_images_come_is_forgotten(setting: Setting) -> None:
@@ -430,7 +430,7 @@ def test_the_clock_of_ros_is_served(setting: Setting) -> None:
     setting.time = 0.25
     setting.step_until(lambda: "clock" in setting.bridge._readers)
     setting.bridge.step()
-    assert heard(client)["msg"] == {"clock": {"sec": 1, "nanosec": 250_000_000}}
+    assert receive(client)["msg"] == {"clock": {"sec": 1, "nanosec": 250_000_000}}
 
 
 def test_more_clients_than_are_served_are_refused_with_a_line(
@@ -468,7 +468,7 @@ def test_a_service_of_a_client_that_does_not_answer_holds_up_who_calls_it_alone(
     with pytest.raises(TimeoutError):
         caller.recv(timeout=0.01)
     send(offerer, op="service_response", id=requests[0]["id"], values={}, result=True)
-    assert heard(caller)["result"] is True
+    assert receive(caller)["result"] is True
     send(caller, op="call_service", id="2", service="/slow", args={"groundTruth": [1.0]})
     requests.clear()
     setting.step_until(is_asked)

@@ -18,19 +18,19 @@ from uwsim.middleware.web.server import WebBridge
 
 
 @pytest.fixture
-def unraisable(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+def unraisable_errors(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     """Record what goes wrong where no error can be raised: a transport that was never closed."""
     monkeypatch.setattr("uwsim.middleware.web.server.CLOSE_TIMEOUT", 0.2)  # [s]
     actual: list[str] = []
 
-    def record(unraisable: sys.UnraisableHookArgs) -> None:
-        actual.append(repr(unraisable.exc_value))
+    def record(args: sys.UnraisableHookArgs) -> None:
+        actual.append(repr(args.exc_value))
 
     monkeypatch.setattr(sys, "unraisablehook", record)
     return actual
 
 
-def opened() -> WebBridge:
+def open_connections() -> WebBridge:
     bridge = WebBridge(Bus(), lambda: 0.0, WebOptions(port=0), Log("web", lambda line: None))
     bridge.step()
     return bridge
@@ -46,8 +46,10 @@ def close(bridge: WebBridge) -> None:
     gc.collect()
 
 
-def test_connections_that_are_accepted_while_it_closes_are_closed(unraisable: list[str]) -> None:
-    bridge = opened()
+def test_connections_that_are_accepted_while_it_closes_are_closed(
+    unraisable_errors: list[str],
+) -> None:
+    bridge = open_connections()
     with ExitStack() as peers:
 
         def come_and_end() -> None:
@@ -60,20 +62,20 @@ def test_connections_that_are_accepted_while_it_closes_are_closed(unraisable: li
         bridge._loop.call_soon_threadsafe(come_and_end)
         bridge._thread.join(LIMIT)
         close(bridge)
-    assert unraisable == []
+    assert unraisable_errors == []
 
 
-def test_connections_without_a_handshake_are_closed(unraisable: list[str]) -> None:
-    bridge = opened()
+def test_connections_without_a_handshake_are_closed(unraisable_errors: list[str]) -> None:
+    bridge = open_connections()
     with peer(bridge), peer(bridge) as second:
         second.sendall(b"GET / HTTP/1.1\r\n")
         until(lambda: len(bridge._limits._open_connections) == 2)
         close(bridge)
-    assert unraisable == []
+    assert unraisable_errors == []
 
 
-def test_a_connection_whose_client_takes_nothing_is_closed(unraisable: list[str]) -> None:
-    bridge = opened()
+def test_a_connection_whose_client_takes_nothing_is_closed(unraisable_errors: list[str]) -> None:
+    bridge = open_connections()
     with peer(bridge) as client:
         client.sendall(request_of("GET / HTTP/1.1"))
         assert client.recv(12) == b"HTTP/1.1 101"
@@ -84,4 +86,4 @@ def test_a_connection_whose_client_takes_nothing_is_closed(unraisable: list[str]
         (connection,) = bridge._limits._open_connections
         until(connection.transport.get_write_buffer_size)
         close(bridge)
-    assert unraisable == []
+    assert unraisable_errors == []
