@@ -235,7 +235,7 @@ def test_ground_that_is_only_looked_at_carries_and_so_does_other_solid_scenery(
     assert lowest(opened(ground(file, is_solid=False), thing(0.0, 0.0))) == pytest.approx(-4.0)
     wreck = ObjectSpec(name="wreck", file=file, is_solid=True)
     assert lowest(opened(wreck, thing(0.0, 0.0))) == pytest.approx(-4.0)
-    with pytest.raises(SceneError, match="no ground in this scene"):
+    with pytest.raises(SceneError, match="no ground under the object"):
         opened(replace(wreck, is_solid=None), thing(0.0, 0.0))
 
 
