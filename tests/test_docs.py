@@ -13,7 +13,7 @@ from scripts.reference import command_line
 from tests.support.documented import commands
 from uwsim.assets.bundled import bundled_files
 from uwsim.cli import COMMANDS
-from uwsim.cli.app import build
+from uwsim.cli.app import build_application
 
 ROOT = Path(__file__).parent.parent
 PAGES = sorted(
@@ -52,7 +52,7 @@ def test_the_pages_show_calls_and_links_to_test() -> None:
 def test_every_call_of_uwsim_is_one_that_the_program_takes(page: Path) -> None:
     for words in typed(page):
         if words[0] == "uwsim" and not words[1].startswith("-"):
-            command = get_command(build(words[1:])).commands[words[1]]
+            command = get_command(build_application(words[1:])).commands[words[1]]
             command.make_context(words[1], list(words[2:]))  # raises where it is wrong
 
 

@@ -14,7 +14,7 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from types import MappingProxyType
 
-from uwsim.cli.list import clark
+from uwsim.cli.list import qualified_name
 from uwsim.schema import Field, fields_of
 from uwsim.schema.names import prefixed_name
 
@@ -62,7 +62,7 @@ def page() -> str:
     for parent, name, cls in _specs("", ROOT, SceneSpec):
         if cls not in done:
             done.add(cls)
-            limit = describe_limit(parent, clark(name))
+            limit = describe_limit(parent, qualified_name(name))
             parts.append(_section(name, cls, limit=limit, homes=_scene_homes()))
     return "\n".join([*parts, _plausibility_warnings(), _old_names()])
 
@@ -188,7 +188,7 @@ def _section(
     lines += ["| element | content | default | meaning |", "|---|---|---|---|"]
     for field in fields_of(cls):
         mark = " (attribute)" if field.xml.attribute else ""
-        part = "" if title is not None else describe_limit(name, clark(field.label))
+        part = "" if title is not None else describe_limit(name, qualified_name(field.label))
         meaning = _markdown(field.doc) + (f" *({part})*" if part else "")
         cells = (f"`{field.label}`{mark}", _kind(field, homes), _default(field), meaning)
         lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")

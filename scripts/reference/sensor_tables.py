@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from uwsim.checks.benchmark_tables import bundled_tables
-from uwsim.cli.list import clark, devices, limit_in, sensors
+from uwsim.cli.list import devices, find_limit, qualified_name, sensors
 from uwsim.schema import fields_of
 from uwsim.schema.names import prefixed_name
 from uwsim.sensors import SENSORS
@@ -32,10 +32,10 @@ def _sensors(*, simulated: bool) -> str:
     """Sensors, with their elements besides name and link."""
     rows = []
     for name, summary in sensors(bundled_tables()).items():
-        if simulated is (limit_in("sensors", name) == ""):
+        if simulated is (find_limit("sensors", name) == ""):
             own = [
                 field.label
-                for field in fields_of(SENSORS[clark(name)])
+                for field in fields_of(SENSORS[qualified_name(name)])
                 if field.label not in COMMON
             ]
             rows.append((_linked(name), summary, ", ".join(f"`{each}`" for each in own)))
@@ -46,7 +46,7 @@ def _devices(*, simulated: bool) -> str:
     rows = [
         (_linked(name), summary)
         for name, summary in devices(bundled_tables()).items()
-        if simulated is (limit_in("devices", name) == "")
+        if simulated is (find_limit("devices", name) == "")
     ]
     return _table(("element", "what it is"), rows)
 
@@ -60,7 +60,7 @@ def _topics(*, simulated: bool) -> str:
         elements = {field.label: field for field in fields_of(spec)}
         topics = ", ".join(f"`{each}`" for each in elements if each.lower().endswith("topic"))
         publishes = not spec.subscribes and (topics or spec.message_types())
-        if publishes and simulated is (limit_in("interfaces", name) == ""):
+        if publishes and simulated is (find_limit("interfaces", name) == ""):
             rate = f"{elements['rate'].default:g} Hz" if "rate" in elements else "-"
             rows.append((_linked(name), summary, topics or "-", rate))
     return _table(("element of `<rosInterfaces>`", "what it does", "topics", "default rate"), rows)

@@ -15,12 +15,12 @@ def run() -> int:
     gc.set_threshold(50_000, 20, 20)  # libraries and scenes are many objects, which stay
     atexit.register(ignore_interrupts)  # the first registered is the last called
     from .cli import main
-    from .cli.app import say
+    from .cli.app import print_error
 
     try:
         return main()
     except KeyboardInterrupt as error:  # a second one, while the first was handled
-        return say(error)
+        return print_error(error)
     finally:
         exit_on_interrupt()  # the interpreter may take some time to exit
         gc.freeze()  # its last collection would visit all objects, of which most stay

@@ -6,7 +6,7 @@ from tests.support.short_benchmark import BENCHMARK, run
 from tests.support.synthetic_results import visibility
 from uwsim.analysis.plots import draw_plots
 from uwsim.assets.bundled import bundled_files
-from uwsim.cli.bench import folders_of
+from uwsim.cli.bench import result_folders
 from uwsim.results.inputs import Inputs
 from uwsim.results.result import Column, Result
 
@@ -37,6 +37,8 @@ def test_measures_that_are_alike_in_80_letters_have_a_plot_each(tmp_path: Path) 
 
 
 def test_the_folder_of_an_algorithm_is_no_folder_of_a_result() -> None:
-    assert folders_of(["esm", "own:Tracker"]) == ["esm", "own.Tracker"]
-    assert len({name.lower() for name in folders_of(["Control", "units", "a:b", "a.b"])}) == 4
-    assert not {"control", "units"} & {name.lower() for name in folders_of(["Control", "units"])}
+    assert result_folders(["esm", "own:Tracker"]) == ["esm", "own.Tracker"]
+    assert len({name.lower() for name in result_folders(["Control", "units", "a:b", "a.b"])}) == 4
+    assert not {"control", "units"} & {
+        name.lower() for name in result_folders(["Control", "units"])
+    }

@@ -144,7 +144,7 @@ def test_a_missing_argument_is_reported_with_where_to_look(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     assert main(["check"]) == 2
-    said = "uwsim: Missing argument 'FILE.xml'; uwsim check -h shows what it takes.\n"
+    said = "uwsim: Missing argument 'FILE.xml'; uwsim check -h shows its options.\n"
     assert capsys.readouterr().err == said
 
 
@@ -175,7 +175,7 @@ WHOLE = errors.Diagnostic(file="a.xml", line=None, message="too deep.")
         ),
         (OSError(28, "No space left on device", "r"), "uwsim: No space left on device: r\n", 3),
         (ZeroDivisionError("oh"), "uwsim: ZeroDivisionError: oh (--traceback shows where)\n", 3),
-        (KeyboardInterrupt(), "uwsim: interrupted; what was finished is kept.\n", 130),
+        (KeyboardInterrupt(), "uwsim: interrupted; finished results are kept.\n", 130),
         (errors.BadSetting("\x1b[2J"), "uwsim: \\x1b[2J\n", 2),
     ],
 )
@@ -224,7 +224,7 @@ def test_every_error_of_the_tree_has_an_exit_status_of_wrong_input_or_failed_run
     ],
 )
 def test_an_error_shows_no_more_of_a_file_than_can_be_read(said: str, expected: str) -> None:
-    shown = exit_status.one_line(errors.BadSetting(said))
+    shown = exit_status.format_error(errors.BadSetting(said))
     assert 300 < len(shown) < 420
     assert shown.endswith(expected)
     assert "more letters)" in shown
@@ -233,7 +233,7 @@ def test_an_error_shows_no_more_of_a_file_than_can_be_read(said: str, expected: 
 def test_an_error_of_normal_length_is_shown_whole() -> None:
     folders = ", ".join(f"/home/someone/simulation/data/folder-{i}" for i in range(20))
     said = f"'box.obj' is neither a file nor bundled. The file's folders: {folders}. Is 'x' meant?"
-    assert exit_status.one_line(errors.BadSetting(said)) == f"uwsim: {said}"
+    assert exit_status.format_error(errors.BadSetting(said)) == f"uwsim: {said}"
     long = terminal.clean_text(" ".join(["word"] * 10_000))
     assert len(long) == terminal.MAX_LINE_LENGTH + 1
 
@@ -270,4 +270,4 @@ def test_a_terminal_is_told_of_a_start_that_compiles(
     monkeypatch.setattr(app.Command, "load", lambda self: start)
     monkeypatch.setattr(sys.stderr, "isatty", lambda: is_terminal)
     assert main(["bench"]) == 0
-    assert capsys.readouterr().err == (f"{app.COMPILING}\n" if is_terminal else "")
+    assert capsys.readouterr().err == (f"{app.COMPILATION_MESSAGE}\n" if is_terminal else "")

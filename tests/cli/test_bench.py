@@ -144,7 +144,7 @@ def test_options_that_cannot_be_read_are_reported_all_at_once(
     assert repeat.startswith("uwsim: Invalid value for '--repeat': ")
     assert main(["envelope", "visibility"]) == 2
     said = capsys.readouterr().err
-    assert said == "uwsim: Missing option '--over'; uwsim envelope -h shows what it takes.\n"
+    assert said == "uwsim: Missing option '--over'; uwsim envelope -h shows its options.\n"
 
 
 DIES = """

@@ -63,13 +63,13 @@ def test_the_background_process_runs_the_control_of_trials_of_workers_alone(
     workers: str, jobs: list[type], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     asked: list[type] = []
-    ask = BackgroundProcess.ask
+    submit = BackgroundProcess.submit
 
     def record(self: BackgroundProcess, job: Job) -> None:
         asked.append(type(job) if isinstance(job, Run) else Path)
-        ask(self, job)
+        submit(self, job)
 
-    monkeypatch.setattr(BackgroundProcess, "ask", record)
+    monkeypatch.setattr(BackgroundProcess, "submit", record)
     path, out = write_benchmark(tmp_path, "0.2"), tmp_path / "out"
     arguments = ["--level", "fog=0", "--workers", workers, "--out", str(out)]
     assert main(["bench", str(path), *arguments]) == 0

@@ -15,8 +15,8 @@ from uwsim.benchmark.measures import MEASURES
 from uwsim.checks.benchmark_tables import bundled_tables
 from uwsim.checks.scene.not_simulated import unsimulated_elements
 from uwsim.cli import main
-from uwsim.cli.list import KINDS, limit_in
-from uwsim.cli.options.descriptions import first_line, head_comment, without_title
+from uwsim.cli.list import KINDS, find_limit
+from uwsim.cli.options.descriptions import first_line, head_comment, remove_title
 from uwsim.model.robots import find_file
 from uwsim.scene.hydrodynamics.vehicle_file import read_vehicle
 from uwsim.scene.hydrodynamics.vehicle_sets import find_vehicle
@@ -77,7 +77,7 @@ def test_the_marks_are_those_that_check_gives_a_file(kind: str) -> None:
         scene = etree.fromstring(
             f"<UWSimScene xmlns:u='urn:uwsim:1'><{parent}><{name}/></{parent}></UWSimScene>"
         )
-        assert bool([*unsimulated_elements(scene)]) == bool(limit_in(kind, name)), name
+        assert bool([*unsimulated_elements(scene)]) == bool(find_limit(kind, name)), name
 
 
 def test_every_sensor_device_and_interface_is_simulated(
@@ -106,8 +106,8 @@ def test_a_sentence_is_the_first_line_without_marks_of_code() -> None:
 
 
 def test_a_sentence_goes_without_the_title_that_its_name_is() -> None:
-    assert without_title("Distance: how far a body went.") == "How far a body went."
-    assert without_title("A fan of beams.") == "A fan of beams."
+    assert remove_title("Distance: how far a body went.") == "How far a body went."
+    assert remove_title("A fan of beams.") == "A fan of beams."
 
 
 def test_the_sentence_of_a_file_is_the_first_of_its_comment(tmp_path: Path) -> None:

@@ -32,7 +32,7 @@ def test_a_command_line_of_the_original_names_todays_command(
     assert main(given) == 2
     said = capsys.readouterr().err
     assert said.count("\n") == 1
-    assert f"Today's command is: uwsim {OLD[words]}" in said
+    assert f"The command is now: uwsim {OLD[words]}" in said
 
 
 @pytest.mark.parametrize("name", ["run", "bench"])
@@ -49,10 +49,10 @@ def test_the_options_that_it_names_are_those_of_today(
 @pytest.mark.parametrize(
     ("words", "today"),
     [
-        ("run cirs --dataPath DIR", "--dataPath: today --data-path DIR"),
-        ("run --configfile cirs.xml", "--configfile: today the scene has no option"),
-        ("render cirs -o a.png --disableShaders", "--disableShaders: there is none today"),
-        ("info cirs --windx 3", "--windx: today --set oceanState.windx=VALUE"),
+        ("run cirs --dataPath DIR", "--dataPath: now --data-path DIR"),
+        ("run --configfile cirs.xml", "--configfile: now the scene is an argument"),
+        ("render cirs -o a.png --disableShaders", "--disableShaders: now there is none"),
+        ("info cirs --windx 3", "--windx: now --set oceanState.windx=VALUE"),
     ],
 )
 def test_an_old_option_of_a_command_of_today_names_todays(

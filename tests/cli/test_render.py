@@ -205,7 +205,10 @@ def test_ghosts_are_seen_in_views_and_not_by_cameras(tmp_path: Path) -> None:
         (["render", "cirs", "--view", "top", "--camera", "bowtech1", "-o", "a.png"], "at a time"),
         (["render", "cirs", "--from", "1,2,3", "-o", "a.png"], "--at"),
         (["render", "cirs", "--from", "1,2", "--at", "1,2,3", "-o", "a.png"], "three numbers"),
-        (["render", "cirs", "--from", "1,2,3", "--at", "1 2 3", "-o", "a.png"], "its own position"),
+        (
+            ["render", "cirs", "--from", "1,2,3", "--at", "1 2 3", "-o", "a.png"],
+            "has one point as position and target",
+        ),
         (["render", "cirs", "--size", "800", "-o", "a.png"], "WxH"),
         (["render", "cirs", "--size", "0x5", "-o", "a.png"], "WxH"),
         (

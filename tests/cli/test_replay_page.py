@@ -10,7 +10,7 @@ import pytest
 from tests.support.packs import unpacked
 from tests.support.short_benchmark import run, write_benchmark
 from uwsim.analysis.report import write_report
-from uwsim.cli.replay import opened, recorded, show_page
+from uwsim.cli.replay import open_replay, open_trials, show_page
 from uwsim.errors import BadSetting, UwsimError
 
 
@@ -23,21 +23,21 @@ def test_the_rows_of_a_report_link_to_a_replay_that_is_there(
     how = "uwsim replay . -o replay.html"
     assert how in write_report(result).read_text()
     out = result / "replay.html"
-    show_page(opened(result / "result.json", None, None, ()), out, overwrite=False, port=0)
+    show_page(open_replay(result / "result.json", None, None, ()), out, overwrite=False, port=0)
     assert "its rows link to it" in capsys.readouterr().out
     report = (result / "report.html").read_text()
     assert how not in report
     links = re.findall(r'href="replay.html#level=(\d+)"', report)
     assert links == ["0", "3", "1", "4", "2", "5"]
     with pytest.raises(BadSetting, match="--overwrite"):
-        show_page(opened(result, 0, None, ()), out, overwrite=False, port=0)
+        show_page(open_replay(result, 0, None, ()), out, overwrite=False, port=0)
     deeper = tmp_path / "new" / "folder.html"
-    show_page(opened(result, 0, None, ()), deeper, overwrite=False, port=0)
+    show_page(open_replay(result, 0, None, ()), deeper, overwrite=False, port=0)
     assert deeper.is_file()
     deeper.unlink()
     deeper.mkdir()
     with pytest.raises(BadSetting, match="is a folder"):
-        show_page(opened(result, 0, None, ()), deeper, overwrite=True, port=0)
+        show_page(open_replay(result, 0, None, ()), deeper, overwrite=True, port=0)
 
 
 @pytest.fixture
@@ -52,7 +52,7 @@ def torn(tmp_path: Path) -> Path:
 def test_a_level_without_motion_is_listed_and_warned_of(
     torn: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    pack = opened(torn, None, None, ()).pack()
+    pack = open_replay(torn, None, None, ()).pack()
     (line,) = capsys.readouterr().err.splitlines()
     assert line.startswith(f"uwsim: warning: {torn}/units: 00001.motion: missing; ")
     head, _ = unpacked(pack)
@@ -71,9 +71,9 @@ def test_a_level_without_motion_is_listed_and_warned_of(
 def test_a_film_says_that_a_level_is_left_out(
     torn: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert [trial.index for trial in recorded(torn, None, None, ())] == [0, 2]
+    assert [trial.index for trial in open_trials(torn, None, None, ())] == [0, 2]
     assert "00001.motion: missing; their levels are left out" in capsys.readouterr().err
-    recorded(torn, 2, None, ())
+    open_trials(torn, 2, None, ())
     assert capsys.readouterr().err == ""
 
 

@@ -15,7 +15,7 @@ import pytest
 from rosbags.highlevel import AnyReader
 
 from uwsim.cli import main
-from uwsim.cli.run import duration_of
+from uwsim.cli.run import read_duration
 from uwsim.errors import BadSetting
 from uwsim.simulation import Simulation
 
@@ -184,7 +184,7 @@ def test_all_errors_of_the_options_are_reported_at_once(
 
 def test_a_parameter_needs_a_program(scene: Path, capsys: pytest.CaptureFixture) -> None:
     assert main(["run", str(scene), "--set", "algorithm.kp=1"]) == 2
-    assert "there is no --program" in capsys.readouterr().err
+    assert "sets a parameter of a --program; there is none" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(
@@ -192,13 +192,13 @@ def test_a_parameter_needs_a_program(scene: Path, capsys: pytest.CaptureFixture)
     [("10s", 10.0), ("500ms", 0.5), ("2min", 120.0), ("1.5", 1.5), ("1 h", 3600.0)],
 )
 def test_durations(text: str, seconds: float) -> None:
-    assert duration_of(text) == seconds
+    assert read_duration(text) == seconds
 
 
 @pytest.mark.parametrize("text", ["", "s", "-1s", "nan", "1e3s", "1e99", "999999999999h"])
 def test_wrong_durations(text: str) -> None:
     with pytest.raises(BadSetting):
-        duration_of(text)
+        read_duration(text)
 
 
 @pytest.mark.slow
@@ -233,7 +233,7 @@ def test_a_run_that_is_stopped_before_its_first_step_says_so(
     monkeypatch.setattr(Simulation, "advance", advance)
     assert main(["run", str(scene), "--hz"]) == 130
     said = capsys.readouterr().out
-    assert said == "scene.xml: stopped before the first step; nothing came on any topic\n"
+    assert said == "scene.xml: stopped before the first step; no topic has a message\n"
 
 
 def test_a_run_of_no_time_still_lists_its_topics(

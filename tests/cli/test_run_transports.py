@@ -40,7 +40,7 @@ def test_a_wrong_master_is_one_clean_line(
 @pytest.mark.parametrize(
     ("options", "error"),
     [
-        (["--ros1-host", "10.0.0.1"], "--ros1-host is of --ros1"),
+        (["--ros1-host", "10.0.0.1"], "--ros1-host needs --ros1"),
         (["--ros1", "--speed", "-1"], "--speed -1: expected 0, or 1e-06 or more"),
         (["--web", "0", "--speed", "1e-13"], "--speed 1e-13: expected 0, or 1e-06 or more"),
         (["--web", "0", "--client", "a", "--client-limit", "1e10"], "--client-limit 1e+10: exp"),

@@ -366,7 +366,7 @@ def test_which_units_are_replayed_is_drawn_anew_and_can_be_drawn_again(
     monkeypatch.setattr("uwsim.verify.verify.verify", lambda *_, **__: Verification())
     for number in (7, 4_000_000_000):
         _, said = verify(capsys, "--sample", "1")
-        line = "sample: 1 of 2 trials, by chance; the same again: uwsim verify "
+        line = "sample: 1 of 2 trials, at random; the same again: uwsim verify "
         assert line in said
         assert f" --sample 1 --sample-seed {number}\n" in said
     assert "--sample-seed 12\n" in verify(capsys, "--sample", "1", "--sample-seed", "12")[1]

@@ -9,7 +9,7 @@ import pytest
 
 from tests.benchmark.test_plugin import BENCHMARK, PARTS
 from uwsim.cli import main
-from uwsim.cli.verify import same_sample
+from uwsim.cli.verify import same_sample_command
 from uwsim.errors import UwsimError
 from uwsim.results.interrupted import resume_command
 from uwsim.results.provenance import save_provenance
@@ -98,7 +98,7 @@ def test_a_result_with_a_plugin_is_verified_without_naming_it_again(
     ],
 )  # fmt: skip
 def test_the_command_that_verify_prints_has_all_options(typed: str, again: str) -> None:
-    assert same_sample(shlex.split(typed), 7) == f"uwsim {again}"
+    assert same_sample_command(shlex.split(typed), 7) == f"uwsim {again}"
 
 
 @pytest.mark.parametrize(

@@ -16,8 +16,8 @@ from uwsim.analysis.comparison import compare, differences, read_entries, remark
 from uwsim.analysis.comparison.page import render as render_comparison
 from uwsim.analysis.report.page import render
 from uwsim.base.terminal import clean_text
-from uwsim.cli.exit_status import one_line
-from uwsim.cli.verify import head
+from uwsim.cli.exit_status import format_error
+from uwsim.cli.verify import describe_result
 from uwsim.errors import UwsimError
 from uwsim.results.interrupted import describe_missing_result, resume_command
 from uwsim.results.journal_check import check_rows
@@ -151,7 +151,7 @@ def read_for_verify(sound: Sound, directory: Path) -> None:
     check_inputs(stored.inputs, sound.bench.inputs)
     bench = Run(plan=plan, out=directory, inputs=stored.inputs, renderer=sound.bench.renderer)
     trials = complete_trials(directory, plan, stored)
-    clean_text(head(stored, directory, len(trials), len(plan.trials())))
+    clean_text(describe_result(stored, directory, len(trials), len(plan.trials())))
     if trials:
         environment_differences(stored, directory, bench.info)
         verify(directory, stored, bench, trials, executor=Copies(sound))
@@ -197,7 +197,7 @@ def trial(sound: Sound, target: str, seed: int) -> str | None:
         file.write_bytes(damaged(file.read_bytes(), chance))
         TARGETS[target](sound, directory)
     except UwsimError as error:
-        line = one_line(error)
+        line = format_error(error)
         return None if line.count("\n") == 0 and len(line) < 4100 else f"many lines: {line[:200]}"
     except Exception as error:
         return f"{type(error).__name__}: {error}"

@@ -188,8 +188,7 @@ class RelativeLocation(GroundTruth):
 class ProjectedTruth(GroundTruth):
     """The projected points of a body, computed again only after camera or body has moved.
 
-    Compatibility ``unseen``: points behind the camera are projected through its centre, upside
-    down.
+    Compatibility ``unseen``: points behind the camera are projected through its centre.
     """
 
     @property
@@ -356,8 +355,7 @@ class TopicTruthSpec(GroundTruthSpec):
     """A ``<groundTruth type="topic">`` element; an extension."""
 
     topic: str
-    """The topic of the truth (std_msgs/Float32MultiArray); an empty message means that there is
-    none."""
+    """The topic of the truth (std_msgs/Float32MultiArray); an empty message: none."""
     components: str
     """The names of its numbers, separated by blanks: ``x y``."""
     unit: str = element(default="1")  # type: ignore[misc]  # of others it follows from the type

@@ -93,7 +93,7 @@ def read_numbers(name: str, named_by: str, *, at_most: int) -> NumberTable:
         if not header or len(header) > MAX_COLUMNS or len(set(header)) < len(header):
             raise AssetError(f"{name}:1: expected a line of different names.", name=name)
         rows: list[list[float]] = []
-        invalid_cells: dict[int, str] = {}
+        errors: dict[int, str] = {}
         for number, line in enumerate(lines, start=2):
             if not line:
                 continue
@@ -107,13 +107,11 @@ def read_numbers(name: str, named_by: str, *, at_most: int) -> NumberTable:
             for index in (i for i, value in enumerate(rows[-1]) if math.isinf(value)):
                 rows[-1][index] = math.nan
                 cell = f"{line[index][:40]!r} is no finite number"
-                invalid_cells.setdefault(
-                    index, f"{name}:{number}: {cell} (column {header[index]})."
-                )
+                errors.setdefault(index, f"{name}:{number}: {cell} (column {header[index]}).")
     except csv.Error as error:
         raise AssetError(f"{name}: is no CSV file: {error}.", name=name) from None
     numbers = np.array(rows, dtype=np.float64).reshape(-1, len(header))
-    return NumberTable(name, tuple(header), units, numbers, invalid_cells)
+    return NumberTable(name, tuple(header), units, numbers, errors)
 
 
 def _number(cell: str) -> float:

@@ -31,14 +31,7 @@ from types import CodeType, ModuleType
 from ..base.files.input_files import read_bytes
 from ..base.files.source_module import source_module
 from ..base.interrupts import is_user_interrupt
-from ..errors import (
-    AssetError,
-    Diagnostic,
-    PluginError,
-    RunFailed,
-    UwsimError,
-    type_and_text,
-)
+from ..errors import AssetError, Diagnostic, PluginError, RunFailed, UwsimError, type_and_text
 from ..world import Stage
 from .bind_part import Part, bind_part
 from .measures import Measure, MeasureSpec
@@ -146,7 +139,6 @@ def line_of_class(value: object, plugin: Plugin) -> int | None:
 
 
 def _line_of_attribute(error: ContractViolation, plugin: Plugin) -> int | None:
-    """Return the line of the property with the invalid value, or of its class."""
     cls = type(error.part)
     if cls.__module__ != plugin.module_name:
         return None
@@ -197,11 +189,7 @@ def attribute_errors_to(
         raise
 
 
-def check_bound(
-    plugins: Sequence[Plugin],
-    parts: Sequence[Part],
-    stage: Stage,
-) -> None:
+def check_bound(plugins: Sequence[Plugin], parts: Sequence[Part], stage: Stage) -> None:
     """Bind all measures, triggers and updaters of plugins, and check the results.
 
     Raises:
@@ -215,10 +203,8 @@ def check_bound(
         instance: object = bind_part(part, stage)
         for spec, kind in LIVE_CLASSES:
             if isinstance(part, spec) and not isinstance(instance, kind):
-                type_name = "None" if instance is None else type(instance).__name__
-                message = (
-                    f"{type(part).__name__}.bind gives {type_name}; expected a {kind.__name__}"
-                )
+                name = "None" if instance is None else type(instance).__name__
+                message = f"{type(part).__name__}.bind gives {name}; expected a {kind.__name__}"
                 raise plugin.diagnostic(message, line_of_class(type(part), plugin))
         if isinstance(instance, Measure) and not isinstance(getattr(instance, "unit", None), str):
             message = f"{type(instance).__name__} has no unit, such as unit = 'm/s'"

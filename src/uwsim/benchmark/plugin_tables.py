@@ -114,7 +114,6 @@ def _key_error(table: str, key: object) -> str | None:
 
 
 def _class_error(table: str, value: object, module: ModuleType) -> str | None:
-    """Return why a class is invalid for its table; None if it is valid."""
     if not isinstance(value, type):
         return f"is {type(value).__name__} {str(value)[:40]!r}; expected a class"
     name = value.__name__
@@ -144,7 +143,6 @@ def _class_error(table: str, value: object, module: ModuleType) -> str | None:
 
 
 def _column_error(value: type) -> str | None:
-    """Return why an updater's column name or unit is invalid; None if both are valid."""
     name = getattr(value, "name", None)
     if not isinstance(name, str) or not ELEMENT_NAME.fullmatch(name):
         message = "lacks name" if name is None else f"has the name {name!r}"

@@ -50,11 +50,7 @@ from .spec import BenchmarkSpec
 from .sweep_checks import check_levels, warn_endless, warn_overridden, warn_still_water
 from .triggers import TRIGGERS, NeverSpec, TriggerSpec
 from .updater_settings import check_same_levels, locate_in_benchmark
-from .updaters import (
-    UPDATERS,
-    NoneSpec,
-    SceneUpdaterSpec,
-)
+from .updaters import UPDATERS, NoneSpec, SceneUpdaterSpec
 from .warnings import find_short_times, warn_never_started
 
 PLUGIN_HINT = ", nor of a plugin that was given (--plugin FILE.py)"
@@ -331,7 +327,6 @@ class _Reader:
 
 
 def _remove(node: etree._Element) -> None:
-    """Remove an element that was read, so that it is not reported as unknown."""
     parent = node.getparent()
     if parent is not None:
         parent.remove(node)

@@ -33,8 +33,7 @@ class RecordedTruthSpec(Spec):
     file: str = element(namespaced=True)
     """The CSV file, in the folder of the benchmark."""
     topic: str = element(namespaced=True)
-    """The topic on which the truth is published (std_msgs/Float32MultiArray); hidden from the
-    algorithm."""
+    """The topic of the truth (std_msgs/Float32MultiArray); hidden from the algorithm."""
     columns: str = element(namespaced=True, default="")
     """The columns to publish, separated by blanks; without: all but ``time``, in their order."""
 

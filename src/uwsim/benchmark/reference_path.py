@@ -44,10 +44,8 @@ class ReferencePathSpec(Spec):
         if (self.file is not None) == bool(self.points):
             return ["<u:path> needs either <u:points> or <u:file>"]
         if len(self.points) % 3:
-            return [
-                f"<u:points> in <u:path> has {len(self.points)} numbers; expected x y z of each "
-                "point"
-            ]
+            n = len(self.points)
+            return [f"<u:points> in <u:path> has {n} numbers; expected x y z of each point"]
         if any(not abs(number) <= MAX_COORDINATE for number in self.points):
             return [f"<u:points> in <u:path> has a number beyond {MAX_COORDINATE:g} m"]
         return []

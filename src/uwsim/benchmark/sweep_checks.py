@@ -22,8 +22,7 @@ from .updaters import (
 )
 
 SETTER_SPECS = (CameraNoiseUpdaterSpec, SceneFogUpdaterSpec, SceneLightUpdaterSpec)
-"""The updaters that set one value of the scene: of two nested ones, only the inner one has an
-effect."""
+"""The updaters that set one value: of two nested ones, only the inner one has an effect."""
 
 
 def check_levels(root_updater: SceneUpdaterSpec, diagnostics: Diagnostics) -> None:

@@ -43,7 +43,6 @@ def truth_diagnostics(benchmark: BenchmarkSpec, stage: Stage) -> list[Diagnostic
 
 
 def _topic_truths(benchmark: BenchmarkSpec, truth: RecordedTruthSpec) -> Iterator[TopicTruthSpec]:
-    """Yield the ground truths of measures on the topic of a recorded truth."""
     for measure in benchmark.measures:
         source: Spec | None = getattr(measure, "ground_truth", None)
         if isinstance(source, TopicTruthSpec) and source.topic.strip("/") == truth.topic.strip("/"):

@@ -32,7 +32,6 @@ def find_unknown_names(
 
 
 def _parts(benchmark: BenchmarkSpec) -> Iterator[Part]:
-    """Yield every part of a benchmark, in the file's order."""
     for spec in benchmark.measures:
         yield from (spec, spec.start_on, spec.stop_on)
     yield from (benchmark.start_on, benchmark.stop_on)
@@ -66,7 +65,6 @@ def _binding_errors(part: Part, stage: Stage) -> Iterator[tuple[int | None, str]
 
 
 def _reference_errors(spec: object, stage: Stage) -> Iterator[tuple[int | None, str]]:
-    """Resolve the references of the fields of a spec, and of the specs in it."""
     for field in fields_of(type(spec)):
         value = field.value_in(spec)
         if value is None or isinstance(value, Part):

@@ -1,8 +1,7 @@
 """One value of a scene updater: drawn for each seed (``u:vary``), or set with ``--set``.
 
 A path begins with the name of the updater's element, at any depth of nesting:
-``currentForceUpdater.timeOffset``. Values that determine the levels or their duration cannot be
-changed.
+``currentForceUpdater.timeOffset``. Values that determine levels or their duration are fixed.
 """
 
 from __future__ import annotations

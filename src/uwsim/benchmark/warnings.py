@@ -65,18 +65,13 @@ def find_short_times(
 def _short_intervals(
     updater: SceneUpdaterSpec, timestep: float, step: str
 ) -> Iterator[PlacedMessage]:
-    """Yield errors of intervals and settling times shorter than half a step."""
     length, deepest_updater = interval(updater), chain(updater)[-1]
     if length is not None and _is_too_short(length, timestep):
-        yield (
-            line_of(deepest_updater, "interval"),
-            f"<interval> is {length:g} s: {step}, so no step is run",
-        )
-    for inner_updater in chain(updater):
-        if inner_updater.settling_time > 0.0 and _is_too_short(
-            inner_updater.settling_time, timestep
-        ):
-            yield inner_updater, f"u:settlingTime is {inner_updater.settling_time:g} s: {step}"
+        message = f"<interval> is {length:g} s: {step}, so no step is run"
+        yield line_of(deepest_updater, "interval"), message
+    for part in chain(updater):
+        if part.settling_time > 0.0 and _is_too_short(part.settling_time, timestep):
+            yield part, f"u:settlingTime is {part.settling_time:g} s: {step}"
 
 
 def _is_too_short(seconds: float, timestep: float) -> bool:

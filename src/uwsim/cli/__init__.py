@@ -1,4 +1,4 @@
-"""The command ``uwsim``: one file a command, loaded only when that command runs."""
+"""The command ``uwsim``: one module for each command, imported only when that command runs."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""``python -m uwsim.cli`` is ``uwsim``."""
+"""The module run by ``python -m uwsim.cli``, which is ``uwsim``."""
 
 from __future__ import annotations
 

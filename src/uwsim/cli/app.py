@@ -1,7 +1,7 @@
 """The command line: the table of commands, and the handling of errors.
 
-A command is a function with typer's annotations in a module of its own. `COMMANDS` names them;
-only the one that was asked for is imported, so that ``uwsim --help`` stays under 0.3 s.
+A command is a function with typer's annotations in a separate module. `COMMANDS` lists them; only
+the requested one is imported, so that ``uwsim --help`` takes less than 0.3 s.
 """
 
 from __future__ import annotations
@@ -17,11 +17,11 @@ import typer
 from ..base.numerics.compiling import on_slow_start
 from ..base.terminal import ignore_casts
 from ..version import __version__
-from .exit_status import INTERRUPTED, exit_status, one_line
-from .old_options import refuse_old_options
-from .options.completion import words_typed
-from .options.help_texts import HELP_NAMES, TaughtCommand
-from .options.option_groups import with_flat_options
+from .exit_status import INTERRUPT_STATUS, exit_status, format_error
+from .old_options import reject_old_options
+from .options.completion import typed_words
+from .options.help_texts import HELP_NAMES, ErrorCollectingCommand
+from .options.option_groups import flatten_options
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,18 +29,18 @@ class Command:
     """A command: its module, and its summary in ``uwsim --help``."""
 
     module: str
-    """Its module in this package."""
+    """The name of its module in this package."""
     function: str
     """The function in that module; its docstring is the command's help."""
     summary: str
-    """One line for ``uwsim --help``."""
+    """The summary in one line for ``uwsim --help``."""
     examples: tuple[str, ...]
-    """Examples, shown by ``uwsim COMMAND --help``."""
+    """The examples that ``uwsim COMMAND --help`` shows."""
 
     def load(self) -> Callable[..., object]:
         """Import the module and return its function."""
         module = importlib.import_module(f".{self.module}", __package__)
-        return with_flat_options(getattr(module, self.function))
+        return flatten_options(getattr(module, self.function))
 
 
 COMMANDS: dict[str, Command] = {
@@ -87,7 +87,7 @@ COMMANDS: dict[str, Command] = {
     "info": Command(
         module="info",
         function="info",
-        summary="Show what is in a scene: vehicles, cameras, topics, joints, floor.",
+        summary="List parts of a scene: vehicles, cameras, topics, joints, floor.",
         examples=("uwsim info visibility-scene", "uwsim info my-scene.xml --json"),
     ),
     "list": Command(
@@ -100,15 +100,12 @@ COMMANDS: dict[str, Command] = {
         module="play",
         function="play",
         summary="Play a recording: to your program, to ROS, with ghosts in a scene.",
-        examples=(
-            "uwsim play dive.mcap --record dive.bag",
-            "uwsim play dive.bag cirs --ros1",
-        ),
+        examples=("uwsim play dive.mcap --record dive.bag", "uwsim play dive.bag cirs --ros1"),
     ),
     "render": Command(
         module="render",
         function="render",
-        summary="Draw what a camera sees: colour, depth, segmentation.",
+        summary="Draw the image of a camera: colour, depth, segmentation.",
         examples=(
             "uwsim render visibility-scene --camera bowtech1 -o view.png",
             "uwsim render my-scene.xml --camera bowtech1 -o view.png --depth "
@@ -118,7 +115,7 @@ COMMANDS: dict[str, Command] = {
     "replay": Command(
         module="replay",
         function="replay",
-        summary="See a trial of a result again, with its curves, as a film.",
+        summary="Show a trial of a result again, with its curves, as a film.",
         examples=(
             "uwsim replay visibility.result -o visibility.mp4",
             "uwsim replay currents.result --trial 3 --view chase --speed 4 -o currents.webp",
@@ -159,58 +156,59 @@ First steps:
   $ uwsim COMMAND -h                    what a command does, with examples
 """
 TRACEBACK = "--traceback"
-READER_LEFT = 1
-"""Exit status when the reader of the output has closed it, as in ``uwsim list | head -1``."""
+CLOSED_OUTPUT = 1
+"""The exit status if the reader closes the output, as in ``uwsim list | head -1``."""
 
 
-COMPILING = "uwsim: compiling for this processor; this takes up to a minute, the first time only"
+COMPILATION_MESSAGE = "uwsim: compiling for this processor (up to a minute, the first time only)"
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Run ``uwsim`` and return its exit status: 0 done, 2 wrong input, 3 the run failed."""
-    given = list(sys.argv[1:] if arguments is None else arguments)
-    wanted = [argument for argument in given if argument != TRACEBACK] or ["--help"]
-    on_slow_start(tell_of_compiling)
+    """Run ``uwsim`` and return its exit status: 0 done, 2 invalid input, 3 the run failed."""
+    all_words = list(sys.argv[1:] if arguments is None else arguments)
+    words = [word for word in all_words if word != TRACEBACK] or ["--help"]
+    on_slow_start(report_compilation)
     ignore_casts()
     try:
-        refuse_old_options(wanted, COMMANDS)
-        result = build(wanted)(wanted, prog_name="uwsim", standalone_mode=False, obj=wanted)
+        reject_old_options(words, COMMANDS)
+        application = build_application(words)
+        result = application(words, prog_name="uwsim", standalone_mode=False, obj=words)
         sys.stdout.flush()
     except BrokenPipeError:
         sys.stdout = None  # the reader has closed the pipe
-        return READER_LEFT
-    except SystemExit as left:  # rich, for the same reason; or typer, when it has shown completion
-        return left.code if isinstance(left.code, int) else READER_LEFT
+        return CLOSED_OUTPUT
+    except SystemExit as error:  # rich, for the same reason; or typer, when it has shown completion
+        return error.code if isinstance(error.code, int) else CLOSED_OUTPUT
     except (Exception, KeyboardInterrupt) as error:
-        if TRACEBACK in given:
+        if TRACEBACK in all_words:
             raise
-        return say(error)
-    if result == INTERRUPTED:
-        return say(KeyboardInterrupt())
+        return print_error(error)
+    if result == INTERRUPT_STATUS:
+        return print_error(KeyboardInterrupt())
     return result if isinstance(result, int) else 0
 
 
-def tell_of_compiling() -> None:
-    """Say in a terminal why nothing is to be seen yet."""
+def report_compilation() -> None:
+    """Print to a terminal that the start takes longer because of compilation."""
     if sys.stderr.isatty():
-        print(COMPILING, file=sys.stderr)
+        print(COMPILATION_MESSAGE, file=sys.stderr)
 
 
-def say(error: BaseException) -> int:
+def print_error(error: BaseException) -> int:
     """Print an error, one line each, and return its exit status."""
-    message = one_line(error)
+    message = format_error(error)
     if message:
         print(message, file=sys.stderr)
     return exit_status(error)
 
 
-def build(arguments: Sequence[str]) -> typer.Typer:
+def build_application(arguments: Sequence[str]) -> typer.Typer:
     """Build the application, importing only the command in ``arguments``.
 
-    For completion by the shell, that is the command on its line.
+    For completion by the shell, it is the command on the shell's line.
     """
-    words = words_typed() or arguments
-    wanted = next((word for word in words if not word.startswith("-")), None)
+    words = typed_words() or arguments
+    command_name = next((word for word in words if not word.startswith("-")), None)
     app = typer.Typer(
         help="Underwater robots, simulated and measured.",
         epilog=FIRST_STEPS,
@@ -222,21 +220,21 @@ def build(arguments: Sequence[str]) -> typer.Typer:
         examples = "\b\nExamples:\n" + "\n".join(f"  $ {line}" for line in command.examples)
         app.command(
             name,
-            cls=TaughtCommand,
+            cls=ErrorCollectingCommand,
             short_help=command.summary,
             epilog=examples,
             context_settings=HELP_NAMES,
-        )(command.load() if name == wanted else not_wanted)
+        )(command.load() if name == command_name else skip_command)
     return app
 
 
-def not_wanted() -> None:
-    """Placeholder in the list of commands for one that is not imported."""
+def skip_command() -> None:
+    """Do nothing: the placeholder of a command that is not imported."""
 
 
-def show_version(wanted: bool) -> None:
-    """Print the version and exit, if ``wanted``."""
-    if wanted:
+def show_version(is_requested: bool) -> None:
+    """Print the version and exit, if requested."""
+    if is_requested:
         print(f"uwsim {__version__}")
         raise typer.Exit
 
@@ -249,8 +247,7 @@ def global_options(
         ),
     ] = False,
     traceback: Annotated[
-        bool,
-        typer.Option(TRACEBACK, help="Show where in the program an error was raised."),
+        bool, typer.Option(TRACEBACK, help="Show where in the program an error was raised.")
     ] = False,
 ) -> None:
-    """Accept the options before the command; ``main`` has read them already."""
+    """Accept the options before the command, which ``main`` has already read."""

@@ -22,7 +22,7 @@ from ..errors import BadSetting, ErrorCollector
 from ..runs.planning.plan_request import PlanRequest
 from .options.client_options import ClientOptions
 from .options.completion import algorithm_names
-from .options.help_texts import INPUT, OUTPUT, RUN, in_group
+from .options.help_texts import INPUT, OUTPUT, RUN, option
 from .options.levels import read_levels
 from .options.live import LiveOptions
 from .options.options import (
@@ -31,7 +31,7 @@ from .options.options import (
     SettingOptions,
     TaskOptions,
     WorkerOptions,
-    request_of,
+    make_request,
 )
 from .options.run_options import TrialRecordOptions
 from .output.console import standard_output
@@ -49,26 +49,25 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class BenchOptions:
-    """What ``uwsim bench`` takes."""
+    """The options of ``uwsim bench``."""
 
     task: TaskOptions
     algorithm: Annotated[
         list[str] | None,
-        in_group(
+        option(
             INPUT,
             "--algorithm",
             metavar="NAME|module:Class",
             help="Algorithm under test: a name of `uwsim list algorithms`, or your own "
-            "module:Class; "
-            "without it the one that the benchmark names (u:algorithm). May be repeated: each has "
-            "its result in a folder of --out.",
+            "module:Class; without it that of the benchmark (u:algorithm). May be repeated: each "
+            "result has a folder in --out.",
             autocompletion=algorithm_names,
         ),
     ] = None
     mode: ModeOption = None
     level: Annotated[
         list[str] | None,
-        in_group(
+        option(
             INPUT,
             "--level",
             metavar="NAME=VALUE",
@@ -76,56 +75,52 @@ class BenchOptions:
         ),
     ] = None
     changes: SettingOptions
-    seed: Annotated[
-        int, in_group(RUN, "--seed", metavar="N", min=0, help="Seed of every random stream.")
-    ] = 0
+    seed: Annotated[int, option(RUN, "--seed", metavar="N", min=0, help="Random seed.")] = 0
     repeat: Annotated[
         int,
-        in_group(
+        option(
             RUN,
             "--repeat",
             metavar="K",
             min=1,
-            help="Run K times, with seeds SEED ... SEED+K-1; a comparison of two results needs "
-            "six at least.",
+            help="Run K times, with seeds SEED ... SEED+K-1; a comparison of two results needs at "
+            "least six.",
         ),
     ] = 1
-    by: WorkerOptions
-    outside: ClientOptions
+    processes: WorkerOptions
+    client_options: ClientOptions
     out: Annotated[
         Path | None,
-        in_group(OUTPUT, "--out", metavar="DIR", help="Result directory [./NAME.result]."),
+        option(OUTPUT, "--out", metavar="DIR", help="Result directory [./NAME.result]."),
     ] = None
-    resume: Annotated[
-        bool, in_group(OUTPUT, "--resume", help="Resume an interrupted run in --out.")
-    ] = False
+    resume: Annotated[bool, option(OUTPUT, "--resume", help="Resume the run in --out.")] = False
     overwrite: Annotated[
         bool,
-        in_group(
+        option(
             OUTPUT, "--overwrite", help="Replace an earlier result in --out, and its recordings."
         ),
     ] = False
-    recorded: TrialRecordOptions
-    live: LiveOptions
-    files: CodeOptions
+    recording: TrialRecordOptions
+    live_options: LiveOptions
+    code: CodeOptions
 
     @property
     def directory(self) -> Path:
-        """Where the result goes."""
+        """The directory of the result."""
         return self.out or Path(f"{Path(self.task.benchmark).stem}.result")
 
     def requests(
-        self, levels: Sequence[tuple[str, float]], wrong: ErrorCollector
+        self, levels: Sequence[tuple[str, float]], errors: ErrorCollector
     ) -> list[PlanRequest]:
-        """Return what is asked for of each algorithm, none with an error; collects errors."""
-        with wrong.collect():
+        """Return the request of each algorithm; collect errors and return none after an error."""
+        with errors.collect():
             request = replace(
-                request_of(self.task, self.changes, self.files),
+                make_request(self.task, self.changes, self.code),
                 seed=self.seed,
                 repeat=self.repeat,
                 mode=self.mode,
                 levels=levels,
-                client=self.outside.client_spec(),
+                client=self.client_options.client_spec(),
             )
             return [replace(request, algorithm=name) for name in self.algorithm or (None,)]
         return []
@@ -134,7 +129,7 @@ class BenchOptions:
 def bench(context: typer.Context, options: BenchOptions) -> None:
     """Run a benchmark: score every level and write a table, logs, plots and a report.
 
-    Written into --out: result.json (all numbers, with units, seeds and hashes), result.dat (the
+    It writes to --out: result.json (all numbers, with units, seeds and hashes), result.dat (the
     original's table), logs as CSV, plots, report.html. Same files and same seed: the same bytes.
     --resume continues an interrupted run; trials that are run again are recorded anew.
     """
@@ -142,58 +137,60 @@ def bench(context: typer.Context, options: BenchOptions) -> None:
     from ..runs.execute import execute, plan_all, prepare_execution
     from ..runs.executors.background import BackgroundProcess
 
-    wrong, wrong_levels, folders = ErrorCollector(), ErrorCollector(), []
-    options.outside.check(wrong, options.by.workers)
-    how = {"resume": options.resume, "overwrite": options.overwrite}
-    requests = options.requests(read_levels(options.level, wrong_levels), wrong)
-    executor, plans = plan_all(requests, options.by.workers, options.by.callback_limit, wrong)
-    with wrong.collect():
-        wrong_levels.raise_errors()
-    with wrong.collect():
+    errors, level_errors, folders = ErrorCollector(), ErrorCollector(), []
+    options.client_options.check(errors, options.processes.workers)
+    modes = {"resume": options.resume, "overwrite": options.overwrite}
+    requests = options.requests(read_levels(options.level, level_errors), errors)
+    executor, plans = plan_all(
+        requests, options.processes.workers, options.processes.callback_limit, errors
+    )
+    with errors.collect():
+        level_errors.raise_errors()
+    with errors.collect():
         check_live(options, plans)
-    with wrong.collect():
-        folders = folders_of(options.algorithm or ())
-    with wrong.collect():
-        check(options.directory, **how, results=folders)
+    with errors.collect():
+        folders = result_folders(options.algorithm or ())
+    with errors.collect():
+        check(options.directory, **modes, results=folders)
     recordings: list[TrialRecording] = []
-    with wrong.collect():
+    with errors.collect():
         if len(plans) == len(options.algorithm or (None,)):
-            recordings = recordings_of(options, plans, folders)
-    wrong.raise_errors()
+            recordings = plan_recordings(options, plans, folders)
+    errors.raise_errors()
 
     execution = prepare_execution(
         plans,
         executor,
         options.directory,
-        workers=options.by.workers,
+        workers=options.processes.workers,
         folders=folders,
         command=context.obj,
     )
-    record(execution.runs, recordings, is_resumed=options.resume)
+    record_trials(execution.runs, recordings, is_resumed=options.resume)
     raise_on_interrupt()
     if note := repeats_note(len(plans), len(plans[0].levels()), options.repeat):
         print(note, file=sys.stderr)
     with (
         convert_to_run_failed(),
-        looked_at(options.live, plans) as onlooker,  # first: a port that is taken changes nothing
+        open_live_view(options.live_options, plans) as observer,  # first: it may fail at the port
     ):
-        if onlooker is not None:
+        if observer is not None:
             from ..runs.executors.executor import SerialExecutor
 
-            limit = options.by.callback_limit or None
-            execution = replace(execution, executor=SerialExecutor(onlooker, callback_limit=limit))
+            limit = options.processes.callback_limit or None
+            execution = replace(execution, executor=SerialExecutor(observer, callback_limit=limit))
         execute(
             execution,
-            prepare_directory(options.directory, **how, results=folders),
+            prepare_directory(options.directory, **modes, results=folders),
             partial(BackgroundProcess, load_reporter),
-            RunOutput(execution.runs, options.by.at_once).callbacks(),
+            RunOutput(execution.runs, options.processes.n_parallel).callbacks(),
         )
 
 
-def recordings_of(
+def plan_recordings(
     options: BenchOptions, plans: Sequence[Plan], folders: Sequence[str]
 ) -> list[TrialRecording]:
-    """Return what records each plan; none without ``--record``.
+    """Return the recording of each plan; none without ``--record``.
 
     Raises:
         BadSetting: nothing can be recorded there.
@@ -201,21 +198,23 @@ def recordings_of(
     from ..middleware.recording import image_storage
     from ..runs.executors.choose import RAY
 
-    images, file = image_storage(options.recorded.images), options.recorded.record
+    images, file = image_storage(options.recording.images), options.recording.record
     if file is None:
         return []
     from ..viewer.trial_recording import check_recordings, trial_recordings
 
-    if options.by.workers == RAY:
+    if options.processes.workers == RAY:
         raise BadSetting("--record: a worker of a Ray cluster may be on another machine.")
     recordings = trial_recordings(plans, file, images, folders)
-    how = {"resume": options.resume, "overwrite": options.overwrite}
-    check_recordings(plans, recordings, options.directory, **how)
+    modes = {"resume": options.resume, "overwrite": options.overwrite}
+    check_recordings(plans, recordings, options.directory, **modes)
     return recordings
 
 
-def record(runs: Sequence[Run], recordings: Sequence[TrialRecording], *, is_resumed: bool) -> None:
-    """Have the trials to come recorded; of a resumed run, names those that are over and are not."""
+def record_trials(
+    runs: Sequence[Run], recordings: Sequence[TrialRecording], *, is_resumed: bool
+) -> None:
+    """Record the trials to come; of a resumed run, report finished trials without a recording."""
     if not recordings:
         return
     for run, recording in zip(runs, recordings, strict=True):
@@ -225,30 +224,31 @@ def record(runs: Sequence[Run], recordings: Sequence[TrialRecording], *, is_resu
 
 
 def check_live(options: BenchOptions, plans: Sequence[Plan]) -> None:
-    """Refuse a live view of several processes, and a pilot without one; raises BadSetting."""
-    options.live.check()
-    if options.live.view and options.by.workers not in ("0", "1"):
-        raise BadSetting("--view looks on at one process: leave out --workers.")
-    if any(map(is_piloted, plans)) and not options.live.view:
+    """Raise BadSetting for a live view of several processes, and for a pilot without one."""
+    options.live_options.check()
+    if options.live_options.view and options.processes.workers not in ("0", "1"):
+        raise BadSetting("--view shows one process: leave out --workers.")
+    if any(map(is_piloted, plans)) and not options.live_options.view:
         raise BadSetting("--algorithm pilot: add --view, the page in which the pilot acts.")
 
 
 def is_piloted(plan: Plan) -> bool:
-    """Whether somebody is to pilot now: not where inputs of an earlier run are sent again."""
+    """Return whether a user pilots; not if the inputs of an earlier run are replayed."""
     return bool(getattr(plan.algorithm.cls, "IS_PILOTED", False)) and not plan.inputs
 
 
 @contextmanager
-def looked_at(live: LiveOptions, plans: Sequence[Plan]) -> Iterator[TrialObserver | None]:
-    """Open the live view that the options ask for; a pilot's run is in real time, and waits."""
+def open_live_view(options: LiveOptions, plans: Sequence[Plan]) -> Iterator[TrialObserver | None]:
+    """Open the live view of the options; a pilot's run is in real time, and waits for a viewer."""
     pilots = any(map(is_piloted, plans))
     title = Path(plans[0].benchmark.path).stem
-    with live.opened(title, speed=float(pilots), is_piloted=pilots, waits=pilots) as view:
+    speed = float(pilots)
+    with options.open_session(title, speed=speed, is_piloted=pilots, waits=pilots) as view:
         yield view
 
 
-def folders_of(algorithms: Sequence[str]) -> list[str]:
-    """Name the folder of each algorithm's result; none where there is one algorithm.
+def result_folders(algorithms: Sequence[str]) -> list[str]:
+    """Return the folder of each algorithm's result; none for one algorithm.
 
     Raises:
         BadSetting: an algorithm is given twice.
@@ -264,31 +264,29 @@ def folders_of(algorithms: Sequence[str]) -> list[str]:
 
 
 class RunOutput:
-    """What is printed of runs.
+    """The printed output of runs.
 
     Args:
-        runs: an algorithm each.
-        at_once: how many levels run at one time.
+        runs: the run of each algorithm.
+        n_parallel: the number of levels that run in parallel.
     """
 
-    def __init__(self, runs: Sequence[Run], at_once: int) -> None:
-        self._runs, self._at_once = runs, at_once
+    def __init__(self, runs: Sequence[Run], n_parallel: int) -> None:
+        self._runs, self._n_parallel = runs, n_parallel
         self._n_written = 0
 
     def callbacks(self) -> Callbacks:
-        """Return what prints."""
+        """Return the functions that print."""
         from ..runs.execute import Callbacks
 
         return Callbacks(
             progress=self._progress, on_rows=self._print_table, on_report=self._print_written
         )
 
-    def _progress(self, title: str, total: int, done: int) -> AbstractContextManager[OnLevel]:
-        """Show how far the runs are."""
-        return progress(title, total, done=done, of="levels", at_once=self._at_once)
+    def _progress(self, title: str, total: int, n_done: int) -> AbstractContextManager[OnLevel]:
+        return progress(title, total, n_done=n_done, unit="levels", n_parallel=self._n_parallel)
 
     def _print_table(self, run: Run, result: Result) -> None:
-        """Print the rows of a run."""
         from ..results.table import table
 
         if len(self._runs) > 1:
@@ -297,15 +295,15 @@ class RunOutput:
         console.print(table(result, width=console.width))
 
     def _print_written(self, run: Run, result: Result) -> None:
-        """Print what reduces confidence in a run, and where its result is."""
+        """Print what reduces confidence in a run, and the path of its result."""
         from ..results.directory import REPORT
         from ..results.refused_lines import refused_lines
 
         for line in refused_lines(result):
             warn(line)
-        shown = {remark.text.partition(": ")[2] for remark in result.remarks}  # beside a status
+        status_texts = {remark.text.partition(": ")[2] for remark in result.remarks}
         for note in result.run.notes or ():
-            if note.partition(": ")[2] not in shown:
+            if note.partition(": ")[2] not in status_texts:
                 warn(note)
         report = run.out / REPORT
         print(f"written: {run.out}/result.json, result.dat, logs, plots; report: {report}")

@@ -17,16 +17,10 @@ from ..checks.benchmark_tables import read_plugins
 from ..errors import Diagnostic, ErrorCollector
 from ..runs.planning.option_values import pairs_of
 from ..scene.settings import xacro_arguments
-from .exit_status import WRONG_INPUT
+from .exit_status import INVALID_INPUT
 from .options.completion import checked_names, scene_names
-from .options.help_texts import INPUT, in_group
-from .options.options import (
-    DataPathOption,
-    JsonOption,
-    PluginOption,
-    XacroOption,
-    xacro_settings,
-)
+from .options.help_texts import INPUT, option
+from .options.options import DataPathOption, JsonOption, PluginOption, XacroOption, xacro_settings
 
 
 def check(
@@ -40,17 +34,16 @@ def check(
     ],
     scene: Annotated[
         Path | None,
-        in_group(
+        option(
             INPUT,
             "--scene",
             metavar="SCENE.xml",
-            help="The scene that the benchmarks are run in.",
+            help="The scene of the benchmarks.",
             autocompletion=scene_names,
         ),
     ] = None,
-    strict: Annotated[
-        bool,
-        in_group(INPUT, "--strict", help="Also compare files with the original's order."),
+    is_strict: Annotated[
+        bool, option(INPUT, "--strict", help="Also compare files with the original's order.")
     ] = False,
     xacro: XacroOption = None,
     as_json: JsonOption = False,
@@ -61,55 +54,54 @@ def check(
 
     Python code that these files name is located but not run; the code of a --plugin is run.
 
-    Exit status 0 without errors, else 2; an element that is read and not simulated yet is a
+    The exit status is 0 without errors, else 2; an element that is read and not simulated yet is a
     warning. With --json: {"files": [{"file", "diagnostics": [{"file", "line", "severity",
     "message"}]}], "n_errors"}.
     """
     folders = tuple(data_path or ())
     plugins = read_plugins(plugin)
     arguments = xacro_arguments(pairs_of(xacro_settings(xacro), ErrorCollector()))
-    named = [resolve_bundled(file) for file in files]
+    paths = [resolve_bundled(file) for file in files]
     scene = None if scene is None else resolve_bundled(scene)
-    found = {
+    reports = {
         str(file): check_file(
             file,
-            strict=strict,
+            strict=is_strict,
             data_path=folders,
             scene=scene,
             plugins=plugins,
             arguments=arguments,
         )
-        for file in [*named, *([scene] if scene is not None and scene not in named else [])]
+        for file in [*paths, *([scene] if scene is not None and scene not in paths else [])]
     }
     n_errors = sum(
         diagnostic.severity == "error"
-        for diagnostics in found.values()
+        for diagnostics in reports.values()
         for diagnostic in diagnostics
     )
-    typer.echo(json_of(found, n_errors) if as_json else lines_of(found))
+    typer.echo(format_json(reports, n_errors) if as_json else format_lines(reports))
     if n_errors:
-        raise typer.Exit(WRONG_INPUT)
+        raise typer.Exit(INVALID_INPUT)
 
 
-def lines_of(found: Mapping[str, Sequence[Diagnostic]]) -> str:
+def format_lines(file_diagnostics: Mapping[str, Sequence[Diagnostic]]) -> str:
     """Return one line for each error and warning, and a count for each file."""
     lines: list[str] = []
-    for file, diagnostics in found.items():
+    for file, diagnostics in file_diagnostics.items():
         lines += map(str, diagnostics)
-        lines.append(
-            f"{file}: {_count(sum(diagnostic.severity == 'error' for diagnostic in diagnostics))}"
-        )
+        n_errors = sum(diagnostic.severity == "error" for diagnostic in diagnostics)
+        lines.append(f"{file}: {_format_count(n_errors)}")
     return clean_text("\n".join(lines))
 
 
-def json_of(found: Mapping[str, Sequence[Diagnostic]], n_errors: int) -> str:
-    """Return the same for a program."""
+def format_json(file_diagnostics: Mapping[str, Sequence[Diagnostic]], n_errors: int) -> str:
+    """Return the errors and warnings as JSON."""
     files = [
         {"file": file, "diagnostics": [asdict(diagnostic) for diagnostic in diagnostics]}
-        for file, diagnostics in found.items()
+        for file, diagnostics in file_diagnostics.items()
     ]
     return json.dumps({"files": files, "n_errors": n_errors}, indent=1)
 
 
-def _count(number: int) -> str:
+def _format_count(number: int) -> str:
     return {0: "no errors", 1: "1 error"}.get(number, f"{number} errors")

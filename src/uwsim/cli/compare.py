@@ -11,7 +11,7 @@ from typing import Annotated
 import typer
 
 from ..base.terminal import clean_text
-from .options.help_texts import COMPARED, OUTPUT, in_group
+from .options.help_texts import COMPARISON, OUTPUT, option
 from .options.options import JsonOption
 from .output.console import standard_output
 
@@ -19,77 +19,73 @@ Results = Annotated[
     list[Path],
     typer.Argument(
         metavar="RESULT",
-        help="Result directories, or their result.json; or one with the results of several "
-        "algorithms.",
+        help="Result directories, or their result.json; or one directory with the results of "
+        "several algorithms.",
     ),
 ]
 
 
 @dataclass(frozen=True, kw_only=True)
 class CompareOptions:
-    """What is compared, and how."""
+    """The results to compare, and the method."""
 
     measure: Annotated[
         str | None,
-        in_group(
-            COMPARED,
+        option(
+            COMPARISON,
             "--measure",
             metavar="NAME",
-            help="What is compared: a column of the results, as corners or corners.max; without "
-            "it the score.",
+            help="The column of the results to compare, as corners or corners.max; without it the "
+            "score.",
         ),
     ] = None
     baseline: Annotated[
         Path | None,
-        in_group(
-            COMPARED,
+        option(
+            COMPARISON,
             "--baseline",
             metavar="RESULT",
-            help="Compare every other result with this one; without it each with each.",
+            help="Compare every other result with this one; without it all pairs.",
         ),
     ] = None
     higher_is_better: Annotated[
-        bool,
-        in_group(COMPARED, "--higher-is-better", help="Larger values are better."),
+        bool, option(COMPARISON, "--higher-is-better", help="Larger values are better.")
     ] = False
     force: Annotated[
         bool,
-        in_group(
-            COMPARED, "--force", help="Compare results of different experiments, with a warning."
+        option(
+            COMPARISON, "--force", help="Compare results of different experiments, with a warning."
         ),
     ] = False
 
 
 @dataclass(frozen=True, kw_only=True)
-class PlaceOptions:
-    """Where the comparison goes."""
+class ComparisonOutput:
+    """The directory of the comparison."""
 
-    out: Annotated[Path, in_group(OUTPUT, "--out", metavar="DIR", help="Output directory.")] = Path(
+    out: Annotated[Path, option(OUTPUT, "--out", metavar="DIR", help="Output directory.")] = Path(
         "comparison"
     )
     overwrite: Annotated[
-        bool, in_group(OUTPUT, "--overwrite", help="Replace an earlier comparison in --out.")
+        bool, option(OUTPUT, "--overwrite", help="Replace an earlier comparison in --out.")
     ] = False
 
 
 def compare(
-    results: Results,
-    options: CompareOptions,
-    place: PlaceOptions,
-    as_json: JsonOption = False,
+    results: Results, options: CompareOptions, output: ComparisonOutput, as_json: JsonOption = False
 ) -> None:
     """Report which of several results is better, by how much, and with what confidence.
 
     Rows are paired by seed and level: run every algorithm with the same --seed and --repeat, as
-    `uwsim bench visibility --algorithm esm --repeat 12 --out esm.result`. For each level and for
-    the whole sweep it reports the mean difference with its 95 % interval, effect sizes, paired
-    tests corrected by Holm, success rates, and how many repeats would be needed where no difference
-    is shown. Rows without a value are counted, not imputed. A difference cannot be significant with
-    fewer than six repeats; more are needed where many levels are tested.
+    `uwsim bench visibility --algorithm esm --repeat 12 --out esm.result`. Each level and the whole
+    sweep have the mean difference with its 95 % interval, effect sizes, paired tests corrected by
+    Holm, and success rates. Where no difference is significant, it reports the number of repeats
+    that would show one. Rows without a value are counted, not imputed. A significant difference
+    needs at least six repeats, and more for many levels.
 
-    Results whose benchmark, scene, models, mode, timestep, compatibility or settings of the scene
-    differ are refused. Written: comparison.json, comparison.csv, comparison.html, plots as PNG and
-    PDF. What the numbers mean: docs/statistics.md.
+    Results of different benchmarks, scenes, models, modes, timesteps, compatibility or settings of
+    the scene are an error. It writes comparison.json, comparison.csv, comparison.html, plots as PNG
+    and PDF. docs/statistics.md explains the numbers.
     """
     from ..analysis.comparison import compare_files, write_comparison
     from ..analysis.comparison.document import json_text
@@ -97,7 +93,7 @@ def compare(
     from ..analysis.comparison.write import FOLDERS, OURS
     from ..results.directory import clear_directory
 
-    paths, baseline = with_baseline(each_of(results), options.baseline)
+    paths, baseline = add_baseline(expand_results(results), options.baseline)
     comparison = compare_files(
         paths,
         column=options.measure,
@@ -105,8 +101,8 @@ def compare(
         higher_is_better=options.higher_is_better,
         force=options.force,
     )
-    out = place.out
-    clear_directory(out, overwrite=place.overwrite, pattern=OURS, folders=FOLDERS)
+    out = output.out
+    clear_directory(out, overwrite=output.overwrite, pattern=OURS, folders=FOLDERS)
     if comparison.forced:
         warning = f"warning: not of one experiment: {'; '.join(comparison.forced)}"
         print(clean_text(warning), file=sys.stderr)
@@ -122,18 +118,18 @@ def compare(
     print(f"written: {out}/comparison.json, comparison.csv, plots; page: {page}")
 
 
-def each_of(paths: Sequence[Path]) -> list[Path]:
-    """Return the results that are meant: of a directory with several, as bench writes it, all."""
-    found: list[Path] = []
+def expand_results(paths: Sequence[Path]) -> list[Path]:
+    """Return the results; a directory with the results of several algorithms gives all of these."""
+    results: list[Path] = []
     for path in paths:
-        inside = sorted(file.parent for file in path.glob("*/result.json"))
+        result_paths = sorted(file.parent for file in path.glob("*/result.json"))
         is_result = (path / "result.json").exists()
-        found += inside if len(inside) > 1 and not is_result else [path]
-    return found
+        results += result_paths if len(result_paths) > 1 and not is_result else [path]
+    return results
 
 
-def with_baseline(results: list[Path], baseline: Path | None) -> tuple[list[Path], int | None]:
-    """Return the results with the baseline among them, and its place."""
+def add_baseline(results: list[Path], baseline: Path | None) -> tuple[list[Path], int | None]:
+    """Return the results with the baseline among them, and its index."""
     if baseline is None:
         return results, None
     from ..results.result_file import file_of

@@ -9,7 +9,7 @@ import typer
 
 from ..assets.bundled import bundled_files
 from .options.completion import copied_names
-from .options.help_texts import OUTPUT, in_group
+from .options.help_texts import OUTPUT, option
 from .output.console import Console
 
 
@@ -25,11 +25,11 @@ def copy(
     folder: Annotated[
         Path | None,
         typer.Argument(
-            metavar="FOLDER", help="Where the copies go; a new folder NAME when left out."
+            metavar="FOLDER", help="The folder of the copies; without it a new folder NAME."
         ),
     ] = None,
     overwrite: Annotated[
-        bool, in_group(OUTPUT, "--overwrite", help="Replace files that exist already.")
+        bool, option(OUTPUT, "--overwrite", help="Replace files that exist already.")
     ] = False,
 ) -> None:
     """Copy a bundled scene or benchmark, with the files that it reads, into a folder to edit.

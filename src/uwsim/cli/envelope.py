@@ -1,4 +1,4 @@
-"""``uwsim envelope``: the level at which a benchmark breaks, with its bound."""
+"""``uwsim envelope``: the level at which a benchmark fails, with its bound."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from ..envelope.search_request import SearchRequest, search_request
 from ..errors import BadSetting, ErrorCollector
 from ..runs.planning.plan_request import PlanRequest
 from .options.completion import algorithm_names
-from .options.help_texts import INPUT, OUTPUT, RUN, SEARCH, in_group
+from .options.help_texts import INPUT, OUTPUT, RUN, SEARCH, option
 from .options.levels import read_levels
-from .options.options import CodeOptions, SettingOptions, TaskOptions, WorkerOptions, request_of
+from .options.options import CodeOptions, SettingOptions, TaskOptions, WorkerOptions, make_request
 from .output.progress import progress
 
 if TYPE_CHECKING:
@@ -29,40 +29,48 @@ MAX_REPEATS = 1000
 
 @dataclass(frozen=True, kw_only=True)
 class SearchOptions:
-    """What is searched for."""
+    """The search and its criterion."""
 
-    over: Annotated[
+    parameter: Annotated[
         str,
-        in_group(
+        option(
             SEARCH,
             "--over",
             metavar="PARAMETER",
-            help="The swept parameter of the benchmark that is searched, as fog.",
+            help="The swept parameter of the benchmark to search, as fog.",
         ),
     ]
-    until: Annotated[
+    criterion: Annotated[
         str,
-        in_group(
+        option(
             SEARCH,
             "--until",
             metavar="CRITERION",
-            help="When a run counts as broken, in the language of scores: corners > 5 "
+            help="The criterion of a failed run, in the language of scores: corners > 5 "
             "[status != ok].",
         ),
     ] = "status != ok"
-    start: Annotated[
+    range_start: Annotated[
         float | None,
-        in_group(
-            SEARCH, "--from", metavar="A", help="Near end, where it passes [first of the sweep]."
+        option(
+            SEARCH,
+            "--from",
+            metavar="A",
+            help="Near end of the range, where it passes [first of the sweep].",
         ),
     ] = None
-    stop: Annotated[
+    range_end: Annotated[
         float | None,
-        in_group(SEARCH, "--to", metavar="B", help="Far end, where it fails [last of the sweep]."),
+        option(
+            SEARCH,
+            "--to",
+            metavar="B",
+            help="Far end of the range, where it fails [last of the sweep].",
+        ),
     ] = None
     tolerance: Annotated[
         float | None,
-        in_group(
+        option(
             SEARCH,
             "--tolerance",
             metavar="T",
@@ -71,7 +79,7 @@ class SearchOptions:
     ] = None
     confidence: Annotated[
         float,
-        in_group(
+        option(
             SEARCH,
             "--confidence",
             metavar="C",
@@ -80,7 +88,7 @@ class SearchOptions:
     ] = 0.95
     level: Annotated[
         list[str] | None,
-        in_group(
+        option(
             SEARCH,
             "--level",
             metavar="NAME=VALUE",
@@ -91,27 +99,25 @@ class SearchOptions:
 
 @dataclass(frozen=True, kw_only=True)
 class EnvelopeOptions:
-    """What ``uwsim envelope`` takes."""
+    """The options of ``uwsim envelope``."""
 
     task: TaskOptions
     search: SearchOptions
     algorithm: Annotated[
         str | None,
-        in_group(
+        option(
             INPUT,
             "--algorithm",
             metavar="NAME|module:Class",
-            help="What is tested; without it the one that the benchmark names.",
+            help="Algorithm under test; without it that of the benchmark.",
             autocompletion=algorithm_names,
         ),
     ] = None
     changes: SettingOptions
-    seed: Annotated[
-        int, in_group(RUN, "--seed", metavar="N", min=0, help="Seed of the first search.")
-    ] = 0
+    seed: Annotated[int, option(RUN, "--seed", metavar="N", min=0, help="First seed.")] = 0
     repeat: Annotated[
         int,
-        in_group(
+        option(
             RUN,
             "--repeat",
             metavar="K",
@@ -119,34 +125,32 @@ class EnvelopeOptions:
             help="Search with K seeds, SEED ... SEED+K-1; 95 % needs six.",
         ),
     ] = 10
-    by: WorkerOptions
+    processes: WorkerOptions
     out: Annotated[
         Path | None,
-        in_group(OUTPUT, "--out", metavar="DIR", help="Output directory [./NAME.envelope]."),
+        option(OUTPUT, "--out", metavar="DIR", help="Output directory [./NAME.envelope]."),
     ] = None
-    resume: Annotated[
-        bool, in_group(OUTPUT, "--resume", help="Use the runs that are in --out already.")
-    ] = False
+    resume: Annotated[bool, option(OUTPUT, "--resume", help="Reuse the runs in --out.")] = False
     overwrite: Annotated[
-        bool, in_group(OUTPUT, "--overwrite", help="Replace an earlier envelope in --out.")
+        bool, option(OUTPUT, "--overwrite", help="Replace an earlier envelope in --out.")
     ] = False
-    files: CodeOptions
+    code: CodeOptions
 
     @property
     def directory(self) -> Path:
-        """Where the envelope goes."""
+        """The directory of the envelope."""
         return self.out or Path(f"{Path(self.task.benchmark).stem}.envelope")
 
     @property
     def seeds(self) -> tuple[int, ...]:
-        """One a search."""
+        """The seed of each search."""
         return tuple(range(self.seed, self.seed + self.repeat))
 
-    def plan_requests(self, wrong: ErrorCollector) -> list[PlanRequest]:
-        """Return what is asked for of each run, none with an error; collects errors."""
-        with wrong.collect():
+    def plan_requests(self, errors: ErrorCollector) -> list[PlanRequest]:
+        """Return the request of the runs; collect errors and return none after an error."""
+        with errors.collect():
             request = replace(
-                request_of(self.task, self.changes, self.files),
+                make_request(self.task, self.changes, self.code),
                 algorithm=self.algorithm,
                 seed=self.seed,
                 mode="independent",
@@ -158,33 +162,33 @@ class EnvelopeOptions:
 def envelope(context: typer.Context, options: EnvelopeOptions) -> None:
     """Find the level at which a benchmark fails: a number, its unit and its confidence bound.
 
-    Each seed is searched by bisection, every level run alone (mode independent). A run counts as
-    broken where the criterion is not 0 or its status is not ok. A criterion that uses the status
-    decides alone: 'status == lost', with the names ok, lost, timeout, collision and error. The
-    result is the median of the seeds' breaking points, with its exact confidence limits; 95 % needs
-    at least six seeds. A benchmark that does not break up to B, and a criterion that is not
-    monotonic, are reported.
+    Each seed is searched by bisection, with each level run alone (mode independent). A run is
+    broken if the criterion is not 0 or its status is not ok. A criterion with the status replaces
+    both: 'status == lost', with the names ok, lost, timeout, collision and error. The result is the
+    median of the seeds' breaking points, with its exact confidence limits; 95 % needs at least six
+    seeds. A benchmark that does not break up to B, and a criterion that is not monotonic, are
+    reported.
 
-    Writes envelope.json (reproducible byte for byte, with every run) and envelope.png. With
+    It writes envelope.json (reproducible byte for byte, with every run) and envelope.png. With
     --resume the runs in --out are reused, also for another criterion, range, tolerance or number of
     seeds.
     """
     from ..envelope import plan_for
     from ..runs.execute import plan_all, prepare_execution
 
-    wrong, request, search = ErrorCollector(), None, options.search
-    workers = options.by.workers
-    requests = options.plan_requests(wrong)
-    executor, plans = plan_all(requests, workers, options.by.callback_limit, wrong)
-    with wrong.collect():
+    errors, request, search = ErrorCollector(), None, options.search
+    workers = options.processes.workers
+    requests = options.plan_requests(errors)
+    executor, plans = plan_all(requests, workers, options.processes.callback_limit, errors)
+    with errors.collect():
         check_numbers(search.confidence, options.repeat)
-    chosen = read_levels(search.level, wrong)
-    with wrong.collect():
+    levels = read_levels(search.level, errors)
+    with errors.collect():
         check_directory(options.directory, resume=options.resume, overwrite=options.overwrite)
     for plan in plans:
-        ends = (search.start, search.stop, search.tolerance)
-        request = search_request(plan, search.over, search.until, ends, chosen, wrong)
-    wrong.raise_errors()
+        ends = (search.range_start, search.range_end, search.tolerance)
+        request = search_request(plan, search.parameter, search.criterion, ends, levels, errors)
+    errors.raise_errors()
     assert request is not None
     execution = prepare_execution(
         [plan_for(plan) for plan in plans],
@@ -194,50 +198,48 @@ def envelope(context: typer.Context, options: EnvelopeOptions) -> None:
         command=context.obj,
     )
     raise_on_interrupt()
-    search_and_write(execution, request, options)
+    run_search(execution, request, options)
 
 
 def check_numbers(confidence: float, repeat: int) -> None:
-    """Refuse invalid numbers of a search; raises BadSetting."""
+    """Raise BadSetting for invalid numbers of a search."""
     if not 0.0 < confidence < 1.0:
         raise BadSetting(f"--confidence is {confidence:g}; expected more than 0 and less than 1.")
     if repeat > MAX_REPEATS:
-        raise BadSetting(f"--repeat {repeat}: at most {MAX_REPEATS}.")
+        raise BadSetting(f"--repeat {repeat}: expected at most {MAX_REPEATS}.")
 
 
-def search_and_write(
-    execution: Execution, request: SearchRequest, options: EnvelopeOptions
-) -> None:
+def run_search(execution: Execution, request: SearchRequest, options: EnvelopeOptions) -> None:
     """Search, write and print the result."""
     from ..envelope.find import find, max_runs
     from ..envelope.plot import draw
     from ..runs.execute import begin_runs
 
     [run], directory = execution.runs, options.directory
-    asked = request.settings(options.seeds, options.search.confidence)
+    settings = request.settings(options.seeds, options.search.confidence)
     with begin_runs(
         execution, prepare_directory(directory, resume=options.resume, overwrite=options.overwrite)
     ):
-        title, most = f"{execution.title}, at most", max_runs(asked)
-        with progress(title, most, of="runs", at_once=options.by.at_once) as on_run:
-            envelope = find(run, request, asked, execution.executor, on_run)
+        title, n_max = f"{execution.title}, at most", max_runs(settings)
+        with progress(title, n_max, unit="runs", n_parallel=options.processes.n_parallel) as on_run:
+            envelope = find(run, request, settings, execution.executor, on_run)
         envelope.save(directory)
         draw(envelope, directory)
         execution.save_provenance(run, {"wall_s": execution.stopwatch.elapsed_time()})
-    tell(envelope, directory)
+    print_envelope(envelope, directory)
 
 
-def tell(envelope: Envelope, directory: Path) -> None:
-    """Print what was found."""
+def print_envelope(envelope: Envelope, directory: Path) -> None:
+    """Print the result."""
     from ..envelope.criterion import reasons
 
     lines = [envelope.sentence]
-    by = reasons(e.judgement for e in envelope.evaluations)
-    n_broken = sum(by.values())
-    why = f": {', '.join(f'{name} {n}' for name, n in by.items())}" if by else ""
+    counts = reasons(e.judgement for e in envelope.evaluations)
+    n_broken = sum(counts.values())
+    summary = f": {', '.join(f'{name} {n}' for name, n in counts.items())}" if counts else ""
     n_seeds = len(envelope.settings.seeds)
     seeds = "1 seed" if n_seeds == 1 else f"{n_seeds} seeds"
-    lines.append(f"{seeds}, {len(envelope.evaluations)} runs, {n_broken} broken{why}")
+    lines.append(f"{seeds}, {len(envelope.evaluations)} runs, {n_broken} broken{summary}")
     lines += [f"warning: {warning}" for warning in envelope.warnings]
     lines.append(f"written: {directory}/envelope.json, envelope.png")
     typer.echo(clean_text("\n".join(lines)))

@@ -9,39 +9,39 @@ from ..base.exceptions import system_error_text
 from ..base.terminal import clean_text
 from ..errors import RUN_ERRORS, FileError, SeveralErrors, UwsimError
 
-WRONG_INPUT = 2
+INVALID_INPUT = 2
 RUN_FAILED = 3
-INTERRUPTED = interrupts.INTERRUPTED_STATUS
+INTERRUPT_STATUS = interrupts.INTERRUPTED_STATUS
 
 
 def exit_status(error: BaseException) -> int:
     """Return the exit status of ``error``."""
     if isinstance(error, KeyboardInterrupt):
-        return INTERRUPTED
+        return INTERRUPT_STATUS
     if isinstance(error, RUN_ERRORS):
         return RUN_FAILED
     if isinstance(error, UwsimError | typer.TyperException):
-        return WRONG_INPUT
+        return INVALID_INPUT
     if isinstance(error, FileNotFoundError | FileExistsError | PermissionError):
-        return WRONG_INPUT
+        return INVALID_INPUT
     if isinstance(error, IsADirectoryError | NotADirectoryError):
-        return WRONG_INPUT
+        return INVALID_INPUT
     return RUN_FAILED
 
 
-def one_line(error: BaseException) -> str:
+def format_error(error: BaseException) -> str:
     """Return the message of an error; a file has one line for each of its errors."""
     if isinstance(error, KeyboardInterrupt | typer.Abort):
-        return "uwsim: interrupted; what was finished is kept."
+        return "uwsim: interrupted; finished results are kept."
     if isinstance(error, SeveralErrors):
-        return "\n".join(one_line(each) for each in error.errors)
+        return "\n".join(format_error(part) for part in error.errors)
     if isinstance(error, FileError):
         return clean_text(str(error))
     if isinstance(error, typer.TyperException):
         message = error.format_message()
         context = getattr(error, "ctx", None)
         if message.startswith("Missing") and context is not None:
-            message = f"{message.rstrip('.')}; {context.command_path} -h shows what it takes."
+            message = f"{message.rstrip('.')}; {context.command_path} -h shows its options."
     elif isinstance(error, UwsimError):
         message = str(error)
     elif isinstance(error, OSError) and error.filename is not None:

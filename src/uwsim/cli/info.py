@@ -34,9 +34,9 @@ DRAG_LAWS = {
     "z": "by the speed across the z axis",
     "matrix": "by a full matrix",
 }
-"""``dragLaw`` of a hydrodynamics file, in words."""
+"""The descriptions of ``dragLaw`` of a hydrodynamics file."""
 COLUMNS = 160
-"""Width where standard output is no terminal."""
+"""The width of standard output that is no terminal [characters]."""
 Fields = Mapping[str, Any]
 
 
@@ -47,11 +47,11 @@ def info(
     as_json: JsonOption = False,
     data_path: DataPathOption = None,
 ) -> None:
-    """Show what is in a scene: vehicles, cameras, sensors, topics, services, water, floor.
+    """Show the content of a scene: vehicles, cameras, sensors, topics, services, water, floor.
 
     Positions are in the file's frame, as in the file and on topics, in metres and radians. The
-    floor is searched straight below each vehicle's origin. Elements that are read and not simulated
-    are listed last.
+    floor is that straight below each vehicle's origin. Elements that are read and not simulated are
+    listed last.
     """
     from ..physics.compile_scene import compile_scene
     from ..scene.reader import read_scene
@@ -61,55 +61,55 @@ def info(
 
     folders = tuple(data_path or ())
     path = scene_file(scene, folders)
-    wrong = ErrorCollector()
-    pairs = pairs_of([*(settings or ()), *xacro_settings(xacro)], wrong)
+    errors = ErrorCollector()
+    pairs = pairs_of([*(settings or ()), *xacro_settings(xacro)], errors)
     arguments = xacro_arguments(pairs)
     spec = read_scene(path, data_path=folders, arguments=arguments)
     for name, value in pairs:
-        with wrong.collect():
+        with errors.collect():
             spec = apply_setting(spec, name, value)
-    wrong.raise_errors()
+    errors.raise_errors()
     simulation = Simulation(
         compile_scene(spec.nominal_scene, data_path=folders), is_blind=True, runs_code=False
     )
     try:
-        found = inventory(
+        content = inventory(
             spec, simulation, check_file(path, data_path=folders, arguments=arguments)
         )
     finally:
         simulation.close()
     if as_json:
-        print(json.dumps(found, indent=1))
+        print(json.dumps(content, indent=1))
         return
     console = standard_output(COLUMNS)
-    for part in drawn(found):
+    for part in render_parts(content):
         console.print(part)
 
 
-def drawn(found: Fields) -> Iterator[RenderableType]:
-    """Give everything that is printed."""
-    yield Text(clean_text(str(found["file"])), style="bold")
-    yield from _section("frame and water", [_frame(found["frame"]), *_water(found["water"])])
-    for vehicle in found["vehicles"]:
+def render_parts(content: Fields) -> Iterator[RenderableType]:
+    """Yield the parts of the output."""
+    yield Text(clean_text(str(content["file"])), style="bold")
+    yield from _section("frame and water", [_frame(content["frame"]), *_water(content["water"])])
+    for vehicle in content["vehicles"]:
         yield from _section(f"vehicle {vehicle['name']}", _vehicle(vehicle))
-    yield from _table("cameras", map(_camera, found["cameras"]))
-    yield from _table("sensors and lamps that point somewhere", map(_sensor, found["sensors"]))
-    yield from _table("objects", map(_object, found["objects"]))
-    yield from _table("topics", map(_topic, found["topics"]))
-    services = ", ".join(found["services"]) or "none of the scene's own"
+    yield from _table("cameras", map(_camera, content["cameras"]))
+    yield from _table("sensors and lamps that point somewhere", map(_sensor, content["sensors"]))
+    yield from _table("objects", map(_object, content["objects"]))
+    yield from _table("topics", map(_topic, content["topics"]))
+    services = ", ".join(content["services"]) or "none of the scene's own"
     yield from _section(
         "services", [f"{services}; a benchmark offers startBench, stopBench and what it names"]
     )
-    if found["varies"]:
-        yield from _section("differs from seed to seed", map(_varying, found["varies"]))
-    yield from _section("read, not simulated", found["not_simulated"])
-    if found["warnings"]:
-        yield from _section("warnings of uwsim check", found["warnings"])
+    if content["varies"]:
+        yield from _section("differs from seed to seed", map(_variation, content["varies"]))
+    yield from _section("read, not simulated", content["not_simulated"])
+    if content["warnings"]:
+        yield from _section("warnings of uwsim check", content["warnings"])
 
 
-def _varying(one: Fields) -> str:
-    unit = "" if one["unit"] in ("", "1") else f" {one['unit']}"
-    return f"{one['path']}: {one['drawn_from']}{unit}"
+def _variation(variation: Fields) -> str:
+    unit = "" if variation["unit"] in ("", "1") else f" {variation['unit']}"
+    return f"{variation['path']}: {variation['drawn_from']}{unit}"
 
 
 def _section(title: str, lines: Iterable[str]) -> Iterator[RenderableType]:
@@ -133,14 +133,14 @@ def _table(title: str, rows: Iterator[Sequence[str]]) -> Iterator[RenderableType
 
 
 def _frame(frame: Fields) -> str:
-    up = frame["up"] if isinstance(frame["up"], str) else f"along {_numbers(frame['up'])}"
-    return f"up is {up} in the file's frame; offset {_numbers(frame['offset'])} m"
+    up = frame["up"] if isinstance(frame["up"], str) else f"along {_format_numbers(frame['up'])}"
+    return f"up is {up} in the file's frame; offset {_format_numbers(frame['offset'])} m"
 
 
 def _water(water: Fields) -> list[str]:
-    attenuation = _numbers(water["attenuation"])
+    attenuation = _format_numbers(water["attenuation"])
     return [
-        f"surface through {_numbers(water['surface_above_origin'])} m, level",
+        f"surface through {_format_numbers(water['surface_above_origin'])} m, level",
         f"fog {water['fog_density']:g} 1/m; attenuation (red, green, blue) {attenuation} 1/m",
         f"currents: {', '.join(water['currents']) or 'none'}",
     ]
@@ -148,9 +148,9 @@ def _water(water: Fields) -> list[str]:
 
 def _vehicle(vehicle: Fields) -> list[str]:
     lines = [
-        f"{vehicle['file']} at {_numbers(vehicle['position'])} m, "
-        f"turned {_numbers(vehicle['orientation'])} rad; {vehicle['moves']}",
-        f"below it: {_below(vehicle['below'])}",
+        f"{vehicle['file']} at {_format_numbers(vehicle['position'])} m, "
+        f"turned {_format_numbers(vehicle['orientation'])} rad; {vehicle['moves']}",
+        f"below it: {_surfaces_below(vehicle['below'])}",
         f"thrusters: {', '.join(vehicle['thrusters']) or 'none that are simulated'}",
         *_fins(vehicle["fins"]),
         f"links: {', '.join(vehicle['links'])}",
@@ -161,22 +161,22 @@ def _vehicle(vehicle: Fields) -> list[str]:
 
 
 def _fins(fins: Sequence[Fields]) -> Iterator[str]:
-    said = [f"{fin['name']} ({fin['limits'][0]:g} to {fin['limits'][1]:g} rad)" for fin in fins]
-    if said:
-        yield f"fins: {', '.join(said)}"
+    texts = [f"{fin['name']} ({fin['limits'][0]:g} to {fin['limits'][1]:g} rad)" for fin in fins]
+    if texts:
+        yield f"fins: {', '.join(texts)}"
 
 
 def _drag(laws: Mapping[str, str]) -> Iterator[str]:
-    """Which links have which drag law."""
     for law, words in DRAG_LAWS.items():
-        if links := [link for link, one in laws.items() if one == law]:
+        if links := [link for link, link_law in laws.items() if link_law == law]:
             yield f"quadratic drag {words}: {', '.join(links)}"
 
 
-def _below(surfaces: Sequence[Fields]) -> str:
+def _surfaces_below(surfaces: Sequence[Fields]) -> str:
     messages = [
-        f"{each['name']} {each['distance']:.4g} m down, at {_numbers(each['position'])} m"
-        for each in surfaces
+        f"{surface['name']} {surface['distance']:.4g} m down, "
+        f"at {_format_numbers(surface['position'])} m"
+        for surface in surfaces
     ]
     return "; ".join(messages) or "nothing: there is no floor there"
 
@@ -205,15 +205,15 @@ def _sensor(sensor: Fields) -> tuple[str, ...]:
     return sensor["name"], f"<{sensor['kind']}>", place, sensor["points"]
 
 
-def _object(thing: Fields) -> tuple[str, ...]:
-    return thing["name"], thing["file"], f"at {_numbers(thing['position'])} m", thing["kind"]
+def _object(entry: Fields) -> tuple[str, ...]:
+    return entry["name"], entry["file"], f"at {_format_numbers(entry['position'])} m", entry["kind"]
 
 
 def _topic(topic: Fields) -> tuple[str, ...]:
     rate = f" at {topic['rate_hz']:g} Hz" if topic["rate_hz"] else ""
-    what = topic["limit"] or topic["type"] or ""
-    return topic["topic"], f"{topic['direction']}{rate}", what, topic["of"], topic["interface"]
+    content = topic["limit"] or topic["type"] or ""
+    return topic["topic"], f"{topic['direction']}{rate}", content, topic["of"], topic["interface"]
 
 
-def _numbers(values: Sequence[float]) -> str:
+def _format_numbers(values: Sequence[float]) -> str:
     return "(" + ", ".join(f"{value:.4g}" for value in values) + ")"

@@ -1,4 +1,4 @@
-"""Options of the original UWSim, which its scripts use: the error names today's command.
+"""Options of the original UWSim, which its scripts use: the error names the present command.
 
 .. code-block:: text
 
@@ -12,66 +12,64 @@ from collections.abc import Collection, Sequence
 
 from ..errors import BadSetting
 
-OF_OCEAN = (
+OCEAN_OPTIONS = (
     *("--windx", "--windy", "--windSpeed", "--reflectionDamping", "--waveScale"),
     *("--choppyFactor", "--crestFoamHeight", "--oceanSurfaceHeight"),
 )
-"""Options with a value that ``<oceanState>`` has, too."""
-OF_WINDOW = ("--resw", "--resh")
-"""Options with a value that ``<simParams>`` has, too."""
-FLAGS = (
+"""The options whose value ``<oceanState>`` has, too."""
+WINDOW_OPTIONS = ("--resw", "--resh")
+"""The options whose value ``<simParams>`` has, too."""
+FLAG_OPTIONS = (
     *("--disableShaders", "--disableTextures", "--freeMotion", "--fullScreen"),
     *("--isNotChoppy", "--debugPhysics"),
 )
-"""Options without a counterpart: of the original's window, most of them."""
+"""The options without a counterpart, mostly of the original's window."""
 SCENE, BENCHMARK, FOLDER, DEPTH = "--configfile", "--benchmark", "--dataPath", "--depth"
 DEFAULT_SCENE = "cirs"
-"""What the original opens without a scene."""
+"""The scene that the original opens by default."""
 
 
-def refuse_old_options(arguments: Sequence[str], commands: Collection[str]) -> None:
-    """Raise BadSetting, which names today's command, where an option of the original is given.
+def reject_old_options(arguments: Sequence[str], commands: Collection[str]) -> None:
+    """Raise BadSetting, which names the present command, for an option of the original.
 
     Args:
         arguments: the words of the command line.
-        commands: names of today's commands.
+        commands: the names of the present commands.
     """
     names = [word.partition("=")[0] for word in arguments]
-    known = (SCENE, FOLDER, *OF_OCEAN, *OF_WINDOW, *FLAGS)
-    found = [name for name in names if name in known]
-    if arguments and arguments[0] not in commands and (found or BENCHMARK in names):
-        raise BadSetting(_todays_command(list(arguments)))
-    if found:
-        replaced = "; ".join(dict.fromkeys(f"{name}: {_todays_option(name)}" for name in found))
-        raise BadSetting(f"an option of the original UWSim. {replaced}.")
+    old_names = (SCENE, FOLDER, *OCEAN_OPTIONS, *WINDOW_OPTIONS, *FLAG_OPTIONS)
+    given_names = [name for name in names if name in old_names]
+    if arguments and arguments[0] not in commands and (given_names or BENCHMARK in names):
+        raise BadSetting(_present_command(list(arguments)))
+    if given_names:
+        texts = dict.fromkeys(f"{name}: {_present_option(name)}" for name in given_names)
+        raise BadSetting(f"an option of the original UWSim. {'; '.join(texts)}.")
 
 
-def _todays_option(name: str) -> str:
-    """Describe what an option of the original is called today."""
+def _present_option(name: str) -> str:
     if name == SCENE:
-        return "today the scene has no option, as in uwsim run FILE"
+        return "now the scene is an argument, as in uwsim run FILE"
     if name == FOLDER:
-        return "today --data-path DIR"
-    if name in FLAGS:
-        return "there is none today"
-    return f"today {' '.join(_setting(name, 'VALUE'))}"
+        return "now --data-path DIR"
+    if name in FLAG_OPTIONS:
+        return "now there is none"
+    return f"now {' '.join(_setting(name, 'VALUE'))}"
 
 
 def _setting(name: str, value: str) -> list[str]:
-    element = "simParams" if name in OF_WINDOW else "oceanState"
+    element = "simParams" if name in WINDOW_OPTIONS else "oceanState"
     return ["--set", f"{element}.{name.removeprefix('--')}={value}"]
 
 
-def _todays_command(arguments: list[str]) -> str:
-    """Describe the command that replaces a command line of the original."""
+def _present_command(arguments: list[str]) -> str:
     scene, benchmark = DEFAULT_SCENE, ""
     options: list[str] = []
-    left_out: list[str] = []
+    omitted_words: list[str] = []
     while arguments:
         word = arguments.pop(0)
         name, has_value, value = word.partition("=")
-        if name not in (SCENE, BENCHMARK, FOLDER, DEPTH, *OF_OCEAN, *OF_WINDOW):
-            left_out.append(word)
+        if name not in (SCENE, BENCHMARK, FOLDER, DEPTH, *OCEAN_OPTIONS, *WINDOW_OPTIONS):
+            omitted_words.append(word)
             continue
         if not has_value:
             value = arguments.pop(0) if arguments else "..."
@@ -86,9 +84,9 @@ def _todays_command(arguments: list[str]) -> str:
     else:
         command = ["uwsim", "run", scene, *options]
     ending = "" if benchmark else "; --ros1 or --ros2 connects it to ROS, --view shows it"
-    if left_out:
-        ending += f". There is none today of: {' '.join(left_out)}"
+    if omitted_words:
+        ending += f". Options without a counterpart: {' '.join(omitted_words)}"
     return (
-        "these are options of the original UWSim. Today's command is: "
+        "these are options of the original UWSim. The command is now: "
         f"{shlex.join(command)}{ending}."
     )

@@ -1,4 +1,4 @@
-"""``uwsim play``: put a recording onto the bus, alone or in a scene."""
+"""``uwsim play``: publish a recording on the bus, alone or in a scene."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from ..base.terminal import print_warnings, warn
 from ..errors import ErrorCollector
 from ..runs.foreign_code import announce_code, refuse_code
 from ..runs.stand_ins import warn_of_stand_ins
-from .options.connections import ConnectionOptions, connected
-from .options.help_texts import INPUT, in_group
+from .options.connections import ConnectionOptions, open_connections
+from .options.help_texts import INPUT, option
 from .options.options import DataPathOption, NoCodeOption, SettingOptions
 from .options.run_options import ProgramOptions, RecordOptions, SeedOption
-from .render import scene_of
-from .run import run_and_report, settings_of_scene, wanted_of
+from .render import load_scene
+from .run import check_run_options, run_and_report, scene_settings
 
 if TYPE_CHECKING:
     from ..middleware.recording import BagReader, Player
@@ -35,19 +35,21 @@ def play(
     ],
     scene: Annotated[
         str | None,
-        typer.Argument(metavar="SCENE", help="A scene that runs along; without it none."),
+        typer.Argument(
+            metavar="SCENE", help="A scene that runs with the recording; without it none."
+        ),
     ] = None,
     *,
     commands: Annotated[
         bool,
-        in_group(
+        option(
             INPUT,
             "--commands",
-            help="Vehicles of the scene obey the recorded commands instead of following the "
+            help="Vehicles of the scene apply the recorded commands instead of following the "
             "recorded odometry.",
         ),
     ] = False,
-    what: ProgramOptions,
+    program_options: ProgramOptions,
     changes: SettingOptions,
     connections: ConnectionOptions,
     seed: SeedOption = 0,
@@ -55,12 +57,12 @@ def play(
     no_code: NoCodeOption = False,
     data_path: DataPathOption = None,
 ) -> None:
-    """Put the messages of a recording onto the bus, each at its time, and list the topics.
+    """Publish the messages of a recording on the bus, each at its time, and list the topics.
 
-    Alone, its topics are there for your --program, for programs outside (--ros1, --ros2, --web),
-    and for --record, which so turns a .bag into an .mcap and back. With a scene its vehicles are
-    ghosts: they follow the recorded odometry and joint states, and the scene's sensors see what
-    they would have seen. What both have is played as /recorded/TOPIC. With --commands the recorded
+    Without a scene, your --program and external programs (--ros1, --ros2, --web) use its topics.
+    --record writes them. It also converts a .bag to an .mcap and back. With a scene its vehicles
+    are ghosts: they follow the recorded odometry and joint states. The scene's sensors measure
+    along that motion. Topics of both are played as /recorded/TOPIC. With --commands the recorded
     commands drive the vehicles.
     """
     from ..checks import model_warnings
@@ -70,16 +72,16 @@ def play(
     from ..simulation import Simulation
 
     folders = tuple(data_path or ())
-    wrong = ErrorCollector()
-    settings = settings_of_scene(changes)
+    errors = ErrorCollector()
+    settings = scene_settings(changes)
     spec = SceneSpec(path=str(recording))
-    with wrong.collect():
+    with errors.collect():
         if scene is not None:
-            spec = scene_of(scene, folders, settings, wrong) or spec
+            spec = load_scene(scene, folders, settings, errors) or spec
             if no_code:
                 refuse_code(spec)
-    wanted = wanted_of(what, output, changes, connections, wrong)
-    wrong.raise_errors()
+    run_settings = check_run_options(program_options, output, changes, connections, errors)
+    errors.raise_errors()
     announce_code(spec)
     warn_of_stand_ins(spec, folders)
     model = compile_scene(spec, seed=seed, data_path=folders)
@@ -87,25 +89,25 @@ def play(
         print_warnings(model_warnings(model))
         for topic, type_name in reader.left_out.items():
             warn(f"{topic} is not played: {type_name} has no message definition here")
-        player = player_of(reader, simulation, commands)
+        player = make_player(reader, simulation, commands)
         simulation.attach(player, name="recording")
-        if what.duration is None:
-            wanted = replace(wanted, duration=reader.duration)
+        if program_options.duration is None:
+            run_settings = replace(run_settings, duration=reader.duration)
         raise_on_interrupt()
-        with connected(simulation, connections):
-            run_and_report(simulation, spec, wanted, output)
+        with open_connections(simulation, connections):
+            run_and_report(simulation, spec, run_settings, output)
 
 
-def player_of(reader: BagReader, simulation: Simulation, obeys: bool) -> Player:
-    """Return what plays the recording in a scene, with its ghosts."""
+def make_player(reader: BagReader, simulation: Simulation, applies_commands: bool) -> Player:
+    """Return the player of the recording in a scene, with its ghosts."""
     from ..middleware.recording import Player
     from ..simulation.ghosts import commanded_topics, follow_recorded, odometry_vehicles
 
-    published = {f"/{name}" for name in simulation.topics if _is_published(simulation, name)}
-    recorded = frozenset(reader.topics)
-    ghosts = () if obeys else odometry_vehicles(simulation, recorded)
+    bus_topics = {f"/{name}" for name in simulation.topics if _is_published(simulation, name)}
+    recorded_topics = frozenset(reader.topics)
+    ghosts = () if applies_commands else odometry_vehicles(simulation, recorded_topics)
     left_out = commanded_topics(simulation, ghosts)
-    player = Player(reader, simulation.timestep, bus_topics=published, left_out=left_out)
+    player = Player(reader, simulation.timestep, bus_topics=bus_topics, left_out=left_out)
     if ghosts:
         follow_recorded(simulation, player.topics)
     return player

@@ -13,10 +13,10 @@ import typer
 from ..base.interrupts import raise_on_interrupt
 from ..base.terminal import warn
 from ..errors import BadSetting, ErrorCollector
-from .options.help_texts import FILES, INPUT, OUTPUT, in_group
+from .options.help_texts import FILES, INPUT, OUTPUT, option
 from .options.options import DataPathOption, ResultArgument
 from .output.progress import progress
-from .views import size_of
+from .views import read_size
 
 if TYPE_CHECKING:
     from ..viewer.film.film import FilmSpec
@@ -24,36 +24,36 @@ if TYPE_CHECKING:
     from ..viewer.replay import Replay
 
 MIN_SIDE, MAX_SIDE = 160, 7680
-"""Least and greatest width and height of a film [px]."""
+"""The least and greatest width and height of a film [px]."""
 MAX_RATE = 120.0
-"""Most images a second of a film [Hz]."""
+"""The greatest frame rate of a film [Hz]."""
 WEBP_RATE = 10.0
-"""Images a second of a WebP, unless --fps says otherwise [Hz]."""
+"""The default frame rate of a WebP [Hz]."""
 RECORDING = ".mcap"
-"""Ending of a recording for 3-D panels."""
+"""The suffix of a recording for 3-D panels."""
 FILM_RATE = 30.0
-"""Of the other films [Hz]."""
+"""The default frame rate of the other films [Hz]."""
 N_NAMED = 5
-"""Files named in a warning."""
+"""The number of files named in a warning."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class TrialOptions:
-    """Which part of which trial."""
+    """The trial, and the part of it."""
 
     trial: Annotated[
         int | None,
-        in_group(
+        option(
             INPUT,
             "--trial",
             metavar="N",
             min=0,
-            help="Number of the trial, as of units/N.motion; without it all of the first seed.",
+            help="Number of the trial, as in units/N.motion; without it all of the first seed.",
         ),
     ] = None
     start: Annotated[
         float | None,
-        in_group(
+        option(
             INPUT,
             "--begin",
             metavar="SECONDS",
@@ -63,7 +63,7 @@ class TrialOptions:
     ] = None
     end: Annotated[
         float | None,
-        in_group(
+        option(
             INPUT,
             "--until",
             metavar="SECONDS",
@@ -75,29 +75,29 @@ class TrialOptions:
 
 @dataclass(frozen=True, kw_only=True)
 class FilmOptions:
-    """How a film looks."""
+    """The properties of a film."""
 
     view: Annotated[
         str,
-        in_group(
+        option(
             INPUT,
             "--view",
             metavar="orbit|chase|fixed|camera",
-            help="A slow orbit, behind the vehicle, from one place, or what a camera sees.",
+            help="A slow orbit, from behind the vehicle, from a fixed point, or of a camera.",
         ),
     ] = "orbit"
     camera: Annotated[
         str | None,
-        in_group(
+        option(
             INPUT,
             "--camera",
             metavar="NAME",
-            help="The virtual camera of the inset, or of --view camera; else the first.",
+            help="The virtual camera of the inset, or of --view camera; without it the first.",
         ),
     ] = None
     curve: Annotated[
         list[str] | None,
-        in_group(
+        option(
             INPUT,
             "--curve",
             metavar="MEASURE",
@@ -105,81 +105,74 @@ class FilmOptions:
             "'success.height'; may be repeated. Without it the first four.",
         ),
     ] = None
-    plain: Annotated[
-        bool, in_group(INPUT, "--plain", help="No inset and no curves: the view alone.")
-    ] = False
+    is_plain: Annotated[bool, option(INPUT, "--plain", help="No inset and no curves.")] = False
     fog: Annotated[
         bool,
-        in_group(
+        option(
             INPUT,
             "--with-fog",
-            help="The view from outside has the water's fog; a camera's image always has.",
+            help="Draw the water's fog in the external view; a camera's image always has it.",
         ),
     ] = False
-    smooth: Annotated[
+    is_smooth: Annotated[
         bool,
-        in_group(
-            OUTPUT, "--smooth", help="Smooth edges in the view from outside; takes twice as long."
-        ),
+        option(OUTPUT, "--smooth", help="Smooth edges in the external view; takes twice as long."),
     ] = False
     size: Annotated[
-        str,
-        in_group(OUTPUT, "--size", metavar="WxH", help="Of the film [px]; even numbers."),
+        str, option(OUTPUT, "--size", metavar="WxH", help="Size of the film [px]; even numbers.")
     ] = "960x720"
     rate: Annotated[
         float | None,
-        in_group(
+        option(
             OUTPUT,
             "--fps",
             metavar="HZ",
-            help="Images a second; without it 30, and 10 of a .webp.",
+            help="Images per second; without it 30, and 10 for a .webp.",
         ),
     ] = None
     speed: Annotated[
         float,
-        in_group(
-            OUTPUT, "--speed", metavar="FACTOR", help="Simulation time in a second of the film."
-        ),
+        option(OUTPUT, "--speed", metavar="FACTOR", help="Simulation time per second of the film."),
     ] = 1.0
 
     def spec(self, part: TrialOptions, out: Path) -> FilmSpec:
-        """Return what they ask for.
+        """Return the spec of the film.
 
         Raises:
-            SeveralErrors: they are wrong.
+            SeveralErrors: options are invalid.
         """
         from ..viewer.film.encoder import WEBP
         from ..viewer.film.film import FilmSpec
         from ..viewer.film.paths import view_kind
 
-        wrong = ErrorCollector()
+        errors = ErrorCollector()
         view, size = view_kind("orbit"), (960, 720)
-        usual = WEBP_RATE if out.suffix.lower() == WEBP else FILM_RATE
-        rate = usual if self.rate is None else self.rate
-        with wrong.collect():
+        default_rate = WEBP_RATE if out.suffix.lower() == WEBP else FILM_RATE
+        rate = default_rate if self.rate is None else self.rate
+        with errors.collect():
             view = view_kind(self.view)
-        with wrong.collect():
-            size = even(size_of(self.size))
-        with wrong.collect():
+        with errors.collect():
+            size = check_film_size(read_size(self.size))
+        with errors.collect():
             if not 0.1 <= rate <= MAX_RATE:
                 raise BadSetting(f"--fps {rate:g}: expected 0.1 to {MAX_RATE:g}.")
-        with wrong.collect():
+        with errors.collect():
             if not 0.01 <= self.speed <= 1000.0:
                 raise BadSetting(f"--speed {self.speed:g}: expected 0.01 to 1000.")
-        wrong.raise_errors()
+        errors.raise_errors()
         return FilmSpec(
             size=size,
             rate=rate,
             speed=self.speed,
             view=view,
             camera=self.camera,
-            inset=not self.plain,
+            inset=not self.is_plain,
             curves=tuple(self.curve or ()),
-            has_curves=not self.plain,
+            has_curves=not self.is_plain,
             start=part.start,
             end=part.end,
             fog=self.fog,
-            samples=2 if self.smooth else 1,
+            samples=2 if self.is_smooth else 1,
         )
 
 
@@ -187,104 +180,101 @@ def replay(
     result: ResultArgument,
     *,
     part: TrialOptions,
-    look: FilmOptions,
+    film: FilmOptions,
     out: Annotated[
         Path | None,
-        in_group(
+        option(
             OUTPUT,
             "--out",
             "-o",
             metavar="FILE",
             help="A page for any browser, .html; or a film: .mp4, .webm (both by ffmpeg, extra "
-            "'film') or .webp; or .mcap for Foxglove and its kin: /tf, shapes and measures of a "
-            "trial. "
+            "'film') or .webp; or .mcap for Foxglove: /tf, shapes and measures of a trial. "
             "Without it the page is served until Ctrl-C.",
         ),
     ] = None,
     port: Annotated[
         int,
-        in_group(
+        option(
             OUTPUT,
             "--port",
             metavar="N",
             min=0,
             max=65535,
-            help="Of the page; 0: any that is free.",
+            help="Port of the page; 0: any free port.",
         ),
     ] = 0,
     overwrite: Annotated[
-        bool, in_group(OUTPUT, "--overwrite", help="Replace an earlier file.")
+        bool, option(OUTPUT, "--overwrite", help="Replace an earlier file.")
     ] = False,
     scene: Annotated[
         Path | None,
-        in_group(
-            FILES, "--scene", metavar="FILE.xml", help="The scene, where it is not found by name."
-        ),
+        option(FILES, "--scene", metavar="FILE.xml", help="The scene, if it is not found by name."),
     ] = None,
     data_path: DataPathOption = None,
 ) -> None:
-    """See a result again: as a page for the browser, or as a film.
+    """Show a result again: as a page for the browser, or as a film.
 
-    Nothing is run again: every bench keeps where everything was (units/N.motion), and the images
-    are drawn from that, with the fog and the light of the moment, without noise. The page has all
-    levels, every view and the curves of all measures, in one file that needs no network; the
-    options from --view to --speed are those of films. Levels are chapters. The same result and
-    options give the same bytes. RESULT/replay.html is linked from the rows of report.html.
+    It does not run the simulation again: every bench stores the poses of all bodies
+    (units/N.motion). The images are drawn from these, with the fog and the light of the moment,
+    without noise. The page has all levels, all views and the curves of all measures, in one file
+    that needs no network. The options from --view to --speed are for films. Levels are chapters.
+    The same result and options give the same bytes. The rows of report.html link to
+    RESULT/replay.html.
     """
     from ..viewer.film.encoder import check_film_path
     from ..viewer.replay import SUFFIXES
 
     folders = tuple(data_path or ())
     if out is None or out.suffix.lower() in SUFFIXES:
-        show_page(opened(result, part.trial, scene, folders), out, overwrite=overwrite, port=port)
+        replay = open_replay(result, part.trial, scene, folders)
+        show_page(replay, out, overwrite=overwrite, port=port)
         return
     if out.suffix.lower() == RECORDING:
-        typer.echo(write_mcap(recorded(result, part.trial, scene, folders)[0], out, overwrite))
+        typer.echo(write_mcap(open_trials(result, part.trial, scene, folders)[0], out, overwrite))
         return
     check_film_path(out, overwrite=overwrite, other_suffixes=(SUFFIXES[0], RECORDING))
-    spec = look.spec(part, out)
-    trials = recorded(result, part.trial, scene, folders)
+    spec = film.spec(part, out)
+    trials = open_trials(result, part.trial, scene, folders)
     typer.echo(write_film(trials, spec, out))
 
 
 def write_mcap(trial: RecordedTrial, out: Path, overwrite: bool) -> str:
-    """Write a trial as a recording, showing progress; returns what was written."""
+    """Write a trial as a recording, showing progress; return a line about it."""
     from ..viewer.recording import check_recording_path, write_recording
 
     check_recording_path(out, overwrite=overwrite)
-    with progress("recording", trial.track.n_frames, of="rows") as on_row:
+    with progress("recording", trial.track.n_frames, unit="rows") as on_row:
         n = write_recording(trial, out, on_row)
     return f"{trial.title}: {n} messages; written: {out}"
 
 
-def opened(
+def open_replay(
     result: Path, index: int | None, scene: Path | None, folders: tuple[Path, ...]
 ) -> Replay:
-    """Open a result for the page; with all trials, or the one chosen."""
+    """Open a result for the page, with all trials or the given one."""
     from ..verify.recorded_plan import FileOverrides
     from ..viewer.replay import Replay
 
     directory = result.parent if result.name == "result.json" else result
     overrides = FileOverrides(scene=scene, data_path=folders)
     replay = Replay(directory, None if index is None else (index,), overrides)
-    warn_of_unseen(
-        directory, replay.trials_without_motion, "their levels are listed, and cannot be seen"
-    )
+    warn_missing_tracks(directory, replay.trials_without_motion, "their levels have no images")
     return replay
 
 
-def warn_of_unseen(directory: Path, unseen: Sequence[int], what: str) -> None:
-    """Name the files that are missing, in one line."""
+def warn_missing_tracks(directory: Path, indices: Sequence[int], consequence: str) -> None:
+    """Warn about missing files in one line."""
     from ..results.journal import FOLDER, track_path
 
-    if unseen:
-        files = ", ".join(track_path(directory, index).name for index in unseen[:N_NAMED])
-        more = f" and {len(unseen) - N_NAMED} more" if len(unseen) > N_NAMED else ""
-        warn(f"{directory}/{FOLDER}: {files}{more}: missing; {what}")
+    if indices:
+        files = ", ".join(track_path(directory, index).name for index in indices[:N_NAMED])
+        remainder = f" and {len(indices) - N_NAMED} more" if len(indices) > N_NAMED else ""
+        warn(f"{directory}/{FOLDER}: {files}{remainder}: missing; {consequence}")
 
 
 def show_page(replay: Replay, out: Path | None, *, overwrite: bool, port: int) -> None:
-    """Write the page, or serve it until Ctrl-C; draws the report again that links to it."""
+    """Write the page, or serve it until Ctrl-C; rewrite the report that links to it."""
     from ..analysis.report import write_report
     from ..results.directory import REPLAY
     from ..viewer.serve import serve
@@ -305,7 +295,7 @@ def show_page(replay: Replay, out: Path | None, *, overwrite: bool, port: int) -
         typer.echo(f"its rows link to it: {write_report(replay.directory)}")
 
 
-def recorded(
+def open_trials(
     result: Path, index: int | None, scene: Path | None, folders: tuple[Path, ...]
 ) -> list[RecordedTrial]:
     """Open a trial of a result, or all of its first seed.
@@ -320,12 +310,14 @@ def recorded(
     overrides = FileOverrides(scene=scene, data_path=folders)
     indices = trials_of_first_seed(directory) if index is None else (index,)
     if index is None:
-        warn_of_unseen(directory, trials_without_motion(directory), "their levels are left out")
-    return [RecordedTrial.open(directory, each, overrides) for each in indices]
+        warn_missing_tracks(
+            directory, trials_without_motion(directory), "their levels are left out"
+        )
+    return [RecordedTrial.open(directory, trial_index, overrides) for trial_index in indices]
 
 
 def write_film(trials: list[RecordedTrial], spec: FilmSpec, out: Path) -> str:
-    """Write a film, showing progress; returns what was written."""
+    """Write a film, showing progress; return a line about it."""
     from ..viewer.film.film import Reel, n_frames_of, save_film
     from ..viewer.film.processes import DrawingProcesses, count_processes
 
@@ -333,7 +325,7 @@ def write_film(trials: list[RecordedTrial], spec: FilmSpec, out: Path) -> str:
     n = count_processes(n_frames)
     n_drawn = 0
 
-    def drawn() -> None:
+    def count_frame() -> None:
         nonlocal n_drawn
         n_drawn += 1
         on_frame()
@@ -342,9 +334,9 @@ def write_film(trials: list[RecordedTrial], spec: FilmSpec, out: Path) -> str:
     try:
         with (
             closing(DrawingProcesses(trials, spec, n) if n > 1 else Reel(trials, spec)) as film,
-            progress("film", n_frames, of="images") as on_frame,
+            progress("film", n_frames, unit="images") as on_frame,
         ):
-            save_film(film, out, drawn)
+            save_film(film, out, count_frame)
         return (
             f"{trials[0].title}: {n_frames} images, {n_frames / spec.rate:.1f} s, "
             f"{spec.size[0]}x{spec.size[1]}; written: {out}"
@@ -356,8 +348,8 @@ def write_film(trials: list[RecordedTrial], spec: FilmSpec, out: Path) -> str:
         raise
 
 
-def even(size: tuple[int, int]) -> tuple[int, int]:
-    """Refuse an odd width or height, which films cannot have, or a huge one; raises BadSetting."""
+def check_film_size(size: tuple[int, int]) -> tuple[int, int]:
+    """Raise BadSetting for a size that films cannot have: odd, too small or too large."""
     if size[0] % 2 or size[1] % 2 or min(size) < MIN_SIDE or max(size) > MAX_SIDE:
         raise BadSetting(
             f"--size {size[0]}x{size[1]}: expected even numbers from {MIN_SIDE} to {MAX_SIDE}, "

@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import Annotated
 
 from ..base.terminal import warn
-from .options.help_texts import OUTPUT, in_group
+from .options.help_texts import OUTPUT, option
 from .options.options import ResultArgument
 from .output.console import Console
 
-Pdf = Annotated[bool, in_group(OUTPUT, "--pdf", help="Draw every plot as PDF, too, for a paper.")]
+Pdf = Annotated[bool, option(OUTPUT, "--pdf", help="Draw every plot as PDF, too, for a paper.")]
 
 
 def report(result: ResultArgument, pdf: Pdf = False) -> None:
@@ -21,8 +21,8 @@ def report(result: ResultArgument, pdf: Pdf = False) -> None:
     from ..results.journal_check import check_rows
     from ..results.result_file import file_of, load
 
-    unchecked = check_rows(load(result), file_of(result).parent)
-    if unchecked is not None:
-        warn(unchecked)
-    written = write_report(result, pdf=pdf)
-    Console().print(f"written: {written}", soft_wrap=True, highlight=False, markup=False)
+    warning = check_rows(load(result), file_of(result).parent)
+    if warning is not None:
+        warn(warning)
+    page = write_report(result, pdf=pdf)
+    Console().print(f"written: {page}", soft_wrap=True, highlight=False, markup=False)

@@ -1,4 +1,4 @@
-"""``uwsim run``: run a scene for a time, with or without a program of one's own."""
+"""``uwsim run``: run a scene for a time, with or without a user's program."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ from ..runs.planning.make_plan import ALGORITHM_PREFIX, check_parameters
 from ..runs.planning.option_values import compatibility_of, number_or_text, pairs_of
 from ..runs.program import load_program
 from ..runs.stand_ins import warn_of_stand_ins
-from .options.connections import ConnectionOptions, connected
+from .options.connections import ConnectionOptions, open_connections
 from .options.live import LiveOptions
 from .options.options import DataPathOption, NoCodeOption, SceneArgument, SettingOptions
 from .options.run_options import ProgramOptions, RecordOptions, SeedOption
 from .output.progress import progress
 from .output.topic_table import print_json, print_topics
-from .render import scene_of
+from .render import load_scene
 
 if TYPE_CHECKING:
     from ..bus import Algorithm
@@ -39,54 +39,56 @@ if TYPE_CHECKING:
 UNITS = {"ms": 1e-3, "s": 1.0, "min": 60.0, "h": 3600.0}
 DURATION = re.compile(r"\s*(\d+\.?\d*|\.\d+)\s*([a-z]*)\s*")
 MAX_DURATION = 1e8
-"""Longest simulation time; longer is taken for a typing error [s]."""
+"""The longest simulation time; a longer one is an error [s]."""
 
 
 def run(
     scene: SceneArgument,
     *,
-    what: ProgramOptions,
+    program_options: ProgramOptions,
     changes: SettingOptions,
     connections: ConnectionOptions,
-    live: LiveOptions,
+    live_options: LiveOptions,
     seed: SeedOption = 0,
     output: RecordOptions,
     no_code: NoCodeOption = False,
     data_path: DataPathOption = None,
 ) -> None:
-    """Run a scene for a time, and list its topics; with --hz, how often their messages came.
+    """Run a scene for a time, and list its topics; with --hz, the rates of their messages.
 
-    Time is simulation time: the scene runs as fast as it can, and waits for your program, whose
+    Time is simulation time: the scene runs as fast as possible, and waits for your program, whose
     callbacks take no simulation time. Same files, program and seed: the same messages, and the
     same bytes of the recording. Without --hz and --record, images that no program reads are not
-    drawn. Ctrl-C ends the run; the recording is complete up to there.
+    drawn. Ctrl-C ends the run; the recording is complete up to that time.
 
-    With --view the scene runs in real time and is seen in a browser, where its first vehicle is
-    piloted, unless a program runs.
+    With --view the scene runs in real time in a browser, where the user pilots its first vehicle,
+    unless a program runs.
 
-    With a connection (--ros1, --ros2, --web) programs outside read and write topics and call
-    services while the scene runs in real time, and the run is not repeatable.
+    With a connection (--ros1, --ros2, --web) external programs read and write topics and call
+    services. The scene then runs in real time, and the run is not repeatable.
     """
     from ..checks import model_warnings
     from ..physics.compile_scene import compile_scene
     from ..simulation import Simulation
 
     folders = tuple(data_path or ())
-    wrong = ErrorCollector()
-    spec = scene_of(scene, folders, settings_of_scene(changes), wrong)
-    with wrong.collect():
+    errors = ErrorCollector()
+    spec = load_scene(scene, folders, scene_settings(changes), errors)
+    with errors.collect():
         if spec is not None and no_code:
             refuse_code(spec)
-    quirks = compatibility_of(changes.compat or [], wrong)
-    with wrong.collect():
-        live.check()
-    wanted = wanted_of(what, output, changes, connections, wrong, is_viewed=live.view)
-    wrong.raise_errors()
+    quirks = compatibility_of(changes.compat or [], errors)
+    with errors.collect():
+        live_options.check()
+    run_settings = check_run_options(
+        program_options, output, changes, connections, errors, is_viewed=live_options.view
+    )
+    errors.raise_errors()
     assert spec is not None
     announce_code(spec)
     warn_of_stand_ins(spec, folders)
     model = compile_scene(spec, seed=seed, data_path=folders, compatibility=quirks)
-    with Simulation(model, udp_address=what.udp_address) as simulation:
+    with Simulation(model, udp_address=program_options.udp_address) as simulation:
         print_warnings(model_warnings(model))
         raise_on_interrupt()
         scene_topics = None
@@ -94,18 +96,18 @@ def run(
             from ..viewer.scene_topics import SceneTopics
 
             scene_topics = SceneTopics(simulation, is_on_bus=connections.is_connected)
-        pace = connections if not live.view else replace(connections, speed=0.0)
+        pace = connections if not live_options.view else replace(connections, speed=0.0)
         with (
-            images_elsewhere(simulation, pace),
-            connected(simulation, pace),
-            viewed(simulation, spec, wanted, live, connections),
+            draw_images_elsewhere(simulation, pace),
+            open_connections(simulation, pace),
+            open_live_view(simulation, spec, run_settings, live_options, connections),
         ):
-            run_and_report(simulation, spec, wanted, output, scene_topics)
+            run_and_report(simulation, spec, run_settings, output, scene_topics)
 
 
 @contextmanager
-def images_elsewhere(simulation: Simulation, pace: ConnectionOptions) -> Iterator[None]:
-    """In a run in real time with programs outside, draw images in a process of their own."""
+def draw_images_elsewhere(simulation: Simulation, pace: ConnectionOptions) -> Iterator[None]:
+    """Draw images in a separate process in a real-time run with external programs."""
     if not pace.is_connected or pace.pace == 0 or pace.client:
         yield
         return
@@ -119,20 +121,22 @@ def images_elsewhere(simulation: Simulation, pace: ConnectionOptions) -> Iterato
 
 
 @contextmanager
-def viewed(
+def open_live_view(
     simulation: Simulation,
     spec: SceneSpec,
-    wanted: Wanted,
-    live: LiveOptions,
+    run_settings: RunSettings,
+    live_options: LiveOptions,
     connections: ConnectionOptions,
 ) -> Iterator[None]:
-    """Open the live view that the options ask for; where no program runs its viewers pilot."""
+    """Open the live view of the options; its viewers pilot if no program runs."""
     from ..runs.trial.pilot_inputs import PilotInputs
     from ..runs.trial.pilot_topics import pilot_topics
 
-    title, is_piloted = Path(spec.path).stem, wanted.program is None
+    title, is_piloted = Path(spec.path).stem, run_settings.program is None
     speed = 1.0 if connections.speed is None else connections.speed
-    with live.opened(title, speed=speed, is_piloted=is_piloted, resets=is_piloted) as session:
+    with live_options.open_session(
+        title, speed=speed, is_piloted=is_piloted, resets=is_piloted
+    ) as session:
         if session is not None:
             pilot = pilot_topics(simulation) if is_piloted else None
             if pilot is not None:
@@ -147,103 +151,105 @@ def viewed(
 
 
 @dataclass(frozen=True, kw_only=True)
-class Wanted:
-    """What the options ask for, checked."""
+class RunSettings:
+    """The checked values of the options."""
 
     duration: float
-    """Simulation time [s]; inf for no end."""
+    """The simulation time [s]; inf for no end."""
     program: type[Algorithm] | None
-    """What is attached."""
+    """The class of the program."""
     parameters: dict[str, float | str]
-    """Its parameters."""
+    """The parameters of the program."""
     images: ImageStorage
-    """How images are recorded."""
+    """The storage of images in a recording."""
 
 
-def wanted_of(
-    what: ProgramOptions,
+def check_run_options(
+    program_options: ProgramOptions,
     output: RecordOptions,
     changes: SettingOptions,
     connections: ConnectionOptions,
-    wrong: ErrorCollector,
+    errors: ErrorCollector,
     *,
     is_viewed: bool = False,
-) -> Wanted:
-    """Check the options; collects their errors."""
+) -> RunSettings:
+    """Check the options; collect their errors."""
     from ..algorithms import ALGORITHMS
     from ..middleware.recording import check_path, image_storage
 
     duration, program, images = 0.0, None, image_storage("raw")
-    own = [each for each in changes.all_settings if each.startswith(ALGORITHM_PREFIX)]
-    connections.check(wrong)
-    with wrong.collect():
-        is_endless = what.duration is None and (connections.is_connected or is_viewed)
-        duration = math.inf if is_endless else duration_of(what.duration or "10s")
-    with wrong.collect():
-        if what.program is not None:
-            program = load_program(what.program, ALGORITHMS)
-        elif own:
-            raise BadSetting(f"--set {own[0]}: there is no --program whose parameter it could be.")
+    settings = [setting for setting in changes.all_settings if setting.startswith(ALGORITHM_PREFIX)]
+    connections.check(errors)
+    with errors.collect():
+        is_endless = program_options.duration is None and (connections.is_connected or is_viewed)
+        duration = math.inf if is_endless else read_duration(program_options.duration or "10s")
+    with errors.collect():
+        if program_options.program is not None:
+            program = load_program(program_options.program, ALGORITHMS)
+        elif settings:
+            raise BadSetting(f"--set {settings[0]} sets a parameter of a --program; there is none.")
     parameters = {
         name.removeprefix(ALGORITHM_PREFIX): number_or_text(value)
-        for name, value in pairs_of(own, wrong)
+        for name, value in pairs_of(settings, errors)
     }
-    check_parameters(program, parameters, wrong)
-    with wrong.collect():
+    check_parameters(program, parameters, errors)
+    with errors.collect():
         images = image_storage(output.images)
-    with wrong.collect():
+    with errors.collect():
         if output.record is not None:
             check_path(output.record, overwrite=output.overwrite)
-    return Wanted(duration=duration, program=program, parameters=parameters, images=images)
+    return RunSettings(duration=duration, program=program, parameters=parameters, images=images)
 
 
-def settings_of_scene(changes: SettingOptions) -> list[str]:
-    """Return the settings that are not of the program."""
-    return [each for each in changes.all_settings if not each.startswith(ALGORITHM_PREFIX)]
+def scene_settings(changes: SettingOptions) -> list[str]:
+    """Return the settings of the scene, without those of the program."""
+    return [setting for setting in changes.all_settings if not setting.startswith(ALGORITHM_PREFIX)]
 
 
-def duration_of(text: str) -> float:
-    """Return a time [s] as it is typed: ``10s``, ``2min``, ``0.5``; raises BadSetting."""
-    found = DURATION.fullmatch(text)
-    if found is None:
+def read_duration(text: str) -> float:
+    """Return a duration [s] from text as ``10s``, ``2min``, ``0.5``; raises BadSetting."""
+    match = DURATION.fullmatch(text)
+    if match is None:
         raise BadSetting(f"--for {text!r}: expected a time, as 10s, 500ms, 2min or 1h.")
-    number, unit = float(found[1]), found[2] or "s"
+    number, unit = float(match[1]), match[2] or "s"
     if unit not in UNITS:
-        near = did_you_mean(unit, UNITS)
-        raise BadSetting(f"--for {text!r}: expected one of the units {', '.join(UNITS)}.{near}")
+        hint = did_you_mean(unit, UNITS)
+        raise BadSetting(f"--for {text!r}: expected one of the units {', '.join(UNITS)}.{hint}")
     if not number * UNITS[unit] <= MAX_DURATION:
-        raise BadSetting(f"--for {text!r}: at most {MAX_DURATION:g} s of simulation time.")
+        raise BadSetting(f"--for {text!r}: expected at most {MAX_DURATION:g} s.")
     return number * UNITS[unit]
 
 
 def run_and_report(
     simulation: Simulation,
     spec: SceneSpec,
-    wanted: Wanted,
+    settings: RunSettings,
     output: RecordOptions,
     scene_topics: SceneTopics | None = None,
 ) -> None:
-    """Run, and print what came; also of a run that fails or is interrupted."""
+    """Run, and print the messages, also of a run that fails or is interrupted."""
     from ..middleware.recording import Recorder, TopicRates
 
     node = None
-    # what a program prints is no part of the JSON
-    aside = redirect_stdout(sys.stderr) if output.as_json else nullcontext()
-    if wanted.program is not None:
-        with aside:
-            node = simulation.attach(wanted.program(), parameters=wanted.parameters, raises=False)
+    # the output of a program is not part of the JSON
+    output_redirect = redirect_stdout(sys.stderr) if output.as_json else nullcontext()
+    if settings.program is not None:
+        with output_redirect:
+            node = simulation.attach(
+                settings.program(), parameters=settings.parameters, raises=False
+            )
         for sentence in node.describe_unconnected_topics():
             warn(sentence)
-    with convert_to_run_failed(), ExitStack() as last, ExitStack() as stack:
-        stack.enter_context(aside)
+    with convert_to_run_failed(), ExitStack() as report_stack, ExitStack() as stack:
+        stack.enter_context(output_redirect)
         recorder = None
         if output.record is not None:
-            recorder = Recorder(simulation.bus, output.record, images=wanted.images)
+            recorder = Recorder(simulation.bus, output.record, images=settings.images)
             stack.enter_context(recorder)
             recorder.start(lambda: simulation.time)
             if scene_topics is not None:
                 scene_topics.record(recorder)
-            stack.callback(warn_of_left_out, recorder)
+            stack.callback(warn_left_out, recorder)
         rates = TopicRates(
             simulation.bus,
             lambda: simulation.time,
@@ -251,21 +257,25 @@ def run_and_report(
                 output.hz or (recorder is not None and recorder.is_recorded(type))
             ),
         )
-        last.push(
-            lambda how, *_: report(simulation, spec, rates, output, is_stopped=how is not None)
+        report_stack.push(
+            lambda kind, *_: report_run(
+                simulation, spec, rates, output, is_stopped=kind is not None
+            )
         )
-        for _ in pieces(simulation, wanted.duration, Path(spec.path).stem):
+        for _ in run_pieces(simulation, settings.duration, Path(spec.path).stem):
             if recorder is not None:
                 recorder.check()
             if node is not None and node.error is not None:
                 raise RunFailed(f"{node.name} {node.failure_verb}: {node.error}")
         if node is not None:
-            given = node.parameters
-            if note := describe_unread_parameters(node.name, given.plain_copy, given.names_read):
+            parameters = node.parameters
+            if note := describe_unread_parameters(
+                node.name, parameters.plain_copy, parameters.names_read
+            ):
                 warn(note)
 
 
-def report(
+def report_run(
     simulation: Simulation,
     spec: SceneSpec,
     rates: TopicRates,
@@ -273,23 +283,23 @@ def report(
     *,
     is_stopped: bool,
 ) -> None:
-    """Print what came; of a run that was stopped before its first step, that it was."""
+    """Print the messages, or that the run was stopped before its first step."""
     if output.as_json:
         print_json(spec.path, simulation, rates.rates(), output.record)
     elif is_stopped and simulation.step == 0:
-        print(f"{Path(spec.path).name}: stopped before the first step; nothing came on any topic")
+        print(f"{Path(spec.path).name}: stopped before the first step; no topic has a message")
     else:
         print_topics(spec.path, simulation, rates.rates(), output.record)
 
 
-def pieces(simulation: Simulation, duration: float, title: str) -> Iterator[None]:
-    """Advance by a second at a time, showing progress if there is an end."""
+def run_pieces(simulation: Simulation, duration: float, title: str) -> Iterator[None]:
+    """Advance by one second at a time, showing progress if there is an end."""
     if duration == math.inf:
         while True:
             simulation.advance(1.0)
             yield
     total = max(1, math.ceil(duration))
-    with progress(title, total, of="s of simulation time") as on_piece:
+    with progress(title, total, unit="s of simulation time") as on_piece:
         simulation.advance(0.0)
         yield
         for i in range(total):
@@ -298,7 +308,7 @@ def pieces(simulation: Simulation, duration: float, title: str) -> Iterator[None
             yield
 
 
-def warn_of_left_out(recorder: Recorder) -> None:
-    """Name the topics that cannot be recorded."""
+def warn_left_out(recorder: Recorder) -> None:
+    """Warn about the topics that cannot be recorded."""
     for topic, type_name in recorder.left_out.items():
         warn(f"/{topic} is not recorded: {type_name} has no message definition")

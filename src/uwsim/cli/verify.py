@@ -18,7 +18,7 @@ from ..errors import ResultError
 from ..runs.foreign_code import announce_code
 from ..verify.recorded_plan import NOT_DRAWN, FileOverrides, check_inputs, named_input, plan_of
 from .exit_status import RUN_FAILED
-from .options.help_texts import FILES, RUN, in_group
+from .options.help_texts import FILES, RUN, option
 from .options.options import CodeOptions, ResultArgument, WorkerOptions
 from .output.progress import progress
 
@@ -28,30 +28,26 @@ if TYPE_CHECKING:
     from ..runs.run import Run
     from ..verify.verify import Verification
 
-SEEDS = 2**32
-"""How many samples there are to draw from."""
-SHOWN = 20
-"""Greatest number of differences printed."""
+N_SEEDS = 2**32
+"""The number of different samples."""
+MAX_SHOWN = 20
+"""The greatest number of printed differences."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class SampleOptions:
-    """Which trials are replayed."""
+    """The replayed trials."""
 
     sample: Annotated[
         int,
-        in_group(
-            RUN,
-            "--sample",
-            metavar="N",
-            min=1,
-            help="How many trials to replay, chosen by chance.",
+        option(
+            RUN, "--sample", metavar="N", min=1, help="Number of trials to replay, drawn at random."
         ),
     ] = 3
-    whole: Annotated[bool, in_group(RUN, "--all", help="Replay every trial.")] = False
+    all_trials: Annotated[bool, option(RUN, "--all", help="Replay every trial.")] = False
     sample_seed: Annotated[
         int | None,
-        in_group(
+        option(
             RUN,
             "--sample-seed",
             metavar="N",
@@ -61,14 +57,14 @@ class SampleOptions:
     ] = None
 
     def choose(
-        self, run: Run, stored: Result, typed: Sequence[str]
+        self, run: Run, stored_result: Result, words: Sequence[str]
     ) -> tuple[int, tuple[Trial, ...]]:
-        """Print and return which of the finished trials are replayed, and how many there are.
+        """Choose and print the finished trials to replay; return their number and the trials.
 
         Args:
-            run: the run that made the result.
-            stored: the result.
-            typed: the command, as it was typed behind ``uwsim``.
+            run: the run of the result.
+            stored_result: the result.
+            words: the words of the command line after ``uwsim``.
 
         Raises:
             ResultError: none is finished.
@@ -76,46 +72,46 @@ class SampleOptions:
         from ..results.interrupted import resume_command
         from ..verify.verify import choose_trials, complete_trials
 
-        whole = complete_trials(run.out, run.plan, stored)
-        if not whole:
+        finished_trials = complete_trials(run.out, run.plan, stored_result)
+        if not finished_trials:
             command = resume_command(run.out)
-            how = f" Resume with: {command}" if command else ""
-            raise ResultError(f"{run.out}: no trial of it is finished: nothing to verify.{how}")
-        drawn = secrets.randbelow(SEEDS) if self.sample_seed is None else self.sample_seed
-        trials = choose_trials(whole, None if self.whole else self.sample, drawn)
-        typer.echo(head(stored, run.out, len(whole), len(run.plan.trials())))
-        if len(trials) < len(whole):
-            which = f"{len(trials)} of {count(len(whole), 'trial')}"
-            typer.echo(f"sample: {which}, by chance; the same again: {same_sample(typed, drawn)}")
-        return len(whole), trials
+            hint = f" Resume with: {command}" if command else ""
+            raise ResultError(f"{run.out}: no trial of it is finished: nothing to verify.{hint}")
+        seed = secrets.randbelow(N_SEEDS) if self.sample_seed is None else self.sample_seed
+        trials = choose_trials(finished_trials, None if self.all_trials else self.sample, seed)
+        typer.echo(
+            describe_result(stored_result, run.out, len(finished_trials), len(run.plan.trials()))
+        )
+        if len(trials) < len(finished_trials):
+            sample_text = f"{len(trials)} of {format_count(len(finished_trials), 'trial')}"
+            command = same_sample_command(words, seed)
+            typer.echo(f"sample: {sample_text}, at random; the same again: {command}")
+        return len(finished_trials), trials
 
 
 @dataclass(frozen=True, kw_only=True)
-class PlaceOptions:
-    """Where the files of a result are."""
+class FileOptions:
+    """The locations of the files of a result."""
 
     benchmark: Annotated[
         Path | None,
-        in_group(
+        option(
             FILES,
             "--benchmark",
             metavar="FILE.xml",
-            help="The benchmark, where it is not found by its name.",
+            help="The benchmark, if it is not found by its name.",
         ),
     ] = None
     scene: Annotated[
         Path | None,
-        in_group(
-            FILES,
-            "--scene",
-            metavar="FILE.xml",
-            help="The scene, where it is not found by its name.",
+        option(
+            FILES, "--scene", metavar="FILE.xml", help="The scene, if it is not found by its name."
         ),
     ] = None
     code: CodeOptions
 
     def overrides(self) -> FileOverrides:
-        """Return the same for the search."""
+        """Return the overrides for the search."""
         return FileOverrides(
             benchmark=self.benchmark,
             scene=self.scene,
@@ -125,10 +121,10 @@ class PlaceOptions:
         )
 
 
-def same_sample(typed: Sequence[str], seed: int) -> str:
-    """Return the command that replays the same sample as a command that was typed."""
+def same_sample_command(command_line: Sequence[str], seed: int) -> str:
+    """Return the command that replays the same sample as the given command line."""
     words, skip = [], False
-    for word in typed:
+    for word in command_line:
         if not skip and word.partition("=")[0] != "--sample-seed":
             words.append(word)
         skip = word == "--sample-seed"
@@ -139,98 +135,106 @@ def verify(
     context: typer.Context,
     result: ResultArgument,
     sample: SampleOptions,
-    by: WorkerOptions,
-    places: PlaceOptions,
+    worker_options: WorkerOptions,
+    file_options: FileOptions,
 ) -> None:
-    """Replay a sample of a stored result and compare it with what is stored, byte for byte.
+    """Replay a sample of a stored result and compare it with the stored files, byte for byte.
 
-    A trial is the unit of execution: the whole sweep of a seed, or one level where the benchmark is
+    A trial is the unit of execution: the whole sweep of a seed, or one level if the benchmark is
     independent. Files are found by name (next to the result, here, bundled) and identified by the
-    recorded hash; others are refused. Before any replay, the rows, tables and logs of the result
-    are made anew from its trials and compared, and every total and every derived value is computed
-    again from its row. Plots, the report and provenance.json are not compared.
+    recorded hash; another hash is an error. Before any replay, the rows, tables and logs of the
+    result are computed again from its trials and compared. Every total and every derived value is
+    computed again from its row. Plots, the report and provenance.json are not compared.
     The sample of trials is drawn from the system's random source, so it cannot be predicted; the
     seed that draws it again is printed.
 
-    Exit status 0: the same. 3: something differs; the report names trial, level, column and sample
-    and, from the fingerprints of each trial, the first step and the body or image that differ.
-    2: wrong input, such as a scene that was changed since. RESULT/control can be verified, too.
+    Exit status 0: the same. 3: there are differences. The report names trial, level, column and
+    sample; from the fingerprints of each trial it names the first step and the body or image. 2:
+    invalid input, such as a scene that was changed since. RESULT/control can be verified, too.
     """
     from ..results.result_file import file_of, load
     from ..verify.environment import environment_differences
     from ..verify.verify import verify as compare
 
-    executor = by.executor()
-    stored, directory = load(result), file_of(result).parent
-    run = replayed_run(stored, directory, places.overrides())
-    n_whole, trials = sample.choose(run, stored, context.obj)
+    executor = worker_options.executor()
+    stored_result, directory = load(result), file_of(result).parent
+    run = prepare_replay(stored_result, directory, file_options.overrides())
+    n_whole, trials = sample.choose(run, stored_result, context.obj)
     n_levels = sum(len(trial.levels) for trial in trials)
-    others = environment_differences(stored, directory, run.info)
-    for line in others.values():
+    differences = environment_differences(stored_result, directory, run.info)
+    for line in differences.values():
         typer.echo(clean_text(line))
     raise_on_interrupt()
     with (
         convert_to_run_failed(),
-        progress("replaying", n_levels, of="levels", at_once=by.at_once) as on_level,
+        progress(
+            "replaying", n_levels, unit="levels", n_parallel=worker_options.n_parallel
+        ) as on_level,
     ):
-        found = compare(directory, stored, run, trials, executor=executor, on_level=on_level)
-    for line in tell(found, n_whole, others):
+        verification = compare(
+            directory, stored_result, run, trials, executor=executor, on_level=on_level
+        )
+    for line in describe_outcome(verification, n_whole, differences):
         typer.echo(clean_text(line))
-    if found.differences:
+    if verification.differences:
         raise typer.Exit(RUN_FAILED)
 
 
-def replayed_run(stored: Result, directory: Path, overrides: FileOverrides) -> Run:
-    """Return the run that a result was made with; its inputs have been checked.
+def prepare_replay(stored_result: Result, directory: Path, overrides: FileOverrides) -> Run:
+    """Return the run of a result, with checked inputs.
 
     Raises:
-        UwsimError: a file is not there, or not the one with which the result was made.
+        UwsimError: a file does not exist, or has another hash than that of the result.
     """
     from ..runs.prepare import prepare_run
 
-    plan = plan_of(stored, directory, overrides)
+    plan = plan_of(stored_result, directory, overrides)
     announce_code(plan.scene)
     run = prepare_run(plan, directory)
-    check_inputs(stored.inputs, run.inputs)
+    check_inputs(stored_result.inputs, run.inputs)
     renderer = NOT_DRAWN if plan.is_blind else run.renderer
-    return replace(run, inputs=stored.inputs, renderer=renderer)
+    return replace(run, inputs=stored_result.inputs, renderer=renderer)
 
 
-def head(stored: Result, directory: Path, n_whole: int, n_trials: int) -> str:
-    """Print what is verified and which files were found."""
+def describe_result(stored_result: Result, directory: Path, n_whole: int, n_trials: int) -> str:
+    """Return a description of the result and of the files found."""
     from ..results.per_level import seeds_of
 
-    run = stored.run
-    names = [named_input(stored, kind)[0] for kind in ("benchmark", "scene")]
-    n_others = len(stored.inputs.assets or {})
-    finished = count(n_trials, "trial")
+    run = stored_result.run
+    names = [named_input(stored_result, kind)[0] for kind in ("benchmark", "scene")]
+    n_others = len(stored_result.inputs.assets or {})
+    trials_text = format_count(n_trials, "trial")
     if n_whole < n_trials:
-        finished = f"{n_whole} of {finished} finished"
-    seeds = sorted({seed for seed in seeds_of(stored) if seed is not None})
-    which = f"seeds {seeds[0]} to {seeds[-1]}" if len(seeds) > 1 else f"seed {run.seed}"
+        trials_text = f"{n_whole} of {trials_text} finished"
+    seeds = sorted({seed for seed in seeds_of(stored_result) if seed is not None})
+    seeds_text = f"seeds {seeds[0]} to {seeds[-1]}" if len(seeds) > 1 else f"seed {run.seed}"
     return clean_text(
-        f"{directory}: {run.algorithm}, {which}, {run.mode}, "
-        f"{count(len(stored.rows), 'row')}, {finished}\n"
+        f"{directory}: {run.algorithm}, {seeds_text}, {run.mode}, "
+        f"{format_count(len(stored_result.rows), 'row')}, {trials_text}\n"
         f"files: the same ({', '.join(names)} and {n_others} more)"
     )
 
 
-def tell(found: Verification, n_whole: int, others: Mapping[str, str]) -> list[str]:
+def describe_outcome(
+    verification: Verification, n_whole: int, environment_lines: Mapping[str, str]
+) -> list[str]:
     """Return the lines of the outcome, the verdict last."""
     from ..verify.environment import likely_cause
 
-    messages = [str(difference) for difference in found.differences[:SHOWN]]
-    if len(found.differences) > SHOWN:
-        messages.append(f"and {len(found.differences) - SHOWN} more differences")
-    messages += [f"not compared: {what}" for what in found.not_compared]
-    n = len(found.trials)
-    which = f"{n} of {count(n_whole, 'trial')}" if n < n_whole else f"all of {count(n, 'trial')}"
-    played = f"{which} replayed, {count(sum(len(trial.levels) for trial in found.trials), 'level')}"
-    if not found.differences:
-        return [*messages, f"the same, byte for byte: {played}"]
-    return [*messages, f"DIFFERS: {played}. {likely_cause(found, others)}"]
+    messages = [str(difference) for difference in verification.differences[:MAX_SHOWN]]
+    if len(verification.differences) > MAX_SHOWN:
+        messages.append(f"and {len(verification.differences) - MAX_SHOWN} more differences")
+    messages += [f"not compared: {subject}" for subject in verification.not_compared]
+    n = len(verification.trials)
+    n_levels = sum(len(trial.levels) for trial in verification.trials)
+    sample_text = f"{n} of" if n < n_whole else "all of"
+    trials_text = f"{sample_text} {format_count(n_whole if n < n_whole else n, 'trial')}"
+    replay_text = f"{trials_text} replayed, {format_count(n_levels, 'level')}"
+    if not verification.differences:
+        return [*messages, f"the same, byte for byte: {replay_text}"]
+    return [*messages, f"DIFFERS: {replay_text}. {likely_cause(verification, environment_lines)}"]
 
 
-def count(number: int, what: str) -> str:
-    """``1 trial``, ``2 trials``."""
-    return f"{number} {what}" if number == 1 else f"{number} {what}s"
+def format_count(number: int, noun: str) -> str:
+    """Return a number with its noun: ``1 trial``, ``2 trials``."""
+    return f"{number} {noun}" if number == 1 else f"{number} {noun}s"

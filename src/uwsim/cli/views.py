@@ -19,69 +19,71 @@ if TYPE_CHECKING:
     from ..simulation import Simulation
     from ..simulation.views import View
 
-Named = Literal["orbit", "top", "viewer"]
-NAMED: tuple[Named, ...] = ("orbit", "top", "viewer")
+ViewName = Literal["orbit", "top", "viewer"]
+VIEW_NAMES: tuple[ViewName, ...] = ("orbit", "top", "viewer")
 MAX_SIDE = 16384
-"""Edge of an image [px]."""
-FOG = "oceanState.fog"
-"""Prefix of the ``--set`` that concern fog."""
+"""The greatest width or height of an image [px]."""
+FOG_PREFIX = "oceanState.fog"
+"""The prefix of the settings of fog."""
 
 
 @dataclass(frozen=True, eq=False)
 class RenderedView:
-    """What was drawn."""
+    """A rendered image."""
 
-    what: str
-    """What it shows, for the user."""
+    title: str
+    """The description for the user."""
     pixels: npt.NDArray[np.uint8]
-    """(h, w, 3) or (h, w)."""
+    """The pixels, (h, w, 3) or (h, w)."""
     render_clean: Callable[[], RenderedImage]
-    """Draws it again without noise, with range and ids."""
+    """A function that draws the image without noise, with range and ids."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
-class Wanted:
+class ViewRequest:
     """The camera or view given by the options; without them, the scene's default."""
 
     camera: str | None = None
-    """Name of a virtual camera."""
-    view: Named | None = None
-    """Which view."""
+    """The name of a virtual camera."""
+    view: ViewName | None = None
+    """The named view."""
     line: tuple[Array, Array] | None = None
-    """From where to where, in L, (3,) each [m]."""
+    """The viewpoint and the target, in L, (3,) each [m]."""
     size: tuple[int, int] | None = None
-    """Width and height [px]."""
+    """The width and height [px]."""
     samples: int = 2
-    """Of a pixel of a view, in width and in height: smooth edges."""
+    """The number of samples of a pixel in width and in height, for smooth edges."""
     has_fog: bool = False
-    """Whether fog is set, so that views show it."""
+    """A flag: fog is set, so views show it."""
 
     @staticmethod
-    def of(
+    def from_options(
         camera: str | None,
         view: str | None,
-        eye: str | None,
-        at: str | None,
+        viewpoint: str | None,
+        target: str | None,
         size: str | None,
         settings: Sequence[str],
-    ) -> Wanted:
+    ) -> ViewRequest:
         """Read the options; raises BadSetting."""
-        given = {"--camera": camera, "--view": view, "--from": eye or at}
-        asked = [option for option, value in given.items() if value is not None]
-        if len(asked) > 1:
-            raise BadSetting(f"{' and '.join(asked)}: only one image at a time.")
-        if (eye is None) != (at is None):
-            raise BadSetting("--from and --at belong together: where to look from, and at what.")
-        return Wanted(
+        values = {"--camera": camera, "--view": view, "--from": viewpoint or target}
+        given_options = [option for option, value in values.items() if value is not None]
+        if len(given_options) > 1:
+            raise BadSetting(f"{' and '.join(given_options)}: only one image at a time.")
+        if (viewpoint is None) != (target is None):
+            raise BadSetting("--from needs --at, and --at needs --from: viewpoint and target.")
+        return ViewRequest(
             camera=camera,
-            view=None if view is None else _named(view),
-            line=None if eye is None or at is None else (_point("--from", eye), _point("--at", at)),
-            size=None if size is None else size_of(size),
-            has_fog=any(setting.strip().startswith(FOG) for setting in settings),
+            view=None if view is None else _read_view_name(view),
+            line=None
+            if viewpoint is None or target is None
+            else (_read_point("--from", viewpoint), _read_point("--at", target)),
+            size=None if size is None else read_size(size),
+            has_fog=any(setting.strip().startswith(FOG_PREFIX) for setting in settings),
         )
 
     def render(self, simulation: Simulation, scene: SceneSpec) -> RenderedView:
-        """Draw it; raises UnknownName for a camera, BadSetting for a view that cannot be."""
+        """Draw the image; raises UnknownName for a camera, BadSetting for an impossible view."""
         from ..simulation import views
 
         is_view = self.line is not None or self.view is not None
@@ -89,25 +91,25 @@ class Wanted:
         if len(cameras) > 1 and not is_view:
             raise BadSetting(
                 f"The scene has {len(cameras)} virtual cameras; choose one with --camera: "
-                f"{', '.join(cameras)}; or a --view: {', '.join(NAMED)}."
+                f"{', '.join(cameras)}; or a --view: {', '.join(VIEW_NAMES)}."
             )
         if cameras and not is_view:
-            return self._seen(simulation, cameras[0])
+            return self._render_camera(simulation, cameras[0])
         params = scene.sim_params
         size = self.size or (params.resw, params.resh)
         if self.line is not None:
-            view, what = views.view_from(simulation, *self.line, size), "view from there"
+            view, title = views.view_from(simulation, *self.line, size), "view from there"
         elif self.view == "top":
-            view, what = views.top_view(simulation, size), "view from above"
+            view, title = views.top_view(simulation, size), "view from above"
         elif self.view == "viewer" and scene.camera is None:
             raise BadSetting("--view viewer: the scene has no <camera>; orbit and top need none.")
         elif self.view != "orbit" and scene.camera is not None:
-            view, what = views.viewer_view(simulation, scene.camera, size), "view of its <camera>"
+            view, title = views.viewer_view(simulation, scene.camera, size), "view of its <camera>"
         else:
-            view, what = views.orbit_view(simulation, size), "orbit view"
-        return self._viewed(simulation, view, what)
+            view, title = views.orbit_view(simulation, size), "orbit view"
+        return self._render_view(simulation, view, title)
 
-    def _viewed(self, simulation: Simulation, view: View, what: str) -> RenderedView:
+    def _render_view(self, simulation: Simulation, view: View, title: str) -> RenderedView:
         fog = 0.0 if view.is_clear and not self.has_fog else None
 
         def draw(samples: int = 1) -> RenderedImage:
@@ -117,9 +119,9 @@ class Wanted:
 
         pixels = draw(self.samples).colour
         assert pixels is not None
-        return RenderedView(what, pixels.view(np.uint8), draw)
+        return RenderedView(title, pixels.view(np.uint8), draw)
 
-    def _seen(self, simulation: Simulation, name: str) -> RenderedView:
+    def _render_camera(self, simulation: Simulation, name: str) -> RenderedView:
         camera = simulation.world.sensors.camera(name)
         if self.size is not None:
             camera.resize(camera.intrinsics.with_size(*self.size))
@@ -132,15 +134,15 @@ class Wanted:
         )
 
 
-def _named(view: str) -> Named:
-    for name in NAMED:
+def _read_view_name(view: str) -> ViewName:
+    for name in VIEW_NAMES:
         if name == view:
             return name
-    near = did_you_mean(view, NAMED)
-    raise BadSetting(f"--view is {view!r}; expected one of {', '.join(NAMED)}.{near}")
+    suggestion = did_you_mean(view, VIEW_NAMES)
+    raise BadSetting(f"--view is {view!r}; expected one of {', '.join(VIEW_NAMES)}.{suggestion}")
 
 
-def _point(option: str, text: str) -> Array:
+def _read_point(option: str, text: str) -> Array:
     words = text.replace(",", " ").split()
     try:
         numbers = np.array([float(word) for word in words])
@@ -151,16 +153,14 @@ def _point(option: str, text: str) -> Array:
     return numbers
 
 
-def size_of(text: str) -> tuple[int, int]:
-    """Return width and height [px] as they are typed: ``800x600``; raises BadSetting."""
+def read_size(text: str) -> tuple[int, int]:
+    """Return width and height [px] from text as ``800x600``; raises BadSetting."""
     from ..scene.sizes import MAX_PIXELS
 
     match = re.fullmatch(r"(\d{1,6})[xX](\d{1,6})", text.strip())
     edges = (int(match[1]), int(match[2])) if match else (0, 0)
     if not all(1 <= edge <= MAX_SIDE for edge in edges):
-        raise BadSetting(
-            f"--size is {text!r}; expected WxH [px], as in 800x600, {MAX_SIDE} at most."
-        )
+        raise BadSetting(f"--size is {text!r}; expected WxH [px], as 800x600, {MAX_SIDE} at most.")
     if edges[0] * edges[1] > MAX_PIXELS:
         raise BadSetting(
             f"--size is {text!r}: {edges[0] * edges[1] / 1e6:.0f} million pixels; at most "

@@ -204,25 +204,21 @@ class Battery(Device):
         for _ in range(MAX_ITERATIONS):
             powers = self._actuators.powers().tolist()
             thruster_power = math.fsum(powers[:n_thrusters])
-            available_power = (
-                self._spec.max_load - self._spec.hotel_load - math.fsum(powers[n_thrusters:])
-            )
-            if thruster_power - available_power <= TOLERANCE * self._spec.max_load:
+            budget = self._spec.max_load - self._spec.hotel_load - math.fsum(powers[n_thrusters:])
+            if thruster_power - budget <= TOLERANCE * self._spec.max_load:
                 return
             self.state.is_overloaded = True
-            if available_power <= 0.0 or thruster_power <= 0.0:
+            if budget <= 0.0 or thruster_power <= 0.0:
                 self._set_thrust_loss(1.0)
                 return
-            share *= (available_power / thruster_power) ** (2.0 / 3.0)
+            share *= (budget / thruster_power) ** (2.0 / 3.0)
             self._set_thrust_loss(1.0 - share)
 
     def _set_thrust_loss(self, loss: float) -> None:
-        """Reduce all thrusts by a share [0..1]."""
         for set_loss in self._set_losses:
             set_loss(loss)
 
     def _compute_load(self) -> float:
-        """Return the power drawn now [W]."""
         power = 0.0 if self._actuators is None else math.fsum(self._actuators.powers().tolist())
         return self._spec.hotel_load + power
 

@@ -42,13 +42,11 @@ class LampSpec(DeviceSpec):
     relative_to: str = element(namespaced=True)
     """The link on which the lamp is mounted; its pose is relative to the link's kinematic frame."""
     position: tuple[float, float, float] = element(namespaced=True, default=(0.0, 0.0, 0.0))
-    """The position of the lamp in the link's frame [m]; bodies nearer than 0.1 m to it cast no
-    shadow."""
+    """The position of the lamp in the link's frame [m]; bodies within 0.1 m cast no shadow."""
     orientation: tuple[float, float, float] = element(
         namespaced=True, default=(0.0, 0.0, 0.0), parts="rpy"
     )
-    """The orientation of the lamp in the link's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx
-    [rad]."""
+    """The orientation of the lamp in the link's frame, roll, pitch, yaw (Rz Ry Rx) [rad]."""
     look_at: LookAt = element(namespaced=True, default=None)
     """The target of its light at the start, instead of ``orientation``: a point in L [m], or a
     direction of the vehicle. The lamp stays fixed to its link."""

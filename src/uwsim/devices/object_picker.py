@@ -22,8 +22,7 @@ from ..world import Body, DeviceWorld
 from .device import Device, DeviceSpec, DeviceTopic, DeviceVehicle
 
 RATE = 60.0
-"""The rate at which a picker searches for an object, which is the original's rate of images
-[Hz]."""
+"""The rate of the search for an object, which is the original's rate of images [Hz]."""
 RAY_DIRECTION = np.array([[1.0, 0.0, 0.0]])
 """The direction of the ray in the picker's frame, (1, 3)."""
 

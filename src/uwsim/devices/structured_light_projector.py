@@ -33,15 +33,13 @@ class StructuredLightProjectorSpec(DeviceSpec):
     name: str
     """The name of the device."""
     relative_to: str
-    """The link on which the device is mounted; its pose is relative to the link's kinematic
-    frame."""
+    """The link of the device, whose pose is relative to the link's kinematic frame."""
     fov: float = element(above=0, below=180)
     """The vertical field of view [deg]; the aspect ratio is the image's."""
     image_name: str = element("image_name")
     """The image; transparent pixels emit no light, nor do black and white pixels of a laser."""
     laser: bool = True
-    """The kind of light: 1 is a laser, attenuated by water alone; 0 is a lamp, which falls off with
-    distance."""
+    """The kind of light: 1 laser, attenuated by water alone; 0 lamp, falls off with distance."""
     position: tuple[float, float, float] = element(
         default=(0.0, 0.0, 0.0), minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE
     )

@@ -62,9 +62,7 @@ class Sway(Device):
 
 
 def displace_pose(
-    position: Sequence[float],
-    orientation: Sequence[float],
-    offsets: Iterable[tuple[int, float]],
+    position: Sequence[float], orientation: Sequence[float], offsets: Iterable[tuple[int, float]]
 ) -> Pose:
     """Return ``localized_from_base`` of a vehicle displaced from its rest pose.
 

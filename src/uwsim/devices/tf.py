@@ -152,7 +152,6 @@ def _read_transform(transform: TransformStamped) -> Pose | None:
 
 
 def _check_transforms(message: TFMessage) -> Remark | None:
-    """Report an invalid transform, which is left out."""
     for index, transform in enumerate(message.transforms):
         if _read_transform(transform) is None:
             return f"transforms[{index}] (to {transform.child_frame_id!r:.60}) is invalid", EXPECTED

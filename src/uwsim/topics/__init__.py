@@ -107,8 +107,7 @@ INTERFACES: dict[str, type[InterfaceSpec]] = {
     f"{{{NAMESPACE}}}motorCurrentsToROS": MotorCurrentsToROSSpec,
     f"{{{NAMESPACE}}}sensorToROS": SensorToROSSpec,
 }
-"""The table of elements and their specs, in the order of the original grammar; extensions are
-last."""
+"""The specs of the elements, in the order of the original grammar; extensions are last."""
 
 
 def element_name(interface: InterfaceSpec) -> str:

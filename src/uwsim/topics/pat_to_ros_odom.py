@@ -71,10 +71,7 @@ def odometry(
         header=header(time),
         child_frame_id="",
         pose=PoseWithCovariance(
-            pose=Pose(
-                position=Point(x=px, y=py, z=pz),
-                orientation=Quaternion(x=x, y=y, z=z, w=w),
-            ),
+            pose=Pose(position=Point(x=px, y=py, z=pz), orientation=Quaternion(x=x, y=y, z=z, w=w)),
             covariance=np.zeros(36),
         ),
         twist=TwistWithCovariance(

@@ -111,5 +111,4 @@ class JointCommand(Interface):
         return joint_indices[rows], values[rows]
 
     def _joint_index(self, name: str) -> int:
-        """Return the index of a joint in the joint vector; -1 if there is none."""
         return self._joint_names.index(name) if name in self._joint_names else -1

@@ -82,7 +82,6 @@ class SensorTopicSpec(InterfaceSpec):
 
 
 def _spec_classes() -> dict[str, type[Any]]:
-    """Return the specs of all sensors and devices by their elements."""
     return {prefixed_name(tag): spec for tag, spec in {**SENSORS, **DEVICES}.items()}
 
 
@@ -110,10 +109,7 @@ class SensorPublisher(Interface):
     """A publisher of the samples of a sensor."""
 
     def __init__(
-        self,
-        sensor: Sensor,
-        publish: Callable[[object], None],
-        clock: Callable[[], float],
+        self, sensor: Sensor, publish: Callable[[object], None], clock: Callable[[], float]
     ) -> None:
         self._sensor, self._publish, self._clock = sensor, publish, clock
 

@@ -10,14 +10,14 @@ from pathlib import Path
 import pytest
 
 from uwsim.cli import COMMANDS, main
-from uwsim.cli.options.completion import VARIABLE
+from uwsim.cli.options.completion import COMPLETION_VARIABLE
 
 
 def offered(
     line: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> list[str]:
     """What bash is offered for the last word of a line."""
-    monkeypatch.setenv(VARIABLE, "complete_bash")
+    monkeypatch.setenv(COMPLETION_VARIABLE, "complete_bash")
     monkeypatch.setenv("COMP_WORDS", line)
     monkeypatch.setenv("COMP_CWORD", str(len(line.split(" ")) - 1))
     assert main([]) == 0

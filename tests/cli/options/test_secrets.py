@@ -9,7 +9,7 @@ import pytest
 from uwsim.base.environment import remove_secrets
 from uwsim.cli.options.client_options import ClientOptions
 from uwsim.cli.options.connections import ConnectionOptions
-from uwsim.cli.options.secrets import MAX_BYTES, client_secret, web_token
+from uwsim.cli.options.secrets import MAX_BYTES, read_client_secret, read_web_token
 from uwsim.errors import BadSetting
 
 
@@ -34,8 +34,8 @@ def test_the_first_line_of_a_file_is_the_secret_and_counts_before_the_variable(
     file.write_text(content, newline="")
     monkeypatch.setenv("UWSIM_WEB_TOKEN", "ebb")
     monkeypatch.setenv("UWSIM_CLIENT_SECRET", "slack")
-    assert (web_token(None, None), client_secret(None)) == ("ebb", "slack")
-    assert (web_token(None, file), client_secret(file)) == ("tide", "tide")
+    assert (read_web_token(None, None), read_client_secret(None)) == ("ebb", "slack")
+    assert (read_web_token(None, file), read_client_secret(file)) == ("tide", "tide")
 
 
 @pytest.mark.parametrize("content", ["", " \n", "\n\n", "x" * (MAX_BYTES + 1)])
@@ -44,14 +44,14 @@ def test_a_blank_or_endless_secret_is_one_line(
 ) -> None:
     file = tmp_path / "secret"
     with pytest.raises(BadSetting, match="cannot be read"):
-        client_secret(file)
+        read_client_secret(file)
     file.write_text(content)
     with pytest.raises(BadSetting, match="--client-secret-file"):
-        client_secret(file)
+        read_client_secret(file)
     if not content.strip():
         monkeypatch.setenv("UWSIM_CLIENT_SECRET", content)
         with pytest.raises(BadSetting, match="UWSIM_CLIENT_SECRET"):
-            client_secret(None)
+            read_client_secret(None)
 
 
 def test_a_secret_that_is_no_text_is_refused(
@@ -60,10 +60,10 @@ def test_a_secret_that_is_no_text_is_refused(
     file = tmp_path / "secret"
     file.write_bytes(b"tide\xff\n")
     with pytest.raises(BadSetting, match=r"--web-token-file .* no characters of UTF-8"):
-        web_token(None, file)
+        read_web_token(None, file)
     monkeypatch.setenv("UWSIM_CLIENT_SECRET", "ebb\udcff")  # as Python reads the byte 0xff
     with pytest.raises(BadSetting, match="UWSIM_CLIENT_SECRET: it has bytes that are no char"):
-        client_secret(None)
+        read_client_secret(None)
 
 
 def test_secrets_are_not_shown_with_what_holds_them(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -91,5 +91,5 @@ def test_the_secret_is_of_a_client_that_joins(tmp_path: Path) -> None:
     ):
         wrong = ErrorCollector()
         options.check(wrong, "0")
-        with pytest.raises(BadSetting, match="--client-secret-file is of"):
+        with pytest.raises(BadSetting, match="--client-secret-file needs"):
             wrong.raise_errors()

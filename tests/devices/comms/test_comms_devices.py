@@ -15,7 +15,7 @@ from tests.simulation.small_robots import joint, scene_of, shape, write_robot
 from tests.support.opened import open_scene
 from uwsim.devices.comms.acoustic_comms_device import AcousticCommsDeviceSpec, EnergyModelSpec
 from uwsim.devices.comms.comms_channels import AcousticCommsChannelSpec, CustomCommsChannelSpec
-from uwsim.devices.comms.comms_device import CommsMeshSpec, MacProtocolSpec
+from uwsim.devices.comms.comms_device import MacProtocolSpec, MeshSpec
 from uwsim.devices.comms.custom_comms_device import CustomCommsDeviceSpec, RateErrorModelSpec
 from uwsim.errors import BadMessage
 from uwsim.messages import MultiArrayDimension, MultiArrayLayout, String, UInt8MultiArray
@@ -294,7 +294,7 @@ def test_a_scene_with_a_tracing_script_publishes_what_becomes_of_packets(tmp_pat
 def test_a_mesh_is_drawn_where_the_device_is(tmp_path: Path) -> None:
     cube = tmp_path / "modem.obj"
     cube.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 1 3 4\nf 2 3 4\n")
-    mesh = CommsMeshSpec(path=str(cube), scale_factor=(0.5, 0.5, 0.25))
+    mesh = MeshSpec(path=str(cube), scale_factor=(0.5, 0.5, 0.25))
     scene = scene_in(
         tmp_path, lambda name, mac: modem(name, mac, mesh=mesh, position=(0.0, 2.0, 0.0))
     )

@@ -94,10 +94,8 @@ class Collision(Measure):
     def _approach_speed(self, contacts: Sequence[Contact]) -> float:
         """Return the mean speed of the contacts that close [m/s]."""
         if self._is_original:
-            first_body = next(
-                (contact.other for contact in contacts if contact.own_speed > 0.0), None
-            )
-            speeds = [contact.own_speed for contact in contacts if contact.other == first_body]
+            name = next((contact.other for contact in contacts if contact.own_speed > 0.0), None)
+            speeds = [contact.own_speed for contact in contacts if contact.other == name]
         else:
             speeds = [contact.approach_speed for contact in contacts]
         closing_speeds = [speed for speed in speeds if speed > 0.0]

@@ -186,7 +186,6 @@ class Control(Measure):
         self._sample()
 
     def _integrate_command(self) -> None:
-        """Integrate the command in force up to now."""
         self._commands.integrate((self._step - self._integrated_step) * self._world.timestep)
         self._integrated_step = self._step
 
@@ -221,7 +220,6 @@ class Control(Measure):
             self._sample_step = self._step
 
     def _apply_error(self, message: Any) -> None:
-        """Apply a message of the error topic."""
         if not isinstance(message, ERROR_TYPES):
             self._report_type(self._spec.error_topic, message, ERROR_TYPES)
             return
@@ -292,11 +290,9 @@ class Control(Measure):
             notes.append(self._error_text)
         if self._has_ignored:
             notes.append("messages were passed over: not finite, or not of the kind before")
-        missing_axes = [
-            axis for axis in self._commands.selection if axis not in self._commands.axes
-        ]
-        if missing_axes and self._commands.is_known:
-            notes.append(f"no command had the axis {', '.join(missing_axes)}")
+        axis_names = [axis for axis in self._commands.selection if axis not in self._commands.axes]
+        if axis_names and self._commands.is_known:
+            notes.append(f"no command had the axis {', '.join(axis_names)}")
         return tuple(notes)
 
     @property
@@ -336,7 +332,6 @@ class Control(Measure):
         return self._shape()[name]
 
     def _quantities(self) -> dict[str, Quantity]:
-        """Return all numbers and their units."""
         quantities: dict[str, Quantity] = {}
         if self._inbox is not None:
             self._integrate_command()
@@ -355,10 +350,8 @@ class Control(Measure):
         }
 
     def _shape(self) -> dict[str, Quantity]:
-        return {
-            name: (value, self._error_unit(name))
-            for name, value in self._response.shape()[0].items()
-        }
+        shape, _ = self._response.shape()
+        return {name: (value, self._error_unit(name)) for name, value in shape.items()}
 
     def _error_unit(self, name: str) -> str:
         body_unit, topic_unit = UNITS[name]
@@ -394,5 +387,4 @@ def _type_names(types: tuple[type, ...]) -> str:
 
 
 def _snake_case(name: str) -> str:
-    """Convert ``settlingTime`` to ``settling_time``."""
     return "".join(f"_{letter.lower()}" if letter.isupper() else letter for letter in name)

@@ -114,7 +114,6 @@ class Energy(Measure):
 
     @property
     def _active_time(self) -> float:
-        """The time in which the measure was active [s]."""
         return self._n_steps * self._world.timestep
 
     @property

@@ -206,13 +206,11 @@ class EuclideanNorm(Measure):
     @property
     def details(self) -> dict[str, float | None]:
         """The statistics of the norm and of each component, and the counts."""
-        details = self._frames.details
-        details |= {
-            name: float(self._n_estimates) for name in details if name.rpartition(".")[2] == "n"
-        }
+        values = self._frames.details
+        values |= {key: float(self._n_estimates) for key in values if key.rpartition(".")[2] == "n"}
         n_frames = self._frames.n
         return {
-            **details,
+            **values,
             "refused": float(self._n_invalid),
             "frames": float(n_frames),
             "answered": self._n_answered / n_frames if n_frames else None,
@@ -252,15 +250,11 @@ class EuclideanNorm(Measure):
     @property
     def remarks(self) -> tuple[str, ...]:
         """The remarks on images without truth, and on estimates equal to that of ``publishOn``."""
-        n = (
-            self._frames.n + len(self._waiting_truths) + sum(self._n_without_truth.values())
-        )  # images
-        n_without_truth = (
-            self._n_without_truth if self.why is None else {}
-        )  # else the row has the reason
+        n_images = self._frames.n + len(self._waiting_truths) + sum(self._n_without_truth.values())
+        counts = self._n_without_truth if self.why is None else {}  # else the row has the reason
         remarks = tuple(
-            f"{k} of {n} {self._instants} are not scored: {reason}"
-            for reason, k in n_without_truth.items()
+            f"{n} of {n_images} {self._instants} are not scored: {reason}"
+            for reason, n in counts.items()
         )
         if self._n_estimates < 2 or self._n_at_start < self._n_estimates:
             return remarks
@@ -272,7 +266,6 @@ class EuclideanNorm(Measure):
 
     @property
     def _instants(self) -> str:
-        """The name of the instants of the samples."""
         return "steps" if self._n_images is None else "images"
 
     @property

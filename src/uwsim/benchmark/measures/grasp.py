@@ -64,8 +64,7 @@ class GraspSpec(MeasureSpec):
     phases: str = ""
     """The phases that count, in their order, separated by blanks."""
     truth: str = ""
-    """The topics with the truth, separated by blanks; the result states whether the algorithm reads
-    one."""
+    """The topics with the truth, separated by blanks; the result names those that are read."""
 
     def errors(self) -> Sequence[str]:
         """Return errors: phases without a topic, a phase twice, one name for two bodies."""
@@ -189,11 +188,8 @@ class Grasp(Measure):
         """End the level if the object was dropped, or the algorithm has given up."""
         if self._end is not None:
             return
-        if (
-            self._height > DROP_HEIGHT
-            and self._last_contact is not None
-            and time - self._last_contact > DROP_TIME
-        ):
+        last_contact = time if self._last_contact is None else self._last_contact
+        if self._height > DROP_HEIGHT and time - last_contact > DROP_TIME:
             phase = "while it was held" if "lifted" in self._event_times else "on its way up"
             self._end = "dropped", f"{self._spec.target!r} fell at {time:g} s, {phase}"
         elif self._phases.abort_reason is not None and not is_carried:
@@ -209,13 +205,10 @@ class Grasp(Measure):
             if self._ground_contact is None or time - self._ground_contact > 0.1:
                 self._n_collisions += 1
             self._ground_contact = time
-        for other_body, impulse in ((spec.target, self._on_object), (spec.ground, self._on_ground)):
+        for name, impulse in ((spec.target, self._on_object), (spec.ground, self._on_ground)):
             if self._end is None and impulse.peak > spec.max_impulse:
                 size = f"{impulse.peak:.3g} N s within 50 ms"
-                self._end = (
-                    "collision",
-                    f"{spec.vehicle!r} hit {other_body!r} at {time:g} s: {size}",
-                )
+                self._end = ("collision", f"{spec.vehicle!r} hit {name!r} at {time:g} s: {size}")
 
     def _track_motion(self, time: float) -> None:
         """Track the base while the jaw closes, and the object while it is raised."""
@@ -232,9 +225,8 @@ class Grasp(Measure):
         ):
             if self._raising_point is None:
                 self._raising_point = self._contact_point()
-            self._slip_raising = max(
-                self._slip_raising or 0.0, self._displacement(*self._raising_point)
-            )
+            displacement = self._displacement(*self._raising_point)
+            self._slip_raising = max(self._slip_raising or 0.0, displacement)
 
     def _time_hold(self, time: float, height: float) -> None:
         """Begin the hold, track it, and end the level when it was long enough."""
@@ -254,10 +246,8 @@ class Grasp(Measure):
     def _contact_point(self) -> tuple[Array, Array]:
         """Return the mean of its contacts with the vehicle, in the object's and the jaw's frame."""
         contacts = self._world.contacts(self._spec.target)
-        positions = [
-            contact.position for contact in contacts if contact.other == self._spec.vehicle
-        ]
-        centre = np.mean(positions, axis=0) if positions else self._jaw.world_from_body.position
+        points = [contact.position for contact in contacts if contact.other == self._spec.vehicle]
+        centre = np.mean(points, axis=0) if points else self._jaw.world_from_body.position
         point = self._object.world_from_body.inverse().transform(centre[None])[0]
         return point, self._jaw_position(point)
 
@@ -365,10 +355,8 @@ class Grasp(Measure):
         """Return the status of a level without success, and the reason."""
         target, reason = f"{self._spec.target!r}", self._phases.abort_reason
         if self._height > DROP_HEIGHT:
-            return (
-                "dropped",
-                reason or f"{target} was raised, and not held for {self._spec.hold:g} s",
-            )
+            hold = f"{self._spec.hold:g} s"
+            return "dropped", reason or f"{target} was raised, and not held for {hold}"
         if "touched" in self._event_times:
             return "missed", reason or f"{target} was touched, and never lifted"
         if reason is not None:

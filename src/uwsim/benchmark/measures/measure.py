@@ -19,8 +19,7 @@ class MeasureSpec(Spec, abc.ABC):
     values: ClassVar[tuple[str, ...]] = ("last",)
     """The allowed statistics of ``u:value``."""
     error_flag: ClassVar[int] = 0
-    """The number that a missing value adds to the original's sum of errors (compatibility
-    ``rows``)."""
+    """The share of a missing value in the original's sum of errors (compatibility ``rows``)."""
 
     name: str
     """The name of its column, and of the value in the function; an identifier."""

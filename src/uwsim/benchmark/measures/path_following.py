@@ -171,9 +171,8 @@ class PathFollowing(Measure):
         self._farthest_length = max(self._farthest_length, length)
         if self._last_sample is not None:
             step, last_distance = self._last_sample
-            self._integrate(
-                last_distance, distance, (self._world.step - step) * self._world.timestep
-            )
+            duration = (self._world.step - step) * self._world.timestep  # [s]
+            self._integrate(last_distance, distance, duration)
         self._last_sample = (self._world.step, distance)
         self._signal.add(distance, ())
 
@@ -238,7 +237,6 @@ class PathFollowing(Measure):
             self._inbox.close()
 
     def _read_path(self) -> None:
-        """Read the newest path that arrived, if it is valid."""
         messages = self._inbox.take() if self._inbox is not None else []
         if not messages:
             return
@@ -269,7 +267,6 @@ class PathFollowing(Measure):
         return rotate_back(world_from_frame.rotation, position - world_from_frame.position)
 
     def _integrate(self, last_distance: float, distance: float, duration: float) -> None:
-        """Integrate between two samples [m, m, s]."""
         if self._is_original:
             self._iae += distance * duration
             return
@@ -281,9 +278,7 @@ def _path_points(path: Path) -> Array | None:
     """Return the points of a path, (n, 3) [m]; None if one is not finite."""
     try:
         positions = [pose.pose.position for pose in path.poses]
-        points = np.array(
-            [(position.x, position.y, position.z) for position in positions], dtype=np.float64
-        )
+        points = np.array([(p.x, p.y, p.z) for p in positions], dtype=np.float64)
     except (AttributeError, TypeError, ValueError):  # a message built by other code
         return None
     return points.reshape(-1, 3) if np.isfinite(points).all() else None

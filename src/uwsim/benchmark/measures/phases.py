@@ -47,7 +47,6 @@ class Phases:
                 self._max_number = max(self._max_number, self._names.index(name) + 1)
 
     def _add_time(self) -> None:
-        """Add the time since the last call to the present phase."""
         time = self._world.time
         if self._name is not None:
             self._seconds[self._name] += time - self._count_time

@@ -45,8 +45,7 @@ class Reconstruction3DSpec(MeasureSpec):
     topic: str
     """The topic of the clouds (sensor_msgs/PointCloud2)."""
     from_: str | None = element("from", default=None, original=REQUIRED_BY_DTD, refers_to="body")
-    """The route of the body in whose frame the clouds are given; without one they are in W, not
-    L."""
+    """The route of the body in whose frame the clouds are; without one W, not L."""
     level_of_detail: float = element(default=0.003, above=0.0)
     """The cell size of the coverage [m]."""
     detailed_results_to_globals: bool = element(default=False, attribute=True)
@@ -122,12 +121,7 @@ class Reconstruction3D(Measure):
     fed_by_algorithm = True
 
     def __init__(
-        self,
-        spec: Reconstruction3DSpec,
-        world: World,
-        target: Body,
-        box: Box,
-        frame: Body | None,
+        self, spec: Reconstruction3DSpec, world: World, target: Body, box: Box, frame: Body | None
     ) -> None:
         quirks = world.compatibility
         self._target, self._frame, self._topic = target, frame, spec.topic

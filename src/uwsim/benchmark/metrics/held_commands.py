@@ -18,14 +18,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from ...messages import (
-    Float64MultiArray,
-    JointState,
-    Twist,
-    TwistStamped,
-    Wrench,
-    WrenchStamped,
-)
+from ...messages import Float64MultiArray, JointState, Twist, TwistStamped, Wrench, WrenchStamped
 
 Quantity = tuple[float | None, str]
 """A number, if there is one, and its unit."""

@@ -85,7 +85,6 @@ class Reconstruction:
         return self._coverage.share
 
     def _classify(self, points: Array) -> None:
-        """Classify points (3, n) as ground, outliers or inliers."""
         lower_excess, upper_excess = self._lower - points, points - self._upper
         excess = np.maximum(np.maximum(lower_excess, upper_excess), 0.0)
         d_out = np.sqrt(np.einsum("ij,ij->j", excess, excess))

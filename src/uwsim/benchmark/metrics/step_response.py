@@ -101,17 +101,15 @@ class StepResponse:
         if steps == 0:
             return
         start, end = last_step * self._timestep, (last_step + steps) * self._timestep
-        seconds = steps * self._timestep
+        dt = steps * self._timestep
         if self._is_constant:
-            self.ise += last_size * last_size * seconds
-            self.iae += last_size * seconds
-            self.itae += last_size * 0.5 * (start + end) * seconds
+            self.ise += last_size * last_size * dt
+            self.iae += last_size * dt
+            self.itae += last_size * 0.5 * (start + end) * dt
         else:
-            self.ise += (
-                (last_size * last_size + dot(last_error, error) + size * size) * seconds / 3.0
-            )
-            self.iae += 0.5 * (last_size + size) * seconds
-            self.itae += 0.5 * (start * last_size + end * size) * seconds
+            self.ise += (last_size * last_size + dot(last_error, error) + size * size) * dt / 3.0
+            self.iae += 0.5 * (last_size + size) * dt
+            self.itae += 0.5 * (start * last_size + end * size) * dt
 
     def shape(self) -> Shape:
         """Return the numbers of the response, and the reasons why some are None."""
@@ -139,13 +137,11 @@ class StepResponse:
         response = 1.0 - product(errors, errors[0] / step) / step
         values["overshoot"] = max(0.0, float(response.max()) - 1.0) * step
         values["overshoot_percent"] = max(0.0, float(response.max()) - 1.0) * 100.0
-        rise_start, rise_end = RISE_RANGE
-        if response.max() >= rise_end:
-            values["rise_time"] = float(
-                times[response >= rise_end][0] - times[response >= rise_start][0]
-            )
+        low, high = RISE_RANGE
+        if response.max() >= high:
+            values["rise_time"] = float(times[response >= high][0] - times[response >= low][0])
         else:
-            reasons["rise_time"] = f"never rose to {rise_end:.0%} of the step"
+            reasons["rise_time"] = f"never rose to {high:.0%} of the step"
         indices_outside = np.flatnonzero(np.linalg.norm(errors, axis=1) > self._band * step)
         settling_index = int(indices_outside[-1]) + 1 if len(indices_outside) else 0
         if settling_index < len(times):

@@ -252,7 +252,6 @@ class BagFogUpdater(SceneUpdater):
             )
 
     def _add_fog(self, decoded_image: DecodedImage) -> npt.NDArray[np.uint8]:
-        """Return an image with the present fog."""
         thickness = (self._density * self._spec.image_depth) ** 2
         if not self._is_original:
             return add_fog(decoded_image.pixels, math.exp(-thickness), self._stage.fog_colour)

@@ -20,14 +20,8 @@ from typing import ClassVar
 
 import numpy as np
 
-from ...currents import (
-    MAX_SPEED,
-    MIN_PERIOD,
-    DelayedCurrent,
-    Place,
-    TargetCurrent,
-    UwsimSinusoidSpec,
-)
+from ...currents import MAX_SPEED, DelayedCurrent, Place, TargetCurrent
+from ...currents.uwsim_sinusoid import MIN_PERIOD, UwsimSinusoidSpec
 from ...errors import BadSetting, UnknownName
 from ...messages import Empty, Vector3, Wrench, WrenchStamped, header
 from ...schema import Original, Spec, element

@@ -21,8 +21,7 @@ class Level:
     """A level of a sweep: the value of each updater, the outermost first."""
 
     values: tuple[tuple[str, float], ...]
-    """The pairs (parameter, value) of each updater, such as ``(("current", 0.1), ("fog",
-    0.05))``."""
+    """The parameter and value of each updater, as ``(("current", 0.1), ("fog", 0.05))``."""
 
     def __str__(self) -> str:
         return ", ".join(f"{name}={value:g}" for name, value in self.values)
@@ -145,10 +144,8 @@ def n_levels(spec: SceneUpdaterSpec) -> int:
 
 def levels(spec: SceneUpdaterSpec) -> list[Level]:
     """Return all levels in the order of execution: the deepest updater changes fastest."""
-    if n_levels(spec) > MAX_LEVELS:
-        raise BadSetting(
-            f"The scene updater has {n_levels(spec)} levels; expected at most {MAX_LEVELS}."
-        )
+    if (n := n_levels(spec)) > MAX_LEVELS:
+        raise BadSetting(f"The scene updater has {n} levels; expected at most {MAX_LEVELS}.")
     names = swept_parameters(spec)
     products = itertools.product(*(updater.values() for updater in chain(spec)))
     return [Level(tuple(zip(names, values, strict=True))) for values in products]

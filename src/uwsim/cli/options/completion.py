@@ -1,7 +1,7 @@
 """Completion by the shell: commands, options, names and files.
 
-``uwsim --install-completion`` tells the shell once; from then on it asks ``uwsim`` itself, with the
-words that stand on the line in an environment variable. Where nothing is offered it offers files.
+``uwsim --install-completion`` configures the shell once. Then the shell runs ``uwsim`` with the
+words of the line in an environment variable. Without a completion it offers files.
 """
 
 from __future__ import annotations
@@ -13,13 +13,13 @@ from pathlib import Path
 
 from .descriptions import head_comment
 
-VARIABLE = "_UWSIM_COMPLETE"
-"""Set by the shell when it requests completion."""
+COMPLETION_VARIABLE = "_UWSIM_COMPLETE"
+"""The environment variable that the shell sets when it requests completion."""
 
 
-def words_typed() -> list[str] | None:
+def typed_words() -> list[str] | None:
     """Return the words after ``uwsim`` on the shell's line; None without a completion request."""
-    if VARIABLE not in os.environ:
+    if COMPLETION_VARIABLE not in os.environ:
         return None
     line = os.environ.get("COMP_WORDS") or os.environ.get("_TYPER_COMPLETE_ARGS", "")
     try:
@@ -28,53 +28,57 @@ def words_typed() -> list[str] | None:
         return line.split()[1:]
 
 
-def scene_names(incomplete: str) -> list[tuple[str, str]]:
-    """Bundled scenes, and XML files."""
-    return [*_bundled("scenes", incomplete), *_files(incomplete, ".xml")]
+def scene_names(prefix: str) -> list[tuple[str, str]]:
+    """Return bundled scenes, and XML files."""
+    return [*_bundled_names("scenes", prefix), *_match_files(prefix, ".xml")]
 
 
-def benchmark_names(incomplete: str) -> list[tuple[str, str]]:
-    """Bundled benchmarks, and XML files."""
-    return [*_bundled("benchmarks", incomplete), *_files(incomplete, ".xml")]
+def benchmark_names(prefix: str) -> list[tuple[str, str]]:
+    """Return bundled benchmarks, and XML files."""
+    return [*_bundled_names("benchmarks", prefix), *_match_files(prefix, ".xml")]
 
 
-def checked_names(incomplete: str) -> list[tuple[str, str]]:
-    """Bundled scenes and benchmarks, XML files and URDFs."""
-    return [*copied_names(incomplete), *_files(incomplete, ".xml", ".urdf")]
+def checked_names(prefix: str) -> list[tuple[str, str]]:
+    """Return bundled scenes and benchmarks, XML files and URDFs."""
+    return [*copied_names(prefix), *_match_files(prefix, ".xml", ".urdf")]
 
 
-def copied_names(incomplete: str) -> list[tuple[str, str]]:
-    """Bundled scenes and benchmarks."""
-    return [*_bundled("scenes", incomplete), *_bundled("benchmarks", incomplete)]
+def copied_names(prefix: str) -> list[tuple[str, str]]:
+    """Return bundled scenes and benchmarks."""
+    return [*_bundled_names("scenes", prefix), *_bundled_names("benchmarks", prefix)]
 
 
-def algorithm_names(incomplete: str) -> list[tuple[str, str]]:
-    """Bundled algorithms; the only names that cost an import."""
+def algorithm_names(prefix: str) -> list[tuple[str, str]]:
+    """Return bundled algorithms; no other names need an import."""
     from ...algorithms import ALGORITHMS, summary
 
-    return _matching({name: summary(kind) for name, kind in ALGORITHMS.items()}, incomplete)
+    return _match_names({name: summary(kind) for name, kind in ALGORITHMS.items()}, prefix)
 
 
-def one_of(names: Iterable[str]) -> Callable[[str], list[tuple[str, str]]]:
-    """Return the completion of a word that is one of a few."""
-    known = {name: "" for name in names}
-    return lambda incomplete: _matching(known, incomplete)
+def complete_names(names: Iterable[str]) -> Callable[[str], list[tuple[str, str]]]:
+    """Return the completion of a word that is one of some names."""
+    descriptions = {name: "" for name in names}
+
+    def complete(prefix: str) -> list[tuple[str, str]]:
+        return _match_names(descriptions, prefix)
+
+    return complete
 
 
-def _bundled(kind: str, incomplete: str) -> list[tuple[str, str]]:
+def _bundled_names(kind: str, prefix: str) -> list[tuple[str, str]]:
     from ...assets.bundled import bundled_files
 
-    return _matching({n: head_comment(p) for n, p in bundled_files(kind).items()}, incomplete)
+    return _match_names({n: head_comment(p) for n, p in bundled_files(kind).items()}, prefix)
 
 
-def _matching(names: Mapping[str, str], incomplete: str) -> list[tuple[str, str]]:
-    return [(name, message) for name, message in names.items() if name.startswith(incomplete)]
+def _match_names(names: Mapping[str, str], prefix: str) -> list[tuple[str, str]]:
+    return [(name, message) for name, message in names.items() if name.startswith(prefix)]
 
 
-def _files(incomplete: str, *endings: str) -> list[tuple[str, str]]:
-    """Files of these endings in this directory; the shell itself offers all others."""
+def _match_files(prefix: str, *suffixes: str) -> list[tuple[str, str]]:
+    """Return files with these suffixes in this directory; the shell offers all others."""
     return [
         (path.name, "")
         for path in sorted(Path().glob("*"))
-        if path.name.startswith(incomplete) and path.suffix in endings and path.is_file()
+        if path.name.startswith(prefix) and path.suffix in suffixes and path.is_file()
     ]

@@ -1,4 +1,4 @@
-"""Options that connect a running simulation to the world outside, and what they start."""
+"""The options that connect a running simulation to external programs."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from typing import TYPE_CHECKING, Annotated
 
 from ...errors import BadSetting, ErrorCollector, RunFailed
 from ...middleware.pacing import MIN_SPEED
-from .help_texts import CONNECTED, in_group
-from .secrets import client_secret
+from .help_texts import CONNECTIONS, option
+from .secrets import read_client_secret
 from .web_options import (
     CLIENT_LIMIT,
     ClientLimitOption,
     ClientOption,
     ClientSecretFileOption,
-    WebGiven,
     WebHostOption,
     WebOption,
+    WebOptionValues,
     WebOriginOption,
     WebTokenFileOption,
     WebTokenOption,
@@ -35,50 +35,47 @@ if TYPE_CHECKING:
 
 Ros1Option = Annotated[
     bool,
-    in_group(
-        CONNECTED,
+    option(
+        CONNECTIONS,
         "--ros1",
-        help="Be a node of ROS 1: topics, services, /clock and /tf, at the master of "
-        "ROS_MASTER_URI; a master is started where none runs. ROS need not be installed.",
+        help="Run as a node of ROS 1: topics, services, /clock and /tf, at the master of "
+        "ROS_MASTER_URI; a master is started if none runs. ROS need not be installed.",
     ),
 ]
 
 Ros1HostOption = Annotated[
     str | None,
-    in_group(
-        CONNECTED,
+    option(
+        CONNECTIONS,
         "--ros1-host",
         metavar="ADDRESS",
-        help="Address of this computer at which ROS 1 nodes on others reach it [127.0.0.1: "
-        "nodes on this computer only].",
+        help="Address of this computer for ROS 1 nodes on other computers [127.0.0.1: nodes on "
+        "this computer only].",
     ),
 ]
 
 Ros2Option = Annotated[
     bool,
-    in_group(
-        CONNECTED,
+    option(
+        CONNECTIONS,
         "--ros2",
-        help="Be a node of ROS 2: topics, services, /clock. By rclpy where it can be imported, "
-        "else by DDS (UWSIM_ROS2=rclpy|dds chooses). On this computer only, unless "
+        help="Run as a node of ROS 2: topics, services, /clock. With rclpy if it can be imported, "
+        "else with DDS (UWSIM_ROS2=rclpy|dds selects one). On this computer only, unless "
         "ROS_AUTOMATIC_DISCOVERY_RANGE=SUBNET.",
     ),
 ]
 
 DomainOption = Annotated[
     int | None,
-    in_group(
-        CONNECTED,
-        "--domain",
-        metavar="N",
-        help="ROS 2 domain, 0 to 232 [ROS_DOMAIN_ID, or 0].",
+    option(
+        CONNECTIONS, "--domain", metavar="N", help="ROS 2 domain, 0 to 232 [ROS_DOMAIN_ID, or 0]."
     ),
 ]
 
 
 @dataclass(frozen=True, kw_only=True)
 class ConnectionOptions:
-    """To what a simulation is connected, and how fast it runs then."""
+    """The connections of a simulation, and its speed."""
 
     ros1: Ros1Option = False
     ros1_host: Ros1HostOption = None
@@ -86,21 +83,21 @@ class ConnectionOptions:
     domain: DomainOption = None
     speed: Annotated[
         float | None,
-        in_group(
-            CONNECTED,
+        option(
+            CONNECTIONS,
             "--speed",
             metavar="X",
-            help="Simulation time per real time; 0 is as fast as it can [1 with a connection "
+            help="Simulation time per real time; 0 is as fast as possible [1 with a connection "
             "and no --client, else 0].",
         ),
     ] = None
     max_lag: Annotated[
         float | None,
-        in_group(
-            CONNECTED,
+        option(
+            CONNECTIONS,
             "--max-lag",
             metavar="SECONDS",
-            help="A strict clock, for hardware in the loop: the run ends when the simulation is "
+            help="The greatest lag, for hardware in the loop: the run ends when the simulation is "
             "later than this [a late simulation loses time].",
         ),
     ] = None
@@ -116,54 +113,54 @@ class ConnectionOptions:
 
     @property
     def is_connected(self) -> bool:
-        """Whether there is any connection."""
+        """A flag: there is a connection."""
         return bool(self.transports)
 
     @property
     def transports(self) -> tuple[str, ...]:
-        """Names of those that are asked for."""
-        are = {"ros1": self.ros1, "ros2": self.ros2, "web": self.web is not None}
-        return tuple(name for name, is_used in are.items() if is_used)
+        """The names of the requested transports."""
+        requests = {"ros1": self.ros1, "ros2": self.ros2, "web": self.web is not None}
+        return tuple(name for name, is_requested in requests.items() if is_requested)
 
     @property
     def pace(self) -> float:
-        """Simulation time per real time; 0 is as fast as it can."""
+        """The simulation time per real time; 0 is as fast as possible."""
         is_free = self.is_connected and not self.client
         return float(is_free) if self.speed is None else self.speed
 
-    def check(self, wrong: ErrorCollector) -> None:
+    def check(self, errors: ErrorCollector) -> None:
         """Collect the errors of the options."""
-        with wrong.collect():
+        with errors.collect():
             if self.domain is not None and not self.ros2:
-                raise BadSetting("--domain is of --ros2.")
-        with wrong.collect():
+                raise BadSetting("--domain needs --ros2.")
+        with errors.collect():
             if self.ros1_host is not None and not self.ros1:
-                raise BadSetting("--ros1-host is of --ros1.")
-        with wrong.collect():
+                raise BadSetting("--ros1-host needs --ros1.")
+        with errors.collect():
             if not (self.pace == 0 or MIN_SPEED <= self.pace < float("inf")):
                 raise BadSetting(f"--speed {self.pace:g}: expected 0, or {MIN_SPEED:g} or more.")
-        with wrong.collect():
+        with errors.collect():
             if self.max_lag is not None and not 0.0 < self.max_lag < float("inf"):
                 raise BadSetting(f"--max-lag {self.max_lag:g}: expected a time > 0 [s].")
             if self.max_lag is not None and self.pace == 0:
-                raise BadSetting("--max-lag is of a run in real time; give its --speed.")
-        with wrong.collect():
+                raise BadSetting("--max-lag needs a run in real time; add --speed.")
+        with errors.collect():
             if self.ros2:
                 from ...middleware.ros2.choice import check
 
                 check(os.environ, self.domain)
-        with wrong.collect():
+        with errors.collect():
             if (web := self.web_options()) is not None:
                 web.check_free()
-        with wrong.collect():
+        with errors.collect():
             check_clients(self.client or (), self.client_limit, self.transports)
-        with wrong.collect():
+        with errors.collect():
             if self.client_secret_file is not None and not self.client:
-                raise BadSetting("--client-secret-file is of --client.")
-            client_secret(self.client_secret_file)
+                raise BadSetting("--client-secret-file needs --client.")
+            read_client_secret(self.client_secret_file)
 
     def spec(self) -> ConnectionSpec:
-        """Return what is opened; raises BadSetting."""
+        """Return the connections to open; raises BadSetting."""
         from ...middleware.connection import ConnectionSpec
 
         return ConnectionSpec(
@@ -175,8 +172,8 @@ class ConnectionOptions:
         )
 
     def web_options(self) -> WebOptions | None:
-        """Return where web clients are served; raises BadSetting."""
-        return WebGiven(
+        """Return the settings of the web server; raises BadSetting."""
+        return WebOptionValues(
             port=self.web,
             host=self.web_host,
             token=self.web_token,
@@ -186,18 +183,18 @@ class ConnectionOptions:
 
 
 @contextmanager
-def connected(simulation: Simulation, options: ConnectionOptions) -> Iterator[None]:
-    """Connect a simulation, and pace it, within the block; a program outside may end the block.
+def open_connections(simulation: Simulation, options: ConnectionOptions) -> Iterator[None]:
+    """Connect a simulation, and pace it, within the block; an external program may end the block.
 
-    Clients in lock-step are waited for until they have joined.
+    The block begins when all clients in lock-step have joined.
     """
     from ...simulation.control import Quit
 
     with options.spec().open(simulation.bus, lambda: simulation.time) as bridges:
         if options.client:
-            _attach(simulation, bridges, options)
+            _attach_clients(simulation, bridges, options)
         if bridges:
-            _connect(simulation, bridges)
+            _connect_bridges(simulation, bridges)
         if options.pace > 0:
             from ...middleware.pacing import Pace
 
@@ -207,8 +204,9 @@ def connected(simulation: Simulation, options: ConnectionOptions) -> Iterator[No
             yield
 
 
-def _attach(simulation: Simulation, bridges: Sequence[Bridge], options: ConnectionOptions) -> None:
-    """Attach the clients in lock-step."""
+def _attach_clients(
+    simulation: Simulation, bridges: Sequence[Bridge], options: ConnectionOptions
+) -> None:
     from ...middleware.lockstep.client import lockstep_clients
 
     for client in lockstep_clients(
@@ -216,15 +214,15 @@ def _attach(simulation: Simulation, bridges: Sequence[Bridge], options: Connecti
         options.client or (),
         timestep=simulation.timestep,
         limit=options.client_limit,
-        secret=client_secret(options.client_secret_file),
+        secret=read_client_secret(options.client_secret_file),
     ):
         node = simulation.attach(client, name=client.name, raises=False)
         if node.error is not None:
             raise RunFailed(f"{client.name} {node.failure_verb}: {node.error}")
 
 
-def _connect(simulation: Simulation, bridges: Sequence[Bridge]) -> None:
-    """Let transports exchange messages, and control the simulation, at the end of each step."""
+def _connect_bridges(simulation: Simulation, bridges: Sequence[Bridge]) -> None:
+    """Exchange messages with bridges, and control the simulation, at the end of each step."""
     from ...simulation.control import SimulationControl
 
     def exchange() -> None:

@@ -1,4 +1,4 @@
-"""One line about a thing that has a name: from its docstring, or the comment at its file's head."""
+"""One-line descriptions of named elements: from a docstring, or a file's head comment."""
 
 from __future__ import annotations
 
@@ -9,37 +9,37 @@ from pathlib import Path
 from types import ModuleType
 
 
-def family(table: Mapping[str, type]) -> dict[str, str]:
-    """Describe a family by the first line of each member's module: there it says what it is.
+def describe_family(table: Mapping[str, type]) -> dict[str, str]:
+    """Describe a family by the first line of each member's module.
 
-    A plugin may have several members in its one module, so they are described by their own.
+    A plugin may have several members in its one module, so their own docstrings describe them.
     """
     return {
-        name: first_line(spec.__doc__ if is_of_a_plugin(spec) else module_of(spec).__doc__)
+        name: first_line(spec.__doc__ if is_plugin_class(spec) else find_module(spec).__doc__)
         for name, spec in table.items()
     }
 
 
-def is_of_a_plugin(spec: type) -> bool:
-    """Tell whether a class came with ``--plugin``."""
+def is_plugin_class(spec: type) -> bool:
+    """Return whether a class comes from ``--plugin``."""
     from ...benchmark.plugin import MODULE_PREFIX
 
     return spec.__module__.startswith(MODULE_PREFIX)
 
 
-def module_of(spec: type) -> ModuleType:
+def find_module(spec: type) -> ModuleType:
     """Return the module of a class."""
     return sys.modules[spec.__module__]
 
 
-def without_title(line: str) -> str:
-    """``Distance: how far a body went.`` becomes ``How far a body went.``."""
+def remove_title(line: str) -> str:
+    """Convert ``Distance: the path of a body.`` to ``The path of a body.``."""
     text = line.partition(": ")[2] or line
     return text[:1].upper() + text[1:]
 
 
 def first_line(doc: str | None) -> str:
-    """Return the first line of a docstring without its marks of code."""
+    """Return the first line of a docstring without its code markup."""
     return (doc or "").strip().split("\n")[0].replace("``", "")
 
 

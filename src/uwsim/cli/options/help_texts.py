@@ -1,6 +1,6 @@
 """The help texts of commands, and the errors of their options.
 
-Options stand in groups, each option where `in_group` put it; arguments are named as they are typed.
+Options are in the groups that `option` sets; arguments have the names that the user types.
 """
 
 from __future__ import annotations
@@ -17,52 +17,52 @@ from ...errors import BadSetting, ErrorCollector
 HELP_NAMES: dict[str, Any] = {"help_option_names": ["-h", "--help"]}
 """The help options of ``uwsim`` and of each command."""
 
-INPUT = "What is run"
+INPUT = "Input"
 RUN = "Repeats and processes"
-SEARCH = "What is searched"
-COMPARED = "What is compared"
-CONNECTED = "Connections"
+SEARCH = "Search"
+COMPARISON = "Comparison"
+CONNECTIONS = "Connections"
 FILES = "Your own files and code"
 OUTPUT = "Output"
-OTHERS = "Options"
-"""Groups of options, in the order in which help shows them."""
-ORDER = (INPUT, COMPARED, SEARCH, CONNECTED, RUN, OUTPUT, FILES, OTHERS)
+OTHER_OPTIONS = "Options"
+"""The groups of options."""
+GROUP_ORDER = (INPUT, COMPARISON, SEARCH, CONNECTIONS, RUN, OUTPUT, FILES, OTHER_OPTIONS)
 
 Completion = Callable[[str], list[tuple[str, str]]]
-"""What has been typed of a word -> words it may become, each with a line about it."""
+"""A function from an incomplete word to its completions, each with a description."""
 
 
-def in_group(group: str, *names: str, **about: Any) -> Any:
-    """Return an option that help shows in a group; all else is typer's."""
-    return typer.Option(*names, rich_help_panel=group, **about)
+def option(group: str, *names: str, **arguments: Any) -> Any:
+    """Return an option that help shows in a group; other arguments are those of typer."""
+    return typer.Option(*names, rich_help_panel=group, **arguments)
 
 
-class TaughtCommand(TyperCommand):
+class ErrorCollectingCommand(TyperCommand):
     """A command that reports the errors of all its options at once."""
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
-        """Read the options; raises SeveralErrors, or typer's own where there is but one."""
-        given = list(args)
+        """Read the options; raises SeveralErrors, or typer's own error if there is only one."""
+        given_arguments = list(args)
         try:
             return super().parse_args(ctx, args)
-        except typer.TyperException as first:
-            wrong = ErrorCollector()
-            values, rest, _ = self.make_parser(ctx).parse_args(args=given)
+        except typer.TyperException as first_error:
+            errors = ErrorCollector()
+            values, rest, _ = self.make_parser(ctx).parse_args(args=given_arguments)
             for parameter in self.get_params(ctx):
                 if parameter.is_eager:
                     continue
-                with wrong.collect():
+                with errors.collect():
                     try:
                         parameter.handle_parse_result(ctx, values, rest)
                     except typer.TyperException as error:
                         raise BadSetting(error.format_message()) from None
             with suppress(BadSetting):  # the only one: as typer says it
-                wrong.raise_errors()
-            raise first
+                errors.raise_errors()
+            raise first_error
 
     def collect_usage_pieces(self, ctx: Any) -> list[str]:
-        """``[OPTIONS] BENCHMARK``, ``[OPTIONS] RESULT...``, ``[OPTIONS] [KIND]``."""
-        return ["[OPTIONS]", *(_usage(each) for each in self._arguments(ctx))]
+        """Return ``[OPTIONS] BENCHMARK``, ``[OPTIONS] RESULT...`` or ``[OPTIONS] [KIND]``."""
+        return ["[OPTIONS]", *(_usage(argument) for argument in self._arguments(ctx))]
 
     def format_options(self, ctx: Any, formatter: Any) -> None:
         """Write arguments and options, group by group."""
@@ -70,27 +70,27 @@ class TaughtCommand(TyperCommand):
         for parameter in self._options(ctx):
             record = parameter.get_help_record(ctx)
             if record is not None:
-                groups.setdefault(parameter.rich_help_panel or OTHERS, []).append(record)
-        arguments = [(_shown(each), each.help or "") for each in self._arguments(ctx)]
+                groups.setdefault(parameter.rich_help_panel or OTHER_OPTIONS, []).append(record)
+        arguments = [(_metavar(argument), argument.help or "") for argument in self._arguments(ctx)]
         if arguments:
             with formatter.section("Arguments"):
                 formatter.write_dl(arguments)
-        for title in (*ORDER, *(name for name in groups if name not in ORDER)):
+        for title in (*GROUP_ORDER, *(name for name in groups if name not in GROUP_ORDER)):
             if title in groups:
                 with formatter.section(title):
                     formatter.write_dl(groups[title])
 
     def _arguments(self, ctx: Any) -> Sequence[Any]:
-        return [each for each in self.get_params(ctx) if each.param_type_name == "argument"]
+        return [entry for entry in self.get_params(ctx) if entry.param_type_name == "argument"]
 
     def _options(self, ctx: Any) -> Sequence[Any]:
-        return [each for each in self.get_params(ctx) if each.param_type_name == "option"]
+        return [entry for entry in self.get_params(ctx) if entry.param_type_name == "option"]
 
 
-def _shown(argument: Any) -> str:
+def _metavar(argument: Any) -> str:
     return str(argument.metavar or argument.name.upper())
 
 
 def _usage(argument: Any) -> str:
-    name = _shown(argument) + ("..." if argument.nargs != 1 else "")
+    name = _metavar(argument) + ("..." if argument.nargs != 1 else "")
     return name if argument.required else f"[{name}]"

@@ -1,4 +1,4 @@
-"""Reading the texts of ``--level``, as ``fog=0.5``."""
+"""The reader of the values of ``--level``, as ``fog=0.5``."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from ...errors import BadSetting, ErrorCollector
 from ...runs.planning.option_values import number_or_text, split
 
 
-def read_levels(texts: Sequence[str] | None, wrong: ErrorCollector) -> list[tuple[str, float]]:
-    """Read every ``--level``; collects errors."""
+def read_levels(texts: Sequence[str] | None, errors: ErrorCollector) -> list[tuple[str, float]]:
+    """Read every ``--level``; collect errors."""
     levels = []
     for text in texts or ():
-        with wrong.collect():
+        with errors.collect():
             levels.append(read_level(text))
     return levels
 

@@ -1,4 +1,4 @@
-"""Options of the live view, and what opens it."""
+"""The options of the live view."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ...errors import BadSetting
-from .help_texts import CONNECTED, in_group
+from .help_texts import CONNECTIONS, option
 
 if TYPE_CHECKING:
     from ...viewer.live.session import LiveSession
@@ -20,45 +20,50 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class LiveOptions:
-    """Whether a browser may look on."""
+    """The options of the live view in a browser."""
 
     view: Annotated[
         bool,
-        in_group(
-            CONNECTED,
+        option(
+            CONNECTIONS,
             "--view",
-            help="Look on in a browser, at the address that is printed; and pilot. On this "
-            "computer only.",
+            help="Show the run in a browser, at the printed address; and pilot. On this computer "
+            "only.",
         ),
     ] = False
     port: Annotated[
         int | None,
-        in_group(
-            CONNECTED, "--port", metavar="N", min=0, max=65535, help="Of --view [any free one]."
+        option(
+            CONNECTIONS,
+            "--port",
+            metavar="N",
+            min=0,
+            max=65535,
+            help="Port of --view [any free one].",
         ),
     ] = None
     pilot_mapping: Annotated[
         Path | None,
-        in_group(
-            CONNECTED,
+        option(
+            CONNECTIONS,
             "--pilot-mapping",
             metavar="FILE.toml",
-            help="What keys, gamepad and sticks do, where it is not as usual.",
+            help="Mapping of keys, gamepad and sticks that replaces the default.",
         ),
     ] = None
 
     def check(self) -> None:
-        """Refuse options without --view; raises BadSetting."""
-        for option, value in (("--port", self.port), ("--pilot-mapping", self.pilot_mapping)):
+        """Raise BadSetting for an option without --view."""
+        for name, value in (("--port", self.port), ("--pilot-mapping", self.pilot_mapping)):
             if value is not None and not self.view:
-                raise BadSetting(f"{option} is of --view.")
+                raise BadSetting(f"{name} needs --view.")
         if self.pilot_mapping is not None:
             from ...viewer.live.mapping import read_mapping
 
             read_mapping(self.pilot_mapping)
 
     @contextmanager
-    def opened(
+    def open_session(
         self,
         title: str,
         *,
@@ -67,14 +72,14 @@ class LiveOptions:
         waits: bool = False,
         resets: bool = False,
     ) -> Iterator[LiveSession | None]:
-        """Open the port and print the address; None where nobody may look.
+        """Open the port and print the address; None without ``--view``.
 
         Args:
-            title: of the page.
-            speed: simulation time a second; 0: as fast as it can.
-            is_piloted: whether viewers pilot.
-            waits: whether nothing begins before somebody looks.
-            resets: whether viewers may put everything back where it began.
+            title: the title of the page.
+            speed: the simulation time per second; 0: as fast as possible.
+            is_piloted: viewers pilot.
+            waits: the run begins when a viewer has connected.
+            resets: viewers may reset the scene.
         """
         if not self.view:
             yield None

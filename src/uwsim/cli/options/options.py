@@ -1,4 +1,4 @@
-"""Options that several commands share: each alone, and in groups that a command takes whole."""
+"""The options that several commands share, alone and in groups."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from ...errors import BadSetting, ErrorCollector
 from ...runs.executors.choose import CALLBACK_LIMIT, executor_of, n_at_once
 from ...runs.planning.plan_request import PlanRequest
 from ...scene.settings import XACRO_PREFIX
-from .completion import benchmark_names, one_of, scene_names
-from .help_texts import FILES, INPUT, OUTPUT, RUN, in_group
+from .completion import benchmark_names, complete_names, scene_names
+from .help_texts import FILES, INPUT, OUTPUT, RUN, option
 
 if TYPE_CHECKING:
     from ...runs.executors.executor import Executor
@@ -43,18 +43,18 @@ ResultArgument = Annotated[
 
 SceneOption = Annotated[
     str | None,
-    in_group(
+    option(
         INPUT,
         "--scene",
         metavar="SCENE",
-        help="The scene; without it the one that the benchmark names (u:scene).",
+        help="The scene; without it that of the benchmark (u:scene).",
         autocompletion=scene_names,
     ),
 ]
 
 SetOption = Annotated[
     list[str] | None,
-    in_group(
+    option(
         INPUT,
         "--set",
         metavar="PATH=VALUE",
@@ -66,7 +66,7 @@ SetOption = Annotated[
 
 XacroOption = Annotated[
     list[str] | None,
-    in_group(
+    option(
         INPUT,
         "--xacro",
         metavar="NAME:=VALUE",
@@ -76,112 +76,109 @@ XacroOption = Annotated[
 
 CompatOption = Annotated[
     list[str] | None,
-    in_group(
+    option(
         INPUT,
         "--compat",
         metavar="NAME,...",
-        help="Quirks of the original UWSim to reproduce, by name; uwsim is all of them but "
+        help="Quirks of the original UWSim to reproduce, by name; uwsim is all of them except "
         "visual-frames, which is for scenes written before July 2014.",
     ),
 ]
 
 
-def existing_folders(folders: list[Path] | None) -> list[Path] | None:
-    """Refuse what is no folder; raises BadSetting."""
-    wrong = ErrorCollector()
+def check_folders(folders: list[Path] | None) -> list[Path] | None:
+    """Raise BadSetting if one is no folder."""
+    errors = ErrorCollector()
     for folder in folders or ():
         if not folder.is_dir():
-            with wrong.collect():
-                what = "is no folder" if folder.exists() else "there is no such folder"
-                raise BadSetting(f"--data-path {folder}: {what}.")
-    wrong.raise_errors()
+            with errors.collect():
+                message = "is no folder" if folder.exists() else "there is no such folder"
+                raise BadSetting(f"--data-path {folder}: {message}.")
+    errors.raise_errors()
     return folders
 
 
 DataPathOption = Annotated[
     list[Path] | None,
-    in_group(
+    option(
         FILES,
         "--data-path",
         metavar="DIR",
         help="Search files here, too; may be repeated.",
-        callback=existing_folders,
+        callback=check_folders,
     ),
 ]
 
-JsonOption = Annotated[
-    bool,
-    in_group(OUTPUT, "--json", help="Print JSON on stdout, for programs, and nothing else there."),
-]
+JsonOption = Annotated[bool, option(OUTPUT, "--json", help="Only JSON on stdout, for programs.")]
 
 ModeOption = Annotated[
     str | None,
-    in_group(
+    option(
         INPUT,
         "--mode",
         metavar="MODE",
-        help="sequential (a seed's levels in one go) or independent (each level alone); without it "
-        "that of the benchmark (u:mode).",
-        autocompletion=one_of(("sequential", "independent")),
+        help="sequential (a seed's levels in one simulation) or independent (each level alone); "
+        "without it that of the benchmark (u:mode).",
+        autocompletion=complete_names(("sequential", "independent")),
     ),
 ]
 
 PluginOption = Annotated[
     list[Path] | None,
-    in_group(
+    option(
         FILES,
         "--plugin",
         metavar="FILE.py",
-        help="Measures, triggers, updaters or algorithms of your own; may be repeated.",
+        help="Your own measures, triggers, updaters or algorithms; may be repeated.",
     ),
 ]
 
 NoCodeOption = Annotated[
     bool,
-    in_group(
+    option(
         FILES,
         "--no-code",
-        help="Refuse files that name Python code (u:pythonFunction of a scene, module:Class of a "
+        help="Stop at files that name Python code (u:pythonFunction of a scene, module:Class of a "
         "benchmark or a result) instead of running it.",
     ),
 ]
 
 InProcessOption = Annotated[
     bool,
-    in_group(
+    option(
         RUN,
         "--in-process",
-        help="Run an algorithm of your own in the process of the simulation, for debugging, not "
-        "in one of its own; the result says so. The rows are the same.",
+        help="Run your own algorithm in the process of the simulation, for debugging, instead of a "
+        "separate process; the result states this. The rows are the same.",
     ),
 ]
 
 WorkersOption = Annotated[
     str,
-    in_group(
+    option(
         RUN,
         "--workers",
         metavar="N|ray",
-        help="Processes to use on this machine; ray: the cluster that RAY_ADDRESS names, else all "
-        "cores here; 0: this process, for debugging with --in-process.",
+        help="Number of processes on this machine; ray: the cluster of RAY_ADDRESS, else all cores "
+        "here; 0: this process, for debugging with --in-process.",
     ),
 ]
 
 CallbackLimitOption = Annotated[
     float,
-    in_group(
+    option(
         RUN,
         "--callback-limit",
         metavar="SECONDS",
-        help="How long the algorithm may take to return from one callback, in wall time; a row in "
-        "which it takes longer ends in 'algorithm error'. 0: for ever. Not for ray.",
+        help="Time limit of one callback of the algorithm, in wall time; a row in which it takes "
+        "longer ends in 'algorithm error'. 0: no limit. Not for ray.",
     ),
 ]
 
 
 @dataclass(frozen=True, kw_only=True)
 class TaskOptions:
-    """What is run."""
+    """The benchmark and its scene."""
 
     benchmark: BenchmarkArgument
     scene: SceneOption = None
@@ -189,7 +186,7 @@ class TaskOptions:
 
 @dataclass(frozen=True, kw_only=True)
 class SettingOptions:
-    """What is changed in the files."""
+    """The changes of the files."""
 
     settings: SetOption = None
     xacro: XacroOption = None
@@ -197,30 +194,30 @@ class SettingOptions:
 
     @property
     def all_settings(self) -> list[str]:
-        """Those of ``--set``, and the xacro arguments as settings; raises BadSetting."""
+        """The settings of ``--set``, and the xacro arguments as settings; raises BadSetting."""
         return [*(self.settings or ()), *xacro_settings(self.xacro)]
 
 
 @dataclass(frozen=True, kw_only=True)
 class WorkerOptions:
-    """Who executes the trials."""
+    """The execution of the trials."""
 
     workers: WorkersOption = "1"
     callback_limit: CallbackLimitOption = CALLBACK_LIMIT
 
     def executor(self) -> Executor:
-        """Return who executes the trials; raises BadSetting, MissingExtra."""
+        """Return the executor of the trials; raises BadSetting, MissingExtra."""
         return executor_of(self.workers, self.callback_limit)
 
     @property
-    def at_once(self) -> int:
-        """How many levels are run at one time."""
+    def n_parallel(self) -> int:
+        """The number of levels that run in parallel."""
         return n_at_once(self.workers)
 
 
 @dataclass(frozen=True, kw_only=True)
 class CodeOptions:
-    """Code and data of the user's own."""
+    """The user's code and data."""
 
     plugin: PluginOption = None
     no_code: NoCodeOption = False
@@ -229,7 +226,7 @@ class CodeOptions:
 
     @property
     def folders(self) -> tuple[Path, ...]:
-        """Folders in which files are looked for."""
+        """The folders in which files are searched."""
         return tuple(self.data_path or ())
 
 
@@ -244,8 +241,8 @@ def xacro_settings(words: Sequence[str] | None) -> list[str]:
     return settings
 
 
-def request_of(task: TaskOptions, changes: SettingOptions, files: CodeOptions) -> PlanRequest:
-    """Return what these options ask for; the rest as it is without options."""
+def make_request(task: TaskOptions, changes: SettingOptions, files: CodeOptions) -> PlanRequest:
+    """Return the request of these options; the rest has its defaults."""
     return PlanRequest(
         benchmark=task.benchmark,
         scene=task.scene,

@@ -1,4 +1,4 @@
-"""Options of ``uwsim run``: for how long, with what program, and what is written."""
+"""The options of ``uwsim run``: duration, program and output."""
 
 from __future__ import annotations
 
@@ -6,73 +6,71 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
 
-from .completion import algorithm_names, one_of
-from .help_texts import INPUT, OUTPUT, RUN, in_group
+from .completion import algorithm_names, complete_names
+from .help_texts import INPUT, OUTPUT, RUN, option
 from .options import JsonOption
 
 
 @dataclass(frozen=True, kw_only=True)
 class ProgramOptions:
-    """For how long, and with what program."""
+    """The duration and the program."""
 
     duration: Annotated[
         str | None,
-        in_group(
+        option(
             INPUT,
             "--for",
             metavar="TIME",
-            help="How long, in simulation time: 10s, 500ms, 2min, 1h [10s; with a connection "
-            "until Ctrl-C; the length of a recording].",
+            help="Duration in simulation time: 10s, 500ms, 2min, 1h [10s; with a connection until "
+            "Ctrl-C; the length of a recording].",
         ),
     ] = None
     program: Annotated[
         str | None,
-        in_group(
+        option(
             INPUT,
             "--program",
             metavar="FILE.py|module:Class",
-            help="A program of your own: a class with start(node), as of an algorithm "
-            "(FILE.py:Class where the file has several); or a name of `uwsim list algorithms`. "
-            "--set algorithm.NAME=VALUE sets its parameters.",
+            help="Your own program: a class with start(node), as of an algorithm (FILE.py:Class "
+            "if the file has several); or a name of `uwsim list algorithms`. --set "
+            "algorithm.NAME=VALUE sets its parameters.",
             autocompletion=algorithm_names,
         ),
     ] = None
     udp_address: Annotated[
         str | None,
-        in_group(
+        option(
             INPUT,
             "--udp-address",
             metavar="ADDRESS",
-            help="Address of this computer at which the element fdm of a vehicle takes UDP "
+            help="Address of this computer at which the element fdm of a vehicle receives UDP "
             "packets, as 127.0.0.1; such a run is not repeatable.",
         ),
     ] = None
 
 
-SeedOption = Annotated[
-    int, in_group(RUN, "--seed", metavar="N", min=0, help="Seed of every random stream.")
-]
+SeedOption = Annotated[int, option(RUN, "--seed", metavar="N", min=0, help="Random seed.")]
 
 ImagesOption = Annotated[
     str,
-    in_group(
+    option(
         OUTPUT,
         "--images",
         metavar="raw|png|none",
-        help="In the recording: images as they are, as TOPIC/compressed without loss (smaller, "
+        help="Images in the recording: uncompressed, as TOPIC/compressed without loss (smaller, "
         "slower), or none.",
-        autocompletion=one_of(("raw", "png", "none")),
+        autocompletion=complete_names(("raw", "png", "none")),
     ),
 ]
 
 
 @dataclass(frozen=True, kw_only=True)
 class RecordOptions:
-    """What is written."""
+    """The written files."""
 
     hz: Annotated[
         bool,
-        in_group(
+        option(
             OUTPUT,
             "--hz",
             help="Read every topic, images too, and report number, rate and gaps of its messages.",
@@ -80,7 +78,7 @@ class RecordOptions:
     ] = False
     record: Annotated[
         Path | None,
-        in_group(
+        option(
             OUTPUT,
             "--record",
             metavar="FILE.mcap|.bag",
@@ -89,24 +87,22 @@ class RecordOptions:
         ),
     ] = None
     images: ImagesOption = "raw"
-    overwrite: Annotated[
-        bool, in_group(OUTPUT, "--overwrite", help="Replace an earlier recording.")
-    ] = False
+    overwrite: Annotated[bool, option(OUTPUT, "--overwrite", help="Replace a recording.")] = False
     as_json: JsonOption = False
 
 
 @dataclass(frozen=True, kw_only=True)
 class TrialRecordOptions:
-    """What is recorded of the trials of a benchmark."""
+    """The recordings of the trials of a benchmark."""
 
     record: Annotated[
         Path | None,
-        in_group(
+        option(
             OUTPUT,
             "--record",
             metavar="FILE.mcap|.bag",
-            help="Record the topics of each trial, for ROS 2 or ROS 1; of several trials "
-            "FILE-00000.mcap and so on, as numbered in the result, whose bytes stay the same. "
+            help="Record the topics of each trial, for ROS 2 or ROS 1; for several trials as "
+            "FILE-00000.mcap and so on, numbered as in the result. The result does not change. "
             "Not for ray.",
         ),
     ] = None

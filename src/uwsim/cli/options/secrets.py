@@ -1,6 +1,6 @@
 """Secrets of a command: from an environment variable or a file, never from the command line.
 
-What is typed can be read by every user of the computer, and is kept in ``provenance.json``.
+Every user of the computer can read the command line, and ``provenance.json`` contains it.
 """
 
 from __future__ import annotations
@@ -14,45 +14,45 @@ from ...base.environment import CLIENT_SECRET, WEB_TOKEN
 from ...base.terminal import warn
 from ...errors import BadSetting
 
-NO_TEXT = "it has bytes that are no characters of UTF-8"
+INVALID_TEXT = "it has bytes that are no characters of UTF-8"
 MAX_BYTES = 4096
-"""Longest file that is read."""
+"""The greatest size of a file with a secret."""
 
 
-def web_token(typed: str | None, file: Path | None) -> str | None:
-    """Return the token of web clients; None where there is none.
+def read_web_token(command_line_token: str | None, file: Path | None) -> str | None:
+    """Return the token of web clients; None if there is none.
 
     Raises:
-        BadSetting: it was typed; or the file cannot be read, or is blank.
+        BadSetting: it is on the command line; or the file cannot be read, or is blank.
     """
-    if typed is not None:
+    if command_line_token is not None:
         raise BadSetting(
-            f"--web-token: what is typed can be read by every user of this computer; set "
-            f"{WEB_TOKEN}, or put it into a file and give --web-token-file FILE."
+            "--web-token: every user of this computer can read the command line; set "
+            f"{WEB_TOKEN}, or write it to a file and give --web-token-file FILE."
         )
-    return secret(WEB_TOKEN, file, "--web-token-file")
+    return read_secret(WEB_TOKEN, file, "--web-token-file")
 
 
-def client_secret(file: Path | None) -> str | None:
-    """Return the secret of a client's join; None where there is none. Raises BadSetting."""
-    return secret(CLIENT_SECRET, file, "--client-secret-file")
+def read_client_secret(file: Path | None) -> str | None:
+    """Return the secret of a client's join; None if there is none. Raises BadSetting."""
+    return read_secret(CLIENT_SECRET, file, "--client-secret-file")
 
 
-def secret(variable: str, file: Path | None, option: str) -> str | None:
+def read_secret(variable: str, file: Path | None, option: str) -> str | None:
     """Return a secret: the first line of the file, or else the variable; None without both.
 
     Raises:
         BadSetting: the file cannot be read or is too long; or the secret is blank.
     """
     if file is None:
-        found = os.environ.get(variable)
-        if found is None:
+        value = os.environ.get(variable)
+        if value is None:
             return None
-        if not found.strip():
+        if not value.strip():
             raise BadSetting(f"{variable}: it is blank.")
-        if not found.isprintable():
-            raise BadSetting(f"{variable}: {NO_TEXT}.")
-        return found.strip()
+        if not value.isprintable():
+            raise BadSetting(f"{variable}: {INVALID_TEXT}.")
+        return value.strip()
     try:
         with file.open("rb") as stream:
             if os.fstat(stream.fileno()).st_mode & (stat.S_IRWXG | stat.S_IRWXO):
@@ -66,7 +66,7 @@ def secret(variable: str, file: Path | None, option: str) -> str | None:
     if not text:
         raise BadSetting(f"{option} {file}: it is blank.")
     if not text.isprintable():
-        raise BadSetting(f"{option} {file}: {NO_TEXT}.")
+        raise BadSetting(f"{option} {file}: {INVALID_TEXT}.")
     return text
 
 

@@ -1,4 +1,4 @@
-"""Options of web clients and of clients in lock-step."""
+"""The options of web clients and of clients in lock-step."""
 
 from __future__ import annotations
 
@@ -8,152 +8,150 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from ...errors import BadSetting
-from .help_texts import CONNECTED, in_group
-from .secrets import web_token
+from .help_texts import CONNECTIONS, option
+from .secrets import read_web_token
 
 if TYPE_CHECKING:
     from ...middleware.web.options import WebOptions
 
 MAX_LIMIT = 1e6
-"""The longest that a client is waited for [s]."""
+"""The greatest time limit of a client [s]."""
 CLIENT_LIMIT = 60.0
-"""Default of the longest time that a client in lock-step may take [s of wall time]."""
+"""The default time limit of a client in lock-step [s of wall time]."""
 
 WebOption = Annotated[
     int | None,
-    in_group(
-        CONNECTED,
+    option(
+        CONNECTIONS,
         "--web",
         metavar="PORT",
         help="Serve topics and services by WebSocket (rosbridge protocol) at this port; 9090 is "
-        "usual, 0: one that is free.",
+        "usual, 0: a free port.",
     ),
 ]
 
 WebHostOption = Annotated[
     str | None,
-    in_group(
-        CONNECTED,
+    option(
+        CONNECTIONS,
         "--web-host",
         metavar="ADDRESS",
-        help="Address at which --web listens, for other computers with a token [127.0.0.1].",
+        help="Address of the --web server; other computers need a token [127.0.0.1].",
     ),
 ]
 
 WebTokenOption = Annotated[
     str | None,
-    in_group(CONNECTED, "--web-token", metavar="TOKEN", help="Not taken any more.", hidden=True),
+    option(CONNECTIONS, "--web-token", metavar="TOKEN", help="Not accepted any more.", hidden=True),
 ]
 
 WebTokenFileOption = Annotated[
     Path | None,
-    in_group(
-        CONNECTED,
+    option(
+        CONNECTIONS,
         "--web-token-file",
         metavar="FILE",
-        help="Holds what web clients have to give, as ws://HOST:PORT/?token=TOKEN "
+        help="File with the token of web clients, as in ws://HOST:PORT/?token=TOKEN "
         "[UWSIM_WEB_TOKEN].",
     ),
 ]
 
 ClientSecretFileOption = Annotated[
     Path | None,
-    in_group(
-        CONNECTED,
+    option(
+        CONNECTIONS,
         "--client-secret-file",
         metavar="FILE",
-        help="Holds a secret that the join of the --client has to have, so that no other program "
-        "joins under its name [UWSIM_CLIENT_SECRET].",
+        help="File with a secret for the join of the --client, so that no other program joins "
+        "under its name [UWSIM_CLIENT_SECRET].",
     ),
 ]
 
 WebOriginOption = Annotated[
     list[str] | None,
-    in_group(
-        CONNECTED,
+    option(
+        CONNECTIONS,
         "--web-origin",
         metavar="ORIGIN",
-        help="A page that may connect, as https://example.org, next to those of this computer; "
-        "may be repeated.",
+        help="Origin of pages that may connect, as https://example.org, besides those of this "
+        "computer; may be repeated.",
     ),
 ]
 
 ClientOption = Annotated[
     list[str] | None,
-    in_group(
-        CONNECTED,
+    option(
+        CONNECTIONS,
         "--client",
         metavar="NAME",
-        help="A program outside, in lock-step: simulation time waits until it has joined under "
+        help="An external program, in lock-step: simulation time waits until it has joined under "
         "this name, and for its answers; may be repeated.",
     ),
 ]
 
 ClientLimitOption = Annotated[
     float,
-    in_group(
-        CONNECTED,
+    option(
+        CONNECTIONS,
         "--client-limit",
         metavar="SECONDS",
-        help="How long a --client may take to join and to answer, in wall time; after that the "
-        "run is invalid.",
+        help="Time limit of a --client for its join and for each answer, in wall time; after it "
+        "the run is invalid.",
     ),
 ]
 
 
 @dataclass(frozen=True, kw_only=True)
-class WebGiven:
-    """What was given of the options of ``--web``."""
+class WebOptionValues:
+    """The values of the options of ``--web``."""
 
     port: int | None = None
-    """Of ``--web``."""
+    """The value of ``--web``."""
     host: str | None = None
-    """Of ``--web-host``."""
+    """The value of ``--web-host``."""
     token: str | None = None
-    """Of ``--web-token``, which is refused."""
+    """The value of ``--web-token``, which is an error."""
     token_file: Path | None = None
-    """Of ``--web-token-file``."""
+    """The value of ``--web-token-file``."""
     origins: Sequence[str] | None = None
-    """Of ``--web-origin``."""
+    """The values of ``--web-origin``."""
 
     def options(self) -> WebOptions | None:
-        """Return where web clients are served; None without ``--web``.
+        """Return the settings of the web server; None without ``--web``.
 
         Raises:
-            BadSetting: an option is wrong, or is of ``--web`` and there is none.
+            BadSetting: an option is invalid, or needs ``--web``.
         """
         from ...middleware.web.options import WebOptions
 
         if self.port is None:
-            given = {
+            values = {
                 "host": self.host,
                 "token": self.token,
                 "token-file": self.token_file,
                 "origin": self.origins,
             }
-            for name, value in given.items():
+            for name, value in values.items():
                 if value:
-                    raise BadSetting(f"--web-{name} is of --web.")
+                    raise BadSetting(f"--web-{name} needs --web.")
             return None
         return WebOptions(
             port=self.port,
             host=self.host or "127.0.0.1",
-            token=web_token(self.token, self.token_file),
+            token=read_web_token(self.token, self.token_file),
             origins=tuple(self.origins or ()),
         )
 
 
 def check_clients(names: Sequence[str], limit: float, transports: Sequence[str]) -> None:
-    """Refuse clients that could not come; raises BadSetting."""
+    """Raise BadSetting for clients that cannot connect."""
     if not 0.0 < limit <= MAX_LIMIT:
-        raise BadSetting(
-            f"--client-limit {limit:g}: expected a time > 0 and at most {MAX_LIMIT:g} [s]."
-        )
+        raise BadSetting(f"--client-limit {limit:g}: expected > 0 and at most {MAX_LIMIT:g} [s].")
     if not all(name.strip() for name in names):
         raise BadSetting("--client: it is blank; expected the name by which the program joins.")
     if names and len(transports) != 1:
-        given = " and ".join(f"--{name}" for name in transports)
+        connections = " and ".join(f"--{name}" for name in transports)
         raise BadSetting(
-            f"--client {names[0]}: expected one of --web, --ros1 and --ros2, by which it comes"
-            f"{f', not {given}' if given else ''}."
+            f"--client {names[0]}: expected one of --web, --ros1 and --ros2 to connect it"
+            f"{f', not {connections}' if connections else ''}."
         )

@@ -1,1 +1,1 @@
-"""What commands print and write: tables, progress, image files."""
+"""The output of commands: tables, progress, image files."""

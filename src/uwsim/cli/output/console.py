@@ -10,8 +10,8 @@ from rich.segment import Segment
 
 from ...base.terminal import escape_control_characters
 
-UNWRAPPED = 1000
-"""Columns for a reader that is a program: wide enough to leave every line whole."""
+UNWRAPPED_WIDTH = 1000
+"""The width for a program that reads the output: no line is wrapped [characters]."""
 
 
 class Console(rich.console.Console):
@@ -20,7 +20,7 @@ class Console(rich.console.Console):
     def render(
         self, renderable: RenderableType, options: ConsoleOptions | None = None
     ) -> list[Segment]:
-        """Turn something into pieces of text; those that are the console's own control it."""
+        """Convert an object to segments of text; control segments of the console stay."""
         return [
             segment
             if segment.control
@@ -29,6 +29,6 @@ class Console(rich.console.Console):
         ]
 
 
-def standard_output(columns: int = UNWRAPPED) -> Console:
-    """Return the console of standard output, ``columns`` wide where that is no terminal."""
+def standard_output(columns: int = UNWRAPPED_WIDTH) -> Console:
+    """Return the console of standard output, ``columns`` wide if that is no terminal."""
     return Console(width=None if sys.stdout.isatty() else columns, highlight=False)

@@ -1,7 +1,7 @@
 """The content of a scene as plain values, for ``uwsim info`` and its ``--json``.
 
-Lengths in metres, angles in radians unless a name says otherwise; places and z are in the file's
-frame L, as everywhere in files and on topics.
+Lengths are in metres and angles in radians unless a name states another unit; positions and z are
+in the file's frame L, as everywhere in files and on topics.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from ...sensors import SENSORS
 from ...sensors.virtual_camera import VirtualCameraSpec
 from ...simulation import Simulation
 from ...simulation.scenery.below import surfaces_below_vehicle
-from .topic_rows import topics
+from .topic_rows import topic_rows
 
 Fields = dict[str, Any]
 
@@ -38,50 +38,47 @@ Fields = dict[str, Any]
 def inventory(
     scene: SceneSpec, simulation: Simulation, diagnostics: Sequence[Diagnostic]
 ) -> Fields:
-    """Return everything that can be named in a scene, and what of it is not simulated."""
-    warnings = [
-        diagnostic.message for diagnostic in diagnostics if diagnostic.severity == "warning"
-    ]
-    placed = simulation.world.model.scene
-    sensors = _sensors(placed, simulation.world.model.robots)
-    directions = {f"{each['name']!r} {each['points']}" for each in sensors}
+    """Return the named parts of a scene, and the elements that are not simulated."""
+    warnings = [entry.message for entry in diagnostics if entry.severity == "warning"]
+    model_scene = simulation.world.model.scene
+    sensors = _sensors(model_scene, simulation.world.model.robots)
+    directions = {f"{entry['name']!r} {entry['points']}" for entry in sensors}
     return {
         "file": scene.path,
         "frame": _frame(scene),
         "water": _water(scene),
-        "vehicles": [_vehicle(placed, i, simulation) for i in range(len(scene.vehicles))],
+        "vehicles": [_vehicle(model_scene, i, simulation) for i in range(len(scene.vehicles))],
         "cameras": _cameras(scene, simulation.world.model.robots),
         "sensors": sensors,
-        "objects": [_object(placed, thing) for thing in placed.objects],
-        "topics": topics(scene, simulation),
+        "objects": [_object(model_scene, scene_object) for scene_object in model_scene.objects],
+        "topics": topic_rows(scene, simulation),
         "services": list(simulation.bus.services.names),
         "varies": [
-            {"path": each.path, "unit": each.unit, "drawn_from": each.drawn_from}
-            for each in draw(scene, 0)
+            {"path": entry.path, "unit": entry.unit, "drawn_from": entry.drawn_from}
+            for entry in draw(scene, 0)
         ],
         "not_simulated": [
-            message.partition(": ")[2] for message in warnings if _is_unsimulated(message)
+            message.partition(": ")[2] for message in warnings if _is_read_only(message)
         ],
         "warnings": [
             message
             for message in warnings
-            if not _is_unsimulated(message) and message not in directions
+            if not _is_read_only(message) and message not in directions
         ],
     }
 
 
-def _is_unsimulated(warning: str) -> bool:
+def _is_read_only(warning: str) -> bool:
     return warning.startswith(READ_ONLY)
 
 
 def _frame(scene: SceneSpec) -> Fields:
-    """Which way is up in L, and where L is in W."""
     up = scene.world_from_localized.rotation[2]  # z of W in L, (3,)
     axis = int(np.argmax(np.abs(up)))
     sign = "+" if up[axis] > 0.0 else "-"
     is_straight = abs(float(up[axis])) > 1.0 - 1e-6
     return {
-        "up": f"{sign}{'xyz'[axis]}" if is_straight else _rounded(up),
+        "up": f"{sign}{'xyz'[axis]}" if is_straight else _round(up),
         "offset": list(scene.sim_params.offsetp),
         "rotation": list(scene.sim_params.offsetr),
     }
@@ -91,9 +88,7 @@ def _water(scene: SceneSpec) -> Fields:
     ocean = scene.ocean_state
     surface = np.array([[0.0, 0.0, ocean.ocean_surface_height]])
     return {
-        "surface_above_origin": _rounded(
-            scene.world_from_localized.inverse().transform(surface)[0]
-        ),
+        "surface_above_origin": _round(scene.world_from_localized.inverse().transform(surface)[0]),
         "fog_density": ocean.fog.density,
         "fog_colour": list(ocean.fog.color),
         "colour": list(ocean.color),
@@ -113,19 +108,18 @@ def _vehicle(scene: SceneSpec, index: int, simulation: Simulation) -> Fields:
         "position": list(spec.position),
         "orientation": list(spec.orientation),
         "dynamics": spec.dynamics,
-        "moves": _moves(scene, spec),
+        "moves": _motion(scene, spec),
         "links": [link.name for link in robot.links],
         "joints": [_joint(joint) for joint in robot.movable_joints],
         "thrusters": list(actuators.thrusters) if actuators is not None else [],
         "fins": [] if dynamics is None else [_fin(fin) for fin in dynamics.fins],
         "drag_laws": {} if dynamics is None else _drag_laws(dynamics),
         "lamps": len(spec.parts_of(LampSpec)),
-        "below": _below(scene, spec, simulation),
+        "below": _surfaces_below(scene, spec, simulation),
     }
 
 
-def _moves(scene: SceneSpec, spec: VehicleSpec) -> str:
-    """How it moves, in a few words."""
+def _motion(scene: SceneSpec, spec: VehicleSpec) -> str:
     if spec.dynamics is not None:
         return f"simulated in water ({spec.dynamics})"
     if spec.parts_of(SwaySpec):
@@ -142,7 +136,7 @@ def _moves(scene: SceneSpec, spec: VehicleSpec) -> str:
 
 
 def _drag_laws(dynamics: VehicleHydrodynamics) -> dict[str, str]:
-    """Link -> what its quadratic drag goes with; links without any are left out."""
+    """Return the quadratic drag law of each link; links without drag are left out."""
     return {
         body.link: "matrix" if len(body.quadratic_damping) == 36 else body.drag_law
         for body in dynamics.bodies
@@ -171,52 +165,53 @@ def _joint(joint: JointSpec) -> Fields:
     }
 
 
-def _below(scene: SceneSpec, spec: VehicleSpec, simulation: Simulation) -> list[Fields]:
-    """The surfaces below the vehicle's origin, the nearest first: the last one is the floor."""
+def _surfaces_below(scene: SceneSpec, spec: VehicleSpec, simulation: Simulation) -> list[Fields]:
+    """Return the surfaces below the vehicle's origin, the nearest first: the last is the floor."""
     origin = simulation.world.bodies.find(spec.name).world_from_body.position
     localized_from_world = scene.world_from_localized.inverse()
-    found = []
-    for each in surfaces_below_vehicle(simulation.world, spec.name):
-        place = localized_from_world.transform(np.array([[origin[0], origin[1], each.height]]))[0]
-        distance = float(origin[2]) - each.height
-        found.append({"name": each.name, "distance": distance, "position": _rounded(place)})
-    return found
+    surfaces = []
+    for surface in surfaces_below_vehicle(simulation.world, spec.name):
+        point = np.array([[origin[0], origin[1], surface.height]])  # W, (1, 3) [m]
+        position = localized_from_world.transform(point)[0]
+        distance = float(origin[2]) - surface.height
+        surfaces.append({"name": surface.name, "distance": distance, "position": _round(position)})
+    return surfaces
 
 
-def _rounded(values: npt.NDArray[np.float64]) -> list[float]:
-    """Numbers to a micrometre, and no zero with a sign."""
+def _round(values: npt.NDArray[np.float64]) -> list[float]:
+    """Round numbers to a micrometre, without a negative zero."""
     return [round(float(value), 6) + 0.0 for value in values]
 
 
 def _cameras(scene: SceneSpec, robots: Mapping[int, RobotSpec]) -> list[Fields]:
-    """Every camera; of several of one name, on links that are there, interfaces find the last."""
+    """Return all cameras; of several with one name and a link, interfaces find the last."""
     cameras = [
         (index, spec)
         for index, vehicle in enumerate(scene.vehicles)
         for spec in vehicle.parts_of(VirtualCameraSpec)
     ]
-    found = {
+    last_cameras = {
         spec.name: (index, spec)
         for index, spec in cameras
         if robots[index].link(spec.relative_to) is not None
     }
     return [
         _camera(
-            scene.vehicles[each[0]],
-            each[1],
-            _image_topics(scene, each[1].name) if found.get(each[1].name) == each else [],
+            scene.vehicles[entry[0]],
+            entry[1],
+            _image_topics(scene, entry[1].name) if last_cameras.get(entry[1].name) == entry else [],
         )
-        for each in cameras
+        for entry in cameras
     ]
 
 
 def _sensors(scene: SceneSpec, robots: Mapping[int, RobotSpec]) -> list[Fields]:
-    """Every sensor and lamp that points somewhere, on links that are there."""
+    """Return all sensors and lamps with a direction, on existing links."""
     elements: dict[type, str] = {spec: element for element, spec in (SENSORS | DEVICES).items()}
-    found = []
+    sensors = []
     for index, vehicle in enumerate(scene.vehicles):
         frames = MountFrames(vehicle, robots[index], scene.world_from_localized)
-        found += [
+        sensors += [
             {
                 "name": str(getattr(spec, "name", "")),
                 "kind": format_tag(elements[type(spec)]).strip("<>"),
@@ -227,7 +222,7 @@ def _sensors(scene: SceneSpec, robots: Mapping[int, RobotSpec]) -> list[Fields]:
             for spec in directional_parts(vehicle)
             if robots[index].link(spec.relative_to) is not None
         ]
-    return found
+    return sensors
 
 
 def _image_topics(scene: SceneSpec, camera: str) -> list[str]:
@@ -251,14 +246,14 @@ def _camera(vehicle: VehicleSpec, camera: VirtualCameraSpec, topics: list[str]) 
     }
 
 
-def _object(scene: SceneSpec, thing: ObjectSpec) -> Fields:
-    solid = scene.solid_objects.get(scene.objects.index(thing))
+def _object(scene: SceneSpec, scene_object: ObjectSpec) -> Fields:
+    solid = scene.solid_objects.get(scene.objects.index(scene_object))
     kind = "seen only" if solid is None else "loose" if solid.is_loose else "solid, fixed"
     if kind == "loose" and not (scene.has_uwsim_physics or any(v.dynamics for v in scene.vehicles)):
         kind = "solid, fixed"
     return {
-        "name": thing.name,
-        "file": thing.file,
-        "position": list(thing.position),
+        "name": scene_object.name,
+        "file": scene_object.file,
+        "position": list(scene_object.position),
         "kind": kind,
     }

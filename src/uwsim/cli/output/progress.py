@@ -20,122 +20,122 @@ from rich.progress import (
 )
 from rich.text import Text
 
-SAY_EVERY = 10.0
-"""Time between two lines of progress where there is no terminal [s]."""
+REPORT_INTERVAL = 10.0
+"""The time between two lines of progress without a terminal [s]."""
 
 
-class TimeLeft:
-    r"""Estimates the time left from the pieces done so far.
+class TimeEstimate:
+    r"""An estimate of the remaining time from the pieces done so far.
 
-    What comes before the first piece, loading and compiling, comes once; and pieces of w workers
-    are done at about one time, in waves. So waves are counted, and from the moment :math:`t_w` at
-    which the first one was over: of n pieces k are done at t, and the rest takes
+    Loading and compiling before the first piece occur once, and w workers finish their pieces at
+    about the same time, in waves. The estimate therefore counts waves, from the time :math:`t_w` at
+    which the first one ends. With k of n pieces done at t, the rest takes
 
     .. math:: \left\lceil\frac{n - k}{w}\right\rceil
         \frac{t - t_w}{\lceil (k - w) / w \rceil}
 
-    Not modelled: that later pieces are longer or shorter than the earlier ones.
+    Not modelled: later pieces that are longer or shorter than the earlier ones.
 
     Args:
-        total: number of pieces.
-        done: pieces that were done before.
-        at_once: how many are worked on at one time.
+        total: the number of pieces.
+        n_done: the number of pieces that were done before.
+        n_parallel: the number of pieces in parallel.
     """
 
-    def __init__(self, total: int, *, done: int = 0, at_once: int = 1) -> None:
-        self._total, self._done = total, done
-        self._wave = min(at_once, max(1, (total - done) // 2))
-        self._first = done + self._wave
-        self._began: float | None = None
+    def __init__(self, total: int, *, n_done: int = 0, n_parallel: int = 1) -> None:
+        self._total, self._n_done = total, n_done
+        self._wave = min(n_parallel, max(1, (total - n_done) // 2))
+        self._n_first_wave = n_done + self._wave
+        self._first_wave_time: float | None = None
         self._now = 0.0
 
-    def piece(self, now: float) -> None:
-        """One more was done, at the time ``now`` [s]."""
-        self._done += 1
+    def count_piece(self, now: float) -> None:
+        """Count a piece that is done at the time ``now`` [s]."""
+        self._n_done += 1
         self._now = now
-        if self._done == self._first:
-            self._began = now
+        if self._n_done == self._n_first_wave:
+            self._first_wave_time = now
 
     @property
     def seconds(self) -> float | None:
-        """Estimated time left [s]; None while unknown."""
-        if self._began is None or self._done <= self._first:
+        """The estimated remaining time [s]; None while unknown."""
+        if self._first_wave_time is None or self._n_done <= self._n_first_wave:
             return None
-        waves = math.ceil((self._done - self._first) / self._wave)
-        to_come = math.ceil((self._total - self._done) / self._wave)
-        return to_come * (self._now - self._began) / waves
+        waves = math.ceil((self._n_done - self._n_first_wave) / self._wave)
+        waves_left = math.ceil((self._total - self._n_done) / self._wave)
+        return waves_left * (self._now - self._first_wave_time) / waves
 
 
 class TimeLeftColumn(ProgressColumn):
-    """``0:01:40``, counted down between two pieces; ``-:--:--`` while unknown."""
+    """A column ``0:01:40``, counted down between two pieces; ``-:--:--`` while unknown."""
 
-    def __init__(self, left: TimeLeft) -> None:
+    def __init__(self, estimate: TimeEstimate) -> None:
         super().__init__()
-        self._left = left
-        self._reported: tuple[float, float] | None = None
+        self._estimate = estimate
+        self._last_estimate: tuple[float, float] | None = None
 
     def render(self, task: Task) -> Text:
-        """Return it."""
-        seconds, now = self._left.seconds, time.monotonic()
+        """Return the text of the remaining time."""
+        seconds, now = self._estimate.seconds, time.monotonic()
         if seconds is None:
             return Text("-:--:--", style="progress.remaining")
-        if self._reported is None or self._reported[0] != seconds:
-            self._reported = seconds, now
-        rest = max(0, round(seconds - (now - self._reported[1])))
+        if self._last_estimate is None or self._last_estimate[0] != seconds:
+            self._last_estimate = seconds, now
+        rest = max(0, round(seconds - (now - self._last_estimate[1])))
         text = f"{rest // 3600}:{rest // 60 % 60:02d}:{rest % 60:02d}"
         return Text(text, style="progress.remaining")
 
 
 @contextmanager
 def progress(
-    title: str, total: int, *, done: int = 0, of: str, at_once: int = 1
+    title: str, total: int, *, n_done: int = 0, unit: str, n_parallel: int = 1
 ) -> Iterator[Callable[[], None]]:
-    """Show how much is done; gives what is to be called for each piece.
+    """Show the progress; yield the function to call after each piece.
 
     Args:
-        title: what is done.
-        total: number of pieces.
-        done: pieces that were done before.
-        of: what a piece is called, in the plural.
-        at_once: how many are worked on at one time.
+        title: the name of the work.
+        total: the number of pieces.
+        n_done: the number of pieces that were done before.
+        unit: the name of a piece, in the plural.
+        n_parallel: the number of pieces in parallel.
     """
     console = Console(stderr=True)
-    left = TimeLeft(total, done=done, at_once=at_once)
+    estimate = TimeEstimate(total, n_done=n_done, n_parallel=n_parallel)
     if not console.is_terminal:
-        yield plain_progress(title, done, total, of, left)
+        yield print_progress(title, n_done, total, unit, estimate)
         return
     columns = (
         TextColumn("{task.description}"),
         BarColumn(),
         MofNCompleteColumn(),
-        TextColumn(of),
+        TextColumn(unit),
         TimeElapsedColumn(),
-        TimeLeftColumn(left),
+        TimeLeftColumn(estimate),
     )
     with Progress(*columns, console=console, transient=True) as bar:
-        task = bar.add_task(title, total=total, completed=done)
+        task = bar.add_task(title, total=total, completed=n_done)
 
         def on_piece() -> None:
-            left.piece(time.monotonic())
+            estimate.count_piece(time.monotonic())
             bar.advance(task)
 
         yield on_piece
 
 
-def plain_progress(
-    title: str, done: int, total: int, of: str, left: TimeLeft
+def print_progress(
+    title: str, n_done: int, total: int, unit: str, estimate: TimeEstimate
 ) -> Callable[[], None]:
-    """Say now and then, on lines of their own, how far it is."""
-    reported = time.monotonic()
+    """Print the progress on separate lines from time to time."""
+    report_time = time.monotonic()
 
     def on_piece() -> None:
-        nonlocal done, reported
-        done += 1
+        nonlocal n_done, report_time
+        n_done += 1
         now = time.monotonic()
-        left.piece(now)
-        if now - reported >= SAY_EVERY and done < total:
-            reported = now
-            rest = "" if left.seconds is None else f", about {left.seconds:.0f} s left"
-            print(f"{title}: {done} of {total} {of}{rest}", file=sys.stderr)
+        estimate.count_piece(now)
+        if now - report_time >= REPORT_INTERVAL and n_done < total:
+            report_time = now
+            rest = "" if estimate.seconds is None else f", about {estimate.seconds:.0f} s left"
+            print(f"{title}: {n_done} of {total} {unit}{rest}", file=sys.stderr)
 
     return on_piece

@@ -15,38 +15,38 @@ from ...topics.simulated_device_ros import unwrap_interfaces
 
 Fields = dict[str, Any]
 TOPIC_FIELDS = ("topic", "image_topic", "info_topic")
-"""What names a topic in an interface that is not simulated."""
+"""The fields with topics in an interface that is not simulated."""
 
 
-def topics(scene: SceneSpec, simulation: Simulation) -> list[Fields]:
-    """Every topic of an interface or device: what it carries, which way, how often."""
+def topic_rows(scene: SceneSpec, simulation: Simulation) -> list[Fields]:
+    """Return every topic of an interface or device, with its type, direction and rate."""
     types: Mapping[str, str] = simulation.bus.topics
-    found = []
+    rows = []
     for interface in unwrap_interfaces(scene.ros_interfaces):
         name = element_name(interface)
-        is_heard = interface.subscribes
+        is_subscribed = interface.subscribes
         for field in interface.message_types() or TOPIC_FIELDS:
             topic = getattr(interface, field, "")
             if not topic:
                 continue
-            plain = topic.strip().lstrip("/")
-            found.append(
+            topic_name = topic.strip().lstrip("/")
+            rows.append(
                 {
-                    "topic": f"/{plain}",
-                    "type": types.get(plain),
-                    "direction": "listens" if is_heard else "publishes",
-                    "rate_hz": None if is_heard else getattr(interface, "rate", None),
-                    "of": _of(interface),
+                    "topic": f"/{topic_name}",
+                    "type": types.get(topic_name),
+                    "direction": "listens" if is_subscribed else "publishes",
+                    "rate_hz": None if is_subscribed else getattr(interface, "rate", None),
+                    "of": _source_name(interface),
                     "interface": prefixed_name(name),
                     "limit": describe_limit("rosInterfaces", name),
                 }
             )
-    found += _device_topics(scene, types)
-    return found + _further_topics(simulation, {str(each["topic"]) for each in found})
+    rows += _device_topics(scene, types)
+    return rows + _further_topics(simulation, {str(row["topic"]) for row in rows})
 
 
-def _further_topics(simulation: Simulation, listed: Collection[str]) -> list[Fields]:
-    """Topics that the scene has besides: the frames that it hears, what becomes of packets."""
+def _further_topics(simulation: Simulation, listed_topics: Collection[str]) -> list[Fields]:
+    """Return the other topics of the scene: subscribed frames, and events of packets."""
     return [
         {
             "topic": f"/{topic}",
@@ -58,13 +58,12 @@ def _further_topics(simulation: Simulation, listed: Collection[str]) -> list[Fie
             "limit": "",
         }
         for topic, type_ in simulation.bus.topics.items()
-        if f"/{topic}" not in listed
+        if f"/{topic}" not in listed_topics
         for ends in [simulation.bus.endpoints(topic)]
     ]
 
 
 def _device_topics(scene: SceneSpec, types: Mapping[str, str]) -> list[Fields]:
-    """The topics that devices have without an interface; of a device that is left out none."""
     return [
         {
             "topic": f"/{topic.name}",
@@ -83,8 +82,7 @@ def _device_topics(scene: SceneSpec, types: Mapping[str, str]) -> list[Fields]:
     ]
 
 
-def _of(interface: InterfaceSpec) -> str:
-    """The vehicle, camera or device an interface is about."""
+def _source_name(interface: InterfaceSpec) -> str:
     for field in ("vehicle_name", "camera_name", "name"):
         if value := getattr(interface, field, None):
             return str(value)

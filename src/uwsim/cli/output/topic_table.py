@@ -17,59 +17,63 @@ if TYPE_CHECKING:
     from ...middleware.recording import TopicRate
     from ...simulation import Simulation
 
-NUMBERS = ("messages", "rate [Hz]", "min gap [s]", "max gap [s]", "std [s]")
+NUMBER_COLUMNS = ("messages", "rate [Hz]", "min gap [s]", "max gap [s]", "std [s]")
 
 
 def print_topics(
     scene: str, simulation: Simulation, rates: Sequence[TopicRate], recording: Path | None
 ) -> None:
-    """Print what came on each topic."""
+    """Print the messages of each topic."""
     console = standard_output()
-    console.print(table_of(rates))
+    console.print(rate_table(rates))
     seconds = f"{simulation.time:g} s of {Path(scene).name or 'the scene'}"
-    is_kept = recording is not None and recording.exists()  # not after a full disk
-    written = f"; recorded: {recording} ({_size(recording)})" if recording and is_kept else ""
-    print(f"{seconds}, {simulation.step} steps{written}")
+    has_recording = recording is not None and recording.exists()  # not after a full disk
+    recording_note = (
+        f"; recorded: {recording} ({_format_size(recording)})"
+        if recording and has_recording
+        else ""
+    )
+    print(f"{seconds}, {simulation.step} steps{recording_note}")
 
 
 def print_json(
     scene: str, simulation: Simulation, rates: Sequence[TopicRate], recording: Path | None
 ) -> None:
-    """Print the same for a program."""
+    """Print the messages of each topic as JSON."""
     document = {
         "scene": scene,
         "time": simulation.time,
         "steps": simulation.step,
         "recording": str(recording) if recording and recording.exists() else None,
-        "topics": [asdict(each) for each in rates],
+        "topics": [asdict(rate) for rate in rates],
         "services": list(simulation.bus.services.names),
     }
     print(json.dumps(document, indent=1))
 
 
-def table_of(rates: Sequence[TopicRate]) -> Table:
+def rate_table(rates: Sequence[TopicRate]) -> Table:
     """Return a row for each topic."""
-    is_counted = any(each.n_messages is not None for each in rates)
+    is_counted = any(rate.n_messages is not None for rate in rates)
     table = Table(box=None, padding=(0, 2, 0, 0), pad_edge=False)
     table.add_column("topic", no_wrap=True, style="bold")
     table.add_column("type", no_wrap=True)
-    for name in NUMBERS if is_counted else ():
+    for name in NUMBER_COLUMNS if is_counted else ():
         table.add_column(Text(name), justify="right")
     table.add_column("")
-    for each in rates:
-        gaps = (each.min_gap, each.max_gap, each.std_gap)
-        n_messages = "-" if each.n_messages is None else str(each.n_messages)
-        numbers = [n_messages, _number(each.rate), *map(_number, gaps)]
-        role = "" if each.is_published else "subscribed to; nothing publishes"
-        if is_counted and each.n_messages is None:
+    for rate in rates:
+        gaps = (rate.min_gap, rate.max_gap, rate.std_gap)
+        n_messages = "-" if rate.n_messages is None else str(rate.n_messages)
+        numbers = [n_messages, _format_number(rate.rate), *map(_format_number, gaps)]
+        role = "" if rate.is_published else "subscribed to; nothing publishes"
+        if is_counted and rate.n_messages is None:
             role = "not read"
-        table.add_row(each.topic, each.message_type, *(numbers if is_counted else ()), role)
+        table.add_row(rate.topic, rate.message_type, *(numbers if is_counted else ()), role)
     return table
 
 
-def _number(value: float | None) -> str:
+def _format_number(value: float | None) -> str:
     return "-" if value is None else f"{value:.4g}" if abs(value) > 1e-9 else "0"
 
 
-def _size(path: Path) -> str:
+def _format_size(path: Path) -> str:
     return f"{path.stat().st_size / 1e6:.3g} MB"

@@ -24,13 +24,7 @@ from ...schema import REQUIRED_BY_DTD, Spec, element
 from ...world import DeviceWorld
 from ..device import DeviceSpec, DeviceTopic, DeviceVehicle
 from .comms_channels import acoustic_channel_name
-from .comms_device import (
-    CommsDevice,
-    CommsMeshSpec,
-    MacProtocolSpec,
-    PacketBuilderSpec,
-    packet_topics,
-)
+from .comms_device import CommsDevice, MacProtocolSpec, MeshSpec, PacketBuilderSpec, packet_topics
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -94,7 +88,7 @@ class AcousticCommsDeviceSpec(DeviceSpec):
     """The position of the device in the link's frame [m]."""
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
     """The orientation of the device in the link's frame, roll, pitch, yaw (Rz Ry Rx) [rad]."""
-    mesh: CommsMeshSpec | None = None
+    mesh: MeshSpec | None = None
     """The mesh of the device."""
     range: float = element(default=100.0, minimum=0)
     """The greatest range, whatever the source level [m]."""
@@ -121,8 +115,7 @@ class AcousticCommsDeviceSpec(DeviceSpec):
     source_level: float | None = element(
         namespaced=True, default=None, minimum=-300.0, maximum=300.0
     )
-    """The source level at 1 m [dB re 1 uPa]; without it noise causes no bit errors within the
-    range."""
+    """The source level at 1 m [dB re 1 uPa]; without it noise causes no bit errors in range."""
 
     @property
     def name(self) -> str:

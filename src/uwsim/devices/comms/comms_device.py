@@ -86,7 +86,7 @@ class PacketBuilderSpec(Spec):
 
 
 @dataclass(frozen=True, kw_only=True)
-class CommsMeshSpec(Spec):
+class MeshSpec(Spec):
     """A ``<mesh>`` that shows a device; it has no collision shape."""
 
     path: str

@@ -26,13 +26,7 @@ from ...schema import REQUIRED_BY_DTD, Spec, element
 from ...world import DeviceWorld
 from ..device import DeviceSpec, DeviceTopic, DeviceVehicle
 from .comms_channels import MAX_DELAY_MS, custom_channel_name
-from .comms_device import (
-    CommsDevice,
-    CommsMeshSpec,
-    MacProtocolSpec,
-    PacketBuilderSpec,
-    packet_topics,
-)
+from .comms_device import CommsDevice, MacProtocolSpec, MeshSpec, PacketBuilderSpec, packet_topics
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -104,7 +98,7 @@ class CustomCommsDeviceSpec(DeviceSpec):
     """The position of the device in the link's frame [m]."""
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
     """The orientation of the device in the link's frame, roll, pitch, yaw (Rz Ry Rx) [rad]."""
-    mesh: CommsMeshSpec | None = None
+    mesh: MeshSpec | None = None
     """The mesh of the device."""
     intrinsic_delay: float = element(default=0.0, minimum=0, maximum=MAX_DELAY_MS)
     """The delay between the order to send a packet and its sending [ms]."""
