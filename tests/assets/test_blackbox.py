@@ -4,13 +4,13 @@ import pytest
 
 from uwsim.assets import load_model
 from uwsim.assets.procedural.blackbox import face
-from uwsim.rendering.water import AMBIENT, SUN_COLOURS, SUN_DIRECTIONS
+from uwsim.rendering.water import AMBIENT_SHARE, SUN_COLOURS, SUN_DIRECTIONS
 
 
 def seen_from_above() -> np.ndarray:
     """Grey levels of the top face as the camera of `visibility` has them, without GPU, (26, 86)."""
     sun = np.array(SUN_DIRECTIONS["clear"])
-    light = AMBIENT + SUN_COLOURS["clear"][0] * sun[2] / np.linalg.norm(sun)
+    light = AMBIENT_SHARE + SUN_COLOURS["clear"][0] * sun[2] / np.linalg.norm(sun)
     small = cv2.resize(face().pixels.astype(np.float32), (86, 26), interpolation=cv2.INTER_AREA)
     grey: np.ndarray = small @ np.array([0.299, 0.587, 0.114]) * light
     return grey

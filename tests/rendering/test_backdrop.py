@@ -24,15 +24,15 @@ class Pair:
 
     def __init__(self) -> None:
         self.kept, self.whole = Renderer(), Renderer()
-        self.whole._backdrop = lambda view: None  # type: ignore[method-assign]
+        self.whole._find_backdrop = lambda view: None  # type: ignore[method-assign]
         self.n_before = 0
-        draw_before = self.kept._passes.draw_before
+        draw_before = self.kept._passes.draw_over_backdrop
 
         def counted(*given: object) -> None:
             self.n_before += 1
             draw_before(*given)  # type: ignore[arg-type]
 
-        self.kept._passes.draw_before = counted  # type: ignore[method-assign, assignment]
+        self.kept._passes.draw_over_backdrop = counted  # type: ignore[method-assign, assignment]
 
     def add(self, *given: object) -> int:
         handles = {each.add(*given) for each in (self.kept, self.whole)}  # type: ignore[arg-type]
@@ -139,19 +139,19 @@ def test_a_body_that_comes_to_rest_and_one_that_comes_and_goes(pair: Pair) -> No
     hidden = frozenset({7})
     for step in range(3):
         pair.place(body, placed(0.1 * step, 0.3, 0.8))
-        pair.draw(hidden=hidden)
+        pair.draw(hidden_ids=hidden)
     assert pair.n_before > 4
 
 
 def test_only_tiles_below_a_caster_along_the_beams_are_drawn_again(pair: Pair) -> None:
     regions: list[tuple[int, int, int, int]] = []
-    draw_before = pair.kept._passes.draw_before
+    draw_before = pair.kept._passes.draw_over_backdrop
 
     def noted(*given: object) -> None:
         regions.append(given[3])  # type: ignore[arg-type]
         draw_before(*given)  # type: ignore[arg-type]
 
-    pair.kept._passes.draw_before = noted  # type: ignore[method-assign, assignment]
+    pair.kept._passes.draw_over_backdrop = noted  # type: ignore[method-assign, assignment]
     body = pair.add(ball(0.2), 3)
     down = Pose.from_rpy((0.0, 0.0, 6.0), (0.0, 0.0, 0.0))
     for x in (-1.0, -0.9, -0.8, -0.7):

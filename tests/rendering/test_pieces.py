@@ -6,8 +6,13 @@ import numpy as np
 import pytest
 
 from uwsim.base.geometry import Array, Intrinsics, Pose, rotation_from_rpy
-from uwsim.rendering.minification import MAX_TEXELS, needs_no_copies
-from uwsim.rendering.pieces import crosses, densities, flat_normal, pieces
+from uwsim.rendering.minification import MAX_TEXELS, needs_no_mipmaps
+from uwsim.rendering.pieces import (
+    compute_normals,
+    compute_texel_densities,
+    flat_normal,
+    split_triangles,
+)
 
 CAMERA = Intrinsics.from_fovy(64, 48, np.radians(50.0))
 
@@ -24,7 +29,7 @@ def grid(n: int, size: float) -> tuple[Array, np.ndarray]:
 
 def test_every_triangle_is_in_one_piece_and_pieces_are_small() -> None:
     points, triangles = grid(16, 7.9)
-    parts = pieces(points, triangles, crosses(points, triangles))
+    parts = split_triangles(points, triangles, compute_normals(points, triangles))
     assert sorted(np.concatenate(parts).tolist()) == list(range(len(triangles)))
     assert len(parts) == 16
     for part in parts:
@@ -33,9 +38,9 @@ def test_every_triangle_is_in_one_piece_and_pieces_are_small() -> None:
 
 def test_what_is_small_stays_whole() -> None:
     points, triangles = grid(16, 1.9)
-    assert len(pieces(points, triangles, crosses(points, triangles))) == 1
+    assert len(split_triangles(points, triangles, compute_normals(points, triangles))) == 1
     points, triangles = grid(2, 50.0)
-    assert len(pieces(points, triangles, crosses(points, triangles))) == 1
+    assert len(split_triangles(points, triangles, compute_normals(points, triangles))) == 1
 
 
 def test_floor_and_wall_come_apart() -> None:
@@ -43,8 +48,8 @@ def test_floor_and_wall_come_apart() -> None:
     wall = points @ rotation_from_rpy(np.pi / 2.0, 0.0, 0.0).T
     both = np.concatenate([points, wall])
     triangles = np.concatenate([triangles, triangles + len(points)])
-    directions = crosses(both, triangles)
-    parts = pieces(both, triangles, directions)
+    directions = compute_normals(both, triangles)
+    parts = split_triangles(both, triangles, directions)
     normals = [flat_normal(directions[part]) for part in parts]
     assert {tuple(np.abs(normal).round(9).tolist()) for normal in normals} == {
         (0.0, 0.0, 1.0),
@@ -55,9 +60,9 @@ def test_floor_and_wall_come_apart() -> None:
 def test_a_bent_piece_has_no_normal() -> None:
     points, triangles = grid(4, 1.0)
     points[:, 2] = 0.1 * points[:, 0] ** 2
-    assert (flat_normal(crosses(points, triangles)) == 0.0).all()
+    assert (flat_normal(compute_normals(points, triangles)) == 0.0).all()
     points[:, 2] = 0.1 * points[:, 0]
-    assert flat_normal(crosses(points, triangles)) == pytest.approx(
+    assert flat_normal(compute_normals(points, triangles)) == pytest.approx(
         np.array([-0.1, 0.0, 1.0]) / np.hypot(1.0, 0.1)
     )
 
@@ -67,9 +72,9 @@ def test_the_density_is_the_largest_stretch_of_the_texture() -> None:
     map_ = np.array([[30.0, 40.0], [5.0, -8.0]])  # texels per metre, sheared
     turned = points @ rotation_from_rpy(0.3, -0.4, 0.7).T
     largest = np.linalg.svd(map_, compute_uv=False)[0]
-    found = densities(turned, triangles, points[:, :2] @ map_.T)
+    found = compute_texel_densities(turned, triangles, points[:, :2] @ map_.T)
     assert found == pytest.approx(np.full(len(triangles), largest))
-    assert densities(0.0 * turned, triangles, points[:, :2]) == pytest.approx(0.0)
+    assert compute_texel_densities(0.0 * turned, triangles, points[:, :2]) == pytest.approx(0.0)
 
 
 def footprint(normal: Array, point: Array) -> float:
@@ -95,7 +100,7 @@ def test_no_pixel_covers_more_texels_than_was_promised(tilt: float) -> None:
     largest = footprint(normal, centre)
 
     def is_close(texels: float) -> bool:
-        chosen = needs_no_copies(
+        chosen = needs_no_mipmaps(
             np.array([texels]), normal[None], corners[None], Pose.identity(), CAMERA
         )
         return bool(chosen[0])
@@ -109,7 +114,7 @@ def test_no_pixel_covers_more_texels_than_was_promised(tilt: float) -> None:
 def test_what_is_bent_or_behind_or_bare_keeps_its_copies() -> None:
     corners = np.array([[x, y, -2.0] for x in (-1, 1) for y in (-1, 1)] * 2, float)
     up, none = np.array([0.0, 0.0, 1.0]), np.zeros(3)
-    chosen = needs_no_copies(
+    chosen = needs_no_mipmaps(
         np.array([1.0, 1.0, 1.0, 0.0]),
         np.array([up, none, up, up]),
         np.array([corners, corners, -corners, corners]),

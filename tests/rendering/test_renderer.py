@@ -14,7 +14,7 @@ from uwsim.errors import UnknownName
 from uwsim.rendering.context import create_context
 from uwsim.rendering.gpu_model import GpuModels
 from uwsim.rendering.renderer import Renderer
-from uwsim.rendering.water import AMBIENT, Light, Water
+from uwsim.rendering.water import AMBIENT_SHARE, Light, Water
 
 DRY = Water(fog=0.0, attenuation=(0.0, 0.0, 0.0), colour=(0.0, 0.0, 0.0))
 HERE = Pose.identity()
@@ -133,7 +133,7 @@ def test_the_back_of_a_two_sided_plate_is_lit_as_a_front(renderer: Renderer) -> 
         images.append(image.colour.astype(int))
         renderer.remove(handle)
     assert np.abs(images[0] - images[1]).max() <= 1
-    assert images[0].min() > 255.0 * AMBIENT * 0.6 + 20.0  # the sun reaches it
+    assert images[0].min() > 255.0 * AMBIENT_SHARE * 0.6 + 20.0  # the sun reaches it
 
 
 def test_a_mirroring_matrix_does_not_turn_a_body_inside_out(renderer: Renderer) -> None:
@@ -197,7 +197,7 @@ def test_hidden_ids_are_not_seen_and_cast_no_shadow(renderer: Renderer) -> None:
     alone = renderer.draw(HERE, CAMERA, Water(), Light())
     renderer.place(renderer.add(block((1.0, 1.0, 0.2)), 2), placed(z=-2.5))
     both = renderer.draw(HERE, CAMERA, Water(), Light())
-    hidden = renderer.draw(HERE, CAMERA, Water(), Light(), hidden=frozenset({2}))
+    hidden = renderer.draw(HERE, CAMERA, Water(), Light(), hidden_ids=frozenset({2}))
     assert not np.array_equal(both.colour, alone.colour)  # type: ignore[arg-type]
     assert np.array_equal(hidden.colour, alone.colour)  # type: ignore[arg-type]
     assert np.array_equal(hidden.ids, alone.ids)  # type: ignore[arg-type]
@@ -268,7 +268,7 @@ def test_a_mesh_without_normals_is_dark_but_drawn(renderer: Renderer) -> None:
     assert image.colour is not None
     assert image.ids is not None
     assert image.ids[60, 80] == 1
-    assert image.colour[60, 80] == pytest.approx(255.0 * AMBIENT, abs=1.0)
+    assert image.colour[60, 80] == pytest.approx(255.0 * AMBIENT_SHARE, abs=1.0)
 
 
 def test_a_model_is_uploaded_once_however_often_it_is_added() -> None:
@@ -368,13 +368,13 @@ def test_an_image_of_what_stands_still_is_drawn_twice(
     renderer.place(thing, placed(z=-4.0))
     aside = Pose.from_rpy((0.3, 0.0, 0.0), (0.0, 0.1, 0.0))
     drawn: list[object] = []
-    draw = renderer._begin
+    draw = renderer._issue_draw_calls
 
     def counted(*view: object) -> object:
         drawn.append(view)
         return draw(*view)  # type: ignore[arg-type]
 
-    monkeypatch.setattr(renderer, "_begin", counted)
+    monkeypatch.setattr(renderer, "_issue_draw_calls", counted)
     images = [renderer.draw(eye, CAMERA, DRY, Light()) for eye in (HERE, aside) * 4]
     assert len(drawn) == 4
     assert {image.n_bytes for image in images} == {160 * 120 * (3 + 4 + 2)}

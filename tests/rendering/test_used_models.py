@@ -12,7 +12,7 @@ from uwsim.assets import load_model
 from uwsim.assets.mesh import Model
 from uwsim.assets.weathering import weather_model
 from uwsim.base.geometry import Intrinsics, Pose
-from uwsim.rendering.gpu_model import KEPT_SCENES
+from uwsim.rendering.gpu_model import MAX_UNUSED_SCENES
 from uwsim.rendering.renderer import Renderer
 from uwsim.rendering.water import Light, Water
 
@@ -40,18 +40,18 @@ def drawn(renderer: Renderer, *models: Model) -> bytes:
 def test_models_that_no_recent_scene_used_are_removed(renderer: Renderer) -> None:
     models = renderer._models
     counts = []
-    for pattern in range(1, 4 * KEPT_SCENES):
+    for pattern in range(1, 4 * MAX_UNUSED_SCENES):
         drawn(renderer, BOX, weather_model(BOX, pattern, 0.5))
         counts.append((len(models._models), len(models._textures)))
-    assert counts[-1] == counts[2 * KEPT_SCENES]
-    assert counts[-1][0] <= KEPT_SCENES + 2
+    assert counts[-1] == counts[2 * MAX_UNUSED_SCENES]
+    assert counts[-1][0] <= MAX_UNUSED_SCENES + 2
     assert id(BOX) in models._models
 
 
 def test_an_image_is_the_same_after_its_model_was_removed(renderer: Renderer) -> None:
     worn = weather_model(BOX, 1, 0.5)
     first = drawn(renderer, worn)
-    others = [drawn(renderer, weather_model(BOX, 2 + k, 0.5)) for k in range(2 * KEPT_SCENES)]
+    others = [drawn(renderer, weather_model(BOX, 2 + k, 0.5)) for k in range(2 * MAX_UNUSED_SCENES)]
     assert id(worn) not in renderer._models._models
     assert drawn(renderer, worn) == first
     assert len({first, *others}) == len(others) + 1

@@ -11,15 +11,15 @@ from tests.rendering.models import placed, plate
 from uwsim.base.geometry import Intrinsics, Pose
 from uwsim.rendering.renderer import Renderer
 from uwsim.rendering.water import (
-    AMBIENT,
-    SPECULAR,
+    AMBIENT_SHARE,
+    SPECULAR_BRIGHTNESS,
     SUN_COLOURS,
     Light,
     Water,
     apply_water,
     clip_distance,
+    submerged_path_share,
     sun_direction,
-    wet_share,
 )
 from uwsim.scene.ocean_state import OceanStateSpec
 
@@ -72,7 +72,7 @@ def sunlit(colour: np.ndarray, normal: np.ndarray, eye: np.ndarray, light: Light
     mirrored = 2.0 * facing * normal - sun
     glint = np.maximum((mirrored * eye).sum(-1, keepdims=True), 0.0) ** 2 * (facing > 0.0)
     diffuse = np.array(SUN_COLOURS[light.sun]) * np.maximum(facing, 0.0)
-    return light.rate * (AMBIENT * colour + diffuse * colour + SPECULAR * glint)
+    return light.rate * (AMBIENT_SHARE * colour + diffuse * colour + SPECULAR_BRIGHTNESS * glint)
 
 
 @pytest.mark.parametrize("fog_distance", ["ray", "clip"])
@@ -100,7 +100,7 @@ def test_a_grey_plate_matches_the_formula_in_every_channel(
     dry = sunlit(np.array(0.5), normal, -rays / np.linalg.norm(rays, axis=2, keepdims=True), light)
     planar = np.full(reach.shape, distance)
     fog_range = clip_distance(planar, CAMERA) if fog_distance == "clip" else None
-    wet = apply_water(dry, reach, points[..., 2], water.under(light), fog_range=fog_range)
+    wet = apply_water(dry, reach, points[..., 2], water.scale_by_light(light), fog_range=fog_range)
     assert image.colour is not None
     assert np.abs(image.colour - 255.0 * wet).max() <= 1.0
 
@@ -120,7 +120,7 @@ def test_where_there_is_air_only_the_way_under_the_surface_counts(
     points = rays * 4.0
     normal = np.broadcast_to([0.0, 0.0, 1.0], points.shape)
     dry = sunlit(np.array(0.5), normal, -rays / np.linalg.norm(rays, axis=2, keepdims=True), light)
-    share = wet_share(points[..., 2], 0.0, water)
+    share = submerged_path_share(points[..., 2], 0.0, water)
     expected = {5.0: 1.0, 1.0: 1.0, -2.0: 0.5, -7.0: 0.0}[height]
     assert share == pytest.approx(np.full(share.shape, expected))
     way = np.linalg.norm(points, axis=2) * share
@@ -185,7 +185,7 @@ def test_water_and_fog_follow_the_light(renderer: Renderer, rate: float, fog: fl
 
 def test_the_original_has_bright_fog_at_night() -> None:
     ocean, night = OceanStateSpec(), Light(rate=0.0)
-    assert Water.of(ocean).under(night).fog_colour == (0.0, 0.0, 0.0)
-    assert Water.of(ocean).under(Light()) == Water.of(ocean)
-    original = Water.of(ocean, frozenset({"fog-light"}))
-    assert original.under(night) == original
+    assert Water.from_ocean_state(ocean).scale_by_light(night).fog_colour == (0.0, 0.0, 0.0)
+    assert Water.from_ocean_state(ocean).scale_by_light(Light()) == Water.from_ocean_state(ocean)
+    original = Water.from_ocean_state(ocean, frozenset({"fog-light"}))
+    assert original.scale_by_light(night) == original

@@ -1,4 +1,4 @@
-"""Draws batches one after another, and sets only what differs from one to the next."""
+"""Draw batches one after another, and set only the state that differs from one to the next."""
 
 from __future__ import annotations
 
@@ -10,30 +10,30 @@ from .gpu_model import Batch
 from .instance import Instances, Slots
 
 Winding = Literal["cw", "ccw"]
-"""The winding of the triangles that are seen from outside, in an image."""
+"""The winding, in an image, of triangles whose outside is visible."""
 
 OTHER: dict[Winding, Winding] = {"cw": "ccw", "ccw": "cw"}
 
 
 class Brush:
-    """What draws the batches of one pass, with a depth test.
+    """A sequence of draw calls for the batches of one pass, with a depth test.
 
-    A scene has dozens of batches, most of which share their faces and their instance with the one
-    before: to set all of it for each took as long as to issue the draw calls.
+    A scene has dozens of batches, most of which have the same sides and instance as the previous
+    one. To set all state for each of them takes as long as to issue the draw calls.
 
     Args:
-        context: into whose framebuffer it draws.
-        instances: all there are.
-        slots: with the places of the instances.
-        outside: winding of the outside of instances that are not mirrored. Images are upside down
-            for OpenGL, so that it is clockwise in theirs.
+        context: with the framebuffer in use.
+        instances: all instances.
+        slots: with the poses of the instances.
+        winding: winding of the outside of instances that are not mirrored. It is clockwise
+            in images, which are upside down for OpenGL.
     """
 
     def __init__(
-        self, context: moderngl.Context, instances: Instances, slots: Slots, outside: Winding
+        self, context: moderngl.Context, instances: Instances, slots: Slots, winding: Winding
     ) -> None:
-        self._context, self._batches, self._slots = context, instances.numbered, slots
-        self._outside: Winding = outside
+        self._context, self._batches, self._slots = context, instances.numbered_batches, slots
+        self._winding: Winding = winding
         self._is_mirrored = instances.is_mirrored
         self._row: int | None = None
         self._front: Winding | None = None
@@ -45,7 +45,7 @@ class Brush:
         if row != self._row:
             self._row = row
             self._slots.bind(row)
-            front = OTHER[self._outside] if self._is_mirrored[row] else self._outside
+            front = OTHER[self._winding] if self._is_mirrored[row] else self._winding
             if front != self._front:
                 self._context.front_face = self._front = front
         if batch.two_sided != self._two_sided:

@@ -14,19 +14,19 @@ ENVIRONMENT = {
     "LP_NUM_THREADS": str(min(4, 2 * (os.cpu_count() or 1))),
     "EGL_LOG_LEVEL": "fatal",
 }
-"""Switches of Mesa, set where the user has not: images of cameras are too small for more
-than a few threads of the software rasteriser, and errors are reported once, by `NoGraphics`.
-They do not change a byte of an image."""
+"""The variables of Mesa, set where the user has not: camera images are too small for more than
+a few threads of the software rasteriser, and `NoGraphics` reports errors once. They do not change
+a byte of an image."""
 
 N_DEVICES = 4
-"""How many of EGL's devices are tried, in its order: graphics cards come before llvmpipe."""
+"""The number of EGL devices that are tried, in EGL's order: graphics cards precede llvmpipe."""
 
 
 def create_context() -> moderngl.Context:
-    """Make a headless context through EGL; a GPU when there is one, else Mesa's llvmpipe.
+    """Create a headless context through EGL, on a GPU if there is one, else on Mesa's llvmpipe.
 
     Raises:
-        NoGraphics: there is no usable OpenGL; the message says what to install.
+        NoGraphics: there is no usable OpenGL; the message states what to install.
     """
     failures: list[Exception] = []
     for device in range(N_DEVICES):
@@ -39,8 +39,8 @@ def create_context() -> moderngl.Context:
         else:
             context.gc_mode = "context_gc"
             return context
-    why = " ".join(str(failures[0]).split())
+    first_error = " ".join(str(failures[0]).split())
     raise NoGraphics(
         "No OpenGL 3.3 context could be made. Install Mesa's software renderer with: "
-        f"apt-get install libegl1 libgl1 libgl1-mesa-dri ({why})"
+        f"apt-get install libegl1 libgl1 libgl1-mesa-dri ({first_error})"
     ) from failures[0]

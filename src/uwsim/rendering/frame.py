@@ -9,7 +9,7 @@ from ..base.geometry import Array, Intrinsics, Pose
 from ..base.numerics.linear import product, rotate_back
 from .lights.sun_shadow import SunShadow
 from .program import Block
-from .water import AMBIENT, SPECULAR, SUN_COLOURS, Light, Water, sun_direction
+from .water import AMBIENT_SHARE, SPECULAR_BRIGHTNESS, SUN_COLOURS, Light, Water, sun_direction
 
 FRAME = Block(
     "Frame",
@@ -47,7 +47,8 @@ class Frame:
         shadow: SunShadow,
     ) -> None:
         """Write everything and bind it."""
-        values, rotation, water = self._values, world_from_camera.rotation, water.under(light)
+        values, rotation = self._values, world_from_camera.rotation
+        water = water.scale_by_light(light)
         near, far = intrinsics.near, intrinsics.far
         height = world_from_camera.position[2] - water.surface_height
         values["clip_from_camera"] = clip_from_camera.T  # OpenGL counts columns first
@@ -57,7 +58,7 @@ class Frame:
         values["up"] = *rotation[2], height
         values["sun"] = *rotate_back(rotation, sun_direction(light.sun)), shadow.lift
         values["sunlight"][:3] = [light.rate * colour for colour in SUN_COLOURS[light.sun]]
-        values["sky"][:2] = light.rate * AMBIENT, light.rate * SPECULAR
+        values["sky"][:2] = light.rate * AMBIENT_SHARE, light.rate * SPECULAR_BRIGHTNESS
         values["water_colour"][:3] = water.colour
         values["attenuation"][:3] = water.attenuation
         values["fog"] = *water.fog_colour, water.fog**2

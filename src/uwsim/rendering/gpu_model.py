@@ -10,30 +10,30 @@ import numpy as np
 import numpy.typing as npt
 
 from ..assets.mesh import Model, Texture
-from .merged import VERTEX, Merged, merged
+from .merged import VERTEX, MergedMesh, merge_model
 
 
 class Buffers:
-    """Merged meshes on the GPU, and a vertex array for each program that draws them."""
+    """The merged meshes on the GPU, and a vertex array for each program that draws them."""
 
-    def __init__(self, context: moderngl.Context, each: Merged) -> None:
+    def __init__(self, context: moderngl.Context, mesh: MergedMesh) -> None:
         self._context = context
-        self._whole = (
-            context.buffer(each.vertices.tobytes()),
-            context.buffer(each.triangles.tobytes()),
+        self._merged_buffers = (
+            context.buffer(mesh.vertices.tobytes()),
+            context.buffer(mesh.triangles.tobytes()),
         )
-        self._bare: tuple[moderngl.Buffer, moderngl.Buffer] | None = None
+        self._position_buffers: tuple[moderngl.Buffer, moderngl.Buffer] | None = None
         self._arrays: dict[moderngl.Program, moderngl.VertexArray] = {}
 
     def array(self, program: moderngl.Program) -> moderngl.VertexArray:
-        """The vertex array for a program; made when first drawn."""
+        """Return the vertex array for a program; create it at the first draw call."""
         array = self._arrays.get(program)
         if array is None:
-            present = [n for n in ("vertex", "vertex_normal", "uv", "tint") if n in program]
-            (vertices, indices), layout = self._whole, _layout(present)
-            if present == ["vertex"]:
-                (vertices, indices), layout = self._places(), "3f"
-            array = self._context.vertex_array(program, [(vertices, layout, *present)], indices)
+            attributes = [n for n in ("vertex", "vertex_normal", "uv", "tint") if n in program]
+            (vertices, indices), layout = self._merged_buffers, _layout(attributes)
+            if attributes == ["vertex"]:
+                (vertices, indices), layout = self._upload_positions(), "3f"
+            array = self._context.vertex_array(program, [(vertices, layout, *attributes)], indices)
             self._arrays[program] = array
         return array
 
@@ -41,75 +41,75 @@ class Buffers:
         """Free the memory."""
         for array in self._arrays.values():
             array.release()
-        for buffer in (*self._whole, *(self._bare or ())):
+        for buffer in (*self._merged_buffers, *(self._position_buffers or ())):
             buffer.release()
 
-    def _places(self) -> tuple[moderngl.Buffer, moderngl.Buffer]:
-        """Places alone, each once: edges have a vertex for each normal and colour that meet there.
+    def _upload_positions(self) -> tuple[moderngl.Buffer, moderngl.Buffer]:
+        """Return the positions alone, each once, for shadow maps.
 
-        Of maps of shadows most of the time goes into vertices.
+        Edges have a vertex for each normal and colour; vertices take most of a shadow map's time.
         """
-        if self._bare is None:
-            vertices, triangles = self._whole
-            places = np.frombuffer(vertices.read(), VERTEX)["vertex"]
-            numbers = np.frombuffer(triangles.read(), np.uint32)
-            bare, of_each = np.unique(places, axis=0, return_inverse=True)
-            indices = of_each.reshape(-1)[numbers].astype(np.uint32)
-            self._bare = (
-                self._context.buffer(bare.tobytes()),
+        if self._position_buffers is None:
+            vertices, triangles = self._merged_buffers
+            positions = np.frombuffer(vertices.read(), VERTEX)["vertex"]
+            vertex_indices = np.frombuffer(triangles.read(), np.uint32)
+            unique_positions, position_indices = np.unique(positions, axis=0, return_inverse=True)
+            indices = position_indices.reshape(-1)[vertex_indices].astype(np.uint32)
+            self._position_buffers = (
+                self._context.buffer(unique_positions.tobytes()),
                 self._context.buffer(indices.tobytes()),
             )
-        return self._bare
+        return self._position_buffers
 
 
 @dataclass(frozen=True, eq=False)
 class Batch:
-    """Triangles of a model drawn with one call: same texture, sides and opacity, near by."""
+    """A set of adjacent triangles with the same texture, sides and opacity; one draw call."""
 
     buffers: Buffers
-    """Shared by the pieces of a model."""
-    first: int
-    """Where its own indices begin ..."""
+    """The buffers, shared by the pieces of a model."""
+    first_index: int
+    """The position of the batch's first index."""
     size: int
-    """... and how many they are."""
+    """The number of its indices."""
     texture: Texture | None
-    """Uploaded when first drawn: `GpuModels.use`."""
+    """The texture, uploaded when first drawn: `GpuModels.use`."""
     two_sided: bool
     opacity: float
-    """1 hides what is behind it, 0 is not seen."""
+    """The opacity: 1 hides what is behind the batch, 0 is invisible."""
     centre: npt.NDArray[np.float64]
-    """Centre of the bounding sphere, model frame, (3,) [m]."""
+    """The centre of the bounding sphere, model frame, (3,) [m]."""
     radius: float
-    """Radius of the bounding sphere [m]."""
+    """The radius of the bounding sphere [m]."""
     corners: npt.NDArray[np.float64]
-    """Corners of the bounding box, model frame, (8, 3) [m]."""
+    """The corners of the bounding box, model frame, (8, 3) [m]."""
     normal: npt.NDArray[np.float64]
-    """Of its plane, model frame, (3,); 0 if it is bent."""
+    """The normal of the batch's plane, model frame, (3,); 0 if it is bent."""
     density: float
-    """Texels along a metre, where most are [1/m]; 0 without a texture."""
+    """The largest number of texels along a metre [1/m]; 0 without a texture."""
 
     def draw(self, program: moderngl.Program) -> None:
-        """Draw all triangles with the state as it is (`brush`)."""
+        """Draw all triangles with the current state of OpenGL (`brush`)."""
         array = self.buffers.array(program)
-        array.render(moderngl.TRIANGLES, vertices=self.size, first=self.first)
+        array.render(moderngl.TRIANGLES, vertices=self.size, first=self.first_index)
 
 
-def _layout(present: list[str]) -> str:
-    """The format of VERTEX with the members that the program does not read skipped."""
+def _layout(attributes: list[str]) -> str:
+    """Return the format of VERTEX in which members that the program does not read are skipped."""
     sizes = {"vertex": 3, "vertex_normal": 3, "uv": 2, "tint": 3}
-    return " ".join(f"{n}f" if name in present else f"{4 * n}x" for name, n in sizes.items())
+    return " ".join(f"{n}f" if name in attributes else f"{4 * n}x" for name, n in sizes.items())
 
 
-KEPT_SCENES = 4
-"""Models and textures that none of so many scenes has used are removed from the GPU."""
+MAX_UNUSED_SCENES = 4
+"""The number of scenes after which an unused model or texture is removed from the GPU."""
 
 
 class GpuModels:
-    """Uploads models and textures, each once, and keeps them while scenes use them.
+    """The models and textures on the GPU, each uploaded once.
 
-    A model is uploaded when it comes into a scene, a texture when it is first seen: of a tank with
-    its house, a camera that looks down needs one of nine. One that the last `KEPT_SCENES` have not
-    used is removed: scenes that vary from seed to seed have models of their own.
+    A model is uploaded when it is added to a scene, a texture when it is first drawn: of a tank
+    with its house, a camera that looks down needs one of nine. Those that the last
+    `MAX_UNUSED_SCENES` did not use are removed: varied scenes have other models for each seed.
     """
 
     def __init__(self, context: moderngl.Context) -> None:
@@ -120,35 +120,36 @@ class GpuModels:
             for repeats in (False, True)
         }
         self._textures: dict[tuple[str, int], tuple[Texture, moderngl.Texture]] = {}
-        self._with_copies: set[int] = set()  # numbers of the textures that have smaller ones
-        self._bound: tuple[Texture, bool] | None = None  # of this pass; whether without mipmaps
-        self._n_scenes = 0  # that have ended
-        self._models_used: dict[int, int] = {}  # number of the scene that used one last
+        self._mipmapped_textures: set[int] = set()  # numbers of the textures that have mipmaps
+        self._bound: tuple[Texture, bool] | None = None  # of this pass; True: without mipmaps
+        self._n_scenes = 0  # number of scenes that have ended
+        self._models_used: dict[int, int] = {}  # number of the last scene that used it
         self._textures_used: dict[tuple[str, int], int] = {}
 
     def upload(self, model: Model) -> tuple[Batch, ...]:
-        """The model's batches; the same object is uploaded only once."""
-        known = self._models.get(id(model))
-        if known is None:
-            several = [self._batches(each) for each in merged(model)]
-            known = model, tuple(itertools.chain.from_iterable(several))
-            self._models[id(model)] = known  # holds the model, so that its id stays its own
+        """Return the model's batches; the same object is uploaded only once."""
+        entry = self._models.get(id(model))
+        if entry is None:
+            batch_lists = [self._upload_batches(mesh) for mesh in merge_model(model)]
+            entry = model, tuple(itertools.chain.from_iterable(batch_lists))
+            self._models[id(model)] = entry  # holds the model, so that its id remains unique
         self._models_used[id(model)] = self._n_scenes
-        return known[1]
+        return entry[1]
 
     def end_scene(self) -> None:
         """Remove the models and textures that none of the last scenes has used."""
         self._n_scenes += 1
-        oldest = self._n_scenes - KEPT_SCENES
+        min_scene = self._n_scenes - MAX_UNUSED_SCENES
         for model, _ in list(self._models.values()):
-            if self._models_used[id(model)] < oldest:
+            if self._models_used[id(model)] < min_scene:
                 self.discard(model)
-        for key, last in list(self._textures_used.items()):
-            if last < oldest:
-                _, made = self._textures.pop(key)
+        for key, scene in list(self._textures_used.items()):
+            if scene < min_scene:
+                _, gpu_texture = self._textures.pop(key)
                 del self._textures_used[key]
-                self._with_copies.discard(made.glo)  # the number is given to another one
-                made.release()
+                # Another texture may get the number.
+                self._mipmapped_textures.discard(gpu_texture.glo)
+                gpu_texture.release()
 
     def discard(self, model: Model) -> None:
         """Free the buffers of a model that is in no scene any more."""
@@ -157,42 +158,43 @@ class GpuModels:
         for buffers in {id(batch.buffers): batch.buffers for batch in batches}.values():
             buffers.release()
 
-    def _batches(self, each: Merged) -> list[Batch]:
-        """Upload merged meshes; a batch for each piece of them."""
-        buffers = Buffers(self._context, each)
+    def _upload_batches(self, mesh: MergedMesh) -> list[Batch]:
+        """Upload merged meshes, and return a batch for each of their pieces."""
+        buffers = Buffers(self._context, mesh)
         return [
             Batch(
                 buffers=buffers,
-                first=piece.first,
+                first_index=piece.first_index,
                 size=piece.size,
-                texture=each.texture,
-                two_sided=each.two_sided,
-                opacity=each.opacity,
+                texture=mesh.texture,
+                two_sided=mesh.two_sided,
+                opacity=mesh.opacity,
                 centre=piece.centre,
                 radius=piece.radius,
                 corners=piece.corners,
                 normal=piece.normal,
                 density=piece.density,
             )
-            for piece in each.pieces
+            for piece in mesh.pieces
         ]
 
     def use(self, texture: Texture, unit: int, *, is_close: bool) -> None:
-        """Bind a texture until `release`; that of a close surface is sampled without mipmaps."""
+        """Bind a texture until `release`; a close surface is sampled without mipmaps."""
         if self._bound is not None and self._bound[0] is texture and self._bound[1] == is_close:
             return
-        made = self._upload_texture(texture)
-        made.use(unit)
+        gpu_texture = self._upload_texture(texture)
+        gpu_texture.use(unit)
         if is_close:
             self._close[texture.repeats].use(unit)
             self._bound = texture, True
             return
         self.release(unit)
         self._bound = texture, False
-        if made.glo not in self._with_copies:  # to make them takes longer than an image
-            made.build_mipmaps()
-            made.filter = (moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR)
-            self._with_copies.add(made.glo)
+        # Their creation takes longer than an image.
+        if gpu_texture.glo not in self._mipmapped_textures:
+            gpu_texture.build_mipmaps()
+            gpu_texture.filter = (moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR)
+            self._mipmapped_textures.add(gpu_texture.glo)
 
     def release(self, unit: int) -> None:
         """Unbind the sampler, so that the next texture is sampled by its own filter."""
@@ -200,13 +202,13 @@ class GpuModels:
         self._bound = None
 
     def _upload_texture(self, texture: Texture) -> moderngl.Texture:
-        """The texture on the GPU; uploaded once."""
+        """Return the texture on the GPU; it is uploaded once."""
         key = texture.name, id(texture.pixels)
         if key not in self._textures:
             height, width = texture.pixels.shape[:2]
-            upright = np.ascontiguousarray(texture.pixels[::-1])  # OpenGL's first row is v = 0
-            made = self._context.texture((width, height), 3, upright.tobytes(), alignment=1)
-            made.repeat_x = made.repeat_y = texture.repeats
-            self._textures[key] = texture, made
+            pixels = np.ascontiguousarray(texture.pixels[::-1])  # OpenGL's first row is v = 0
+            gpu_texture = self._context.texture((width, height), 3, pixels.tobytes(), alignment=1)
+            gpu_texture.repeat_x = gpu_texture.repeat_y = texture.repeats
+            self._textures[key] = texture, gpu_texture
         self._textures_used[key] = self._n_scenes
         return self._textures[key][1]

@@ -10,9 +10,9 @@ from ..base.numerics.jit import njit
 
 @njit
 def grey_truncated(rgb: npt.NDArray[np.uint8]) -> npt.NDArray[np.uint8]:
-    """``int(0.2989 R) + int(0.5870 G) + int(0.1140 B)``: each term truncated, (h, w, 3) to (h, w).
+    """Compute ``int(0.2989 R) + int(0.5870 G) + int(0.1140 B)``, (h, w, 3) to (h, w).
 
-    So white becomes 76 + 149 + 29 = 254, and grey is 0 to 2 levels darker than it should be.
+    Each term is truncated: white becomes 76 + 149 + 29 = 254, and grey is 0 to 2 levels too dark.
     """
     height, width, _ = rgb.shape
     grey = np.empty((height, width), np.uint8)

@@ -13,201 +13,208 @@ from ..base.numerics.linear import determinants, inverse
 from ..errors import UnknownName
 from . import bounds
 from .gpu_model import Batch
-from .minification import needs_no_copies
+from .minification import needs_no_mipmaps
 from .program import Block
 
 INSTANCE = Block(
     "Instance", 1, {"camera_from_model": "mat4", "camera_normals": "mat4", "identity": "uvec4"}
 )
 STRIDE = 256
-"""Bytes from slot to slot in the buffer of instances; every driver's alignment divides it."""
+"""The distance between slots in the buffer of instances [bytes]; every driver's alignment divides
+it."""
 Numbers = npt.NDArray[np.intp]
 
 
 class Instances:
-    """Instances of models in W; bounds and normals are computed for all of them at once.
+    """The instances of models in W; bounds and normals are computed for all of them at once.
 
     Each is identified by a handle; arrays have a row for each, in the order of adding.
     """
 
     def __init__(self) -> None:
         self.version = 0
-        """Grows with every change of anything that may cast a shadow."""
+        """The number of changes of anything that may cast a shadow."""
         self.arrangement = 0
-        """The version at which an instance last came or went: numbers of batches hold for one."""
+        """The version at which an instance was last added or removed; batch numbers change then."""
         self._next_handle = 1
-        self._followed = -1  # the version that normals and bounds are of
+        self._bounds_version = -1  # the version of normals and bounds
         self.clear()
 
     def clear(self) -> None:
         """Remove all instances."""
-        self._rearrange()
+        self._change_arrangement()
         self._rows: dict[int, int] = {}
         self.ids: list[int] = []
-        """Their numbers in the id image, 1..65535."""
+        """The numbers of the instances in the id image, 1..65535."""
         self.batches: list[tuple[Batch, ...]] = []
         """The batches of each instance."""
         self.world_from_model: Array = np.zeros((0, 4, 4))
-        """(n, 4, 4); may carry scale, uneven or mirroring."""
-        self.moved: npt.NDArray[np.int64] = np.zeros(0, dtype=np.int64)
+        """The poses, (n, 4, 4); they may include scale, uneven or mirroring."""
+        self.moved_versions: npt.NDArray[np.int64] = np.zeros(0, dtype=np.int64)
         """The version at which each instance last moved, (n,)."""
 
     def add(self, batches: tuple[Batch, ...], id: int) -> int:
-        """Put a model at the origin of W; returns its handle."""
+        """Add a model at the origin of W; return its handle."""
         handle = self._next_handle
         self._next_handle += 1
-        self._rearrange()
+        self._change_arrangement()
         self._rows[handle] = len(self.ids)
         self.ids.append(id)
         self.batches.append(batches)
         self.world_from_model = np.concatenate([self.world_from_model, np.eye(4)[None]])
-        self.moved = np.append(self.moved, self.version)
+        self.moved_versions = np.append(self.moved_versions, self.version)
         return handle
 
     def place(self, handles: Sequence[int], world_from_model: Array) -> None:
-        """Set the poses of instances, (k, 4, 4); UnknownName if one is not there."""
+        """Set the poses of instances, (k, 4, 4); raise UnknownName for an unknown handle."""
         rows = np.array([self._row(handle) for handle in handles], dtype=np.intp)
-        places = np.ascontiguousarray(world_from_model)
-        if bounds.put(places, rows, self.version + 1, self.world_from_model, self.moved):
+        poses = np.ascontiguousarray(world_from_model)
+        if bounds.set_poses(
+            poses, rows, self.version + 1, self.world_from_model, self.moved_versions
+        ):
             self.version += 1
 
     def remove(self, handle: int) -> None:
-        """Remove an instance; UnknownName if it is not there."""
+        """Remove an instance; raise UnknownName if the handle is unknown."""
         row = self._row(handle)
-        self._rearrange()
+        self._change_arrangement()
         del self._rows[handle], self.ids[row], self.batches[row]
         self._rows = {h: r - (r > row) for h, r in self._rows.items()}
         self.world_from_model = np.delete(self.world_from_model, row, axis=0)
-        self.moved = np.delete(self.moved, row)
+        self.moved_versions = np.delete(self.moved_versions, row)
 
-    def without(self, hidden: frozenset[int]) -> Numbers:
-        """Numbers of the batches of instances whose ids are not hidden, (m,)."""
-        self._follow()
-        if hidden not in self._shown:
-            is_shown = np.array([id not in hidden for id in self.ids], dtype=bool)
-            self._shown[hidden] = np.flatnonzero(is_shown[self._owners])
-        return self._shown[hidden]
+    def find_shown(self, hidden_ids: frozenset[int]) -> Numbers:
+        """Return the numbers of the batches of instances whose ids are not hidden, (m,)."""
+        self._update_bounds()
+        if hidden_ids not in self._shown_by_hidden:
+            is_shown = np.array([id not in hidden_ids for id in self.ids], dtype=bool)
+            self._shown_by_hidden[hidden_ids] = np.flatnonzero(is_shown[self._owners])
+        return self._shown_by_hidden[hidden_ids]
 
     @property
     def normals(self) -> Array:
-        """World normals from model normals, (n, 3, 3)."""
-        self._follow()
+        """The matrices from model normals to world normals, (n, 3, 3)."""
+        self._update_bounds()
         return self._normals
 
     @property
     def is_mirrored(self) -> list[bool]:
-        """Whether the matrix of each instance mirrors it."""
-        self._follow()
+        """The flags of the instances: True if the matrix mirrors the model."""
+        self._update_bounds()
         return self._is_mirrored
 
     @property
     def owners(self) -> Numbers:
-        """Row of the instance that each batch belongs to, (m,)."""
-        self._follow()
+        """The row of the instance to which each batch belongs, (m,)."""
+        self._update_bounds()
         return self._owners
 
-    def casting(self, numbers: Numbers, max_radius: float) -> Numbers:
-        """Return those of some batches that cast the sun's shadow.
+    def find_casters(self, numbers: Numbers, max_radius: float) -> Numbers:
+        """Return the batches that cast the sun's shadow.
 
-        Transparent ones cast none, nor do those of instances with a larger bounding box.
+        Transparent batches cast none, nor do those of instances with a larger bounding box.
 
         Args:
             numbers: of the batches.
             max_radius: half the longest side of the box, at most [m].
         """
-        self._follow()
+        self._update_bounds()
         is_small = self._radii[self._owners[numbers]] <= max_radius
-        casting: Numbers = numbers[self._is_opaque[numbers] & is_small]
-        return casting
+        casters: Numbers = numbers[self._is_opaque[numbers] & is_small]
+        return casters
 
     def are_opaque(self, numbers: Numbers) -> bool:
-        """Whether none of some batches is seen through."""
-        self._follow()
+        """Return True if all given batches are opaque."""
+        self._update_bounds()
         return bool(self._is_opaque[numbers].all())
 
     @property
     def spheres(self) -> Array:
-        """Bounding spheres of the batches in W: centre and radius, (m, 4) [m]."""
-        self._follow()
+        """The bounding spheres of the batches in W: centre and radius, (m, 4) [m]."""
+        self._update_bounds()
         return self._spheres
 
     @property
     def corners(self) -> Array:
-        """Corners of the bounding boxes of the batches in W, (m, 8, 3) [m]."""
-        self._follow()
+        """The corners of the bounding boxes of the batches in W, (m, 8, 3) [m]."""
+        self._update_bounds()
         return self._corners
 
-    def needs_no_copies(
+    def needs_no_mipmaps(
         self, numbers: Numbers, world_from_camera: Pose, intrinsics: Intrinsics
     ) -> list[bool]:
-        """Whether batches need no mipmaps of their textures (`minification`)."""
-        self._follow()
-        found: list[bool] = needs_no_copies(
+        """Return for each batch True if its texture needs no mipmaps (`minification`)."""
+        self._update_bounds()
+        flags: list[bool] = needs_no_mipmaps(
             self._densities[numbers],
             self._flat_normals[numbers],
             self._corners[numbers],
             world_from_camera,
             intrinsics,
         ).tolist()
-        return found
+        return flags
 
     @property
-    def numbered(self) -> list[tuple[int, Batch]]:
-        """All batches by their numbers: the row of the instance that it belongs to, and itself."""
-        self._follow()
-        return self._drawn
+    def numbered_batches(self) -> list[tuple[int, Batch]]:
+        """The batches by number, each with the row of its instance."""
+        self._update_bounds()
+        return self._numbered_batches
 
     def _row(self, handle: int) -> int:
         if handle not in self._rows:
             raise UnknownName("instance", str(handle), map(str, self._rows))
         return self._rows[handle]
 
-    def _rearrange(self) -> None:
-        """Note that an instance comes or goes."""
+    def _change_arrangement(self) -> None:
+        """Record that an instance is added or removed."""
         self.version += 1
         self.arrangement = self.version
-        self._is_known = False  # whether it is known which batches there are
+        self._has_batches = False  # True if the batches are collected
 
-    def _stand(self) -> None:
-        """Take note of which batches there are."""
-        self._shown: dict[frozenset[int], Numbers] = {}
-        self._drawn = [
-            (row, batch) for row, several in enumerate(self.batches) for batch in several
+    def _collect_batches(self) -> None:
+        """Collect the batches of all instances."""
+        self._shown_by_hidden: dict[frozenset[int], Numbers] = {}
+        self._numbered_batches = [
+            (row, batch)
+            for row, instance_batches in enumerate(self.batches)
+            for batch in instance_batches
         ]
-        self._owners = np.array([row for row, _ in self._drawn], dtype=np.intp)
-        batches = [batch for _, batch in self._drawn]
+        self._owners = np.array([row for row, _ in self._numbered_batches], dtype=np.intp)
+        batches = [batch for _, batch in self._numbered_batches]
         spheres = [[*batch.centre, batch.radius] for batch in batches]
-        self._own_spheres = np.array(spheres, dtype=np.float64).reshape(-1, 4)
-        self._own_corners = np.array([batch.corners for batch in batches]).reshape(-1, 8, 3)
-        self._own_normals = np.array([batch.normal for batch in batches]).reshape(-1, 3)
+        self._model_spheres = np.array(spheres, dtype=np.float64).reshape(-1, 4)
+        self._model_corners = np.array([batch.corners for batch in batches]).reshape(-1, 8, 3)
+        self._model_normals = np.array([batch.normal for batch in batches]).reshape(-1, 3)
         self._is_opaque = np.array([batch.opacity >= 1.0 for batch in batches], dtype=bool)
-        self._own_densities = np.array([batch.density for batch in batches])
-        self._is_known = True
+        self._model_densities = np.array([batch.density for batch in batches])
+        self._has_batches = True
 
-    def _follow(self) -> None:
-        """Bring normals and bounds up to date."""
-        if self._followed == self.version:
+    def _update_bounds(self) -> None:
+        """Update normals and bounds to the current version."""
+        if self._bounds_version == self.version:
             return
-        self._followed = self.version
-        if not self._is_known:
-            self._stand()
+        self._bounds_version = self.version
+        if not self._has_batches:
+            self._collect_batches()
         linear = self.world_from_model[:, :3, :3]
         self._normals: Array = np.ascontiguousarray(inverse(linear).transpose(0, 2, 1))
         self._is_mirrored: list[bool] = (determinants(linear) < 0.0).tolist()
         n, m = len(self.ids), len(self._owners)
         world_from_model, owners = self.world_from_model, self._owners
-        stretch, crowding = np.empty(n), np.empty(n)
-        bounds.stretches(np.ascontiguousarray(linear), stretch)
-        # The normals' matrix bounds how much a model shrinks, and its texels crowd.
-        bounds.stretches(self._normals, crowding)
-        self._densities: Array = self._own_densities * crowding[owners]
+        stretch, shrinkage = np.empty(n), np.empty(n)
+        bounds.compute_stretch_bounds(np.ascontiguousarray(linear), stretch)
+        # The normals' matrix bounds the factor by which texel density grows when a model shrinks.
+        bounds.compute_stretch_bounds(self._normals, shrinkage)
+        self._densities: Array = self._model_densities * shrinkage[owners]
         self._spheres, self._corners = np.empty((m, 4)), np.empty((m, 8, 3))
-        bounds.carry(world_from_model, stretch, owners, self._own_spheres, self._spheres)
-        bounds.carry_corners(world_from_model, owners, self._own_corners, self._corners)
+        bounds.transform_spheres(
+            world_from_model, stretch, owners, self._model_spheres, self._spheres
+        )
+        bounds.transform_corners(world_from_model, owners, self._model_corners, self._corners)
         self._flat_normals = np.empty((m, 3))
-        bounds.carry_normals(self._normals, owners, self._own_normals, self._flat_normals)
+        bounds.transform_normals(self._normals, owners, self._model_normals, self._flat_normals)
         self._radii = np.empty(n)
-        bounds.half_extents(owners, self._spheres, self._radii)
+        bounds.compute_half_extents(owners, self._spheres, self._radii)
 
 
 class Slots:
@@ -235,7 +242,7 @@ class Slots:
             self._values = np.zeros(2 * n, dtype=self._DTYPE)
             self._buffer.orphan(self._values.nbytes)
         values = self._values[:n]
-        bounds.see(
+        bounds.transform_to_camera(
             np.ascontiguousarray(camera_from_world),
             instances.world_from_model,
             instances.normals,
@@ -252,32 +259,32 @@ class Slots:
         )
 
 
-def in_view(
+def find_visible(
     instances: Instances, numbers: Numbers, world_from_camera: Pose, planes: Array
 ) -> Numbers:
-    """Numbers of the batches whose bounds reach into the frustum, near ones first.
+    """Return the numbers of the batches whose bounds reach into the frustum, near ones first.
 
-    Bounds are the sphere and the box: of a wall, the sphere reaches far round it.
+    Bounds are sphere and box, because the sphere of a wall is much larger than the wall.
 
-    Near is by the far side of the sphere, so small things come before the tank they float in and
+    The order is that of the spheres' far sides: small objects precede the tank around them, and
     the tank's pixels behind them are never shaded.
 
     Args:
-        instances: All there are.
-        numbers: Of the batches that are looked at.
-        world_from_camera: Where the camera is.
-        planes: Of the frustum, camera frame, (6, 4).
+        instances: All instances.
+        numbers: The numbers of the batches to check.
+        world_from_camera: The pose of the camera.
+        planes: The planes of the frustum, camera frame, (6, 4).
     """
-    nearness = np.empty(len(numbers))
-    bounds.look(
+    distances = np.empty(len(numbers))
+    bounds.find_far_distances(
         numbers,
         instances.spheres,
         instances.corners,
         world_from_camera.position,
         np.ascontiguousarray(world_from_camera.rotation),
         np.ascontiguousarray(planes),
-        nearness,
+        distances,
     )
-    order = np.argsort(nearness, kind="stable")[: np.count_nonzero(nearness < np.inf)]
-    seen: Numbers = numbers[order]
-    return seen
+    order = np.argsort(distances, kind="stable")[: np.count_nonzero(distances < np.inf)]
+    visible_batches: Numbers = numbers[order]
+    return visible_batches

@@ -1,4 +1,4 @@
-"""Meshes of one look merged into one, and cut into pieces: what is drawn with one call each."""
+"""Meshes of the same appearance, merged and cut into pieces that are drawn with one call each."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from ..assets.mesh import Mesh, Model, Texture
 from ..base.geometry import Array
-from .pieces import crosses, densities, flat_normal, pieces
+from .pieces import compute_normals, compute_texel_densities, flat_normal, split_triangles
 
 VERTEX = np.dtype(
     [
@@ -27,84 +27,88 @@ VERTEX = np.dtype(
 class Piece:
     """A run of triangles near each other, that face about the same way."""
 
-    first: int
-    """Where its own indices begin ..."""
+    first_index: int
+    """The position of the piece's first index."""
     size: int
-    """... and how many they are."""
+    """The number of its indices."""
     centre: Array
-    """Centre of the bounding sphere, model frame, (3,) [m]."""
+    """The centre of the bounding sphere, model frame, (3,) [m]."""
     radius: float
-    """Radius of the bounding sphere [m]."""
+    """The radius of the bounding sphere [m]."""
     corners: Array
-    """Corners of the bounding box, model frame, (8, 3) [m]."""
+    """The corners of the bounding box, model frame, (8, 3) [m]."""
     normal: Array
-    """Of its plane, model frame, (3,); 0 if it is bent."""
+    """The normal of the piece's plane, model frame, (3,); 0 if it is bent."""
     density: float
-    """Texels along a metre, where most are [1/m]; 0 without a texture."""
+    """The largest number of texels along a metre [1/m]; 0 without a texture."""
 
 
 @dataclass(frozen=True, eq=False)
-class Merged:
-    """Meshes of one texture, of as many sides, and as opaque."""
+class MergedMesh:
+    """The merged meshes of one texture, one number of sides and one opacity."""
 
     vertices: npt.NDArray[np.void]
-    """Of the type `VERTEX`, (n,)."""
+    """The vertices, of the type `VERTEX`, (n,)."""
     triangles: npt.NDArray[np.uint32]
-    """Numbers of their vertices, piece by piece, (m, 3)."""
+    """The numbers of the triangles' vertices, piece by piece, (m, 3)."""
     pieces: tuple[Piece, ...]
     texture: Texture | None
     two_sided: bool
     opacity: float
 
 
-def merged(model: Model) -> list[Merged]:
-    """Return the meshes of a model merged by their look, in the order in which each comes first."""
+def merge_model(model: Model) -> list[MergedMesh]:
+    """Return a model's meshes, merged by appearance, in the order of first appearance."""
     groups: dict[tuple[int, bool, float], list[Mesh]] = {}
     for mesh in model.meshes:
         if len(mesh.triangles):
-            look = id(mesh.texture), mesh.two_sided, mesh.opacity
-            groups.setdefault(look, []).append(mesh)
-    return [_merge(meshes) for meshes in groups.values()]
+            appearance = id(mesh.texture), mesh.two_sided, mesh.opacity
+            groups.setdefault(appearance, []).append(mesh)
+    return [_merge_meshes(meshes) for meshes in groups.values()]
 
 
-def _merge(meshes: Sequence[Mesh]) -> Merged:
-    """Merge meshes of one look, and cut what is large."""
+def _merge_meshes(meshes: Sequence[Mesh]) -> MergedMesh:
+    """Merge meshes of one appearance, and cut large ones into pieces."""
     vertices = np.empty(sum(len(mesh.vertices) for mesh in meshes), dtype=VERTEX)
-    several, first = [], 0
+    index_arrays, start = [], 0
     for mesh in meshes:
-        part = vertices[first : first + len(mesh.vertices)]
-        part["vertex"], part["vertex_normal"] = mesh.vertices, mesh.normals
-        part["uv"], part["tint"] = mesh.uvs, mesh.colour
-        several.append(mesh.triangles.astype(np.uint32) + np.uint32(first))
-        first += len(mesh.vertices)
-    triangles = np.concatenate(several)
+        rows = vertices[start : start + len(mesh.vertices)]
+        rows["vertex"], rows["vertex_normal"] = mesh.vertices, mesh.normals
+        rows["uv"], rows["tint"] = mesh.uvs, mesh.colour
+        index_arrays.append(mesh.triangles.astype(np.uint32) + np.uint32(start))
+        start += len(mesh.vertices)
+    triangles = np.concatenate(index_arrays)
     points = vertices["vertex"].astype(np.float64)
-    normals = crosses(points, triangles)
+    normals = compute_normals(points, triangles)
     texture = meshes[0].texture
     texels = np.zeros(len(triangles))
     if texture is not None:
         height, width = texture.pixels.shape[:2]
-        texels = densities(points, triangles, vertices["uv"].astype(np.float64) * [width, height])
-    parts = pieces(points, triangles, normals)
-    found, first = [], 0
-    for numbers in parts:
-        found.append(_piece(first, points[triangles[numbers]], normals[numbers], texels[numbers]))
-        first += found[-1].size
-    return Merged(
+        texels = compute_texel_densities(
+            points, triangles, vertices["uv"].astype(np.float64) * [width, height]
+        )
+    triangle_groups = split_triangles(points, triangles, normals)
+    model_pieces, start = [], 0
+    for numbers in triangle_groups:
+        model_pieces.append(
+            _create_piece(start, points[triangles[numbers]], normals[numbers], texels[numbers])
+        )
+        start += model_pieces[-1].size
+    return MergedMesh(
         vertices=vertices,
-        triangles=triangles[np.concatenate(parts)],  # a piece is a run of triangles
-        pieces=tuple(found),
+        triangles=triangles[np.concatenate(triangle_groups)],  # a piece is a run of triangles
+        pieces=tuple(model_pieces),
         texture=texture,
         two_sided=meshes[0].two_sided,
         opacity=meshes[0].opacity,
     )
 
 
-def _piece(first: int, corners: Array, normals: Array, texels: Array) -> Piece:
-    """Measure a piece.
+def _create_piece(first_index: int, corners: Array, normals: Array, texels: Array) -> Piece:
+    """Compute the bounds of a piece.
 
     Args:
-        first: where its indices begin.
+        first_index: where its indices begin.
         corners: of its triangles, (k, 3, 3) [m].
         normals: of its triangles, (k, 3) [m2].
         texels: along a metre on each, (k,) [1/m].
@@ -113,7 +117,7 @@ def _piece(first: int, corners: Array, normals: Array, texels: Array) -> Piece:
     box = np.stack([points.min(axis=0), points.max(axis=0)])  # (2, 3) [m]
     centre = box.mean(axis=0)
     return Piece(
-        first=first,
+        first_index=first_index,
         size=3 * len(corners),
         centre=centre,
         radius=float(np.sqrt(((points - centre) ** 2).sum(axis=1).max())),

@@ -2,7 +2,7 @@ r"""Noise of a camera: independent Gaussian noise in every channel of every pixe
 
 One 64-bit key a frame is drawn from the camera's generator; pixel number i then gets the four
 16-bit words of splitmix64(key + i), of which three pick quantiles of the normal distribution.
-So a frame depends on its key alone, and no two frames share a table's stretch.
+So a frame depends on its key alone, and no two frames share a section of the table.
 
 Not modelled: shot noise (all grey levels are equally noisy), fixed-pattern noise.
 """
@@ -17,19 +17,19 @@ import numpy.typing as npt
 
 from ..base.numerics.jit import njit
 
-_GOLDEN = np.uint64(0x9E3779B97F4A7C15)
+_GOLDEN_GAMMA = np.uint64(0x9E3779B97F4A7C15)
 _MIX_1 = np.uint64(0xBF58476D1CE4E5B9)
 _MIX_2 = np.uint64(0x94D049BB133111EB)
 
 
 @cache
 def gaussian_quantiles() -> npt.NDArray[np.float32]:
-    """65536 equally likely values of N(0, 1), ascending, scaled to a variance of exactly one."""
+    """Return 65536 equally likely values of N(0, 1), ascending, with a variance of exactly one."""
     normal = NormalDist()
-    above = np.array([normal.inv_cdf((i + 0.5) / 65536.0) for i in range(32768, 65536)])
-    values = np.concatenate([-above[::-1], above])
-    scaled: npt.NDArray[np.float32] = (values / values.std()).astype(np.float32)
-    return scaled
+    upper_half = np.array([normal.inv_cdf((i + 0.5) / 65536.0) for i in range(32768, 65536)])
+    values = np.concatenate([-upper_half[::-1], upper_half])
+    quantiles: npt.NDArray[np.float32] = (values / values.std()).astype(np.float32)
+    return quantiles
 
 
 def frame_key(rng: np.random.Generator) -> int:
@@ -43,7 +43,7 @@ def add_noise(
     """Add N(0, std) to every channel and store 8 bits, rounded to nearest and clipped.
 
     Args:
-        colour16: Colours as `Renderer.draw` gives them for ``linear16``, (h, w, 4), 0..65535.
+        colour16: Colours as `Renderer.draw` returns them for ``linear16``, (h, w, 4), 0..65535.
         std: Standard deviation, in units of full scale (0.02 is 5.1 grey levels).
         rng: The camera's generator; exactly one number is drawn.
 
@@ -66,26 +66,26 @@ def _store(
     image = np.empty((height, width, 3), np.uint8)
     scale, half = np.float32(1.0 / 257.0), np.float32(0.5)
     mask = np.uint64(0xFFFF)
-    # Row by row and loop by loop: the first and the last do several pixels at once.
+    # Row by row, in separate loops: the compiler vectorises the first and the last.
     numbers, deviations = np.empty(width, np.uint64), np.empty(3 * width, np.float32)
     counter = key
     for row in range(height):
         for column in range(width):
-            z = counter + np.uint64(column + 1) * _GOLDEN
+            z = counter + np.uint64(column + 1) * _GOLDEN_GAMMA
             z = (z ^ (z >> np.uint64(30))) * _MIX_1
             z = (z ^ (z >> np.uint64(27))) * _MIX_2
             numbers[column] = z ^ (z >> np.uint64(31))
-        counter += np.uint64(width) * _GOLDEN
+        counter += np.uint64(width) * _GOLDEN_GAMMA
         for column in range(width):
             z = numbers[column]
             deviations[3 * column] = quantiles[z & mask]
             deviations[3 * column + 1] = quantiles[(z >> np.uint64(16)) & mask]
             deviations[3 * column + 2] = quantiles[(z >> np.uint64(32)) & mask]
-        drawn, stored = colour16[row].reshape(-1), image[row].reshape(-1)
+        linear_row, stored_row = colour16[row].reshape(-1), image[row].reshape(-1)
         for column in range(width):
             for channel in range(3):
-                place = 3 * column + channel
-                value = np.float32(drawn[4 * column + channel]) * scale
-                value = value + levels * deviations[place] + half
-                stored[place] = np.uint8(max(min(value, np.float32(255.0)), np.float32(0.0)))
+                index = 3 * column + channel
+                value = np.float32(linear_row[4 * column + channel]) * scale
+                value = value + levels * deviations[index] + half
+                stored_row[index] = np.uint8(max(min(value, np.float32(255.0)), np.float32(0.0)))
     return image

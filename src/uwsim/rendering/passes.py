@@ -1,4 +1,4 @@
-"""The passes that draw batches into an image: surfaces, the background, what is seen through."""
+"""The passes that draw batches into an image: surfaces, the background, transparent batches."""
 
 from __future__ import annotations
 
@@ -26,26 +26,26 @@ SAMPLERS = {
     "projector_map": 3,
     "projector_pattern": 4,
 }
-"""Texture unit of every sampler in the shaders."""
+"""The texture unit of every sampler in the shaders."""
 
 Switches = tuple[tuple[str, int], ...]
-"""Preprocessor switches of a shader and their values."""
+"""The preprocessor switches of a shader and their values."""
 
-Drawn = tuple[int, bool, bool]
-"""Number of a batch, whether it may lie in shadow, and whether it needs no mipmaps."""
+DrawnBatch = tuple[int, bool, bool]
+"""A batch's number, True if it may lie in shadow, and True if it needs no mipmaps."""
 
 ColourMask = tuple[bool, bool, bool, bool]
-"""Whether red, green, blue and alpha of a target are written."""
+"""The flags of red, green, blue and alpha: True if that channel of a target is written."""
 
 
 class Passes:
-    """Draws batches whose places, lights and shadow map are up to date.
+    """The passes that draw batches whose poses, lights and shadow map are up to date.
 
     Args:
-        context: of the renderer.
-        models: with the textures of the batches.
-        instances: whose batches they are.
-        slots: with the places of these.
+        context: context of the renderer.
+        models: models with the textures of the batches.
+        instances: owners of the batches.
+        slots: poses of the instances.
         shadow: the sun's shadow map.
     """
 
@@ -60,77 +60,79 @@ class Passes:
         self._context, self._models = context, models
         self._instances, self._slots, self._shadow = instances, slots, shadow
         self._programs: dict[tuple[object, ...], moderngl.Program] = {}
-        self._empty: dict[int, moderngl.VertexArray] = {}
+        self._empty_arrays: dict[int, moderngl.VertexArray] = {}
 
     def draw(
         self,
         target: Targets,
-        drawn: Sequence[Drawn],
+        batches_in_view: Sequence[DrawnBatch],
         switches: Switches,
     ) -> None:
-        """Draw near and small instances first, terrain last, then the background, then glass.
+        """Draw opaque batches in the given order, then the background, then transparent batches.
 
         Args:
-            target: Where to draw.
-            drawn: The batches in view, near ones first.
-            switches: Of all of them.
+            target: The framebuffer.
+            batches_in_view: The batches in view, near ones first.
+            switches: The switches of all batches.
         """
         context = self._context
-        batches = self._instances.numbered
-        opacities = [batches[number][1].opacity for number, _, _ in drawn]
+        batches = self._instances.numbered_batches
+        opacities = [batches[number][1].opacity for number, _, _ in batches_in_view]
         draw = self._surface_pass(target, switches)
         self._clear(target)
-        for one, opacity in zip(drawn, opacities, strict=True):
+        for batch, opacity in zip(batches_in_view, opacities, strict=True):
             if opacity >= 1.0:
-                draw(*one)
+                draw(*batch)
         self._models.release(SAMPLERS["base_map"])
         context.disable(moderngl.CULL_FACE)
         program = self._program("background", target, ())
-        if program.glo not in self._empty:
-            self._empty[program.glo] = context.vertex_array(program, [])
-        self._empty[program.glo].render(moderngl.TRIANGLES, vertices=3)
-        clear = [
-            (one, opacity) for one, opacity in zip(drawn, opacities, strict=True) if opacity < 1.0
+        if program.glo not in self._empty_arrays:
+            self._empty_arrays[program.glo] = context.vertex_array(program, [])
+        self._empty_arrays[program.glo].render(moderngl.TRIANGLES, vertices=3)
+        transparent_batches = [
+            (batch, opacity)
+            for batch, opacity in zip(batches_in_view, opacities, strict=True)
+            if opacity < 1.0
         ]
-        if clear:
-            self._draw_glass(target, clear[::-1], switches)
+        if transparent_batches:
+            self._draw_transparent(target, transparent_batches[::-1], switches)
 
-    def draw_before(
+    def draw_over_backdrop(
         self,
         target: Targets,
-        front: Sequence[Drawn],
-        behind: Sequence[Drawn],
+        front: Sequence[DrawnBatch],
+        back: Sequence[DrawnBatch],
         region: Region,
         switches: Switches,
     ) -> None:
-        """Draw what is in front of the backdrop, and the backdrop where shadows may fall on it.
+        """Draw the batches in front of the backdrop, and the backdrop where shadows may fall on it.
 
         Args:
-            target: Where to draw; what the backdrop fills stays clear.
+            target: The framebuffer; pixels of the backdrop remain clear.
             front: As in `draw`.
-            behind: The batches of the backdrop.
-            region: Where shadows may fall on them.
-            switches: Of all of them.
+            back: The batches of the backdrop.
+            region: The rectangle in which shadows may fall on them.
+            switches: The switches of all batches.
         """
         self._clear(target)
         draw = self._surface_pass(target, switches)
-        for one in front:
-            draw(*one)
-        clear, program = self._brush(), self._program("behind", target, ())
-        for number, _, _ in behind:
-            clear.draw(number, program)
+        for batch in front:
+            draw(*batch)
+        depth_brush, program = self._brush(), self._program("behind", target, ())
+        for number, _, _ in back:
+            depth_brush.draw(number, program)
         if region[2] > 0 and region[3] > 0:
             target.framebuffer.scissor = region
             target.framebuffer.use()
             draw = self._surface_pass(target, switches)
-            # Those after the first in shadow, too: of two at one depth the later is seen.
-            for one in itertools.dropwhile(lambda each: not each[1], behind):
-                draw(*one)
+            # All after the first in shadow, too: of two at one depth the later is visible.
+            for batch in itertools.dropwhile(lambda drawn_batch: not drawn_batch[1], back):
+                draw(*batch)
             target.framebuffer.scissor = None  # type: ignore[assignment]  # no limits
         self._models.release(SAMPLERS["base_map"])
 
     def _clear(self, target: Targets) -> None:
-        """Empty a target and bind it, for opaque batches."""
+        """Clear a target and bind it, for opaque batches."""
         target.framebuffer.use()
         target.framebuffer.clear(depth=1.0)
         self._context.enable_only(moderngl.DEPTH_TEST)
@@ -139,20 +141,20 @@ class Passes:
 
     def _brush(self) -> Brush:
         # The image is upside down for OpenGL, so outside is clockwise.
-        return Brush(self._context, self._instances, self._slots, outside="cw")
+        return Brush(self._context, self._instances, self._slots, winding="cw")
 
     def _surface_pass(
         self, target: Targets, switches: Switches
     ) -> Callable[[int, bool, bool], None]:
-        """Return what draws a batch; its arguments are those of `Drawn`."""
-        batches = self._instances.numbered
+        """Return a function that draws a batch; its arguments are those of `DrawnBatch`."""
+        batches = self._instances.numbered_batches
         brush = self._brush()
 
         @functools.cache
         def program(in_shadow: bool, is_textured: bool) -> moderngl.Program:
-            own = {"SHADOWS": in_shadow, "TEXTURED": is_textured}
-            present = tuple((name, 1) for name, value in own.items() if value)
-            return self._program("surface", target, switches + present)
+            flags = {"SHADOWS": in_shadow, "TEXTURED": is_textured}
+            defines = tuple((name, 1) for name, value in flags.items() if value)
+            return self._program("surface", target, switches + defines)
 
         def draw(number: int, in_shadow: bool, is_close: bool) -> None:
             texture = batches[number][1].texture
@@ -162,44 +164,48 @@ class Passes:
 
         return draw
 
-    def _draw_glass(
+    def _draw_transparent(
         self,
         target: Targets,
-        clear: Sequence[tuple[Drawn, float]],
+        transparent_batches: Sequence[tuple[DrawnBatch, float]],
         switches: Switches,
     ) -> None:
         """Blend transparent batches over the colours; range and ids are those of the nearest."""
-        context, buffer, places = self._context, target.framebuffer, target.places
+        context, buffer, attachments = self._context, target.framebuffer, target.attachments
 
-        def write(*, colour: bool, rest: bool) -> None:
-            rgb = (colour, colour, colour, False)  # alpha stays 1
-            others = (rest, rest, rest, rest)
-            masks = [rgb if name == "colour" else others for name in places]
+        def write(*, has_colour: bool, has_others: bool) -> None:
+            rgb = (has_colour, has_colour, has_colour, False)  # alpha stays 1
+            other_mask = (has_others, has_others, has_others, has_others)
+            masks = [rgb if name == "colour" else other_mask for name in attachments]
             _set_colour_masks(buffer, masks)
 
-        shown = [(one, round(255.0 * opacity)) for one, opacity in clear if opacity > 0.0]
-        if "colour" in places:
-            write(colour=True, rest=False)
+        visible_batches = [
+            (batch, round(255.0 * opacity))
+            for batch, opacity in transparent_batches
+            if opacity > 0.0
+        ]
+        if "colour" in attachments:
+            write(has_colour=True, has_others=False)
             buffer.depth_mask = False
             context.enable(moderngl.BLEND)
             context.blend_func = moderngl.SRC_ALPHA, moderngl.ONE_MINUS_SRC_ALPHA
-            for one, opacity in shown:
-                self._surface_pass(target, (*switches, ("OPACITY", opacity)))(*one)
+            for batch, opacity in visible_batches:
+                self._surface_pass(target, (*switches, ("OPACITY", opacity)))(*batch)
             context.disable(moderngl.BLEND)
             buffer.depth_mask = True
-        if set(places) != {"colour"}:
-            write(colour=False, rest=True)
+        if set(attachments) != {"colour"}:
+            write(has_colour=False, has_others=True)
             draw = self._surface_pass(target, switches)
-            for one, _ in shown:
-                draw(*one)
-        _set_colour_masks(buffer, [(True, True, True, True)] * len(places))
+            for batch, _ in visible_batches:
+                draw(*batch)
+        _set_colour_masks(buffer, [(True, True, True, True)] * len(attachments))
         self._models.release(SAMPLERS["base_map"])
         context.disable(moderngl.CULL_FACE)
 
     def _program(self, effect: str, target: Targets, switches: Switches) -> moderngl.Program:
-        key = (effect, *target.places, *switches)
+        key = (effect, *target.attachments, *switches)
         if key not in self._programs:
-            defines = {name.upper(): place for name, place in target.places.items()}
+            defines = {name.upper(): place for name, place in target.attachments.items()}
             self._programs[key] = build(
                 self._context,
                 effect,
@@ -211,7 +217,7 @@ class Passes:
 
 
 def _set_colour_masks(buffer: moderngl.Framebuffer, masks: Sequence[ColourMask]) -> None:
-    """Say which channels of each target are written; moderngl takes that of a single one alone."""
+    """Set the written channels of each target; moderngl takes one mask for a single target."""
     if len(masks) == 1:
         buffer.color_mask = masks[0]
     else:

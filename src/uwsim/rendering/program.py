@@ -1,4 +1,4 @@
-"""Compiles shader files into programs, with includes, switches and a check of the uniforms."""
+"""Compile shader files into programs, with includes, switches and a check of the uniforms."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _MEMBER = re.compile(r"^\s*([\w\[\]]+) (\w+);", re.MULTILINE)
 
 
 class Block:
-    """A uniform block: its members declared once, here, in the order of the shader.
+    """The uniform block of a shader: its members in the order of the shader.
 
     Members are ``vec4``, ``uvec4``, ``mat4`` or four of a kind, so that std140 needs no padding.
     """
@@ -37,16 +37,16 @@ class Block:
 
 
 def source(name: str) -> str:
-    """The text of a shader file with its includes put in, each file at most once."""
-    seen: set[str] = set()
+    """Return the text of a shader file with its includes expanded, each file at most once."""
+    included_files: set[str] = set()
 
     def put_in(match: re.Match[str]) -> str:
         return expand(match[1])
 
     def expand(file: str) -> str:
-        if file in seen:
+        if file in included_files:
             return ""
-        seen.add(file)
+        included_files.add(file)
         return _INCLUDE.sub(put_in, (SHADERS / file).read_text(encoding="utf-8"))
 
     return expand(name)
@@ -63,10 +63,10 @@ def build(
     """Compile ``effect.vert.glsl`` and ``effect.frag.glsl`` and connect every uniform.
 
     Args:
-        context: Where the program will live.
+        context: The context of the program.
         effect: Name of the pair of shader files.
         defines: Preprocessor switches and their values.
-        blocks: The uniform blocks this effect is filled from; at least those it uses.
+        blocks: The uniform blocks of the effect; at least those that it uses.
         samplers: Texture unit of each sampler it may use.
 
     Raises:
@@ -76,19 +76,19 @@ def build(
     head = VERSION + "".join(f"#define {name} {value}\n" for name, value in defines.items())
     vertex, fragment = source(f"{effect}.vert.glsl"), source(f"{effect}.frag.glsl")
     program = context.program(vertex_shader=head + vertex, fragment_shader=head + fragment)
-    written = {name: _members(body) for name, body in _BLOCK.findall(vertex + fragment)}
-    known = {block.name: block for block in blocks}
+    shader_members = {name: _members(body) for name, body in _BLOCK.findall(vertex + fragment)}
+    blocks_by_name = {block.name: block for block in blocks}
     for name in program:
-        part = program[name]
-        if isinstance(part, moderngl.UniformBlock):
-            block = known.get(name)
-            if block is None or written.get(name) != list(block.members.items()):
+        uniform = program[name]
+        if isinstance(uniform, moderngl.UniformBlock):
+            block = blocks_by_name.get(name)
+            if block is None or shader_members.get(name) != list(block.members.items()):
                 raise RuntimeError(f"{effect}: block {name} is not what the program declares")
-            part.binding = block.binding
-        elif isinstance(part, moderngl.Uniform):
+            uniform.binding = block.binding
+        elif isinstance(uniform, moderngl.Uniform):
             if name not in samplers:
                 raise RuntimeError(f"{effect}: no block declares the uniform {name!r}")
-            part.value = samplers[name]
+            uniform.value = samplers[name]
     return program
 
 

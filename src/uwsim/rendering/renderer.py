@@ -1,7 +1,7 @@
-"""The renderer: instances of models in, images out.
+"""The renderer: it draws images of instances of models.
 
 One forward pass draws colour, range and ids, whichever are requested, through UWSim's water
-(`rendering.water`). What is seen through is blended over the rest, the farthest first. Not
+(`rendering.water`). Transparent batches are blended over the others, the farthest first. Not
 modelled: the water's surface, caustics, reflections, refraction.
 """
 
@@ -20,13 +20,13 @@ from .backdrop import Backdrop, Colours
 from .context import create_context
 from .frame import Frame
 from .gpu_model import GpuModels
-from .instance import Instances, Numbers, Slots, in_view
+from .instance import Instances, Numbers, Slots, find_visible
 from .lights.lamp import Lamp
 from .lights.lamps import Lamps
 from .lights.projector import Projector
 from .lights.projector_light import ProjectorLight
-from .lights.shadow_region import Region, shaded_region, tiles_of
-from .lights.sun_shadow import MARGIN, MAX_CASTER_RADIUS, SunShadow, reached
+from .lights.shadow_region import Region, compute_tile_bounds, find_shaded_region
+from .lights.sun_shadow import MAX_CASTER_RADIUS, SHADOW_MARGIN, SunShadow, find_shadow_pairs
 from .passes import SAMPLERS, Passes, Switches
 from .projection import Projection, projection
 from .rendered_image import RenderedImage
@@ -36,73 +36,73 @@ from .water import Light, Water, sun_direction
 __all__ = ["RenderedImage", "Renderer"]
 
 N_VIEWS = 4
-"""So many of the last views are remembered."""
-MAX_REGION = 0.75
-"""A backdrop of which more may lie in shadow is not used: to shade all takes less time."""
-MAX_KEPT = 2**24
-"""The largest image that is kept for a view that stays as it is [bytes]."""
+"""The number of last views that are stored."""
+MAX_SHADED_SHARE = 0.75
+"""The share of a backdrop in shadow above which drawing the whole image takes less time [1]."""
+MAX_STORED_BYTES = 2**24
+"""The largest image that is stored for a view that does not change [bytes]."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class View:
-    """Everything an image depends on: equal views give equal images."""
+    """The inputs of an image: equal views give equal images."""
 
-    place: bytes
-    """World from camera, as it lies in memory."""
+    pose: bytes
+    """The bytes of the matrix from camera to world."""
     intrinsics: Intrinsics
     """The camera's pinhole."""
     water: Water
     """The water between surfaces and camera."""
     light: Light
-    """What lights the scene."""
-    wanted: frozenset[str]
-    """The targets."""
-    hidden: frozenset[int]
-    """Ids that are not seen."""
+    """The light of the scene."""
+    targets: frozenset[str]
+    """The requested targets."""
+    hidden_ids: frozenset[int]
+    """The ids of instances that are not drawn."""
     store: str
-    """How colour is stored."""
+    """The format in which colour is stored."""
     version: int
-    """Of the instances and their places."""
+    """The version of the instances and their poses."""
     lamps: tuple[Lamp, ...]
-    """What shines besides the sun."""
+    """The lamps."""
     projector: Projector | None
-    """What projects a pattern."""
+    """The projector of a pattern, if there is one."""
 
 
 class Renderer:
-    """Renders instances of models from any camera pose.
+    """A renderer of instances of models from any camera pose.
 
-    Use it from one thread; several may live in one process. `close` gives everything back.
+    Use it from one thread; a process may have several. `close` releases everything.
 
     Raises:
-        NoGraphics: no OpenGL context could be made.
+        NoGraphics: no OpenGL context is available.
     """
 
     def __init__(self) -> None:
         self._context = create_context()
         facts = self._context.info
         self.description = f"{facts['GL_RENDERER']}, {facts['GL_VERSION']}"
-        """What draws: ``llvmpipe (LLVM 15.0.6, 256 bits), 4.5 (Core Profile) Mesa 22.3.6``."""
+        """The driver: ``llvmpipe (LLVM 15.0.6, 256 bits), 4.5 (Core Profile) Mesa 22.3.6``."""
         self._models = GpuModels(self._context)
         self._instances = Instances()
         self._targets: dict[tuple[object, ...], Targets] = {}
         self._frame = Frame(self._context)
         self._slots = Slots(self._context)
         self._shadow = SunShadow(self._context)
-        self._backdrops: dict[object, Backdrop] = {}  # of the last stages, the newest last
+        self._backdrops: dict[object, Backdrop] = {}  # of the last views, the newest last
         self._passes = Passes(
             self._context, self._models, self._instances, self._slots, self._shadow
         )
         self._lamps: Lamps | None = None
         self._projector: ProjectorLight | None = None
-        self._seen: dict[View, RenderedImage | None] = {}  # the last views, the newest last
+        self._images: dict[View, RenderedImage | None] = {}  # the last views, the newest last
 
     def add(self, model: Model, id: int) -> int:
-        """Put a model at the origin of W; returns the handle for `place` and `remove`.
+        """Add a model at the origin of W; return the handle for `place` and `remove`.
 
         Args:
-            model: Uploaded once, however often it is added.
-            id: Its number in the id image, 1..65535; several may share one.
+            model: The model; it is uploaded once, however often it is added.
+            id: The number in the id image, 1..65535; several instances may share one.
         """
         if not 1 <= id <= 65535:
             raise ValueError(f"the id {id} is not in 1..65535")
@@ -111,15 +111,15 @@ class Renderer:
         return self._instances.add(batches, id)
 
     def place(self, handle: int, world_from_model: Array) -> None:
-        """Move an instance; the matrix (4, 4) may carry scale."""
+        """Move an instance; the matrix (4, 4) may include scale."""
         self.place_all((handle,), np.asarray(world_from_model, dtype=np.float64)[None])
 
     def place_all(self, handles: Sequence[int], world_from_model: Array) -> None:
-        """Move several instances; the matrices (n, 4, 4) may carry scale."""
+        """Move several instances; the matrices (n, 4, 4) may include scale."""
         self._instances.place(handles, world_from_model)
 
     def remove(self, handle: int) -> None:
-        """Take an instance out of the scene."""
+        """Remove an instance."""
         self._instances.remove(handle)
 
     def discard(self, model: Model) -> None:
@@ -128,8 +128,8 @@ class Renderer:
             self._models.discard(model)
 
     def clear(self) -> None:
-        """Remove every instance; uploaded models stay on the GPU for the next scenes."""
-        self._seen.clear()
+        """Remove every instance; uploaded models remain on the GPU for the next scenes."""
+        self._images.clear()
         self._backdrops.clear()
         self._instances.clear()
         with self._context:
@@ -143,7 +143,7 @@ class Renderer:
         light: Light,
         *,
         targets: Iterable[str] = TARGETS,
-        hidden: frozenset[int] = frozenset(),
+        hidden_ids: frozenset[int] = frozenset(),
         colour: str = "uint8",
         lamps: Sequence[Lamp] = (),
         projector: Projector | None = None,
@@ -151,73 +151,77 @@ class Renderer:
         """Draw one image.
 
         Args:
-            world_from_camera: Where the camera is; OpenGL axes.
-            intrinsics: Its pinhole.
+            world_from_camera: The pose of the camera; OpenGL axes.
+            intrinsics: The pinhole of the camera.
             water: The water between surfaces and camera.
-            light: What lights the scene.
+            light: The light of the scene.
             targets: Some of ``colour``, ``range``, ``ids``; nothing else is computed.
-            hidden: Ids of instances that this camera does not see, nor their shadows.
+            hidden_ids: Ids of instances that are not drawn, nor their shadows.
             colour: ``uint8``, or ``linear16`` for noise to be added before the 8-bit store.
-            lamps: What shines besides the sun, at most four.
-            projector: What projects a pattern.
+            lamps: The lamps, at most four.
+            projector: The projector of a pattern.
         """
-        wanted = frozenset(targets)
-        if not wanted or not wanted <= set(TARGETS) or colour not in STORES:
-            raise ValueError(f"cannot draw {sorted(wanted)} as {colour!r}: {TARGETS}, {STORES}")
+        names = frozenset(targets)
+        if not names or not names <= set(TARGETS) or colour not in STORES:
+            raise ValueError(f"cannot draw {sorted(names)} as {colour!r}: {TARGETS}, {STORES}")
         if len(lamps) > MAX_LAMPS:
             raise ValueError(f"{len(lamps)} lamps are more than {MAX_LAMPS}")
         view = View(
-            place=world_from_camera.matrix.tobytes(),
+            pose=world_from_camera.matrix.tobytes(),
             intrinsics=intrinsics,
             water=water,
             light=light,
-            wanted=wanted,
-            hidden=hidden,
+            targets=names,
+            hidden_ids=hidden_ids,
             store=colour,
             version=self._instances.version,
             lamps=tuple(lamps),
             projector=projector,
         )
         if lamps or projector is not None:
-            return self._drawn(view, world_from_camera)
-        kept = self._seen.get(view)
-        return kept.copy() if kept is not None else self._drawn_once(view, world_from_camera)
+            return self._draw_view(view, world_from_camera)
+        image = self._images.get(view)
+        return image.copy() if image is not None else self._draw_and_store(view, world_from_camera)
 
     def close(self) -> None:
         """Release the graphics context; the renderer cannot be used afterwards."""
         self._context.release()
 
-    def _drawn_once(self, view: View, world_from_camera: Pose) -> RenderedImage:
-        """Draw an image; that of a view which was drawn lately will be asked for again: keep it."""
-        image = self._drawn(view, world_from_camera)
-        was_seen = view in self._seen
-        self._seen[view] = image.copy() if was_seen and image.n_bytes <= MAX_KEPT else None
-        if len(self._seen) > N_VIEWS:
-            del self._seen[next(iter(self._seen))]
+    def _draw_and_store(self, view: View, world_from_camera: Pose) -> RenderedImage:
+        """Draw an image, and store it if its view was drawn recently: a third request is likely."""
+        image = self._draw_view(view, world_from_camera)
+        is_repeated = view in self._images
+        self._images[view] = (
+            image.copy() if is_repeated and image.n_bytes <= MAX_STORED_BYTES else None
+        )
+        if len(self._images) > N_VIEWS:
+            del self._images[next(iter(self._images))]
         return image
 
-    def _drawn(self, view: View, world_from_camera: Pose) -> RenderedImage:
+    def _draw_view(self, view: View, world_from_camera: Pose) -> RenderedImage:
         """Draw an image and read it back."""
         with self._context:
-            behind = self._begin(view, world_from_camera)
-            return self._target(view).image(view.intrinsics, behind)
+            background = self._issue_draw_calls(view, world_from_camera)
+            return self._find_targets(view).image(view.intrinsics, background)
 
-    def _begin(self, view: View, world_from_camera: Pose) -> Colours | None:
-        """Issue the draw calls without waiting for them; returns the backdrop, if there is one."""
-        water, light, hidden, lamps = view.water, view.light, view.hidden, view.lamps
-        shown = self._instances.without(hidden)
+    def _issue_draw_calls(self, view: View, world_from_camera: Pose) -> Colours | None:
+        """Issue the draw calls without waiting for them; return the backdrop, if there is one."""
+        water, light, hidden_ids, lamps = view.water, view.light, view.hidden_ids, view.lamps
+        candidates = self._instances.find_shown(hidden_ids)
         pinhole = projection(view.intrinsics)
-        seen = in_view(self._instances, shown, world_from_camera, pinhole.planes)
+        numbers = find_visible(self._instances, candidates, world_from_camera, pinhole.planes)
         switches: Switches = water.switches + light.switches
-        casters, may = shown[:0], np.zeros((len(seen), 0), dtype=bool)
-        if "colour" in view.wanted and light.shadows:
-            casters, may = self._cast(shown, seen, view, world_from_camera, pinhole)
-        if lamps and "colour" in view.wanted:
+        casters, may_cast = candidates[:0], np.zeros((len(numbers), 0), dtype=bool)
+        if "colour" in view.targets and light.shadows:
+            casters, may_cast = self._update_sun_shadow(
+                candidates, numbers, view, world_from_camera, pinhole
+            )
+        if lamps and "colour" in view.targets:
             switches += (("LAMPS", len(lamps)),)
-            self._shine(lamps, shown, world_from_camera, hidden)
-        if view.projector is not None and "colour" in view.wanted:
+            self._update_lamps(lamps, candidates, world_from_camera, hidden_ids)
+        if view.projector is not None and "colour" in view.targets:
             switches += (("PROJECTOR", 1),)
-            self._project(view.projector, shown, world_from_camera, hidden)
+            self._update_projector(view.projector, candidates, world_from_camera, hidden_ids)
         self._frame.fill(
             world_from_camera,
             view.intrinsics,
@@ -227,99 +231,111 @@ class Renderer:
             self._shadow,
         )
         self._slots.fill(self._instances, world_from_camera.inverse().matrix)
-        is_close = self._instances.needs_no_copies(seen, world_from_camera, view.intrinsics)
-        in_shadow = np.any(may, axis=1)
-        drawn = [(int(n), bool(s), c) for n, s, c in zip(seen, in_shadow, is_close, strict=True)]
-        target, backdrop = self._target(view), self._backdrop(view)
-        behind = seen[:0] if backdrop is None else backdrop.find(self._instances, seen)
-        # Without terrain there is little to be gained.
-        if len(self._instances.casting(behind, MAX_CASTER_RADIUS)) < len(behind):
+        is_close = self._instances.needs_no_mipmaps(numbers, world_from_camera, view.intrinsics)
+        in_shadow = np.any(may_cast, axis=1)
+        batches = [
+            (int(n), bool(s), c) for n, s, c in zip(numbers, in_shadow, is_close, strict=True)
+        ]
+        target, backdrop = self._find_targets(view), self._find_backdrop(view)
+        backdrop_numbers = numbers[:0]
+        if backdrop is not None:
+            backdrop_numbers = backdrop.find(self._instances, numbers)
+        # Without terrain, a backdrop saves little time.
+        n_casters = len(self._instances.find_casters(backdrop_numbers, MAX_CASTER_RADIUS))
+        if n_casters < len(backdrop_numbers):
             assert backdrop is not None
-            front, back = drawn[: len(seen) - len(behind)], drawn[len(seen) - len(behind) :]
+            n_front = len(numbers) - len(backdrop_numbers)
+            front, back = batches[:n_front], batches[n_front:]
             if backdrop.colours is None:
-                lit = [(number, False, close) for number, _, close in back]
-                self._passes.draw(target, lit, switches)
+                sunlit_batches = [(number, False, close) for number, _, close in back]
+                self._passes.draw(target, sunlit_batches, switches)
                 lens, sun = view.intrinsics, sun_direction(light.sun)
-                tiles = tiles_of(target.depths(), world_from_camera, lens, sun)
-                backdrop.keep(target.colours(), tiles, behind)
-            region = self._shaded(view, backdrop, casters)
+                tiles = compute_tile_bounds(target.depths(), world_from_camera, lens, sun)
+                backdrop.store(target.colours(), tiles, backdrop_numbers)
+            region = self._find_shaded_region(view, backdrop, casters)
             if region is not None:
-                self._passes.draw_before(target, front, back, region, switches)
+                self._passes.draw_over_backdrop(target, front, back, region, switches)
                 return backdrop.colours
-        self._passes.draw(target, drawn, switches)
+        self._passes.draw(target, batches, switches)
         return None
 
-    def _shaded(self, view: View, backdrop: Backdrop, casters: Numbers) -> Region | None:
-        """Return where shadows may fall on a backdrop; None where it is too much."""
-        lens, margin = view.intrinsics, MARGIN + 8.0 * self._shadow.lift
+    def _find_shaded_region(
+        self, view: View, backdrop: Backdrop, casters: Numbers
+    ) -> Region | None:
+        """Return the region of a backdrop where shadows may fall; None if it is too large."""
+        lens, margin = view.intrinsics, SHADOW_MARGIN + 8.0 * self._shadow.lift
         sun = sun_direction(view.light.sun)
-        region = shaded_region(backdrop.tiles, self._instances, casters, sun, margin)
-        return region if region[2] * region[3] <= MAX_REGION * lens.width * lens.height else None
+        region = find_shaded_region(backdrop.tiles, self._instances, casters, sun, margin)
+        return (
+            region if region[2] * region[3] <= MAX_SHADED_SHARE * lens.width * lens.height else None
+        )
 
-    def _backdrop(self, view: View) -> Backdrop | None:
-        """Return the backdrop of a view; None if it can have none."""
+    def _find_backdrop(self, view: View) -> Backdrop | None:
+        """Return the backdrop of a view; None if the view allows none."""
         lens, bytes_per_pixel = view.intrinsics, 4 if view.store == "uint8" else 8
-        is_small = bytes_per_pixel * lens.width * lens.height <= MAX_KEPT
-        if not is_small or view.wanted != {"colour"} or view.lamps or view.projector is not None:
+        is_small = bytes_per_pixel * lens.width * lens.height <= MAX_STORED_BYTES
+        if not is_small or view.targets != {"colour"} or view.lamps or view.projector is not None:
             return None
-        stage = view.place, lens, view.water, view.light, view.hidden, view.store
-        backdrop = self._backdrops.pop(stage, None) or Backdrop()
-        self._backdrops[stage] = backdrop
+        key = view.pose, lens, view.water, view.light, view.hidden_ids, view.store
+        backdrop = self._backdrops.pop(key, None) or Backdrop()
+        self._backdrops[key] = backdrop
         if len(self._backdrops) > N_VIEWS:
             del self._backdrops[next(iter(self._backdrops))]
         return backdrop
 
-    def _cast(
+    def _update_sun_shadow(
         self,
-        shown: Numbers,
-        seen: Numbers,
+        candidates: Numbers,
+        receivers: Numbers,
         view: View,
         world_from_camera: Pose,
         pinhole: Projection,
     ) -> tuple[Numbers, npt.NDArray[np.bool_]]:
-        """Update the shadow map; returns k casters, and on which batches each may cast, (n, k)."""
+        """Update the shadow map; return k casters, and on which batches each may cast, (n, k)."""
         instances, sun = self._instances, sun_direction(view.light.sun)
-        casters = instances.casting(shown, MAX_CASTER_RADIUS)
-        may = reached(instances, casters, seen, sun, world_from_camera, pinhole.corner_rays)
-        is_needed = may.any(axis=0)
+        casters = instances.find_casters(candidates, MAX_CASTER_RADIUS)
+        may_cast = find_shadow_pairs(
+            instances, casters, receivers, sun, world_from_camera, pinhole.corner_rays
+        )
+        is_needed = may_cast.any(axis=0)
         if is_needed.any():
             self._shadow.update(instances, casters[is_needed], sun)
-        return casters[is_needed], may[:, is_needed]
+        return casters[is_needed], may_cast[:, is_needed]
 
-    def _shine(
+    def _update_lamps(
         self,
         lamps: Sequence[Lamp],
-        shown: Numbers,
+        casters: Numbers,
         world_from_camera: Pose,
-        hidden: frozenset[int],
+        hidden_ids: frozenset[int],
     ) -> None:
         """Update the lamps and their shadow maps."""
         if self._lamps is None:
             self._lamps = Lamps(self._context)
-        self._lamps.update(lamps, self._instances, shown, (self._instances.version, hidden))
+        self._lamps.update(lamps, self._instances, casters, (self._instances.version, hidden_ids))
         self._lamps.fill(lamps, world_from_camera)
         self._lamps.texture.use(SAMPLERS["lamp_maps"])
 
-    def _project(
+    def _update_projector(
         self,
         projector: Projector,
-        shown: Numbers,
+        casters: Numbers,
         world_from_camera: Pose,
-        hidden: frozenset[int],
+        hidden_ids: frozenset[int],
     ) -> None:
         """Update the projector and its shadow map."""
         if self._projector is None:
             self._projector = ProjectorLight(self._context)
-        version = self._instances.version, hidden
-        self._projector.update(projector, self._instances, shown, version)
+        version = self._instances.version, hidden_ids
+        self._projector.update(projector, self._instances, casters, version)
         self._projector.fill(projector, world_from_camera)
         self._projector.use(
             shadow_map=SAMPLERS["projector_map"], pattern=SAMPLERS["projector_pattern"]
         )
 
-    def _target(self, view: View) -> Targets:
+    def _find_targets(self, view: View) -> Targets:
         size = view.intrinsics.width, view.intrinsics.height
-        key = size, view.wanted, view.store
+        key = size, view.targets, view.store
         if key not in self._targets:
-            self._targets[key] = Targets(self._context, size, view.wanted, view.store)
+            self._targets[key] = Targets(self._context, size, view.targets, view.store)
         return self._targets[key]

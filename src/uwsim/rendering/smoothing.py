@@ -1,4 +1,4 @@
-"""Smooth edges: an image is drawn larger, and each pixel is the mean of those drawn in it."""
+"""Edges without steps: an image is drawn larger, and each pixel is the mean of several."""
 
 from __future__ import annotations
 
@@ -16,13 +16,13 @@ def mean_of_squares(pixels: Pixels, edge: int) -> Pixels:
 
     Args:
         pixels: (h, w, channels) of 8 or 16 bits.
-        edge: of a square, which divides h and w [px].
+        edge: edge of a square, which divides h and w [px].
 
     Returns:
-        (h / edge, w / edge, channels), as many bits.
+        The means, (h / edge, w / edge, channels), with as many bits.
     """
     height, width, channels = pixels.shape[0] // edge, pixels.shape[1] // edge, pixels.shape[2]
-    found = np.empty((height, width, channels), pixels.dtype)
+    means = np.empty((height, width, channels), pixels.dtype)
     number = np.uint32(edge * edge)
     for row in range(height):
         for column in range(width):
@@ -31,5 +31,5 @@ def mean_of_squares(pixels: Pixels, edge: int) -> Pixels:
                 for i in range(edge):
                     for j in range(edge):
                         total += np.uint32(pixels[row * edge + i, column * edge + j, channel])
-                found[row, column, channel] = total // number
-    return found
+                means[row, column, channel] = total // number
+    return means

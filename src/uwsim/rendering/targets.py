@@ -17,7 +17,7 @@ TARGETS = ("colour", "range", "ids")
 """All targets, in the order of their attachments."""
 
 STORES = ("uint8", "linear16")
-"""How colour may be stored: 8 bit, or 16 bit for noise to be added first."""
+"""The formats of colour: 8 bit, or 16 bit for noise that is added before the 8-bit store."""
 
 T = TypeVar("T", bound=np.generic)
 
@@ -26,11 +26,11 @@ class Targets:
     """A framebuffer of one size with some of the targets colour, range and ids."""
 
     def __init__(
-        self, context: moderngl.Context, size: tuple[int, int], wanted: frozenset[str], store: str
+        self, context: moderngl.Context, size: tuple[int, int], targets: frozenset[str], store: str
     ) -> None:
-        names = [name for name in TARGETS if name in wanted]
-        self.places = {name: i for i, name in enumerate(names)}
-        """Which attachment each target is."""
+        names = [name for name in TARGETS if name in targets]
+        self.attachments = {name: i for i, name in enumerate(names)}
+        """The number of each target's attachment."""
         self._formats = {
             "colour": "f1" if store == "uint8" else "nu2",
             "range": "f4",
@@ -43,32 +43,32 @@ class Targets:
             ],
             context.depth_renderbuffer(size),
         )
-        """Where to draw."""
+        """The framebuffer in which the image is drawn."""
         self._shape = size[1], size[0]
 
-    def image(self, intrinsics: Intrinsics, behind: Colours | None = None) -> RenderedImage:
-        """Read everything back, into arrays of the image's own.
+    def image(self, intrinsics: Intrinsics, background: Colours | None = None) -> RenderedImage:
+        """Read all targets back into new arrays.
 
         Args:
             intrinsics: the pinhole.
-            behind: the colours of the backdrop, which fill pixels that are clear.
+            background: the colours of the backdrop, which fill pixels that are clear.
         """
         colour: Colours | None = None
-        if "colour" in self.places:
+        if "colour" in self.attachments:
             colour = self.colours()
-            if behind is not None:
-                fill(colour, behind)
+            if background is not None:
+                fill(colour, background)
             if colour.dtype == np.uint8:
-                colour = without_alpha(colour.view(np.uint8))
+                colour = drop_alpha(colour.view(np.uint8))
         range = ids = None
-        if "range" in self.places:
+        if "range" in self.attachments:
             range = self._read("range", np.empty(self._shape, np.float32))
-        if "ids" in self.places:
+        if "ids" in self.attachments:
             ids = self._read("ids", np.empty(self._shape, np.uint16))
         return RenderedImage(intrinsics=intrinsics, colour=colour, range=range, ids=ids)
 
     def colours(self) -> Colours:
-        """Read the colours back, with alpha: several times faster than without."""
+        """Read the colours back, with alpha: this is several times faster than without."""
         if self._formats["colour"] == "f1":
             return self._read("colour", np.empty((*self._shape, 4), np.uint8))
         return self._read("colour", np.empty((*self._shape, 4), np.uint16))
@@ -83,7 +83,7 @@ class Targets:
         self.framebuffer.read_into(
             pixels,
             components=4 if name == "colour" else 1,
-            attachment=self.places[name],
+            attachment=self.attachments[name],
             alignment=1,
             dtype=self._formats[name],
         )
@@ -91,8 +91,8 @@ class Targets:
 
 
 @njit
-def without_alpha(rgba: npt.NDArray[np.uint8]) -> npt.NDArray[np.uint8]:
-    """The first three of four channels, (h, w, 4) to (h, w, 3)."""
+def drop_alpha(rgba: npt.NDArray[np.uint8]) -> npt.NDArray[np.uint8]:
+    """Copy the first three of four channels, (h, w, 4) to (h, w, 3)."""
     height, width, _ = rgba.shape
     rgb = np.empty((height, width, 3), np.uint8)
     for row in range(height):

@@ -11,9 +11,9 @@ surface of the water, in each channel and on stored values (no gamma):
 
 with attenuation :math:`a`, water colour :math:`w`, fog density :math:`f` and fog colour :math:`g`
 (UWSim's image model). Water and fog scatter the light of the scene: :math:`w` and :math:`g` are the
-colours of the file times the light rate (`Water.under`). The fog's distance :math:`s` is the range,
-as in the paper. Not modelled: the way of the light from the surface down, absorption apart from
-scattering, light of lamps that is scattered into the camera, caustics.
+colours of the file times the light rate (`Water.scale_by_light`). The fog's distance :math:`s` is
+the range, as in the paper. Not modelled: the path of the light from the surface down, absorption
+apart from scattering, light of lamps that is scattered into the camera, caustics.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ SUN_DIRECTIONS: dict[Sun, Colour] = {
     "dusk": (520.0, 1900.0, 550.0),
     "cloudy": (-1056.89, -771.886, 1221.18),
 }
-"""Towards the sun, in W, not normalised."""
+"""The directions towards the sun, in W, not normalised."""
 
 _UNIT_DIRECTIONS: dict[Sun, npt.NDArray[np.float64]] = {
     sun: np.array(direction) / length(direction) for sun, direction in SUN_DIRECTIONS.items()
@@ -50,11 +50,11 @@ SUN_COLOURS: dict[Sun, Colour] = {
 }
 """The sun's diffuse light, 0..1."""
 
-AMBIENT = 0.3
-"""Share of a surface's colour that is seen without the sun."""
+AMBIENT_SHARE = 0.3
+"""The share of a surface's colour that is visible without the sun."""
 
-SPECULAR = 0.1
-"""Brightness of the sun's mirror image, added in all channels."""
+SPECULAR_BRIGHTNESS = 0.1
+"""The brightness of the sun's mirror image, added in all channels."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,24 +62,28 @@ class Water:
     """The water between surfaces and cameras; the defaults are UWSim's."""
 
     fog: float = 0.1
-    """Density of the fog [1/m]."""
+    """The density of the fog [1/m]."""
     fog_colour: Colour = (0.0, 0.05, 0.3)
-    """Colour of thick fog, 0..1."""
+    """The colour of thick fog, 0..1."""
     colour: Colour = (0.0, 0.05, 0.3)
-    """Light scattered into the ray, 0..1."""
+    """The light scattered into the ray, 0..1."""
     attenuation: Colour = (0.015, 0.0075, 0.005)
-    """Attenuation of red, green and blue [1/m]."""
+    """The attenuation of red, green and blue [1/m]."""
     surface_height: float = 0.0
-    """z of the water's surface in W [m]."""
+    """The height z of the water's surface in W [m]."""
     fog_distance: Literal["ray", "clip"] = "ray"
-    """Distance the fog law uses: along the ray, or the original's clip-space z."""
+    """The distance in the fog law: along the ray, or the original's clip-space z."""
     follows_light: bool = True
-    """Whether the colours of water and fog are scaled by the light rate; the original's are not."""
+    """True if the light rate scales the colours of water and fog; the original does not scale
+    them."""
     has_air: bool = False
-    """Whether only the way below the surface counts; the original's cameras are always in water."""
+    """True if only the path below the surface counts; the original's cameras are always in
+    water."""
 
     @classmethod
-    def of(cls, ocean: OceanStateSpec, compatibility: frozenset[str] = frozenset()) -> Water:
+    def from_ocean_state(
+        cls, ocean: OceanStateSpec, compatibility: frozenset[str] = frozenset()
+    ) -> Water:
         """Return the water of a scene file's ocean state."""
         return cls(
             fog=ocean.fog.density,
@@ -91,8 +95,8 @@ class Water:
             follows_light="fog-light" not in compatibility,
         )
 
-    def under(self, light: Light) -> Water:
-        """Return the water with the colours that it has in some light."""
+    def scale_by_light(self, light: Light) -> Water:
+        """Return the water with its colours scaled by the light rate."""
         if not self.follows_light or light.rate == 1.0:
             return self
         fog_colour, colour = (
@@ -113,7 +117,7 @@ class Water:
 
     @property
     def far_colour(self) -> Colour:
-        """Colour of what is infinitely far."""
+        """The colour at infinite distance."""
         return self.fog_colour if self.fog > 0.0 else self.colour
 
 
@@ -122,13 +126,14 @@ class Light:
     """The light of the scene: the sun."""
 
     rate: float = 1.0
-    """Scales all light; 1 is as usual."""
+    """The factor of all light; 1 is nominal."""
     sun: Sun = "clear"
-    """Which sky: direction and colour of the sun."""
+    """The sky, which gives the direction and colour of the sun."""
     shadows: bool = True
-    """Whether vehicles and objects cast the sun's shadow."""
+    """True if vehicles and objects cast the sun's shadow."""
     is_polished: bool = False
-    """Whether it pleases people: wet surfaces gleam, shadows are soft and have the water's hue."""
+    """True if images are for presentation: wet surfaces are glossy, shadows soft and tinted by the
+    water."""
 
     @property
     def switches(self) -> tuple[tuple[str, int], ...]:
@@ -137,14 +142,14 @@ class Light:
 
 
 def sun_direction(sun: Sun) -> npt.NDArray[np.float64]:
-    """Unit vector towards the sun in W, (3,)."""
+    """Return the unit vector towards the sun in W, (3,)."""
     return _UNIT_DIRECTIONS[sun].copy()
 
 
 def clip_distance(
     depth: npt.NDArray[np.float64], intrinsics: Intrinsics
 ) -> npt.NDArray[np.float64]:
-    """The original's fog distance: clip-space z of a planar depth, any shape [m].
+    """Compute the original's fog distance: clip-space z of a planar depth, any shape [m].
 
     ``((far + near) d - 2 far near) / (far - near)``, which is about ``d - 2 near``.
     """
@@ -152,52 +157,56 @@ def clip_distance(
     return ((far + near) * depth - 2.0 * far * near) / (far - near)
 
 
-def wet_share(
+def submerged_path_share(
     world_z: npt.NDArray[np.float64], eye_z: float, water: Water
 ) -> npt.NDArray[np.float64]:
-    """Share of the path from the camera to points that is under water, any shape, 0..1.
+    """Compute the share of the path from the camera to points that is under water, any shape, 0..1.
 
     Args:
         world_z: z of the points in W [m].
-        eye_z: that of the eye [m].
+        eye_z: z of the camera in W [m].
         water: the water; its surface is flat and bends no light.
     """
-    depth, own = water.surface_height - world_z, water.surface_height - eye_z
-    deeper, higher = np.maximum(depth, own), np.minimum(depth, own)
-    share: npt.NDArray[np.float64] = deeper / np.maximum(deeper - higher, 1e-6)
+    depth, eye_depth = water.surface_height - world_z, water.surface_height - eye_z
+    max_depth, min_depth = np.maximum(depth, eye_depth), np.minimum(depth, eye_depth)
+    share: npt.NDArray[np.float64] = max_depth / np.maximum(max_depth - min_depth, 1e-6)
     return share.clip(0.0, 1.0)
 
 
 def apply_water(
-    lit: npt.NDArray[np.float64],
+    dry_colours: npt.NDArray[np.float64],
     range: npt.NDArray[np.float64],
     world_z: npt.NDArray[np.float64],
     water: Water,
     *,
     fog_range: npt.NDArray[np.float64] | None = None,
 ) -> npt.NDArray[np.float64]:
-    """The law above in numpy: the reference for the shader, and for re-colouring recordings.
+    """Apply the law above in numpy: the reference for the shader, and for re-colouring recordings.
 
     Args:
-        lit: Dry colours, (..., 3), 0..1.
+        dry_colours: Dry colours, (..., 3), 0..1.
         range: Distance along the ray (...) [m]; inf gives the far colour.
         world_z: z of the points in W (...) [m].
         water: The water.
         fog_range: Distance for the fog (...) [m] when it is not the range (`clip_distance`).
-            Where there is air, both distances are those times `wet_share`.
+            Where there is air, both distances are those times `submerged_path_share`.
 
     Returns:
         Colours at the camera (..., 3).
     """
-    nothing = np.isinf(range)
-    distance = np.where(nothing, 0.0, range)[..., None]
-    s = distance if fog_range is None else np.where(nothing, 0.0, fog_range)[..., None]
-    depth = np.maximum(water.surface_height - np.where(nothing, 0.0, world_z), 0.0)[..., None]
-    left = exp(-2.0 * np.asarray(water.attenuation) * distance)
-    seen = lit * left + np.asarray(water.colour) * (1.0 - left * exp(-0.001 * depth))
-    clear = exp(-((water.fog * s) ** 2))
-    fogged = clear * seen + (1.0 - clear) * np.asarray(water.fog_colour)
+    is_empty = np.isinf(range)
+    distance = np.where(is_empty, 0.0, range)[..., None]
+    s = distance if fog_range is None else np.where(is_empty, 0.0, fog_range)[..., None]
+    depth = np.maximum(water.surface_height - np.where(is_empty, 0.0, world_z), 0.0)[..., None]
+    transmission = exp(-2.0 * np.asarray(water.attenuation) * distance)
+    direct_colours = dry_colours * transmission + np.asarray(water.colour) * (
+        1.0 - transmission * exp(-0.001 * depth)
+    )
+    fog_transmission = exp(-((water.fog * s) ** 2))
+    fogged_colours = fog_transmission * direct_colours + (1.0 - fog_transmission) * np.asarray(
+        water.fog_colour
+    )
     colours: npt.NDArray[np.float64] = np.where(
-        nothing[..., None], np.asarray(water.far_colour), fogged
+        is_empty[..., None], np.asarray(water.far_colour), fogged_colours
     )
     return colours

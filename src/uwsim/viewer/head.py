@@ -150,7 +150,7 @@ import numpy as np
 from ..base.geometry import Pose
 from ..base.numerics.linear import dot, length, product
 from ..model.parts import Part
-from ..rendering.water import AMBIENT, SPECULAR, SUN_COLOURS, SUN_DIRECTIONS
+from ..rendering.water import AMBIENT_SHARE, SPECULAR_BRIGHTNESS, SUN_COLOURS, SUN_DIRECTIONS
 from ..sensors.range_sensor import RangeSensorSpec
 from ..sensors.sensor import MountedSensor
 from ..sensors.sonar.imaging_sonar import ImagingSonarSpec
@@ -220,8 +220,8 @@ def scene_head(simulation: Simulation, title: str, blob: Blob, *, is_live: bool 
             name: {"direction": list(SUN_DIRECTIONS[name]), "colour": list(SUN_COLOURS[name])}
             for name in SUN_DIRECTIONS
         },
-        "ambient": AMBIENT,
-        "specular": SPECULAR,
+        "ambient": AMBIENT_SHARE,
+        "specular": SPECULAR_BRIGHTNESS,
         "bodies": bodies.rows,
         "meshes": models.meshes,
         "textures": models.textures,

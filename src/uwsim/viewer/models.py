@@ -10,7 +10,7 @@ import numpy.typing as npt
 from PIL import Image
 
 from ..assets.mesh import Model, Texture
-from ..rendering.merged import Merged, Piece, merged
+from ..rendering.merged import MergedMesh, Piece, merge_model
 from .pack import Blob
 
 WEBP_QUALITY = 95
@@ -47,7 +47,7 @@ class Models:
                     "opacity": part.opacity,
                     "two_sided": part.two_sided,
                 }
-                for part in merged(model)
+                for part in merge_model(model)
             ]
             self._visuals[id(model)] = model, visuals  # keeps the model, so that its id is unique
         return self._visuals[id(model)][1]
@@ -56,7 +56,7 @@ class Models:
         """Return the index of the texture of a projector's pattern (h, w, 4), lossless."""
         return self._add("pattern", pixels, _encode_webp(pixels, lossless=True), repeats=False)
 
-    def _mesh(self, part: Merged) -> int:
+    def _mesh(self, part: MergedMesh) -> int:
         vertices, add = part.vertices, self._blob.add
         indices = part.triangles.ravel()
         is_small = len(vertices) < 2**16
@@ -112,4 +112,4 @@ def _piece(piece: Piece) -> list[float]:
     """Return first index, count, centre, radius, lower and upper corner, normal, density."""
     low, high = piece.corners.min(axis=0), piece.corners.max(axis=0)
     values = [*piece.centre, piece.radius, *low, *high, *piece.normal, piece.density]
-    return [piece.first, piece.size, *(float(f"{value:.6g}") for value in values)]
+    return [piece.first_index, piece.size, *(float(f"{value:.6g}") for value in values)]

@@ -73,7 +73,7 @@ def test_every_pixel_follows_the_law_through_the_water(
     points = points_on(2.0)
     facing = np.tile([0.0, 0.0, 1.0], (len(points), 1))
     lit = np.array(GREY) * bright.light(points, facing, water.attenuation)
-    dark = water.under(DARK)
+    dark = water.scale_by_light(DARK)
     law = apply_water(lit, np.linalg.norm(points, axis=1), points[:, 2], dark)
     seen = rendered(renderer, bright, water=water).reshape(-1, 3)
     assert np.abs(seen - np.clip(law, 0.0, 1.0)).max() <= 1.01 / 255.0

@@ -124,7 +124,7 @@ def test_a_lamps_own_housing_does_not_shade_it(stage: Renderer) -> None:
 
 
 def test_hidden_ids_cast_no_lamplight_shadow(stage: Renderer) -> None:
-    hidden = rendered(stage, lamp(), hidden=frozenset({2}))
+    hidden = rendered(stage, lamp(), hidden_ids=frozenset({2}))
     assert at(hidden, 0.3, 0.3) > 100.0
     assert at(rendered(stage, lamp()), 0.3, 0.3) == 0.0
 

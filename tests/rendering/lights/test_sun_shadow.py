@@ -145,7 +145,7 @@ def test_a_caster_that_is_left_out_throws_no_shadow_into_the_image(
         n_drawn.append(len(casters))
         return np.ones((len(seen), len(casters)), bool)
 
-    monkeypatch.setattr("uwsim.rendering.renderer.reached", everything)
+    monkeypatch.setattr("uwsim.rendering.renderer.find_shadow_pairs", everything)
     renderer.place(renderer.add(ball(0.01), 3), placed(z=-5.0))  # below the floor: a new drawing
     whole = brightness(renderer, eye, Light(sun=sun))
     assert n_drawn == [15]

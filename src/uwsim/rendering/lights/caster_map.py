@@ -1,4 +1,4 @@
-"""A depth image of what casts a shadow, in which only what moved is drawn again."""
+"""A depth image of shadow casters, in which only casters that moved are drawn again."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ Versions = npt.NDArray[np.int64]
 
 
 class CasterMap:
-    """The depths of casters as a square view sees them, nearest first.
+    """The depths of casters in a square view, nearest first.
 
-    Of two drawings of the same view, the second tells which casters stand still. Their depths are
-    kept in an image of their own: to copy it takes less time than to clear the map, and only the
-    others are drawn into the copy. The depths are those of a map that is drawn as a whole, because
-    the least depth does not depend on the order of drawing.
+    The second drawing of a view shows which casters are at rest. Their depths are stored in a
+    separate image: to copy it takes less time than to clear the map, and only the other casters
+    are drawn into the copy. The depths equal those of a map that is drawn as a whole, because the
+    least depth does not depend on the order of drawing.
 
     Args:
         context: of the renderer.
@@ -30,43 +30,43 @@ class CasterMap:
     def __init__(self, context: moderngl.Context, program: moderngl.Program, size: int) -> None:
         self._context, self._program, self._size = context, program, size
         self.texture = _depth_texture(context, size)
-        """The map."""
+        """The depth texture."""
         self._framebuffer = context.framebuffer(depth_attachment=self.texture)
         self._slots = Slots(context)
-        self._view: object = None  # what the map shows, but for the poses
-        self._moved: Versions = np.zeros(0, dtype=np.int64)  # when its casters had moved last
-        self._still: _Still | None = None
+        self._view: object = None  # the content of the map, except poses
+        self._moved_versions: Versions = np.zeros(0, dtype=np.int64)  # of its casters
+        self._static_depths: _StaticDepths | None = None
         self.n_drawn = 0
-        """Number of batches drawn so far."""
+        """The number of batches drawn so far."""
 
     def update(self, instances: Instances, casters: Numbers, clip_from_world: Array) -> None:
-        """Draw what is out of date.
+        """Draw the casters that are out of date.
 
         Args:
-            instances: All there are.
+            instances: All instances.
             casters: Numbers of the batches that cast shadows, (k,).
             clip_from_world: The view, (4, 4).
         """
-        moved = instances.moved[instances.owners[casters]]
+        moved_versions = instances.moved_versions[instances.owners[casters]]
         view = instances.arrangement, casters.tobytes(), clip_from_world.tobytes()
-        is_new, stood = view != self._view, self._moved
-        if not is_new and np.array_equal(moved, stood):
+        is_new, last_moved_versions = view != self._view, self._moved_versions
+        if not is_new and np.array_equal(moved_versions, last_moved_versions):
             return
-        self._view, self._moved = view, moved
+        self._view, self._moved_versions = view, moved_versions
         self._slots.fill(instances, clip_from_world)
         if is_new:
             self._framebuffer.use()
             self._framebuffer.clear(depth=1.0)
             self._draw(instances, casters)
             return
-        if self._still is None:
-            self._still = _Still(self._context, self._size, self.texture)
-        if not self._still.serves(view, moved, stood):
-            self._still.begin(view, moved, moved == stood)
-            self._draw(instances, casters[self._still.members])
-        self._still.copy()
+        if self._static_depths is None:
+            self._static_depths = _StaticDepths(self._context, self._size, self.texture)
+        if not self._static_depths.is_usable(view, moved_versions, last_moved_versions):
+            self._static_depths.begin(view, moved_versions, moved_versions == last_moved_versions)
+            self._draw(instances, casters[self._static_depths.members])
+        self._static_depths.copy()
         self._framebuffer.use()
-        self._draw(instances, casters[~self._still.members])
+        self._draw(instances, casters[~self._static_depths.members])
 
     def _draw(self, instances: Instances, casters: Numbers) -> None:
         """Draw batches into the framebuffer in use."""
@@ -74,15 +74,15 @@ class CasterMap:
         context.enable_only(moderngl.DEPTH_TEST)
         context.depth_func = "<="
         context.polygon_offset = 1.5, 2.0
-        brush = Brush(context, instances, self._slots, outside="ccw")
+        brush = Brush(context, instances, self._slots, winding="ccw")
         for number in casters.tolist():
             brush.draw(number, self._program)
         context.polygon_offset = 0.0, 0.0
         self.n_drawn += len(casters)
 
 
-class _Still:
-    """The depths of casters that stand still, and how they get into a map.
+class _StaticDepths:
+    """The depths of casters at rest, which are copied into a map.
 
     Args:
         context: of the renderer.
@@ -100,26 +100,31 @@ class _Still:
             for depth in (depths, texture)
         )
         self.members: npt.NDArray[np.bool_] = np.zeros(0, dtype=bool)
-        """Which casters are drawn here, (k,)."""
+        """The flags of the casters, (k,): True if it is drawn here."""
         self._view: object = None
-        self._moved: Versions = np.zeros(0, dtype=np.int64)
+        self._moved_versions: Versions = np.zeros(0, dtype=np.int64)
 
-    def serves(self, view: object, moved: Versions, stood: Versions) -> bool:
-        """Whether none of its casters has moved, and few others stand still.
+    def is_usable(
+        self, view: object, moved_versions: Versions, last_moved_versions: Versions
+    ) -> bool:
+        """Return True if none of its casters has moved, and few others are at rest.
 
         Args:
-            view: what the map shows, but for the poses.
-            moved: when each caster moved last, (k,).
-            stood: the same at the last drawing of the map, (k,).
+            view: the content of the map, except poses.
+            moved_versions: version at which each caster last moved, (k,).
+            last_moved_versions: the same at the last drawing of the map, (k,).
         """
-        if view != self._view or (self._moved != moved)[self.members].any():
+        if view != self._view or (self._moved_versions != moved_versions)[self.members].any():
             return False
-        n_still, n_others = (moved == stood).sum() - self.members.sum(), (~self.members).sum()
-        return bool(2 * n_still <= n_others)
+        n_still, n_moving = (
+            (moved_versions == last_moved_versions).sum() - self.members.sum(),
+            (~self.members).sum(),
+        )
+        return bool(2 * n_still <= n_moving)
 
-    def begin(self, view: object, moved: Versions, members: npt.NDArray[np.bool_]) -> None:
-        """Empty it and bind it as the render target, for those casters that are members, (k,)."""
-        self._view, self._moved, self.members = view, moved, members
+    def begin(self, view: object, moved_versions: Versions, members: npt.NDArray[np.bool_]) -> None:
+        """Clear it and bind it as the render target, for the casters that are members, (k,)."""
+        self._view, self._moved_versions, self.members = view, moved_versions, members
         self._framebuffer.use()
         self._framebuffer.clear(depth=1.0)
 

@@ -1,4 +1,4 @@
-r"""A lamp: a cone of light that a vehicle carries, dimmed by the water on its way.
+r"""A lamp on a vehicle: a cone of light that the water attenuates.
 
 On a surface of colour :math:`L_c` at the distance :math:`d` from the lamp, on stored values (no
 gamma) and before the water between surface and camera (`water`), it adds
@@ -8,11 +8,10 @@ gamma) and before the water between surface and camera (`water`), it adds
 
 with the lamp's colour :math:`k` and intensity :math:`I`, the direction :math:`L` to the lamp,
 the water's attenuation :math:`a` along the way from the lamp to the surface, the cone
-:math:`s(\theta)` and :math:`v`, 0 in shadow. Nearer than 1 cm counts as
-1 cm. The light rate of the scene and the sun have no part in it. Not modelled: backscatter of the
-lamp's own light into the camera, light that is scattered or reflected on its way,
-a loss of the lamp's light to the fog (which is a law of the camera's path alone), glints, and the
-lamp itself as something bright to be seen.
+:math:`s(\theta)` and :math:`v`, 0 in shadow. The least distance is 1 cm. It does not depend on
+the sun or the light rate of the scene. Not modelled: backscatter of the lamp's own light into the
+camera, scattering and reflection of the light on its path, a loss of the lamp's light to the fog
+(which is a law of the camera's path alone), specular reflection, and an image of the lamp itself.
 """
 
 from __future__ import annotations
@@ -28,33 +27,33 @@ from ...base.numerics.linear import product
 from ..water import Colour
 
 MAX_HALF_ANGLE = math.radians(80.0)
-"""Greatest half angle: a wider cone does not fit one shadow map [rad]."""
+"""The largest half angle: a wider cone does not fit one shadow map [rad]."""
 
 MIN_DISTANCE = 0.01
-"""Smaller distances to the lamp are taken as this one [m]."""
+"""The least distance to the lamp; smaller ones are set to it [m]."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Lamp:
-    """A round cone of light from a point; it shines along -z, as cameras look.
+    """A round cone of light from a point, along the lamp's -z axis, as cameras look.
 
     Raises:
         ValueError: a number is outside its bounds.
     """
 
     world_from_lamp: Pose
-    """Where it is; the axes of a camera."""
+    """The pose of the lamp; its axes are those of a camera."""
     half_angle: float
-    """Between the axis and the edge of the cone, above 0, at most 80 degrees; pi: it shines in
-    all directions, and nothing casts a shadow [rad]."""
+    """The angle between axis and edge of the cone, above 0, at most 80 degrees; pi: a lamp in all
+    directions, without shadows [rad]."""
     softness: float = 0.2
-    """Share of the half angle over which the light fades towards the edge, 0..1."""
+    """The share of the half angle over which the light fades towards the edge, 0..1."""
     colour: Colour = (1.0, 1.0, 1.0)
-    """Of its light, 0..1."""
+    """The colour of its light, 0..1."""
     intensity: float = 1.0
-    """Stored value that it gives to a white surface facing it at 1 m, without water [1]."""
+    """The stored value of a white surface that faces the lamp at 1 m, without water [1]."""
     casts_shadow: bool = True
-    """Whether bodies in its light cast a shadow."""
+    """True if bodies in its light cast a shadow."""
 
     def __post_init__(self) -> None:
         is_cone = 0.0 < self.half_angle <= MAX_HALF_ANGLE
@@ -65,33 +64,37 @@ class Lamp:
 
     @property
     def edge(self) -> tuple[float, float]:
-        """Cosine at the edge of the cone, and the factor that maps cosines beyond it to 0..1."""
-        outer = math.cos(self.half_angle)
-        inner = math.cos((1.0 - self.softness) * self.half_angle)
-        return outer, 1.0 / max(inner - outer, 1e-5)
+        """The cosine at the cone's edge, and the factor that maps cosines inside it to 0..1."""
+        outer_cosine = math.cos(self.half_angle)
+        inner_cosine = math.cos((1.0 - self.softness) * self.half_angle)
+        return outer_cosine, 1.0 / max(inner_cosine - outer_cosine, 1e-5)
 
     def light(self, points: Array, normals: Array, attenuation: Colour) -> Array:
-        """The law above in numpy, without shadows: the reference for the shader.
+        """Apply the law above in numpy, without shadows: the reference for the shader.
 
         Args:
-            points: On surfaces, in W, (n, 3) [m].
-            normals: Of the surfaces, of unit length, (n, 3).
-            attenuation: Of red, green and blue [1/m].
+            points: Points on surfaces, in W, (n, 3) [m].
+            normals: Unit normals of the surfaces, (n, 3).
+            attenuation: Attenuation of red, green and blue [1/m].
 
         Returns:
-            What white surfaces give, (n, 3).
+            The stored values of white surfaces, (n, 3).
         """
-        towards = self.world_from_lamp.position - points
+        to_lamp = self.world_from_lamp.position - points
         distance = np.maximum(
-            np.linalg.norm(towards, axis=1, keepdims=True), MIN_DISTANCE
+            np.linalg.norm(to_lamp, axis=1, keepdims=True), MIN_DISTANCE
         )  # (n, 1)
-        facing = np.maximum((normals * towards).sum(axis=1, keepdims=True) / distance, 0.0)
-        cosine = product(towards, self.world_from_lamp.rotation[:, 2:]) / distance
-        outer, steepness = self.edge
-        within = np.clip((cosine - outer) * steepness, 0.0, 1.0)
-        cone = within * within * (3.0 - 2.0 * within)
-        left = exp(-np.asarray(attenuation) * distance)
+        incidence_cosine = np.maximum(
+            (normals * to_lamp).sum(axis=1, keepdims=True) / distance, 0.0
+        )
+        cosine = product(to_lamp, self.world_from_lamp.rotation[:, 2:]) / distance
+        outer_cosine, steepness = self.edge
+        cone_position = np.clip((cosine - outer_cosine) * steepness, 0.0, 1.0)
+        cone = cone_position * cone_position * (3.0 - 2.0 * cone_position)
+        transmission = exp(-np.asarray(attenuation) * distance)
         light: Array = (
-            np.asarray(self.colour) * (self.intensity * facing * cone / distance**2) * left
+            np.asarray(self.colour)
+            * (self.intensity * incidence_cosine * cone / distance**2)
+            * transmission
         )
         return light

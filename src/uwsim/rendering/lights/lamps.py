@@ -1,7 +1,7 @@
 """The uniform block of the lamps, and their shadow maps.
 
 All maps are tiles of one depth texture, so that the shaders need a single sampler. A tile is drawn
-anew only when its lamp or anything in the scene moved, and serves all cameras.
+again only when its lamp or anything in the scene moved, and is used for all cameras.
 """
 
 from __future__ import annotations
@@ -16,19 +16,19 @@ from ...base.geometry import Array, Intrinsics, Pose, image_centre
 from ...base.numerics.linear import product
 from ...devices.lamp import MAX_LAMPS
 from ..brush import Brush
-from ..instance import INSTANCE, Instances, Numbers, Slots, in_view
+from ..instance import INSTANCE, Instances, Numbers, Slots, find_visible
 from ..program import Block, build
 from ..projection import projection
 from .lamp import MAX_HALF_ANGLE, Lamp
 
 TILE = 512
-"""Edge of one lamp's shadow map [texels]."""
+"""The edge of one lamp's shadow map [texels]."""
 
 NEAR, FAR = 0.1, 20.0
-"""What is nearer to the lamp, its own housing, casts no shadow, nor what is farther [m]."""
+"""The distances from the lamp between which bodies cast shadows; its own housing is nearer [m]."""
 
 MARGIN = 1.02
-"""The map's view over the cone's, so that no look-up reaches into the next tile."""
+"""The ratio of the map's view to the cone's, so that no look-up reaches into the next tile."""
 
 LAMPS = Block(
     "Lamps",
@@ -43,7 +43,7 @@ LAMPS = Block(
 
 
 class Lamps:
-    """The buffer of the uniform block, and the shadow maps; made for the first lamp."""
+    """The buffer of the uniform block, and the shadow maps; created for the first lamp."""
 
     def __init__(self, context: moderngl.Context) -> None:
         self._context = context
@@ -57,9 +57,9 @@ class Lamps:
         self._framebuffer = context.framebuffer(depth_attachment=self.texture)
         self._program = build(context, "shadow", defines={}, blocks=[INSTANCE], samplers={})
         self._slots = [Slots(context) for _ in range(MAX_LAMPS)]
-        self._drawn: list[object] = [None] * MAX_LAMPS
+        self._map_keys: list[object] = [None] * MAX_LAMPS
         self.n_drawn = 0
-        """Number of shadow maps drawn so far."""
+        """The number of shadow maps drawn so far."""
 
     def update(
         self,
@@ -71,10 +71,10 @@ class Lamps:
         """Draw the shadow maps that are out of date.
 
         Args:
-            lamps: What shines, in the order of the tiles.
-            instances: All there are.
+            lamps: The lamps, in the order of the tiles.
+            instances: All instances.
             casters: Numbers of the batches of possible casters; terrain, too.
-            version: Changes whenever a caster moved, came or went.
+            version: A value that changes when a caster is moved, added or removed.
         """
         for tile, lamp in enumerate(lamps):
             pose = lamp.world_from_lamp
@@ -84,8 +84,8 @@ class Lamps:
                 pose.position.tobytes(),
                 pose.rotation.tobytes(),
             )
-            if key != self._drawn[tile]:
-                self._drawn[tile] = key
+            if key != self._map_keys[tile]:
+                self._map_keys[tile] = key
                 self._draw(tile, lamp, instances, casters if lamp.casts_shadow else casters[:0])
 
     def fill(self, lamps: Sequence[Lamp], world_from_camera: Pose) -> None:
@@ -99,10 +99,10 @@ class Lamps:
                 product(map_from_lamp, lamp_from_world.matrix), world_from_camera.matrix
             )
             camera_from_lamp = camera_from_world @ lamp.world_from_lamp
-            outer, steepness = lamp.edge
+            outer_cosine, steepness = lamp.edge
             texel = 2.0 * MARGIN * math.tan(lamp.half_angle) / TILE  # at 1 m [m]
             values["lamp_from_camera"][tile] = map_from_camera.T  # OpenGL counts columns first
-            values["lamp_place"][tile] = *camera_from_lamp.position, outer
+            values["lamp_place"][tile] = *camera_from_lamp.position, outer_cosine
             values["lamp_axis"][tile] = *camera_from_lamp.rotation[:, 2], steepness
             strength = [lamp.intensity * channel for channel in lamp.colour]
             values["lamp_light"][tile] = *strength, 1.5 * texel
@@ -129,26 +129,26 @@ def draw_casters(
     world_from_lamp: Pose,
     view: Intrinsics,
 ) -> None:
-    """Draw the depth of what casts a shadow, as a lamp sees it, into the framebuffer in use.
+    """Draw the depth of shadow casters in a lamp's view, into the framebuffer in use.
 
     Args:
-        context: Of the renderer.
-        program: That of shadows.
-        slots: Where the places of the instances go.
-        instances: All there are.
+        context: The context of the renderer.
+        program: The program of shadows.
+        slots: The buffer for the poses of the instances.
+        instances: All instances.
         casters: Numbers of the batches of possible casters.
-        world_from_lamp: Where the lamp is.
-        view: Its pinhole.
+        world_from_lamp: The pose of the lamp.
+        view: The pinhole of the lamp.
     """
     lens = projection(view)
     context.enable_only(moderngl.DEPTH_TEST)
     context.depth_func = "<="
     context.polygon_offset = 1.5, 2.0
     slots.fill(instances, product(lens.clip_from_camera, world_from_lamp.inverse().matrix))
-    brush = Brush(context, instances, slots, outside="cw")
-    seen = in_view(instances, casters, world_from_lamp, lens.planes)
-    batches = instances.numbered
-    for number in seen.tolist():
+    brush = Brush(context, instances, slots, winding="cw")
+    visible_batches = find_visible(instances, casters, world_from_lamp, lens.planes)
+    batches = instances.numbered_batches
+    for number in visible_batches.tolist():
         if batches[number][1].opacity >= 1.0:  # glass casts no shadow
             brush.draw(number, program)
     context.polygon_offset = 0.0, 0.0
@@ -162,7 +162,7 @@ def _map_camera(lamp: Lamp) -> Intrinsics:
 
 
 def _tile_from_clip(tile: int) -> Array:
-    """Clip space of a tile's camera to texture coordinates and depth, (4, 4)."""
+    """Return the matrix from a tile's clip space to texture coordinates and depth, (4, 4)."""
     matrix = np.diag([0.25, 0.25, 0.5, 1.0])
     matrix[:3, 3] = 0.25 + 0.5 * (tile % 2), 0.25 + 0.5 * (tile // 2), 0.5
     return matrix

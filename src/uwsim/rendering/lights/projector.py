@@ -1,19 +1,19 @@
-r"""A projector of a pattern: a laser that draws it on surfaces, or a lamp that shines through it.
+r"""A projector of a pattern: a laser that draws it on surfaces, or a lamp behind it.
 
-The pattern is an image, of which a point sees the pixel in its direction. Where the pixel is
-transparent, something is between, or the surface faces away, nothing is projected. As a laser the
-colour of the surface becomes
+The pattern is an image; a point is lit by the pixel in its direction. Nothing is projected where
+the pixel is transparent, the point is in shadow, or the surface faces away. A laser changes the
+colour of the surface to
 
 .. math:: p_c\,e^{-a_c d}
 
 with the pattern's colour :math:`p`, 0 or 1 in each channel (black and pure white draw nothing),
-and the water's attenuation :math:`a` along the way :math:`d` from the projector. As a lamp the
-pattern adds, with the surface's colour :math:`L`,
+and the water's attenuation :math:`a` along the path :math:`d` from the projector. A lamp
+adds, with the surface's colour :math:`L`,
 
 .. math:: L_c\,p_c\,\frac{\max(N \cdot L, 0)}{d^2}\,e^{-a_c d}
 
 both on stored values and before the water between surface and camera (`water`). Not modelled:
-the width of a beam that spreads, speckle, scattering of the beam in the water.
+the growing width of a beam, speckle, scattering of the beam in the water.
 """
 
 from __future__ import annotations
@@ -27,27 +27,27 @@ import numpy.typing as npt
 from ...base.geometry import Intrinsics, Pose, image_centre
 
 LONGEST_SIDE = 1024
-"""Of a projector's shadow map [texels]."""
+"""The longest side of a projector's shadow map [texels]."""
 NEAR, FAR = 0.1, 20.0
-"""What is nearer to the projector, its own housing, casts no shadow, nor what is farther [m]."""
+"""The distances from the projector between which bodies cast shadows; its housing is nearer [m]."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Projector:
-    """A pattern that shines along -z, as cameras look."""
+    """A pattern projected along the projector's -z axis, as cameras look."""
 
     world_from_projector: Pose
-    """Where it is; the axes of a camera."""
+    """The pose of the projector; its axes are those of a camera."""
     fovy: float
-    """Its vertical field of view [rad]; the other follows from the pattern's sides."""
+    """The vertical field of view [rad]; the horizontal one follows from the pattern's sides."""
     pattern: npt.NDArray[np.uint8]
-    """Red, green, blue and opacity, (h, w, 4); row 0 at the top."""
+    """The red, green, blue and opacity values, (h, w, 4); row 0 is at the top."""
     is_laser: bool
-    """Whether it draws the pattern; else it is a lamp."""
+    """True if a laser draws the pattern; else it is a lamp."""
 
     @property
     def pinhole(self) -> Intrinsics:
-        """The pinhole that sees what it lights, with the size of its shadow map."""
+        """The pinhole whose image is the lit region, with the size of the shadow map."""
         rows, columns = self.pattern.shape[:2]
         scale = LONGEST_SIDE / max(rows, columns)
         width, height = max(1, round(scale * columns)), max(1, round(scale * rows))

@@ -22,11 +22,11 @@ PROJECTOR = Block(
 TEXTURE_FROM_CLIP = np.array(
     [[0.5, 0.0, 0.0, 0.5], [0.0, 0.5, 0.0, 0.5], [0.0, 0.0, 0.5, 0.5], [0.0, 0.0, 0.0, 1.0]]
 )
-"""Clip space to texture coordinates and depth."""
+"""The matrix from clip space to texture coordinates and depth."""
 
 
 class ProjectorLight:
-    """What the shaders need of a projector; made for the first one."""
+    """The projector's uniform block, pattern and shadow map; created for the first projector."""
 
     def __init__(self, context: moderngl.Context) -> None:
         self._context = context
@@ -35,7 +35,7 @@ class ProjectorLight:
         self._program = build(context, "shadow", defines={}, blocks=[INSTANCE], samplers={})
         self._slots = Slots(context)
         self._pattern: object = None
-        self._drawn: object = None
+        self._map_key: object = None
         self._textures: list[moderngl.Texture] = []
         self._framebuffer: moderngl.Framebuffer | None = None
 
@@ -49,17 +49,17 @@ class ProjectorLight:
         """Draw the shadow map, if it is out of date.
 
         Args:
-            projector: What shines.
-            instances: All there are.
+            projector: The projector.
+            instances: All instances.
             casters: Numbers of the batches of possible casters; terrain, too.
-            version: Changes whenever a caster moved, came or went.
+            version: A value that changes when a caster is moved, added or removed.
         """
         if self._pattern is not projector.pattern:
             self._load(projector)
         pose = projector.world_from_projector
         key = version, projector.fovy, pose.position.tobytes(), pose.rotation.tobytes()
-        if key != self._drawn:
-            self._drawn = key
+        if key != self._map_key:
+            self._map_key = key
             assert self._framebuffer is not None
             self._framebuffer.use()
             self._framebuffer.clear(depth=1.0)
@@ -89,7 +89,7 @@ class ProjectorLight:
             texture.use(unit)
 
     def _load(self, projector: Projector) -> None:
-        """Make the textures of a pattern."""
+        """Create the textures of a pattern."""
         for texture in self._textures:
             texture.release()
         lens, (rows, columns) = projector.pinhole, projector.pattern.shape[:2]
@@ -102,4 +102,4 @@ class ProjectorLight:
             texture.repeat_x = texture.repeat_y = False
         self._textures = [depth, image]
         self._framebuffer = self._context.framebuffer(depth_attachment=depth)
-        self._pattern, self._drawn = projector.pattern, None
+        self._pattern, self._map_key = projector.pattern, None

@@ -1,4 +1,4 @@
-"""Where in an image the sun's shadows may fall on what stands still in it."""
+"""The region of an image in which the sun's shadows may fall on instances at rest."""
 
 from __future__ import annotations
 
@@ -7,69 +7,71 @@ import numpy.typing as npt
 
 from ...base.geometry import Array, Intrinsics, Pose
 from ...base.numerics.jit import njit
-from ..bounds import seen_to
+from ..bounds import transform_to_world
 from ..instance import Instances, Numbers
-from .sun_shadow import along, bound
+from .sun_shadow import compute_box, sunbeam_frame
 
 TILE = 8
-"""Edge of a tile of an image [px]."""
+"""The edge of a tile of an image [px]."""
 
 Region = tuple[int, int, int, int]
 """A rectangle of an image: left column, top row, number of columns and of rows [px]."""
 
 
-def tiles_of(
+def compute_tile_bounds(
     depths: npt.NDArray[np.float32], world_from_camera: Pose, intrinsics: Intrinsics, sun: Array
 ) -> Array:
-    """Bound the surfaces in the tiles of an image as the sun sees them.
+    """Compute bounds of the surfaces in the tiles of an image, in the sun's coordinates.
 
     Args:
-        depths: of the pixels as OpenGL stores them, 0..1, (h, w); 1: nothing is there.
-        world_from_camera: Where the camera is.
-        intrinsics: Its pinhole.
+        depths: depths of the pixels as OpenGL stores them, 0..1, (h, w); 1: no surface.
+        world_from_camera: The pose of the camera.
+        intrinsics: The pinhole of the camera.
         sun: Unit vector towards the sun in W, (3,).
 
     Returns:
-        Least and greatest coordinates (`along`) in each tile, (rows, columns, 2, 3) [m]; infinite,
-        the least greater, where nothing is.
+        Least and greatest coordinates (`sunbeam_frame`) in each tile, (rows, columns, 2, 3) [m];
+        inf and -inf where no surface is.
     """
     i = intrinsics
     rows, columns = -(-i.height // TILE), -(-i.width // TILE)
     tiles = np.empty((rows, columns, 2, 3))
     lens = np.array([i.fx, i.fy, i.cx, i.cy, i.skew, i.near, i.far])
-    turn = np.ascontiguousarray(world_from_camera.rotation)
-    _bound_tiles(depths, lens, world_from_camera.position, turn, along(sun), tiles)
+    rotation = np.ascontiguousarray(world_from_camera.rotation)
+    _write_tile_bounds(
+        depths, lens, world_from_camera.position, rotation, sunbeam_frame(sun), tiles
+    )
     return tiles
 
 
-def shaded_region(
+def find_shaded_region(
     tiles: Array, instances: Instances, casters: Numbers, sun: Array, margin: float
 ) -> Region:
-    """Return the rectangle round all tiles on which a caster may cast a shadow.
+    """Return the rectangle around all tiles on which a caster may cast a shadow.
 
     Args:
-        tiles: bounds of what is in them, as `tiles_of` returns them.
-        instances: All there are.
+        tiles: bounds of the surfaces, as `compute_tile_bounds` returns them.
+        instances: All instances.
         casters: Numbers of the batches that cast shadows, (k,).
         sun: Unit vector towards the sun in W, (3,).
-        margin: By how much shadows may reach beyond boxes [m].
+        margin: The distance by which shadows may reach beyond boxes [m].
     """
-    found = np.array([tiles.shape[1], tiles.shape[0], 0, 0])  # least column, row; greatest + 1
-    _find_shaded(tiles, instances.corners, casters, along(sun), margin, found)
-    left, top, right, bottom = (TILE * found).tolist()
+    region = np.array([tiles.shape[1], tiles.shape[0], 0, 0])  # least column, row; greatest + 1
+    _write_shaded_tiles(tiles, instances.corners, casters, sunbeam_frame(sun), margin, region)
+    left, top, right, bottom = (TILE * region).tolist()
     return (left, top, right - left, bottom - top) if right > left else (0, 0, 0, 0)
 
 
 @njit
-def _bound_tiles(
+def _write_tile_bounds(
     depths: npt.NDArray[np.float32],
     lens: Array,
-    place: Array,
-    turn: Array,
+    position: Array,
+    rotation: Array,
     frame: Array,
     tiles: Array,
 ) -> None:
-    """Do as `tiles_of`, into ``tiles``; ``lens``: fx, fy, cx, cy, skew [px], near, far [m]."""
+    """Compute tile bounds into ``tiles``; ``lens``: fx, fy, cx, cy, skew [px], near, far [m]."""
     tiles[:, :, 0], tiles[:, :, 1] = np.inf, -np.inf
     near, far = lens[5], lens[6]
     point, world = np.empty(3), np.empty(3)
@@ -80,11 +82,11 @@ def _bound_tiles(
                 continue
             clip = 2.0 * float(depths[v, u]) - 1.0
             depth = 2.0 * far * near / (far + near - clip * (far - near))
-            # what is stored is rounded to a step of 2^-24 of the whole
+            # stored depths are rounded to a step of 2^-24
             step = depth * depth / near * 2.0**-23
             point[0], point[1] = depth * (u - lens[2] - lens[4] * y) / lens[0], depth * y
             point[2] = -depth
-            seen_to(point, place, turn, world)
+            transform_to_world(point, position, rotation, world)
             box = tiles[v // TILE, u // TILE]
             for k in range(3):
                 total = 0.0
@@ -94,18 +96,18 @@ def _bound_tiles(
 
 
 @njit
-def _find_shaded(
+def _write_shaded_tiles(
     tiles: Array,
     corners: Array,
     casters: Numbers,
     frame: Array,
     margin: float,
-    found: npt.NDArray[np.int64],
+    region: npt.NDArray[np.int64],
 ) -> None:
-    """Do as `shaded_region`, into ``found``: least column and row, greatest and one."""
+    """Compute `find_shaded_region` into ``region``: least column and row, greatest and one."""
     boxes = np.empty((len(casters), 2, 3))
     for k in range(len(casters)):
-        bound(corners[casters[k]], frame, boxes[k])
+        compute_box(corners[casters[k]], frame, boxes[k])
     for row in range(tiles.shape[0]):
         for column in range(tiles.shape[1]):
             tile, is_shaded = tiles[row, column], False
@@ -117,5 +119,5 @@ def _find_shaded(
                     is_over = is_over and box[0, j] <= high and box[1, j] >= low
                 is_shaded = is_shaded or is_over
             if is_shaded:
-                found[0], found[1] = min(found[0], column), min(found[1], row)
-                found[2], found[3] = max(found[2], column + 1), max(found[3], row + 1)
+                region[0], region[1] = min(region[0], column), min(region[1], row)
+                region[2], region[3] = max(region[2], column + 1), max(region[3], row + 1)

@@ -90,7 +90,7 @@ class Scenery:
         )
         """The sand over buried objects."""
         self.state = SceneryState(
-            Water.of(scene.ocean_state, model.compatibility),
+            Water.from_ocean_state(scene.ocean_state, model.compatibility),
             Light(rate=scene.sim_params.light_rate, shadows=_has_sun_shadows(scene)),
             [heap.state for heap in self.heaps],
         )
@@ -304,7 +304,7 @@ class Scenery:
             self.state.light if light is None else light,
             targets=targets,
             colour=colour,
-            hidden=self._hidden_ids if hidden_ids is None else hidden_ids,
+            hidden_ids=self._hidden_ids if hidden_ids is None else hidden_ids,
             lamps=tuple(map(_make_lamp, lit_lamps[:MAX_LAMPS])),
             projector=self._projector,
         )
