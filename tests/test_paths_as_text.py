@@ -59,7 +59,7 @@ def test_a_file_of_the_wrong_kind_is_reported_with_its_kind() -> None:
 def test_a_simulation_of_something_else_than_a_scene_says_what_it_takes(
     scene: object, make: Callable[[object], object], takes: str
 ) -> None:
-    with pytest.raises(BadSetting, match=f"what {takes} returns, not of a ") as caught:
+    with pytest.raises(BadSetting, match=f"which {takes} returns") as caught:
         make(scene)
     assert len(str(caught.value)) < 200
 
