@@ -1,9 +1,9 @@
 """An episode of `grasp`: how many times faster than real time, with its camera in the loop.
 
 One seed at fog 0 without current, run in this process as a worker runs it. The software rasteriser
-has no threads of its own, so that the CPU time is that of one core. The episode lasts from the start
-of its level to its end; the whole trial includes the start of the scene. A first trial fills the
-caches. The output is one JSON object.
+has no threads of its own, so that the CPU time is that of one core. The episode lasts from the
+start of its level to its end; the whole trial includes the start of the scene. A first trial fills
+the caches. The output is one JSON object.
 """
 
 from __future__ import annotations

@@ -32,8 +32,8 @@ TIMESTEP = 0.002
 CLIENT = """
 import sys
 sys.path.insert(0, sys.argv[1])
-from lockstep import Client, connected
-with connected(f"ws://127.0.0.1:{sys.argv[2]}") as socket:
+from lockstep import Client, open_connection
+with open_connection(f"ws://127.0.0.1:{sys.argv[2]}") as socket:
     client = Client(socket, "controller")
     say = client.publisher("/twist", "geometry_msgs/TwistStamped")
     def answer(odometry):

@@ -1,7 +1,7 @@
 """Render the camera that looks down at the floor of a tank, in increasing fog.
 
-Prints the measured share of the floor's light that passes through the fog, next to the renderer's
-model, exp(-(fog * distance)^2), and writes hello-fog-*.png to the working directory.
+The program prints the measured share of the floor's light that passes through the fog, next to the
+model of the renderer, exp(-(fog * distance)^2). It writes hello-fog-*.png to the working directory.
 """
 
 from math import exp
@@ -23,18 +23,18 @@ def main() -> None:
 
 
 def show(simulation: uwsim.Simulation) -> None:
-    clear = None
+    clear_red = None
     for fog in FOGS:
         simulation.set_fog(fog)
         image = simulation.image(CAMERA)
         row, column = PIXEL
         # The fog's colour has no red, so all red light comes from the floor.
         red = image.colour[row - 8 : row + 9, column - 8 : column + 9, 0].mean()
-        clear = red if clear is None else clear
+        clear_red = red if clear_red is None else clear_red
         distance = image.range[row, column]  # [m]
         print(
             f"fog {fog:.1f} 1/m, floor at {distance:.2f} m: "
-            f"{red / clear:.2f} left, model {exp(-((fog * distance) ** 2)):.2f}"
+            f"{red / clear_red:.2f} left, model {exp(-((fog * distance) ** 2)):.2f}"
         )
         Image.fromarray(image.colour).save(f"hello-fog-{fog:.1f}.png")
 

@@ -1,7 +1,7 @@
 """Subscribe to topics, as an algorithm under test does.
 
-An algorithm is a class with ``start(node)``. It subscribes and publishes and has no access to the
-simulator. This one prints which message arrives when.
+An algorithm is a class with ``start(node)``. It subscribes and publishes, and has no access to the
+simulator. This one prints each message with its time of arrival.
 """
 
 import uwsim
@@ -13,24 +13,24 @@ SECONDS = 0.2  # of simulation time [s]
 
 
 class Listener:
-    """Prints a line for each image."""
+    """An algorithm that prints a line for each image."""
 
     def start(self, node: uwsim.Node) -> None:
-        """Subscribe; from here on only callbacks run."""
+        """Subscribe to the topics; from now on only callbacks run."""
         self.node = node
-        node.subscribe(TOPIC, Image, self.look)
-        node.subscribe(f"{TOPIC}_info", CameraInfo, self.note)
+        node.subscribe(TOPIC, Image, self.print_image)
+        node.subscribe(f"{TOPIC}_info", CameraInfo, self.print_camera_info)
         node.create_timer(0.1, lambda: print(f"{node.now:.3f} s: every tenth of a second"))
 
-    def look(self, image: Image) -> None:
-        """Print size, encoding and time stamp of an image."""
+    def print_image(self, image: Image) -> None:
+        """Print the size, the encoding and the stamp of an image."""
         print(
             f"{self.node.now:.3f} s: {image.width}x{image.height} {image.encoding}, "
             f"stamped {seconds(image.header.stamp):.3f} s"
         )
 
-    def note(self, info: CameraInfo) -> None:
-        """Print the camera's focal length."""
+    def print_camera_info(self, info: CameraInfo) -> None:
+        """Print the focal length of the camera."""
         print(f"{self.node.now:.3f} s: focal length {info.k[0]:.2f} px")
 
 

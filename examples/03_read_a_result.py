@@ -11,7 +11,7 @@ from pathlib import Path
 
 ALGORITHMS = ("esm", "frozen")
 LEVELS = ("fog=0", "fog=1.3")  # [1/m]
-GOOD = 5.0  # the paper's limit of good tracking, for the total [px]
+MAX_ERROR = 5.0  # the paper's limit of good tracking, for the total [px]
 
 
 def main() -> None:
@@ -32,7 +32,7 @@ def main() -> None:
                 reasons = [m["why"] for m in result["missing"] if m["row"] == number]
                 message += ": " + reasons[0].split(":")[0].rsplit(" at ", 1)[0]
             else:
-                message = f"total below {GOOD:g} px: {cells['total'] < GOOD}"
+                message = f"total below {MAX_ERROR:g} px: {cells['total'] < MAX_ERROR}"
             print(f"{algorithm}, fog {cells['fog']:.1f} 1/m: {cells['status']}; {message}")
 
 

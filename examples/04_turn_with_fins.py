@@ -9,38 +9,38 @@ import numpy as np
 import uwsim
 from uwsim.messages import Float64MultiArray, MultiArrayLayout, Odometry
 
-RUDDER, PLANES = -0.07, -0.03  # [rad]: the stern to port, so the bow to starboard; level flight
+RUDDER, ELEVATOR = -0.07, -0.03  # [rad]: bow to starboard, level flight
 SECONDS = 60.0  # of simulation time [s]
 
 
 class Helmsman:
-    """Commands propeller and fins once, and keeps the track."""
+    """An algorithm that commands the propeller and the fins, and records the track."""
 
     def start(self, node: uwsim.Node) -> None:
-        """Subscribe, and command at the first tick."""
+        """Create the publishers, the subscription and a timer for the commands."""
         self.track: list[tuple[float, float]] = []
         self.propeller = node.publisher("/remus/propeller", Float64MultiArray)
         self.fins = node.publisher("/remus/fins", Float64MultiArray)
-        node.subscribe("/remus/odometry", Odometry, self.note)
+        node.subscribe("/remus/odometry", Odometry, self.store_position)
         node.create_timer(1.0, self.steer)
 
     def steer(self) -> None:
-        """Full ahead; both rudders alike, both planes alike."""
+        """Command full thrust, both rudders alike, and both elevators alike."""
         layout = MultiArrayLayout(dim=[], data_offset=0)
         self.propeller(Float64MultiArray(layout=layout, data=np.array([1.0])))
-        angles = np.array([RUDDER, RUDDER, PLANES, PLANES])
+        angles = np.array([RUDDER, RUDDER, ELEVATOR, ELEVATOR])
         self.fins(Float64MultiArray(layout=layout, data=angles))
 
-    def note(self, message: Odometry) -> None:
-        """Keep the place, north and east [m]."""
-        place = message.pose.pose.position
-        self.track.append((place.x, place.y))
+    def store_position(self, message: Odometry) -> None:
+        """Append the position, north and east [m]."""
+        position = message.pose.pose.position
+        self.track.append((position.x, position.y))
 
 
-def circle(places: np.ndarray) -> tuple[float, float, float]:
-    """Centre and radius of the circle through places (n, 2), by least squares [m]."""
-    sides = np.column_stack([2.0 * places, np.ones(len(places))])
-    x, y, rest = np.linalg.lstsq(sides, (places**2).sum(axis=1), rcond=None)[0]
+def fit_circle(positions: np.ndarray) -> tuple[float, float, float]:
+    """Fit a circle to positions (n, 2) by least squares; return centre x, y and radius [m]."""
+    matrix = np.column_stack([2.0 * positions, np.ones(len(positions))])
+    x, y, rest = np.linalg.lstsq(matrix, (positions**2).sum(axis=1), rcond=None)[0]
     return x, y, float(np.sqrt(rest + x * x + y * y))
 
 
@@ -49,7 +49,7 @@ def main() -> None:
     with uwsim.load("remus-scene") as simulation:
         simulation.attach(helmsman)
         simulation.advance(SECONDS)
-    x, y, radius = circle(np.array(helmsman.track[len(helmsman.track) // 2 :]))
+    x, y, radius = fit_circle(np.array(helmsman.track[len(helmsman.track) // 2 :]))
     print(f"turns about {x:.1f} m north, {y:.1f} m east, with a radius of {radius:.1f} m")
 
 

@@ -1,7 +1,7 @@
-"""A part of the algorithm `grasp` is replaced: station keeping by a law of one's own.
+"""Replace a part of the algorithm `grasp`: use your own control law for station keeping.
 
-The law goes to its goal and learns the current from what is left of the way. It keeps the vehicle
-over a flight recorder while the arm reaches down; all else is `grasp` as it is.
+The law is proportional and estimates the current from the position error. It keeps the vehicle
+above a flight recorder while the arm reaches down; all other parts of `grasp` stay the same.
 """
 
 import numpy as np
@@ -10,30 +10,30 @@ import uwsim
 from uwsim.algorithms.grasp import Grasp, Motion
 from uwsim.messages import String
 
-GAIN = 0.5  # of the position [1/s]
-LEARNING = 0.1  # of the current [1/s]
-LAST = "descend"  # phase at which the example ends
+GAIN = 0.5  # of the position error [1/s]
+ADAPTATION_GAIN = 0.1  # of the current estimate [1/s]
+LAST_PHASE = "descend"  # phase at which the example ends
 
 
-class Learning:
-    """A proportional law with an integral that is the current."""
+class AdaptiveLaw:
+    """A proportional law whose integral term estimates the current."""
 
     def __init__(self) -> None:
         self.current = np.zeros(3)  # north, east, down [m/s]
 
     def step(self, motion: Motion, dt: float) -> tuple[np.ndarray, float]:
         """Return the velocity through the water and the yaw rate, in the vehicle's axes."""
-        self.current -= LEARNING * dt * np.clip(motion.error, -0.3, 0.3)
-        wanted = np.clip(GAIN * motion.error, -0.3, 0.3) + motion.wanted - self.current
-        return motion.rotation.T @ wanted, 0.5 * motion.turn
+        self.current -= ADAPTATION_GAIN * dt * np.clip(motion.error, -0.3, 0.3)
+        velocity = np.clip(GAIN * motion.error, -0.3, 0.3) + motion.wanted - self.current
+        return motion.rotation.T @ velocity, 0.5 * motion.turn
 
 
 class MyGrasp(Grasp):
-    """The algorithm grasp with that law."""
+    """The algorithm `grasp` with this law."""
 
-    def controller(self) -> Learning:
-        """Return the law."""
-        return Learning()
+    def controller(self) -> AdaptiveLaw:
+        """Return the control law."""
+        return AdaptiveLaw()
 
 
 if __name__ == "__main__":
@@ -41,6 +41,6 @@ if __name__ == "__main__":
     with uwsim.load("grasp-scene", seed=1, timestep=0.005) as simulation:
         simulation.bus.subscribe("phase", String, lambda message: phases.append(message.data))
         simulation.attach(MyGrasp())
-        while LAST not in phases and simulation.time < 60.0:
+        while LAST_PHASE not in phases and simulation.time < 60.0:
             simulation.advance(1.0)
     print(" -> ".join(phases))

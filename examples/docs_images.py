@@ -43,35 +43,35 @@ SCENE, BENCHMARK, SEED = "visibility-moving-scene.xml", "visibility-moving", 1
 EYE, TARGET = (4.3, 1.55, 2.15), (2.05, 0.15, 3.45)  # of the view, in L [m]
 HAZE = 0.05  # fog of the view [1/m]
 FOGS = (0.0, 0.6, 1.2)  # of the camera images [1/m]
-SIZE, SMALL, GAP = (960, 500), (316, 237), 6  # view, camera images, gap [px]
-FINER = 2  # supersampling factor of the view
+SIZE, CAMERA_IMAGE_SIZE, GAP = (960, 500), (316, 237), 6  # view, camera images, gap [px]
+SUPERSAMPLING = 2  # of the view, images per axis
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description="Draw the images of the documentation.")
     parser.add_argument("folder", type=Path)
-    parser.add_argument("--trackers", type=Path, metavar="DIR", help="of several results")
-    asked = parser.parse_args()
-    folder: Path = asked.folder
+    parser.add_argument("--trackers", type=Path, metavar="DIR", help="folder with several results")
+    options = parser.parse_args()
+    folder: Path = options.folder
     folder.mkdir(parents=True, exist_ok=True)
-    save(stacked(view(), camera_images()), folder / "tank.png")
-    tutorial(folder)
-    if asked.trackers is not None:
-        results = [load(path.parent) for path in sorted(asked.trackers.glob("*/result.json"))]
+    save(stack_images(render_view(), run_levels()), folder / "tank.png")
+    run_tutorial(folder)
+    if options.trackers is not None:
+        results = [load(path.parent) for path in sorted(options.trackers.glob("*/result.json"))]
         save_plot(compare_plot(results, "total"), folder / "trackers.png")
 
 
-def view() -> Image.Image:
-    """The tank, the vehicle and the box, seen from next to the vehicle's bow."""
+def render_view() -> Image.Image:
+    """Render the tank, the vehicle and the box from a point beside the vehicle's bow."""
     path = find(SCENE)
     assert path is not None
     simulation = load_scene(path, seed=SEED)
     try:
         width, height = SIZE
         eye, target = np.array(EYE), np.array(TARGET)
-        shown = view_from(simulation, eye, target, (FINER * width, FINER * height))
+        view = view_from(simulation, eye, target, (SUPERSAMPLING * width, SUPERSAMPLING * height))
         colour = simulation.world.scenery.render_view(
-            shown.world_from_camera, shown.intrinsics, fog=HAZE
+            view.world_from_camera, view.intrinsics, fog=HAZE
         ).colour
     finally:
         simulation.close()
@@ -79,8 +79,8 @@ def view() -> Image.Image:
     return Image.fromarray(colour.astype(np.uint8)[..., :3]).resize(SIZE, Image.Resampling.LANCZOS)
 
 
-def camera_images() -> list[Image.Image]:
-    """The camera's last image of a level at each fog, with the truth and ESM's estimate."""
+def run_levels() -> list[Image.Image]:
+    """Run a level at each fog; return the last camera images with truth and ESM's estimate."""
     levels = [word for fog in FOGS for word in ("--level", f"fog={fog}")]
     with TemporaryDirectory() as folder:
         out = Path(folder) / "esm.result"
@@ -88,35 +88,37 @@ def camera_images() -> list[Image.Image]:
         if status != 0:
             raise SystemExit(status)
         result = load(out)
-        return [drawn(result, out, fog) for fog in FOGS]
+        return [draw_overlay(result, out, fog) for fog in FOGS]
 
 
-def drawn(result: Result, directory: Path, fog: float) -> Image.Image:
-    """One camera image with its quadrangles and its fog."""
+def draw_overlay(result: Result, directory: Path, fog: float) -> Image.Image:
+    """Draw a camera image with its quadrangles and its fog."""
     row = next(i for i, level in enumerate(result.numbers("fog")) if math.isclose(level or 0, fog))
-    saved = next(each for each in result.images if each.row == row)
-    pixels = np.asarray(Image.open(directory / saved.file).convert("RGB"))
-    framed = overlay(pixels, truth=saved.truth, estimate=saved.estimate, scale=3)
-    image = Image.fromarray(framed).resize(SMALL, Image.Resampling.LANCZOS)
+    result_image = next(stored_image for stored_image in result.images if stored_image.row == row)
+    pixels = np.asarray(Image.open(directory / result_image.file).convert("RGB"))
+    overlaid_pixels = overlay(
+        pixels, truth=result_image.truth, estimate=result_image.estimate, scale=3
+    )
+    image = Image.fromarray(overlaid_pixels).resize(CAMERA_IMAGE_SIZE, Image.Resampling.LANCZOS)
     font = ImageFont.load_default(size=17)
     text = f"fog {fog:g} 1/m"
     ImageDraw.Draw(image).text((8, 5), text, "white", font, stroke_width=2, stroke_fill="#0a141e")
     return image
 
 
-def stacked(above: Image.Image, below: Sequence[Image.Image]) -> Image.Image:
-    """One wide image above a row of small ones."""
-    whole = Image.new("RGB", (SIZE[0], SIZE[1] + GAP + SMALL[1]), "white")
-    whole.paste(above, (0, 0))
-    for i, small in enumerate(below):
-        whole.paste(small, (i * (SMALL[0] + GAP), SIZE[1] + GAP))
-    return whole
+def stack_images(top: Image.Image, bottom_row: Sequence[Image.Image]) -> Image.Image:
+    """Place a wide image above a row of small images."""
+    canvas = Image.new("RGB", (SIZE[0], SIZE[1] + GAP + CAMERA_IMAGE_SIZE[1]), "white")
+    canvas.paste(top, (0, 0))
+    for i, image in enumerate(bottom_row):
+        canvas.paste(image, (i * (CAMERA_IMAGE_SIZE[0] + GAP), SIZE[1] + GAP))
+    return canvas
 
 
-def tutorial(folder: Path) -> None:
-    """Write the files of the page, run its commands, keep two of the images that they write."""
+def run_tutorial(folder: Path) -> None:
+    """Write the files of the page, run its commands, and copy two of their images."""
     page = PAGE.read_text()
-    here = Path.cwd()
+    working_directory = Path.cwd()
     with TemporaryDirectory() as scratch:
         for name, text in FILE.findall(page):
             (Path(scratch) / name).write_text(text)
@@ -126,7 +128,7 @@ def tutorial(folder: Path) -> None:
                 if words[0] in ("render", "bench") and uwsim(words) != 0:
                     raise SystemExit(words)
         finally:
-            os.chdir(here)
+            os.chdir(working_directory)
         save(Image.open(Path(scratch) / "wreck.png"), folder / "wreck.png")
         shutil.copy(Path(scratch) / "hover.result/plots/offset.png", folder / "wreck-offset.png")
 

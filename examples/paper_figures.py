@@ -20,10 +20,10 @@ import numpy.typing as npt
 from PIL import Image
 
 from paper.figures import (
-    image_grid,
-    image_with_inset,
-    visibility_over_distance,
-    visibility_over_fog,
+    draw_image_grid,
+    draw_image_with_inset,
+    draw_visibility_over_distance,
+    draw_visibility_over_fog,
 )
 from uwsim.analysis.plots import save_plot, value_plot
 from uwsim.analysis.report.overlay import overlay
@@ -51,18 +51,18 @@ def main() -> None:
     parser = argparse.ArgumentParser(description="Draw the figures of the paper.")
     parser.add_argument("folder", type=Path)
     parser.add_argument("--quick", action="store_true", help="few levels and points, for CI")
-    asked = parser.parse_args()
-    folder: Path = asked.folder
+    options = parser.parse_args()
+    folder: Path = options.folder
     folder.mkdir(parents=True, exist_ok=True)
-    scene_figures(folder)
-    visibility_figures(folder, quick=asked.quick)
-    benchmark_figures(folder, quick=asked.quick)
+    draw_scene(folder)
+    draw_visibility(folder, is_quick=options.quick)
+    draw_benchmark(folder, is_quick=options.quick)
 
 
 # ------------------------------------------------------------------ 3, 8, 9: the scene
 
 
-def scene_figures(folder: Path) -> None:
+def draw_scene(folder: Path) -> None:
     path = find(SCENE)
     assert path is not None
     simulation = load_scene(path, seed=SEED)
@@ -72,22 +72,24 @@ def scene_figures(folder: Path) -> None:
         views = {}
         for fog in (0.0, PAPER_FOG):
             simulation.set_fog(fog)
-            outside = simulation.world.scenery.render_clean(looking(EYE, TARGET), viewer).colour
-            inside = simulation.world.scenery.render_clean(
+            scene_image = simulation.world.scenery.render_clean(
+                camera_pose(EYE, TARGET), viewer
+            ).colour
+            camera_image = simulation.world.scenery.render_clean(
                 camera.world_from_camera, camera.intrinsics
             ).colour
-            views[fog] = outside[..., :3], inside[..., :3]
+            views[fog] = scene_image[..., :3], camera_image[..., :3]
     finally:
         simulation.close()
-    save_plot(image_with_inset(*views[0.0]), folder / "figure-03-scene.png")
+    save_plot(draw_image_with_inset(*views[0.0]), folder / "figure-03-scene.png")
     captions = ["fog 0", f"fog {PAPER_FOG:g} m⁻¹"]
-    for name, which in (("08-scene", 0), ("09-camera", 1)):
-        grid = image_grid([views[fog][which] for fog in views], captions, columns=2)
+    for name, image_index in (("08-scene", 0), ("09-camera", 1)):
+        grid = draw_image_grid([views[fog][image_index] for fog in views], captions, columns=2)
         save_plot(grid, folder / f"figure-{name}-clear-and-fog.png")
 
 
-def looking(eye: tuple[float, float, float], target: tuple[float, float, float]) -> Pose:
-    """W from a camera at ``eye`` that looks at ``target``, upright [m]."""
+def camera_pose(eye: tuple[float, float, float], target: tuple[float, float, float]) -> Pose:
+    """Return W from an upright camera at ``eye`` that points at ``target`` [m]."""
     back = np.subtract(eye, target) / np.linalg.norm(np.subtract(eye, target))
     right = np.cross([0.0, 0.0, 1.0], back)
     right /= np.linalg.norm(right)
@@ -98,7 +100,7 @@ def looking(eye: tuple[float, float, float], target: tuple[float, float, float])
 
 
 class Plates:
-    """A black and a white plate, seen along their normal, at any distance in any fog.
+    """A black and a white plate, viewed along their normal, at any distance in any fog.
 
     V = 1 - (white(d) - black(d)) / (white(0.2 m, fog 0) - black(0.2 m, fog 0)), means of the
     central 9 x 9 pixels of 8-bit images, without noise and attenuation.
@@ -108,23 +110,23 @@ class Plates:
         self.renderer = Renderer()
         self.plates = [plate(shade) for shade in (1.0, 0.0)]
         self.intrinsics = Intrinsics.from_fovy(320, 240, math.radians(50.0))
-        clear = Water(fog=0.0, attenuation=(0.0, 0.0, 0.0))
-        self.water = replace(clear, fog_distance=fog_distance)
+        clear_water = Water(fog=0.0, attenuation=(0.0, 0.0, 0.0))
+        self.water = replace(clear_water, fog_distance=fog_distance)
         self.reference = self.contrast(0.0, 0.2)
 
     def visibility(self, fog: float, distance: float) -> float:
-        """V at a fog density [1/m] and a distance [m]."""
+        """Return V at a fog density [1/m] and a distance [m]."""
         return 1.0 - self.contrast(fog, distance) / self.reference
 
     def contrast(self, fog: float, distance: float) -> float:
-        """White minus black [grey level], looking straight down from a depth of 5 m."""
+        """Measure white minus black [grey level], with a vertical view from a depth of 5 m."""
         eye = Pose(np.array([0.0, 0.0, -5.0]), np.eye(3))
-        below = np.eye(4)
-        below[2, 3] = -5.0 - distance
+        plate_pose = np.eye(4)
+        plate_pose[2, 3] = -5.0 - distance
         levels = []
         for model in self.plates:
             handle = self.renderer.add(model, 1)
-            self.renderer.place(handle, below)
+            self.renderer.place(handle, plate_pose)
             water, light = replace(self.water, fog=fog), Light(shadows=False)
             image = self.renderer.draw(eye, self.intrinsics, water, light, targets={"colour"})
             self.renderer.remove(handle)
@@ -137,7 +139,7 @@ class Plates:
 
 
 def plate(shade: float) -> Model:
-    """A square of 40 m in the plane z = 0, facing up, black (0) or white (1)."""
+    """Return a square of 40 m in the plane z = 0, facing up, black (0) or white (1)."""
     corners = np.array([[-20, -20, 0], [20, -20, 0], [20, 20, 0], [-20, 20, 0]], np.float32)
     mesh = Mesh(
         vertices=corners,
@@ -149,38 +151,40 @@ def plate(shade: float) -> Model:
     return Model(name=f"plate {shade:g}", meshes=(mesh,), source="stand-in", sha256=f"{shade}")
 
 
-def visibility_figures(folder: Path, *, quick: bool) -> None:
-    distances, fogs = (DISTANCES[::4], FOGS[::5]) if quick else (DISTANCES, FOGS)
+def draw_visibility(folder: Path, *, is_quick: bool) -> None:
+    distances, fogs = (DISTANCES[::4], FOGS[::5]) if is_quick else (DISTANCES, FOGS)
     plates = Plates()
     over_distance = {
         fog: (distances, [plates.visibility(fog, d) for d in distances]) for fog in FOGS_OF_DISTANCE
     }
     over_fog = fogs, [plates.visibility(fog, PAPER_DISTANCE) for fog in fogs]
     plates.close()
-    save_plot(visibility_over_distance(over_distance), folder / "figure-10-visibility-distance.png")
-    at_paper = visibility_over_fog(
-        over_fog, distance=PAPER_DISTANCE, marked=PAPER_FOG, at="the paper's"
+    save_plot(
+        draw_visibility_over_distance(over_distance), folder / "figure-10-visibility-distance.png"
     )
-    save_plot(at_paper, folder / "figure-11-visibility-fog.png")
+    figure = draw_visibility_over_fog(
+        over_fog, distance=PAPER_DISTANCE, marked_fog=PAPER_FOG, marker_label="the paper's"
+    )
+    save_plot(figure, folder / "figure-11-visibility-fog.png")
 
 
 # ------------------------------------------------------------------ 4, 5-7: the benchmark
 
 
-def benchmark_figures(folder: Path, *, quick: bool) -> None:
-    result = run_benchmark("esm", folder / "visibility.result", quick=quick)
-    control = run_benchmark("frozen", folder / "frozen.result", quick=quick)
-    wanted = [fog for fog in OVERLAY_FOGS if not quick or fog in QUICK_FOGS]
-    images, captions = tracked(result, folder / "visibility.result", wanted)
-    save_plot(image_grid(images, captions, columns=3), folder / "figure-04-tracking.png")
+def draw_benchmark(folder: Path, *, is_quick: bool) -> None:
+    result = run_benchmark("esm", folder / "visibility.result", is_quick=is_quick)
+    control = run_benchmark("frozen", folder / "frozen.result", is_quick=is_quick)
+    fogs = [fog for fog in OVERLAY_FOGS if not is_quick or fog in QUICK_FOGS]
+    images, captions = draw_overlays(result, folder / "visibility.result", fogs)
+    save_plot(draw_image_grid(images, captions, columns=3), folder / "figure-04-tracking.png")
     for number, column in ((5, "total"), (6, "centroid"), (7, "corners")):
         figure = value_plot(result, column, control=control)
         save_plot(figure, folder / f"figure-{number:02}-{column}.png")
 
 
-def run_benchmark(algorithm: str, out: Path, *, quick: bool) -> Result:
+def run_benchmark(algorithm: str, out: Path, *, is_quick: bool) -> Result:
     """Run a benchmark as ``uwsim bench`` does."""
-    levels = [word for fog in QUICK_FOGS for word in ("--level", f"fog={fog}")] if quick else []
+    levels = [word for fog in QUICK_FOGS for word in ("--level", f"fog={fog}")] if is_quick else []
     command = ["bench", "visibility", "--algorithm", algorithm, "--seed", str(SEED), *levels]
     status = uwsim([*command, "--out", str(out), "--overwrite"])
     if status != 0:
@@ -188,19 +192,19 @@ def run_benchmark(algorithm: str, out: Path, *, quick: bool) -> Result:
     return load(out)
 
 
-def tracked(
+def draw_overlays(
     result: Result, directory: Path, fogs: list[float]
 ) -> tuple[list[npt.NDArray[np.uint8]], list[str]]:
-    """The camera's last images at these fogs, with truth, estimate and status."""
-    drawn, captions = [], []
+    """Draw the last camera images at these fogs, with truth, estimate and status."""
+    images, captions = [], []
     for image in result.images:
         fog, status = result.numbers("fog")[image.row], result.values("status")[image.row]
-        if fog is not None and min(abs(fog - wanted) for wanted in fogs) < 1e-9:
+        if fog is not None and min(abs(fog - requested_fog) for requested_fog in fogs) < 1e-9:
             pixels = np.asarray(Image.open(directory / image.file).convert("RGB"))
             quads = {"truth": image.truth, "estimate": image.estimate}
-            drawn.append(overlay(pixels, **quads, scale=3))
+            images.append(overlay(pixels, **quads, scale=3))
             captions.append(f"fog {fog:g} m⁻¹" + ("" if status == "ok" else f", {status}"))
-    return drawn, captions
+    return images, captions
 
 
 if __name__ == "__main__":

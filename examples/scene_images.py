@@ -14,23 +14,26 @@ from PIL import Image
 from uwsim.assets.bundled import bundled_files
 from uwsim.cli import main as uwsim
 
-SIZE, FINER = (800, 450), 2  # of the images [px], supersampling factor
+SIZE, SUPERSAMPLING = (800, 450), 2  # of the images [px], factor of each axis
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description="Draw the images of the bundled scenes.")
     parser.add_argument("folder", type=Path)
     parser.add_argument("scene", nargs="*", default=list(bundled_files("scenes")))
-    asked = parser.parse_args()
-    asked.folder.mkdir(parents=True, exist_ok=True)
-    size = f"{FINER * SIZE[0]}x{FINER * SIZE[1]}"
-    for name in asked.scene:
+    options = parser.parse_args()
+    options.folder.mkdir(parents=True, exist_ok=True)
+    size = f"{SUPERSAMPLING * SIZE[0]}x{SUPERSAMPLING * SIZE[1]}"
+    for name in options.scene:
         with TemporaryDirectory() as scratch:
-            drawn = Path(scratch) / "scene.png"
-            if uwsim(["render", name, "--view", "viewer", "--size", size, "-o", str(drawn)]) != 0:
+            image_file = Path(scratch) / "scene.png"
+            if (
+                uwsim(["render", name, "--view", "viewer", "--size", size, "-o", str(image_file)])
+                != 0
+            ):
                 raise SystemExit(f"{name} was not drawn")
-            image = Image.open(drawn).convert("RGB").resize(SIZE, Image.Resampling.LANCZOS)
-        image.save(asked.folder / f"{name}.jpg", quality=88, optimize=True)
+            image = Image.open(image_file).convert("RGB").resize(SIZE, Image.Resampling.LANCZOS)
+        image.save(options.folder / f"{name}.jpg", quality=88, optimize=True)
 
 
 if __name__ == "__main__":

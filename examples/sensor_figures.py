@@ -2,8 +2,8 @@
 
     python examples/sensor_figures.py docs/images/sensors.png       40 s
 
-A Girona 500 with an arm swims over the rough bottom of the scene `survey-scene`: it stands still,
-goes ahead, turns, and stops; then its arm turns. Grey lines are the truth.
+A Girona 500 with an arm swims over the rough bottom of the scene `survey-scene`: it rests,
+moves ahead, turns, and stops; then its elbow turns. Grey lines are the truth.
 """
 
 from __future__ import annotations
@@ -33,9 +33,9 @@ from uwsim.topics.sensor_topic import BatteryToROSSpec, ForceSensorROSSpec, Moto
 
 NAME = "g500"
 PHASES = ((5.0, 0.0, 0.0), (20.0, 0.4, 0.0), (12.0, 0.2, 0.2), (5.0, 0.0, 0.0))
-"""How long [s], surge [m/s], yaw rate [rad/s]."""
+"""The phases of the survey: duration [s], surge [m/s], yaw rate [rad/s]."""
 ARM = (10.0, 0.15)
-"""How long the elbow then turns [s], how fast [rad/s]."""
+"""The last phase: duration [s] and rate [rad/s] of the elbow."""
 STEP = 0.1
 GYRO = DriftSpec(noise_density=2e-3)
 ACCELEROMETER = DriftSpec(noise_density=2e-3)
@@ -45,34 +45,34 @@ TOPICS = ("imu", "pressure", "dvl", "multibeam", "wrist", "battery", "currents")
 
 @dataclass(frozen=True)
 class Survey:
-    """What was measured and what is true."""
+    """The messages of the sensors and the true motion."""
 
     messages: dict[str, list]
-    """By topic, in time."""
+    """The messages of each topic, in order of time."""
     time: np.ndarray
-    """Of the truth, (n,) [s]."""
+    """The times of the true motion, (n,) [s]."""
     depth: np.ndarray
-    """Of the base, (n,) [m]."""
+    """The depth of the base, (n,) [m]."""
     twist: np.ndarray
-    """Of the base, its axes, (n, 6) [m/s, rad/s]."""
+    """The twist of the base in its axes, (n, 6) [m/s, rad/s]."""
 
-    def series(self, topic: str, value: Callable) -> tuple[np.ndarray, np.ndarray]:
-        """Times and a value of the messages of a topic."""
-        found = self.messages[topic]
-        times = np.array([seconds(each.header.stamp) for each in found])
-        return times, np.array([value(each) for each in found])
+    def series(self, topic: str, field: Callable) -> tuple[np.ndarray, np.ndarray]:
+        """Return the times of the messages of a topic, and a field of each message."""
+        messages = self.messages[topic]
+        times = np.array([seconds(message.header.stamp) for message in messages])
+        return times, np.array([field(message) for message in messages])
 
 
-def scene() -> SceneSpec:
-    """The survey, with a battery, motor currents and a wrist."""
-    found = read_scene(bundled_files("scenes")["survey-scene"])
-    vehicle = found.vehicles[0]
+def make_scene() -> SceneSpec:
+    """Return the survey scene with a battery, motor currents and a wrist sensor."""
+    scene = read_scene(bundled_files("scenes")["survey-scene"])
+    vehicle = scene.vehicles[0]
     devices = (
         BatterySpec(name="battery", capacity=1000.0, voltage=48.0, resistance=0.2, hotel_load=60.0),
         MotorCurrentsSpec(name="currents", voltage=48.0, std=0.02),
         ForceSensorSpec(name="wrist", target="part4_base", measures="joint"),
     )
-    parts = tuple(noisy(part) for part in vehicle.parts)
+    parts = tuple(add_noise(part) for part in vehicle.parts)
     topics = (
         BatteryToROSSpec(name="battery", topic=f"/{NAME}/battery", rate=10),
         MotorCurrentsToROSSpec(name="currents", topic=f"/{NAME}/currents", rate=20),
@@ -80,11 +80,11 @@ def scene() -> SceneSpec:
         ROSJointStateToArmSpec(topic=f"/{NAME}/arm", vehicle_name=NAME),
     )
     vehicle = replace(vehicle, parts=(*parts, *devices))
-    return replace(found, vehicles=(vehicle,), ros_interfaces=(*found.ros_interfaces, *topics))
+    return replace(scene, vehicles=(vehicle,), ros_interfaces=(*scene.ros_interfaces, *topics))
 
 
-def noisy(part: object) -> object:
-    """A DVL that loses beams, an IMU with the noise of a cheap one."""
+def add_noise(part: object) -> object:
+    """Add beam dropouts to a DVL, and the noise of a low-cost IMU to an IMU."""
     if isinstance(part, DvlSensorSpec):
         return replace(part, beam_std=0.01, dropout=0.05, range_std=0.05)
     if isinstance(part, ImuSpec):
@@ -92,15 +92,15 @@ def noisy(part: object) -> object:
     return part
 
 
-def survey() -> Survey:
-    """Swim, and read everything."""
+def run_survey() -> Survey:
+    """Run the survey, and record all topics."""
     times, depths, twists = [], [], []
-    with uwsim.load(scene(), seed=1, is_blind=True) as simulation:
+    with uwsim.load(make_scene(), seed=1, is_blind=True) as simulation:
         simulation.advance(0.0)
-        inboxes = {each: simulation.bus.inbox(f"/{NAME}/{each}", object) for each in TOPICS}
+        inboxes = {topic: simulation.bus.inbox(f"/{NAME}/{topic}", object) for topic in TOPICS}
         phases = [(*phase, 0.0) for phase in PHASES] + [(ARM[0], 0.0, 0.0, ARM[1])]
-        for lasts, surge, yaw, elbow in phases:
-            for _ in range(round(lasts / STEP)):
+        for duration, surge, yaw, elbow in phases:
+            for _ in range(round(duration / STEP)):
                 twist = Twist(linear=Vector3(x=surge), angular=Vector3(z=yaw))
                 stamp = header(simulation.time)
                 simulation.publish(f"/{NAME}/twist", TwistStamped(header=stamp, twist=twist))
@@ -115,7 +115,7 @@ def survey() -> Survey:
 
 
 def draw_depth(axes: Axes, survey: Survey) -> None:
-    times, depths = survey.series("pressure", lambda each: each.pressure)
+    times, depths = survey.series("pressure", lambda message: message.pressure)
     axes.plot(survey.time, survey.depth, **TRUTH)
     axes.plot(times, depths, ".", ms=1.5, color=PALETTE[0])
     axes.set_ylabel("pressureSensor: depth [m]")
@@ -124,8 +124,8 @@ def draw_depth(axes: Axes, survey: Survey) -> None:
 def draw_speed(axes: Axes, survey: Survey) -> None:
     for k, (label, value) in enumerate(
         (
-            ("ahead", lambda each: each.bs_longitudinal),
-            ("across", lambda each: each.bs_transverse),
+            ("ahead", lambda message: message.bs_longitudinal),
+            ("across", lambda message: message.bs_transverse),
         )
     ):
         axes.plot(survey.time, survey.twist[:, k], **TRUTH)
@@ -135,8 +135,10 @@ def draw_speed(axes: Axes, survey: Survey) -> None:
 
 
 def draw_altitude(axes: Axes, survey: Survey) -> None:
-    axes.plot(*survey.series("dvl", lambda each: each.bd_range), color=PALETTE[0], label="DVL")
-    middle = survey.series("multibeam", lambda each: each.ranges[len(each.ranges) // 2])
+    axes.plot(
+        *survey.series("dvl", lambda message: message.bd_range), color=PALETTE[0], label="DVL"
+    )
+    middle = survey.series("multibeam", lambda message: message.ranges[len(message.ranges) // 2])
     axes.plot(*middle, color=PALETTE[1], lw=0.8, label="middle beam of the multibeam")
     axes.set_ylabel("range to the bottom [m]")
     axes.set_ylim(top=5.3)
@@ -144,7 +146,7 @@ def draw_altitude(axes: Axes, survey: Survey) -> None:
 
 
 def draw_gyro(axes: Axes, survey: Survey) -> None:
-    axes.plot(*survey.series("imu", lambda each: each.angular_velocity.z), ".", ms=0.8)
+    axes.plot(*survey.series("imu", lambda message: message.angular_velocity.z), ".", ms=0.8)
     axes.plot(survey.time, survey.twist[:, 5], **TRUTH)
     axes.set_ylabel("imu: rate about z [rad/s]")
 
@@ -152,7 +154,7 @@ def draw_gyro(axes: Axes, survey: Survey) -> None:
 def draw_accelerometer(axes: Axes, survey: Survey) -> None:
     for k, axis in enumerate("xy"):
         series = survey.series(
-            "imu", lambda each, axis=axis: getattr(each.linear_acceleration, axis)
+            "imu", lambda message, axis=axis: getattr(message.linear_acceleration, axis)
         )
         axes.plot(*series, ".", ms=0.8, color=PALETTE[k], label=axis)
     axes.set_ylabel("imu: specific force [m/s$^2$]")
@@ -173,7 +175,9 @@ def draw_profile(axes: Axes, survey: Survey) -> None:
 
 def draw_wrist(axes: Axes, survey: Survey) -> None:
     for k, axis in enumerate("xyz"):
-        series = survey.series("wrist", lambda each, axis=axis: getattr(each.wrench.force, axis))
+        series = survey.series(
+            "wrist", lambda message, axis=axis: getattr(message.wrench.force, axis)
+        )
         axes.plot(*series, color=PALETTE[k], label=axis)
     axes.set_ylabel("ForceSensor, joint: force [N]")
     axes.legend()
@@ -183,8 +187,10 @@ def draw_currents(axes: Axes, survey: Survey) -> None:
     names = survey.messages["currents"][0].name
     for k, name in enumerate(("surge_port", "surge_starboard", "heave_bow", "Elbow")):
         if name in names:
-            at = names.index(name)
-            series = survey.series("currents", lambda each, at=at: each.effort[at])
+            joint_index = names.index(name)
+            series = survey.series(
+                "currents", lambda message, joint_index=joint_index: message.effort[joint_index]
+            )
             axes.plot(*series, color=PALETTE[k], lw=0.8, label=name)
     axes.set_ylabel("u:motorCurrents [A]")
     axes.set_ylim(top=3.2)
@@ -192,11 +198,11 @@ def draw_currents(axes: Axes, survey: Survey) -> None:
 
 
 def draw_battery(axes: Axes, survey: Survey) -> None:
-    axes.plot(*survey.series("battery", lambda each: each.voltage), color=PALETTE[0])
+    axes.plot(*survey.series("battery", lambda message: message.voltage), color=PALETTE[0])
     axes.set_ylabel("u:battery: voltage [V]", color=PALETTE[0])
     charge = axes.twinx()
     charge.grid(visible=False)
-    charge.plot(*survey.series("battery", lambda each: each.charge), color=PALETTE[1])
+    charge.plot(*survey.series("battery", lambda message: message.charge), color=PALETTE[1])
     charge.set_ylabel("charge [A h]", color=PALETTE[1])
 
 
@@ -210,14 +216,14 @@ PANELS = (
 def main() -> None:
     parser = argparse.ArgumentParser(description="Draw what sensors measure on a survey.")
     parser.add_argument("file", type=Path)
-    asked = parser.parse_args()
-    done = survey()
+    options = parser.parse_args()
+    result = run_survey()
     with styled_figure((9.0, 7.0)) as figure:
         for axes, draw in zip(figure.subplots(3, 3).flat, PANELS, strict=True):
-            draw(axes, done)
+            draw(axes, result)
             if not axes.get_xlabel():
                 axes.set_xlabel("time [s]")
-        save_plot(figure, asked.file)
+        save_plot(figure, options.file)
 
 
 if __name__ == "__main__":

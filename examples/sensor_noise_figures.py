@@ -2,9 +2,9 @@
 
     python examples/sensor_noise_figures.py docs/images/sensor-noise.png       1 min
 
-The IMU lies still for ten hours: the Allan deviations of its three axes, the curve that its
-specification says, the 95 % of such curves, and the parts that it is made of. Then a vehicle with a
-GPS swims a square of 40 m and dives on two of its sides.
+The IMU is at rest for ten hours. The figures show the Allan deviations of its three axes, the curve
+of its specification with a 95 % interval, and the terms of this curve. Then a vehicle with a GPS
+moves along a square of 40 m, and dives on two of the sides.
 """
 
 from __future__ import annotations
@@ -34,14 +34,14 @@ GYRO = DriftSpec(noise_density=8.7e-5, bias_instability=1.5e-5, random_walk=3e-7
 ACCELEROMETER = DriftSpec(noise_density=6e-4, bias_instability=2e-4, random_walk=6e-6)
 STD = 0.5
 SIDES = ((0.0, 0.0), (0.1, -0.1), (0.0, 0.0), (0.1, -0.1))
-"""Heave of the first and of the second half of each side of the square, downwards [m/s]."""
+"""The heave in the first and second half of each side of the square, downwards [m/s]."""
 SURGE, SIDE, TURN = 1.0, 40.0, 5.0
-"""Speed [m/s], length of a side [m], how long a corner takes [s]."""
+"""The speed [m/s], the length of a side [m], the duration of a turn [s]."""
 TRUTH = {"color": "0.6", "lw": 2.0}
 
 
-def still() -> tuple[np.ndarray, np.ndarray]:
-    """Rates and forces of an IMU on a vehicle that stands, (n, 3) each."""
+def sample_imu() -> tuple[np.ndarray, np.ndarray]:
+    """Return angular rates and specific forces of an IMU at rest, (n, 3) each."""
     imu = ImuSpec(name="imu", relative_to="base_link", gyro=GYRO, accelerometer=ACCELEROMETER)
     scene = read_scene(bundled_files("scenes")["survey-scene"])
     vehicle = replace(scene.vehicles[0], parts=(imu,), dynamics=None)
@@ -49,27 +49,33 @@ def still() -> tuple[np.ndarray, np.ndarray]:
     rates, forces = np.empty((2, N_SAMPLES, 3))
     with uwsim.load(scene, seed=1, is_blind=True) as simulation:
         sensor = simulation.world.sensors.sensor("imu", ("imu",))
-        for k in range(N_SAMPLES):
-            message = sensor.sample((k + 1) / RATE)
+        for sample_index in range(N_SAMPLES):
+            message = sensor.sample((sample_index + 1) / RATE)
             rate, force = message.angular_velocity, message.linear_acceleration
-            rates[k], forces[k] = (rate.x, rate.y, rate.z), (force.x, force.y, force.z)
+            rates[sample_index], forces[sample_index] = (
+                (rate.x, rate.y, rate.z),
+                (force.x, force.y, force.z),
+            )
     return rates, forces
 
 
-def allan(series: np.ndarray, m: int) -> np.ndarray:
-    """Overlapping Allan deviation of columns (n, k) over m samples, (k,) (IEEE Std 952, C.1)."""
+def allan_deviation(series: np.ndarray, m: int) -> np.ndarray:
+    """Compute the overlapping Allan deviation of columns (n, k) over m samples.
+
+    Source: IEEE Std 952, C.1.
+    """
     sums = np.cumsum(series - series.mean(axis=0), axis=0)
     means = (sums[m:] - sums[:-m]) / m
     return np.sqrt(0.5 * np.mean((means[m:] - means[:-m]) ** 2, axis=0))
 
 
-def parts(spec: DriftSpec, tau: np.ndarray) -> dict[str, np.ndarray]:
-    """Allan deviations of what the errors are made of, as the specification has them."""
+def noise_terms(spec: DriftSpec, tau: np.ndarray) -> dict[str, np.ndarray]:
+    """Compute the Allan deviation of each error term of the specification."""
     s, t = spec.bias_std, spec.correlation_time
-    kept = 3.0 - 4.0 * np.exp(-tau / t) + np.exp(-2.0 * tau / t)
+    decay = 3.0 - 4.0 * np.exp(-tau / t) + np.exp(-2.0 * tau / t)
     return {
         "noiseDensity": spec.noise_density / np.sqrt(tau),
-        "biasInstability": s * np.sqrt(2.0 * t / tau * (1.0 - t / (2.0 * tau) * kept)),
+        "biasInstability": s * np.sqrt(2.0 * t / tau * (1.0 - t / (2.0 * tau) * decay)),
         "randomWalk": spec.random_walk * np.sqrt(tau / 3.0),
     }
 
@@ -77,23 +83,25 @@ def parts(spec: DriftSpec, tau: np.ndarray) -> dict[str, np.ndarray]:
 def draw_allan(axes: Axes, series: np.ndarray, spec: DriftSpec, label: str) -> None:
     numbers = np.unique(np.geomspace(1, N_SAMPLES // 6, 40).astype(int))
     tau = numbers / RATE
-    made_of = parts(spec, tau)
-    expected = np.sqrt(sum(each**2 for each in made_of.values()))
-    off = 1.96 / np.sqrt(2.0 * (N_SAMPLES / numbers - 1.0))  # IEEE Std 952, C.2
-    axes.fill_between(tau, expected * (1 - off), expected * (1 + off), color="0.9", lw=0)
-    for (name, each), style in zip(made_of.items(), (":", "--", "-."), strict=True):
-        axes.plot(tau, each, style, color="0.6", lw=1.0, label=name)
-    axes.plot(tau, expected, color="0.4", lw=1.5, label="all of them")
-    found = np.array([allan(series, m) for m in numbers])
+    terms = noise_terms(spec, tau)
+    expected = np.sqrt(sum(term**2 for term in terms.values()))
+    half_width = 1.96 / np.sqrt(2.0 * (N_SAMPLES / numbers - 1.0))  # IEEE Std 952, C.2
+    axes.fill_between(
+        tau, expected * (1 - half_width), expected * (1 + half_width), color="0.9", lw=0
+    )
+    for (name, term), style in zip(terms.items(), (":", "--", "-."), strict=True):
+        axes.plot(tau, term, style, color="0.6", lw=1.0, label=name)
+    axes.plot(tau, expected, color="0.4", lw=1.5, label="sum of the terms")
+    deviations = np.array([allan_deviation(series, m) for m in numbers])
     for k, axis in enumerate("xyz"):
-        axes.plot(tau, found[:, k], ".", ms=4.0, color=PALETTE[k], label=axis)
+        axes.plot(tau, deviations[:, k], ".", ms=4.0, color=PALETTE[k], label=axis)
     axes.set(xscale="log", yscale="log", xlabel="averaging time [s]", ylabel=label)
     axes.set_ylim(0.3 * expected.min(), 2.0 * expected.max())
     axes.legend(fontsize=7, ncols=2)
 
 
-def square() -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
-    """Times (n,) and places (n, 3) of the antenna; those that the GPS says, (m,) and (m, 2)."""
+def swim_square() -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
+    """Return times (n,) and positions (n, 3) of the antenna, and of GPS fixes, (m,) and (m, 2)."""
     antenna = (0.0, 0.0, -0.4)
     gps = GpsSensorSpec(name="gps", relative_to="base_link", position=antenna, std=STD)
     scene = read_scene(bundled_files("scenes")["survey-scene"])
@@ -101,57 +109,57 @@ def square() -> tuple[np.ndarray, np.ndarray, np.ndarray, np.ndarray]:
     twist = ROSTwistToPATSpec(topic="/twist", vehicle_name=NAME)
     fixes = GPSSensorToROSSpec(name="gps", topic="/gps", rate=5)
     scene = replace(scene, vehicles=(vehicle,), ros_interfaces=(twist, fixes))
-    times, places = [], []
+    times, positions = [], []
     with uwsim.load(scene, seed=1, is_blind=True) as simulation:
         simulation.advance(0.0)
         inbox = simulation.bus.inbox("/gps", NavSatFix)
 
-        def swim(lasts: float, surge: float, heave: float, yaw: float) -> None:
-            for _ in range(round(lasts / 0.2)):
+        def swim(duration: float, surge: float, heave: float, yaw: float) -> None:
+            for _ in range(round(duration / 0.2)):
                 motion = Twist(linear=Vector3(x=surge, z=heave), angular=Vector3(z=yaw))
                 stamp = header(simulation.time)
                 simulation.publish("/twist", TwistStamped(header=stamp, twist=motion))
                 simulation.advance(0.2)
                 body = simulation.world.bodies.find(f"{NAME}/base_link").world_from_body
                 times.append(simulation.time)
-                places.append(body.transform(np.array([antenna]))[0])
+                positions.append(body.transform(np.array([antenna]))[0])
 
         for down, up in SIDES:
             swim(0.5 * SIDE / SURGE, SURGE, down, 0.0)
             swim(0.5 * SIDE / SURGE, SURGE, up, 0.0)
             swim(TURN, 0.0, 0.0, 0.5 * np.pi / TURN)
         origin = scene.earth_origin or Geodetic(latitude=0.0, longitude=0.0)
-        return np.array(times), np.array(places), *metres(inbox.take(), origin)
+        return np.array(times), np.array(positions), *local_positions(inbox.take(), origin)
 
 
-def metres(fixes: list[NavSatFix], origin: Geodetic) -> tuple[np.ndarray, np.ndarray]:
-    """Times (n,), and places east and north of the origin (n, 2); NaN without a fix."""
-    found = []
-    for each in fixes:
-        latitude, longitude = np.radians([each.latitude, each.longitude]).tolist()
-        place = Geodetic(latitude=latitude, longitude=longitude, altitude=each.altitude)
-        north, east, _ = origin.north_east_down(place)
-        found.append((east, north))
-    return np.array([seconds(each.header.stamp) for each in fixes]), np.array(found)
+def local_positions(fixes: list[NavSatFix], origin: Geodetic) -> tuple[np.ndarray, np.ndarray]:
+    """Return times (n,), and positions east and north of the origin (n, 2); NaN without a fix."""
+    positions = []
+    for fix in fixes:
+        latitude, longitude = np.radians([fix.latitude, fix.longitude]).tolist()
+        position = Geodetic(latitude=latitude, longitude=longitude, altitude=fix.altitude)
+        north, east, _ = origin.north_east_down(position)
+        positions.append((east, north))
+    return np.array([seconds(fix.header.stamp) for fix in fixes]), np.array(positions)
 
 
-def draw_track(axes: Axes, places: np.ndarray, found: np.ndarray) -> None:
-    axes.plot(places[:, 0], places[:, 1], **TRUTH)
-    axes.plot(*found.T, ".", ms=2.0, color=PALETTE[0])
+def draw_track(axes: Axes, positions: np.ndarray, fixes: np.ndarray) -> None:
+    axes.plot(positions[:, 0], positions[:, 1], **TRUTH)
+    axes.plot(*fixes.T, ".", ms=2.0, color=PALETTE[0])
     axes.set_aspect("equal")
     axes.set(xlabel="gpsSensor: east [m]", ylabel="north [m]")
 
 
 def draw_errors(
-    axes: Axes, times: np.ndarray, places: np.ndarray, at: np.ndarray, found: np.ndarray
+    axes: Axes, times: np.ndarray, positions: np.ndarray, fix_times: np.ndarray, fixes: np.ndarray
 ) -> None:
     for k, name in enumerate(("east", "north")):
-        error = found[:, k] - np.interp(at, times, places[:, k])
+        error = fixes[:, k] - np.interp(fix_times, times, positions[:, k])
         label = f"{name}, deviation {np.nanstd(error):.2f} m"
-        axes.plot(at, error, ".", ms=2.0, color=PALETTE[k], label=label)
+        axes.plot(fix_times, error, ".", ms=2.0, color=PALETTE[k], label=label)
     for sign in (-1, 1):
         axes.axhline(sign * 1.96 * STD, **{**TRUTH, "lw": 1.0})
-    axes.plot(times, places[:, 2], color="0.3", lw=1.0, label="height of the antenna")
+    axes.plot(times, positions[:, 2], color="0.3", lw=1.0, label="height of the antenna")
     axes.set(xlabel="time [s]", ylabel="gpsSensor: error [m]", ylim=(None, 2.6))
     axes.legend(fontsize=7)
 
@@ -159,17 +167,17 @@ def draw_errors(
 def main() -> None:
     parser = argparse.ArgumentParser(description="Draw the noise of an IMU and of a GPS.")
     parser.add_argument("file", type=Path)
-    asked = parser.parse_args()
-    rates, forces = still()
-    times, places, at, found = square()
+    options = parser.parse_args()
+    rates, forces = sample_imu()
+    times, positions, fix_times, fixes = swim_square()
     with styled_figure((9.0, 7.0)) as figure:
         axes = figure.subplots(2, 2)
         draw_allan(axes[0, 0], rates, GYRO, "imu, gyro: Allan deviation [rad/s]")
         label = "imu, accelerometer: Allan deviation [m/s$^2$]"
         draw_allan(axes[0, 1], forces, ACCELEROMETER, label)
-        draw_track(axes[1, 0], places, found)
-        draw_errors(axes[1, 1], times, places, at, found)
-        save_plot(figure, asked.file)
+        draw_track(axes[1, 0], positions, fixes)
+        draw_errors(axes[1, 1], times, positions, fix_times, fixes)
+        save_plot(figure, options.file)
 
 
 if __name__ == "__main__":

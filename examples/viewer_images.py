@@ -22,30 +22,30 @@ FILM = ("--size", "480x360", "--fps", "8", "--speed", "2.5", "--smooth", "--curv
 CHROMIUM = "/usr/bin/chromium"
 GRAPHICS = ("--use-gl=angle", "--use-angle=gl-egl", "--ignore-gpu-blocklist")
 WINDOW, MOMENT = (1200, 750), 60.0  # of the page [px], simulation time [s]
-THERE = "window.uwsim !== undefined"
+PAGE_IS_LOADED = "window.uwsim !== undefined"
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description="Draw the images of films and replays.")
     parser.add_argument("folder", type=Path)
     parser.add_argument("--only", choices=("film", "replay"))
-    asked = parser.parse_args()
-    for name, draw in {"film": film, "replay": replay}.items():
-        if asked.only in (None, name):
+    options = parser.parse_args()
+    for name, draw in {"film": draw_film, "replay": draw_replay}.items():
+        if options.only in (None, name):
             with TemporaryDirectory() as scratch:
-                draw(asked.folder / f"{name}.webp", Path(scratch))
+                draw(options.folder / f"{name}.webp", Path(scratch))
 
 
-def film(path: Path, scratch: Path) -> None:
-    """Run the levels of the film, and draw it."""
+def draw_film(path: Path, scratch: Path) -> None:
+    """Run the levels of the film, and draw the film."""
     levels = [word for fog in FOGS for word in ("--level", f"fog={fog}")]
     result = str(scratch / "visibility-moving.result")
     run("bench", "visibility-moving", "--seed", "1", *levels, "--out", result)
     run("replay", result, "-o", str(path), "--overwrite", *FILM)
 
 
-def replay(path: Path, scratch: Path) -> None:
-    """Run a level, open its replay, and keep what the window shows."""
+def draw_replay(path: Path, scratch: Path) -> None:
+    """Run a level, open its replay, and save a screenshot."""
     from playwright.sync_api import sync_playwright
 
     result, page = scratch / "currents.result", scratch / "replay.html"
@@ -57,7 +57,7 @@ def replay(path: Path, scratch: Path) -> None:
         width, height = WINDOW
         tab = browser.new_page(viewport={"width": width, "height": height}, bypass_csp=True)
         tab.goto(page.as_uri())
-        tab.wait_for_function(THERE)
+        tab.wait_for_function(PAGE_IS_LOADED)
         tab.evaluate("time => uwsim.seek(time)", MOMENT)
         tab.wait_for_timeout(1000)
         image = tab.screenshot()
@@ -66,7 +66,7 @@ def replay(path: Path, scratch: Path) -> None:
 
 
 def run(*words: str) -> None:
-    """Run a command of uwsim; ends where it fails."""
+    """Run a command of uwsim; exit if it fails."""
     if (status := uwsim([*words])) != 0:
         raise SystemExit(status)
 

@@ -27,15 +27,15 @@ import uwsim
 # %% [markdown]
 # ## First water
 #
-# A scene is a file or a bundled name. `image` renders what a camera sees, without noise.
+# A scene is a file or a bundled name. `image` renders the image of a camera, without noise.
 
 # %%
 simulation = uwsim.load("currents-scene", seed=1)
 display(Image.fromarray(simulation.image("bowtech1").colour))
 
 # %% [markdown]
-# Fog takes contrast with the distance: of the light, $e^{-(f d)^2}$ is left after $d$ metres in fog
-# of density $f$.
+# Fog reduces contrast with distance: after $d$ metres in fog of density $f$, the share
+# $e^{-(f d)^2}$ of the light remains.
 
 # %%
 simulation.set_fog(0.3)
@@ -45,23 +45,23 @@ simulation.set_fog(0.0)
 # %% [markdown]
 # ## A command
 #
-# The vehicle takes twists on a topic; its autopilot holds depth and heading.
+# The vehicle receives twists on a topic; its autopilot holds depth and heading.
 
 # %%
 print(simulation.topics)
 twist = uwsim.messages.TwistStamped()
 twist.twist.linear = uwsim.messages.Vector3(x=0.2, y=0.0, z=0.0)
-saved = simulation.save()
+state = simulation.save()
 for _ in range(20):
     simulation.publish("/dataNavigator", twist)
     simulation.advance(0.1)
 print(simulation.time, simulation.pose("girona500").position, simulation.velocity("girona500")[:3])
 
 # %% [markdown]
-# A saved state is exact: the vehicle is where it was.
+# A saved state is exact: the vehicle is at its earlier position.
 
 # %%
-simulation.restore(saved)
+simulation.restore(state)
 print(simulation.time, simulation.pose("girona500").position)
 simulation.close()
 
@@ -81,7 +81,7 @@ for fog, total, status in zip(
     print(f"fog {fog} 1/m: {total:.2f} px, {status}")
 
 # %% [markdown]
-# The run again, as a page that plays here: views, levels, and the curves of all measures.
+# The replay of the run: views, levels, and the curves of all measures.
 
 # %%
 uwsim.Replay(folder)

@@ -15,12 +15,12 @@ Pixels = npt.NDArray[np.uint8]
 Points = tuple[Sequence[float], Sequence[float]]
 
 
-def visibility(fog: float, distance: float) -> float:
-    """What the fog takes away of a contrast, ``1 - exp(-(fog * distance)^2)``: 0 clear, 1 gone."""
+def visibility_loss(fog: float, distance: float) -> float:
+    """Compute the loss of contrast by fog, ``1 - exp(-(fog * distance)^2)``: 0 clear, 1 lost."""
     return 1.0 - math.exp(-((fog * distance) ** 2))
 
 
-def image_grid(
+def draw_image_grid(
     images: Sequence[Pixels], captions: Sequence[str], *, columns: int, width: float = 6.6
 ) -> Figure:
     """Lay images of one size out in rows, with captions (a), (b), ... below.
@@ -32,9 +32,9 @@ def image_grid(
         width: Of the figure [inch].
     """
     rows = math.ceil(len(images) / columns)
-    height, across = images[0].shape[:2]
-    each = width / columns
-    with styled_figure((width, rows * (each * height / across + 0.28))) as figure:
+    height, image_width = images[0].shape[:2]
+    column_width = width / columns
+    with styled_figure((width, rows * (column_width * height / image_width + 0.28))) as figure:
         grid = figure.subplots(rows, columns, squeeze=False).ravel()
         for i, axes in enumerate(grid):
             axes.axis("off")
@@ -48,7 +48,7 @@ def image_grid(
     return figure
 
 
-def image_with_inset(
+def draw_image_with_inset(
     scene: Pixels, inset: Pixels, *, share: float = 0.36, width: float = 6.6
 ) -> Figure:
     """Show a scene with a camera's image in its lower right corner, framed in white.
@@ -59,72 +59,74 @@ def image_with_inset(
         share: Width of the inset as a share of the scene's.
         width: Of the figure [inch].
     """
-    height, across = scene.shape[:2]
-    high = share * across * inset.shape[0] / inset.shape[1] / height
-    with styled_figure((width, width * height / across)) as figure:
+    height, scene_width = scene.shape[:2]
+    inset_height = share * scene_width * inset.shape[0] / inset.shape[1] / height
+    with styled_figure((width, width * height / scene_width)) as figure:
         figure.set_layout_engine("none")
         axes = figure.add_axes((0, 0, 1, 1))
         axes.imshow(scene, interpolation="nearest", aspect="auto")
         axes.axis("off")
         margin = 0.02
-        small = figure.add_axes((1 - share - margin, margin * across / height, share, high))
-        small.imshow(inset, interpolation="nearest", aspect="auto")
-        small.set_xticks([])
-        small.set_yticks([])
-        small.grid(False)
-        for spine in small.spines.values():
+        inset_axes = figure.add_axes(
+            (1 - share - margin, margin * scene_width / height, share, inset_height)
+        )
+        inset_axes.imshow(inset, interpolation="nearest", aspect="auto")
+        inset_axes.set_xticks([])
+        inset_axes.set_yticks([])
+        inset_axes.grid(False)
+        for spine in inset_axes.spines.values():
             spine.set(visible=True, color="white", linewidth=2.0)
     return figure
 
 
-def visibility_over_distance(measured: Mapping[float, Points]) -> Figure:
+def draw_visibility_over_distance(curves: Mapping[float, Points]) -> Figure:
     """Draw measured visibility over distance for several fogs, on the law.
 
     Args:
-        measured: Fog density [1/m] -> (distances [m], visibilities 0..1).
+        curves: Fog density [1/m] -> (distances [m], visibilities 0..1).
     """
     with styled_figure() as figure:
         axes = figure.subplots()
-        longest = max(max(distances) for distances, _ in measured.values())
-        for i, (fog, (distances, values)) in enumerate(measured.items()):
+        max_distance = max(max(distances) for distances, _ in curves.values())
+        for i, (fog, (distances, values)) in enumerate(curves.items()):
             colour = PALETTE[i % len(PALETTE)]
-            line = np.linspace(0.0, longest, 300)
-            axes.plot(line, [visibility(fog, d) for d in line], color=colour, linewidth=1.0)
+            line = np.linspace(0.0, max_distance, 300)
+            axes.plot(line, [visibility_loss(fog, d) for d in line], color=colour, linewidth=1.0)
             marker = MARKERS[i % len(MARKERS)]
             axes.plot(distances, values, marker, color=colour, label=f"{fog:g} m⁻¹", zorder=3)
-        axes.set(xlabel="distance [m]", xlim=(0, longest * 1.02))
-        _finish(
+        axes.set(xlabel="distance [m]", xlim=(0, max_distance * 1.02))
+        _label_axes(
             figure,
-            [(fog, d, v) for fog, points in measured.items() for d, v in zip(*points, strict=True)],
+            [(fog, d, v) for fog, points in curves.items() for d, v in zip(*points, strict=True)],
         )
         figure.legend(loc="outside right upper", title="fog density", title_fontsize=7.5)
     return figure
 
 
-def visibility_over_fog(
-    measured: Points, *, distance: float, marked: float, at: str = ""
+def draw_visibility_over_fog(
+    samples: Points, *, distance: float, marked_fog: float, marker_label: str = ""
 ) -> Figure:
     """Draw measured visibility over fog density at one distance, on the law.
 
     Args:
-        measured: (fog densities [1/m], visibilities 0..1).
+        samples: (fog densities [1/m], visibilities 0..1).
         distance: Of the plates [m].
-        marked: Fog density that gets a vertical line [1/m].
-        at: What the line is, for its label.
+        marked_fog: Fog density that gets a vertical line [1/m].
+        marker_label: Text before the fog density in the label of the line.
     """
-    fogs, values = measured
+    fogs, values = samples
     with styled_figure() as figure:
         axes = figure.subplots()
         line = np.linspace(0.0, max(fogs), 300)
-        law = [visibility(fog, distance) for fog in line]
+        law = [visibility_loss(fog, distance) for fog in line]
         axes.plot(line, law, color=PALETTE[0], linewidth=1.0, label="1 − exp(−(f d)²)")
         points = f"measured, d = {distance:g} m"
         axes.plot(fogs, values, "o", color=PALETTE[0], label=points, zorder=3)
-        axes.axvline(marked, color=PALETTE[1], linewidth=1.0)
-        here = visibility(marked, distance)
+        axes.axvline(marked_fog, color=PALETTE[1], linewidth=1.0)
+        marked_visibility = visibility_loss(marked_fog, distance)
         axes.annotate(
-            f"{at} fog {marked:g} m⁻¹:\nvisibility {here:.3f}".strip(),
-            (marked, here),
+            f"{marker_label} fog {marked_fog:g} m⁻¹:\nvisibility {marked_visibility:.3f}".strip(),
+            (marked_fog, marked_visibility),
             xytext=(5, -40),
             textcoords="offset points",
             ha="left",
@@ -133,16 +135,16 @@ def visibility_over_fog(
         )
         axes.set(xlabel="fog density [1/m]", xlim=(0, max(fogs) * 1.02))
         axes.legend(loc="upper left")
-        _finish(figure, [(fog, distance, v) for fog, v in zip(fogs, values, strict=True)])
+        _label_axes(figure, [(fog, distance, v) for fog, v in zip(fogs, values, strict=True)])
     return figure
 
 
 def largest_deviation(points: Sequence[tuple[float, float, float]]) -> float:
     """Return the largest distance of (fog, distance, visibility) points from the law."""
-    return max(abs(v - visibility(fog, d)) for fog, d, v in points)
+    return max(abs(v - visibility_loss(fog, d)) for fog, d, v in points)
 
 
-def _finish(figure: Figure, points: Sequence[tuple[float, float, float]]) -> None:
+def _label_axes(figure: Figure, points: Sequence[tuple[float, float, float]]) -> None:
     figure.axes[0].set(ylabel="visibility 1 − exp(−(f d)²)", ylim=(-0.03, 1.03))
     text = (
         "points: measured from images of a black and a white plate; lines: the formula; "

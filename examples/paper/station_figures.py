@@ -1,4 +1,4 @@
-"""Figures of station keeping: errors over time and over the current, theory beside them."""
+"""Figures of station keeping: errors over time and over the current, with the theory."""
 
 from __future__ import annotations
 
@@ -12,38 +12,38 @@ from uwsim.analysis.plots import FAINT, MARKERS, PALETTE, styled_figure
 from uwsim.base.geometry import Array
 from uwsim.statistics import mean_interval
 
-from .station_keeping import Loop, Station, Swing, predicted
+from .station_keeping import Loop, StationError, SwingingCurrent, predict_error
 
 NOTE = "thin lines: theory (closed forms)"
 
 
 @dataclass(frozen=True, kw_only=True)
 class Line:
-    """One curve over time, and what theory says of it."""
+    """A measured curve over time, and its theory."""
 
     name: str
-    """What the legend calls it."""
+    """The name in the legend."""
     time: Array
-    """(n,) [s]."""
+    """The times, (n,) [s]."""
     values: Array
-    """(n,); NaN is a gap."""
+    """The values, (n,); NaN is a gap."""
     theory: Array | None = None
-    """(n,) at the same times; NaN where theory says nothing."""
+    """The theory at the same times, (n,); NaN where it does not apply."""
 
 
-def over_time(
+def draw_over_time(
     panels: Mapping[str, Sequence[Line]], *, label: str, note: str = "", theory: str = NOTE
 ) -> Figure:
-    """Draw panels side by side with one scale: title -> its lines.
+    """Draw panels side by side with one scale.
 
     Args:
-        panels: what stands in each.
-        label: of the upright axis, with unit.
-        note: small print.
-        theory: small print where any theory is drawn, instead of ``note``.
+        panels: title -> lines.
+        label: the label of the vertical axis, with its unit.
+        note: the note below the figure.
+        theory: the note where any theory is drawn, instead of ``note``.
     """
-    every = [line.theory for lines in panels.values() for line in lines]
-    if any(each is not None and np.isfinite(each).any() for each in every):
+    theories = [line.theory for lines in panels.values() for line in lines]
+    if any(values is not None and np.isfinite(values).any() for values in theories):
         note = theory
     with styled_figure((7.0, 2.7)) as figure:
         grid = figure.subplots(1, len(panels), sharey=True, squeeze=False)[0]
@@ -62,48 +62,48 @@ def over_time(
     return figure
 
 
-def over_current(
-    kept: Mapping[str, Mapping[float, Sequence[Station]]], loops: Mapping[str, Loop]
+def draw_over_current(
+    stations: Mapping[str, Mapping[float, Sequence[StationError]]], loops: Mapping[str, Loop]
 ) -> Figure:
     """Draw the mean error along and the amplitude across over the current.
 
     Args:
-        kept: controller -> current [m/s] -> how the station was kept, one a seed.
-        loops: controller -> its gains, for theory.
+        stations: controller -> current [m/s] -> station-keeping errors, one a seed.
+        loops: controller -> its gains, for the theory.
     """
     columns = {
         "mean error along the current [m]": "along_mean",
         "amplitude across, 30 s [m]": "across_amplitude",
     }
-    most = max(len(found) for levels in kept.values() for found in levels.values())
+    max_seeds = max(len(errors) for levels in stations.values() for errors in levels.values())
     with styled_figure((7.0, 2.9)) as figure:
         grid = figure.subplots(1, 2)
         for axes, (label, name) in zip(grid, columns.items(), strict=True):
-            for i, (controller, levels) in enumerate(kept.items()):
+            for i, (controller, levels) in enumerate(stations.items()):
                 colour = PALETTE[i % len(PALETTE)]
                 currents = sorted(levels)
-                limits = [
+                intervals = [
                     mean_interval([getattr(station, name) for station in levels[current]])
                     for current in currents
                 ]
-                means = np.array([found.mean for found in limits], dtype=np.float64)
+                means = np.array([interval.mean for interval in intervals], dtype=np.float64)
                 spread = np.array(
                     [
                         (0.0, 0.0)
-                        if found.mean is None or found.low is None or found.high is None
-                        else (found.mean - found.low, found.high - found.mean)
-                        for found in limits
+                        if interval.mean is None or interval.low is None or interval.high is None
+                        else (interval.mean - interval.low, interval.high - interval.mean)
+                        for interval in intervals
                     ]
                 )
                 axes.errorbar(
-                    currents, means, yerr=spread.T if most > 1 else None, capsize=2.5,
+                    currents, means, yerr=spread.T if max_seeds > 1 else None, capsize=2.5,
                     fmt=MARKERS[i % len(MARKERS)], color=colour, label=controller, zorder=3,
                 )  # fmt: skip
                 line = np.linspace(0.0, max(currents), 50)
-                theory = [predicted(loops[controller], Swing(speed=f)) for f in line]
+                theory = [predict_error(loops[controller], SwingingCurrent(speed=f)) for f in line]
                 axes.plot(line, [getattr(t, name) for t in theory], color=colour, linewidth=0.7)
             axes.set(xlabel="current [m/s]", ylabel=label)
         grid[0].legend(loc="upper left")
-        seeds = f"bars: 95 % intervals over {most} seeds; " if most > 1 else "one seed; "
+        seeds = f"bars: 95 % intervals over {max_seeds} seeds; " if max_seeds > 1 else "one seed; "
         figure.text(0.995, 0.004, seeds + NOTE, ha="right", va="bottom", fontsize=5.5, color=FAINT)
     return figure

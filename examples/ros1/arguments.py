@@ -1,15 +1,15 @@
-"""Arguments of the programs of this folder, without ROS."""
+"""Parse the arguments of the programs in this folder, without ROS."""
 
 import math
 import sys
 
 
-def numbers(words, usage, type=float):
-    """Return words as numbers; ends the program with its usage where one is no finite number."""
-    return [_number(word, usage, type) for word in words]
+def parse_numbers(words, usage, type=float):
+    """Return words as numbers; exit with the usage if one is not a finite number."""
+    return [_parse_number(word, usage, type) for word in words]
 
 
-def _number(word, usage, type):
+def _parse_number(word, usage, type):
     try:
         number = type(word)
         if math.isfinite(number):
@@ -17,4 +17,4 @@ def _number(word, usage, type):
     except ValueError:
         pass
     kind = "whole number" if type is int else "finite number"
-    sys.exit(f"{word!r} is no {kind}.\n\n{usage.strip()}")
+    sys.exit(f"{word!r} is not a {kind}.\n\n{usage.strip()}")

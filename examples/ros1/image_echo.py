@@ -10,7 +10,7 @@ import contextlib
 import sys
 
 import rospy
-from arguments import numbers
+from arguments import parse_numbers
 from sensor_msgs.msg import Image
 
 
@@ -18,7 +18,7 @@ def main() -> None:
     if len(rospy.myargv()) not in (2, 3):
         sys.exit(__doc__)
     topic, *rest = rospy.myargv()[1:]
-    (n,) = numbers(rest or ["10"], __doc__, int)
+    (n,) = parse_numbers(rest or ["10"], __doc__, int)
     rospy.init_node("image_echo", anonymous=True)
     for _ in range(n):
         image = rospy.wait_for_message(topic, Image)

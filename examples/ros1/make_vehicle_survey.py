@@ -1,9 +1,9 @@
 #!/usr/bin/python3
-"""Take a vehicle along the lanes of a survey, as the original's makeVehicleSurvey: 20 Hz.
+"""Move a vehicle along the lanes of a survey, as the original's makeVehicleSurvey: 20 Hz.
 
-    make_vehicle_survey.py TOPIC x y z yaw long step        m and rad
+    make_vehicle_survey.py TOPIC x y z yaw length step       m and rad
 
-At the angle a, 0.01 rad more each time, it is at (x + long sin a, y + step a, z); its yaw is
+At the angle a, 0.01 rad more each time, it is at (x + length sin a, y + step a, z); its yaw is
 (pi/2)(1 - cos a), with the sign of STEP. As in the original, YAW is not used.
 With `uwsim run cirs --ros1`:  make_vehicle_survey.py /dataNavigator 0 0 2 0 2 0.2
 """
@@ -14,15 +14,15 @@ import sys
 
 import poses
 import rospy
-from arguments import numbers
+from arguments import parse_numbers
 from nav_msgs.msg import Odometry
 
 
 def main() -> None:
-    topic, *given = rospy.myargv()[1:] or [""]
-    if not topic or len(given) != 6:
+    topic, *words = rospy.myargv()[1:] or [""]
+    if not topic or len(words) != 6:
         sys.exit(__doc__)
-    x, y, z, _, long, step = numbers(given, __doc__)
+    x, y, z, _, length, step = parse_numbers(words, __doc__)
     rospy.init_node("make_vehicle_survey", anonymous=True)
     publisher = rospy.Publisher(topic, Odometry, queue_size=1)
     rate, a = rospy.Rate(20), 0.0
@@ -30,8 +30,8 @@ def main() -> None:
         message = Odometry()
         message.header.stamp = rospy.Time.now()
         yaw = math.copysign(math.pi / 2, step) * (1 - math.cos(a))
-        place = (x + long * math.sin(a), y + step * a, z)
-        poses.write(message.pose.pose, place, poses.quaternion(0.0, 0.0, yaw))
+        position = (x + length * math.sin(a), y + step * a, z)
+        poses.write(message.pose.pose, position, poses.quaternion(0.0, 0.0, yaw))
         publisher.publish(message)
         a += 0.01
         rate.sleep()

@@ -3,8 +3,8 @@
     uwsim bench currents --ros1 --client station &
     python examples/ros1/run_algorithm.py uwsim.algorithms:P --name station
 
-The rows are those of ``--algorithm p``, to the last bit. It needs the uwsim's Python to be of the
-version of Debian's rospy (3.11); messages go through rospy as bytes.
+The rows are those of ``--algorithm p``, to the last bit. The Python of uwsim must have the
+version of Debian's rospy (3.11). Messages pass through rospy as bytes.
 """
 
 import argparse
@@ -13,7 +13,9 @@ import random
 import sys
 import time
 
-sys.path.append("/usr/lib/python3/dist-packages")  # rospy; our own packages come first
+sys.path.append(
+    "/usr/lib/python3/dist-packages"
+)  # rospy; packages of this environment take precedence
 
 import genpy
 import numpy as np
@@ -25,12 +27,12 @@ from uwsim.middleware.encodings import from_ros1, to_ros1
 from uwsim.middleware.stamps import to_ros_time, to_sim_time
 from uwsim.middleware.types import service_of, wire_service, wire_type
 
-PATIENCE = 10.0
-"""How long a service is waited for [s]."""
+SERVICE_TIMEOUT = 10.0
+"""The longest wait for a service [s]."""
 
 
-class Raw(genpy.Message):
-    """A message of any type as its bytes."""
+class SerializedMessage(genpy.Message):
+    """A message of any type, as its bytes."""
 
     __slots__ = ("data",)
 
@@ -42,20 +44,20 @@ class Raw(genpy.Message):
         buff.write(self.data)
 
     def deserialize(self, data):
-        """Keep the bytes."""
+        """Store the bytes."""
         self.data = bytes(data)
         return self
 
 
-def raw_type(kind: type) -> type:
-    """Return a class of rospy for a class of the bus."""
+def make_message_class(kind: type) -> type:
+    """Return a rospy class for a message class of the bus."""
     wire = wire_type(kind)
     names = {"_type": wire.ros1_name, "_md5sum": wire.md5, "_full_text": wire.ros1_definition}
-    return type("Raw" + kind.__name__, (Raw,), {"__slots__": (), **names})
+    return type("Raw" + kind.__name__, (SerializedMessage,), {"__slots__": (), **names})
 
 
-def raw_service(request: type) -> type:
-    """Return a service class of rospy for the class of a request."""
+def make_service_class(request: type) -> type:
+    """Return a rospy service class for the class of a request."""
     service = wire_service(service_of(request))
     return type(
         "RawService",
@@ -63,14 +65,14 @@ def raw_service(request: type) -> type:
         {
             "_type": service.ros1_name,
             "_md5sum": service.md5,
-            "_request_class": raw_type(service.service.request),
-            "_response_class": raw_type(service.service.response),
+            "_request_class": make_message_class(service.service.request),
+            "_response_class": make_message_class(service.service.response),
         },
     )
 
 
 class Node:
-    """A `uwsim.bus.Node` outside."""
+    """A `uwsim.bus.Node` over ROS 1."""
 
     def __init__(self, lockstep: LockStep, parameters: dict) -> None:
         self._lockstep, self.parameters = lockstep, parameters
@@ -78,56 +80,56 @@ class Node:
 
     @property
     def now(self) -> float:
-        """Simulation time [s]."""
+        """The simulation time [s]."""
         return self._lockstep.now
 
     def subscribe(self, topic: str, kind: type, callback) -> None:
-        """Have ``callback`` called with every message on ``topic``."""
+        """Call ``callback`` with every message on ``topic``."""
         self._lockstep.subscribe(
-            slashed(topic),
-            raw_type(kind),
+            absolute_name(topic),
+            make_message_class(kind),
             lambda message: callback(to_sim_time(from_ros1(kind, message.data))),
         )
 
     def publisher(self, topic: str, kind: type):
         """Return ``publish(message)`` for ``topic``."""
-        raw = raw_type(kind)
-        publish = self._lockstep.publisher(slashed(topic), raw)
-        return lambda message: publish(raw(bytes(to_ros1(to_ros_time(message)))))
+        message_class = make_message_class(kind)
+        publish = self._lockstep.publisher(absolute_name(topic), message_class)
+        return lambda message: publish(message_class(bytes(to_ros1(to_ros_time(message)))))
 
     def serve(self, name: str, kind: type, handler) -> None:
         """Offer a service; ``kind`` is the class of its request."""
-        service = raw_service(kind)
+        service = make_service_class(kind)
 
-        def answer(request: Raw) -> Raw:
+        def answer(request: SerializedMessage) -> SerializedMessage:
             response = handler(to_sim_time(from_ros1(kind, request.data)))
             return service._response_class(bytes(to_ros1(to_ros_time(response))))
 
-        self._lockstep.serve(slashed(name), service, answer)
+        self._lockstep.serve(absolute_name(name), service, answer)
 
     def call(self, name: str, request: object) -> object:
         """Call a service and return its response; UnknownName if it is not offered."""
-        service = raw_service(type(request))
+        service = make_service_class(type(request))
         try:
-            rospy.wait_for_service(slashed(name), timeout=PATIENCE)
-            proxy = rospy.ServiceProxy(slashed(name), service)
+            rospy.wait_for_service(absolute_name(name), timeout=SERVICE_TIMEOUT)
+            proxy = rospy.ServiceProxy(absolute_name(name), service)
             response = proxy(service._request_class(bytes(to_ros1(to_ros_time(request)))))
         except rospy.ROSException as error:
             raise UnknownName("service", name, []) from error
         return to_sim_time(from_ros1(service_of(type(request)).response, response.data))
 
     def create_timer(self, period_s: float, callback) -> None:
-        """Have ``callback`` called every ``period_s`` of simulation time, from now on."""
-        self._lockstep.every(period_s, callback)
+        """Call ``callback`` every ``period_s`` of simulation time, from now on."""
+        self._lockstep.create_timer(period_s, callback)
 
 
-def slashed(name: str) -> str:
+def absolute_name(name: str) -> str:
     """Return a name with a leading slash."""
     return "/" + name.strip().lstrip("/")
 
 
-def pair(text: str):
-    """``NAME=VALUE`` as a name, and a number or a text."""
+def parse_pair(text: str):
+    """Parse ``NAME=VALUE`` as a name, and a number or a text."""
     name, _, value = text.partition("=")
     try:
         return name, float(value)
@@ -136,23 +138,23 @@ def pair(text: str):
 
 
 def main() -> None:
-    parser = argparse.ArgumentParser(description="An algorithm of uwsim as a node of ROS 1.")
+    parser = argparse.ArgumentParser(description="Run an algorithm of uwsim as a node of ROS 1.")
     parser.add_argument("algorithm", help="module:Class, with a method start(node)")
-    parser.add_argument("--name", required=True, help="that of --client")
-    parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", type=pair)
-    parser.add_argument("--trials", type=int, default=1, help="how many trials there are [1]")
+    parser.add_argument("--name", required=True, help="the name of --client")
+    parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", type=parse_pair)
+    parser.add_argument("--trials", type=int, default=1, help="number of trials [1]")
     parser.add_argument("--delay", type=float, default=0.0, help="longest random delay [ms]")
-    given = parser.parse_args()
-    module, _, name = given.algorithm.partition(":")
+    options = parser.parse_args()
+    module, _, name = options.algorithm.partition(":")
     try:
         algorithm = getattr(importlib.import_module(module), name)
     except (ImportError, AttributeError, ValueError) as error:
-        parser.error(f"{given.algorithm}: expected module:Class: {error}")
+        parser.error(f"{options.algorithm}: expected module:Class: {error}")
     run(
-        given.name,
-        lambda lockstep: algorithm().start(Node(lockstep, dict(given.set))),
-        lambda: time.sleep(random.uniform(0.0, given.delay / 1000.0)),
-        given.trials,
+        options.name,
+        lambda lockstep: algorithm().start(Node(lockstep, dict(options.set))),
+        lambda: time.sleep(random.uniform(0.0, options.delay / 1000.0)),
+        options.trials,
     )
 
 

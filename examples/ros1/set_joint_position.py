@@ -10,17 +10,17 @@ import contextlib
 import sys
 
 import rospy
-from arguments import numbers
+from arguments import parse_numbers
 from sensor_msgs.msg import JointState
 
 NAMES = ["Slew", "Shoulder", "Elbow", "JawRotate", "JawOpening"]
 
 
 def main() -> None:
-    topic, *given = rospy.myargv()[1:] or [""]
-    if not topic or len(given) != len(NAMES):
+    topic, *words = rospy.myargv()[1:] or [""]
+    if not topic or len(words) != len(NAMES):
         sys.exit(__doc__)
-    commands = numbers(given, __doc__)
+    commands = parse_numbers(words, __doc__)
     rospy.init_node("set_joint_position", anonymous=True)
     publisher = rospy.Publisher(topic, JointState, queue_size=1)
     rate = rospy.Rate(30)

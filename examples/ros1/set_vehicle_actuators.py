@@ -11,15 +11,15 @@ import contextlib
 import sys
 
 import rospy
-from arguments import numbers
+from arguments import parse_numbers
 from std_msgs.msg import Float64MultiArray
 
 
 def main() -> None:
-    topic, *given = rospy.myargv()[1:] or [""]
-    if not topic or not given:
+    topic, *words = rospy.myargv()[1:] or [""]
+    if not topic or not words:
         sys.exit(__doc__)
-    commands = numbers(given, __doc__)
+    commands = parse_numbers(words, __doc__)
     rospy.init_node("set_vehicle_actuators", anonymous=True)
     publisher = rospy.Publisher(topic, Float64MultiArray, queue_size=1)
     message = Float64MultiArray(data=commands)

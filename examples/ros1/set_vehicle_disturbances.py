@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Rock a vehicle about where it is, as the original's setVehicleDisturbances: 25 Hz.
+"""Rock a vehicle about its start pose, as the original's setVehicleDisturbances: 25 Hz.
 
     set_vehicle_disturbances.py ODOMETRY_TOPIC CONTROL_TOPIC ax ay az ar ap ay    m and rad
 
@@ -15,7 +15,7 @@ import sys
 
 import poses
 import rospy
-from arguments import numbers
+from arguments import parse_numbers
 from nav_msgs.msg import Odometry
 
 
@@ -23,18 +23,18 @@ def main() -> None:
     words = rospy.myargv()[1:]
     if len(words) != 8:
         sys.exit(__doc__)
-    x, y, z, *angles = numbers(words[2:], __doc__)
+    x, y, z, *angles = parse_numbers(words[2:], __doc__)
     rospy.init_node("set_vehicle_disturbances", anonymous=True)
     publisher = rospy.Publisher(words[1], Odometry, queue_size=1)
     start, attitude = poses.read(rospy.wait_for_message(words[0], Odometry).pose.pose)
     rate, a = rospy.Rate(25), 0.0
     while not rospy.is_shutdown():
-        moved = (x * math.sin(2 * a), y * math.sin(a), z * math.sin(a))
-        turned = poses.quaternion(*(angle * math.sin(a) for angle in angles))
+        displacement = (x * math.sin(2 * a), y * math.sin(a), z * math.sin(a))
+        rotation = poses.quaternion(*(angle * math.sin(a) for angle in angles))
         message = Odometry()
         message.header.stamp = rospy.Time.now()
-        place = [p + d for p, d in zip(start, poses.rotated(attitude, moved), strict=True)]
-        poses.write(message.pose.pose, place, poses.times(attitude, turned))
+        position = [p + d for p, d in zip(start, poses.rotate(attitude, displacement), strict=True)]
+        poses.write(message.pose.pose, position, poses.multiply(attitude, rotation))
         publisher.publish(message)
         a += 0.01
         rate.sleep()

@@ -11,15 +11,15 @@ import sys
 
 import poses
 import rospy
-from arguments import numbers
+from arguments import parse_numbers
 from nav_msgs.msg import Odometry
 
 
 def main() -> None:
-    topic, *given = rospy.myargv()[1:] or [""]
-    if not topic or len(given) != 6:
+    topic, *words = rospy.myargv()[1:] or [""]
+    if not topic or len(words) != 6:
         sys.exit(__doc__)
-    x, y, z, *angles = numbers(given, __doc__)
+    x, y, z, *angles = parse_numbers(words, __doc__)
     rospy.init_node("set_vehicle_position", anonymous=True)
     publisher = rospy.Publisher(topic, Odometry, queue_size=1)
     rate = rospy.Rate(10)

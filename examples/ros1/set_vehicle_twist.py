@@ -10,15 +10,15 @@ import contextlib
 import sys
 
 import rospy
-from arguments import numbers
+from arguments import parse_numbers
 from geometry_msgs.msg import TwistStamped
 
 
 def main() -> None:
-    topic, *given = rospy.myargv()[1:] or [""]
-    if not topic or len(given) != 6:
+    topic, *words = rospy.myargv()[1:] or [""]
+    if not topic or len(words) != 6:
         sys.exit(__doc__)
-    twist = numbers(given, __doc__)
+    twist = parse_numbers(words, __doc__)
     rospy.init_node("set_vehicle_twist", anonymous=True)
     publisher = rospy.Publisher(topic, TwistStamped, queue_size=1)
     rate = rospy.Rate(25)

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Drive a vehicle at a velocity, as the original's setVehicleVelocity: 25 Hz until it is ended.
+"""Drive a vehicle at a velocity, as the original's setVehicleVelocity: 25 Hz until interrupted.
 
     set_vehicle_velocity.py TOPIC vx vy vz wr wp wy         m/s and rad/s, body frame
 
@@ -10,15 +10,15 @@ import contextlib
 import sys
 
 import rospy
-from arguments import numbers
+from arguments import parse_numbers
 from nav_msgs.msg import Odometry
 
 
 def main() -> None:
-    topic, *given = rospy.myargv()[1:] or [""]
-    if not topic or len(given) != 6:
+    topic, *words = rospy.myargv()[1:] or [""]
+    if not topic or len(words) != 6:
         sys.exit(__doc__)
-    velocity = numbers(given, __doc__)
+    velocity = parse_numbers(words, __doc__)
     rospy.init_node("set_vehicle_velocity", anonymous=True)
     publisher = rospy.Publisher(topic, Odometry, queue_size=1)
     rate = rospy.Rate(25)

@@ -12,14 +12,14 @@ from pathlib import Path
 
 import numpy as np
 
-DARKER = 40
-"""Grey level below which a pixel is of the box."""
+MAX_GREY_LEVEL = 40
+"""The grey level below which a pixel belongs to the box."""
 
 
-def corners_of(data, width: int, height: int) -> list[float]:
-    """Return x, y of NW, NE, SE, SW [px], or nothing if no pixel is dark."""
+def find_corners(data, width: int, height: int) -> list[float]:
+    """Return x, y of NW, NE, SE, SW [px], or an empty list if no pixel is dark."""
     pixels = np.frombuffer(bytes(data), dtype=np.uint8).reshape(height, width, -1)
-    rows, columns = np.nonzero(pixels.max(axis=2) < DARKER)
+    rows, columns = np.nonzero(pixels.max(axis=2) < MAX_GREY_LEVEL)
     if not len(rows):
         return []
     west, east = float(columns.min()), float(columns.max())
@@ -27,36 +27,36 @@ def corners_of(data, width: int, height: int) -> list[float]:
     return [west, north, east, north, east, south, west, south]
 
 
-def centre_of(corners: list[float]) -> list[float]:
+def compute_centre(corners: list[float]) -> list[float]:
     """Return x, y of the middle of the rectangle [px]."""
     west, north, east, _, _, south, _, _ = corners
     return [(west + east) / 2, (north + south) / 2]
 
 
 class DarkBox:
-    """The algorithm in the process of the simulation."""
+    """The tracker as an algorithm in the process of the simulation."""
 
     def start(self, node) -> None:
-        """Subscribe to the images; the benchmark starts with the first."""
+        """Subscribe to the images; the first image starts the benchmark."""
         from uwsim.messages import Empty, Float32MultiArray, Image, floats
 
         self.has_begun, self.node = False, node
         publish = node.publisher("/cornersTopic", Float32MultiArray)
         publish_centre = node.publisher("/centroidTopic", Float32MultiArray)
 
-        def look(image: Image) -> None:
-            if corners := corners_of(image.data, image.width, image.height):
+        def track(image: Image) -> None:
+            if corners := find_corners(image.data, image.width, image.height):
                 publish(floats(corners))
-                publish_centre(floats(centre_of(corners)))
+                publish_centre(floats(compute_centre(corners)))
             if not self.has_begun:
                 self.has_begun = True
                 node.call("startBench", Empty())
 
-        node.subscribe("/uwsim/camera1", Image, look)
+        node.subscribe("/uwsim/camera1", Image, track)
 
 
 class DarkBoxNode:
-    """The same as a node of ROS 2."""
+    """The tracker as a node of ROS 2."""
 
     def __init__(self, lockstep) -> None:
         from sensor_msgs.msg import Image
@@ -65,13 +65,13 @@ class DarkBoxNode:
         self.has_begun, self.lockstep, self.message = False, lockstep, Float32MultiArray
         self.publish = lockstep.publisher("/cornersTopic", Float32MultiArray)
         self.publish_centre = lockstep.publisher("/centroidTopic", Float32MultiArray)
-        lockstep.subscribe("/uwsim/camera1", Image, self.look)
+        lockstep.subscribe("/uwsim/camera1", Image, self.track)
 
-    def look(self, image) -> None:
-        """Publish where the box is; the benchmark starts with the first image."""
-        if corners := corners_of(image.data, image.width, image.height):
+    def track(self, image) -> None:
+        """Publish corners and centre of the box; the first image starts the benchmark."""
+        if corners := find_corners(image.data, image.width, image.height):
             self.publish(self.message(data=corners))
-            self.publish_centre(self.message(data=centre_of(corners)))
+            self.publish_centre(self.message(data=compute_centre(corners)))
         if not self.has_begun:
             self.has_begun = True
             self.lockstep.call("startBench")

@@ -4,9 +4,9 @@
     python examples/ros2/run_algorithm.py uwsim.algorithms:Esm --name tracker
 
 The rows are those of ``--algorithm esm``, to the last bit. It needs rclpy and uwsim in one
-environment, and the ROS packages of the messages. Services that the simulation calls (autoInit)
-come by the topics of lock-step, so it does not matter which DDS the node uses; the algorithm
-itself can call services of std_srvs/Empty (startBench), with its next answer.
+environment, and the ROS packages of the messages. Requests of services that the
+simulation calls (autoInit) arrive on the topics of lock-step, so the node may use any DDS. The
+algorithm can call services of std_srvs/Empty (startBench) with its next answer.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from uwsim.middleware.types import service_of, wire_type
 
 
 class Node:
-    """A `uwsim.bus.Node` outside: messages are CDR on their way."""
+    """A `uwsim.bus.Node` over ROS 2, with messages in CDR."""
 
     def __init__(self, lockstep: LockStep, parameters: Mapping[str, float | str]) -> None:
         self._lockstep, self.parameters = lockstep, parameters
@@ -38,20 +38,20 @@ class Node:
 
     @property
     def now(self) -> float:
-        """Simulation time [s]."""
+        """The simulation time [s]."""
         return self._lockstep.now
 
     def subscribe(self, topic: str, type: type, callback: Callable[[Any], None]) -> None:
-        """Have ``callback`` called with every message on ``topic``."""
+        """Call ``callback`` with every message on ``topic``."""
 
         def receive(data: bytes) -> None:
             callback(to_sim_time(from_cdr(type, data)))
 
-        self._lockstep.subscribe(_slashed(topic), _class_of_ros(type), receive, raw=True)
+        self._lockstep.subscribe(_absolute_name(topic), _ros_class(type), receive, is_raw=True)
 
     def publisher(self, topic: str, type: type) -> Callable[[Any], None]:
         """Return ``publish(message)`` for ``topic``."""
-        publish = self._lockstep.publisher(_slashed(topic), _class_of_ros(type))
+        publish = self._lockstep.publisher(_absolute_name(topic), _ros_class(type))
         return lambda message: publish(bytes(to_cdr(to_ros_time(message))))
 
     def serve(self, name: str, type: type, handler: Callable[[Any], Any]) -> None:
@@ -59,37 +59,37 @@ class Node:
         service = service_of(type)
         assert service is not None
         self._lockstep.serve(
-            _slashed(name),
+            _absolute_name(name),
             service.name,
             lambda values: to_json(to_ros_time(handler(to_sim_time(from_json(type, values))))),
         )
 
     def call(self, name: str, request: Any) -> Any:
-        """Have a service of std_srvs/Empty called with the next answer."""
+        """Call a service of std_srvs/Empty with the next answer."""
         if not isinstance(request, Empty):
-            raise BadSetting(f"{name}: in lock-step over ROS 2 only services of Empty are called.")
-        self._lockstep.call(_slashed(name))
+            raise BadSetting(f"{name}: lock-step over ROS 2 calls services of std_srvs/Empty only.")
+        self._lockstep.call(_absolute_name(name))
         return EmptyResponse()
 
     def create_timer(self, period_s: float, callback: Callable[[], None]) -> None:
-        """Have ``callback`` called every ``period_s`` of simulation time, from now on."""
-        self._lockstep.every(period_s, callback)
+        """Call ``callback`` every ``period_s`` of simulation time, from now on."""
+        self._lockstep.create_timer(period_s, callback)
 
 
-def _slashed(name: str) -> str:
+def _absolute_name(name: str) -> str:
     return f"/{name.strip().lstrip('/')}"
 
 
-def _class_of_ros(cls: type) -> type:
-    """Return the class of rclpy for a message of uwsim."""
+def _ros_class(cls: type) -> type:
+    """Return the ROS 2 class of a message class of uwsim."""
     wire = wire_type(cls)
     assert wire is not None
     package, _, name = wire.ros2_name.split("/")
-    found: type = getattr(importlib.import_module(f"{package}.msg"), name)
-    return found
+    ros_class: type = getattr(importlib.import_module(f"{package}.msg"), name)
+    return ros_class
 
 
-def _pair(text: str) -> tuple[str, float | str]:
+def _parse_pair(text: str) -> tuple[str, float | str]:
     name, _, value = text.partition("=")
     try:
         return name, float(value)
@@ -98,28 +98,30 @@ def _pair(text: str) -> tuple[str, float | str]:
 
 
 def main() -> None:
-    """Read the command line and take part in trial after trial, until none begins any more."""
-    parser = argparse.ArgumentParser(description="An algorithm of uwsim as a node of ROS 2.")
+    """Parse the command line, and take part in all trials."""
+    parser = argparse.ArgumentParser(description="Run an algorithm of uwsim as a node of ROS 2.")
     parser.add_argument("algorithm", help="module:Class, with a method start(node)")
-    parser.add_argument("--name", required=True, help="that of --client")
-    parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", type=_pair)
-    parser.add_argument("--patience", type=float, default=60.0, help="wait for a trial [s]")
+    parser.add_argument("--name", required=True, help="the name of --client")
+    parser.add_argument(
+        "--set", action="append", default=[], metavar="NAME=VALUE", type=_parse_pair
+    )
+    parser.add_argument("--patience", type=float, default=60.0, help="longest wait for a trial [s]")
     parser.add_argument("--delay", type=float, default=0.0, help="longest random delay [ms]")
-    given = parser.parse_args()
-    module, _, name = given.algorithm.partition(":")
+    options = parser.parse_args()
+    module, _, name = options.algorithm.partition(":")
     try:
         algorithm = getattr(importlib.import_module(module), name)
     except (ImportError, AttributeError, ValueError) as error:
-        parser.error(f"{given.algorithm}: expected module:Class: {error}")
+        parser.error(f"{options.algorithm}: expected module:Class: {error}")
 
-    def dawdle() -> None:
-        time.sleep(random.uniform(0.0, given.delay / 1000.0))
+    def sleep_at_random() -> None:
+        time.sleep(random.uniform(0.0, options.delay / 1000.0))
 
     def start(lockstep: LockStep) -> None:
-        lockstep.before_answer = dawdle
-        algorithm().start(Node(lockstep, dict(given.set)))
+        lockstep.before_answer = sleep_at_random
+        algorithm().start(Node(lockstep, dict(options.set)))
 
-    run(given.name, start, patience=given.patience)
+    run(options.name, start, timeout=options.patience)
 
 
 if __name__ == "__main__":

@@ -1,8 +1,8 @@
 """Lock-step over WebSocket for any Python program; needs `websockets` alone, not uwsim.
 
-A program subscribes, advertises and offers services, then calls `run`. Messages are dicts, as JSON
-has them. Its callbacks run while simulation time stands; when all that is due has been done, the
-simulation goes on.
+A program subscribes, advertises and offers services, then calls `run`. Messages are dicts, as in
+JSON. Its callbacks run while simulation time waits. The simulation continues when all due callbacks
+are done.
 """
 
 from __future__ import annotations
@@ -33,25 +33,25 @@ class Client:
 
     Args:
         socket: an open connection.
-        name: that of ``--client``.
-        before_ack: called before each answer; a test lets it sleep.
+        name: the name of ``--client``.
+        before_ack: called before each acknowledgement, for example to delay it.
     """
 
     def __init__(
         self, socket: ClientConnection, name: str, before_ack: Callable[[], None] = lambda: None
     ) -> None:
         self._socket, self._name, self._before_ack = socket, name, before_ack
-        self._id = secrets.token_hex(4)  # of two of one name one is heard
+        self._id = secrets.token_hex(4)  # distinguishes two clients of one name
         self._callbacks: dict[str, list[Callable[[Any], None]]] = {}
         self._handlers: dict[str, Callable[[Any], Any]] = {}
-        self._waiting: list[tuple[str, Any]] = []  # messages that came before their tick
+        self._queue: list[tuple[str, Any]] = []  # messages before their tick
         self._timers: list[tuple[list[float], Callable[[], None]]] = []
         self._n_calls = 0
         self.now = 0.0
-        """Simulation time [s]."""
+        """The simulation time [s]."""
 
     def subscribe(self, topic: str, callback: Callable[[Any], None]) -> None:
-        """Have ``callback`` called with every message of a topic."""
+        """Call ``callback`` with every message of a topic."""
         if topic not in self._callbacks:
             self._callbacks[topic] = []
             self._send(op="subscribe", topic=topic)
@@ -80,8 +80,8 @@ class Client:
                 return frame["values"]
             self._handle(frame)
 
-    def every(self, period: float, callback: Callable[[], None]) -> None:
-        """Have ``callback`` called every ``period`` [s] of simulation time."""
+    def create_timer(self, period: float, callback: Callable[[], None]) -> None:
+        """Call ``callback`` every ``period`` [s] of simulation time."""
         self._timers.append(([self.now, period, 0], callback))
 
     def run(self) -> None:
@@ -89,9 +89,9 @@ class Client:
         self._send(op="advertise", topic=JOIN, type=TEXT)
         self._send(op="advertise", topic=ACK, type=TEXT)
         self._send(op="subscribe", topic=TICK)
-        secret = os.environ.get("UWSIM_CLIENT_SECRET")  # if the simulation was given one
-        has = {} if secret is None else {"secret": secret}
-        self._say(JOIN, topics=list(self._callbacks), next=self._next(), **has)
+        secret = os.environ.get("UWSIM_CLIENT_SECRET")  # if the simulation has one
+        secret_fields = {} if secret is None else {"secret": secret}
+        self._publish_json(JOIN, topics=list(self._callbacks), next=self._next(), **secret_fields)
         with suppress(ConnectionClosedOK):
             while True:
                 self._handle(self._receive())
@@ -104,19 +104,19 @@ class Client:
         elif frame["op"] == "publish" and frame["topic"] == TICK:
             self._tick(json.loads(frame["msg"]["data"]))
         elif frame["op"] == "publish":
-            self._waiting.append((frame["topic"], frame["msg"]))
+            self._queue.append((frame["topic"], frame["msg"]))
         elif frame["op"] == "status":
             raise SystemExit(f"{self._name}: {frame['msg']}")
 
     def _tick(self, tick: dict[str, Any]) -> None:
-        """Do what is due: messages in their order, then timers; then let time go on."""
+        """Run the callbacks of messages in their order, then the due timers; then acknowledge."""
         if "error" in tick:
-            if tick.get("id") == self._id:  # else another of this name is meant
+            if tick.get("id") == self._id:  # otherwise the error is of another client of this name
                 raise SystemExit(f"{self._name}: {tick['error']}")
             return
         self.now = tick["time"]
-        while self._waiting:
-            topic, message = self._waiting.pop(0)
+        while self._queue:
+            topic, message = self._queue.pop(0)
             for callback in self._callbacks[topic]:
                 callback(message)
         for timer, callback in self._timers:
@@ -124,13 +124,13 @@ class Client:
                 timer[2] += 1
                 callback()
         self._before_ack()
-        self._say(ACK, tick=tick["tick"], next=self._next())
+        self._publish_json(ACK, tick=tick["tick"], next=self._next())
 
     def _next(self) -> float | None:
         times = [_due(timer) for timer, _ in self._timers]
         return max(0.0, min(times)) if times else None
 
-    def _say(self, topic: str, **content: Any) -> None:
+    def _publish_json(self, topic: str, **content: Any) -> None:
         text = json.dumps({"client": self._name, "id": self._id, **content})
         self._send(op="publish", topic=topic, msg={"data": text})
 
@@ -147,16 +147,16 @@ def _due(timer: list[float]) -> float:
 
 
 @contextmanager
-def connected(uri: str, limit: float = 60.0) -> Iterator[ClientConnection]:
-    """Open a connection; tries again until the simulation listens, at most ``limit`` seconds.
+def open_connection(uri: str, timeout: float = 60.0) -> Iterator[ClientConnection]:
+    """Open a connection; retry until the simulation listens, at most ``timeout`` seconds.
 
-    The block ends when the simulation closes it. A program whose connection is lost otherwise, or
-    never comes, ends with one line and exit status 1.
+    The block ends when the simulation closes the connection. If the connection fails or is lost,
+    the program exits with one line and status 1.
     """
-    deadline = time.monotonic() + limit
+    deadline = time.monotonic() + timeout
     while True:
         try:
-            opened = connect(uri, max_size=2**26, open_timeout=limit)
+            connection = connect(uri, max_size=2**26, open_timeout=timeout)
             break
         except OSError as error:
             if time.monotonic() > deadline:
@@ -164,7 +164,7 @@ def connected(uri: str, limit: float = 60.0) -> Iterator[ClientConnection]:
             time.sleep(0.05)
         except (InvalidHandshake, InvalidURI) as error:
             raise SystemExit(f"{uri}: {error}") from None
-    with opened as socket:
+    with connection as socket:
         try:
             yield socket
         except ConnectionClosedOK:

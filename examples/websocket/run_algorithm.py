@@ -1,10 +1,10 @@
-"""Run an algorithm written for uwsim as a program outside: the same class, over WebSocket.
+"""Run an algorithm written for uwsim in its own process: the same class, over WebSocket.
 
     uwsim bench visibility --client tracker --web 9090        # in another terminal
     python examples/websocket/run_algorithm.py uwsim.algorithms:Esm --name tracker
 
-The rows are those of ``--algorithm esm``, to the last bit. A trial that begins anew closes the
-connection; the program makes a new algorithm and joins again.
+The rows are those of ``--algorithm esm``, to the last bit. Each trial has its own connection
+and a new object of the class.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
-from lockstep import Client, connected
+from lockstep import Client, open_connection
 
 from uwsim.errors import UnknownName
 from uwsim.middleware.json_encoding import from_json, to_json
@@ -26,7 +26,7 @@ from uwsim.middleware.types import service_of, wire_type
 
 
 class Node:
-    """A `uwsim.bus.Node` outside: messages are JSON on their way."""
+    """A `uwsim.bus.Node` over WebSocket, with messages as JSON."""
 
     def __init__(self, client: Client, parameters: Mapping[str, float | str]) -> None:
         self._client, self.parameters = client, parameters
@@ -34,18 +34,18 @@ class Node:
 
     @property
     def now(self) -> float:
-        """Simulation time [s]."""
+        """The simulation time [s]."""
         return self._client.now
 
     def subscribe(self, topic: str, type: type, callback: Callable[[Any], None]) -> None:
-        """Have ``callback`` called with every message on ``topic``."""
+        """Call ``callback`` with every message on ``topic``."""
         self._client.subscribe(
-            _slashed(topic), lambda values: callback(to_sim_time(from_json(type, values)))
+            _absolute_name(topic), lambda values: callback(to_sim_time(from_json(type, values)))
         )
 
     def publisher(self, topic: str, type: type) -> Callable[[Any], None]:
         """Return ``publish(message)`` for ``topic``."""
-        publish = self._client.publisher(_slashed(topic), _wire_name(type))
+        publish = self._client.publisher(_absolute_name(topic), _ros2_name(type))
         return lambda message: publish(to_json(to_ros_time(message)))
 
     def serve(self, name: str, type: type, handler: Callable[[Any], Any]) -> None:
@@ -53,7 +53,7 @@ class Node:
         service = service_of(type)
         assert service is not None
         self._client.serve(
-            _slashed(name),
+            _absolute_name(name),
             service.name,
             lambda values: to_json(to_ros_time(handler(to_sim_time(from_json(type, values))))),
         )
@@ -63,27 +63,27 @@ class Node:
         service = service_of(type(request))
         assert service is not None
         try:
-            values = self._client.call(_slashed(name), to_json(to_ros_time(request)))
+            values = self._client.call(_absolute_name(name), to_json(to_ros_time(request)))
         except LookupError as error:
             raise UnknownName("service", name, []) from error
         return to_sim_time(from_json(service.response, values))
 
     def create_timer(self, period_s: float, callback: Callable[[], None]) -> None:
-        """Have ``callback`` called every ``period_s`` of simulation time, from now on."""
-        self._client.every(period_s, callback)
+        """Call ``callback`` every ``period_s`` of simulation time, from now on."""
+        self._client.create_timer(period_s, callback)
 
 
-def _slashed(name: str) -> str:
+def _absolute_name(name: str) -> str:
     return f"/{name.strip().lstrip('/')}"
 
 
-def _wire_name(cls: type) -> str:
+def _ros2_name(cls: type) -> str:
     wire = wire_type(cls)
     assert wire is not None
     return wire.ros2_name
 
 
-def _pair(text: str) -> tuple[str, float | str]:
+def _parse_pair(text: str) -> tuple[str, float | str]:
     name, _, value = text.partition("=")
     try:
         return name, float(value)
@@ -92,28 +92,30 @@ def _pair(text: str) -> tuple[str, float | str]:
 
 
 def main() -> None:
-    """Read the command line and take part until the last trial is over."""
-    parser = argparse.ArgumentParser(description="An algorithm of uwsim as a program outside.")
+    """Parse the command line, and take part until the last trial is over."""
+    parser = argparse.ArgumentParser(description="Run an algorithm of uwsim in its own process.")
     parser.add_argument("algorithm", help="module:Class, with a method start(node)")
-    parser.add_argument("--name", required=True, help="that of --client")
+    parser.add_argument("--name", required=True, help="the name of --client")
     parser.add_argument("--uri", default="ws://127.0.0.1:9090")
-    parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", type=_pair)
-    parser.add_argument("--trials", type=int, default=1, help="how many trials there are [1]")
+    parser.add_argument(
+        "--set", action="append", default=[], metavar="NAME=VALUE", type=_parse_pair
+    )
+    parser.add_argument("--trials", type=int, default=1, help="number of trials [1]")
     parser.add_argument("--delay", type=float, default=0.0, help="longest random delay [ms]")
-    given = parser.parse_args()
-    module, _, name = given.algorithm.partition(":")
+    options = parser.parse_args()
+    module, _, name = options.algorithm.partition(":")
     try:
         algorithm = getattr(importlib.import_module(module), name)
     except (ImportError, AttributeError, ValueError) as error:
-        parser.error(f"{given.algorithm}: expected module:Class: {error}")
+        parser.error(f"{options.algorithm}: expected module:Class: {error}")
 
-    def dawdle() -> None:
-        time.sleep(random.uniform(0.0, given.delay / 1000.0))
+    def sleep_at_random() -> None:
+        time.sleep(random.uniform(0.0, options.delay / 1000.0))
 
-    for _ in range(given.trials):
-        with connected(given.uri) as socket:
-            client = Client(socket, given.name, dawdle)
-            algorithm().start(Node(client, dict(given.set)))
+    for _ in range(options.trials):
+        with open_connection(options.uri) as socket:
+            client = Client(socket, options.name, sleep_at_random)
+            algorithm().start(Node(client, dict(options.set)))
             client.run()
 
 

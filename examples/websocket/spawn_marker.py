@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Put a mesh into the scene, or take it away, as the original's spawnMarker; needs `websockets`.
+"""Add a mesh to the scene, or delete it, as the original's spawnMarker; needs `websockets`.
 
     spawn_marker.py add|del NS ID MESH x y z roll pitch yaw [--uri ws://127.0.0.1:9090]   m and rad
 
-MESH is a URI, such as package://uwsim/data/objects/amphora.osg; a name alone is taken for one in
+MESH is a URI, such as package://uwsim/data/objects/amphora.osg; a path alone is relative to
 package://uwsim/. The rotation is Rx Ry Rz.
 With `uwsim run cirs --web 9090`:  spawn_marker.py add toys 1 data/objects/sphere.osg 1 0 3 0 0 0
 """
@@ -20,11 +20,11 @@ from websockets.exceptions import WebSocketException
 from websockets.sync.client import connect
 
 ADD, DELETE, MESH = 0, 2, 10
-"""Of visualization_msgs/Marker."""
+"""The constants of visualization_msgs/Marker."""
 
 
 def quaternion(roll: float, pitch: float, yaw: float) -> dict[str, float]:
-    """Rx Ry Rz as geometry_msgs/Quaternion."""
+    """Return the rotation Rx Ry Rz as geometry_msgs/Quaternion."""
     a, b, c = (math.cos(angle / 2) for angle in (roll, pitch, yaw))
     d, e, f = (math.sin(angle / 2) for angle in (roll, pitch, yaw))
     return {
@@ -35,19 +35,21 @@ def quaternion(roll: float, pitch: float, yaw: float) -> dict[str, float]:
     }
 
 
-def marker(asked: argparse.Namespace) -> dict[str, Any]:
-    """The request of the service."""
-    x, y, z, *angles = asked.pose
+def make_marker(options: argparse.Namespace) -> dict[str, Any]:
+    """Return the request of the service."""
+    x, y, z, *angles = options.pose
     return {
         "header": {"frame_id": "world"},
-        "ns": asked.ns,
-        "id": asked.id,
+        "ns": options.ns,
+        "id": options.id,
         "type": MESH,
-        "action": ADD if asked.action == "add" else DELETE,
+        "action": ADD if options.action == "add" else DELETE,
         "pose": {"position": {"x": x, "y": y, "z": z}, "orientation": quaternion(*angles)},
         "scale": {"x": 1.0, "y": 1.0, "z": 1.0},
         "color": {"r": 1.0, "g": 1.0, "b": 1.0, "a": 1.0},
-        "mesh_resource": asked.mesh if "://" in asked.mesh else f"package://uwsim/{asked.mesh}",
+        "mesh_resource": options.mesh
+        if "://" in options.mesh
+        else f"package://uwsim/{options.mesh}",
     }
 
 
@@ -61,16 +63,16 @@ def main() -> None:
     parser.add_argument("mesh")
     parser.add_argument("pose", type=float, nargs=6)
     parser.add_argument("--uri", default="ws://127.0.0.1:9090")
-    asked = parser.parse_args()
+    options = parser.parse_args()
     call = {"op": "call_service", "id": "1", "service": "/SpawnMarker"}
     try:
-        with connect(asked.uri) as socket:
-            socket.send(json.dumps({**call, "args": {"marker": marker(asked)}}))
+        with connect(options.uri) as socket:
+            socket.send(json.dumps({**call, "args": {"marker": make_marker(options)}}))
             while (answer := json.loads(socket.recv())).get("op") != "service_response":
                 if answer.get("op") == "status":
                     sys.exit(answer["msg"])
     except (OSError, WebSocketException) as error:
-        sys.exit(f"{asked.uri}: {error}")
+        sys.exit(f"{options.uri}: {error}")
     if not answer["result"]:
         sys.exit(str(answer["values"]))
     print(answer["values"]["status_message"])

@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 
-from paper.figures import visibility
+from paper.figures import visibility_loss
 
 SCRIPT = Path(__file__).parents[2] / "examples" / "paper_figures.py"
 
@@ -38,7 +38,9 @@ def plates() -> Iterator[Any]:
 def test_visibility_measured_from_two_plates_is_within_a_hundredth_of_the_law(
     plates: Any, fog: float, distance: float
 ) -> None:
-    assert plates.visibility(fog, distance) == pytest.approx(visibility(fog, distance), abs=0.01)
+    assert plates.visibility(fog, distance) == pytest.approx(
+        visibility_loss(fog, distance), abs=0.01
+    )
 
 
 def test_clear_water_takes_nothing_away(plates: Any) -> None:
@@ -50,7 +52,7 @@ def test_the_originals_clip_distance_is_seen_by_the_same_measurement() -> None:
     made = load().Plates(fog_distance="clip")
     measured = made.visibility(1.1, 1.36)
     made.close()
-    assert measured == pytest.approx(visibility(1.1, 1.0), abs=0.02)
+    assert measured == pytest.approx(visibility_loss(1.1, 1.0), abs=0.02)
 
 
 @pytest.mark.slow

@@ -192,12 +192,12 @@ LATE = """
 import random, sys, time
 sys.path.insert(0, "examples/ros2")
 import dark_box, lockstep
-look = dark_box.DarkBoxNode.look
+track = dark_box.DarkBoxNode.track
 def late(self, image):
     time.sleep(random.random() * 0.02)
-    look(self, image)
-dark_box.DarkBoxNode.look = late
-lockstep.run("dark_box", dark_box.DarkBoxNode, patience=240.0)
+    track(self, image)
+dark_box.DarkBoxNode.track = late
+lockstep.run("dark_box", dark_box.DarkBoxNode, timeout=240.0)
 """
 """The tracker of the example, with a random delay of up to 20 ms."""
 
@@ -251,7 +251,7 @@ class Wrong(lockstep.LockStep):
         return {"next": "soon"}
 
 lockstep.LockStep = Wrong
-lockstep.run("wrong", lambda lockstep: None, patience=240.0)
+lockstep.run("wrong", lambda lockstep: None, timeout=240.0)
 """
 
 

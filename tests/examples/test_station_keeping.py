@@ -10,14 +10,14 @@ import pytest
 
 from paper.station_keeping import (
     Loop,
-    Station,
-    Swing,
+    StationError,
+    SwingingCurrent,
     Track,
-    measured,
-    predicted,
-    steady,
-    track,
-    whole_periods,
+    measure_error,
+    predict_error,
+    read_level_track,
+    select_whole_periods,
+    settled_error,
 )
 from uwsim.base.geometry import Array
 from uwsim.benchmark.reader import read_benchmark
@@ -38,7 +38,7 @@ P, PI = Loop(kp=0.4), Loop(kp=0.4, ki=0.04)
 DATA = Path(__file__).parents[2] / "src" / "uwsim" / "data" / "benchmarks"
 
 
-def water(swing: Swing, times: Array) -> Array:
+def water(swing: SwingingCurrent, times: Array) -> Array:
     """The current that the benchmark lets flow, (n, 2) along and across [m/s]."""
     spec = UwsimSinusoidSpec(speed=swing.speed, phi_variation=swing.angle, phi_period=swing.period)
     current = spec.bind(Place(stream=lambda name: np.random.default_rng(0)))
@@ -47,7 +47,10 @@ def water(swing: Swing, times: Array) -> Array:
 
 
 def test_the_numbers_at_a_fifth_of_a_metre_per_second_are_those_of_the_closed_forms() -> None:
-    p, pi = predicted(P, Swing(speed=0.2)), predicted(PI, Swing(speed=0.2))
+    p, pi = (
+        predict_error(P, SwingingCurrent(speed=0.2)),
+        predict_error(PI, SwingingCurrent(speed=0.2)),
+    )
     assert p.along_mean == pytest.approx(0.4406, abs=5e-5)
     assert p.across_amplitude == pytest.approx(0.2915, abs=5e-5)
     assert pi.along_mean == 0.0
@@ -66,7 +69,7 @@ def test_integral_action_helps_against_a_sinusoid_only_above_twice_its_rate_squa
 
 
 def test_the_harmonics_add_up_to_the_current_that_flows() -> None:
-    swing, times = Swing(speed=0.2), np.linspace(0.0, 30.0, 97)
+    swing, times = SwingingCurrent(speed=0.2), np.linspace(0.0, 30.0, 97)
     rates, along, across = swing.harmonics()
     turning = np.exp(1j * np.outer(times, rates))
     summed = np.stack([(turning @ along).real, (turning @ across).real], axis=1)
@@ -75,7 +78,7 @@ def test_the_harmonics_add_up_to_the_current_that_flows() -> None:
 
 @pytest.mark.parametrize("loop", [P, PI])
 def test_the_settled_error_is_that_of_an_integration(loop: Loop) -> None:
-    swing, dt = Swing(speed=0.2), 0.005
+    swing, dt = SwingingCurrent(speed=0.2), 0.005
     times = np.arange(0.0, 150.0, dt)
     error, integral, found = np.zeros(2), np.zeros(2), []
     for flow in water(swing, times + dt / 2):
@@ -83,33 +86,35 @@ def test_the_settled_error_is_that_of_an_integration(loop: Loop) -> None:
         error = error + (flow - loop.kp * error - loop.ki * integral) * dt
         integral = integral + error * dt
     late = times > 120.0
-    along, across = steady(loop, swing, times[late])
+    along, across = settled_error(loop, swing, times[late])
     assert np.array(found)[late] == pytest.approx(np.stack([along, across], axis=1), abs=1e-3)
 
 
-def made(loop: Loop, swing: Swing, *, start: Array) -> Track:
+def made(loop: Loop, swing: SwingingCurrent, *, start: Array) -> Track:
     """A level without any deviation from theory, from an unknown origin."""
     time = np.arange(0.0, 118.0 + 1e-9, 0.1)
-    along, across = steady(loop, swing, time + 2.0)
+    along, across = settled_error(loop, swing, time + 2.0)
     error = np.stack([across, along], axis=1)
-    return Track(time=time, vehicle=error + start, seen=-error, tracker=np.zeros_like(time))
+    return Track(
+        time=time, vehicle=error + start, target_offset=-error, tracker_error=np.zeros_like(time)
+    )
 
 
 def test_what_is_measured_from_a_log_is_what_was_put_into_it() -> None:
-    swing = Swing(speed=0.13)
+    swing = SwingingCurrent(speed=0.13)
     kept = made(P, swing, start=np.array([3.0, -1.5]))
     assert kept.reference() == pytest.approx([3.0, -1.5])
-    found, theory = measured(kept), predicted(P, swing)
-    for name in Station.__dataclass_fields__:
+    found, theory = measure_error(kept), predict_error(P, swing)
+    for name in StationError.__dataclass_fields__:
         assert getattr(found, name) == pytest.approx(getattr(theory, name), abs=1e-9), name
 
 
 def test_only_whole_periods_after_thirty_seconds_count() -> None:
     time = np.arange(0.0, 118.0 + 1e-9, 0.1)
-    chosen = time[whole_periods(time)]
+    chosen = time[select_whole_periods(time)]
     assert (chosen[0], len(chosen)) == (pytest.approx(30.0), 600)
     with pytest.raises(ResultError, match="a period of 30 s"):
-        whole_periods(time[time < 59.0])
+        select_whole_periods(time[time < 59.0])
 
 
 def test_a_level_that_is_not_in_the_logs_is_reported() -> None:
@@ -117,7 +122,7 @@ def test_a_level_that_is_not_in_the_logs_is_reported() -> None:
     result = Result(inputs=Inputs(), run=RunInfo(), columns=(), rows=(), facts={"d": (2.2, "m")})
     names = ("centroid", "objectCentered", "offset")
     with pytest.raises(ResultError, match=r"no level current=0.1"):
-        track(result, dict.fromkeys(names, log), level=0.1, focal=514.7)
+        read_level_track(result, dict.fromkeys(names, log), level=0.1, focal=514.7)
 
 
 def test_the_figures_have_the_published_levels_and_are_else_the_benchmark_itself() -> None:
@@ -128,7 +133,7 @@ def test_the_figures_have_the_published_levels_and_are_else_the_benchmark_itself
     assert two.scene == full.scene
 
 
-def play(algorithm: str, out: Path, *settings: str) -> Station:
+def play(algorithm: str, out: Path, *settings: str) -> StationError:
     """Play a minute of the level 0.1 of `currents`, with a camera of half the size."""
     short = out.parent / "currents.xml"
     text = (DATA / "currents.xml").read_text()
@@ -151,7 +156,7 @@ def play(algorithm: str, out: Path, *settings: str) -> Station:
     names = ("centroid", "objectCentered", "offset")
     logs = {name: load_log(out / f"measure-{name}.csv") for name in names}
     focal = 120.0 / math.tan(math.radians(25.0))
-    return measured(track(result, logs, level=0.1, focal=focal))
+    return measure_error(read_level_track(result, logs, level=0.1, focal=focal))
 
 
 @pytest.mark.slow
@@ -160,7 +165,10 @@ def test_a_controller_in_the_benchmark_keeps_station_as_theory_says(
     algorithm: str, loop: Loop, tmp_path: Path
 ) -> None:
     found = play(algorithm, tmp_path / "r")
-    theory, p = predicted(loop, Swing(speed=0.1)), predicted(P, Swing(speed=0.1))
+    theory, p = (
+        predict_error(loop, SwingingCurrent(speed=0.1)),
+        predict_error(P, SwingingCurrent(speed=0.1)),
+    )
     along, across = 0.05 * p.along_mean, 0.05 * p.across_amplitude
     assert found.along_mean == pytest.approx(theory.along_mean, abs=along)
     assert found.across_amplitude == pytest.approx(theory.across_amplitude, abs=across)

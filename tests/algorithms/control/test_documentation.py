@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from paper.station_keeping import Loop, Swing, predicted
+from paper.station_keeping import Loop, SwingingCurrent, predict_error
 from uwsim.algorithms import load_algorithm
 from uwsim.algorithms.control import StationKeeper
 
@@ -49,8 +49,8 @@ def test_theory_on_the_page_is_what_the_closed_forms_say_and_is_met_within_5_per
     for speed, controller, along, along_theory, across, across_theory in rows:
         if controller not in loops:
             continue
-        swing = Swing(speed=float(speed))
-        theory, p = predicted(loops[controller], swing), predicted(loops["P"], swing)
+        swing = SwingingCurrent(speed=float(speed))
+        theory, p = predict_error(loops[controller], swing), predict_error(loops["P"], swing)
         assert float(along_theory) == pytest.approx(theory.along_mean, abs=5e-5)
         assert float(across_theory) == pytest.approx(theory.across_amplitude, abs=5e-5)
         assert float(along) == pytest.approx(theory.along_mean, abs=0.05 * p.along_mean)

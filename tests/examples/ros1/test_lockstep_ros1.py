@@ -26,12 +26,12 @@ import run_algorithm, lockstep  # the first finds rospy
 class Forgetful(lockstep.LockStep):
     has_forgotten = False
 
-    def _is_connected(self, outs):
-        if super()._is_connected(outs) and not Forgetful.has_forgotten:
+    def _is_connected(self, publishers):
+        if super()._is_connected(publishers) and not Forgetful.has_forgotten:
             Forgetful.has_forgotten = True  # as after an answer of the master that came late
-            for connection in self._readers[lockstep.TICK].impl.connections:
+            for connection in self._subscribers[lockstep.TICK].impl.connections:
                 connection.close()
-        return super()._is_connected(outs)
+        return super()._is_connected(publishers)
 
 lockstep.LockStep = Forgetful
 run_algorithm.main()

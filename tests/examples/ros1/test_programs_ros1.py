@@ -103,7 +103,7 @@ def test_a_program_goes_to_a_pose(sea: Sea, kind: str) -> None:
         goal = (*("0.3", "0", "0"), *("0", "0", "-0.5"))
         wanted = start @ Pose(np.array([0.3, 0.0, 0.0]), turned(0.0, 0.0, -0.5).rotation)
     program = sea.peers.start("goto_pose.py", kind, ODOMETRY, COMMAND, *goal)
-    assert sea.output(program) == "there\n"
+    assert sea.output(program) == "goal reached\n"
     until(is_at(sea, wanted), sea.advance)
 
 

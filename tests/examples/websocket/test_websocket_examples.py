@@ -247,8 +247,8 @@ def test_an_address_at_which_nothing_is_is_one_line(words: list[str]) -> None:
 
 LEAVES = """
 import json, sys
-from lockstep import connected, ACK, JOIN, TEXT, TICK
-with connected(sys.argv[2]) as socket:
+from lockstep import open_connection, ACK, JOIN, TEXT, TICK
+with open_connection(sys.argv[2]) as socket:
     def say(topic, **content):
         text = json.dumps({"client": "outside", **content})
         socket.send(json.dumps({"op": "publish", "topic": topic, "msg": {"data": text}}))

@@ -48,8 +48,8 @@ class FakeNode:
         """Subscribe on the bus."""
         self._simulator.bus.subscribe(topic, type, callback)
 
-    def every(self, period: float, callback: Callable[[], None]) -> None:
-        """Keep what is called at the end of each step."""
+    def create_timer(self, period_s: float, callback: Callable[[], None]) -> None:
+        """Store the callback that runs at the end of each step."""
         self.barrier = callback
 
 
