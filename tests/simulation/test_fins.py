@@ -105,4 +105,4 @@ def test_check_warns_about_a_fin_far_off_the_hull(tmp_path: Path) -> None:
     where = "<position> <x>-0.638</x> <y>0</y> <z>-0.11</z> </position>"
     scene = changed(tmp_path, (where, where.replace("-0.638", "-6.38")))
     said = [one.message for one in check_file(scene)]
-    assert any("far off its hull" in one and "fin 'upper_rudder' 5" in one for one in said)
+    assert any("far from its hull" in one and "fin 'upper_rudder' 5" in one for one in said)

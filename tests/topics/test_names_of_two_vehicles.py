@@ -82,5 +82,5 @@ def test_the_first_of_two_cameras_is_on_no_topic(
     assert [each["topics"] for each in found["cameras"]] == [[], ["/eye"]]
     assert main(["check", str(file)]) == 0
     said = capsys.readouterr().out
-    assert f"{file}:9: warning: 2 cameras are called 'eye'; interfaces and benchmarks find" in said
+    assert f"{file}:9: warning: 2 cameras are called 'eye'; interfaces and benchmarks use" in said
     assert "<pressureSensor>: several are called 'pressure'; interfaces find the last" in said
