@@ -91,7 +91,7 @@ def test_the_newest_message_is_known_although_others_read_and_one_is_kept() -> N
     received: list[object] = []
     simulation.bus.subscribe("imu", object, received.append)
     simulation.advance(0.5)
-    box = simulation.state.access.newest.value()["imu"][0]
+    box = simulation.state.access.newest_messages.value()["imu"][0]
     assert box is received[-1]
     assert simulation._access._inboxes["imu"].take() == [received[-1]], "one message is kept"
     simulation.close()
