@@ -22,7 +22,7 @@ class FunctionSpec(Spec):
     text: str = element(text=True)
     """An expression over the measures' names (`uwsim.base.expression`)."""
     publish_result: bool = element(default=False, attribute=True)
-    """A flag: results are published during the run."""
+    """True if results are published during the run."""
     publish_rate: float = element(default=0.1, attribute=True, minimum=0.0)
     """The shortest time between two such messages [s]; not a rate, in spite of its name."""
 
@@ -53,7 +53,7 @@ class BenchmarkSpec(Spec):
     )
     """The execution of the levels; None: sequential."""
     prelude: bool = element(default=True, attribute=True, namespaced=True)
-    """A flag: an independent level begins with a prelude: 1 s at the initial values of the
+    """True if an independent level begins with a prelude: 1 s at the initial values of the
     updaters, and 1 s on the way to its own. Otherwise its values hold from the first image on."""
     compatibility: tuple[str, ...] = element(default=(), attribute=True, namespaced=True)
     """The compatibility quirks of the original to reproduce (`uwsim.base.compatibility`), separated

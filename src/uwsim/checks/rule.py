@@ -38,9 +38,9 @@ class Rule(Generic[S]):
     need: Need
     """The input that it reads of the subject."""
     in_check: bool = True
-    """A flag: ``uwsim check`` applies the rule."""
+    """True if ``uwsim check`` applies the rule."""
     in_runs: bool = False
-    """A flag: a run applies the rule before it begins, for its warnings."""
+    """True if a run applies the rule before it begins, for its warnings."""
 
     @property
     def name(self) -> str:

@@ -132,7 +132,7 @@ class CheckedScene(Subject):
 
     @property
     def is_valid(self) -> bool:
-        """A flag: the scene has no errors and simulated parts; a scene of a run is valid."""
+        """True if the scene has no errors and simulated parts; a scene of a run is valid."""
         scene = self.spec
         return self.is_run or (
             not self.diagnostics.has_errors

@@ -54,7 +54,7 @@ class ViewRequest:
     samples: int = 2
     """The number of samples of a pixel in width and in height, for smooth edges."""
     has_fog: bool = False
-    """A flag: fog is set, so views show it."""
+    """True if fog is set, so views show it."""
 
     @staticmethod
     def from_options(

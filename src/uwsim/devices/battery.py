@@ -74,7 +74,7 @@ class BatterySpec(DeviceSpec):
     """The constant power of computers, sensors and lamps [W]."""
 
     stops_thrusters: bool = False
-    """A flag: the thrusters of a simulated vehicle stop when the battery is empty."""
+    """True if the thrusters of a simulated vehicle stop when the battery is empty."""
 
     @property
     def max_load(self) -> float:
@@ -120,7 +120,7 @@ class BatteryRecord(Record):
     sample: Sample
     """The last sample that compiled code took."""
     is_overloaded: bool = False
-    """A flag: the load exceeds the greatest power of the battery."""
+    """True if the load exceeds the greatest power of the battery."""
 
 
 class Battery(Device):

@@ -56,7 +56,7 @@ class DeviceTopic:
     name: str
     """The name of the topic."""
     is_subscribed: bool = False
-    """A flag: the device subscribes to the topic; otherwise it publishes on it."""
+    """True if the device subscribes to the topic; otherwise it publishes on it."""
     rate: float | None = None
     """The rate of publication [Hz]; None: at events."""
 
@@ -66,9 +66,9 @@ class DeviceSpec(Spec, abc.ABC):
     """The spec of a simulated device; that of a device that is not simulated has no ``bind``."""
 
     is_left_out: ClassVar[bool] = False
-    """A flag: a device whose names are unknown is left out without an error, as in the original."""
+    """True if a device whose names are unknown is left out without an error, as in the original."""
     is_pure: ClassVar[bool] = False
-    """A flag: a sample does not change the device, so none is taken without a subscriber."""
+    """True if a sample does not change the device, so none is taken without a subscriber."""
 
     @property
     def topics(self) -> tuple[DeviceTopic, ...]:

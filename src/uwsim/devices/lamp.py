@@ -61,7 +61,7 @@ class LampSpec(DeviceSpec):
     )
     """The colour of its light [0..1]."""
     shadow: bool = element(namespaced=True, default=True)
-    """A flag: bodies in its light cast a shadow."""
+    """True if bodies in its light cast a shadow."""
 
     @property
     def brightness_topic(self) -> str:
@@ -118,7 +118,7 @@ class MountedLamp(Device):
 
     @property
     def is_on(self) -> bool:
-        """A flag: the lamp is on now."""
+        """True if the lamp is on now."""
         return self.state.brightness > 0.0
 
     @property

@@ -133,7 +133,7 @@ class Led:
 
     @property
     def is_on(self) -> bool:
-        """A flag: the lamp is on now."""
+        """True if the lamp is on now."""
         return self._clock() < self.state.end_time
 
     @property

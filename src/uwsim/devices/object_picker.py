@@ -45,7 +45,7 @@ class ObjectPickerSpec(DeviceSpec):
     range: float = element(minimum=0)
     """The length of the ray [m]."""
     visible: bool = False
-    """A flag: read and not used; the ray is always drawn."""
+    """True if the ray is visible; read and not used, as it is always drawn."""
     position: tuple[float, float, float] = (0.0, 0.0, 0.0)
     """The position of the device in the link's frame [m]."""
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
@@ -82,7 +82,7 @@ class PickerState(Record):
     held_object: int | None = None
     """The index of the object that it holds."""
     is_released: bool = False
-    """A flag: it picks nothing up."""
+    """True if it picks nothing up."""
 
 
 class ObjectPicker(Device):

@@ -56,7 +56,7 @@ class Criterion:
     measures: tuple[str, ...]
     """The measures in it, in the order of appearance."""
     uses_status: bool
-    """A flag: the expression uses the status."""
+    """True if the expression uses the status."""
 
     @property
     def text(self) -> str:

@@ -36,7 +36,7 @@ class DecodedImage:
     pixels: npt.NDArray[np.uint8]
     """(h, w, 3), red first; or (h, w) grey; row 0 is the top."""
     is_blue_first: bool
-    """A flag: the recording has blue as its first channel."""
+    """True if the recording has blue as its first channel."""
     frame_id: str
     """The frame in its header."""
 

@@ -67,7 +67,7 @@ class SpawnMarkerResponse:
     """The response of ``underwater_sensor_msgs/srv/SpawnMarker``."""
 
     success: bool
-    """A flag: the request succeeded."""
+    """True if the request succeeded."""
     status_message: str
     """The effect of the request, or the reason of its failure."""
     __msgtype__: ClassVar[str] = "underwater_sensor_msgs/srv/SpawnMarker_Response"

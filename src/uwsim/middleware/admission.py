@@ -221,5 +221,5 @@ class TopicOwners(Admission):
 
     @property
     def _is_complete(self) -> bool:
-        """A flag: each of the topics has an owner."""
+        """True if each of the topics has an owner."""
         return self._topics is not None and self._topics <= set(self._owners)

@@ -78,16 +78,16 @@ class TransportTraits:
     """The capabilities and requirements of a transport."""
 
     relays_between_clients: bool = False
-    """A flag: messages from external programs are sent out, too, as these do not reach each
+    """True if messages from external programs are sent out, too, as these do not reach each
     other."""
     clock_period: float = COARSE_PERIOD
     """The shortest simulation time between two messages on ``/clock`` [s]."""
     needs_discovery: bool = False
-    """A flag: messages are lost before both ends of a topic have discovered each other."""
+    """True if messages are lost before both ends of a topic have discovered each other."""
     detects_leaving: bool = False
-    """A flag: it is known at once that an external subscriber has left, without a message of it."""
+    """True if it is known at once that an external subscriber has left, without a message of it."""
     needs_invitation: bool = False
-    """A flag: a client in lock-step joins on invitation only."""
+    """True if a client in lock-step joins on invitation only."""
 
 
 class Bridge(ABC):

@@ -43,12 +43,12 @@ class ClockTopic:
 
     @property
     def is_due(self) -> bool:
-        """A flag: the next message is due, also because time went back."""
+        """True if the next message is due, also because time went back."""
         return not self._last_time <= self.time() + 1e-9 < self._last_time + self.period
 
     @property
     def is_read(self) -> bool:
-        """A flag: the topic has an external subscriber."""
+        """True if the topic has an external subscriber."""
         return self._is_read()
 
     def send(self) -> None:

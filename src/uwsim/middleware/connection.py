@@ -17,11 +17,11 @@ class ConnectionSpec:
     """The transports that connect a simulation; `open` binds them to a bus."""
 
     ros1: bool = False
-    """A flag: the simulation is a node of ROS 1."""
+    """True if the simulation is a node of ROS 1."""
     ros1_host: str = "127.0.0.1"
     """The address at which the node listens."""
     ros2: bool = False
-    """A flag: the simulation is a node of ROS 2."""
+    """True if the simulation is a node of ROS 2."""
     domain: int | None = None
     """The domain of ROS 2; None: that of ``ROS_DOMAIN_ID``."""
     web: WebOptions | None = None

@@ -70,7 +70,7 @@ class LatestQueue(Generic[T]):
 
     @property
     def is_closed(self) -> bool:
-        """A flag: the queue is closed."""
+        """True if the queue is closed."""
         return self._is_closed
 
     def __len__(self) -> int:

@@ -50,7 +50,7 @@ class Part:
     """The mesh frame in the link's or object's frame, (4, 4) [m], with the scale of an object or
     mesh, without that of a vehicle."""
     is_hidden: bool
-    """A flag: the part is a ghost (``vr``), visible in the viewer, not to virtual cameras."""
+    """True if the part is a ghost (``vr``), visible in the viewer, not to virtual cameras."""
 
 
 def parts_of(resolved_scene: ResolvedScene) -> list[Part]:

@@ -53,7 +53,7 @@ class BounceLimit:
         self._model, self._data = model, data
         self._objects = [_LooseBody(model, data, body) for body in bodies]
         self.is_on = True
-        """A flag: the limit applies, as no vehicle holds an object."""
+        """True if the limit applies, as no vehicle holds an object."""
         self._indices = {body.number: i for i, body in enumerate(self._objects)}
         self._fixed = model.body_weldid == 0  # mask of the bodies that never move
         self.state = BounceState(

@@ -116,12 +116,12 @@ class Engine:
 
     @property
     def is_dynamic(self) -> bool:
-        """A flag: a vehicle is simulated."""
+        """True if a vehicle is simulated."""
         return self._water is not None
 
     @property
     def places_bodies(self) -> bool:
-        """A flag: a body is placed at every step, as it is carried or lifted."""
+        """True if a body is placed at every step, as it is carried or lifted."""
         return self.grips.is_carrying or self.lift.is_active
 
     def is_simulated(self, index: int) -> bool:

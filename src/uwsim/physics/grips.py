@@ -99,13 +99,13 @@ class Grips:
 
     @property
     def is_carrying(self) -> bool:
-        """A flag: a body of the engine follows a vehicle that is not simulated."""
+        """True if a body of the engine follows a vehicle that is not simulated."""
         grasps = self.state.grasps
         return bool(grasps) and any(self._is_carried(index, hold) for index, hold in grasps.items())
 
     @property
     def is_holding(self) -> bool:
-        """A flag: a vehicle holds an object."""
+        """True if a vehicle holds an object."""
         return bool(self.state.grasps)
 
     def follow(self) -> None:

@@ -27,7 +27,7 @@ class PosesState(Record):
     version: int = 0
     """The number of changes of poses."""
     is_stale: bool = True
-    """A flag: the frames are out of date."""
+    """True if the frames are out of date."""
     placed_poses: dict[int, Pose] = field(default_factory=dict)
     """The poses of moved objects that are no bodies of the engine, by number."""
     carriers: dict[int, tuple[int, str, Pose]] = field(default_factory=dict)

@@ -48,7 +48,7 @@ class StepperState(Record):
     """The state of a stepper, besides the engine's numbers."""
 
     has_flow: bool = False
-    """A flag: the water moved in the last step."""
+    """True if the water moved in the last step."""
 
 
 class Stepper:

@@ -50,7 +50,7 @@ class RunInfo(StoredRecord):
 
     @property
     def is_finished(self) -> bool:
-        """A flag that is true if every trial is finished, as far as the result states it."""
+        """True if every trial is finished, as far as the result states it."""
         return self.units is None or self.units[0] == self.units[1]
 
     @property

@@ -64,7 +64,7 @@ class LevelLine:
     rate: str
     """The limits of that rate: ``44 to 97 %``; empty without repeats."""
     is_ok: bool
-    """A flag that is true if every repeat ended ``ok``."""
+    """True if every repeat ended ``ok``."""
     reason: str
     """The reasons and remarks, each once; over repeats, the number of each status."""
     rows: tuple[int, ...] = ()

@@ -41,7 +41,7 @@ class PhysicsSpec(Spec):
     angular_damping: float = 0.0
     """The damping of its angular velocity [1/s]."""
     is_kinematic: bool = False
-    """A flag: only commands move it."""
+    """True if only commands move it."""
     min_linear_limit: Triple = UNIT_SCALE
     """The least position on each axis; min above max is free [m]."""
     max_linear_limit: Triple = ZERO
@@ -66,12 +66,12 @@ class PhysicsSpec(Spec):
 
     @property
     def is_loose(self) -> bool:
-        """A flag: forces move it, in a scene with simulated parts."""
+        """True if forces move it, in a scene with simulated parts."""
         return self.mass > 0.0 and not self.is_kinematic and not self.is_locked
 
     @property
     def is_locked(self) -> bool:
-        """A flag: its limits allow no motion and no rotation."""
+        """True if its limits allow no motion and no rotation."""
         lower_limits = (*self.min_linear_limit, *self.min_angular_limit)
         return lower_limits == (*self.max_linear_limit, *self.max_angular_limit)
 
@@ -146,7 +146,7 @@ class ObjectSpec(Spec):
 
     @property
     def is_ground(self) -> bool:
-        """A flag: the object is called ``terrain``."""
+        """True if the object is called ``terrain``."""
         return self.name == TERRAIN
 
     def has_contacts(self, *, in_water: bool) -> bool:

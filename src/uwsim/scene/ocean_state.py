@@ -89,7 +89,7 @@ class OceanStateSpec(Spec):
     is_not_choppy: bool = element(
         default=False, original=Original(invalid_flag_value=True, is_window_setting=True)
     )
-    """A flag: waves move points only up and down."""
+    """True if waves move points only up and down."""
     choppy_factor: float = element(default=2.5, original=Original(is_window_setting=True))
     """The horizontal displacement of points by waves [1]."""
     crest_foam_height: float = element(default=2.2, original=Original(is_window_setting=True))

@@ -32,4 +32,4 @@ class OnFloorSpec(Spec):
     )
     """The height above the ground; below 0 it is sunk in [m]."""
     align_to_slope: bool = element(namespaced=True, default=False)
-    """A flag: it has the slope of the ground under it; else its orientation does not change."""
+    """True if it has the slope of the ground under it; else its orientation does not change."""

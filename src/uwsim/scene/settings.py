@@ -53,18 +53,18 @@ class Place:
 
     @property
     def is_number(self) -> bool:
-        """A flag: the value is one number."""
+        """True if the value is one number."""
         is_scalar = self.field.kind in ("float", "int") and not self.field.is_repeated
         return (is_scalar and not self.rest) or (self.has_parts and len(self.rest) == 1)
 
     @property
     def has_parts(self) -> bool:
-        """A flag: the value has several numbers, of which one can be chosen."""
+        """True if the value has several numbers, of which one can be chosen."""
         return self.field.kind == "triple" or _is_list(self.field)
 
     @property
     def is_integer(self) -> bool:
-        """A flag: the value is an integer."""
+        """True if the value is an integer."""
         return self.field.kind == "int"
 
     @property
@@ -106,12 +106,12 @@ class HydrodynamicsPlace(Place):
 
     @property
     def is_number(self) -> bool:
-        """A flag: the value is one number; its kind is checked when the file is read."""
+        """True if the value is one number; its kind is checked when the file is read."""
         return True
 
     @property
     def is_integer(self) -> bool:
-        """A flag: the value is an integer."""
+        """True if the value is an integer."""
         return False
 
     @property

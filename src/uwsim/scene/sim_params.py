@@ -33,7 +33,7 @@ class SimParamsSpec(Spec):
     """A ``<simParams>``: frames, window, physics, light."""
 
     disable_shaders: bool = element(default=False, original=Original(is_window_setting=True))
-    """A flag: water and sky are drawn without effects."""
+    """True if water and sky are drawn without effects."""
     resw: int = element(default=800, minimum=1, maximum=7680, original=WINDOW_SIZE)
     """The width of the window [px]."""
     resh: int = element(default=600, minimum=1, maximum=4320, original=WINDOW_SIZE)
@@ -43,7 +43,7 @@ class SimParamsSpec(Spec):
     offsetr: Triple = ZERO
     """The rotation of the file's frame in the world, about x, y, z: Rx Ry Rz [rad]."""
     enable_physics: bool = False
-    """A flag: contacts and gravity act on objects."""
+    """True if contacts and gravity act on objects."""
     gravity: Triple = ZERO
     """The gravity in the world; all zero means (0, 0, -1) [m/s2]."""
     physics_frequency: float = element(
@@ -61,7 +61,7 @@ class SimParamsSpec(Spec):
     light_rate: float = element(default=1.0, minimum=0, maximum=1e6)
     """The factor on the light of the scene [1]."""
     sun_shadow: bool | None = element(namespaced=True, default=None)
-    """A flag: vehicles and objects cast the sun's shadow; when absent they do, but not in a scene
+    """True if vehicles and objects cast the sun's shadow; when absent they do, but not in a scene
     of the original's, which had no shadows."""
 
     integrator: Integrator = element(namespaced=True, default="implicitfast")

@@ -122,7 +122,7 @@ class SceneSpec(Spec):
     path: str = dataclasses.field(default="", compare=False, metadata={"path": True})
     """The file from which it was read."""
     is_original: bool = dataclasses.field(default=False, compare=False, metadata={"path": True})
-    """A flag: it names the original's DTD; labelled boxes then replace missing models."""
+    """True if it names the original's DTD; labelled boxes then replace missing models."""
 
     expansion: Expansion = dataclasses.field(
         default=Expansion(), compare=False, metadata={"path": True}
@@ -146,17 +146,17 @@ class SceneSpec(Spec):
 
     @property
     def is_dynamic(self) -> bool:
-        """A flag: a vehicle is simulated."""
+        """True if a vehicle is simulated."""
         return any(vehicle.dynamics is not None for vehicle in self.vehicles)
 
     @property
     def is_original_physics(self) -> bool:
-        """A flag: the original's physics is requested: ``enablePhysics``, nothing in water."""
+        """True if the original's physics is requested: ``enablePhysics``, nothing in water."""
         return self.sim_params.enable_physics and not self.is_dynamic
 
     @property
     def has_uwsim_physics(self) -> bool:
-        """A flag: objects move by the original's physics."""
+        """True if objects move by the original's physics."""
         return self.is_original_physics and any(
             physics.is_loose for physics in self.solid_objects.values()
         )

@@ -60,7 +60,7 @@ class VehicleSpec(Spec):
     tf: TfSpec | None = None
     """The ROS frame that it follows."""
     vr: bool = False
-    """A flag: the vehicle is a ghost, visible in the viewer and not to cameras."""
+    """True if the vehicle is a ghost, visible in the viewer and not to cameras."""
     joint_values: tuple[float, ...] = element(item="joint", default=())
     """The values of the movable joints that mimic no other, in the order of the tree [rad or m]."""
     position: Triple = element(default=ZERO, minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE)

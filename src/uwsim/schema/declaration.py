@@ -15,15 +15,15 @@ class Original:
     aliases: tuple[str, ...] = ()
     """The old names, read with a warning."""
     is_required: bool = False
-    """A flag: the original's DTD requires the element although it has a default."""
+    """True if the original's DTD requires the element although it has a default."""
     allows_trailing_text: bool = False
-    """A flag: text after a number is a warning, not an error (the original uses atof)."""
+    """True if text after a number is a warning, not an error (the original uses atof)."""
     invalid_flag_value: bool | None = None
     """The value for a flag that is neither 0 nor 1; the default when None."""
     is_clamped: bool = False
-    """A flag: a number beyond the limits is clamped with a warning. The original has no limits."""
+    """True if a number beyond the limits is clamped with a warning. The original has no limits."""
     is_window_setting: bool = False
-    """A flag: the element affects the original's window only; an error in it is a warning here."""
+    """True if the element affects the original's window only; an error in it is a warning here."""
 
 
 CLAMPED_NUMBER = Original(is_clamped=True)

@@ -24,7 +24,7 @@ class Diagnostics:
         self.file = str(file)
         self.is_strict = is_strict
         self.allows_trailing_text = False
-        """A flag: text after a number is a warning, as where the original uses atof."""
+        """True if text after a number is a warning, as where the original uses atof."""
         self._reason = ""
         self._entries: list[Diagnostic] = []
         self._n_unlisted = {"error": 0, "warning": 0}
@@ -68,7 +68,7 @@ class Diagnostics:
 
     @property
     def has_errors(self) -> bool:
-        """A flag: the file has errors (warnings do not count)."""
+        """True if the file has errors (warnings do not count)."""
         return any(diagnostic.severity == "error" for diagnostic in self._entries)
 
     def to_list(self) -> list[Diagnostic]:

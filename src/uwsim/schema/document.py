@@ -57,7 +57,7 @@ class Document:
     root: etree._Element
     """The root element."""
     has_doctype: bool
-    """A flag: the file names a DTD (which is never loaded)."""
+    """True if the file names a DTD (which is never loaded)."""
     expansion: Expansion = Expansion()
     """The xacro expansion of the file."""
 

@@ -57,9 +57,9 @@ class Field:
     type: Any
     """The scalar's type, the spec, the words of a Literal, or the count of numbers (0: any)."""
     is_repeated: bool
-    """A flag: the field is a tuple of these."""
+    """True if the field is a tuple of these."""
     is_optional: bool
-    """A flag: None is allowed."""
+    """True if None is allowed."""
     xml: XmlOptions
     """The options of `element`."""
     default: Any
@@ -69,7 +69,7 @@ class Field:
     words: tuple[str, ...] = ()
     """The words that a triple may have instead of its elements."""
     is_member: bool = False
-    """A flag: the field is a member of an unnamed choice, the values of its type."""
+    """True if the field is a member of an unnamed choice, the values of its type."""
 
     @property
     def label(self) -> str:

@@ -57,7 +57,7 @@ class MountedBody:
 
     @property
     def is_compiled(self) -> bool:
-        """A flag: these functions follow the frame in compiled steps without `prepare`."""
+        """True if these functions follow the frame in compiled steps without `prepare`."""
         return True
 
     def prepare(self) -> None:
@@ -98,7 +98,7 @@ class MovingBody(MountedBody):
 
     @property
     def is_compiled(self) -> bool:
-        """A flag: the functions follow the frame in compiled steps without `prepare`."""
+        """True if the functions follow the frame in compiled steps without `prepare`."""
         return self._select_joints() is None
 
     def prepare(self) -> None:

@@ -138,7 +138,7 @@ class SceneStepper:
 
     @property
     def _advects_in_python(self) -> bool:
-        """A flag: Python, not compiled code, has to move kinematic vehicles before each step."""
+        """True if Python, not compiled code, has to move kinematic vehicles before each step."""
         engine, water = self._engine, self._water
         if not self._kinematic or water.is_still:
             return False

@@ -46,7 +46,7 @@ class _Timer:
 
     @property
     def is_called(self) -> bool:
-        """A flag: its callback has something to do now."""
+        """True if its callback has something to do now."""
         return self.is_needed is None or self.is_needed()
 
 

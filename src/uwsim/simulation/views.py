@@ -51,7 +51,7 @@ class View:
     intrinsics: Intrinsics
     """The pinhole."""
     is_clear: bool = False
-    """A flag: the water has no fog."""
+    """True if the water has no fog."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -22,4 +22,4 @@ class Frame:
     parent_from_child: Callable[[], Pose]
     """A function that returns the present pose."""
     is_fixed: bool = False
-    """A flag: the pose is constant."""
+    """True if the pose is constant."""

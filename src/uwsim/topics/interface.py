@@ -81,7 +81,7 @@ class TopicWorld(TimedWorld, Protocol):
 
     @property
     def is_blind(self) -> bool:
-        """A flag: images are black and nothing is drawn."""
+        """True if images are black and nothing is drawn."""
 
     def body(self, name: str) -> Body:
         """Find a vehicle, link or object by its route ``a/b``; UnknownName if none."""
@@ -156,7 +156,7 @@ class InterfaceSpec(Spec):
     """An element of ``<rosInterfaces>``."""
 
     subscribes: ClassVar[bool] = False
-    """A flag: it subscribes to its topics; otherwise it publishes on them."""
+    """True if it subscribes to its topics; otherwise it publishes on them."""
     sources: ClassVar[tuple[str, ...]] = ()
     """The elements of which it may name one; empty: it names none."""
     messages: ClassVar[Mapping[str, type]] = {}

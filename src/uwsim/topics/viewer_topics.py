@@ -42,7 +42,7 @@ class ROSImageToHUDSpec(InterfaceSpec):
     scale: float = 1.0
     """The size on the screen, relative to the image [1]."""
     black_white: bool = False
-    """A flag: the images have one channel."""
+    """True if the images have one channel."""
     image_topic: str
     """The topic of the images."""
     info_topic: str = ""
@@ -127,7 +127,7 @@ class ROSPointCloudLoaderSpec(InterfaceSpec):
     topic: str
     """The name of the topic."""
     del_last_pcd: bool = element("delLastPCD", attribute=True, default=True)
-    """A flag: a cloud replaces the previous cloud."""
+    """True if a cloud replaces the previous cloud."""
 
     def bind(self, world: TopicWorld) -> PointClouds:
         """Start to subscribe."""

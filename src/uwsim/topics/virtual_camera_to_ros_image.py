@@ -34,7 +34,7 @@ class VirtualCameraToROSImageSpec(InterfaceSpec):
     rate: float = rate_element()
     """The rate of publication [Hz]."""
     depth: bool = False
-    """A flag: depth is published instead of colour (range cameras only)."""
+    """True if depth is published instead of colour (range cameras only)."""
 
     def bind(self, world: TopicWorld) -> ImagePublisher | DepthImagePublisher:
         """Resolve the camera; raises UnknownName if there is no such colour camera."""

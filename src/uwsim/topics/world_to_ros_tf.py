@@ -38,7 +38,7 @@ class WorldToROSTFSpec(InterfaceSpec):
     root_name: str
     """The name of L's frame."""
     enable_objects: bool = False
-    """A flag: objects are published too."""
+    """True if objects are published too."""
     rate: float = rate_element()
     """The rate of publication [Hz]."""
 

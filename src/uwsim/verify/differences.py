@@ -114,7 +114,7 @@ class FingerprintComparison:
     parts: tuple[str, ...] = ()
     """The parts that differ first."""
     is_known: bool = True
-    """A flag: both runs have fingerprints."""
+    """True if both runs have fingerprints."""
 
 
 def compare_checkpoints(

@@ -44,9 +44,9 @@ class Verification:
     parts: list[str] = field(default_factory=list)
     """The bodies and topics in which replays diverge from the stored runs."""
     is_steady: bool = True
-    """A flag: every replay had the motion and images of the stored run."""
+    """True if every replay had the motion and images of the stored run."""
     is_replayed: bool = True
-    """A flag: every replay gave the stored values of its trial."""
+    """True if every replay gave the stored values of its trial."""
     not_compared: list[str] = field(default_factory=list)
     """The files that are absent and therefore not compared."""
     trials: tuple[Trial, ...] = ()

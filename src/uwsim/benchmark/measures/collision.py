@@ -26,7 +26,7 @@ class CollisionSpec(MeasureSpec):
     target: str = element(refers_to="contacts")
     """The name of the vehicle or object."""
     stop_on_contact: bool = element(default=False, attribute=True, namespaced=True)
-    """A flag: the first contact ends the level, in status ``collision`` (``u:stopOnContact``)."""
+    """True if the first contact ends the level, in status ``collision`` (``u:stopOnContact``)."""
 
     @property
     def start_value(self) -> float:

@@ -72,7 +72,7 @@ class ControlSpec(MeasureSpec):
 
     @property
     def has_error(self) -> bool:
-        """A flag: the measure evaluates an error, too."""
+        """True if the measure evaluates an error, too."""
         return self.target is not None or self.error_topic is not None
 
     def errors(self) -> Sequence[str]:

@@ -270,7 +270,7 @@ class EuclideanNorm(Measure):
 
     @property
     def has_initialised(self) -> bool:
-        """A flag: ``publishOn`` was called."""
+        """True if ``publishOn`` was called."""
         return self._has_initialised
 
     @property

@@ -74,7 +74,7 @@ class Measure(abc.ABC):
     ``time`` is that of all ``time.<name>`` that have no entry.
     """
     fed_by_algorithm: ClassVar[bool] = False
-    """A flag: it scores messages that the algorithm under test publishes."""
+    """True if it scores messages that the algorithm under test publishes."""
 
     @abc.abstractmethod
     def start(self) -> None:
@@ -129,7 +129,7 @@ class Measure(abc.ABC):
 
     @property
     def has_initialised(self) -> bool:
-        """A flag: it has initialised the algorithm under test with the position of its target."""
+        """True if it has initialised the algorithm under test with the position of its target."""
         return False
 
     @property

@@ -64,7 +64,7 @@ class Phases:
 
     @property
     def is_at_first(self) -> bool:
-        """A flag: no phase but the first was ever reached."""
+        """True if no phase but the first was ever reached."""
         return self._max_number == 1
 
     @property

@@ -49,7 +49,7 @@ class Reconstruction3DSpec(MeasureSpec):
     level_of_detail: float = element(default=0.003, above=0.0)
     """The cell size of the coverage [m]."""
     detailed_results_to_globals: bool = element(default=False, attribute=True)
-    """A flag: result.dat has the details instead of the value."""
+    """True if result.dat has the details instead of the value."""
 
     @property
     def original_fields(self) -> Mapping[str, str]:

@@ -168,7 +168,7 @@ class HeldCommands:
 
     @property
     def is_known(self) -> bool:
-        """A flag: there is a command."""
+        """True if there is a command."""
         return any(axis.value is not None for axis in self.axes.values())
 
     @property

@@ -33,7 +33,7 @@ class Trigger(abc.ABC):
     """
 
     is_constant: ClassVar[bool] = False
-    """A flag: the state never changes, so it is read only once."""
+    """True if the state never changes, so it is read only once."""
 
     @abc.abstractmethod
     def is_on(self) -> bool:

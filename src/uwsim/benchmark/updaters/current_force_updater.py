@@ -84,7 +84,7 @@ class CurrentForceUpdaterSpec(SweepSpec):
     target: str = element(refers_to="vehicle")
     """The name of the vehicle whose pose is reset when a level begins."""
     publish_as_force: bool = element(default=False, attribute=True)
-    """A flag: the current is published as a force instead of moving the vehicle."""
+    """True if the current is published as a force instead of moving the vehicle."""
     time_offset: float = element(
         default=0.0, attribute=True, namespaced=True, minimum=0.0, maximum=MAX_OFFSET
     )

@@ -18,7 +18,7 @@ class SweepSpec(SceneUpdaterSpec):
     """An updater whose value increases by a step from level to level."""
 
     is_single: ClassVar[bool] = False
-    """A flag: the original counts its levels in float32."""
+    """True if the original counts its levels in float32."""
 
     initial_value: float
     """The value of the first level."""

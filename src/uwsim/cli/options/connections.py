@@ -113,7 +113,7 @@ class ConnectionOptions:
 
     @property
     def is_connected(self) -> bool:
-        """A flag: there is a connection."""
+        """True if there is a connection."""
         return bool(self.transports)
 
     @property

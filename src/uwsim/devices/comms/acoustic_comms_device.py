@@ -111,7 +111,7 @@ class AcousticCommsDeviceSpec(DeviceSpec):
     log_level: str = "off"
     """The log level: read and not used."""
     disable: bool = False
-    """A flag: only the mesh of the device is created."""
+    """True if only the mesh of the device is created."""
     source_level: float | None = element(
         namespaced=True, default=None, minimum=-300.0, maximum=300.0
     )

@@ -119,7 +119,7 @@ class CustomCommsDeviceSpec(DeviceSpec):
     log_level: str = "off"
     """The log level: read and not used."""
     disable: bool = False
-    """A flag: only the mesh of the device is created."""
+    """True if only the mesh of the device is created."""
 
     @property
     def name(self) -> str:

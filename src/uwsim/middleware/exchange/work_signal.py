@@ -12,11 +12,11 @@ class WorkSignal:
         self.lock = threading.Lock()
         """The lock for adding to a queue, and for taking from it."""
         self.has_work = False
-        """A flag: work waits for the next step boundary."""
+        """True if work waits for the next step boundary."""
         self.is_urgent = False
-        """A flag: work waits that is also done while the simulation waits."""
+        """True if work waits that is also done while the simulation waits."""
         self.is_closed = False
-        """A flag: nothing more is accepted."""
+        """True if nothing more is accepted."""
         self._wake_event = threading.Event()
 
     def mark_urgent(self) -> None:

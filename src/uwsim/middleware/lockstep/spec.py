@@ -64,7 +64,7 @@ class ClientSpec:
 
     @property
     def keeps_order(self) -> bool:
-        """A flag: messages arrive in the order in which they were sent, on all topics."""
+        """True if messages arrive in the order in which they were sent, on all topics."""
         return self.transport in ORDERED_TRANSPORTS
 
     @property

@@ -56,7 +56,7 @@ class Player:
 
     @property
     def is_over(self) -> bool:
-        """A flag: all messages are published."""
+        """True if all messages are published."""
         return self._next_message is None
 
     def _play(self) -> None:

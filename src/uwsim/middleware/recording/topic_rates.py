@@ -18,7 +18,7 @@ class TopicRate:
     message_type: str
     """``package/msg/Name``."""
     is_published: bool
-    """A flag: the process publishes on the topic; else it only has subscribers."""
+    """True if the process publishes on the topic; else it only has subscribers."""
     n_messages: int | None = None
     """The number of messages; None if they were not read."""
     rate: float | None = None

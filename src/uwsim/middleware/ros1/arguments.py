@@ -30,7 +30,7 @@ class Parameter:
     check: Check
     """The check of its values."""
     is_optional: bool = False
-    """A flag: the parameter, which is the last one, may be left out."""
+    """True if the parameter, which is the last one, may be left out."""
 
 
 @dataclass(frozen=True)

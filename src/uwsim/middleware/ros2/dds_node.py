@@ -45,7 +45,7 @@ class DdsNode:
         self._participant = Participant(settings.domain, settings.configuration(user_xml))
         keeps_here = settings.is_local and not settings.static_peers and not user_xml
         self.is_closed = keeps_here and bind_to_loopback(old_sockets)
-        """A flag: other computers cannot reach the node."""
+        """True if other computers cannot reach the node."""
         self._presence = Presence(self._participant, NODE)
         self._types: dict[type, type[RawSample]] = {}
 

@@ -22,9 +22,9 @@ class Quality:
     """The number of messages kept for a slow reader (keep last); 0 keeps all."""
     is_reliable: bool = True
     is_latched: bool = False
-    """A flag: a late reader receives earlier messages (transient local)."""
+    """True if a late reader receives earlier messages (transient local)."""
     ignores_own: bool = False
-    """A flag: messages of the same participant are not read."""
+    """True if messages of the same participant are not read."""
 
 
 def quality_of(topic: str) -> Quality:

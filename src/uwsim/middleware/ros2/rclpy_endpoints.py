@@ -123,7 +123,7 @@ class RclpyReader:
     def __init__(self, drop: Remove, n_own: Callable[[], int]) -> None:
         self._drop, self._n_own = drop, n_own
         self.is_open = True
-        """A flag: the reader accepts messages."""
+        """True if the reader accepts messages."""
 
     @property
     def n_writers(self) -> int:

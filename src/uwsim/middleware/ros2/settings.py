@@ -39,7 +39,7 @@ class Ros2Settings:
     domain: int = 0
     """The DDS domain, 0 to 232."""
     is_local: bool = True
-    """A flag: only the loopback interface is used."""
+    """True if only the loopback interface is used."""
     static_peers: tuple[str, ...] = ()
     """The addresses of further participants."""
 

@@ -122,7 +122,7 @@ class Session:
 
     @property
     def is_waited_for(self) -> bool:
-        """A flag: the client takes part in a run that waits for its messages."""
+        """True if the client takes part in a run that waits for its messages."""
         admission = self._bridge.admission
         return admission is not None and admission.is_waited_for(self._name)
 

@@ -39,7 +39,7 @@ class FixedMesh:
 
     @property
     def is_exact(self) -> bool:
-        """A flag: the surface is the mesh itself, except for rounding."""
+        """True if the surface is the mesh itself, except for rounding."""
         return self.error <= ROUNDING_ERROR
 
     def triangles(self) -> Array:

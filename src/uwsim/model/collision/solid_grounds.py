@@ -49,7 +49,7 @@ class SolidGround:
 
     @property
     def has_edge(self) -> bool:
-        """A flag: the ground is a sheet around whose edge a body can get below it."""
+        """True if the ground is a sheet around whose edge a body can get below it."""
         return not self._is_terrain and self._is_sheet
 
     def is_above(self, point: Array) -> bool:

@@ -88,7 +88,7 @@ class BaseAddresses:
     ctrl_addresses: Sequence[int]
     """The addresses of the thrusters' commands in ``ctrl``."""
     is_over_ground: bool
-    """A flag: the velocity loops use the velocity over ground, not that through the water."""
+    """True if the velocity loops use the velocity over ground, not that through the water."""
 
 
 @dataclass(slots=True)

@@ -35,7 +35,7 @@ class EngineContactsState(Record):
     """The validity of the engine's contacts."""
 
     are_current: bool = False
-    """A flag: the engine's contacts are those of its present poses."""
+    """True if the engine's contacts are those of its present poses."""
 
 
 class EngineContacts:

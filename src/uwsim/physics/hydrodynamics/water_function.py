@@ -30,9 +30,9 @@ class WaterFunction:
     parameters: npt.NDArray[Any]
     """The array that it reads at its address."""
     needs_points: bool = False
-    """A flag: it reads the points, which must then be up to date."""
+    """True if it reads the points, which must then be up to date."""
     is_steady: bool = False
-    """A flag: its values at the first step hold for all others."""
+    """True if its values at the first step hold for all others."""
     memory_owners: tuple[object, ...] = field(default=())
     """The objects whose addresses the parameters contain."""
 

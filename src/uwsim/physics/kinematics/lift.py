@@ -62,7 +62,7 @@ class Lift:
 
     @property
     def is_active(self) -> bool:
-        """A flag: a body is being lifted, and steps are taken one by one."""
+        """True if a body is being lifted, and steps are taken one by one."""
         return any(self.state.steps_left)
 
     def begin_step(self) -> None:

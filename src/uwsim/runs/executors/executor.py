@@ -105,7 +105,7 @@ class JobQueue:
 
     @property
     def is_sealed(self) -> bool:
-        """A flag: a waiting job belongs to a run whose rows its algorithm must not read."""
+        """True if a waiting job belongs to a run whose rows its algorithm must not read."""
         return any(job.run.seal is not None for job in self._jobs)
 
     def take(self) -> Job | None:

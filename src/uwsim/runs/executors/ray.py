@@ -194,7 +194,7 @@ class AssignedJob:
     worker: Any
     """Ray's handle of a `RayWorker`."""
     is_alive: bool = True
-    """A flag: the worker accepts another job."""
+    """True if the worker accepts another job."""
 
     def begin(self) -> Any:
         """Start the job; return its future events."""

@@ -41,7 +41,7 @@ class Trial:
     levels: tuple[Level, ...]
     """Levels to run, in order."""
     is_alone: bool
-    """A flag: the trial is one level of an independent benchmark."""
+    """True if the trial is one level of an independent benchmark."""
 
     @property
     def values(self) -> tuple[tuple[float, ...], ...]:
@@ -68,7 +68,7 @@ class AlgorithmUnderTest:
     parameters: Mapping[str, float | str] = field(default_factory=dict)
     """The values of ``--set algorithm.NAME=VALUE``."""
     own_process: bool = False
-    """A flag: it runs in a process of its own, in lock-step."""
+    """True if it runs in a process of its own, in lock-step."""
     client: ClientSpec | None = None
     """The external program that is the algorithm; None where ``cls`` is."""
 
@@ -100,7 +100,7 @@ class Plan:
     data_path: tuple[Path, ...] = ()
     """Folders in which files are searched."""
     is_blind: bool = False
-    """A flag: images are black, for a control that does not use them."""
+    """True if images are black, for a control that does not use them."""
     inputs: Mapping[int, bytes] = field(default_factory=dict)
     """The inputs of a pilot in an earlier run, which are sent again, by the number of the trial."""
     plugins: tuple[Plugin, ...] = ()
@@ -113,7 +113,7 @@ class Plan:
 
     @property
     def is_bundled(self) -> bool:
-        """A flag: only code of uwsim runs, that is, a bundled algorithm without plugins."""
+        """True if only code of uwsim runs, that is, a bundled algorithm without plugins."""
         return self.algorithm.cls.__module__.startswith("uwsim.") and not self.plugins
 
     @property

@@ -41,10 +41,10 @@ class PlanRequest:
     plugins: Sequence[Path] = ()
     """Files of ``--plugin``."""
     no_code: bool = False
-    """A flag: code that the files name is refused."""
+    """True if code that the files name is refused."""
     client: ClientSpec | None = None
     """The external program that is the algorithm."""
     in_process: bool = False
-    """A flag: a third-party algorithm shares the simulation's process."""
+    """True if a third-party algorithm shares the simulation's process."""
     algorithm_is_from: str = ""
     """The file that names ``algorithm``, where the user did not."""

@@ -46,7 +46,7 @@ class TriggeredMeasure:
         self._was_on = False
         self._log_due = 0 if spec.log is not None else None
         self.never_started = True
-        """A flag: it was off all the time so far."""
+        """True if it was off all the time so far."""
 
     @property
     def value(self) -> object:
@@ -59,7 +59,7 @@ class TriggeredMeasure:
 
     @property
     def has_start_value(self) -> bool:
-        """A flag: its value is only a start value."""
+        """True if its value is only a start value."""
         is_asked = "never-started" in self._world.compatibility
         is_known = self.spec.error_flag == 0 and self.spec.start_value is not None
         return self.never_started and is_asked and is_known

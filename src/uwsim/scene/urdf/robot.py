@@ -130,17 +130,17 @@ class JointSpec(Spec):
 
     @property
     def moves(self) -> bool:
-        """A flag: the joint is not fixed."""
+        """True if the joint is not fixed."""
         return self.kind != "fixed"
 
     @property
     def has_stops(self) -> bool:
-        """A flag: the joint stops at `lower` and `upper`; a ``continuous`` joint may not."""
+        """True if the joint stops at `lower` and `upper`; a ``continuous`` joint may not."""
         return math.isfinite(self.upper - self.lower)
 
     @property
     def is_crank(self) -> bool:
-        """A flag: it mimics as a slider-crank does; its name states this, as in the original."""
+        """True if it mimics as a slider-crank does; its name states this, as in the original."""
         return "slidercrank" in self.name
 
     def clamp(self, value: float) -> float:

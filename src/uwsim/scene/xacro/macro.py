@@ -33,7 +33,7 @@ class Parameter:
     default: str | None = None
     """The default text; None: a value is required."""
     uses_caller: bool = False
-    """A flag: without a value, the property of that name in the caller's scope is used."""
+    """True if without a value, the property of that name in the caller's scope is used."""
     stars: int = 0
     """The kind of block, 1: the next element of the call; 2: the content of it."""
 

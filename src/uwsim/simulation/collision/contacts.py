@@ -54,7 +54,7 @@ class Contacts:
 
     @property
     def has_overlaps(self) -> bool:
-        """A flag: overlaps of kinematic bodies are computed at every step."""
+        """True if overlaps of kinematic bodies are computed at every step."""
         return self._overlaps.part is not None
 
     def update(self, step: int) -> None:

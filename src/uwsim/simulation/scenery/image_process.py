@@ -68,12 +68,12 @@ class ImageProcess:
 
     @property
     def is_ready(self) -> bool:
-        """A flag: the process draws images."""
+        """True if the process draws images."""
         return self._is_ready
 
     @property
     def is_idle(self) -> bool:
-        """A flag: the process draws nothing and no request is pending."""
+        """True if the process draws nothing and no request is pending."""
         return not self._is_busy and not self._requests
 
     def step(self) -> None:

@@ -68,7 +68,7 @@ class SceneRays:
 
     @property
     def is_compiled(self) -> bool:
-        """A flag: compiled steps update the poses that rays read without `prepare`.
+        """True if compiled steps update the poses that rays read without `prepare`.
 
         They do where all follow bodies of the engine; sand and placed or carried objects do not.
         """

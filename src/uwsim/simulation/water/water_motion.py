@@ -88,7 +88,7 @@ class WaterMotion:
 
     @property
     def is_still(self) -> bool:
-        """A flag: the water does not move at all."""
+        """True if the water does not move at all."""
         return self._flow.is_still
 
     def needs_positions(self, vehicles: Sequence[str]) -> bool:

@@ -29,7 +29,7 @@ class TopicView(SceneView):
         super().__init__(scene)
         self._scene = scene
         self.is_blind = is_blind
-        """A flag: images are black and nothing is drawn."""
+        """True if images are black and nothing is drawn."""
         self.world_from_localized = scene.model.scene.world_from_localized
         """The transform of W from L: the scene's offset."""
         self.compatibility = scene.model.compatibility
