@@ -27,7 +27,7 @@ from measure import main
 import uwsim
 from uwsim.base.geometry import Array, Pose
 from uwsim.rays import RayScene, Surface
-from uwsim.sensors.pencil import pencil
+from uwsim.sensors.pencil import pencil_rays
 from uwsim.sensors.sonar.imaging_sonar import ImagingSonarSpec
 from uwsim.sensors.sonar.ray_grid import RayGrid
 from uwsim.simulation import Simulation
@@ -53,7 +53,7 @@ def rays() -> Mapping[str, tuple[tuple[float, float, float], Array]]:
     across = np.radians(np.linspace(-60.0, 60.0, 64))
     beams = np.stack([0.0 * across, np.sin(across), -np.cos(across)], axis=1)
     ahead = np.tile([1.0, 0.0, 0.0], (len(beams), 1))
-    pencils = np.ascontiguousarray(pencil(beams, ahead, np.radians(1.0))[0].reshape(-1, 3))
+    pencils = np.ascontiguousarray(pencil_rays(beams, ahead, np.radians(1.0))[0].reshape(-1, 3))
     spec = ImagingSonarSpec(
         name="sonar", relative_to="base_link", beams=512, bins=500, rows=16, range=REACH
     )

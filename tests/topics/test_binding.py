@@ -19,7 +19,7 @@ from uwsim.schema import fields_of
 from uwsim.schema.names import prefixed_name
 from uwsim.sensors import SENSORS
 from uwsim.sensors.pressure_sensor import PressureSensorSpec
-from uwsim.sensors.sensor import Carrier, SensorSpec, measured_by
+from uwsim.sensors.sensor import Carrier, SensorSpec, find_message_type
 from uwsim.topics import INTERFACES, InterfaceSpec, element_name
 from uwsim.topics.sensor_topic import (
     ImuToROSImuSpec,
@@ -50,7 +50,7 @@ def test_sensors_on_one_interface_measure_the_same() -> None:
     for spec in INTERFACES.values():
         if issubclass(spec, SensorTopicSpec) and spec is not SensorToROSSpec:
             parts = {prefixed_name(tag): part for tag, part in {**SENSORS, **DEVICES}.items()}
-            types = {measured_by(parts[source]) for source in spec.sources} - {None}
+            types = {find_message_type(parts[source]) for source in spec.sources} - {None}
             assert len(types) <= 1
 
 

@@ -12,7 +12,7 @@ from tests.topics.test_every_interface import COMMS, MODEM, PARTS
 from uwsim.checks import check_file
 from uwsim.errors import SceneError
 from uwsim.scene.reader import read_scene
-from uwsim.sensors.sensor import measured_by
+from uwsim.sensors.sensor import find_message_type
 from uwsim.topics.sensor_topic import SensorToROSSpec
 
 SCENE = """<UWSimScene xmlns:u="urn:uwsim:1">
@@ -64,7 +64,7 @@ def test_every_sensor_and_device_that_measures_is_published_as_its_own_message(
     path = scene_file(tmp_path, PARTS + OURS)
     [vehicle] = read_scene(path).vehicles
     sensors = {
-        str(getattr(part, "name", "")): (element, measured_by(type(part)))
+        str(getattr(part, "name", "")): (element, find_message_type(type(part)))
         for element, part in vehicle.all_parts()
         if element in SensorToROSSpec.sources
     }

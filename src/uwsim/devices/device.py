@@ -15,7 +15,7 @@ from typing import ClassVar, Protocol
 from ..base.record import NoState, Record
 from ..base.sampling import Sampler
 from ..schema import Spec
-from ..sensors.sensor import Carrier, Mounted
+from ..sensors.sensor import Carrier, MountedPart
 from ..vehicle import Vehicle
 from ..world import DeviceWorld
 
@@ -30,7 +30,7 @@ class DeviceVehicle(Vehicle, Carrier, Protocol):
         """Release a held object."""
 
     def wrench_sampler(
-        self, spec: Mounted, *, at_joint: bool = False, visual: bool = False
+        self, spec: MountedPart, *, at_joint: bool = False, visual: bool = False
     ) -> Sampler:
         """Return a sampler of a wrench at a link, in the frame of a part on the link.
 

@@ -23,7 +23,7 @@ from ..scene.settings import HydrodynamicsPlace, locate
 from ..scene.urdf.robot import RobotSpec
 from ..scene.vehicle import VehicleSpec
 from ..schema import NAMESPACE, Diagnostics, Spec, diagnostic_at
-from ..sensors.sensor import measured_by
+from ..sensors.sensor import find_message_type
 from ..sensors.virtual_camera import VirtualCameraSpec
 from ..topics import element_name
 from ..topics.thruster_commands import AutopilotTopicSpec, ROSFinsToPATSpec
@@ -265,7 +265,7 @@ class NameResolution:
 
     def _field_error(self, fault: FaultSpec, vehicle: VehicleSpec) -> str | None:
         sensors = [part for _, part in vehicle.all_parts() if _name(part) == fault.sensor]
-        types = {measured_by(type(part)) for part in sensors} - {None}
+        types = {find_message_type(type(part)) for part in sensors} - {None}
         for interface in self._scene.ros_interfaces:
             if fault.sensor in (_name(interface), getattr(interface, "camera_name", None)):
                 types |= set(self._sensors.message_types(interface).values())

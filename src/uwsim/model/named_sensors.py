@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 from ..errors import choices
 from ..scene.spec import SceneSpec
-from ..sensors.sensor import measured_by
+from ..sensors.sensor import find_message_type
 from ..sensors.virtual_camera import VirtualCameraSpec
 from ..topics import InterfaceSpec
 from ..topics.sensor_topic import SensorToROSSpec
@@ -22,7 +22,7 @@ class NamedSensors:
         for vehicle in scene.vehicles:
             self._cameras |= {camera.name for camera in vehicle.parts_of(VirtualCameraSpec)}
             for element, part in vehicle.all_parts():
-                type_ = measured_by(type(part))
+                type_ = find_message_type(type(part))
                 if type_ is not None and element in SensorToROSSpec.sources:
                     name = str(getattr(part, "name", ""))
                     self._types.setdefault(name, {})[element] = type_

@@ -17,7 +17,7 @@ from ..base.numerics.linear import dot, length, product, rotate, rotate_back
 from ..devices.object_picker import ObjectPickerSpec
 from ..sensors.dvl_sensor import DvlSensorSpec
 from ..sensors.range_sensor import RangeSensorSpec
-from ..sensors.sensor import LookAt, Mounted
+from ..sensors.sensor import LookAt, MountedPart
 from ..sensors.sonar.spec import SonarSpec
 from .urdf.kinematics import link_poses
 from .urdf.robot import RobotSpec
@@ -83,7 +83,7 @@ class MountFrames:
         """The identities of the vehicle's parts, which are valid as long as this object exists."""
         return frozenset(map(id, self.vehicle.parts))
 
-    def link_from_mounted(self, spec: Mounted, *, visual: bool = False) -> Pose:
+    def link_from_mounted(self, spec: MountedPart, *, visual: bool = False) -> Pose:
         """Return the pose in its link's frame; for a part of the vehicle it is computed once.
 
         Args:
@@ -102,7 +102,7 @@ class MountFrames:
             self._part_poses[key] = link_from_part
         return link_from_part
 
-    def frame_from_mounted(self, spec: Mounted, *, visual: bool = False) -> Pose:
+    def frame_from_mounted(self, spec: MountedPart, *, visual: bool = False) -> Pose:
         """Return the pose in its link's frame, or in the link's visual frame.
 
         Raises:
@@ -128,18 +128,18 @@ class MountFrames:
         scaled_point: Array = base.position + rotate(base.rotation, scale * base_point)
         return scaled_point
 
-    def world_axes(self, spec: Mounted, *, visual: bool = False) -> Array:
+    def world_axes(self, spec: MountedPart, *, visual: bool = False) -> Array:
         """Return the axes of a mounted frame in W, as columns, (3, 3)."""
         frame = self.world_from_link(spec.relative_to, visual=visual).rotation
         return product(frame, self.frame_from_mounted(spec, visual=visual).rotation)
 
-    def world_from_mounted(self, spec: Mounted) -> Pose:
+    def world_from_mounted(self, spec: MountedPart) -> Pose:
         """Return the pose of a mounted part, with the scale of its vehicle."""
         link = self.world_from_link(spec.relative_to)
         place = link.transform(np.array([spec.position]))[0]
         return Pose(self._apply_scale(place), self.world_axes(spec))
 
-    def viewing_axes(self, spec: Mounted, *, visual: bool = False) -> tuple[Array, Array]:
+    def viewing_axes(self, spec: MountedPart, *, visual: bool = False) -> tuple[Array, Array]:
         """Return unit vectors in W: the viewing direction, and the top of the image, (3,) each.
 
         For a DVL the second is its x axis.

@@ -10,7 +10,7 @@ from ..base.numerics.linear import product
 from ..devices.lamp import LampSpec
 from ..devices.structured_light_projector import StructuredLightProjectorSpec
 from ..sensors.dvl_sensor import DvlSensorSpec
-from ..sensors.sensor import Looking, Mounted
+from ..sensors.sensor import DirectedPart, MountedPart
 from ..sensors.sonar.multibeam_sensor import FanSpec
 from ..sensors.sonar.side_scan_sonar import SIDES, SideScanSonarSpec
 from ..sensors.sonar.spec import SonarSpec
@@ -20,12 +20,12 @@ from .mounts import MountFrames, describe_axis
 from .vehicle import VehicleSpec
 
 
-def directional_parts(vehicle: VehicleSpec) -> Iterator[Looking]:
+def directional_parts(vehicle: VehicleSpec) -> Iterator[DirectedPart]:
     """Return every part of a vehicle with a viewing direction."""
-    return (part for part in vehicle.parts if isinstance(part, Looking))
+    return (part for part in vehicle.parts if isinstance(part, DirectedPart))
 
 
-def describe_direction(spec: Mounted, frames: MountFrames) -> str:
+def describe_direction(spec: MountedPart, frames: MountFrames) -> str:
     """Describe the direction of a part, such as ``looks down, 2 deg off``.
 
     Raises:

@@ -33,6 +33,6 @@ SENSORS: dict[str, type[SensorSpec]] = {
     f"{{{NAMESPACE}}}scanningSonar": ScanningSonarSpec,
     f"{{{NAMESPACE}}}sideScanSonar": SideScanSonarSpec,
 }
-"""Element of a vehicle -> spec; one without ``bind`` is read and not simulated."""
+"""The spec of each sensor element of a vehicle; one without ``bind`` is read and not simulated."""
 
 __all__ = ["SENSORS", "SensorSpec"]

@@ -37,31 +37,31 @@ from ..base.record import Record
 from ..schema import Spec, element
 
 FLOOR = math.sqrt(2.0 * math.log(2.0) / math.pi)
-"""Allan deviation of flicker noise of the bias instability 1 [1]."""
+"""The Allan deviation of flicker noise of the bias instability 1 [1]."""
 PEAK = 0.6174
-"""Greatest Allan deviation of a Gauss-Markov process of the standard deviation 1 [1]."""
-FIRST = 0.01
-"""What the first sample is a mean over [s]."""
+"""The greatest Allan deviation of a Gauss-Markov process of the standard deviation 1 [1]."""
+FIRST_INTERVAL = 0.01
+"""The averaging time of the first sample [s]."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class DriftSpec(Spec):
-    """A ``<u:gyro>`` or ``<u:accelerometer>``: errors, the same for each axis."""
+    """A ``<u:gyro>`` or ``<u:accelerometer>``: its errors, the same for each axis."""
 
     noise_density: float = element(namespaced=True, default=0.0, minimum=0, maximum=1e3)
-    """White noise, N [rad/s/sqrt(Hz), or m/s2/sqrt(Hz)]."""
+    """The density N of the white noise [rad/s/sqrt(Hz), or m/s2/sqrt(Hz)]."""
     bias_instability: float = element(namespaced=True, default=0.0, minimum=0, maximum=1e3)
-    """B of a data sheet, from the floor of the Allan deviation [rad/s, or m/s2]."""
+    """The bias instability B of a data sheet: floor of the Allan deviation [rad/s, or m/s2]."""
     correlation_time: float = element(namespaced=True, default=300.0, above=0, maximum=1e9)
-    """Of the bias, T [s]."""
+    """The correlation time T of the bias [s]."""
     random_walk: float = element(namespaced=True, default=0.0, minimum=0, maximum=1e3)
-    """Of the rate or the acceleration, K [rad/s/sqrt(s), or m/s2/sqrt(s)]."""
+    """The random walk K of the rate or the acceleration [rad/s/sqrt(s), or m/s2/sqrt(s)]."""
     turn_on_bias: float = element(namespaced=True, default=0.0, minimum=0, maximum=1e3)
-    """Constant bias of a run, standard deviation [rad/s, or m/s2]."""
+    """The standard deviation of the constant bias of a run [rad/s, or m/s2]."""
 
     @property
     def bias_std(self) -> float:
-        """Standard deviation of the bias that wanders, s [rad/s, or m/s2]."""
+        """The standard deviation s of the varying bias [rad/s, or m/s2]."""
         return self.bias_instability * FLOOR / PEAK
 
 
@@ -74,11 +74,11 @@ class DriftState(Record):
     constant: Array
     """The bias of this run, (3,)."""
     bias: Array
-    """The bias that wanders, (3,)."""
+    """The varying bias, (3,)."""
     walk: Array
     """The random walk, (3,)."""
     time: Array
-    """When they were last drawn, NaN before the first time, (1,) [s]."""
+    """The time of the last errors, NaN before the first ones, (1,) [s]."""
 
 
 DRIFT = np.dtype(
@@ -102,15 +102,15 @@ DRIFT = np.dtype(
 class Drift:
     """The errors of three axes, from sample to sample; `draw_errors` draws them."""
 
-    def __init__(self, spec: DriftSpec, random: np.random.Generator) -> None:
-        constant = spec.turn_on_bias * random.standard_normal(3)
-        bias = spec.bias_std * random.standard_normal(3)
-        self.state = state = DriftState(random, constant, bias, np.zeros(3), np.full(1, math.nan))
-        """Its slow errors."""
+    def __init__(self, spec: DriftSpec, rng: np.random.Generator) -> None:
+        constant = spec.turn_on_bias * rng.standard_normal(3)
+        bias = spec.bias_std * rng.standard_normal(3)
+        self.state = state = DriftState(rng, constant, bias, np.zeros(3), np.full(1, math.nan))
+        """The slow errors."""
         self.parameters = np.zeros(1, DRIFT)
-        """What `draw_errors` reads, (1,)."""
+        """The input of `draw_errors`, (1,)."""
         row = self.parameters[0]
-        row["stream"] = stream_of(random)
+        row["stream"] = stream_of(rng)
         for name in ("constant", "bias", "walk", "time"):
             row[name] = address_of(getattr(state, name))
         row["density_squared"], row["bias_std"] = spec.noise_density**2, spec.bias_std
@@ -128,25 +128,25 @@ def draw_errors(drift: Any, time: float, errors: Array) -> float:
         time: when the sample is taken [s].
         errors: into which they are written.
     """
-    last, constant, bias = (
+    last_time, constant, bias = (
         view_doubles(drift.time, 1),
         view_doubles(drift.constant, 3),
         view_doubles(drift.bias, 3),
     )
     walk = view_doubles(drift.walk, 3)
-    lasted = 0.0 if math.isnan(last[0]) else time - last[0]
-    last[0] = time
-    kept = math.exp(-lasted / drift.correlation_time)
-    wander = drift.bias_std * math.sqrt(1.0 - kept * kept)
-    step = drift.random_walk * math.sqrt(lasted)
-    white = drift.density_squared / (lasted if lasted != 0.0 else FIRST)
+    interval = 0.0 if math.isnan(last_time[0]) else time - last_time[0]
+    last_time[0] = time
+    decay = math.exp(-interval / drift.correlation_time)
+    bias_step = drift.bias_std * math.sqrt(1.0 - decay * decay)
+    walk_step = drift.random_walk * math.sqrt(interval)
+    white = drift.density_squared / (interval if interval != 0.0 else FIRST_INTERVAL)
     std = math.sqrt(white)
     for i in range(3):
         errors[i] = std * normal(drift.stream)
     for i in range(3):
-        bias[i] = kept * bias[i] + wander * normal(drift.stream)
+        bias[i] = decay * bias[i] + bias_step * normal(drift.stream)
     for i in range(3):
-        walk[i] = walk[i] + step * normal(drift.stream)
+        walk[i] = walk[i] + walk_step * normal(drift.stream)
         errors[i] = ((errors[i] + constant[i]) + bias[i]) + walk[i]
     variance: float = white + (drift.constant_variance + drift.walk_squared * time)
     return variance

@@ -16,7 +16,7 @@ from ..base.numerics.memory import carray, pointer, view_doubles
 from ..rays import Hits
 from ..rays.scene_record import RAYS, cast_from
 from ..world.mounts import MOUNT, read_frame, read_motion, read_water
-from .janus import ENOUGH, SIGNS, Flags
+from .janus import MIN_BEAMS, SIGNS, Flags
 
 DVL = np.dtype(
     [
@@ -46,20 +46,20 @@ DVL = np.dtype(
         ("is_original", np.int64),  # whether it measures as the original
     ]
 )
-"""A Doppler velocity log."""
-INSTRUMENT, WORLD, ERROR, MADE_GOOD, TIME, LAST = 0, 3, 6, 7, 10, 11
-"""Where the numbers of a track are; see `TrackState`."""
+"""The parameters of a Doppler velocity log, for compiled code."""
+INSTRUMENT, WORLD, ERROR, MADE_GOOD, TIME, LAST_VALID = 0, 3, 6, 7, 10, 11
+"""The indices of a track's numbers; see `TrackState`."""
 N_TRACK = 12
-SHIP = 12
-"""Behind the numbers of a track among the values: its velocity in the axes of the base [m/s]."""
-BOTTOM, IN_WATER, HEIGHT, DEPTH, RANGES, ALONG = 0, 15, 30, 31, 32, 36
-"""Where the values of a sample are: tracks, mean height [m], depth [m], ranges [m] and velocities
-[m/s] of the beams."""
+BASE_VELOCITY = 12
+"""The index of the velocity in the base frame, after a track's numbers [m/s]."""
+BOTTOM, WATER, HEIGHT, DEPTH, RANGES, BEAM_VELOCITIES = 0, 15, 30, 31, 32, 36
+"""The indices of a sample's values: tracks, mean height [m], depth [m], beam ranges [m] and beam
+velocities [m/s]."""
 N_VALUES = 40
-THROUGH = 1e-6
-"""How far behind a surface of its own vehicle a beam goes on [m]."""
-MAX_OWN = 32
-"""Surfaces of its own vehicle that a beam goes through at most."""
+OWN_SURFACE_GAP = 1e-6
+"""The distance behind a surface of its own vehicle at which a beam continues [m]."""
+MAX_OWN_SURFACES = 32
+"""The largest number of surfaces of its own vehicle that a beam passes through."""
 
 Record = Any
 
@@ -74,30 +74,30 @@ def sample_dvl(parameters: int, values: int, time: float) -> None:
             noise[i, k] = normal(dvl.stream)
     for i in range(4):
         chances[i] = uniform(dvl.stream)
-    found = view_doubles(values, N_VALUES)
+    output = view_doubles(values, N_VALUES)
     if dvl.is_original != 0:
-        differ(dvl, time, frame, noise[3], found)
+        measure_difference(dvl, time, frame, noise[3], output)
     else:
-        ping(dvl, time, frame, noise, chances, found)
+        ping(dvl, time, frame, noise, chances, output)
 
 
 @njit
-def differ(dvl: Record, time: float, frame: Array, noise: Array, found: Array) -> None:
-    """Write the mean velocity since the last sample in the sensor's axes, as the original's."""
-    before, velocity = view_doubles(dvl.before, 4), np.zeros(3)
-    if time > before[0]:  # not before the first: NaN
-        moved = (frame[:3] - before[1:]) / (time - before[0])
-        velocity = rotate_back(frame[3:].reshape((3, 3)), moved)
-    before[0], before[1:] = time, frame[:3]
+def measure_difference(dvl: Record, time: float, frame: Array, noise: Array, output: Array) -> None:
+    """Write the mean velocity since the last sample, sensor frame, as the original sensor does."""
+    last_sample, velocity = view_doubles(dvl.before, 4), np.zeros(3)
+    if time > last_sample[0]:  # not before the first: NaN
+        world_velocity = (frame[:3] - last_sample[1:]) / (time - last_sample[0])
+        velocity = rotate_back(frame[3:].reshape((3, 3)), world_velocity)
+    last_sample[0], last_sample[1:] = time, frame[:3]
     for k in range(3):
-        found[k] = velocity[k] + dvl.std * noise[k]
+        output[k] = velocity[k] + dvl.std * noise[k]
 
 
 @njit
 def ping(
-    dvl: Record, time: float, frame: Array, normals: Array, chances: Array, found: Array
+    dvl: Record, time: float, frame: Array, normals: Array, chances: Array, output: Array
 ) -> None:
-    """Measure with these random numbers, (4, 4) and (4,)."""
+    """Measure with the given random numbers, (4, 4) and (4,)."""
     axes, motion, base = frame[3:].reshape((3, 3)), np.empty(12), np.empty(12)
     directions = dvl.directions
     beams = rotate_rows(axes, directions)
@@ -106,114 +106,118 @@ def ping(
     read_motion(dvl.mount, motion)
     velocity = rotate_back(axes, motion[3:6])
     scale, reach = view_doubles(dvl.scale, 4), dvl.water_layer / dvl.cosine
-    flow = flow_at(dvl, frame, reach, beams, time)
-    bottom, water, along = np.empty(4), np.empty(4), found[ALONG : ALONG + 4]
-    is_good, is_wet = np.empty(4, np.bool_), np.empty(4, np.bool_)
+    flow = read_flow(dvl, frame, reach, beams, time)
+    bottom, water, beam_velocities = (
+        np.empty(4),
+        np.empty(4),
+        output[BEAM_VELOCITIES : BEAM_VELOCITIES + 4],
+    )
+    is_good, is_in_water = np.empty(4, np.bool_), np.empty(4, np.bool_)
     height, n_good = 0.0, 0
     for i in range(4):
         beam, d = beams[i], directions[i]
         over_ground = 0.0 + d[0] * velocity[0] + d[1] * velocity[1] + d[2] * velocity[2]
         bottom[i] = scale[i] * over_ground + dvl.beam_std * normals[0, i]
-        carried = beam[0] * flow[i, 0] + beam[1] * flow[i, 1] + beam[2] * flow[i, 2]
-        water[i] = scale[i] * (over_ground - carried) + dvl.water_std * normals[1, i]
+        water_part = beam[0] * flow[i, 0] + beam[1] * flow[i, 1] + beam[2] * flow[i, 2]
+        water[i] = scale[i] * (over_ground - water_part) + dvl.water_std * normals[1, i]
         is_heard, axial = chances[i] >= dvl.dropout, ranges[i] * dvl.cosine
         is_good[i] = is_heard and dvl.min_altitude <= axial <= dvl.max_altitude
         is_under = frame[2] + reach * beam[2] < dvl.surface
-        is_wet[i] = is_heard and ranges[i] > reach and is_under
-        found[RANGES + i] = along[i] = math.nan
+        is_in_water[i] = is_heard and ranges[i] > reach and is_under
+        output[RANGES + i] = beam_velocities[i] = math.nan
         if is_good[i]:
-            found[RANGES + i] = ranges[i] + dvl.range_std * normals[2, i]
-            along[i] = bottom[i]
+            output[RANGES + i] = ranges[i] + dvl.range_std * normals[2, i]
+            beam_velocities[i] = bottom[i]
             drop = -(0.0 + d[0] * axes[2, 0] + d[1] * axes[2, 1] + d[2] * axes[2, 2])
-            height, n_good = height + found[RANGES + i] * drop, n_good + 1
+            height, n_good = height + output[RANGES + i] * drop, n_good + 1
     noise = dvl.std * normals[3, :3]
-    take_velocity(view_doubles(dvl.bottom, N_TRACK), time, axes, dvl, (bottom, is_good), noise)
-    take_velocity(view_doubles(dvl.through, N_TRACK), time, axes, dvl, (water, is_wet), noise)
+    update_track(view_doubles(dvl.bottom, N_TRACK), time, axes, dvl, (bottom, is_good), noise)
+    update_track(view_doubles(dvl.through, N_TRACK), time, axes, dvl, (water, is_in_water), noise)
     read_frame(dvl.base, base)
-    write_track(view_doubles(dvl.bottom, N_TRACK), base[3:], found[BOTTOM:IN_WATER])
-    write_track(view_doubles(dvl.through, N_TRACK), base[3:], found[IN_WATER:HEIGHT])
-    found[HEIGHT] = height / n_good if n_good else math.nan
-    found[DEPTH] = max(0.0, dvl.surface - frame[2])
+    write_track(view_doubles(dvl.bottom, N_TRACK), base[3:], output[BOTTOM:WATER])
+    write_track(view_doubles(dvl.through, N_TRACK), base[3:], output[WATER:HEIGHT])
+    output[HEIGHT] = height / n_good if n_good else math.nan
+    output[DEPTH] = max(0.0, dvl.surface - frame[2])
 
 
 @njit
-def write_track(track: Array, base: Array, found: Array) -> None:
-    """Write the numbers of a track, and its velocity in the axes of the base, by rows, (9,)."""
-    found[:SHIP] = track
+def write_track(track: Array, base: Array, output: Array) -> None:
+    """Write a track's numbers, and its velocity in the base frame; its rotation by rows, (9,)."""
+    output[:BASE_VELOCITY] = track
     for i in range(3):
         total = 0.0
         for j in range(3):
             total += base[3 * j + i] * track[WORLD + j]
-        found[SHIP + i] = total
+        output[BASE_VELOCITY + i] = total
 
 
 @njit
-def flow_at(dvl: Record, frame: Array, reach: float, beams: Array, time: float) -> Array:
+def read_flow(dvl: Record, frame: Array, reach: float, beams: Array, time: float) -> Array:
     """Return the velocity of the water on the beams, in W, (4, 3) [m/s]."""
     if dvl.water.function == 0:
         return view_doubles(dvl.flow, 12).reshape((4, 3))
-    found = np.empty((2, 4, 3))
+    water = np.empty((2, 4, 3))
     for i in range(4):
         for k in range(3):
-            found[0, i, k] = frame[k] + reach * beams[i, k]
-    read_water(dvl.water, found, time)
-    there: Array = found[1]
-    return there
+            water[0, i, k] = frame[k] + reach * beams[i, k]
+    read_water(dvl.water, water, time)
+    velocities: Array = water[1]
+    return velocities
 
 
 @njit
 def find_ranges(dvl: Record, frame: Array, beams: Array) -> Array:
-    """Return the distances along the beams to what is not the vehicle, (4,) [m]; inf: none."""
+    """Return the distances along the beams to surfaces of other bodies, (4,) [m]; inf: none."""
     reach = dvl.max_altitude / dvl.cosine + 1.0
-    found, begins, waiting, n = np.full(4, np.inf), np.zeros(4), np.arange(4), 4
+    ranges, starts, open_beams, n = np.full(4, np.inf), np.zeros(4), np.arange(4), 4
     directions, hits = beams, Hits(np.empty(4), np.empty((4, 3)), np.empty(4, np.int32))
-    for _ in range(MAX_OWN):
+    for _ in range(MAX_OWN_SURFACES):
         part = Hits(hits.distance[:n], hits.normal[:n], hits.surface[:n])
-        cast_from(dvl.rays, frame[:3], directions, begins[:n], reach, part)
-        n_waiting = 0
+        cast_from(dvl.rays, frame[:3], directions, starts[:n], reach, part)
+        n_open = 0
         for i in range(n):
             surface = part.surface[i]
             if surface >= 0 and carray(pointer(dvl.is_own + surface), (1,), np.uint8)[0] != 0:
-                begins[n_waiting] = part.distance[i] + THROUGH
-                waiting[n_waiting] = waiting[i]
-                n_waiting += 1
+                starts[n_open] = part.distance[i] + OWN_SURFACE_GAP
+                open_beams[n_open] = open_beams[i]
+                n_open += 1
             else:
-                found[waiting[i]] = part.distance[i]
-        if n_waiting == 0:
+                ranges[open_beams[i]] = part.distance[i]
+        if n_open == 0:
             break
-        n, directions = n_waiting, beams[waiting[:n_waiting]]
-    return found
+        n, directions = n_open, beams[open_beams[:n_open]]
+    return ranges
 
 
 @njit
-def take_velocity(
+def update_track(
     track: Array,
     time: float,
     axes: Array,
     dvl: Record,
-    measured: tuple[Array, Flags],
+    measurements: tuple[Array, Flags],
     noise: Array,
 ) -> None:
-    """Take the velocity of a ping at ``time`` [s] from those along the beams, some of them good."""
-    along, is_good = measured
-    lasted = 0.0 if math.isnan(track[TIME]) else time - track[TIME]
+    """Compute a ping's velocity at ``time`` [s] from those along the good beams."""
+    beam_velocities, is_good = measurements
+    interval = 0.0 if math.isnan(track[TIME]) else time - track[TIME]
     track[TIME] = time
-    if is_good.sum() < ENOUGH:
+    if is_good.sum() < MIN_BEAMS:
         track[: ERROR + 1] = math.nan
         return
     beams = dvl.directions[is_good]
-    across = np.ascontiguousarray(beams.T)
-    columns = multiply_matrices(across, along[is_good].reshape((-1, 1)))
-    velocity = eliminate(multiply_matrices(across, beams), columns)[0][:, 0]
+    transposed_beams = np.ascontiguousarray(beams.T)
+    columns = multiply_matrices(transposed_beams, beam_velocities[is_good].reshape((-1, 1)))
+    velocity = eliminate(multiply_matrices(transposed_beams, beams), columns)[0][:, 0]
     for k in range(3):
         track[INSTRUMENT + k] = velocity[k] + noise[k]
     track[WORLD:ERROR] = rotate(axes, track[INSTRUMENT:WORLD])
     track[ERROR] = math.nan
     if is_good.all():
-        total = SIGNS[0] * along[0]
+        total = SIGNS[0] * beam_velocities[0]
         for i in range(1, 4):
-            total += SIGNS[i] * along[i]
+            total += SIGNS[i] * beam_velocities[i]
         track[ERROR] = dvl.error_share * total
     for k in range(3):
-        track[MADE_GOOD + k] += track[WORLD + k] * lasted
-    track[LAST] = time
+        track[MADE_GOOD + k] += track[WORLD + k] * interval
+    track[LAST_VALID] = time

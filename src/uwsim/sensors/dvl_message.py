@@ -1,6 +1,6 @@
 """The message of a DVL: velocities in three frames, and distances made good, as RDI's PD6.
 
-A velocity that is not known is NaN and its status ``V``; a good one has ``A``.
+An unknown velocity is NaN and its status ``V``; a valid one has the status ``A``.
 """
 
 from __future__ import annotations
@@ -14,15 +14,15 @@ from ..base.geometry import Array
 from ..messages import DVL, Header
 from . import dvl_kernel as k
 
-GOOD, BAD = "A", "V"
-"""Status of a velocity in PD6."""
+STATUS_VALID, STATUS_INVALID = "A", "V"
+"""The statuses of a velocity in PD6: valid, invalid."""
 _NUMBERS = (
     *("i_x_axis", "i_y_axis", "i_z_axis", "e_east", "e_north", "e_upwards", "i_error"),
     *("d_east", "d_north", "d_upwards", "s_longitudinal", "s_transverse", "s_normal"),
     *("d_range", "d_time"),
 )
 _STATUSES = ("i_status", "s_status", "e_status")
-_FIELDS = {each: tuple(f"{each}{name}" for name in (*_NUMBERS, *_STATUSES)) for each in "bw"}
+_FIELDS = {letter: tuple(f"{letter}{name}" for name in (*_NUMBERS, *_STATUSES)) for letter in "bw"}
 
 
 def dvl_message(header: Header, values: Array, *, water: SeaWater, water_layer: float) -> DVL:
@@ -44,22 +44,22 @@ def dvl_message(header: Header, values: Array, *, water: SeaWater, water_layer: 
         depth=depth,
         sound_speed=water.sound_speed(depth),
         raw_data=" ".join(map(repr, numbers[k.RANGES :])),
-        **_track("b", numbers[k.BOTTOM : k.IN_WATER], numbers[k.HEIGHT]),
-        **_track("w", numbers[k.IN_WATER : k.HEIGHT], water_layer),
+        **_track_fields("b", numbers[k.BOTTOM : k.WATER], numbers[k.HEIGHT]),
+        **_track_fields("w", numbers[k.WATER : k.HEIGHT], water_layer),
     )
 
 
-def _track(letter: str, numbers: Sequence[float], distance: float) -> dict[str, Any]:
-    """The fields of one track, which begin with a letter; the distance is that to its layer [m]."""
-    status = BAD if math.isnan(numbers[k.INSTRUMENT]) else GOOD
-    age = numbers[k.TIME] - numbers[k.LAST]
-    known: tuple[float | str, ...] = (
+def _track_fields(letter: str, numbers: Sequence[float], distance: float) -> dict[str, Any]:
+    """Return the fields of a track, whose names begin with a letter; distance to its layer [m]."""
+    status = STATUS_INVALID if math.isnan(numbers[k.INSTRUMENT]) else STATUS_VALID
+    age = numbers[k.TIME] - numbers[k.LAST_VALID]
+    values: tuple[float | str, ...] = (
         *numbers[: k.TIME],
-        *numbers[k.SHIP :],
+        *numbers[k.BASE_VELOCITY :],
         distance,
         age,
         status,
         status,
         status,
     )
-    return dict(zip(_FIELDS[letter], known, strict=True))
+    return dict(zip(_FIELDS[letter], values, strict=True))

@@ -1,4 +1,4 @@
-"""Velocity over ground and through the water, by four beams of sound.
+"""Velocity over ground and through the water, measured along four acoustic beams.
 
 .. code-block:: xml
 
@@ -7,9 +7,9 @@
       <u:beamStd>0.005</u:beamStd> <u:rangeStd>0.02</u:rangeStd> <u:dropout>0.01</u:dropout>
     </dvlSensor>
 
-The z axis of the sensor is the middle of its beams and looks down. A beam finds the first surface
-on its axis, but for those of its own vehicle. See `uwsim.sensors.janus` for its geometry, and
-`uwsim.sensors.dvl_message` for what is published.
+The z axis of the sensor is the middle of its beams and points down. A beam measures the first
+surface on its axis, except those of its own vehicle. See `uwsim.sensors.janus` for its geometry,
+and `uwsim.sensors.dvl_message` for the message.
 """
 
 from __future__ import annotations
@@ -45,64 +45,64 @@ class DvlSensorSpec(SensorSpec):
     position: tuple[float, float, float] = element(
         default=(0.0, 0.0, 0.0), minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE
     )
-    """Of the sensor in the link's frame [m]."""
+    """The position of the sensor in the link's frame [m]."""
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
-    """Of the sensor in the link's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
+    """The orientation of the sensor in the link's frame, roll, pitch, yaw (Rz Ry Rx) [rad]."""
     look_at: LookAt = element(namespaced=True, default=None)
-    """Where its z axis points at the start, instead of ``orientation``: a point in L [m], or a
-    direction of the vehicle. Its x axis then is the top of what a camera would see: forward for
-    ``down``. It stays fixed to its link."""
+    """The target of the z axis at the start, instead of ``orientation``: a point in L [m], or a
+    direction of the vehicle. The x axis is the top of a camera's image: forward for ``down``. The
+    sensor stays fixed to its link."""
     std: float = element(default=0.0, minimum=0, maximum=10)
-    """Noise of each component, standard deviation [m/s]."""
+    """The noise of each component, standard deviation [m/s]."""
     beam_angle: float = element(namespaced=True, default=30.0, above=0, maximum=60)
-    """From the z axis of the sensor to each beam [deg]."""
+    """The angle from the z axis of the sensor to each beam [deg]."""
     min_altitude: float = element(namespaced=True, default=0.5, minimum=0, maximum=MAX_DISTANCE)
-    """Nearest bottom, along the z axis of the sensor [m]."""
+    """The least distance to the bottom, along the z axis of the sensor [m]."""
     max_altitude: float = element(namespaced=True, default=81.0, above=0, maximum=MAX_DISTANCE)
-    """Farthest bottom, along the z axis of the sensor [m]."""
+    """The greatest distance to the bottom, along the z axis of the sensor [m]."""
     beam_std: float = element(namespaced=True, default=0.0, minimum=0, maximum=10)
-    """Noise along each beam on the bottom, standard deviation [m/s]."""
+    """The noise along each beam on the bottom, standard deviation [m/s]."""
     scale_std: float = element(namespaced=True, default=0.0, minimum=0, maximum=1)
-    """Constant error of each beam in a run, of its velocity; standard deviation [1]."""
+    """The constant scale error of each beam's velocity in a run, standard deviation [1]."""
     water_std: float | None = element(namespaced=True, default=None, minimum=0, maximum=10)
-    """Noise along each beam in the water [m/s]; three times that on the bottom if not given."""
+    """The noise along each beam in the water [m/s]; by default three times that on the bottom."""
     range_std: float = element(namespaced=True, default=0.0, minimum=0, maximum=1000)
-    """Noise of each range, standard deviation [m]."""
+    """The noise of each range, standard deviation [m]."""
     dropout: float = element(namespaced=True, default=0.0, minimum=0, maximum=1)
-    """Probability that a beam hears nothing of a ping [1]."""
+    """The probability that a beam receives no echo of a ping [1]."""
     water_layer: float = element(namespaced=True, default=2.0, above=0, maximum=MAX_DISTANCE)
-    """Where the water is tracked, along the z axis of the sensor [m]."""
+    """The distance to the tracked layer of water, along the z axis of the sensor [m]."""
 
     def is_bottom(self, axial: Array) -> Flags:
-        """Whether beams have the bottom in their reach, by the distance along the z axis [m]."""
-        found: Flags = (axial >= self.min_altitude) & (axial <= self.max_altitude)
-        return found
+        """Return True for beams that reach the bottom, by the distance along the z axis [m]."""
+        is_in_range: Flags = (axial >= self.min_altitude) & (axial <= self.max_altitude)
+        return is_in_range
 
     def bind(self, world: SensorWorld, vehicle: Carrier) -> Dvl:
-        """Mount it on its link; raises UnknownName if the vehicle has no such link."""
+        """Mount it on its link; raise UnknownName if the vehicle has no such link."""
         return Dvl(self, vehicle.moving_mount(self), world, vehicle)
 
 
 @dataclass(slots=True)
 class TrackState(Record):
-    """What is known of the velocity over one thing."""
+    """The measured velocity over the bottom or through the water."""
 
     numbers: Array
-    """The velocity in the axes of the sensor and in W [m/s], the error velocity [m/s], east, north
-    and up since the beginning over the time with a velocity [m], when the last ping was, NaN before
-    the first, and when there was a velocity last [s], (12,)."""
+    """The velocity in the sensor's frame and in W [m/s], the error velocity [m/s], the distance
+    made good east, north and up [m], the time of the last ping, NaN before the first, and that of
+    the last velocity [s], (12,)."""
 
     @staticmethod
-    def unknown() -> TrackState:
-        """Return that of a sensor that has not pinged."""
+    def create() -> TrackState:
+        """Return the state of a sensor before its first ping."""
         numbers = np.full(kernel.N_TRACK, math.nan)
-        numbers[kernel.MADE_GOOD : kernel.TIME], numbers[kernel.LAST] = 0.0, 0.0
+        numbers[kernel.MADE_GOOD : kernel.TIME], numbers[kernel.LAST_VALID] = 0.0, 0.0
         return TrackState(numbers)
 
 
 @dataclass(slots=True)
 class DvlState(Record):
-    """What changes of a Doppler velocity log."""
+    """The state of a Doppler velocity log."""
 
     random: np.random.Generator
     """The generator of its noise."""
@@ -113,7 +113,8 @@ class DvlState(Record):
     water: TrackState
     """The velocity through the water."""
     before: Array
-    """When the original's looked last, NaN before the first time [s], and its place in W [m]."""
+    """The time of the original's last sample, NaN before the first [s], and its position in W
+    [m]."""
 
 
 class Dvl(CompiledSensor):
@@ -125,15 +126,15 @@ class Dvl(CompiledSensor):
         self._spec, self._mount, self._world, self._vehicle = spec, mount, world, vehicle
         self._base = vehicle.compiled_vehicle.base_mount()
         self._janus = Janus(math.radians(spec.beam_angle))
-        random = world.stream(f"{vehicle.name}/{spec.name}/noise")
-        scale = 1.0 + spec.scale_std * random.standard_normal(4)
-        bottom, water = TrackState.unknown(), TrackState.unknown()
-        self.state = DvlState(random, scale, bottom, water, np.full(4, math.nan))
-        """What changes of it."""
+        rng = world.stream(f"{vehicle.name}/{spec.name}/noise")
+        scale = 1.0 + spec.scale_std * rng.standard_normal(4)
+        bottom, water = TrackState.create(), TrackState.create()
+        self.state = DvlState(rng, scale, bottom, water, np.full(4, math.nan))
+        """The state."""
         self._is_original = "dvl-differences" in world.compatibility
         self._flow = np.zeros((4, 3))  # of the water at the beams, in W, if Python is asked [m/s]
-        self._is_own = np.array([each == vehicle.name for each in world.rays.vehicles], np.uint8)
-        self._row = self._parameters()
+        self._is_own = np.array([name == vehicle.name for name in world.rays.vehicles], np.uint8)
+        self._row = self._create_parameters()
         self._water: CompiledFunction | None = None  # what the row has the addresses of
         self.sampler = Sampler(
             function=function_address(kernel.sample_dvl),
@@ -142,10 +143,10 @@ class Dvl(CompiledSensor):
             prepare=self._prepare,
             is_alone=self._is_alone,
         )
-        """What takes the numbers of a sample."""
+        """The sampler."""
 
-    def _parameters(self) -> npt.NDArray[np.void]:
-        """Return what compiled code has to know of it, a record of `dvl_kernel.DVL`, (1,)."""
+    def _create_parameters(self) -> npt.NDArray[np.void]:
+        """Return its parameters for compiled code, a record of `dvl_kernel.DVL`, (1,)."""
         spec, janus, state, row = self._spec, self._janus, self.state, np.zeros(1, kernel.DVL)
         row["mount"], row["base"] = self._mount.functions, self._base.functions
         row["rays"], row["stream"] = self._world.rays.functions, stream_of(state.random)
@@ -162,36 +163,36 @@ class Dvl(CompiledSensor):
         row["through"] = address_of(state.water.numbers)
         return row
 
-    def _is_alone(self, until: float) -> bool:
-        """Whether samples until a time [s] need no preparation."""
+    def _is_alone(self, end_time: float) -> bool:
+        """Return True if samples until a time [s] need no preparation."""
         if not (self._mount.is_compiled and self._base.is_compiled):
             return False
-        return self._is_original or (self._world.rays.is_compiled and self._has_water(until))
+        return self._is_original or (self._world.rays.is_compiled and self._prepare_water(end_time))
 
-    def _has_water(self, until: float) -> bool:
-        """Let compiled code read the water until a time [s]; whether it can."""
+    def _prepare_water(self, end_time: float) -> bool:
+        """Give compiled code the water's motion until a time [s]; return True if there is one."""
         water = self._world.compiled_water(self._vehicle.name, len(self._flow))
         if water is not self._water:
             self._water = water
             self._row["water"] = (0, 0) if water is None else water.addresses
         if water is not None:
-            water.prepare(until)
+            water.prepare(end_time)
         return water is not None
 
     def _prepare(self, time: float) -> None:
-        """Look up where everything is, and how the water moves at ``time`` [s]."""
+        """Read the poses, and the water's velocity at ``time`` [s]."""
         self._mount.prepare()
         self._base.prepare()
         if self._is_original:
             return
         self._world.rays.prepare()
-        if not self._has_water(time):
+        if not self._prepare_water(time):
             pose, reach = self._mount.world_from_body, self._spec.water_layer / self._janus.cosine
             points = pose.position + reach * product(self._janus.directions, pose.rotation.T)
             self._flow[:] = self._world.water_velocity(points, time, self._vehicle.name)
 
     def message(self, time: float, values: Array) -> DVL:
-        """Make the message of a sample taken at ``time`` [s]."""
+        """Return the message of a sample at ``time`` [s]."""
         if self._is_original:
             x, y, z = values[:3].tolist()
             return DVL(bi_x_axis=x, bi_y_axis=y, bi_z_axis=z)

@@ -31,11 +31,11 @@ from ..world.mounts import MOUNT, read_frame
 from .sensor import Carrier, CompiledSensor, SensorSpec, follow_mount
 
 NO_FIX, FIX = -1, 0
-"""Of NavSatStatus."""
+"""The statuses of NavSatStatus."""
 GPS = 1
 """The service of NavSatStatus."""
-UNKNOWN, DIAGONAL = 0, 2
-"""What is known of the covariance, of NavSatFix."""
+COVARIANCE_UNKNOWN, COVARIANCE_DIAGONAL = 0, 2
+"""The types of the covariance of NavSatFix."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -47,46 +47,46 @@ class GpsSensorSpec(SensorSpec):
     position: tuple[float, float, float] = element(
         default=(0.0, 0.0, 0.0), minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE
     )
-    """Of the sensor in the link's frame [m]."""
+    """The position of the sensor in the link's frame [m]."""
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
-    """Of the sensor in the link's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
+    """The orientation of the sensor in the link's frame, roll, pitch, yaw (Rz Ry Rx) [rad]."""
     std: float = element(default=0.0, minimum=0, maximum=1000)
-    """Noise of each coordinate, standard deviation [m]."""
+    """The noise of each coordinate, standard deviation [m]."""
     max_depth: float = element(namespaced=True, default=0.5, minimum=0, maximum=MAX_DISTANCE)
-    """How far below the surface it still has a fix [m]."""
+    """The depth below the surface down to which the receiver has a fix [m]."""
 
     def bind(self, world: SensorWorld, vehicle: Carrier) -> GpsSensor:
-        """Mount it on its link; raises UnknownName if the vehicle has no such link."""
-        random = world.stream(f"{vehicle.name}/{self.name}/noise")
-        return GpsSensor(self, vehicle.mount(self), world, random)
+        """Mount it on its link; raise UnknownName if the vehicle has no such link."""
+        rng = world.stream(f"{vehicle.name}/{self.name}/noise")
+        return GpsSensor(self, vehicle.mount(self), world, rng)
 
 
 GNSS = np.dtype([("mount", MOUNT), ("stream", STREAM), ("std", np.float64)])
-"""A receiver of satellites, for compiled code."""
+"""The parameters of a satellite receiver, for compiled code."""
 N_VALUES = 6
-"""The numbers of a sample: its place in W, and the noise east, north and up [m]."""
+"""The number of values of a sample: its position in W, and the noise east, north and up [m]."""
 
 
 class GpsSensor(CompiledSensor):
-    """A receiver of satellites."""
+    """A satellite receiver."""
 
     def __init__(
-        self, spec: GpsSensorSpec, mount: Mount, world: SensorWorld, random: np.random.Generator
+        self, spec: GpsSensorSpec, mount: Mount, world: SensorWorld, rng: np.random.Generator
     ) -> None:
         self._spec, self._world = spec, world
-        self.state = RandomState(random)
-        """What it draws."""
+        self.state = RandomState(rng)
+        """The state."""
         self._is_original = "gps-metres" in world.compatibility
         row = np.zeros(1, GNSS)
-        row["mount"], row["stream"], row["std"] = mount.functions, stream_of(random), spec.std
+        row["mount"], row["stream"], row["std"] = mount.functions, stream_of(rng), spec.std
         self.sampler = follow_mount(mount, sample_gps, row, N_VALUES, (self.state,))
-        """What takes the numbers of a sample."""
+        """The sampler."""
 
     def message(self, time: float, values: Array) -> NavSatFix | None:
-        """Make the message of a sample taken at ``time`` [s]; None for none."""
+        """Return the message of a sample at ``time`` [s]; None without one."""
         position, noise = values[:3], values[3:]
         if self._world.surface_height - float(position[2]) >= self._spec.max_depth:
-            return None if self._is_original else self._lost(time)
+            return None if self._is_original else self._no_fix(time)
         latitude, longitude, altitude = self._coordinates(position, noise)
         return NavSatFix(
             header=header(0.0) if self._is_original else header(time, self._spec.name),
@@ -95,11 +95,11 @@ class GpsSensor(CompiledSensor):
             longitude=longitude,
             altitude=altitude,
             position_covariance=(self._spec.std**2 * np.eye(3)).reshape(9),
-            position_covariance_type=DIAGONAL,
+            position_covariance_type=COVARIANCE_DIAGONAL,
         )
 
     def _coordinates(self, position: Array, noise: Array) -> tuple[float, float, float]:
-        """Latitude and longitude [deg] and altitude [m] of a place in W; or x and y of L [m]."""
+        """Return latitude, longitude [deg], altitude [m] of a position in W; or x, y of L [m]."""
         origin = self._world.earth_origin
         if origin is None or self._is_original:
             x, y, _ = self._world.world_from_localized.inverse().transform(position[None])[0]
@@ -108,26 +108,26 @@ class GpsSensor(CompiledSensor):
         place = origin.place(np.array([north, east, -up]))
         return math.degrees(place.latitude), math.degrees(place.longitude), place.altitude
 
-    def _lost(self, time: float) -> NavSatFix:
+    def _no_fix(self, time: float) -> NavSatFix:
         return NavSatFix(
             header=header(time, self._spec.name),
             status=NavSatStatus(status=NO_FIX, service=GPS),
             latitude=math.nan,
             longitude=math.nan,
             altitude=math.nan,
-            position_covariance_type=UNKNOWN,
+            position_covariance_type=COVARIANCE_UNKNOWN,
         )
 
 
 def sample_gps(parameters: int, values: int, time: float) -> None:
-    """Take a sample of a receiver of satellites; see `uwsim.base.numerics.calls`."""
-    sensor, found, frame = (
+    """Take a sample of a satellite receiver; see `uwsim.base.numerics.calls`."""
+    sensor, output, frame = (
         carray(pointer(parameters), (1,), GNSS)[0],
         view_doubles(values, 6),
         np.empty(12),
     )
     read_frame(sensor.mount, frame)
     for k in range(3):
-        found[k] = frame[k]
+        output[k] = frame[k]
     for k in range(3, 6):
-        found[k] = sensor.std * normal(sensor.stream)
+        output[k] = sensor.std * normal(sensor.stream)

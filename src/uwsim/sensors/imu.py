@@ -10,8 +10,8 @@
       <u:accelerometer> <u:noiseDensity>6e-4</u:noiseDensity> </u:accelerometer>
     </imu>
 
-The attitude is that of the sensor in L, the frame of the file. What the accelerometer measures is
-:math:`R^T (a - g)`, with the acceleration a of its own place: at rest 9.81 m/s2 upwards.
+The attitude is that of the sensor in L, the frame of the file. The accelerometer measures
+:math:`R^T (a - g)`, with the acceleration a at its position: at rest 9.81 m/s2 upwards.
 """
 
 from __future__ import annotations
@@ -45,24 +45,24 @@ class ImuSpec(SensorSpec):
     position: tuple[float, float, float] = element(
         default=(0.0, 0.0, 0.0), minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE
     )
-    """Of the sensor in the link's frame [m]."""
+    """The position of the sensor in the link's frame [m]."""
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
-    """Of the sensor in the link's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
+    """The orientation of the sensor in the link's frame, roll, pitch, yaw (Rz Ry Rx) [rad]."""
     std: float = element(default=0.0, minimum=0, maximum=10)
-    """Noise of each angle, standard deviation [rad]."""
+    """The noise of each angle, standard deviation [rad]."""
     gyro: DriftSpec = element(namespaced=True, default=DriftSpec())
-    """Errors of the angular velocity."""
+    """The errors of the angular velocity."""
     accelerometer: DriftSpec = element(namespaced=True, default=DriftSpec())
-    """Errors of the specific force."""
+    """The errors of the specific force."""
 
     def bind(self, world: SensorWorld, vehicle: Carrier) -> InertialUnit:
-        """Mount it on its link; raises UnknownName if the vehicle has no such link."""
+        """Mount it on its link; raise UnknownName if the vehicle has no such link."""
         return InertialUnit(self, vehicle.moving_mount(self), world, vehicle.name)
 
 
 @dataclass(slots=True)
 class ImuState(Record):
-    """What changes of an inertial measurement unit."""
+    """The state of an inertial measurement unit."""
 
     random: np.random.Generator
     """The generator of the noise of its attitude."""
@@ -72,8 +72,8 @@ class ImuState(Record):
     """The errors of its accelerations."""
 
 
-UP = (0.0, 0.0, GRAVITY)
-"""What an accelerometer at rest measures, in W [m/s2]."""
+SPECIFIC_FORCE_AT_REST = (0.0, 0.0, GRAVITY)
+"""The specific force at rest, in W [m/s2]."""
 IMU = np.dtype(
     [
         ("mount", MOUNT),
@@ -85,46 +85,46 @@ IMU = np.dtype(
         ("accelerometer", DRIFT),
     ]
 )
-"""An inertial measurement unit, for compiled code."""
+"""The parameters of an inertial measurement unit, for compiled code."""
 N_VALUES = 12
-"""The numbers of a sample: a quaternion wxyz; turn rates [rad/s], then specific forces [m/s2], of
-three axes with their variance each."""
+"""The number of values of a sample: a quaternion wxyz; turn rates [rad/s], then specific forces
+[m/s2], of three axes with their variance each."""
 
 
 class InertialUnit(CompiledSensor):
     """An inertial measurement unit with attitude."""
 
     def __init__(self, spec: ImuSpec, mount: MovingBody, world: SensorWorld, vehicle: str) -> None:
-        own = f"{vehicle}/{spec.name}"
+        prefix = f"{vehicle}/{spec.name}"
         self._name = spec.name
-        gyro = Drift(spec.gyro, world.stream(f"{own}/gyro"))
-        accelerometer = Drift(spec.accelerometer, world.stream(f"{own}/accelerometer"))
-        random = world.stream(f"{own}/noise")
-        self.state = ImuState(random, gyro.state, accelerometer.state)
-        """What changes of it."""
+        gyro = Drift(spec.gyro, world.stream(f"{prefix}/gyro"))
+        accelerometer = Drift(spec.accelerometer, world.stream(f"{prefix}/accelerometer"))
+        rng = world.stream(f"{prefix}/noise")
+        self.state = ImuState(rng, gyro.state, accelerometer.state)
+        """The state."""
         self._measures_motion = "imu-orientation" not in world.compatibility
         self._attitude_covariance = _diagonal(spec.std**2)
         row = np.zeros(1, IMU)
-        row["mount"], row["stream"], row["std"] = mount.functions, stream_of(random), spec.std
+        row["mount"], row["stream"], row["std"] = mount.functions, stream_of(rng), spec.std
         row["localized_from_world"] = world.world_from_localized.rotation.T
         row["measures_motion"] = self._measures_motion
         row["gyro"], row["accelerometer"] = gyro.parameters, accelerometer.parameters
         self.sampler = follow_mount(mount, sample_imu, row, N_VALUES, (self.state,))
-        """What takes the numbers of a sample."""
+        """The sampler."""
 
     def message(self, time: float, values: Array) -> Imu:
-        """Make the message of a sample taken at ``time`` [s]."""
-        w, x, y, z, *measured = values.tolist()
+        """Return the message of a sample at ``time`` [s]."""
+        w, x, y, z, *motion = values.tolist()
         message = Imu(
             header=header(time, self._name if self._measures_motion else "world"),
             orientation=Quaternion(x=x, y=y, z=z, w=w),
             orientation_covariance=self._attitude_covariance,
         )
         if self._measures_motion:
-            message.angular_velocity = Vector3(*measured[:3])
-            message.angular_velocity_covariance = _diagonal(measured[3])
-            message.linear_acceleration = Vector3(*measured[4:7])
-            message.linear_acceleration_covariance = _diagonal(measured[7])
+            message.angular_velocity = Vector3(*motion[:3])
+            message.angular_velocity_covariance = _diagonal(motion[3])
+            message.linear_acceleration = Vector3(*motion[4:7])
+            message.linear_acceleration_covariance = _diagonal(motion[7])
         return message
 
 
@@ -144,8 +144,8 @@ def measure(imu: Any, time: float, values: Array) -> None:
     pitch = imu.std * normal(imu.stream)
     yaw = imu.std * normal(imu.stream)
     write_rotation(roll, pitch, yaw, noise)
-    localized = multiply_matrices(imu.localized_from_world, axes)
-    write_quaternion(multiply_matrices(noise, localized), values[:4])
+    localized_from_sensor = multiply_matrices(imu.localized_from_world, axes)
+    write_quaternion(multiply_matrices(noise, localized_from_sensor), values[:4])
     if imu.measures_motion == 0:
         return
     motion, errors = np.empty(12), np.empty(3)
@@ -155,7 +155,7 @@ def measure(imu: Any, time: float, values: Array) -> None:
     values[4:7] = rotate_back(axes, motion[6:9]) + errors
     values[11] = draw_errors(imu.accelerometer, time, errors)
     for i in range(3):
-        motion[9 + i] += UP[i]
+        motion[9 + i] += SPECIFIC_FORCE_AT_REST[i]
     values[8:11] = rotate_back(axes, motion[9:12]) + errors
 
 

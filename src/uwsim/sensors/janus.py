@@ -1,10 +1,10 @@
-r"""Four beams in Janus configuration, and velocities from what is measured along them.
+r"""Four beams in Janus configuration, and velocities from measurements along them.
 
-The beams lean from the z axis of the sensor by the angle :math:`\theta`, towards the azimuths 45,
-135, 225 and 315 degrees from x to y. A beam of the direction d measures :math:`b = d \cdot v`. Of
-three beams or four the velocity is the least-squares solution; with a deviation s along each of
-four beams those of x and y are :math:`s / (\sqrt 2 \sin\theta)` and that of z is
-:math:`s / (2 \cos\theta)`. What four beams say too much is the error velocity,
+The beams are inclined from the z axis of the sensor by the angle :math:`\theta`, towards the
+azimuths 45, 135, 225 and 315 degrees from x to y. A beam of the direction d measures
+:math:`b = d \cdot v`. Three or four beams give the least-squares velocity. With a deviation s
+along each of four beams those of x and y are :math:`s / (\sqrt 2 \sin\theta)`, and that of z is
+:math:`s / (2 \cos\theta)`. The redundancy of four beams is the error velocity,
 :math:`(b_1 - b_2 + b_3 - b_4) / (2 \sqrt 2 \sin\theta)`, with the deviation of x and y.
 """
 
@@ -15,18 +15,18 @@ import math
 import numpy as np
 import numpy.typing as npt
 
-ENOUGH = 3
-"""Beams from which a velocity follows."""
+MIN_BEAMS = 3
+"""The least number of beams that determine a velocity."""
 AZIMUTHS = np.array([45.0, 135.0, 225.0, 315.0])
-"""Of the beams, from x to y [deg]."""
+"""The azimuths of the beams, from x to y [deg]."""
 SIGNS = np.array([1.0, -1.0, 1.0, -1.0])
-"""Of the beams in the error velocity."""
+"""The signs of the beams in the error velocity."""
 
 Flags = npt.NDArray[np.bool_]
 
 
 class Janus:
-    """The geometry of four beams that lean by an angle [rad]."""
+    """The geometry of four beams inclined by an angle [rad]."""
 
     def __init__(self, angle: float) -> None:
         sine, cosine = math.sin(angle), math.cos(angle)
@@ -34,8 +34,8 @@ class Janus:
         self.directions = np.array(
             [[sine * math.cos(turn), sine * math.sin(turn), cosine] for turn in turns]
         )
-        """Of the beams in the sensor, (4, 3)."""
+        """The directions of the beams, sensor frame, (4, 3)."""
         self.cosine = cosine
-        """Distance along the axis of a distance of 1 along a beam [1]."""
+        """The distance along the z axis per distance along a beam [1]."""
         self.error_share = 1.0 / (2.0 * math.sqrt(2.0) * sine)
-        """Error velocity of a difference of 1 between the beams, signs as in `SIGNS` [1]."""
+        """The error velocity per difference between the beams, signs as in `SIGNS` [1]."""

@@ -13,15 +13,15 @@ import numpy as np
 from ..base.geometry import Array
 
 RINGS = ((0.25, 6), (0.5, 12))
-"""Radius of each ring in widths of the beam, and rays on it; one more is on the axis."""
+"""The radius of each ring in beam widths, and its number of rays; one more ray is on the axis."""
 
 
-def pencil(axes: Array, beside: Array, width: float) -> tuple[Array, Array]:
+def pencil_rays(axes: Array, normals: Array, width: float) -> tuple[Array, Array]:
     """Return the rays of beams and their weights: (n, k, 3) and (k,).
 
     Args:
         axes: of the beams, unit vectors (n, 3).
-        beside: a unit vector at right angles to each axis, (n, 3).
+        normals: a unit vector at right angles to each axis, (n, 3).
         width: of the beam, between its points of half power [rad]; 0: the ray on the axis alone.
     """
     angles = [(0.0, 0.0)]
@@ -31,9 +31,9 @@ def pencil(axes: Array, beside: Array, width: float) -> tuple[Array, Array]:
             for share, number in RINGS
             for k in range(number)
         ]
-    away, turn = np.array(angles).T[:, :, None]
-    third = np.cross(axes, beside)
-    around = np.cos(turn) * beside[:, None] + np.sin(turn) * third[:, None]
-    rays: Array = np.cos(away) * axes[:, None] + np.sin(away) * around
+    tilt, azimuth = np.array(angles).T[:, :, None]
+    binormals = np.cross(axes, normals)
+    radial = np.cos(azimuth) * normals[:, None] + np.sin(azimuth) * binormals[:, None]
+    rays: Array = np.cos(tilt) * axes[:, None] + np.sin(tilt) * radial
     weights = [2.0 ** -((2.0 * angle / width) ** 2) if angle else 1.0 for angle, _ in angles]
     return rays, np.array(weights)

@@ -1,4 +1,4 @@
-"""What colour cameras and depth cameras have in common: CameraInfo, and ray casting."""
+"""The shared parts of colour and depth cameras: CameraInfo, and ray casting."""
 
 from __future__ import annotations
 
@@ -47,18 +47,18 @@ def camera_info(
 
 
 def cast_depth(rays: Rays, world_from_camera: Pose, lens: Intrinsics) -> Array:
-    """Cast a ray through the centre of each pixel; returns the depth along the axis, (h, w) [m].
+    """Cast a ray through the centre of each pixel; return the depth along the axis, (h, w) [m].
 
-    As in an image, what is nearer than the near plane is not met; +inf where nothing is met before
-    the far plane.
+    As in an image, surfaces nearer than the near plane do not count; +inf without a hit before the
+    far plane.
     """
     return _cast(rays, world_from_camera, lens)[0]
 
 
 def cast_surfaces(rays: Rays, world_from_camera: Pose, lens: Intrinsics) -> npt.NDArray[np.uint16]:
-    """Cast a ray through the centre of each pixel; returns the surface's number, (h, w); 0: none.
+    """Cast a ray through the centre of each pixel; return the surface's number, (h, w); 0: none.
 
-    What is met is as for `cast_depth`.
+    The hits are those of `cast_depth`.
     """
     depth, surface = _cast(rays, world_from_camera, lens)
     return np.where(np.isfinite(depth), surface, 0).astype(np.uint16)
@@ -67,12 +67,12 @@ def cast_surfaces(rays: Rays, world_from_camera: Pose, lens: Intrinsics) -> npt.
 def _cast(
     rays: Rays, world_from_camera: Pose, lens: Intrinsics
 ) -> tuple[Array, npt.NDArray[np.int32]]:
-    """Depths [m] and surfaces of what each pixel sees, (h, w) each."""
-    through = lens.rays().reshape(-1, 3)
+    """Return the depth [m] and the surface of each pixel, (h, w) each."""
+    directions = lens.rays().reshape(-1, 3)
     stretch = lens.ray_lengths.reshape(-1)
     reach = lens.far * float(stretch.max(initial=1.0))
-    hits = rays.cast(world_from_camera, through / stretch[:, None], reach, lens.near * stretch)
+    hits = rays.cast(world_from_camera, directions / stretch[:, None], reach, lens.near * stretch)
     depth = hits.distance / stretch
     size = lens.height, lens.width
-    planar: Array = np.where(depth < lens.far, depth, np.inf).reshape(size)
-    return planar, hits.surface.reshape(size)
+    image: Array = np.where(depth < lens.far, depth, np.inf).reshape(size)
+    return image, hits.surface.reshape(size)

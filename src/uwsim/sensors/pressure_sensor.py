@@ -34,9 +34,9 @@ from ..world.mounts import MOUNT, read_frame
 from .sensor import Carrier, CompiledSensor, SensorSpec, follow_mount
 
 Quantity = Literal["depth", "pressure", "gauge"]
-"""Depth below the surface [m], absolute pressure [Pa], or that above the air's [Pa]."""
-AIR = 101325.0
-"""Pressure of the standard atmosphere [Pa]."""
+"""The depth below the surface [m], absolute pressure [Pa], or gauge pressure [Pa]."""
+STANDARD_ATMOSPHERE = 101325.0
+"""The pressure of the standard atmosphere [Pa]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,21 +48,23 @@ class PressureSensorSpec(SensorSpec):
     position: tuple[float, float, float] = element(
         default=(0.0, 0.0, 0.0), minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE
     )
-    """Of the sensor in the link's frame [m]."""
+    """The position of the sensor in the link's frame [m]."""
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
-    """Of the sensor in the link's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
+    """The orientation of the sensor in the link's frame, roll, pitch, yaw (Rz Ry Rx) [rad]."""
     std: float = element(default=0.0, minimum=0, maximum=1e6)
-    """Noise of what it measures, standard deviation [m], or [Pa]."""
+    """The noise of the measured quantity, standard deviation [m], or [Pa]."""
     measures: Quantity = element(namespaced=True, default="depth")
-    """``depth`` below the surface [m], absolute ``pressure`` [Pa], or ``gauge`` pressure, that
-    above the air's [Pa]."""
-    atmosphere: float = element(namespaced=True, default=AIR, minimum=0, maximum=1e7)
-    """Pressure of the air at the surface [Pa]."""
+    """The measured quantity: ``depth`` below the surface [m], absolute ``pressure`` [Pa], or
+    ``gauge`` pressure, above that of the air [Pa]."""
+    atmosphere: float = element(
+        namespaced=True, default=STANDARD_ATMOSPHERE, minimum=0, maximum=1e7
+    )
+    """The pressure of the air at the surface [Pa]."""
 
     def bind(self, world: SensorWorld, vehicle: Carrier) -> PressureSensor:
-        """Mount it on its link; raises UnknownName if the vehicle has no such link."""
-        random = world.stream(f"{vehicle.name}/{self.name}/noise")
-        return PressureSensor(self, vehicle.mount(self), world, random)
+        """Mount it on its link; raise UnknownName if the vehicle has no such link."""
+        rng = world.stream(f"{vehicle.name}/{self.name}/noise")
+        return PressureSensor(self, vehicle.mount(self), world, rng)
 
 
 PRESSURE = np.dtype(
@@ -79,28 +81,30 @@ PRESSURE = np.dtype(
         ("origin", np.float64),
     ]
 )
-"""A pressure sensor, for compiled code."""
-DEPTH, ABSOLUTE, GAUGE, HEIGHT = range(4)
-"""What it measures; the height is z of L, as in the original."""
+"""The parameters of a pressure sensor, for compiled code."""
+DEPTH, PRESSURE_ABSOLUTE, PRESSURE_GAUGE, HEIGHT = range(4)
+"""The measured quantities; the height is z of L, as in the original."""
 
 
 class PressureSensor(CompiledSensor):
-    """A pressure cell; what it says is a depth or a pressure."""
+    """A pressure sensor; its message contains a depth or a pressure."""
 
     def __init__(
         self,
         spec: PressureSensorSpec,
         mount: Mount,
         world: SensorWorld,
-        random: np.random.Generator,
+        rng: np.random.Generator,
     ) -> None:
-        self.state = RandomState(random)
-        """What it draws."""
+        self.state = RandomState(rng)
+        """The state."""
         is_original = "pressure-z" in world.compatibility
         self._frame_id = "world" if is_original else spec.name
         row, levels = np.zeros(1, PRESSURE), np.array(world.density_levels, dtype=np.float64)
-        row["mount"], row["stream"], row["std"] = mount.functions, stream_of(random), spec.std
-        measures = {"depth": DEPTH, "pressure": ABSOLUTE, "gauge": GAUGE}[spec.measures]
+        row["mount"], row["stream"], row["std"] = mount.functions, stream_of(rng), spec.std
+        measures = {"depth": DEPTH, "pressure": PRESSURE_ABSOLUTE, "gauge": PRESSURE_GAUGE}[
+            spec.measures
+        ]
         row["measures"] = HEIGHT if is_original else measures
         row["surface"], row["atmosphere"] = world.surface_height, spec.atmosphere
         row["levels"], row["n_levels"] = address_of(levels), len(levels)
@@ -108,35 +112,35 @@ class PressureSensor(CompiledSensor):
         row["upward"] = localized_from_world.rotation[2]
         row["origin"] = localized_from_world.position[2]
         self.sampler = follow_mount(mount, sample_pressure, row, 1, (self.state, levels))
-        """What takes the numbers of a sample."""
+        """The sampler."""
 
     def message(self, time: float, values: Array) -> Pressure:
-        """Make the message of a sample taken at ``time`` [s]."""
+        """Return the message of a sample at ``time`` [s]."""
         return Pressure(header=header(time, self._frame_id), pressure=float(values[0]))
 
 
 def sample_pressure(parameters: int, values: int, time: float) -> None:
     """Take a sample of a pressure sensor; see `uwsim.base.numerics.calls`."""
     sensor = carray(pointer(parameters), (1,), PRESSURE)[0]
-    view_doubles(values, 1)[0] = without_noise(sensor) + sensor.std * normal(sensor.stream)
+    view_doubles(values, 1)[0] = compute_exact_value(sensor) + sensor.std * normal(sensor.stream)
 
 
 @njit
-def without_noise(sensor: Any) -> float:
-    """Return what a sensor without noise measures [m, or Pa]."""
+def compute_exact_value(sensor: Any) -> float:
+    """Return the exact value of the measured quantity [m, or Pa]."""
     frame = np.empty(12)
     read_frame(sensor.mount, frame)
     if sensor.measures == HEIGHT:
         up = sensor.upward
         height: float = up[0] * frame[0] + up[1] * frame[1] + up[2] * frame[2] + sensor.origin
         return height
-    below = sensor.surface - frame[2]
-    depth: float = below if below > 0.0 else 0.0
+    signed_depth = sensor.surface - frame[2]
+    depth: float = signed_depth if signed_depth > 0.0 else 0.0
     if sensor.measures == DEPTH:
         return depth
     levels = view_doubles(sensor.levels, 2 * sensor.n_levels).reshape((-1, 2))
     gauge: float = GRAVITY * column_mass(levels, depth)
-    return gauge if sensor.measures == GAUGE else sensor.atmosphere + gauge
+    return gauge if sensor.measures == PRESSURE_GAUGE else sensor.atmosphere + gauge
 
 
 @njit
@@ -149,13 +153,15 @@ def column_mass(levels: Array, depth: float) -> float:
     """
     total, n = 0.0, len(levels)
     for i in range(n + 1):
-        top, first = (0.0, levels[0, 1]) if i == 0 else (levels[i - 1, 0], levels[i - 1, 1])
-        bottom, last = (levels[i, 0], levels[i, 1]) if i < n else (depth, levels[n - 1, 1])
+        top, top_density = (0.0, levels[0, 1]) if i == 0 else (levels[i - 1, 0], levels[i - 1, 1])
+        bottom, bottom_density = (
+            (levels[i, 0], levels[i, 1]) if i < n else (depth, levels[n - 1, 1])
+        )
         if i == n and bottom < levels[n - 1, 0]:
             bottom = levels[n - 1, 0]
         if bottom <= top or top >= depth:
             continue
         low = min(bottom, depth)
-        there = first + (last - first) * (low - top) / (bottom - top)
-        total += 0.5 * (first + there) * (low - top)
+        low_density = top_density + (bottom_density - top_density) * (low - top) / (bottom - top)
+        total += 0.5 * (top_density + low_density) * (low - top)
     return total

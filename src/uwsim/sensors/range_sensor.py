@@ -6,8 +6,8 @@
       <name>sonar</name> <relativeTo>part0</relativeTo> <range>10</range> <visible>0</visible>
     </rangeSensor>
 
-It measures to what a camera would see, the vehicle's own parts too. With a beam width the nearest
-of the rays of the beam counts, as in an echo sounder that detects the first echo.
+It measures the distance to visible surfaces, the vehicle's own parts included. With a beam width,
+the nearest hit of the beam's rays counts, as in an echo sounder that detects the first echo.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ from ..rays.scene_record import RAYS, cast_from
 from ..schema import MAX_DISTANCE, element
 from ..world import Mount, SensorWorld
 from ..world.mounts import MOUNT, read_frame
-from .pencil import pencil
+from .pencil import pencil_rays
 from .sensor import Carrier, CompiledSensor, LookAt, SensorSpec
 
 
@@ -43,25 +43,25 @@ class RangeSensorSpec(SensorSpec):
     message_type: ClassVar[type] = Range
 
     range: float = element(minimum=0, maximum=MAX_DISTANCE)
-    """Length of the ray; the value when nothing is hit [m]."""
+    """The length of the ray; the value without a hit [m]."""
     visible: bool = False
-    """Whether the viewer draws the ray."""
+    """True if the viewer draws the ray."""
     position: tuple[float, float, float] = element(
         default=(0.0, 0.0, 0.0), minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE
     )
-    """Position of the sensor in the link's frame [m]."""
+    """The position of the sensor in the link's frame [m]."""
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
-    """Orientation of the sensor in the link's frame, roll, pitch, yaw (Rz Ry Rx) [rad]."""
+    """The orientation of the sensor in the link's frame, roll, pitch, yaw (Rz Ry Rx) [rad]."""
     look_at: LookAt = element(namespaced=True, default=None)
-    """Viewing target at the start, instead of ``orientation``: a point in L [m], or a direction
-    of the vehicle. It stays fixed to its link."""
+    """The viewing target at the start, instead of ``orientation``: a point in L [m], or a direction
+    of the vehicle. The sensor stays fixed to its link."""
     beam_width: float = element(namespaced=True, default=0.0, minimum=0, maximum=120)
-    """Beam width of the beam between its points of half power [deg]; 0 is a ray."""
+    """The width of the beam between its points of half power [deg]; 0 is a ray."""
     std: float = element(namespaced=True, default=0.0, minimum=0, maximum=1000)
-    """Noise of the distance, standard deviation [m]."""
+    """The noise of the distance, standard deviation [m]."""
 
     def bind(self, world: SensorWorld, vehicle: Carrier) -> RangeSensor:
-        """Mount it on its link; raises UnknownName if the vehicle has no such link."""
+        """Mount it on its link; raise UnknownName if the vehicle has no such link."""
         mount = vehicle.mount(self, visual="visual-frames" in world.compatibility)
         return RangeSensor(self, mount, world, world.stream(f"{vehicle.name}/{self.name}/noise"))
 
@@ -77,24 +77,24 @@ RANGE = np.dtype(
         ("n", np.int64),
     ]
 )
-"""A range sensor, for compiled code."""
+"""The parameters of a range sensor, for compiled code."""
 
 
 class RangeSensor(CompiledSensor):
-    """The distance from the sensor to the first surface in its beam."""
+    """A sensor of the distance to the first surface in its beam."""
 
     def __init__(
-        self, spec: RangeSensorSpec, mount: Mount, world: SensorWorld, random: np.random.Generator
+        self, spec: RangeSensorSpec, mount: Mount, world: SensorWorld, rng: np.random.Generator
     ) -> None:
         self._spec = spec
-        self.state = RandomState(random)
-        """What it draws."""
+        self.state = RandomState(rng)
+        """The state."""
         self._width = math.radians(spec.beam_width)
         x, y = np.array([[1.0, 0.0, 0.0]]), np.array([[0.0, 1.0, 0.0]])
-        directions = np.ascontiguousarray(pencil(x, y, self._width)[0][0])  # (n, 3)
+        directions = np.ascontiguousarray(pencil_rays(x, y, self._width)[0][0])  # (n, 3)
         row, rays = np.zeros(1, RANGE), world.rays
         row["mount"], row["rays"] = mount.functions, rays.functions
-        row["stream"], row["std"], row["reach"] = stream_of(random), spec.std, spec.range
+        row["stream"], row["std"], row["reach"] = stream_of(rng), spec.std, spec.range
         row["directions"], row["n"] = address_of(directions), len(directions)
 
         def prepare(time: float) -> None:
@@ -109,10 +109,10 @@ class RangeSensor(CompiledSensor):
             is_alone=lambda _: mount.is_compiled and rays.is_compiled,
             memory_owners=(self.state, mount, rays, directions),
         )
-        """What takes the numbers of a sample."""
+        """The sampler."""
 
     def message(self, time: float, values: Array) -> Range:
-        """Make the message of a sample taken at ``time`` [s]."""
+        """Return the message of a sample at ``time`` [s]."""
         spec = self._spec
         return Range(
             header=header(time, spec.name),
@@ -128,22 +128,22 @@ class RangeSensor(CompiledSensor):
 def sample_range(parameters: int, values: int, time: float) -> None:
     """Take a sample of a range sensor; see `uwsim.base.numerics.calls`."""
     sensor = carray(pointer(parameters), (1,), RANGE)[0]
-    nearest = nearest_hit(sensor)
+    distance = nearest_hit(sensor)
     noise = sensor.std * normal(sensor.stream)
-    if nearest <= sensor.reach:
-        nearest += noise
-    view_doubles(values, 1)[0] = min(max(nearest, 0.0), sensor.reach)
+    if distance <= sensor.reach:
+        distance += noise
+    view_doubles(values, 1)[0] = min(max(distance, 0.0), sensor.reach)
 
 
 @njit
 def nearest_hit(sensor: Any) -> float:
-    """Return the distance to the first surface in its beam; infinite if there is none [m]."""
+    """Return the distance to the first surface in the beam; infinite if there is none [m]."""
     n = sensor.n
-    frame, begins = np.empty(12), np.zeros(n)
+    frame, starts = np.empty(12), np.zeros(n)
     hits = Hits(np.empty(n), np.empty((n, 3)), np.empty(n, np.int32))
     read_frame(sensor.mount, frame)
     directions = view_doubles(sensor.directions, 3 * n).reshape((-1, 3))
-    along = rotate_rows(frame[3:].reshape((3, 3)), directions)
-    cast_from(sensor.rays, frame[:3], along, begins, sensor.reach, hits)
-    nearest: float = hits.distance.min()
-    return nearest
+    world_directions = rotate_rows(frame[3:].reshape((3, 3)), directions)
+    cast_from(sensor.rays, frame[:3], world_directions, starts, sensor.reach, hits)
+    distance: float = hits.distance.min()
+    return distance

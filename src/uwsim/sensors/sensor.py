@@ -19,15 +19,15 @@ from ..schema import Spec
 from ..world import CompiledVehicle, Mount, MovingBody, SensorWorld
 
 Direction = Literal["forward", "aft", "starboard", "port", "down", "up"]
-"""Of the vehicle, at its pose in the file."""
+"""The directions of a vehicle, at its pose in the file."""
 LookAt = tuple[float, float, float] | Direction | None
-"""What ``<u:lookAt>`` may say: a point in L [m], a direction of the vehicle, or nothing."""
+"""The content of ``<u:lookAt>``: a point in L [m], a direction of the vehicle, or nothing."""
 
 
 OPTICAL_AXES = (math.pi, 0.0, 0.0)
-"""Of the frame in ROS of a sensor that looks along -z: z ahead, x to the right, y down [rad]."""
+"""The ROS frame's axes of a sensor that looks along -z: z ahead, x to the right, y down [rad]."""
 SCAN_AXES = (0.0, 0.5 * math.pi, 0.0)
-"""Of the frame in ROS of a fan about x with its zero along -z: x ahead, turned about z [rad]."""
+"""The ROS frame's axes of a fan about x with its zero along -z: x ahead, angles about z [rad]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,17 +35,18 @@ class SensorSpec(Spec):
     """A sensor of a vehicle."""
 
     frame_rpy: ClassVar[tuple[float, float, float]] = (0.0, 0.0, 0.0)
-    """Axes of its frame in ROS, in the sensor: fixed-axis roll, pitch, yaw [rad]."""
+    """The axes of its ROS frame, in the sensor's: fixed-axis roll, pitch, yaw [rad]."""
     is_pure: ClassVar[bool] = False
-    """Whether a sample changes nothing in the sensor, so that it need not be taken for nobody."""
+    """True if a sample changes nothing in the sensor, so that it is not taken without
+    subscribers."""
 
     name: str
-    """Its name, by which interfaces and benchmarks find it."""
+    """The name, which interfaces and benchmarks refer to."""
     relative_to: str
-    """The link it is mounted on; its pose is given in the kinematic frame of that link."""
+    """The link on which it is mounted; its pose is given in the kinematic frame of that link."""
 
 
-class Mounted(Protocol):
+class MountedPart(Protocol):
     """A part with a pose on a link."""
 
     @property
@@ -54,32 +55,32 @@ class Mounted(Protocol):
 
     @property
     def position(self) -> tuple[float, float, float]:
-        """In the link's frame [m]."""
+        """The position in the link's frame [m]."""
 
     @property
     def orientation(self) -> tuple[float, float, float]:
-        """Fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
+        """The orientation, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
 
 
 @runtime_checkable
-class MountedSensor(Mounted, Protocol):
-    """The spec of a sensor that is mounted."""
+class MountedSensor(MountedPart, Protocol):
+    """The spec of a mounted sensor."""
 
     frame_rpy: ClassVar[tuple[float, float, float]]
-    """Axes of its frame in ROS, in the sensor: fixed-axis roll, pitch, yaw [rad]."""
+    """The axes of its ROS frame, in the sensor's: fixed-axis roll, pitch, yaw [rad]."""
 
     @property
     def name(self) -> str:
-        """Its name."""
+        """The name."""
 
 
 @runtime_checkable
-class Looking(Mounted, Protocol):
+class DirectedPart(MountedPart, Protocol):
     """A mounted part with a viewing direction."""
 
     @property
     def look_at(self) -> LookAt:
-        """Point or direction it looks at at the start, instead of ``orientation``."""
+        """The viewing target at the start, instead of ``orientation``: a point or a direction."""
 
 
 class Carrier(Protocol):
@@ -87,21 +88,21 @@ class Carrier(Protocol):
 
     @property
     def name(self) -> str:
-        """Its name in the scene."""
+        """The name in the scene."""
 
     @property
     def compiled_vehicle(self) -> CompiledVehicle:
-        """The vehicle as compiled code reads it."""
+        """The vehicle for compiled code."""
 
-    def mount(self, spec: Mounted, *, visual: bool = False) -> Mount:
-        """Fix something to its link, or to the link's visual frame: a frame that moves with it.
+    def mount(self, spec: MountedPart, *, visual: bool = False) -> Mount:
+        """Fix a part to its link, or to the link's visual frame; return a frame that moves with it.
 
         Raises:
             UnknownName: the vehicle has no such link.
         """
 
-    def moving_mount(self, spec: Mounted, *, visual: bool = False) -> MovingBody:
-        """Fix something to its link, or to the link's visual frame, whose motion is read.
+    def moving_mount(self, spec: MountedPart, *, visual: bool = False) -> MovingBody:
+        """Fix a part to its link, or to the link's visual frame; return a body with its motion.
 
         Raises:
             UnknownName: the vehicle has no such link.
@@ -114,21 +115,21 @@ class Sensor(Protocol):
 
     @property
     def state(self) -> Record:
-        """All that changes of it as time goes by; `Simulation.save` keeps it."""
+        """The part of the sensor that changes with time; `Simulation.save` stores it."""
 
     def sample(self, time: float) -> object:
-        """Measure now, at ``time`` [s]: a message of its spec's ``message_type``, None for none."""
+        """Measure at ``time`` [s]; return a message of its spec's ``message_type``, or None."""
 
 
 class CompiledSensor(abc.ABC):
-    """A bound sensor whose samples compiled code takes; messages are made from their numbers."""
+    """A bound sensor that compiled code samples; messages are built from the values."""
 
     sampler: Sampler
-    """What takes the numbers of a sample."""
+    """The sampler."""
 
     @abc.abstractmethod
     def message(self, time: float, values: Array) -> object:
-        """Make the message of a sample taken at ``time`` [s]; None for none.
+        """Return the message of a sample at ``time`` [s], or None.
 
         Args:
             time: when it was taken [s].
@@ -136,7 +137,7 @@ class CompiledSensor(abc.ABC):
         """
 
     def sample(self, time: float) -> Any:
-        """Measure now, at ``time`` [s]: a message, None for none."""
+        """Measure at ``time`` [s]; return a message, or None."""
         return self.message(time, self.sampler.take(time))
 
 
@@ -147,14 +148,14 @@ def follow_mount(
     n_values: int,
     memory_owners: tuple[object, ...],
 ) -> Sampler:
-    """Return what takes the samples of a sensor that reads nothing that moves but its mount.
+    """Return the sampler of a sensor that depends on no other motion than its mount's.
 
     Args:
-        mount: where it is.
-        function: of the module's level, which takes a sample; see `uwsim.base.numerics.calls`.
-        parameters: what the function reads, (1,).
-        n_values: how many numbers it writes.
-        memory_owners: what the parameters have the addresses of, besides the mount.
+        mount: mount of the sensor.
+        function: function of a module that takes a sample; see `uwsim.base.numerics.calls`.
+        parameters: input of the function, (1,).
+        n_values: number of values that it writes.
+        memory_owners: objects whose addresses the parameters contain, besides the mount.
     """
     return Sampler(
         function=function_address(function),
@@ -168,19 +169,19 @@ def follow_mount(
 
 @runtime_checkable
 class BindsSensor(Protocol):
-    """The spec of a sensor that is simulated: what has no ``bind`` is read and does nothing."""
+    """The spec of a simulated sensor; one without ``bind`` is read and not simulated."""
 
     message_type: ClassVar[type]
-    """Type of its messages."""
+    """The type of its messages."""
 
     @property
     def name(self) -> str:
-        """Its name in the scene."""
+        """The name in the scene."""
 
     def bind(self, world: SensorWorld, vehicle: Carrier) -> Sensor:
-        """Mount it on its vehicle; raises UnknownName if there is no such link."""
+        """Mount it on its vehicle; raise UnknownName if there is no such link."""
 
 
-def measured_by(spec: type) -> type | None:
+def find_message_type(spec: type) -> type | None:
     """Return the type of the messages of a sensor or device; None if it is not simulated."""
     return getattr(spec, "message_type", None) if hasattr(spec, "bind") else None

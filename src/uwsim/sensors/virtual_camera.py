@@ -35,24 +35,24 @@ class CameraParametersSpec(Spec):
     """The pinhole of a camera from a calibration; overrides ``fovy``."""
 
     fx: float = element(above=0, maximum=MAX_DISTANCE)
-    """Focal length along the columns [px]."""
+    """The focal length along the columns [px]."""
     fy: float = element(above=0, maximum=MAX_DISTANCE)
-    """Focal length along the rows [px]."""
+    """The focal length along the rows [px]."""
     x0: float
-    """Principal point from the centre of the first column [px], as in ROS and OpenCV; the original
-    counts it from the left edge."""
+    """The principal point from the centre of the first column [px], as in ROS and OpenCV; the
+    original counts it from the left edge."""
     y0: float
-    """Principal point from the centre of the first row [px], as in ROS and OpenCV; the original
+    """The principal point from the centre of the first row [px], as in ROS and OpenCV; the original
     counts it from the bottom edge."""
     f: float = element(above=0, maximum=MAX_DISTANCE)
-    """Far plane [m]."""
+    """The far plane [m]."""
     n: float = element(above=0, maximum=MAX_DISTANCE)
-    """Near plane [m]."""
+    """The near plane [m]."""
     k: float
-    """Skew [px]."""
+    """The skew [px]."""
 
     def intrinsics(self, width: int, height: int, compatibility: frozenset[str]) -> Intrinsics:
-        """The pinhole for an image of ``width`` by ``height`` pixels.
+        """Return the pinhole for an image of ``width`` by ``height`` pixels.
 
         With the compatibility ``y0``, x0 and y0 count from the left and the bottom edge, as in the
         original.
@@ -74,7 +74,7 @@ class CameraParametersSpec(Spec):
 def written_principal_point(
     parameters: CameraParametersSpec | None, compatibility: frozenset[str]
 ) -> tuple[float, float] | None:
-    """Return x0 and y0 with the compatibility ``y0``: CameraInfo has them as they are."""
+    """Return x0 and y0 with the compatibility ``y0``, in which CameraInfo has them unchanged."""
     if parameters is None or "y0" not in compatibility:
         return None
     return parameters.x0, parameters.y0
@@ -91,47 +91,47 @@ class VirtualCameraSpec(SensorSpec):
     frame_rpy: ClassVar[tuple[float, float, float]] = OPTICAL_AXES
 
     resw: int = element(default=160, minimum=1, maximum=16384)
-    """Columns of the image [px]."""
+    """The number of columns of the image [px]."""
     resh: int = element(default=120, minimum=1, maximum=16384)
-    """Rows of the image [px]."""
+    """The number of rows of the image [px]."""
     position: tuple[float, float, float] = element(
         default=(0.0, 0.0, 0.0), minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE
     )
-    """Position of the sensor in the link's frame [m]."""
+    """The position of the sensor in the link's frame [m]."""
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
-    """Orientation of the sensor in the link's frame, roll, pitch, yaw (Rz Ry Rx) [rad]."""
+    """The orientation of the sensor in the link's frame, roll, pitch, yaw (Rz Ry Rx) [rad]."""
     look_at: LookAt = element(namespaced=True, default=None)
-    """Viewing target at the start, instead of ``orientation``: a point in L [m], or a direction
-    of the vehicle. It stays fixed to its link."""
+    """The viewing target at the start, instead of ``orientation``: a point in L [m], or a direction
+    of the vehicle. The camera stays fixed to its link."""
     baseline: float = element(default=0.0, minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE)
-    """Distance to the first camera of a stereo pair [m]; Tx = -fx * baseline in CameraInfo."""
+    """The distance to the first camera of a stereo pair [m]; Tx = -fx * baseline in CameraInfo."""
     frame_id: str = ""
-    """Name of the frame in the headers of image and info."""
+    """The name of the frame in the headers of image and info."""
     fovy: float = element(default=50.0, above=0, below=180)
-    """Vertical field of view [deg]; ignored when there are parameters."""
+    """The vertical field of view [deg]; ignored if there are parameters."""
     parameters: CameraParametersSpec | None = None
     """The pinhole from a calibration."""
     showpath: float = 0.0
-    """Period at which the viewer marks the outline of what the camera sees [s]; 0 is off."""
+    """The period at which the viewer marks the outline of the camera's view [s]; 0 is off."""
     grayscale: bool = False
-    """Whether it gives mono8 instead of rgb8."""
+    """True if its images are mono8 instead of rgb8."""
     std: float = element(default=0.005, minimum=0, maximum=10)
-    """Noise of each channel of each pixel, standard deviation [1: full scale]."""
+    """The noise of each channel of each pixel, standard deviation [1: full scale]."""
     quality: Quality = element(namespaced=True, default="plain")
-    """How its images are drawn; ``polished`` ones have soft shadows in the hue of the water,
-    highlights on wet surfaces and smooth edges, as views for people have, and take three to four
-    times the time."""
+    """The quality of its images; ``polished`` ones have soft shadows in the hue of the water,
+    highlights on wet surfaces and smooth edges, like views for people, and take three to four times
+    the time."""
 
     def intrinsics(self, compatibility: frozenset[str] = frozenset()) -> Intrinsics:
-        """Its pinhole; the compatibility ``y0`` is that of `CameraParametersSpec.intrinsics`."""
+        """Return the pinhole; for ``y0`` see `CameraParametersSpec.intrinsics`."""
         if self.parameters is not None:
             return self.parameters.intrinsics(self.resw, self.resh, compatibility)
         return Intrinsics.from_fovy(self.resw, self.resh, math.radians(self.fovy))
 
     def bind(self, world: SensorWorld, vehicle: Carrier) -> VirtualCamera:
-        """Mount it on its link; raises UnknownName if the vehicle has no such link.
+        """Mount it on its link; raise UnknownName if the vehicle has no such link.
 
-        With the compatibility ``visual-frames`` it hangs on the link's visual frame.
+        With the compatibility ``visual-frames`` it is fixed to the link's visual frame.
         """
         mount = vehicle.mount(self, visual="visual-frames" in world.compatibility)
         return VirtualCamera(self, mount, world, world.stream(f"{vehicle.name}/{self.name}/noise"))
@@ -139,7 +139,7 @@ class VirtualCameraSpec(SensorSpec):
 
 @dataclass(slots=True)
 class CameraState(Record):
-    """What changes of a camera."""
+    """The state of a camera."""
 
     std: float
     """The noise of each channel, 0..1; scene updaters may set it."""
@@ -156,36 +156,36 @@ class VirtualCamera:
     """
 
     def __init__(
-        self, spec: VirtualCameraSpec, mount: Body, world: SensorWorld, random: np.random.Generator
+        self, spec: VirtualCameraSpec, mount: Body, world: SensorWorld, rng: np.random.Generator
     ) -> None:
         self._mount, self._world = mount, world
-        self.state = CameraState(spec.std, None, random)
-        """What changes of it."""
+        self.state = CameraState(spec.std, None, rng)
+        """The state."""
         self._baseline = spec.baseline
         self._intrinsics = spec.intrinsics(world.compatibility)
         self._principal_point = written_principal_point(spec.parameters, world.compatibility)
         self.name = spec.name
-        """Its name in the scene."""
+        """The name in the scene."""
         self.frame_id = spec.frame_id
         """The frame in the headers of its messages."""
         self.is_grey = spec.grayscale
-        """Whether it gives mono8 instead of rgb8."""
+        """True if it returns mono8 images instead of rgb8."""
         self.is_polished = spec.quality == "polished"
-        """Whether its images have soft shadows, highlights and smooth edges."""
+        """True if its images have soft shadows, highlights and smooth edges."""
 
     @property
     def n_images(self) -> int | None:
-        """Number of images due on its topics so far, read or not; None if it has no topic."""
+        """The number of images due on its topics so far, read or not; None if it has no topic."""
         return self.state.n_images
 
     @property
     def intrinsics(self) -> Intrinsics:
-        """Its pinhole."""
+        """The pinhole."""
         return self._intrinsics
 
     @property
     def world_from_camera(self) -> Pose:
-        """Where it is now; OpenGL axes."""
+        """The current pose; OpenGL axes."""
         return self._mount.world_from_body
 
     def resize(self, intrinsics: Intrinsics) -> None:

@@ -20,7 +20,7 @@ from ..physics.engine import Engine
 from ..physics.kinematics.placed_motion import PlacedMotion, Source
 from ..physics.poses import Mount
 from ..scene.mounts import MountFrames
-from ..sensors.sensor import Mounted
+from ..sensors.sensor import MountedPart
 from ..vehicle import Autopilot, Servos
 from ..world import Actuators
 from .moving_bodies import CompiledVehicle, MountedBody, MovingBody, MovingLink
@@ -239,12 +239,12 @@ class SceneVehicle:
             lambda: None if self._motion is None else self._motion.twist(self._step()),
         )
 
-    def mount(self, spec: Mounted, *, visual: bool = False) -> MountedBody:
+    def mount(self, spec: MountedPart, *, visual: bool = False) -> MountedBody:
         """Fix a part to its link; raises UnknownName if there is no such link."""
         name = f"{self.name}/{spec.relative_to}"
         return MountedBody(name, self._engine.poses, self._make_mount(spec, visual))
 
-    def moving_mount(self, spec: Mounted, *, visual: bool = False) -> MovingBody:
+    def moving_mount(self, spec: MountedPart, *, visual: bool = False) -> MovingBody:
         """Fix a part to its link whose motion is read; UnknownName if there is no such link."""
         record, link, engine = self._make_mount(spec, visual), spec.relative_to, self._engine
         body = engine.poses.link_body(self.index, link)
@@ -260,7 +260,7 @@ class SceneVehicle:
         return MovingBody(f"{self.name}/{link}", engine.poses, record, moving_link)
 
     def wrench_sampler(
-        self, spec: Mounted, *, at_joint: bool = False, visual: bool = False
+        self, spec: MountedPart, *, at_joint: bool = False, visual: bool = False
     ) -> Sampler:
         """Return a sampler of a wrench at a link; raise UnknownName if there is no such link.
 
@@ -275,7 +275,7 @@ class SceneVehicle:
             return engine.joint_wrench.sampler(body, record, is_simulated=is_simulated)
         return engine.contacts.wrench_sampler(body, record)
 
-    def _make_mount(self, spec: Mounted, visual: bool) -> Mount:
+    def _make_mount(self, spec: MountedPart, visual: bool) -> Mount:
         link, robot = spec.relative_to, self._frames.robot
         if robot.link(link) is None:
             raise UnknownName("link", link, [robot_link.name for robot_link in robot.links])

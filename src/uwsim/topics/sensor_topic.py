@@ -21,7 +21,7 @@ from ..devices import DEVICES
 from ..errors import UnknownName
 from ..schema.names import prefixed_name
 from ..sensors import SENSORS
-from ..sensors.sensor import CompiledSensor, Sensor, measured_by
+from ..sensors.sensor import CompiledSensor, Sensor, find_message_type
 from .interface import (
     Interface,
     InterfaceSpec,
@@ -53,7 +53,7 @@ class SensorTopicSpec(InterfaceSpec):
     def message_types(cls) -> Mapping[str, type]:
         """Return the message type of its sources."""
         classes = _spec_classes()
-        types = [measured_by(classes[source]) for source in cls.sources]
+        types = [find_message_type(classes[source]) for source in cls.sources]
         return next(({"topic": type_} for type_ in types if type_ is not None), {})
 
     def bind(self, world: TopicWorld) -> Interface:
@@ -96,7 +96,7 @@ class SensorToROSSpec(SensorTopicSpec):
     sources: ClassVar[tuple[str, ...]] = tuple(
         element
         for element, spec in _spec_classes().items()
-        if measured_by(spec) is not None and element != "virtualCamera"
+        if find_message_type(spec) is not None and element != "virtualCamera"
     )
 
     @classmethod

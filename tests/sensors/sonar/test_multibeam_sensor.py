@@ -9,12 +9,12 @@ import pytest
 
 from tests.sensors.acoustic_world import AcousticWorld, FakeCarrier, box, plate
 from uwsim.base.geometry import Pose, rotation_from_rpy
-from uwsim.sensors.pencil import pencil
+from uwsim.sensors.pencil import pencil_rays
 from uwsim.sensors.sonar.multibeam_sensor import (
     BeamFan,
     FanSpec,
     MultibeamSensorSpec,
-    on_one_surface,
+    find_surface_rays,
 )
 from uwsim.sensors.sonar.profiling_sonar import ProfilingSonarSpec
 
@@ -96,14 +96,14 @@ def test_a_beam_on_one_sloping_surface_keeps_all_its_rays(width: float) -> None:
     turns = np.radians(np.linspace(0.0, 84.0 - width, 60))
     axes = np.stack([np.zeros(60), np.sin(turns), -np.cos(turns)], axis=1)
     beside = np.broadcast_to([1.0, 0.0, 0.0], axes.shape)
-    rays, weights = pencil(axes, beside, math.radians(width))
+    rays, weights = pencil_rays(axes, beside, math.radians(width))
     distances = 5.0 / -rays[:, :, 2]
-    assert on_one_surface(distances, weights, math.radians(width)).all()
+    assert find_surface_rays(distances, weights, math.radians(width)).all()
 
 
 def test_of_three_surfaces_that_with_most_of_the_beam_counts() -> None:
     distances = np.array([[4.0] * 3 + [6.0] * 5 + [9.0] * 4 + [np.inf] * 2])
-    found = on_one_surface(distances, np.ones(14), 0.02)
+    found = find_surface_rays(distances, np.ones(14), 0.02)
     assert found[0].tolist() == [False] * 3 + [True] * 5 + [False] * 6
 
 

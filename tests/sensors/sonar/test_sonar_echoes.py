@@ -33,7 +33,7 @@ def listen(
 
 def echo_level(world: AcousticWorld, pose: Pose, **fields: float) -> float:
     """All that comes back [dB re 1 uPa]."""
-    power = listen(world, pose, **fields).power(pose).of_columns
+    power = listen(world, pose, **fields).power(pose).columns
     return 10.0 * math.log10(power.sum(dtype=np.float64)) + 120.0
 
 
@@ -95,7 +95,7 @@ def test_echoes_fall_with_the_fourth_power_of_the_range_and_come_when_sound_does
         echoes = listen(
             world, at_height(0.0), half_width=4.0, n=201, rows=2048, vertical_aperture=30.0
         )
-        power = echoes.power(at_height(0.0)).of_columns.sum(axis=1, dtype=np.float64)
+        power = echoes.power(at_height(0.0)).columns.sum(axis=1, dtype=np.float64)
         assert echoes.ranges[int(np.argmax(power))] == pytest.approx(height, abs=echoes.bin_size)
         levels.append(10.0 * math.log10(power.sum()) + losses(height))
     assert levels[1] - levels[0] == pytest.approx(-40.0 * math.log10(2.0), abs=0.1)
@@ -106,7 +106,7 @@ def test_a_flat_bottom_has_no_gaps_between_rays() -> None:
     world = AcousticWorld(plate(100.0, -3.0))
     pose = at_height(0.0, rotation_from_rpy(0.0, 0.3, 0.0))
     few, many = (
-        listen(world, pose, rows=rows, vertical_aperture=25.0).power(pose).of_columns[120:360, 40]
+        listen(world, pose, rows=rows, vertical_aperture=25.0).power(pose).columns[120:360, 40]
         for rows in (24, 512)
     )
     assert (few > 0.0).all()
@@ -119,7 +119,7 @@ def test_there_is_no_echo_from_the_shadow_of_a_box() -> None:
     world = AcousticWorld(plate(100.0, 0.0), box((6.0, -2.0, -1.0), (7.0, 2.0, 1.0)))
     pose = at_height(3.0, rotation_from_rpy(0.0, 0.3, 0.0))
     echoes = listen(world, pose, half_width=5.0, vertical_aperture=40.0)
-    power = echoes.power(pose).of_columns
+    power = echoes.power(pose).columns
     end = 7.0 * 3.0 / (3.0 - 1.0)
     begin_range, end_range = math.hypot(7.0, 2.0), math.hypot(end, 3.0)
     middle = power[:, 41]
@@ -183,7 +183,7 @@ def test_the_water_surface_is_heard_from_below() -> None:
     world = AcousticWorld(plate(1.0, -1000.0), surface_height=4.0)
     pose = at_height(0.0, rotation_from_rpy(0.0, -0.5 * math.pi, 0.0))
     echoes = listen(world, pose)
-    power = echoes.power(pose).of_columns.sum(axis=1)
+    power = echoes.power(pose).columns.sum(axis=1)
     assert echoes.ranges[int(np.flatnonzero(power)[0])] == pytest.approx(4.0, abs=echoes.bin_size)
 
 
@@ -193,8 +193,8 @@ def test_echoes_by_way_of_the_surface_come_only_if_wanted_and_later() -> None:
     world = AcousticWorld(ball, surface_height=2.0, materials=[CHALK])
     pose = at_height(0.0, np.eye(3))
     fields = {"vertical_aperture": 70.0, "rows": 1024, "half_width": 3.0}
-    direct = listen(world, pose, **fields).power(pose).of_columns
-    both = listen(world, pose, multipath=True, **fields).power(pose).of_columns
+    direct = listen(world, pose, **fields).power(pose).columns
+    both = listen(world, pose, multipath=True, **fields).power(pose).columns
     added = np.flatnonzero((both - direct).sum(axis=1))
     ranges = listen(world, pose, **fields).ranges[added]
     assert ranges[0] == pytest.approx(math.hypot(10.0, 4.0) - 0.3, abs=0.06)
@@ -207,8 +207,8 @@ def test_nothing_comes_by_way_of_the_surface_through_a_roof() -> None:
     world = AcousticWorld(roof, surface_height=2.0, materials=[CHALK])
     pose = at_height(0.0, np.eye(3))
     fields = {"vertical_aperture": 70.0, "rows": 256, "half_width": 3.0}
-    direct = listen(world, pose, **fields).power(pose).of_columns
-    both = listen(world, pose, multipath=True, **fields).power(pose).of_columns
+    direct = listen(world, pose, **fields).power(pose).columns
+    both = listen(world, pose, multipath=True, **fields).power(pose).columns
     assert direct.sum() > 0.0
     np.testing.assert_array_equal(both, direct)
 
@@ -219,7 +219,7 @@ def test_no_ray_goes_past_straight_up_and_sends_back_less_than_nothing() -> None
     pose = at_height(0.0, np.eye(3))
     echoes = listen(world, pose, vertical_aperture=160.0, rows=64, multipath=True)
     assert echoes.grid.directions[:, 0].min() > 0.0
-    assert echoes.power(pose).of_columns.min() >= 0.0
+    assert echoes.power(pose).columns.min() >= 0.0
     assert np.isfinite(echoes.ping(pose, 1)).all()
 
 

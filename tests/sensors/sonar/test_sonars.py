@@ -100,7 +100,7 @@ def test_a_fan_of_a_whole_turn_has_no_seam() -> None:
     azimuths = np.radians(np.arange(-180.0, 180.0, 10.0))
     image = FanImage(azimuths, np.arange(50) * 0.1 + 0.05)
     grey = np.full((50, len(azimuths)), 255, dtype=np.uint8)
-    pixels = image.of(grey)
+    pixels = image.draw(grey)
     size = len(pixels)
     y, x = np.mgrid[:size, : pixels.shape[1]] - 0.5 * (size - 1)
     inside = np.hypot(x, y) < 0.5 * size - 1.0

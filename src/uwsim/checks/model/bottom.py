@@ -22,7 +22,7 @@ from ...scene.pointing import describe_direction
 from ...scene.spec import SceneSpec
 from ...scene.urdf.robot import RobotSpec
 from ...sensors.dvl_sensor import DvlSensorSpec
-from ...sensors.janus import ENOUGH, Janus
+from ...sensors.janus import MIN_BEAMS, Janus
 from ..subjects import CheckedScene
 
 MAX_RANGE = 20000.0
@@ -68,12 +68,12 @@ class Bottom:
         janus = Janus(math.radians(spec.beam_angle))
         hits = self._rays.cast(frames.world_from_mounted(spec), janus.directions, MAX_RANGE)
         axial = hits.distance * janus.cosine
-        if spec.is_bottom(axial).sum() >= ENOUGH:
+        if spec.is_bottom(axial).sum() >= MIN_BEAMS:
             return ""
         ranges = axial[np.isfinite(axial)]
         place = f"at {ranges.min():.3g} to {ranges.max():.3g} m" if len(ranges) else "nowhere"
         return (
             f"it has no bottom track at the start. It {describe_direction(spec, frames)}, and its "
-            f"beams hit the bottom {place}; expected {ENOUGH} hits or more at "
+            f"beams hit the bottom {place}; expected {MIN_BEAMS} hits or more at "
             f"{spec.min_altitude:g} to {spec.max_altitude:g} m"
         )

@@ -12,7 +12,7 @@ from ...scene.mounts import MountFrames
 from ...scene.pointing import describe_direction, directional_parts
 from ...schema import NAMESPACE, uses_extensions
 from ...sensors.dvl_sensor import DvlSensorSpec
-from ...sensors.sensor import Looking, Mounted
+from ...sensors.sensor import DirectedPart, MountedPart
 from ...sensors.virtual_camera import VirtualCameraSpec
 from ..subjects import CheckedScene
 
@@ -65,13 +65,13 @@ def polished_cameras(scene: CheckedScene) -> Iterator[Diagnostic]:
                 yield scene.warning(camera, f"{_quoted_name(camera)}: {message}", element)
 
 
-def _quoted_name(spec: Mounted) -> str:
+def _quoted_name(spec: MountedPart) -> str:
     return repr(str(getattr(spec, "name", "")))
 
 
 def _upward_sensors(scene: CheckedScene, frames: MountFrames) -> Iterator[Diagnostic]:
     """Warn of old sensors: until July 2014 they were mounted on visual frames."""
-    upward_specs: list[Looking] = []
+    upward_specs: list[DirectedPart] = []
     n_downward = 0
     for spec in directional_parts(frames.vehicle):
         if (

@@ -31,7 +31,7 @@ from ...network import (
     nanoseconds,
 )
 from ...schema import MAX_DISTANCE, REQUIRED_BY_DTD, Original, Spec, element
-from ...sensors.sensor import Mounted
+from ...sensors.sensor import MountedPart
 from ...world import Body, DeviceWorld
 from ..device import Device, DeviceTopic, DeviceVehicle
 
@@ -95,7 +95,7 @@ class MeshSpec(Spec):
     """The scale along x, y, z [1]."""
 
 
-class CommsSpec(Mounted, Protocol):
+class CommsSpec(MountedPart, Protocol):
     """The spec of a custom or acoustic device."""
 
     @property

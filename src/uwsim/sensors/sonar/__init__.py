@@ -1,1 +1,1 @@
-"""Echoes: what imaging, scanning and side-scan sonars have in common."""
+"""Echoes: the shared parts of imaging, scanning and side-scan sonars."""

@@ -1,4 +1,4 @@
-r"""Images of echoes for people: levels in dB, and fans of beams laid out in the plane.
+r"""Images of echoes for people: levels in dB, and fans of beams in the plane.
 
 Spreading and absorption are compensated (time-varying gain): an image shows the target strength
 of what is in each bin, :math:`EL - SL + 2 (20 \log r + \alpha r)`.
@@ -18,12 +18,12 @@ from .kernel import Singles
 from .spec import SonarSpec
 
 Pixels = npt.NDArray[np.uint8]
-LARGEST = 2048
-"""Images are scaled down to so many pixels across."""
+MAX_PIXELS = 2048
+"""The largest side of an image, to which larger ones are scaled down [px]."""
 
 
 class Levels:
-    """Grey values of amplitudes.
+    """The grey values of amplitudes.
 
     Args:
         spec: of the sonar.
@@ -39,17 +39,19 @@ class Levels:
         self._greys = np.zeros(0x10000, dtype=np.uint8)
         self._greys[1:0x7F80] = np.clip(np.round(grey), 0.0, 255.0).astype(np.uint8)
 
-    def of(self, amplitude: Singles, losses: float) -> Pixels:
-        """Grey values of amplitudes (bins, n) [Pa], at an absorption [dB/m]; 0.07 dB coarse."""
+    def to_grey(self, amplitude: Singles, losses: float) -> Pixels:
+        """Return grey values of amplitudes (bins, n) [Pa], at an absorption [dB/m], to 0.07 dB."""
         gain = self._spreading + 2.0 * losses * self._ranges  # [dB]
-        factors = np.array([10.0 ** (0.05 * each) for each in gain.tolist()], dtype=np.float32)
-        scaled = np.ascontiguousarray(amplitude * factors[:, None])
-        greys: Pixels = self._greys[scaled.view(np.uint32) >> 16]
+        factors = np.array(
+            [10.0 ** (0.05 * decibels) for decibels in gain.tolist()], dtype=np.float32
+        )
+        amplitudes = np.ascontiguousarray(amplitude * factors[:, None])
+        greys: Pixels = self._greys[amplitudes.view(np.uint32) >> 16]
         return greys
 
 
 class FanImage:
-    """Where each pixel of an image of a fan is in its bins: ahead is up, port is left.
+    """The bin of each pixel in an image of a fan: ahead is up, port is left.
 
     Args:
         azimuths: of the beams at equal steps, positive to port, (n,) [rad].
@@ -58,29 +60,33 @@ class FanImage:
 
     def __init__(self, azimuths: Array, ranges: Array) -> None:
         bin_size = ranges[1] - ranges[0] if len(ranges) > 1 else 2.0 * ranges[0]
-        outer = ranges[-1] + 0.5 * bin_size
-        around = np.linspace(azimuths[0], azimuths[-1], 721)
-        x, y = outer * np.cos(around), outer * np.sin(around)
-        ahead, behind = max(float(x.max()), 0.0), max(-float(x.min()), 0.0)
+        max_range = ranges[-1] + 0.5 * bin_size
+        arc = np.linspace(azimuths[0], azimuths[-1], 721)
+        x, y = max_range * np.cos(arc), max_range * np.sin(arc)
+        front, back = max(float(x.max()), 0.0), max(-float(x.min()), 0.0)
         port, starboard = max(float(y.max()), 0.0), max(-float(y.min()), 0.0)
-        self.pixel = max(bin_size, (ahead + behind) / LARGEST, (port + starboard) / LARGEST)
-        """Size of a pixel [m]."""
-        n_rows = max(1, math.ceil((ahead + behind) / self.pixel))
+        self.pixel = max(bin_size, (front + back) / MAX_PIXELS, (port + starboard) / MAX_PIXELS)
+        """The size of a pixel [m]."""
+        n_rows = max(1, math.ceil((front + back) / self.pixel))
         n_columns = max(1, math.ceil((port + starboard) / self.pixel))
-        forward = ahead - self.pixel * (np.arange(n_rows) + 0.5)
+        forward = front - self.pixel * (np.arange(n_rows) + 0.5)
         left = port - self.pixel * (np.arange(n_columns) + 0.5)
         x, y = np.meshgrid(forward, left, indexing="ij")
         bins = np.floor((np.sqrt(x * x + y * y) - ranges[0]) / bin_size + 0.5).astype(np.intp)
         step = azimuths[1] - azimuths[0] if len(azimuths) > 1 else 2.0 * math.pi
         turns = (arctan2(y, x) - azimuths[0]) / step
-        full = 2.0 * math.pi / abs(step)
-        turns = np.where(turns < -0.5, turns + full, turns)
-        beams = np.floor(np.where(turns >= full - 0.5, turns - full, turns) + 0.5).astype(np.intp)
-        self._inside = (bins >= 0) & (bins < len(ranges)) & (beams >= 0) & (beams < len(azimuths))
-        self._places = (bins * len(azimuths) + beams)[self._inside]
+        full_turn = 2.0 * math.pi / abs(step)
+        turns = np.where(turns < -0.5, turns + full_turn, turns)
+        beams = np.floor(np.where(turns >= full_turn - 0.5, turns - full_turn, turns) + 0.5).astype(
+            np.intp
+        )
+        self._is_inside = (
+            (bins >= 0) & (bins < len(ranges)) & (beams >= 0) & (beams < len(azimuths))
+        )
+        self._bin_indices = (bins * len(azimuths) + beams)[self._is_inside]
 
-    def of(self, greys: Pixels) -> Pixels:
-        """The image of grey values (bins, n), black around the fan, (h, w)."""
-        pixels = np.zeros(self._inside.shape, dtype=np.uint8)
-        pixels[self._inside] = greys.reshape(-1)[self._places]
+    def draw(self, greys: Pixels) -> Pixels:
+        """Return the image of grey values (bins, n), black around the fan, (h, w)."""
+        pixels = np.zeros(self._is_inside.shape, dtype=np.uint8)
+        pixels[self._is_inside] = greys.reshape(-1)[self._bin_indices]
         return pixels

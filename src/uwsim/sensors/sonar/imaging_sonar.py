@@ -9,7 +9,7 @@
       <horizontalAperture>90</horizontalAperture> <beams>512</beams>
     </u:imagingSonar>
 
-All beams hear each ping. See `uwsim.sensors.sonar.echoes` for what they hear.
+All beams receive each ping. See `uwsim.sensors.sonar.echoes` for the echoes.
 """
 
 from __future__ import annotations
@@ -42,68 +42,68 @@ class ImagingSonarSpec(SonarSpec):
     message_type: ClassVar[type] = ProjectedSonarImage
 
     horizontal_aperture: float = element(default=90.0, above=0, maximum=360)
-    """From the middle of the first beam to that of the last [deg]."""
+    """The angle from the middle of the first beam to that of the last [deg]."""
     beams: int = element(default=512, minimum=2, maximum=4096)
-    """Beams side by side."""
+    """The number of beams side by side."""
 
     @property
     def n_cells(self) -> int:
-        """Bins of all beams."""
+        """The number of bins of all beams."""
         return self.bins * self.beams
 
     @property
     def n_rays(self) -> int:
-        """Rays of a ping, but for those beside the outermost beams and to small targets."""
+        """The number of rays of a ping, except those beside the fan and to small targets."""
         n = n_columns(math.radians(self.beam_width), self._step, self.beams)
         return self.rows * max(n, self.beams)
 
     @property
     def _step(self) -> float:
-        """Between beams [rad]."""
+        """The angle between beams [rad]."""
         return math.radians(self.horizontal_aperture) / (self.beams - 1)
 
     @property
     def azimuths(self) -> Array:
-        """Of the beams from starboard to port, positive to port, (n,) [rad]."""
+        """The azimuths of the beams from starboard to port, positive to port, (n,) [rad]."""
         half = 0.5 * math.radians(self.horizontal_aperture)
         return np.linspace(-half, half, self.beams)
 
     def bind(self, world: SensorWorld, vehicle: Carrier) -> ImagingSonar:
-        """Mount it on its link; raises UnknownName if the vehicle has no such link."""
-        random = world.stream(f"{vehicle.name}/{self.name}/noise")
-        return ImagingSonar(self, vehicle.mount(self), world, random)
+        """Mount it on its link; raise UnknownName if the vehicle has no such link."""
+        rng = world.stream(f"{vehicle.name}/{self.name}/noise")
+        return ImagingSonar(self, vehicle.mount(self), world, rng)
 
 
 @dataclass(slots=True)
 class ImagingState(Record):
-    """What an imaging sonar has drawn and seen."""
+    """The state of an imaging sonar."""
 
     random: np.random.Generator
     """The generator of its speckle."""
     last: npt.NDArray[np.float32]
-    """Its last ping, (bins, beams)."""
+    """The amplitudes of the last ping, (bins, beams)."""
 
 
 class ImagingSonar:
-    """Echoes in bins of azimuth and range."""
+    """A sonar that measures echoes in bins of azimuth and range."""
 
     def __init__(
-        self, spec: ImagingSonarSpec, mount: Body, world: SensorWorld, random: np.random.Generator
+        self, spec: ImagingSonarSpec, mount: Body, world: SensorWorld, rng: np.random.Generator
     ) -> None:
         self._spec, self._mount = spec, mount
         azimuths = spec.azimuths
         self._echoes = Echoes(spec, world, azimuths, float(azimuths[1] - azimuths[0]))
         self._ranges, self._directions = self._echoes.ranges, level_directions(azimuths)
         self._azimuths, self._levels = azimuths, Levels(spec, self._ranges)
-        self.state = ImagingState(random, np.zeros((spec.bins, spec.beams), np.float32))
-        """What it has drawn and seen."""
+        self.state = ImagingState(rng, np.zeros((spec.bins, spec.beams), np.float32))
+        """The state."""
 
     @cached_property
     def _fan(self) -> FanImage:
         return FanImage(self._azimuths, self._ranges)
 
     def sample(self, time: float) -> ProjectedSonarImage:
-        """Ping now, at ``time`` [s]."""
+        """Ping at ``time`` [s]."""
         pose, spec = self._mount.world_from_body, self._spec
         self.state.last = self._echoes.ping(pose, int(self.state.random.integers(2**63)))
         return sonar_image(
@@ -116,7 +116,7 @@ class ImagingSonar:
         )
 
     def image(self, time: float) -> Image:
-        """The last ping as a fan, ahead is up, stamped ``time`` [s]."""
+        """Return the last ping as a fan, ahead is up, stamped ``time`` [s]."""
         losses = self._echoes.losses(self._mount.world_from_body)
-        greys = self._levels.of(self.state.last, losses)
-        return image(self._fan.of(greys), time=time, frame_id=self._spec.name)
+        greys = self._levels.to_grey(self.state.last, losses)
+        return image(self._fan.draw(greys), time=time, frame_id=self._spec.name)

@@ -1,4 +1,4 @@
-"""Echoes of rays in bins of range, compiled."""
+"""The echoes of rays in range bins, in compiled code."""
 
 from __future__ import annotations
 
@@ -12,16 +12,17 @@ from ...rays import Hits
 
 Array = npt.NDArray[np.float64]
 Singles = npt.NDArray[np.float32]
-Whole = npt.NDArray[np.int32]
+Integers = npt.NDArray[np.int32]
 BLOCK = 8
-"""Azimuths whose rays are side by side: rays that are neighbours go together (`uwsim.rays`)."""
+"""The number of azimuths whose rays are adjacent in memory: neighbours are cast together
+(`uwsim.rays`)."""
 LINES = 16
-"""Bins that are taken from all azimuths in one go: those of a line of the processor's cache."""
-GRAZING = 0.02
-"""Least cosine of an angle of incidence that counts: 88.9 degrees."""
+"""The number of bins that are read from all azimuths together: a line of the processor's cache."""
+MIN_COSINE = 0.02
+"""The least cosine of an angle of incidence that counts: 88.9 degrees."""
 
 MAX_TILT = 0.9
-"""Of the density of power over what one ray covers."""
+"""The largest relative change of the density of power over one ray's surface."""
 
 
 @njit
@@ -56,43 +57,43 @@ def add_echoes(
         bins: least range, size of a bin [m], absorption there and back [1/m, neper of power].
     """
     distance, normal, surface = hits
-    first, size, loss = bins
+    start, size, loss = bins
     n_rows, n_azimuths = len(rows), power.shape[1]
-    reach = first + size * len(power)
+    reach = start + size * len(power)
     for k in range(len(distance)):
         r = distance[k]
         if r == np.inf:
             continue
         block = k // (BLOCK * n_rows) * BLOCK
         width = min(BLOCK, n_azimuths - block)
-        row, beside = divmod(k - block * n_rows, width)
-        cosine = max(facing_cosine(normal, directions, k, k), GRAZING)
-        below = above = left = right = 0.0
+        row, column = divmod(k - block * n_rows, width)
+        cosine = max(facing_cosine(normal, directions, k, k), MIN_COSINE)
+        lower = upper = left = right = 0.0
         hit = (k, r, cosine)
         if row > 0:
-            below = _to_neighbour(hit, k - width, hits, directions, reach, size)
+            lower = _range_to_neighbour(hit, k - width, hits, directions, reach, size)
         if row + 1 < n_rows:
-            above = _to_neighbour(hit, k + width, hits, directions, reach, size)
-        if beside > 0:
-            left = _to_neighbour(hit, k - 1, hits, directions, reach, size)
-        if beside + 1 < width:
-            right = _to_neighbour(hit, k + 1, hits, directions, reach, size)
-        if beside == 0:
+            upper = _range_to_neighbour(hit, k + width, hits, directions, reach, size)
+        if column > 0:
+            left = _range_to_neighbour(hit, k - 1, hits, directions, reach, size)
+        if column + 1 < width:
+            right = _range_to_neighbour(hit, k + 1, hits, directions, reach, size)
+        if column == 0:
             left = -right
-        elif beside + 1 == width:
+        elif column + 1 == width:
             right = -left
         sigma, steepness = backscatter(materials[surface[k]], cosine)
         echo = rows[row, 0] * sigma * math.exp(-loss * r) / (r * r * cosine)
-        near = (r + min(below, above) + min(left, right) - first) / size
-        far = (r + max(below, above) + max(left, right) - first) / size
+        near = (r + min(lower, upper) + min(left, right) - start) / size
+        far = (r + max(lower, upper) + max(left, right) - start) / size
         tilt = -0.5 * (far - near) * size * ((3.0 + steepness) / r + loss)
-        tilt += rows[row, 1] if above > below else -rows[row, 1]
-        spread_echo(power[:, block + beside], echo, near, far, tilt)
+        tilt += rows[row, 1] if upper > lower else -rows[row, 1]
+        spread_echo(power[:, block + column], echo, near, far, tilt)
 
 
 @njit
 def backscatter(material: Array, cosine: float) -> tuple[float, float]:
-    """Backscattering cross section of a square metre (`uwsim.acoustics.material`) [1].
+    """Return the backscattering cross section of a square metre (`uwsim.acoustics.material`) [1].
 
     Returns it and its steepness, the derivative of its logarithm by that of the cosine.
 
@@ -110,17 +111,17 @@ def backscatter(material: Array, cosine: float) -> tuple[float, float]:
 
 @njit
 def facing_cosine(normal: Array, directions: Array, k: int, ray: int) -> float:
-    """Cosine of the angle between the normal at hit k and a ray."""
-    against: float = (
+    """Return the cosine of the angle between the normal at hit k and a ray."""
+    product: float = (
         normal[k, 0] * directions[ray, 0]
         + normal[k, 1] * directions[ray, 1]
         + normal[k, 2] * directions[ray, 2]
     )
-    return -against
+    return -product
 
 
 @njit
-def _to_neighbour(
+def _range_to_neighbour(
     hit: tuple[int, float, float],
     other: int,
     hits: Hits,
@@ -128,7 +129,7 @@ def _to_neighbour(
     reach: float,
     size: float,
 ) -> float:
-    """How much farther than a hit ends what belongs to its ray, towards another ray [m].
+    """Return the range from a hit to the end of its ray's surface, towards another ray [m].
 
     Args:
         hit: its number k, distance [m] and cosine of the angle of incidence.
@@ -140,10 +141,10 @@ def _to_neighbour(
     """
     k, r, cosine = hit
     distance, normal, surface = hits
-    facing = facing_cosine(normal, directions, k, other)
-    if facing <= GRAZING:
+    other_cosine = facing_cosine(normal, directions, k, other)
+    if other_cosine <= MIN_COSINE:
         return 0.0
-    expected = r * cosine / facing - r  # if the other were on the same plane
+    expected = r * cosine / other_cosine - r  # if the other were on the same plane
     if surface[other] < 0 and r + expected > reach:
         return 0.5 * expected
     gap = distance[other] - r
@@ -155,7 +156,7 @@ def _to_neighbour(
 
 @njit
 def spread_echo(power: Singles, echo: float, near: float, far: float, tilt: float) -> None:
-    """Share the power of an echo between the bins it covers.
+    """Distribute the power of an echo over the bins that it covers.
 
     Args:
         power: of the bins, (n,); added to [Pa2].
@@ -186,62 +187,64 @@ def spread_echo(power: Singles, echo: float, near: float, far: float, tilt: floa
 
 
 @njit
-def received(
+def compute_amplitudes(
     power: Singles,
-    of_small: Singles,
+    small_targets: Singles,
     patterns: Singles,
     stride: int,
     noise: float,
-    random: npt.NDArray[np.uint16],
+    integers: npt.NDArray[np.uint16],
     speckle: Singles,
 ) -> Singles:
-    """Amplitudes of the beams, (bins, beams) [Pa].
+    """Return the amplitudes of the beams, (bins, beams) [Pa].
 
     Args:
         power: of each bin and column of rays, (bins, m), a column's bins one after the other [Pa2].
-        of_small: what the beams receive from small targets, (bins, beams); or (0, 0) [Pa2].
+        small_targets: what the beams receive from small targets, (bins, beams); or (0, 0) [Pa2].
         patterns: of the beams over neighbouring columns, (s, t): beam ``s q + p`` receives the
             columns ``stride q`` to ``stride q + t - 1`` by the pattern p.
         stride: columns from a beam to the next of the same pattern.
         noise: mean power of what is received without any echo [Pa2].
-        random: a number for each bin and beam, (bins, beams).
+        integers: a number for each bin and beam, (bins, beams).
         speckle: amplitude by random number, (65536,).
     """
-    n_bins, n_beams = random.shape
+    n_bins, n_beams = integers.shape
     n_phases, n_taps = patterns.shape
     amplitude = np.empty((n_bins, n_beams), dtype=np.float32)
-    heard = np.empty(n_beams, dtype=np.float32)
-    some = np.empty((LINES, power.shape[1]), dtype=np.float32)
+    beam_power = np.empty(n_beams, dtype=np.float32)
+    lines = np.empty((LINES, power.shape[1]), dtype=np.float32)
     floor = np.float32(noise)
-    has_small = of_small.size > 0
+    has_small = small_targets.size > 0
     for bin in range(n_bins):
         if bin % LINES == 0:
             for k in range(power.shape[1]):
                 for place in range(min(LINES, n_bins - bin)):
-                    some[place, k] = power[bin + place, k]
+                    lines[place, k] = power[bin + place, k]
         for phase in range(n_phases):
             n = (n_beams - phase + n_phases - 1) // n_phases
             for k in range(n):
-                heard[k] = floor
+                beam_power[k] = floor
             for tap in range(n_taps):
-                _add_column(heard, n, patterns[phase, tap], some[bin % LINES, tap:], stride)
+                _add_column(beam_power, n, patterns[phase, tap], lines[bin % LINES, tap:], stride)
             if has_small:
                 for k in range(n):
-                    heard[k] += of_small[bin, phase + k * n_phases]
+                    beam_power[k] += small_targets[bin, phase + k * n_phases]
             for k in range(n):
-                heard[k] = math.sqrt(heard[k])
+                beam_power[k] = math.sqrt(beam_power[k])
             for k in range(n):
                 beam = phase + k * n_phases
-                amplitude[bin, beam] = heard[k] * speckle[random[bin, beam]]
+                amplitude[bin, beam] = beam_power[k] * speckle[integers[bin, beam]]
     return amplitude
 
 
 @njit
-def _add_column(heard: Singles, n: int, weight: np.float32, columns: Singles, stride: int) -> None:
+def _add_column(
+    beam_power: Singles, n: int, weight: np.float32, columns: Singles, stride: int
+) -> None:
     """Add the weighted power of one column to that of each of n beams."""
     if stride == 1:
         for k in range(n):
-            heard[k] += weight * columns[k]
+            beam_power[k] += weight * columns[k]
     else:
         for k in range(n):
-            heard[k] += weight * columns[k * stride]
+            beam_power[k] += weight * columns[k * stride]

@@ -1,4 +1,4 @@
-"""Echoes as marine_acoustic_msgs/ProjectedSonarImage."""
+"""Sonar images as marine_acoustic_msgs/ProjectedSonarImage."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def sonar_image(
         time: of the ping [s].
     """
     n = len(directions)
-    ahead, starboard, up = (directions * [1.0, -1.0, 1.0]).T.tolist()
+    forward, starboard, up = (directions * [1.0, -1.0, 1.0]).T.tolist()
     return ProjectedSonarImage(
         header=header(time, spec.name),
         ping_info=PingInfo(
@@ -45,7 +45,7 @@ def sonar_image(
             rx_beamwidths=np.full(n, math.radians(spec.beam_width), dtype=np.float32),
         ),
         # in the frame of the message: z ahead, x up, y to starboard
-        beam_directions=list(map(Vector3, up, starboard, ahead)),
+        beam_directions=list(map(Vector3, up, starboard, forward)),
         ranges=ranges.astype(np.float32),
         image=SonarImageData(
             is_bigendian=False,
@@ -57,7 +57,7 @@ def sonar_image(
 
 
 def level_directions(azimuths: Array) -> Array:
-    """Unit vectors in the sonar's x-y plane at azimuths (n,) [rad], positive to port, (n, 3)."""
+    """Return unit vectors in the x-y plane at azimuths (n,) [rad], positive to port, (n, 3)."""
     return np.stack([np.cos(azimuths), np.sin(azimuths), np.zeros(len(azimuths))], axis=1)
 
 

@@ -28,54 +28,54 @@ from ...base.record import RandomState
 from ...messages import LaserScan, header
 from ...schema import MAX_DISTANCE, element
 from ...world import Body, SensorWorld
-from ..pencil import pencil
+from ..pencil import pencil_rays
 from ..sensor import SCAN_AXES, Carrier, LookAt, SensorSpec
 from .multibeam_images import DepthImages
 
 
 @dataclass(frozen=True, kw_only=True)
 class FanSpec(SensorSpec):
-    """What a multibeam and a profiling sonar have in common."""
+    """The shared spec of multibeam and profiling sonars."""
 
     frame_rpy: ClassVar[tuple[float, float, float]] = SCAN_AXES
     message_type: ClassVar[type] = LaserScan
 
     visible: bool = False
-    """Whether the viewer draws the beams."""
+    """True if the viewer draws the beams."""
     position: tuple[float, float, float] = element(
         default=(0.0, 0.0, 0.0), minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE
     )
-    """Position of the sensor in the link's frame [m]."""
+    """The position of the sensor in the link's frame [m]."""
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
-    """Orientation of the sensor in the link's frame, roll, pitch, yaw (Rz Ry Rx) [rad]."""
+    """The orientation of the sensor in the link's frame, roll, pitch, yaw (Rz Ry Rx) [rad]."""
     look_at: LookAt = element(namespaced=True, default=None)
-    """Viewing target at the start, instead of ``orientation``: a point in L [m], or a direction
-    of the vehicle. It stays fixed to its link."""
+    """The viewing target at the start, instead of ``orientation``: a point in L [m], or a direction
+    of the vehicle. The sensor stays fixed to its link."""
     init_angle: float
-    """Angle of the first beam; 0 is -z, positive towards +y [deg]."""
+    """The angle of the first beam; 0 is -z, positive towards +y [deg]."""
     final_angle: float
-    """Angle of the last beam [deg]."""
+    """The angle of the last beam [deg]."""
     angle_incr: float = element(above=0)
-    """Angle between beams [deg]."""
+    """The angle between beams [deg]."""
     range: float = element(above=0, maximum=MAX_DISTANCE)
-    """Longest distance measured; the value of a beam that hits nothing [m]."""
+    """The longest measured distance; the value of a beam without a hit [m]."""
     beam_width: float = element(namespaced=True, default=0.0, minimum=0, maximum=30)
-    """Of each beam between its points of half power, all round [deg]; 0 is a ray."""
+    """The width of each round beam between its points of half power [deg]; 0 is a ray."""
     std: float = element(namespaced=True, default=0.0, minimum=0, maximum=1000)
-    """Noise of each range, standard deviation [m]."""
+    """The noise of each range, standard deviation [m]."""
 
     @property
     def camera_field(self) -> float:
-        """The original's cameras see so much at most [deg]."""
+        """The largest field of view of the original's cameras [deg]."""
         return 120.0
 
     @property
     def n_beams(self) -> int:
-        """Number of beams, as the original counts them."""
+        """The number of beams, as the original counts them."""
         return int(abs(self.final_angle - self.init_angle) / self.angle_incr) + 1
 
     def bind(self, world: SensorWorld, vehicle: Carrier) -> BeamFan:
-        """Mount it on its link; raises UnknownName if the vehicle has no such link."""
+        """Mount it on its link; raise UnknownName if the vehicle has no such link."""
         mount = vehicle.mount(self, visual="visual-frames" in world.compatibility)
         return BeamFan(self, mount, world, world.stream(f"{vehicle.name}/{self.name}/noise"))
 
@@ -85,25 +85,25 @@ class MultibeamSensorSpec(FanSpec):
     """A ``<multibeamSensor>``."""
 
     underwater_particles: bool = element(attribute=True, default=False)
-    """Whether particles drifting in the water are seen."""
+    """True if particles drifting in the water are visible."""
 
 
 class BeamFan:
-    """Ranges of beams side by side, as sensor_msgs/LaserScan."""
+    """A sensor of the ranges of adjacent beams, as sensor_msgs/LaserScan."""
 
     def __init__(
-        self, spec: FanSpec, mount: Body, world: SensorWorld, random: np.random.Generator
+        self, spec: FanSpec, mount: Body, world: SensorWorld, rng: np.random.Generator
     ) -> None:
         self._spec, self._mount, self._world = spec, mount, world
-        self.state = RandomState(random)
-        """What it draws."""
+        self.state = RandomState(rng)
+        """The state."""
         sign = 1.0 if spec.final_angle >= spec.init_angle else -1.0
-        self._first = math.radians(spec.init_angle)
+        self._first_angle = math.radians(spec.init_angle)
         self._step = sign * math.radians(spec.angle_incr)
-        angles: Array = self._first + self._step * np.arange(spec.n_beams, dtype=np.float64)
+        angles: Array = self._first_angle + self._step * np.arange(spec.n_beams, dtype=np.float64)
         axes = np.stack([np.zeros(len(angles)), np.sin(angles), -np.cos(angles)], axis=1)
-        beside = np.broadcast_to([1.0, 0.0, 0.0], axes.shape)
-        rays, self._weights = pencil(axes, beside, math.radians(spec.beam_width))
+        normals = np.broadcast_to([1.0, 0.0, 0.0], axes.shape)
+        rays, self._weights = pencil_rays(axes, normals, math.radians(spec.beam_width))
         self._rays = np.ascontiguousarray(rays.reshape(-1, 3))
         self._images: DepthImages | None = None
         if "multibeam-images" in world.compatibility:
@@ -111,41 +111,41 @@ class BeamFan:
             self._images = DepthImages(angles, self._step, field, spec.range)
 
     def sample(self, time: float) -> LaserScan:
-        """Measure now, at ``time`` [s]."""
+        """Measure at ``time`` [s]."""
         spec = self._spec
         ranges = self._ranges()
         if spec.std > 0.0:
             noise = spec.std * self.state.rng.standard_normal(len(ranges))
             ranges = np.where(ranges < spec.range, ranges + noise, ranges)
-        last = len(ranges) - 1
+        n_steps = len(ranges) - 1
         return LaserScan(
             header=header(time, spec.name),
-            angle_min=self._first,
-            angle_max=self._first + self._step * last,
+            angle_min=self._first_angle,
+            angle_max=self._first_angle + self._step * n_steps,
             angle_increment=self._step,
             range_max=spec.range,
             ranges=np.clip(ranges, 0.0, spec.range).astype(np.float32),
         )
 
     def _ranges(self) -> Array:
-        """Without noise, (n,) [m]; that of the sensor where nothing is hit."""
+        """Return the ranges without noise, (n,) [m]; that of the sensor without a hit."""
         reach = self._spec.range
         if self._images is not None:
-            found = self._images.ranges(self._world.rays, self._mount.world_from_body)
-            return np.minimum(found, reach)
+            image_ranges = self._images.ranges(self._world.rays, self._mount.world_from_body)
+            return np.minimum(image_ranges, reach)
         hits = self._world.rays.cast(self._mount.world_from_body, self._rays, reach)
         distances = hits.distance.reshape(-1, len(self._weights))
         if len(self._weights) == 1:
             return np.minimum(distances[:, 0], reach)
-        is_hit = on_one_surface(distances, self._weights, math.radians(self._spec.beam_width))
+        is_hit = find_surface_rays(distances, self._weights, math.radians(self._spec.beam_width))
         weights = np.where(is_hit, self._weights, 0.0).sum(axis=1)
         total = np.where(is_hit, self._weights * np.where(is_hit, distances, 0.0), 0.0).sum(axis=1)
         ranges: Array = np.where(weights > 0.0, total / np.maximum(weights, 1e-300), reach)
         return ranges
 
 
-def on_one_surface(distances: Array, weights: Array, width: float) -> npt.NDArray[np.bool_]:
-    """Return which rays of each beam meet the surface that has most of the beam, (n, k).
+def find_surface_rays(distances: Array, weights: Array, width: float) -> npt.NDArray[np.bool_]:
+    """Return the rays of each beam that meet the surface with most of the beam, (n, k).
 
     Of a beam's distances in order, a gap of more than half their spread is between two surfaces: on
     one surface, however it slopes, the rays lie closer. So does a curve of :math:`r w^2` at most,
@@ -156,19 +156,19 @@ def on_one_surface(distances: Array, weights: Array, width: float) -> npt.NDArra
         weights: of the rays, (k,).
         width: of a beam [rad].
     """
-    found = np.isfinite(distances)
-    for beam in np.flatnonzero(found.sum(axis=1) > 1).tolist():
-        own = np.flatnonzero(found[beam])
-        while len(own) > 1:
-            own = own[np.argsort(distances[beam, own], kind="stable")]
-            ordered = distances[beam, own]
-            gaps = np.diff(ordered)
-            place = int(np.argmax(gaps))
-            spread = ordered[-1] - ordered[0]
-            if gaps[place] <= 0.5 * spread or gaps[place] <= ordered[0] * width**2:
+    is_hit = np.isfinite(distances)
+    for beam in np.flatnonzero(is_hit.sum(axis=1) > 1).tolist():
+        rays = np.flatnonzero(is_hit[beam])
+        while len(rays) > 1:
+            rays = rays[np.argsort(distances[beam, rays], kind="stable")]
+            ray_distances = distances[beam, rays]
+            gaps = np.diff(ray_distances)
+            gap_index = int(np.argmax(gaps))
+            spread = ray_distances[-1] - ray_distances[0]
+            if gaps[gap_index] <= 0.5 * spread or gaps[gap_index] <= ray_distances[0] * width**2:
                 break
-            near, far = own[: place + 1], own[place + 1 :]
-            own = near if weights[near].sum() >= weights[far].sum() else far
-            found[beam] = False
-            found[beam, own] = True
-    return found
+            near, far = rays[: gap_index + 1], rays[gap_index + 1 :]
+            rays = near if weights[near].sum() >= weights[far].sum() else far
+            is_hit[beam] = False
+            is_hit[beam, rays] = True
+    return is_hit

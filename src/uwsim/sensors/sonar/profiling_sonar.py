@@ -8,7 +8,7 @@
       <range>10</range> <fov>2</fov>
     </ProfilingSonar>
 
-As in that branch a sample is a whole scan, taken at once: see
+As in that branch, a sample is a whole scan at one time: see
 `uwsim.sensors.sonar.multibeam_sensor`.
 """
 
@@ -25,9 +25,9 @@ class ProfilingSonarSpec(FanSpec):
     """A ``<ProfilingSonar>``."""
 
     fov: float = element(above=0)
-    """Of each of the original's depth cameras [deg]; rays need none."""
+    """The field of view of each of the original's depth cameras [deg]; rays need none."""
 
     @property
     def camera_field(self) -> float:
-        """The original's cameras see so much at most [deg]."""
+        """The largest field of view of the original's cameras [deg]."""
         return self.fov

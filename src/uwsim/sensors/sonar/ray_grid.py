@@ -1,4 +1,4 @@
-r"""Directions of the rays of a ping, and how each beam weights them.
+r"""The directions of the rays of a ping, and the weights of each beam.
 
 Rays are in columns of one azimuth. Columns are at most `COLUMNS_A_WIDTH` to the width of a beam
 apart, whatever the spacing of the beams: beams that are close together share columns, and beams
@@ -25,15 +25,15 @@ from .kernel import BLOCK
 from .spec import SonarSpec
 
 MARGIN = 1.25
-"""A beam is summed up so many of its widths to either side."""
+"""The distance up to which a beam's pattern is summed, to either side, in beam widths."""
 COLUMNS_A_WIDTH = 2.5
-"""At least so many columns are in the width of a beam."""
-WIDEST = math.radians(3.0)
+"""The least number of columns in the width of a beam."""
+MAX_COLUMN_SPACING = math.radians(3.0)
 """The greatest distance of two columns, for the glint of a smooth surface [rad]."""
 CORE = 0.6
-"""Rows are evenly spaced over about so many vertical apertures up and down from the middle."""
+"""The vertical apertures up and down from the middle over which rows are about evenly spaced."""
 LINE_WIDTH = 0.4429
-"""Half width of a line array at half power is the arc sine of this, in wave lengths over length."""
+"""The sine of a line array's half width at half power, in wave lengths over its length."""
 
 
 class RayGrid:
@@ -43,111 +43,114 @@ class RayGrid:
         spec: of the sonar.
         azimuths: of its beams at equal steps, positive to port, (n,) [rad].
         step: between beams, positive; of a single beam any [rad].
-        highest: elevation up to which there are rays [rad]; None for the first null.
+        max_elevation: elevation up to which there are rays [rad]; None for the first null.
     """
 
     def __init__(
-        self, spec: SonarSpec, azimuths: Array, step: float, highest: float | None = None
+        self, spec: SonarSpec, azimuths: Array, step: float, max_elevation: float | None = None
     ) -> None:
         width, aperture = math.radians(spec.beam_width), math.radians(spec.vertical_aperture)
-        n_phases, self.stride, apart = _columns(width, step, len(azimuths))
-        n_side = max(1, math.ceil(MARGIN * width / apart))
+        n_phases, self.stride, spacing = _columns(width, step, len(azimuths))
+        n_side = max(1, math.ceil(MARGIN * width / spacing))
         n_taps = 2 * n_side + (2 if n_phases > 1 else 1)
         phases = np.arange(min(n_phases, len(azimuths)))
-        off = np.arange(-n_side, n_taps - n_side) * apart - phases[:, None] * step
-        powers = [[beam_pattern(angle, width) for angle in line] for line in off.tolist()]
+        offsets = np.arange(-n_side, n_taps - n_side) * spacing - phases[:, None] * step
+        powers = [[beam_pattern(angle, width) for angle in line] for line in offsets.tolist()]
         self.patterns = np.array(powers, dtype=np.float32)
-        """Of the beams over neighbouring columns, (phases, taps)."""
+        """The patterns of the beams over neighbouring columns, (phases, taps)."""
         if self.stride > n_taps:  # no two beams share a column
             self.stride = n_taps
-            around = azimuths[:, None] + apart * np.arange(-n_side, n_side + 1)
-            self.azimuths: Array = around.reshape(-1)
+            beam_columns = azimuths[:, None] + spacing * np.arange(-n_side, n_side + 1)
+            self.azimuths: Array = beam_columns.reshape(-1)
         else:
             n = (len(azimuths) - 1) // n_phases * self.stride + n_taps
-            self.azimuths = azimuths[0] + apart * np.arange(-n_side, n - n_side)
-        self.apart = apart
-        """Between columns of one beam [rad]."""
-        self.highest = first_null(aperture) if highest is None else highest
-        """No ray is higher or lower [rad]."""
-        self._core = min(CORE * aperture, self.highest)
+            self.azimuths = azimuths[0] + spacing * np.arange(-n_side, n - n_side)
+        self.column_spacing = spacing
+        """The angle between columns of one beam [rad]."""
+        self.max_elevation = first_null(aperture) if max_elevation is None else max_elevation
+        """The highest and lowest elevation of a ray [rad]."""
+        self._core = min(CORE * aperture, self.max_elevation)
         ts: Array = np.arange(spec.rows + 1, dtype=np.float64) * (2.0 / spec.rows) - 1.0
         edges = self._elevations(ts)
         elevations = self._elevations(0.5 * (ts[1:] + ts[:-1]))
         self._between_rows = 2.0 / spec.rows
         self.directions = _directions(self.azimuths, elevations)
-        """Of the rays in the sonar's frame, in the order of `add_echoes`, (n k, 3)."""
+        """The directions of the rays, sonar frame, in the order of `add_echoes`, (n k, 3)."""
         pattern, ends = (
-            np.array([line_pattern(angle, aperture) ** 4 for angle in each.tolist()])
-            for each in (elevations, edges)
+            np.array([line_pattern(angle, aperture) ** 4 for angle in angles.tolist()])
+            for angles in (elevations, edges)
         )
-        weights = pattern * np.cos(elevations) * np.diff(edges) * apart
+        weights = pattern * np.cos(elevations) * np.diff(edges) * spacing
         rises = 0.5 * np.diff(ends) / np.maximum(pattern, 1e-12)
         self.rows = np.stack([weights, rises], axis=1)
-        """Pattern times solid angle of the rays of each row [sr], and the share by which the
+        """The pattern times the solid angle of each row's rays [sr], and the share by which the
         pattern rises from its middle to its upper end, (k, 2)."""
 
     def _elevations(self, t: Array) -> Array:
-        """Elevations at -1 < t < 1, any shape [rad]."""
+        """Return the elevations at -1 < t < 1, any shape [rad]."""
         square = t * t
-        found: Array = t * (self._core + (self.highest - self._core) * square * square)
-        return found
+        elevations: Array = t * (self._core + (self.max_elevation - self._core) * square * square)
+        return elevations
 
     def spacing(self, elevation: Array) -> Array:
-        """Greatest distance of neighbouring rays at some elevations (n,) [rad], (n,) [rad]."""
-        rest, wanted = self.highest - self._core, np.minimum(np.abs(elevation), self.highest)
-        t = wanted / self.highest
+        """Return the greatest distance of adjacent rays at elevations (n,) [rad], (n,) [rad]."""
+        rest, target = (
+            self.max_elevation - self._core,
+            np.minimum(np.abs(elevation), self.max_elevation),
+        )
+        t = target / self.max_elevation
         for _ in range(8):  # Newton's method; the polynomial rises everywhere
             fourth = (t * t) * (t * t)
-            t = t - (t * (self._core + rest * fourth) - wanted) / (self._core + 5.0 * rest * fourth)
+            t = t - (t * (self._core + rest * fourth) - target) / (self._core + 5.0 * rest * fourth)
         rows = self._between_rows * (self._core + 5.0 * rest * (t * t) * (t * t))
-        found: Array = np.maximum(rows, self.apart)
-        return found
+        spacing: Array = np.maximum(rows, self.column_spacing)
+        return spacing
 
 
 def n_columns(beam_width: float, step: float, n_beams: int) -> int:
-    """How many columns some beams need.
+    """Return the number of columns that some beams need.
 
     Args:
         beam_width: between the points of half power [rad].
         step: between beams [rad].
         n_beams: how many there are.
     """
-    n_phases, stride, apart = _columns(beam_width, step, n_beams)
-    n_taps = 2 * max(1, math.ceil(MARGIN * beam_width / apart)) + 1
+    n_phases, stride, spacing = _columns(beam_width, step, n_beams)
+    n_taps = 2 * max(1, math.ceil(MARGIN * beam_width / spacing)) + 1
     return n_beams // n_phases * min(stride, n_taps)
 
 
 def _columns(width: float, step: float, n_beams: int) -> tuple[int, int, float]:
-    """Beams to a column, or columns from beam to beam; and the distance of columns [rad]."""
-    finest = min(width / COLUMNS_A_WIDTH, WIDEST)
-    n_phases = max(1, int(finest / step))
-    stride = 1 if n_beams == 1 else max(1, math.ceil(step / finest - 1e-9))
-    return n_phases, stride, (min(step, finest) if n_beams == 1 else n_phases * step / stride)
+    """Return beams per column, or columns per beam; and the distance of columns [rad]."""
+    max_spacing = min(width / COLUMNS_A_WIDTH, MAX_COLUMN_SPACING)
+    n_phases = max(1, int(max_spacing / step))
+    stride = 1 if n_beams == 1 else max(1, math.ceil(step / max_spacing - 1e-9))
+    return n_phases, stride, (min(step, max_spacing) if n_beams == 1 else n_phases * step / stride)
 
 
 def first_null(aperture: float) -> float:
-    """Elevation of the first null of a line array; straight up where it has none [rad]."""
+    """Return the elevation of a line array's first null; straight up without one [rad]."""
     sine = math.sin(0.5 * aperture) / LINE_WIDTH
     return math.asin(sine) if sine < 1.0 else 0.5 * math.pi
 
 
 @njit
 def beam_pattern(angle: float, width: float) -> float:
-    """Power of a beam that has half of it at half of ``width`` [rad]; 0 beyond the margin."""
+    """Return the power of a beam of half power at half of ``width`` [rad]; 0 beyond the margin."""
     share: float = 2.0 ** (-((2.0 * angle / width) ** 2))
     return share if abs(angle) <= MARGIN * width * (1.0 + 1e-9) else 0.0
 
 
 @njit
 def line_pattern(angle: float, width: float) -> float:
-    """Amplitude of a uniform line array that has half its power at half of ``width`` [rad]."""
+    """Return the amplitude of a uniform line array of half power at half of ``width`` [rad]."""
     u = math.pi * LINE_WIDTH * math.sin(angle) / math.sin(0.5 * width)
     amplitude: float = math.sin(u) / u if u != 0.0 else 1.0
     return amplitude
 
 
 def _directions(azimuths: Array, elevations: Array) -> npt.NDArray[np.float64]:
-    """Unit vectors: x ahead, y to port, z up, in the order of `add_echoes`, (n k, 3)."""
+    """Return unit vectors: x ahead, y to port, z up, in the order of `add_echoes`, (n k, 3)."""
     azimuth, elevation = np.meshgrid(azimuths, elevations)
     x, y = np.cos(elevation) * np.cos(azimuth), np.cos(elevation) * np.sin(azimuth)
     rows = np.stack([x, y, np.sin(elevation)], axis=2)

@@ -8,8 +8,8 @@
       <initAngle>-180</initAngle> <finalAngle>180</finalAngle> <angleIncr>1.8</angleIncr>
     </u:scanningSonar>
 
-It pings once a sample and then turns by a step: round and round, or to and fro in a sector. See
-`uwsim.sensors.sonar.echoes` for what it hears.
+It pings once a sample and then turns by a step: in full circles, or to and fro in a sector. See
+`uwsim.sensors.sonar.echoes` for the echoes.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ from .message import level_directions, sonar_image
 from .spec import SonarSpec
 
 RAYS_A_WIDTH = 4
-"""Rays side by side in the width of the one beam."""
+"""The number of rays side by side in the width of the beam."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -44,75 +44,75 @@ class ScanningSonarSpec(SonarSpec):
     message_type: ClassVar[type] = ProjectedSonarImage
 
     init_angle: float = element(default=-180.0, minimum=-360, maximum=360)
-    """Azimuth of the first ping, positive to port [deg]."""
+    """The azimuth of the first ping, positive to port [deg]."""
     final_angle: float = element(default=180.0, minimum=-360, maximum=360)
-    """Azimuth at which it turns back [deg]; 360 from the first it goes on round."""
+    """The azimuth at which it turns back [deg]; 360 from the first, it continues round."""
     angle_incr: float = element(default=1.8, minimum=0.001, maximum=180)
-    """Step of the head from ping to ping [deg]."""
+    """The step of the head from ping to ping [deg]."""
 
     @property
     def n_pings(self) -> int:
-        """Pings of a scan."""
+        """The number of pings of a scan."""
         n_steps = round(abs(self.final_angle - self.init_angle) / self.angle_incr)
         return max(1, n_steps + (not self.is_round))
 
     @property
     def n_cells(self) -> int:
-        """Bins of all pings of a scan."""
+        """The number of bins of all pings of a scan."""
         return self.bins * self.n_pings
 
     @property
     def azimuths(self) -> Array:
-        """Of the pings of a scan, positive to port, (n,) [rad]."""
-        way = self.final_angle - self.init_angle
-        steps = math.copysign(self.angle_incr, way) * np.arange(self.n_pings)
-        found: Array = np.radians(self.init_angle + steps)
-        return found
+        """The azimuths of the pings of a scan, positive to port, (n,) [rad]."""
+        sector = self.final_angle - self.init_angle
+        steps = math.copysign(self.angle_incr, sector) * np.arange(self.n_pings)
+        azimuths: Array = np.radians(self.init_angle + steps)
+        return azimuths
 
     @property
     def is_round(self) -> bool:
-        """Whether it scans a full circle."""
+        """True if it scans a full circle."""
         return abs(self.final_angle - self.init_angle) >= 360.0
 
     def bind(self, world: SensorWorld, vehicle: Carrier) -> ScanningSonar:
-        """Mount it on its link; raises UnknownName if the vehicle has no such link."""
-        random = world.stream(f"{vehicle.name}/{self.name}/noise")
-        return ScanningSonar(self, vehicle.mount(self), world, random)
+        """Mount it on its link; raise UnknownName if the vehicle has no such link."""
+        rng = world.stream(f"{vehicle.name}/{self.name}/noise")
+        return ScanningSonar(self, vehicle.mount(self), world, rng)
 
 
 @dataclass(slots=True)
 class ScanningState(Record):
-    """What a scanning sonar has drawn and seen."""
+    """The state of a scanning sonar."""
 
     random: np.random.Generator
     """The generator of its speckle."""
     scan: npt.NDArray[np.float32]
     """The last ping of each azimuth, (bins, n)."""
     n_pings: int = 0
-    """The pings so far."""
+    """The number of pings so far."""
 
 
 class ScanningSonar:
-    """Echoes of one beam after the other."""
+    """A sonar whose single beam turns from ping to ping."""
 
     def __init__(
-        self, spec: ScanningSonarSpec, mount: Body, world: SensorWorld, random: np.random.Generator
+        self, spec: ScanningSonarSpec, mount: Body, world: SensorWorld, rng: np.random.Generator
     ) -> None:
         self._spec, self._mount = spec, mount
         step = math.radians(spec.beam_width) / RAYS_A_WIDTH
         self._echoes = Echoes(spec, world, np.zeros(1), step)
         self._azimuths, self._ranges = spec.azimuths, self._echoes.ranges
         self._levels = Levels(spec, self._ranges)
-        self.state = ScanningState(random, np.zeros((spec.bins, len(self._azimuths)), np.float32))
-        """What it has drawn and seen."""
+        self.state = ScanningState(rng, np.zeros((spec.bins, len(self._azimuths)), np.float32))
+        """The state."""
 
     @cached_property
     def _fan(self) -> FanImage:
         return FanImage(self._azimuths, self._ranges)
 
     @property
-    def _place(self) -> int:
-        """Number of the azimuth that the next ping goes to."""
+    def _azimuth_index(self) -> int:
+        """The index of the next ping's azimuth."""
         n = len(self._azimuths)
         if self._spec.is_round or n == 1:
             return self.state.n_pings % n
@@ -120,8 +120,8 @@ class ScanningSonar:
         return min(place, 2 * n - 2 - place)
 
     def sample(self, time: float) -> ProjectedSonarImage:
-        """Ping now, at ``time`` [s], and turn."""
-        place = self._place
+        """Ping at ``time`` [s], and turn."""
+        place = self._azimuth_index
         azimuth = float(self._azimuths[place])
         sonar_from_head = Pose(np.zeros(3), rotation_z(azimuth))
         world_from_head = self._mount.world_from_body @ sonar_from_head
@@ -138,7 +138,7 @@ class ScanningSonar:
         )
 
     def image(self, time: float) -> Image:
-        """The last ping of each azimuth, ahead is up, stamped ``time`` [s]."""
+        """Return the last ping of each azimuth, ahead is up, stamped ``time`` [s]."""
         losses = self._echoes.losses(self._mount.world_from_body)
-        greys = self._levels.of(self.state.scan, losses)
-        return image(self._fan.of(greys), time=time, frame_id=self._spec.name)
+        greys = self._levels.to_grey(self.state.scan, losses)
+        return image(self._fan.draw(greys), time=time, frame_id=self._spec.name)

@@ -8,8 +8,8 @@
       <verticalAperture>50</verticalAperture> <tilt>25</tilt> <lines>400</lines>
     </u:sideScanSonar>
 
-It pings to port and to starboard, once a sample; as the vehicle goes on, the pings side by side
-make an image, the waterfall. See `uwsim.sensors.sonar.echoes` for what it hears.
+It pings to port and to starboard, once a sample. As the vehicle moves, the adjacent pings form an
+image, the waterfall. See `uwsim.sensors.sonar.echoes` for the echoes.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ from .scanning_sonar import RAYS_A_WIDTH
 from .spec import SonarSpec
 
 SIDES = (0.5 * math.pi, -0.5 * math.pi)
-"""Azimuth of the beams: port, starboard [rad]."""
+"""The azimuths of the beams: port, starboard [rad]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,57 +45,57 @@ class SideScanSonarSpec(SonarSpec):
     message_type: ClassVar[type] = ProjectedSonarImage
 
     vertical_aperture: float = element(default=50.0, above=0, maximum=160)
-    """Height of its beams between the points of half power, one way [deg]."""
+    """The height of its beams between the points of half power, one way [deg]."""
     beam_width: float = element(default=0.5, above=0, maximum=30)
-    """Width of a beam between the points of half power, there and back [deg]."""
+    """The width of a beam between the points of half power, two-way [deg]."""
     rows: int = element(default=256, minimum=1, maximum=2048)
-    """Rays of a beam one above the other. Small targets get rays of their own; what is lower than
-    the distance of two rays and part of a large body may be missed."""
+    """The number of rays of a beam one above the other. Small targets get their own rays; a part of
+    a large body that is lower than the distance of two rays may be missed."""
     tilt: float = element(default=25.0, minimum=-90, maximum=90)
-    """Of the middle of its beams below the horizontal of the sonar [deg]."""
+    """The angle of the middle of its beams below the horizontal of the sonar [deg]."""
     lines: int = element(default=400, minimum=1, maximum=10000)
-    """Pings in the waterfall."""
+    """The number of pings in the waterfall."""
 
     @property
     def n_cells(self) -> int:
-        """Bins of all pings of the waterfall."""
+        """The number of bins of all pings of the waterfall."""
         return 2 * self.bins * self.lines
 
     def bind(self, world: SensorWorld, vehicle: Carrier) -> SideScanSonar:
-        """Mount it on its link; raises UnknownName if the vehicle has no such link."""
-        random = world.stream(f"{vehicle.name}/{self.name}/noise")
-        return SideScanSonar(self, vehicle.mount(self), world, random)
+        """Mount it on its link; raise UnknownName if the vehicle has no such link."""
+        rng = world.stream(f"{vehicle.name}/{self.name}/noise")
+        return SideScanSonar(self, vehicle.mount(self), world, rng)
 
 
 @dataclass(slots=True)
 class SideScanState(Record):
-    """What a side-scan sonar has drawn and seen."""
+    """The state of a side-scan sonar."""
 
     random: np.random.Generator
     """The generator of its speckle."""
     waterfall: npt.NDArray[np.uint8]
     """The lines of its last pings, (lines, 2 * bins)."""
     n_pings: int = 0
-    """The pings so far."""
+    """The number of pings so far."""
 
 
 class SideScanSonar:
-    """Echoes to port and to starboard, and the waterfall of the last pings."""
+    """A sonar with a beam to port and one to starboard, and a waterfall of the last pings."""
 
     def __init__(
-        self, spec: SideScanSonarSpec, mount: Body, world: SensorWorld, random: np.random.Generator
+        self, spec: SideScanSonarSpec, mount: Body, world: SensorWorld, rng: np.random.Generator
     ) -> None:
         self._spec, self._mount = spec, mount
         step = math.radians(spec.beam_width) / RAYS_A_WIDTH
-        self._echoes = Echoes(spec, world, np.zeros(1), step, highest=0.5 * math.pi)
+        self._echoes = Echoes(spec, world, np.zeros(1), step, max_elevation=0.5 * math.pi)
         self._ranges, self._levels = self._echoes.ranges, Levels(spec, self._echoes.ranges)
         down = rotation_y(math.radians(spec.tilt))
         self._heads = tuple(Pose(np.zeros(3), product(rotation_z(side), down)) for side in SIDES)
-        self.state = SideScanState(random, np.zeros((spec.lines, 2 * spec.bins), dtype=np.uint8))
-        """What it has drawn and seen."""
+        self.state = SideScanState(rng, np.zeros((spec.lines, 2 * spec.bins), dtype=np.uint8))
+        """The state."""
 
     def sample(self, time: float) -> ProjectedSonarImage:
-        """Ping now, at ``time`` [s]; the first beam is that to port."""
+        """Ping at ``time`` [s]; the first beam is that to port."""
         world_from_sonar = self._mount.world_from_body
         keys = [int(key) for key in self.state.random.integers(2**63, size=2)]
         beams = [
@@ -103,7 +103,7 @@ class SideScanSonar:
             for sonar_from_head, key in zip(self._heads, keys, strict=True)
         ]
         amplitude = np.concatenate(beams, axis=1)
-        greys = self._levels.of(amplitude, self._echoes.losses(world_from_sonar))
+        greys = self._levels.to_grey(amplitude, self._echoes.losses(world_from_sonar))
         line = self.state.n_pings % self._spec.lines
         self.state.waterfall[line] = np.concatenate([greys[::-1, 0], greys[:, 1]])
         self.state.n_pings += 1
@@ -117,7 +117,7 @@ class SideScanSonar:
         )
 
     def image(self, time: float) -> Image:
-        """The waterfall: the newest ping at the top, port on the left, stamped ``time`` [s]."""
-        newest = (self.state.n_pings - 1) % self._spec.lines
-        rows = np.roll(self.state.waterfall, -1 - newest, axis=0)[::-1]
+        """Return the waterfall: newest ping at the top, port on the left, stamped ``time`` [s]."""
+        newest_line = (self.state.n_pings - 1) % self._spec.lines
+        rows = np.roll(self.state.waterfall, -1 - newest_line, axis=0)[::-1]
         return image(rows, time=time, frame_id=self._spec.name)
