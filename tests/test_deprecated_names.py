@@ -12,6 +12,8 @@ import pytest
 
 import uwsim
 from tests.results.test_result import make
+from tests.support.compared_results import entries, made
+from uwsim.analysis.comparison import Comparison, compare, shared_column
 from uwsim.base.deprecation import deprecated_name, renamed_parameter
 from uwsim.messages import CameraInfo
 from uwsim.results.result import RefusedMessages
@@ -135,8 +137,23 @@ def test_the_old_name_of_the_trials_of_a_replay_works() -> None:
     assert warned(lambda: replay.unseen, "unseen", "trials_without_motion") == (2,)
 
 
+def test_old_names_of_a_comparison_work() -> None:
+    results = entries(made("a", {0.0: [1.0, 2.0]}), made("b", {0.0: [1.5, 2.0]}))
+    comparison = compare(results, shared_column(results, None))
+    (pair,) = warned(lambda: comparison.versus, "versus", "pairs")
+    assert pair is comparison.pairs[0]
+    sweep = warned(lambda: pair.overall, "overall", "sweep")
+    assert sweep is pair.sweep
+    assert warned(lambda: comparison.forced, "forced", "experiment_differences") == ()
+    assert warned(lambda: comparison.fewest, "fewest", "min_level_repeats") == 6
+    assert warned(lambda: comparison.fewest_for_sweep, "fewest_for_sweep", "min_sweep_repeats") == 6
+    n_needed = warned(lambda: sweep.value.needed, "needed", "repeats_needed")
+    assert n_needed == sweep.value.repeats_needed
+    assert warned(lambda: sweep.value.fewest, "fewest", "repeats_to_test") == 6
+
+
 def test_the_page_lists_each_deprecated_name_with_the_new_one() -> None:
-    for cls in (uwsim.Simulation, uwsim.Result, uwsim.Replay):
+    for cls in (uwsim.Simulation, uwsim.Result, uwsim.Replay, Comparison):
         for name, member in vars(cls).items():
             function = member.fget if isinstance(member, property) else member
             if "call_old_name" in getattr(getattr(function, "__code__", None), "co_name", ""):

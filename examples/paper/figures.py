@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 from matplotlib.figure import Figure
 
-from uwsim.analysis.plots import FAINT, MARKERS, PALETTE, styled_figure
+from uwsim.analysis.plots import GREY, MARKERS, PALETTE, styled_figure
 
 Pixels = npt.NDArray[np.uint8]
 Points = tuple[Sequence[float], Sequence[float]]
@@ -150,4 +150,4 @@ def _label_axes(figure: Figure, points: Sequence[tuple[float, float, float]]) ->
         "points: measured from images of a black and a white plate; lines: the formula; "
         f"largest difference {largest_deviation(points):.4f}"
     )
-    figure.text(0.995, 0.004, text, ha="right", va="bottom", fontsize=5.5, color=FAINT)
+    figure.text(0.995, 0.004, text, ha="right", va="bottom", fontsize=5.5, color=GREY)

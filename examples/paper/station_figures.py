@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from matplotlib.figure import Figure
 
-from uwsim.analysis.plots import FAINT, MARKERS, PALETTE, styled_figure
+from uwsim.analysis.plots import GREY, MARKERS, PALETTE, styled_figure
 from uwsim.base.geometry import Array
 from uwsim.statistics import mean_interval
 
@@ -58,7 +58,7 @@ def draw_over_time(
         grid[0].set_ylabel(label)
         handles, names = grid[0].get_legend_handles_labels()
         figure.legend(handles, names, loc="outside right upper")
-        figure.text(0.995, 0.004, note, ha="right", va="bottom", fontsize=5.5, color=FAINT)
+        figure.text(0.995, 0.004, note, ha="right", va="bottom", fontsize=5.5, color=GREY)
     return figure
 
 
@@ -105,5 +105,5 @@ def draw_over_current(
             axes.set(xlabel="current [m/s]", ylabel=label)
         grid[0].legend(loc="upper left")
         seeds = f"bars: 95 % intervals over {max_seeds} seeds; " if max_seeds > 1 else "one seed; "
-        figure.text(0.995, 0.004, seeds + NOTE, ha="right", va="bottom", fontsize=5.5, color=FAINT)
+        figure.text(0.995, 0.004, seeds + NOTE, ha="right", va="bottom", fontsize=5.5, color=GREY)
     return figure

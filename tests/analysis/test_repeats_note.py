@@ -46,7 +46,7 @@ def test_the_plan_and_the_comparison_count_the_same(n_results: int) -> None:
     results = [noisy(f"a{i}", 1.0, n=4, salt=i) for i in range(n_results)]
     found = entries(*results)
     comparison = compare(found, shared_column(found, None))
-    sweep, level = comparison.fewest_for_sweep, comparison.fewest
+    sweep, level = comparison.min_sweep_repeats, comparison.min_level_repeats
     assert f"at least {sweep} repeats for the sweep as a whole and {level} for" in (
         repeats_note(n_results, 3, 1) or ""
     )

@@ -111,7 +111,7 @@ def test_results_of_one_algorithm_are_distinguished_by_their_directories(
 ) -> None:
     save(noisy("esm", 1.1, n=8, salt=9), Path("fast/esm.result"))
     assert main(["compare", two[0], "fast/esm.result"]) == 0
-    assert "esm (fast/esm.result) less esm (" in capsys.readouterr().out
+    assert "esm (fast/esm.result) minus esm (" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,7 @@ import pytest
 
 from tests.support.compared_results import made
 from tests.support.stored_rows import stored_row
-from uwsim.analysis.report.configuration import machine as shown
+from uwsim.analysis.report.configuration import provenance_texts as shown
 from uwsim.errors import ReplayDiffers
 from uwsim.results import journal
 from uwsim.results.chosen_code import chosen_code, code_differences, names_text

@@ -131,14 +131,16 @@ def read_for_report(sound: Sound, directory: Path) -> None:
     """What ``uwsim report`` does but draw."""
     result = load(directory)
     unchecked = check_rows(result, directory)
-    render(result, directory, plots=[], unchecked=unchecked)
+    render(result, directory, plots=[], check_note=unchecked)
 
 
 def read_for_compare(sound: Sound, directory: Path) -> None:
     """What ``uwsim compare`` does but draw."""
     entries = read_entries([directory, sound.folder / "other"])
     column = shared_column(entries, None)
-    comparison = compare(entries, column, forced=differences(entries), remarks=remarks(entries))
+    comparison = compare(
+        entries, column, experiment_differences=differences(entries), remarks=remarks(entries)
+    )
     render_comparison(comparison, [])
 
 

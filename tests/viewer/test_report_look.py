@@ -32,7 +32,7 @@ CONTRAST = """() => {
         return 0.2126 * r + 0.7152 * g + 0.0722 * b
     }
     const sheet = light(getComputedStyle(document.querySelector("main")).backgroundColor)
-    const inks = ["h1", ".lead", ".card .value", ".status", "figcaption", "td.why", "summary"]
+    const inks = ["h1", ".lead", ".card .value", ".status", "figcaption", "td.reason", "summary"]
         .map((one) => document.querySelector(one)).filter(Boolean)
         .map((one) => light(getComputedStyle(one).color))
     const contrast = (ink) => (Math.max(ink, sheet) + 0.05) / (Math.min(ink, sheet) + 0.05)

@@ -1,1 +1,1 @@
-"""Plots, reports and comparisons of results, made from their files alone."""
+"""Plots, reports and comparisons of results, made from the files of the results alone."""

@@ -89,8 +89,8 @@ def compare(
     """
     from ..analysis.comparison import compare_files, write_comparison
     from ..analysis.comparison.document import json_text
-    from ..analysis.comparison.terminal import drawn
-    from ..analysis.comparison.write import FOLDERS, OURS
+    from ..analysis.comparison.terminal import renderables
+    from ..analysis.comparison.write import WRITTEN_FILES, WRITTEN_FOLDERS
     from ..results.directory import clear_directory
 
     paths, baseline = add_baseline(expand_results(results), options.baseline)
@@ -102,9 +102,9 @@ def compare(
         force=options.force,
     )
     out = output.out
-    clear_directory(out, overwrite=output.overwrite, pattern=OURS, folders=FOLDERS)
-    if comparison.forced:
-        warning = f"warning: not of one experiment: {'; '.join(comparison.forced)}"
+    clear_directory(out, overwrite=output.overwrite, pattern=WRITTEN_FILES, folders=WRITTEN_FOLDERS)
+    if comparison.experiment_differences:
+        warning = f"warning: not of one experiment: {'; '.join(comparison.experiment_differences)}"
         print(clean_text(warning), file=sys.stderr)
     for remark in comparison.remarks:
         print(clean_text(f"note: {remark}"), file=sys.stderr)
@@ -113,7 +113,7 @@ def compare(
         print(json_text(comparison), end="")
         return
     console = standard_output()
-    for part in drawn(comparison, width=console.width):
+    for part in renderables(comparison, width=console.width):
         console.print(part)
     print(f"written: {out}/comparison.json, comparison.csv, plots; page: {page}")
 

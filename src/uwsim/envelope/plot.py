@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import MaxNLocator
 
 from ..analysis.plots import (
-    FAINT,
+    GREY,
     INK,
     LEVEL_WORDS,
     PALETTE,
@@ -66,7 +66,7 @@ def _draw_measure(axes: Axes, envelope: Envelope) -> None:
         _dots(axes, lost, [0.95] * len(lost), "x", colour, f"{word}, no value", transform=top)
     limit = _limit(envelope.settings.criterion, name, names)
     if limit is not None:
-        axes.axhline(limit, color=FAINT, linewidth=0.8, linestyle=":")
+        axes.axhline(limit, color=GREY, linewidth=0.8, linestyle=":")
     low, high = axes.get_ylim()
     axes.set_ylim(low, high + 0.12 * (high - low))  # space for the runs without a value
     axes.set_ylabel(name if unit == "1" else f"{name} [{written_unit(unit)}]")

@@ -30,9 +30,9 @@ from uwsim.analysis.comparison.document import csv_text, json_text
 from uwsim.analysis.comparison.matrix import matrix
 from uwsim.analysis.comparison.page import render
 from uwsim.analysis.comparison.plots import _bars as bars_plot
-from uwsim.analysis.comparison.plots import curves, differences_plot, success
-from uwsim.analysis.comparison.sentences import sentences, told_apart
-from uwsim.analysis.comparison.terminal import drawn
+from uwsim.analysis.comparison.plots import curves_plot, differences_plot, success_plot
+from uwsim.analysis.comparison.sentences import distinct_texts, sentences
+from uwsim.analysis.comparison.terminal import renderables
 from uwsim.errors import ResultError, UnknownName
 from uwsim.results.inputs import Inputs
 from uwsim.results.result import Result
@@ -48,7 +48,7 @@ def compared(*results: Result, **options: bool) -> Comparison:
 
 
 def said(comparison: Comparison) -> str:
-    return " ".join(s for versus in comparison.versus for s in sentences(comparison, versus))
+    return " ".join(s for versus in comparison.pairs for s in sentences(comparison, versus))
 
 
 # ---------------------------------------------------------------------------- pairs
@@ -57,7 +57,7 @@ def said(comparison: Comparison) -> str:
 def test_rows_are_paired_by_seed_and_level_and_lost_ones_are_counted_not_guessed() -> None:
     first = made("esm", {0.0: [1.0, 2.0, 3.0, 4.0], 0.5: [5.0, None, 7.0, None]})
     second = made("ic", {0.0: [1.5, 2.0, 3.25, 4.0], 0.5: [None, 6.0, 8.0, None]})
-    clear, foggy = compared(first, second).versus[0].levels
+    clear, foggy = compared(first, second).pairs[0].levels
     assert clear.seeds == (0, 1, 2, 3)
     assert clear.value.difference == mean_interval([0.5, 0.0, 0.25, 0.0])
     assert clear.value.p == sign_flip([0.5, 0.0, 0.25, 0.0])
@@ -72,14 +72,14 @@ def test_only_seeds_and_levels_of_both_are_compared_and_the_rest_is_reported() -
     first = made("esm", {0.0: [1.0] * 4, 0.5: [1.0] * 4})
     second = made("ic", {0.5: [2.0] * 4, 1.0: [2.0] * 4}, seed=2)
     comparison = compared(first, second)
-    (at,) = comparison.versus[0].levels
+    (at,) = comparison.pairs[0].levels
     assert (at.level, at.seeds) == ((0.5,), (2, 3))
-    assert "Rows without a partner are left out: 6 of esm, 6 of ic." in said(comparison)
+    assert "Rows without a partner are omitted: 6 of esm, 6 of ic." in said(comparison)
 
 
 def test_levels_are_paired_though_their_last_bits_differ() -> None:
     first, second = made("esm", {0.1 + 0.2: [1.0] * 2}), made("ic", {0.3: [2.0] * 2})
-    assert compared(first, second).versus[0].levels[0].value.difference.mean == 1.0
+    assert compared(first, second).pairs[0].levels[0].value.difference.mean == 1.0
 
 
 def test_without_a_seed_in_common_nothing_is_compared() -> None:
@@ -170,7 +170,7 @@ def test_what_cannot_be_held_together_is_an_error_with_the_nearest_name() -> Non
     first = made("esm", {0.0: [1.0]})
     with pytest.raises(UnknownName, match="Did you mean 'corners'"):
         shared_column(entries(first, made("ic", {0.0: [1.0]})), "corner")
-    with pytest.raises(ResultError, match="is a status, not something measured"):
+    with pytest.raises(ResultError, match="is a status; expected a score"):
         shared_column(entries(first, first), "status")
     with pytest.raises(ResultError, match=r"sweep different levels: fog \[1/m\] in esm.result"):
         shared_column(entries(first, nested()), None)
@@ -188,24 +188,24 @@ def test_a_total_of_pixels_is_in_pixels() -> None:
 
 def test_a_clear_difference_is_found_and_the_winner_named() -> None:
     comparison = compared(noisy("esm", 1.0, n=10, salt=1), noisy("ic", 1.5, n=10, salt=2))
-    (versus,) = comparison.versus
+    (versus,) = comparison.pairs
     assert {at.value.verdict for at in versus.levels} == {"first"}
-    assert versus.overall.value.verdict == "first"
-    assert "esm is better than ic: in 'total' ic lies 0.499 px above esm" in said(comparison)
+    assert versus.sweep.value.verdict == "first"
+    assert "esm is better than ic: 'total' of ic is 0.499 px above that of esm" in said(comparison)
     assert "esm is better at 3 levels (fog 0 m⁻¹ to fog 1 m⁻¹)." in said(comparison)
 
 
 def test_where_more_is_better_the_winner_is_the_other() -> None:
     results = noisy("esm", 1.0, n=10, salt=1), noisy("ic", 1.5, n=10, salt=2)
-    (versus,) = compared(*results, higher_is_better=True).versus
-    assert versus.overall.value.verdict == "second"
-    (other,) = compared(*results).versus
+    (versus,) = compared(*results, higher_is_better=True).pairs
+    assert versus.sweep.value.verdict == "second"
+    (other,) = compared(*results).pairs
     assert versus.levels[0].value.superiority == 1 - (other.levels[0].value.superiority or 0.0)
 
 
 def test_pairs_show_what_their_shared_noise_would_hide() -> None:
     a, b = noisy("esm", 1.0, n=12, salt=1), noisy("ic", 1.25, n=12, salt=2)
-    (versus,) = compared(a, b).versus
+    (versus,) = compared(a, b).pairs
     at = versus.levels[0]
     unpaired = stats.ttest_ind(a.numbers("total")[0::3], b.numbers("total")[0::3])
     assert unpaired.pvalue > 0.2
@@ -214,12 +214,12 @@ def test_pairs_show_what_their_shared_noise_would_hide() -> None:
 
 def test_the_other_way_round_everything_is_mirrored() -> None:
     a, b = noisy("esm", 1.0, n=7, salt=1), noisy("ic", 1.1, n=7, salt=2)
-    (there,), (back,) = compared(a, b).versus, compared(b, a).versus
-    one, other = there.overall.value, back.overall.value
+    (there,), (back,) = compared(a, b).pairs, compared(b, a).pairs
+    one, other = there.sweep.value, back.sweep.value
     assert one.p == other.p
     assert one.difference.low == pytest.approx(-(other.difference.high or 0.0), rel=1e-9)
     assert one.hedges_g == pytest.approx(-(other.hedges_g or 0.0))
-    assert one.needed == other.needed
+    assert one.repeats_needed == other.repeats_needed
 
 
 def test_levels_are_no_repeats() -> None:
@@ -227,7 +227,7 @@ def test_levels_are_no_repeats() -> None:
     comparison = compared(
         noisy("esm", 1.0, n=4, salt=1, levels=levels), noisy("ic", 1.5, n=4, salt=2, levels=levels)
     )
-    overall = comparison.versus[0].overall
+    overall = comparison.pairs[0].sweep
     assert overall.value.difference.n == 4
     assert overall.value.p == 2 / 2**4
     assert overall.value.verdict == "too few"
@@ -240,9 +240,9 @@ def test_six_seeds_and_three_results_are_too_few_to_test_and_not_no_difference()
     # 48.8 px against 4.2 px in every seed, and 3 * 2/2^6 = 0.094 is the smallest p there is
     near = noisy("esm", 4.2, n=6, salt=1), noisy("ecc", 4.3, n=6, salt=2)
     comparison = compared(*near, noisy("frozen", 48.8, n=6, salt=3))
-    assert {versus.overall.value.verdict for versus in comparison.versus} == {"too few"}
+    assert {versus.sweep.value.verdict for versus in comparison.pairs} == {"too few"}
     text = said(comparison)
-    assert "Too few repeats to test (6 of 7 needed): in 'total' frozen lies 44.6 px above" in text
+    assert "Too few repeats to test (6 of 7 needed): 'total' of frozen is 44.6 px above" in text
     assert "p cannot fall below 0.0312, 0.0938 after Holm: at least 7 are needed" in text
     assert "No difference is shown" not in text
     assert "too few repeats to test (6 of 7 needed)" in Page(render(comparison, ())).text
@@ -256,9 +256,9 @@ def test_with_the_repeats_that_are_called_needed_the_clearest_difference_is_show
         for n in range(2, 11):
             results = [noisy(f"a{i}", m, n=n, salt=i) for i, m in enumerate(means)]
             comparison = compared(*results)
-            found = {versus.overall.value.verdict for versus in comparison.versus}
-            at = {a.value.verdict for versus in comparison.versus for a in versus.levels}
-            enough = n >= comparison.fewest_for_sweep, n >= comparison.fewest
+            found = {versus.sweep.value.verdict for versus in comparison.pairs}
+            at = {a.value.verdict for versus in comparison.pairs for a in versus.levels}
+            enough = n >= comparison.min_sweep_repeats, n >= comparison.min_level_repeats
             assert (found == {"first"}, at == {"first"}) == enough
             assert (found == {"too few"}, at == {"too few"}) == tuple(not e for e in enough)
 
@@ -267,16 +267,16 @@ def test_few_pairs_that_a_step_of_holm_can_reach_are_tested() -> None:
     # 7 pairs pass the first step, 2 * 2/2^7 = 0.031; then 6 pass the second, 2/2^6 = 0.031
     values = {0.0: [1.0 + 0.1 * i for i in range(7)], 1.0: [1.0] * 6 + [None]}
     other = {0.0: [9.0 - 0.1 * i for i in range(7)], 1.0: [3.0 + 0.1 * i for i in range(7)]}
-    clear, few = compared(made("a", values), made("b", other)).versus[0].levels
+    clear, few = compared(made("a", values), made("b", other)).pairs[0].levels
     assert (clear.value.difference.n, few.value.difference.n) == (7, 6)
     assert (clear.value.p_holm, few.value.p_holm) == (2 / 2**6, 2 / 2**6)
     assert (clear.value.verdict, few.value.verdict) == ("first", "first")
 
 
 def test_a_narrow_interval_is_printed_with_the_digits_that_show_it() -> None:
-    assert told_apart(44.58, 44.62) == ("44.58", "44.62")
-    assert told_apart(0.2, 0.4) == ("0.2", "0.4")
-    assert told_apart(44.6, 44.6) == ("44.6", "44.6")
+    assert distinct_texts(44.58, 44.62) == ("44.58", "44.62")
+    assert distinct_texts(0.2, 0.4) == ("0.2", "0.4")
+    assert distinct_texts(44.6, 44.6) == ("44.6", "44.6")
 
 
 # ---------------------------------------------------------------------------- who beats whom
@@ -290,7 +290,7 @@ def test_the_matrix_says_who_beats_whom_and_the_best_stands_first() -> None:
     )
     found = matrix(comparison)
     assert found.columns == ("good", "twin", "bad")
-    standings = [[cell.standing for cell in row.cells] for row in found.rows]
+    standings = [[cell.verdict for cell in row.cells] for row in found.rows]
     assert standings == [
         ["itself", "not shown", "better"], ["not shown", "itself", "better"],
         ["worse", "worse", "itself"],
@@ -307,7 +307,7 @@ def test_the_matrix_against_a_baseline_has_one_column() -> None:
     comparison = compare(found, shared_column(found, None), baseline=found[1])
     against = matrix(comparison)
     assert against.columns == ("b",)
-    assert [(row.name, row.cells[0].standing) for row in against.rows] == [
+    assert [(row.name, row.cells[0].verdict) for row in against.rows] == [
         ("b", "itself"), ("a", "better"), ("c", "worse"),
     ]  # fmt: skip
 
@@ -322,7 +322,7 @@ def test_the_matrix_stands_before_the_tables_and_on_a_narrow_terminal_in_symbols
     three: Comparison,
 ) -> None:
     wide, narrow = shown(three, 120), shown(three, 30)
-    assert wide[0].startswith("Who beats whom: total [px] over the sweep as a whole, lower is")
+    assert wide[0].startswith("Each result against each: total [px] over the whole sweep, lower is")
     assert re.split(r"  +", wide[2]) == ["esm", "100 %", "not shown -0.0329", "better -0.566"]
     cells = [line.split() for line in narrow]
     assert ["1", "esm", "100", "%", "?", "+"] in cells
@@ -337,11 +337,11 @@ def test_one_repeat_shows_nothing_and_says_so() -> None:
         made("esm", {0.0: [1.0], 0.5: [2.0], 1.0: [3.0]}),
         made("ic", {0.0: [1.5], 0.5: [2.5], 1.0: [2.75]}),
     )
-    (versus,) = comparison.versus
+    (versus,) = comparison.pairs
     assert {at.value.verdict for at in versus.levels} == {"one repeat"}
-    assert versus.overall.value.p is None
-    assert "One repeat (seed 0): nothing follows for other seeds." in said(comparison)
-    assert "below it at 1 of these levels and above it at 2." in said(comparison)
+    assert versus.sweep.value.p is None
+    assert "One repeat (seed 0) allows no inference about other seeds." in said(comparison)
+    assert "It is below at 1 of these levels and above at 2." in said(comparison)
     assert "--repeat 6 or more for the sweep as a whole, 7 or more for single levels" in said(
         comparison
     )
@@ -349,7 +349,7 @@ def test_one_repeat_shows_nothing_and_says_so() -> None:
 
 def test_equal_results_are_equal_and_not_merely_not_different() -> None:
     comparison = compared(made("a", {0.0: [1.0, 2.0, 3.0]}), made("b", {0.0: [1.0, 2.0, 3.0]}))
-    assert comparison.versus[0].overall.value.verdict == "equal"
+    assert comparison.pairs[0].sweep.value.verdict == "equal"
     assert "Both are equal in every one of 3 repeats" in said(comparison)
 
 
@@ -357,7 +357,7 @@ def test_the_sweep_is_over_the_levels_where_every_repeat_has_a_value_from_both()
     first = made("esm", {0.0: [1.0, 1.0], 0.5: [2.0, 2.0], 1.0: [9.0, None]})
     second = made("ic", {0.0: [2.0, 3.0], 0.5: [2.0, 3.0], 1.0: [1.0, 1.0]})
     comparison = compared(first, second)
-    overall = comparison.versus[0].overall
+    overall = comparison.pairs[0].sweep
     assert overall.levels == ((0.0,), (0.5,))
     assert overall.value.difference == mean_interval([0.5, 1.5])
     assert "over the 2 of 3 levels at which every repeat of both has a value" in said(comparison)
@@ -367,7 +367,7 @@ def test_the_sweep_is_over_the_levels_where_every_repeat_has_a_value_from_both()
 def test_a_sweep_in_which_nobody_survives_is_not_compared_but_success_is() -> None:
     first = made("esm", {0.0: [1.0, None], 0.5: [None, 2.0]})
     comparison = compared(first, made("ic", {0.0: [1.0, 1.0], 0.5: [1.0, 1.0]}))
-    overall = comparison.versus[0].overall
+    overall = comparison.pairs[0].sweep
     assert overall.value.verdict == "no pair"
     assert overall.success is not None
     assert (overall.success.first.mean, overall.success.second.mean) == (0.5, 1.0)
@@ -378,23 +378,23 @@ def test_success_at_a_level_is_mcnemars_test() -> None:
     first = made("esm", {0.0: [1.0] * 9, 1.0: [1.0] * 8 + [None]})
     second = made("ic", {0.0: [1.0] * 9, 1.0: [None] * 8 + [1.0]})
     comparison = compared(first, second)
-    easy, hard = comparison.versus[0].levels
+    easy, hard = comparison.pairs[0].levels
     assert easy.success is not None
     assert hard.success is not None
     assert (hard.success.first_only, hard.success.second_only) == (8, 1)
     assert hard.success.p == pytest.approx(stats.binomtest(1, 9).pvalue)
     assert (easy.success.p, easy.success.p_holm) == (1.0, None)
     assert hard.success.p_holm == hard.success.p  # the easy level could not have differed
-    assert "McNemar's test finds a difference at 1 level (fog 1 m⁻¹)." in said(comparison)
+    assert "McNemar's test shows a difference at 1 level (fog 1 m⁻¹)." in said(comparison)
 
 
 def test_holm_counts_the_levels_of_all_pairs_of_results() -> None:
     comparison = compared(*(noisy(name, 1.0, n=8, salt=i) for i, name in enumerate("abc")))
     assert comparison.n_tests == 9
-    at = [at.value for versus in comparison.versus for at in versus.levels]
+    at = [at.value for versus in comparison.pairs for at in versus.levels]
     ps = sorted(d.p for d in at if d.p is not None)
     assert min(d.p_holm for d in at if d.p_holm is not None) == min(1.0, 9 * ps[0])
-    sweeps = [versus.overall.value for versus in comparison.versus]
+    sweeps = [versus.sweep.value for versus in comparison.pairs]
     assert min(d.p_holm or 1 for d in sweeps) == min(1.0, 3 * min(d.p or 1 for d in sweeps))
 
 
@@ -404,7 +404,7 @@ def test_levels_with_too_few_pairs_for_any_test_do_not_count() -> None:
     second = made("b", {0.0: [2.0 - 0.02 * i for i in range(8)], 1.0: few})
     comparison = compared(first, second)
     assert comparison.n_tests == 1
-    shown, hidden = comparison.versus[0].levels
+    shown, hidden = comparison.pairs[0].levels
     assert shown.value.p_holm == shown.value.p
     assert hidden.value.p_holm is None
 
@@ -413,22 +413,22 @@ def test_algorithms_that_do_not_differ_are_seldom_called_different() -> None:
     found = 0
     for trial in range(100):
         a, b = noisy("a", 1.0, n=9, salt=2 * trial + 1000), noisy("b", 1.0, n=9, salt=2 * trial + 1)
-        (versus,) = compared(a, b).versus
+        (versus,) = compared(a, b).pairs
         found += any(at.value.verdict in ("first", "second") for at in versus.levels)
     assert found <= 10  # 5 expected; more than 10 once in 90 times
 
 
 def test_repeats_are_planned_for_the_strictest_step_of_holm() -> None:
-    (versus,) = compared(noisy("a", 1.0, n=9, salt=1), noisy("b", 1.09, n=9, salt=2)).versus
+    (versus,) = compared(noisy("a", 1.0, n=9, salt=1), noisy("b", 1.09, n=9, salt=2)).pairs
     for at in versus.levels:
         assert at.value.hedges_g is not None
-        assert at.value.needed == repeats_needed(at.value.hedges_g, alpha=0.05 / 3)
+        assert at.value.repeats_needed == repeats_needed(at.value.hedges_g, alpha=0.05 / 3)
 
 
 def test_against_a_baseline_only_that_is_compared_and_it_stands_first() -> None:
     found = entries(*(noisy(name, 1.0, n=3, salt=i) for i, name in enumerate("abc")))
     comparison = compare(found, shared_column(found, None), baseline=found[1])
-    assert [(v.first.name, v.second.name) for v in comparison.versus] == [("b", "a"), ("b", "c")]
+    assert [(v.first.name, v.second.name) for v in comparison.pairs] == [("b", "a"), ("b", "c")]
     assert [entry.name for entry in comparison.entries] == ["b", "a", "c"]
 
 
@@ -436,7 +436,9 @@ def test_it_is_reported_whether_both_saw_the_same_images() -> None:
     a, b = visibility("a", seeds=(1, 2)), visibility("b", seeds=(1, 2))
     streams = (replace(b.image_streams[0], sha256="d5" * 32), b.image_streams[1])
     assert "the same images, byte for byte (2 streams)" in said(compared(a, b))
-    assert "1 of 2 image streams" in said(compared(a, replace(b, image_streams=streams)))
+    assert "the same bytes in 1 of 2 image streams" in said(
+        compared(a, replace(b, image_streams=streams))
+    )
 
 
 # ---------------------------------------------------------------------------- what is written
@@ -538,7 +540,9 @@ def test_names_from_results_are_text(tmp_path: Path) -> None:
 
 def test_experiments_that_differ_are_warned_of_on_the_page() -> None:
     found = entries(noisy("a", 1.0, n=2, salt=1), noisy("b", 1.0, n=2, salt=2))
-    comparison = compare(found, shared_column(found, None), forced=("mode: x in a, y in b",))
+    comparison = compare(
+        found, shared_column(found, None), experiment_differences=("mode: x in a, y in b",)
+    )
     text = Page(render(comparison, ())).text
     assert "These results are not of one experiment." in text
     assert "mode: x in a, y in b" in text
@@ -547,20 +551,20 @@ def test_experiments_that_differ_are_warned_of_on_the_page() -> None:
 @pytest.mark.parametrize("width", [60, 80, 200])
 def test_on_the_terminal_no_line_is_cut(three: Comparison, width: int) -> None:
     console = Console(width=width, file=io.StringIO())
-    for part in drawn(three, width=width):
+    for part in renderables(three, width=width):
         console.print(part)
     assert isinstance(console.file, io.StringIO)
     text = console.file.getvalue()
     assert "…" not in text
     assert max(map(len, text.splitlines())) <= width
-    assert "total [px]: ic less esm; lower is better" in text
+    assert "total [px]: ic minus esm; lower is better" in text
     assert " 8 : 3 of 8 " in text or width < 100
 
 
 def shown(comparison: Comparison, width: int) -> list[str]:
     """The lines that are printed."""
     console = Console(width=width, file=io.StringIO())
-    for part in drawn(comparison, width=width):
+    for part in renderables(comparison, width=width):
         console.print(part)
     assert isinstance(console.file, io.StringIO)
     return [line.rstrip() for line in console.file.getvalue().splitlines()]
@@ -624,8 +628,10 @@ def test_differences_stand_on_a_zero_line_and_the_winning_side_is_named(three: C
     words = [text.get_text() for text in figure.axes[0].texts]
     assert words == ["↑ esm better", "↓ ic better", "ic − esm"]
     assert figure.axes[0].lines[0].get_ydata()[0] == 0.0
-    assert curves(three).axes[0].get_ylabel() == "total [px]"
-    assert success(compared(noisy("a", 1.0, n=2, salt=1), noisy("b", 1.0, n=2, salt=2))) is None
+    assert curves_plot(three).axes[0].get_ylabel() == "total [px]"
+    assert (
+        success_plot(compared(noisy("a", 1.0, n=2, salt=1), noisy("b", 1.0, n=2, salt=2))) is None
+    )
 
 
 SWEEPS = [
@@ -641,7 +647,7 @@ def sweep(algorithm: str, means: dict[float, float]) -> Result:
 @pytest.mark.parametrize("is_reversed", [False, True])
 def test_curves_show_the_levels_that_both_have(is_reversed: bool) -> None:
     results = [sweep(name, means) for name, means in zip("ab", SWEEPS[0], strict=True)]
-    axes = curves(compared(*(results[::-1] if is_reversed else results))).axes[0]
+    axes = curves_plot(compared(*(results[::-1] if is_reversed else results))).axes[0]
     drawn_xs = {x for line in axes.lines for x in np.asarray(line.get_xdata(), float) if x >= 0.01}
     assert {0.5, 1.0} <= drawn_xs
     assert not {0.0, 2.0} & {*drawn_xs}
@@ -654,11 +660,11 @@ def test_curves_show_the_levels_that_both_have(is_reversed: bool) -> None:
 def test_one_common_level_is_drawn_with_its_values(is_reversed: bool) -> None:
     results = [sweep(name, means) for name, means in zip("ab", SWEEPS[1], strict=True)]
     comparison = compared(*(results[::-1] if is_reversed else results))
-    axes = curves(comparison).axes[0]
+    axes = curves_plot(comparison).axes[0]
     names = [text.get_text() for text in axes.get_yticklabels()]
     dots = [line.get_xdata()[0] for line in axes.lines if len(line.get_xdata()) == 1]
     assert dict(zip(names, dots, strict=True)) == {"a": 2.125, "b": 5.125}
-    figure = success(comparison)
+    figure = success_plot(comparison)
     assert figure is not None
     assert [text.get_text() for text in figure.axes[0].get_yticklabels()] == names
     assert "1 level, 3 repeats" in render(comparison, ())
@@ -667,7 +673,7 @@ def test_one_common_level_is_drawn_with_its_values(is_reversed: bool) -> None:
 def test_of_three_results_those_levels_are_drawn_that_two_have() -> None:
     three = [sweep(name, means) for name, means in zip("ab", SWEEPS[0], strict=True)]
     three.append(sweep("c", {0.0: 1.0, 0.5: 2.0, 4.0: 1.0}))
-    low, high = curves(compared(*three)).axes[0].get_xlim()
+    low, high = curves_plot(compared(*three)).axes[0].get_xlim()
     assert low < 0.0
     assert 1.0 < high < 2.0
 
@@ -676,6 +682,6 @@ def test_bars_without_any_value_say_so() -> None:
     nothing = Interval(n=0, mean=None, std=None, low=None, high=None)
     some = Interval(n=2, mean=1.0, std=0.1, low=0.5, high=1.5)
     for bars, is_empty in (([nothing, nothing], True), ([nothing, some], False)):
-        figure = bars_plot([("a", each, False) for each in bars], "total [px]", zero=True)
+        figure = bars_plot([("a", each, False) for each in bars], "total [px]", has_zero_line=True)
         texts = [text.get_text() for text in figure.axes[0].texts]
         assert any("no data: no repeat has a value in both results" in t for t in texts) == is_empty

@@ -31,7 +31,7 @@ from uwsim.analysis.plots import (
     small_multiples,
     value_plot,
 )
-from uwsim.analysis.plots.drawing import MAX_NAMED
+from uwsim.analysis.plots.drawing import MAX_LEGEND_ENTRIES
 from uwsim.errors import ResultError
 from uwsim.results.inputs import Inputs
 from uwsim.results.result import Column, Result
@@ -142,7 +142,7 @@ def test_many_curves_look_all_different_and_stand_in_a_legend_beside_the_axes() 
     assert figure.axes[0].get_legend() is None
     (legend,) = figure.legends
     shown = [text.get_text() for text in legend.get_texts()]
-    assert len(shown) == MAX_NAMED
+    assert len(shown) == MAX_LEGEND_ENTRIES
     assert (shown[0], shown[-1]) == ("current 0 m/s", "current 0.29 m/s")
 
 
@@ -217,9 +217,9 @@ def test_the_same_algorithm_twice_is_distinguished_by_its_seed() -> None:
 
 
 def test_what_cannot_be_compared_is_an_error() -> None:
-    with pytest.raises(ResultError, match="sweep different things: fog and current, fog"):
+    with pytest.raises(ResultError, match="sweep different parameters: fog and current, fog"):
         compare_plot([visibility(), nested()], "corners")
-    with pytest.raises(ResultError, match="nothing to compare"):
+    with pytest.raises(ResultError, match="needs at least one result"):
         compare_plot([], "corners")
 
 

@@ -11,8 +11,8 @@ import pytest
 from tests.support.synthetic_results import one_level, visibility
 from uwsim.analysis.plots import INK, draw_run_plots
 from uwsim.analysis.plots.one_level import one_level_plot
-from uwsim.analysis.plots.over_time import over_time_plot, samples_of
-from uwsim.analysis.plots.panels import MAX_PANELS, panels_of
+from uwsim.analysis.plots.over_time import samples_of, time_plot
+from uwsim.analysis.plots.panels import MAX_PANELS, choose_panels
 from uwsim.analysis.plots.track_plot import read_tracks, track_plot
 from uwsim.analysis.report import render
 from uwsim.results.log import Log, save_log
@@ -46,7 +46,7 @@ def test_samples_are_gathered_by_level_and_seed_with_the_time_in_the_level() -> 
 
 def test_the_line_is_the_median_of_the_seeds_and_the_bands_are_quantiles() -> None:
     seeds = (1, 2, 3, 4, 90)
-    figure = over_time_plot(visibility(seeds=seeds), log_of(seeds))
+    figure = time_plot(visibility(seeds=seeds), log_of(seeds))
     assert figure is not None
     assert [axes.get_title(loc="left") for axes in figure.axes] == [
         "fog 0 m⁻¹",
@@ -63,7 +63,7 @@ def test_the_line_is_the_median_of_the_seeds_and_the_bands_are_quantiles() -> No
 
 @pytest.mark.parametrize(("seeds", "lines"), [((4,), 1), ((4, 5), 3), ((1, 2, 3, 4), 5)])
 def test_few_seeds_are_a_line_each_and_have_no_bands(seeds: tuple[int, ...], lines: int) -> None:
-    figure = over_time_plot(visibility(seeds=seeds), log_of(seeds))
+    figure = time_plot(visibility(seeds=seeds), log_of(seeds))
     assert figure is not None
     drawn = [line for line in figure.axes[0].lines if len(line.get_xdata()) == 4]
     assert len(drawn) == lines
@@ -75,7 +75,7 @@ def test_a_seed_that_ends_early_leaves_the_others() -> None:
     cut = replace(log, samples=tuple(s for s in log.samples if s[1] == 1 or s[3] % 2.0 < 0.75))
     (found, *_) = samples_of(visibility(seeds=(1, 2)), cut).values()
     assert np.isnan(found.values[1, 2:]).all()
-    figure = over_time_plot(visibility(seeds=(1, 2)), cut)
+    figure = time_plot(visibility(seeds=(1, 2)), cut)
     assert figure is not None
     np.testing.assert_allclose(figure.axes[0].lines[-2].get_ydata(), [1.5, 2.0, 2.0, 2.5])
 
@@ -83,25 +83,25 @@ def test_a_seed_that_ends_early_leaves_the_others() -> None:
 def test_a_log_without_any_value_or_of_another_benchmark_has_no_plot() -> None:
     log = log_of((1,))
     empty = replace(log, samples=tuple((*s[:2], None, None) for s in log.samples))
-    assert over_time_plot(visibility(), empty) is None
-    assert over_time_plot(one_level(), log) is None
-    assert over_time_plot(visibility(), Log(measure="corners", header=("time [s]",))) is None
+    assert time_plot(visibility(), empty) is None
+    assert time_plot(one_level(), log) is None
+    assert time_plot(visibility(), Log(measure="corners", header=("time [s]",))) is None
 
 
 def test_a_log_of_zeros_has_no_plot() -> None:
     log = log_of((1, 2))
     zeros = tuple((*sample[:-2], 0.0, 0.0) for sample in log.samples)
-    assert over_time_plot(visibility(seeds=(1, 2)), replace(log, samples=zeros)) is None
+    assert time_plot(visibility(seeds=(1, 2)), replace(log, samples=zeros)) is None
     once = ((*zeros[0][:-2], 1.0, 0.0), *zeros[1:])
-    assert over_time_plot(visibility(seeds=(1, 2)), replace(log, samples=once)) is not None
+    assert time_plot(visibility(seeds=(1, 2)), replace(log, samples=once)) is not None
 
 
 def test_of_many_levels_some_are_chosen_with_the_first_and_the_last() -> None:
-    shown = panels_of([(float(i),) for i in range(27)])
+    shown = choose_panels([(float(i),) for i in range(27)])
     assert len(shown.levels) == MAX_PANELS
     assert (shown.levels[0], shown.levels[-1]) == ((0.0,), (26.0,))
     assert shown.note == "6 of 27 levels, evenly chosen"
-    assert panels_of([(1.0,)]).note == ""
+    assert choose_panels([(1.0,)]).note == ""
 
 
 def write_track(directory: Path, index: int, way: np.ndarray, fog: float = 0.0) -> None:

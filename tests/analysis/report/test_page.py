@@ -23,7 +23,7 @@ from tests.support.synthetic_results import (
     visibility,
 )
 from uwsim.analysis.report import render, write_report
-from uwsim.analysis.report.page import rounded
+from uwsim.analysis.report.page import rounded_text
 from uwsim.cli import main
 from uwsim.errors import ResultError
 from uwsim.results.inputs import Inputs
@@ -100,7 +100,7 @@ def test_the_report_says_what_was_run_and_found(tmp_path: Path) -> None:
         "gives 0.893, not 0.86, which needs fog 1.031",
     ):
         assert said in text, said
-    assert "frozen, which never looks at an image" not in text
+    assert "frozen, which reads no image" not in text
 
 
 def test_every_level_stands_in_the_table(tmp_path: Path) -> None:
@@ -188,7 +188,7 @@ def test_a_vehicle_that_sways_is_no_static_scene_though_levels_end_at_one_phase(
 def test_the_control_beside_the_result_is_drawn_into_the_plots(tmp_path: Path) -> None:
     save(frozen(), tmp_path / "control")
     page = whole_page_of(visibility(), tmp_path)
-    assert "frozen, which never looks at an image" in page.text
+    assert "frozen, which reads no image" in page.text
 
 
 def test_losses_over_repeats_are_given_from_first_to_last(tmp_path: Path) -> None:
@@ -305,12 +305,12 @@ def test_the_floor_is_what_the_run_has_measured_and_not_what_its_name_suggests(
 ) -> None:
     named = replace(visibility(), inputs=Inputs(benchmark=("visibility-of-mine.xml", "sha256:0")))
     text = page_of(named, tmp_path).text
-    assert "how much, this result does not say" in text
+    assert "This result does not state its score" in text
     assert "about 1 px" not in text
     facts = {"floor_corners": (2.8794, "px"), "floor_centroid": (1.6345, "px")}
     text = page_of(replace(named, facts={**named.facts, **facts}), tmp_path).text
-    assert "in the level where it is most: corners 2.88 px, centroid 1.63 px." in text
-    assert "floor of corners: what a perfect tracker scores" in text
+    assert "at the level with the greatest error: corners 2.88 px, centroid 1.63 px." in text
+    assert "floor of corners: the score of a perfect tracker" in text
 
 
 def endings_of(page: Page) -> dict[str, str]:
@@ -359,11 +359,11 @@ def test_a_long_reason_is_not_repeated_in_every_line(tmp_path: Path) -> None:
 
 def test_each_repeat_has_its_first_failure(tmp_path: Path) -> None:
     page = page_of(visibility(seeds=(1, 2, 3)), tmp_path)
-    assert "Where each repeat first did not end ok" in page.text
+    assert "The first level of each repeat that did not end ok" in page.text
     assert (
         len(re.findall(r'<tr><td>[123]</td><td class="text">fog 1\.\d+ m⁻¹</td>', page.source)) == 3
     )
-    assert "Where each repeat" not in page_of(visibility(), tmp_path).text
+    assert "The first level of each repeat" not in page_of(visibility(), tmp_path).text
 
 
 def test_captions_say_unit_statistic_and_what_bands_are(tmp_path: Path) -> None:
@@ -466,7 +466,7 @@ def test_cards_have_three_digits_and_nothing_is_zero(tmp_path: Path) -> None:
 def test_a_number_on_a_card_has_three_digits_and_a_count_no_decimals(
     value: float, against: float, text: str
 ) -> None:
-    assert rounded(value, against) == text
+    assert rounded_text(value, against) == text
 
 
 def test_a_measure_that_is_the_same_at_both_ends_is_one_number(tmp_path: Path) -> None:

@@ -83,7 +83,7 @@ def test_repeats_have_a_summary_and_pair_with_those_of_another_algorithm(
     assert lines[1].endswith(",1 2")
     found = read_entries([tmp_path / "esm", tmp_path / "frozen"])
     assert differences(found) == ()
-    (versus,) = compare(found, shared_column(found, None)).versus
+    (versus,) = compare(found, shared_column(found, None)).pairs
     assert [at.seeds for at in versus.levels] == [(1, 2)]
     assert versus.same_images == (2, 2)
 

@@ -1,16 +1,15 @@
-"""Comparison of results of one experiment, pair by pair."""
+"""Pairwise comparison of results of one experiment."""
 
 from __future__ import annotations
 
 from .compare import compare, compare_files
 from .inputs import Entry, differences, read_entries, remarks, shared_column
-from .model import Comparison, PairedDifference
+from .model import Comparison
 from .write import write_comparison
 
 __all__ = [
     "Comparison",
     "Entry",
-    "PairedDifference",
     "compare",
     "compare_files",
     "differences",

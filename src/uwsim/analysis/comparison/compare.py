@@ -1,7 +1,7 @@
-"""Computing a comparison: differences, intervals, tests, and the repeats needed.
+"""The computation of a comparison: differences, intervals, tests, and the repeats needed.
 
-A repeat is a seed; the levels of one seed share its noise, its template or its history, and are
-never counted as repeats. So each level is tested over the seeds, and the sweep as a whole over one
+A repeat is a seed. The levels of one seed share its noise, its template or its history, and are not
+repeats. Each level is therefore tested over the seeds. The sweep as a whole is tested over one
 number a seed: its mean over the levels at which every seed has a value from both.
 """
 
@@ -26,22 +26,22 @@ from ...statistics import (
     signed_rank,
     vargha_delaney,
 )
-from .inputs import Entry, differences, read_entries, remarks, same_images, shared_column
+from .inputs import Entry, count_same_images, differences, read_entries, remarks, shared_column
 from .model import (
     CONFIDENCE,
     POWER,
-    AtLevel,
     Comparison,
-    Outcome,
-    Overall,
+    LevelStatistics,
+    PairComparison,
     PairedDifference,
     Success,
-    Versus,
+    SweepStatistics,
+    Verdict,
     family_size,
-    fewest_of,
-    least_corrected,
+    min_corrected_p,
+    min_family_repeats,
 )
-from .pairs import Level, Pair, pair_up
+from .pairs import Level, RowPair, pair_rows
 from .repeats import ALPHA
 
 
@@ -57,28 +57,28 @@ def compare_files(
 
     Args:
         paths: result directories, or their ``result.json``.
-        column: what is compared; without it the score.
-        baseline: the place among the paths of the result that all others are compared with.
-        higher_is_better: more of it is better; errors are not so.
+        column: the name of the column to compare; None: the score.
+        baseline: the index of the path of the result that all others are compared with.
+        higher_is_better: a higher value is better; not so for errors.
         force: compare results of different experiments, too.
 
     Raises:
         ResultError: a result cannot be read, or they are of different experiments.
     """
     entries = read_entries(paths)
-    compared = shared_column(entries, column)
-    differing = differences(entries)
-    if differing and not force:
+    compared_column = shared_column(entries, column)
+    experiment_differences = differences(entries)
+    if experiment_differences and not force:
         raise ResultError(
-            f"These results are not of one experiment: {'; '.join(differing)}. "
-            "--force compares them all the same."
+            f"These results are not of one experiment: {'; '.join(experiment_differences)}. "
+            "Use --force to compare them anyway."
         )
     return compare(
         entries,
-        compared,
+        compared_column,
         baseline=None if baseline is None else entries[baseline],
         higher_is_better=higher_is_better,
-        forced=differing,
+        experiment_differences=experiment_differences,
         remarks=remarks(entries),
     )
 
@@ -89,137 +89,146 @@ def compare(
     *,
     baseline: Entry | None = None,
     higher_is_better: bool = False,
-    forced: tuple[str, ...] = (),
+    experiment_differences: tuple[str, ...] = (),
     remarks: tuple[str, ...] = (),
 ) -> Comparison:
-    """Compare results: all with the ``baseline``, or each with each.
+    """Compare all results with the ``baseline``, or each with each.
 
     Raises:
         ResultError: two results have no seed and level in common.
     """
-    others = [entry for entry in entries if entry is not baseline]
+    other_entries = [entry for entry in entries if entry is not baseline]
     if baseline is None:
-        chosen = [(a, b) for i, a in enumerate(entries) for b in entries[i + 1 :]]
+        entry_pairs = [(a, b) for i, a in enumerate(entries) for b in entries[i + 1 :]]
     else:
-        chosen = [(baseline, other) for other in others]
-    if not chosen:
+        entry_pairs = [(baseline, other) for other in other_entries]
+    if not entry_pairs:
         raise ResultError("A comparison needs at least two results.")
-    versus = [_versus(a, b, column, higher_is_better) for a, b in chosen]
-    ordered = (*([baseline] if baseline else []), *others)
+    pairs = [_compare_pair(a, b, column, higher_is_better) for a, b in entry_pairs]
     return Comparison(
-        entries=ordered,
+        entries=(*([baseline] if baseline else []), *other_entries),
         baseline=baseline,
         column=column,
         higher_is_better=higher_is_better,
-        forced=forced,
+        experiment_differences=experiment_differences,
         remarks=remarks,
-        versus=_corrected(versus, higher_is_better),
+        pairs=_correct_pairs(pairs, higher_is_better),
     )
 
 
-def _versus(first: Entry, second: Entry, column: Column, higher_is_better: bool) -> Versus:
-    paired = pair_up(first, second, column.name)
+def _compare_pair(
+    first_entry: Entry, second_entry: Entry, column: Column, higher_is_better: bool
+) -> PairComparison:
+    paired_rows = pair_rows(first_entry, second_entry, column.name)
     levels = tuple(
-        _at_level(level, pairs, higher_is_better) for level, pairs in paired.levels.items()
+        _compare_at_level(level, rows, higher_is_better)
+        for level, rows in paired_rows.levels.items()
     )
-    return Versus(
-        first=first,
-        second=second,
+    return PairComparison(
+        first=first_entry,
+        second=second_entry,
         levels=levels,
-        overall=_overall(paired.levels, levels, higher_is_better),
-        n_only_first=paired.n_only_first,
-        n_only_second=paired.n_only_second,
-        same_images=same_images(first.result, second.result),
+        sweep=_compare_over_sweep(paired_rows.levels, levels, higher_is_better),
+        n_only_first=paired_rows.n_only_first,
+        n_only_second=paired_rows.n_only_second,
+        same_images=count_same_images(first_entry.result, second_entry.result),
     )
 
 
-def _at_level(level: Level, pairs: Sequence[Pair], higher_is_better: bool) -> AtLevel:
-    has = [(pair.first is not None, pair.second is not None) for pair in pairs]
-    return AtLevel(
+def _compare_at_level(
+    level: Level, rows: Sequence[RowPair], higher_is_better: bool
+) -> LevelStatistics:
+    has_values = [(row.first_value is not None, row.second_value is not None) for row in rows]
+    return LevelStatistics(
         level=level,
-        seeds=tuple(pair.seed for pair in pairs),
-        n_only_first=has.count((True, False)),
-        n_only_second=has.count((False, True)),
-        n_neither=has.count((False, False)),
-        value=_difference(_both(pairs), higher_is_better),
-        success=_success(pairs),
+        seeds=tuple(row.seed for row in rows),
+        n_only_first=has_values.count((True, False)),
+        n_only_second=has_values.count((False, True)),
+        n_neither=has_values.count((False, False)),
+        value=_paired_difference(_value_pairs(rows), higher_is_better),
+        success=_success(rows),
     )
 
 
-def _both(pairs: Iterable[Pair]) -> list[tuple[float, float]]:
+def _value_pairs(rows: Iterable[RowPair]) -> list[tuple[float, float]]:
     return [
-        (pair.first, pair.second)
-        for pair in pairs
-        if pair.first is not None and pair.second is not None
+        (row.first_value, row.second_value)
+        for row in rows
+        if row.first_value is not None and row.second_value is not None
     ]
 
 
-def _difference(values: Sequence[tuple[float, float]], higher_is_better: bool) -> PairedDifference:
-    first, second = [a for a, _ in values], [b for _, b in values]
-    found = [b - a for a, b in values]
-    better, worse = (second, first) if higher_is_better else (first, second)
-    is_tested = len(found) > 1
+def _paired_difference(
+    values: Sequence[tuple[float, float]], higher_is_better: bool
+) -> PairedDifference:
+    first_values, second_values = [a for a, _ in values], [b for _, b in values]
+    paired_differences = [b - a for a, b in values]
+    better_values, worse_values = (
+        (second_values, first_values) if higher_is_better else (first_values, second_values)
+    )
+    is_tested = len(paired_differences) > 1
     return PairedDifference(
-        first=mean_interval(first, confidence=CONFIDENCE),
-        second=mean_interval(second, confidence=CONFIDENCE),
-        difference=mean_interval(found, confidence=CONFIDENCE),
-        cohens_d=cohens_d(found),
-        hedges_g=hedges_g(found),
-        rank_biserial=rank_biserial(found),
-        superiority=vargha_delaney(better, worse) if is_tested else None,
-        p=sign_flip(found) if is_tested else None,
-        p_signed_rank=signed_rank(found) if is_tested else None,
+        first=mean_interval(first_values, confidence=CONFIDENCE),
+        second=mean_interval(second_values, confidence=CONFIDENCE),
+        difference=mean_interval(paired_differences, confidence=CONFIDENCE),
+        cohens_d=cohens_d(paired_differences),
+        hedges_g=hedges_g(paired_differences),
+        rank_biserial=rank_biserial(paired_differences),
+        superiority=vargha_delaney(better_values, worse_values) if is_tested else None,
+        p=sign_flip(paired_differences) if is_tested else None,
+        p_signed_rank=signed_rank(paired_differences) if is_tested else None,
     )
 
 
-def _success(pairs: Sequence[Pair]) -> Success | None:
-    ended = [(pair.first_ok, pair.second_ok) for pair in pairs]
-    first = rate(sum(a is True for a, _ in ended), len(ended), confidence=CONFIDENCE)
-    second = rate(sum(b is True for _, b in ended), len(ended), confidence=CONFIDENCE)
-    if first is None or second is None or any(None in both for both in ended):
+def _success(rows: Sequence[RowPair]) -> Success | None:
+    ok_flags = [(row.first_ok, row.second_ok) for row in rows]
+    first_rate = rate(sum(a is True for a, _ in ok_flags), len(ok_flags), confidence=CONFIDENCE)
+    second_rate = rate(sum(b is True for _, b in ok_flags), len(ok_flags), confidence=CONFIDENCE)
+    if first_rate is None or second_rate is None or any(None in flags for flags in ok_flags):
         return None
-    first_only, second_only = ended.count((True, False)), ended.count((False, True))
+    first_only, second_only = ok_flags.count((True, False)), ok_flags.count((False, True))
     return Success(
-        first=first,
-        second=second,
+        first=first_rate,
+        second=second_rate,
         first_only=first_only,
         second_only=second_only,
-        p=mcnemar(first_only, second_only) if len(ended) > 1 else None,
+        p=mcnemar(first_only, second_only) if len(ok_flags) > 1 else None,
     )
 
 
-def _overall(
-    levels: dict[Level, tuple[Pair, ...]], found: Sequence[AtLevel], higher_is_better: bool
-) -> Overall:
-    by_seed: dict[int, list[Pair]] = {}
-    for pairs in levels.values():
-        for pair in pairs:
-            by_seed.setdefault(pair.seed, []).append(pair)
-    most = max(len(pairs) for pairs in by_seed.values())
-    seeds = sorted(seed for seed, pairs in by_seed.items() if len(pairs) == most)
-    complete = {
-        level: [pair for pair in pairs if pair.seed in set(seeds)]
-        for level, pairs in levels.items()
-        if all(
-            pair.first is not None and pair.second is not None
-            for pair in pairs
-            if pair.seed in set(seeds)
-        )
+def _compare_over_sweep(
+    levels: dict[Level, tuple[RowPair, ...]],
+    level_statistics: Sequence[LevelStatistics],
+    higher_is_better: bool,
+) -> SweepStatistics:
+    by_seed: dict[int, list[RowPair]] = {}
+    for rows in levels.values():
+        for row in rows:
+            by_seed.setdefault(row.seed, []).append(row)
+    max_pairs = max(len(rows) for rows in by_seed.values())
+    seeds = sorted(seed for seed, rows in by_seed.items() if len(rows) == max_pairs)
+    rows_of_seeds = {
+        level: [row for row in rows if row.seed in set(seeds)] for level, rows in levels.items()
+    }
+    complete_levels = {
+        level: rows
+        for level, rows in rows_of_seeds.items()
+        if all(row.first_value is not None and row.second_value is not None for row in rows)
     }
     values = [
-        _both(pair for pairs in complete.values() for pair in pairs if pair.seed == seed)
+        _value_pairs(row for rows in complete_levels.values() for row in rows if row.seed == seed)
         for seed in seeds
     ]
-    ended = [[(p.first_ok, p.second_ok) for p in by_seed[seed]] for seed in seeds]
-    has_status = not any(None in both for pairs in ended for both in pairs)
-    means = [at.value.difference.mean for at in found]
-    return Overall(
+    ok_flags = [[(row.first_ok, row.second_ok) for row in by_seed[seed]] for seed in seeds]
+    has_status = not any(None in flags for seed_flags in ok_flags for flags in seed_flags)
+    means = [stats.value.difference.mean for stats in level_statistics]
+    return SweepStatistics(
         seeds=tuple(seeds),
         n_levels=len(levels),
-        levels=tuple(complete),
-        value=_difference([_mean(pairs) for pairs in values if pairs], higher_is_better),
-        success=_difference(
-            [_mean([(float(a is True), float(b is True)) for a, b in pairs]) for pairs in ended],
+        levels=tuple(complete_levels),
+        value=_paired_difference([_mean(pairs) for pairs in values if pairs], higher_is_better),
+        success=_paired_difference(
+            [_mean([(float(a is True), float(b is True)) for a, b in flags]) for flags in ok_flags],
             higher_is_better=True,
         )
         if has_status
@@ -237,45 +246,51 @@ def _mean(values: Sequence[tuple[float, float]]) -> tuple[float, float]:
 # ---------------------------------------------------------------------------- many tests at once
 
 
-def _corrected(versus: Sequence[Versus], higher_is_better: bool) -> tuple[Versus, ...]:
-    """Correct four families of tests, and give the verdict of each."""
-    levels = [at for each in versus for at in each.levels]
-    values = _judged([at.value for at in levels], higher_is_better)
+def _correct_pairs(
+    pairs: Sequence[PairComparison], higher_is_better: bool
+) -> tuple[PairComparison, ...]:
+    """Correct the p-values of four families of tests, and add the verdicts."""
+    levels = [stats for pair in pairs for stats in pair.levels]
+    values = _correct_family([stats.value for stats in levels], higher_is_better)
     successes = holm(
-        [at.success.p if at.success and at.success.is_tested else None for at in levels]
+        [stats.success.p if stats.success and stats.success.is_tested else None for stats in levels]
     )
-    overall = _judged([each.overall.value for each in versus], higher_is_better)
-    ended = iter(_judged([each.overall.success for each in versus if each.overall.success], True))
-    corrected = iter(
+    sweep_differences = _correct_family([pair.sweep.value for pair in pairs], higher_is_better)
+    success_differences = iter(
+        _correct_family([pair.sweep.success for pair in pairs if pair.sweep.success], True)
+    )
+    corrected_levels = iter(
         replace(
-            at,
+            stats,
             value=value,
-            success=None if at.success is None else replace(at.success, p_holm=p),
+            success=None if stats.success is None else replace(stats.success, p_holm=p),
         )
-        for at, value, p in zip(levels, values, successes, strict=True)
+        for stats, value, p in zip(levels, values, successes, strict=True)
     )
     return tuple(
         replace(
-            each,
-            levels=tuple(next(corrected) for _ in each.levels),
-            overall=replace(
-                each.overall,
+            pair,
+            levels=tuple(next(corrected_levels) for _ in pair.levels),
+            sweep=replace(
+                pair.sweep,
                 value=value,
-                success=next(ended) if each.overall.success else None,
+                success=next(success_differences) if pair.sweep.success else None,
             ),
         )
-        for each, value in zip(versus, overall, strict=True)
+        for pair, value in zip(pairs, sweep_differences, strict=True)
     )
 
 
-def _judged(family: Sequence[PairedDifference], higher_is_better: bool) -> list[PairedDifference]:
-    """Correct one family by Holm, give verdicts, and plan repeats for its strictest step.
+def _correct_family(
+    family: Sequence[PairedDifference], higher_is_better: bool
+) -> list[PairedDifference]:
+    """Correct one family by Holm, add verdicts, and plan repeats for its strictest step.
 
-    Tests that could not reach `ALPHA` alone are no part of it (Tarone 1990): they can never be
-    called different, wrongly or not.
+    Tests that could not reach `ALPHA` alone are not part of it (Tarone 1990): they can never be
+    significant.
     """
-    alpha, fewest = ALPHA / family_size(family), fewest_of(family)
-    corrected = holm([d.p if d.is_tested else None for d in family])
+    alpha, repeats_to_test = ALPHA / family_size(family), min_family_repeats(family)
+    p_values = holm([d.p if d.is_tested else None for d in family])
     return [
         replace(
             d,
@@ -283,21 +298,22 @@ def _judged(family: Sequence[PairedDifference], higher_is_better: bool) -> list[
             verdict=_verdict(
                 d,
                 p,
-                can_differ=d.difference.n >= fewest or (least is not None and least <= ALPHA),
+                can_differ=d.difference.n >= repeats_to_test
+                or (min_p is not None and min_p <= ALPHA),
                 higher_is_better=higher_is_better,
             ),
-            fewest=fewest,
-            needed=None
+            repeats_to_test=repeats_to_test,
+            repeats_needed=None
             if d.hedges_g is None
             else repeats_needed(d.hedges_g, alpha=alpha, target_power=POWER),
         )
-        for d, p, least in zip(family, corrected, least_corrected(family), strict=True)
+        for d, p, min_p in zip(family, p_values, min_corrected_p(family), strict=True)
     ]
 
 
 def _verdict(
     d: PairedDifference, p: float | None, *, can_differ: bool, higher_is_better: bool
-) -> Outcome:
+) -> Verdict:
     mean, n = d.difference.mean, d.difference.n
     if n == 0 or mean is None:
         return "no pair"

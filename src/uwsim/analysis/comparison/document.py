@@ -6,8 +6,9 @@
     esm,ic,level,0.0,10,10,0.138,0.141,0.003,0.001,0.005,0.0527,...
     esm,ic,sweep,,10,10,0.42,0.48,0.06,0.02,0.11,0.0137,...
 
-A line for each level of each pair of results, and one for the sweep as a whole. Differences are
-second less first. ``docs/statistics.md`` says what every column means; an empty field says nothing.
+There is a line for each level of each pair of results, and one for the sweep as a whole.
+Differences are second minus first. ``docs/statistics.md`` defines every column. An empty field has
+no value.
 """
 
 from __future__ import annotations
@@ -18,9 +19,17 @@ import json
 from collections.abc import Mapping
 
 from ...results.per_level import intervals_of, success_rates
-from ...statistics import Interval
+from ...statistics import Interval, Rate
 from .inputs import Entry
-from .model import CONFIDENCE, POWER, AtLevel, Comparison, Overall, PairedDifference, Versus
+from .model import (
+    CONFIDENCE,
+    POWER,
+    Comparison,
+    LevelStatistics,
+    PairComparison,
+    PairedDifference,
+    SweepStatistics,
+)
 from .repeats import ALPHA
 from .sentences import sentences
 
@@ -41,10 +50,10 @@ def json_text(comparison: Comparison) -> str:
         "alpha": ALPHA,
         "power": POWER,
         "baseline": baseline.name if baseline else None,
-        "differing_experiments": list(comparison.forced),
+        "differing_experiments": list(comparison.experiment_differences),
         "remarks": list(comparison.remarks),
-        "results": [_entry(entry, column.name) for entry in comparison.entries],
-        "pairs": [_versus(comparison, versus) for versus in comparison.versus],
+        "results": [_entry_fields(entry, column.name) for entry in comparison.entries],
+        "pairs": [_pair_fields(comparison, pair) for pair in comparison.pairs],
     }
     return json.dumps(document, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
@@ -53,19 +62,19 @@ def csv_text(comparison: Comparison) -> str:
     """Return the text of ``comparison.csv``."""
     labels = [column.label for column in comparison.entries[0].result.columns_of_kind("level")]
     lines: list[tuple[list[object], Fields]] = []
-    for versus in comparison.versus:
-        names = [versus.first.name, versus.second.name]
-        for at in versus.levels:
-            lines.append(([*names, "level", *map(repr, at.level)], _level_fields(at)))
-        lines.append(([*names, "sweep", *("" for _ in labels)], _overall_fields(versus.overall)))
+    for pair in comparison.pairs:
+        names = [pair.first.name, pair.second.name]
+        for stats in pair.levels:
+            lines.append(([*names, "level", *map(repr, stats.level)], _level_fields(stats)))
+        lines.append(([*names, "sweep", *("" for _ in labels)], _sweep_fields(pair.sweep)))
     stream = io.StringIO()
     writer = csv.writer(stream, lineterminator="\n")
-    leading, numbers = ["first", "second", "scope"], list(lines[0][1])
-    taken = {*leading, *numbers}
-    places = [f"{label} (level)" if label in taken else label for label in labels]
-    writer.writerow([*leading, *places, *numbers])
-    for led, fields in lines:
-        writer.writerow([*led, *(_cell(fields[name]) for name in numbers)])
+    key_columns, number_columns = ["first", "second", "scope"], list(lines[0][1])
+    used_names = {*key_columns, *number_columns}
+    level_columns = [f"{label} (level)" if label in used_names else label for label in labels]
+    writer.writerow([*key_columns, *level_columns, *number_columns])
+    for key_cells, fields in lines:
+        writer.writerow([*key_cells, *(_cell(fields[name]) for name in number_columns)])
     return stream.getvalue()
 
 
@@ -76,7 +85,7 @@ def _cell(value: object) -> object:
 # ---------------------------------------------------------------------------- parts
 
 
-def _entry(entry: Entry, column: str) -> Fields:
+def _entry_fields(entry: Entry, column: str) -> Fields:
     run = entry.result.run
     rates = success_rates(entry.result, confidence=CONFIDENCE)
     return {
@@ -90,56 +99,52 @@ def _entry(entry: Entry, column: str) -> Fields:
         "inputs": _json_values(entry.result.inputs.as_dict()),
         "levels": [
             {
-                "level": list(at.level),
-                "seeds": list(ended.seeds),
-                **_interval(at.interval),
-                "n_missing": at.n_missing,
-                "n_ok": ended.success.successes if ended.success else None,
-                "share_ok_low": ended.success.low if ended.success else None,
-                "share_ok_high": ended.success.high if ended.success else None,
+                "level": list(level_interval.level),
+                "seeds": list(level_rate.seeds),
+                **_interval_fields("", level_interval.interval, "n", "mean", "std", "low", "high"),
+                "n_missing": level_interval.n_missing,
+                "n_ok": level_rate.success.successes if level_rate.success else None,
+                "share_ok_low": level_rate.success.low if level_rate.success else None,
+                "share_ok_high": level_rate.success.high if level_rate.success else None,
             }
-            for at, ended in zip(
+            for level_interval, level_rate in zip(
                 intervals_of(entry.result, column, confidence=CONFIDENCE), rates, strict=True
             )
         ],
     }
 
 
-def _versus(comparison: Comparison, versus: Versus) -> Fields:
-    images = versus.same_images
+def _pair_fields(comparison: Comparison, pair: PairComparison) -> Fields:
+    images = pair.same_images
     return {
-        "first": versus.first.name,
-        "second": versus.second.name,
-        "words": list(sentences(comparison, versus)),
-        "rows_only_first": versus.n_only_first,
-        "rows_only_second": versus.n_only_second,
+        "first": pair.first.name,
+        "second": pair.second.name,
+        "words": list(sentences(comparison, pair)),
+        "rows_only_first": pair.n_only_first,
+        "rows_only_second": pair.n_only_second,
         "image_streams": None if images is None else {"shared": images[0], "same_bytes": images[1]},
         "sweep": {
-            "levels": [list(level) for level in versus.overall.levels],
-            "n_levels": versus.overall.n_levels,
-            "levels_first_smaller": versus.overall.n_first_smaller,
-            "levels_second_smaller": versus.overall.n_second_smaller,
-            **_overall_fields(versus.overall),
+            "levels": [list(level) for level in pair.sweep.levels],
+            "n_levels": pair.sweep.n_levels,
+            "levels_first_smaller": pair.sweep.n_first_smaller,
+            "levels_second_smaller": pair.sweep.n_second_smaller,
+            **_sweep_fields(pair.sweep),
         },
-        "levels": [{"level": list(at.level), **_level_fields(at)} for at in versus.levels],
+        "levels": [{"level": list(stats.level), **_level_fields(stats)} for stats in pair.levels],
     }
 
 
-def _level_fields(at: AtLevel) -> Fields:
-    success = at.success
+def _level_fields(stats: LevelStatistics) -> Fields:
+    success = stats.success
     return {
-        "seeds": list(at.seeds),
-        "n_pairs": len(at.seeds),
-        "n_only_first": at.n_only_first,
-        "n_only_second": at.n_only_second,
-        "n_neither": at.n_neither,
-        **_difference(at.value),
-        "share_ok_first": success.first.value if success else None,
-        "share_ok_first_low": success.first.low if success else None,
-        "share_ok_first_high": success.first.high if success else None,
-        "share_ok_second": success.second.value if success else None,
-        "share_ok_second_low": success.second.low if success else None,
-        "share_ok_second_high": success.second.high if success else None,
+        "seeds": list(stats.seeds),
+        "n_pairs": len(stats.seeds),
+        "n_only_first": stats.n_only_first,
+        "n_only_second": stats.n_only_second,
+        "n_neither": stats.n_neither,
+        **_difference_fields(stats.value),
+        **_share_fields("first", success.first if success else None),
+        **_share_fields("second", success.second if success else None),
         "n_ok_only_first": success.first_only if success else None,
         "n_ok_only_second": success.second_only if success else None,
         "p_ok": success.p if success else None,
@@ -147,44 +152,32 @@ def _level_fields(at: AtLevel) -> Fields:
     }
 
 
-def _overall_fields(overall: Overall) -> Fields:
-    """The fields of a level, over the seeds: shares are means of the seeds' shares of levels."""
-    ended = overall.success
+def _sweep_fields(sweep: SweepStatistics) -> Fields:
+    """Return the fields of `_level_fields` over the sweep; shares are means over the seeds."""
+    success = sweep.success
     return {
-        "seeds": list(overall.seeds),
-        "n_pairs": len(overall.seeds),
+        "seeds": list(sweep.seeds),
+        "n_pairs": len(sweep.seeds),
         "n_only_first": None,
         "n_only_second": None,
         "n_neither": None,
-        **_difference(overall.value),
-        "share_ok_first": ended.first.mean if ended else None,
-        "share_ok_first_low": ended.first.low if ended else None,
-        "share_ok_first_high": ended.first.high if ended else None,
-        "share_ok_second": ended.second.mean if ended else None,
-        "share_ok_second_low": ended.second.low if ended else None,
-        "share_ok_second_high": ended.second.high if ended else None,
+        **_difference_fields(sweep.value),
+        **_share_fields("first", success.first if success else None),
+        **_share_fields("second", success.second if success else None),
         "n_ok_only_first": None,
         "n_ok_only_second": None,
-        "p_ok": ended.p if ended else None,
-        "p_ok_holm": ended.p_holm if ended else None,
+        "p_ok": success.p if success else None,
+        "p_ok_holm": success.p_holm if success else None,
     }
 
 
-def _difference(d: PairedDifference) -> Fields:
+def _difference_fields(d: PairedDifference) -> Fields:
     return {
         "n": d.difference.n,
-        "first_mean": d.first.mean,
-        "first_std": d.first.std,
-        "first_low": d.first.low,
-        "first_high": d.first.high,
-        "second_mean": d.second.mean,
-        "second_std": d.second.std,
-        "second_low": d.second.low,
-        "second_high": d.second.high,
+        **_interval_fields("first_", d.first, "mean", "std", "low", "high"),
+        **_interval_fields("second_", d.second, "mean", "std", "low", "high"),
         "difference": d.difference.mean,
-        "difference_std": d.difference.std,
-        "difference_low": d.difference.low,
-        "difference_high": d.difference.high,
+        **_interval_fields("difference_", d.difference, "std", "low", "high"),
         "cohens_d": d.cohens_d,
         "hedges_g": d.hedges_g,
         "rank_biserial": d.rank_biserial,
@@ -192,15 +185,22 @@ def _difference(d: PairedDifference) -> Fields:
         "p_sign_flip": d.p,
         "p_signed_rank": d.p_signed_rank,
         "p_holm": d.p_holm,
-        "repeats_needed": d.needed,
-        "repeats_to_test": d.fewest,
+        "repeats_needed": d.repeats_needed,
+        "repeats_to_test": d.repeats_to_test,
         "verdict": d.verdict,
     }
 
 
-def _interval(interval: Interval) -> Fields:
-    names = ("n", "mean", "std", "low", "high")
-    return {name: getattr(interval, name) for name in names}
+def _interval_fields(prefix: str, interval: Interval, *names: str) -> Fields:
+    return {f"{prefix}{name}": getattr(interval, name) for name in names}
+
+
+def _share_fields(name: str, share: Rate | Interval | None) -> Fields:
+    return {
+        f"share_ok_{name}": share.value if isinstance(share, Rate) else share and share.mean,
+        f"share_ok_{name}_low": share and share.low,
+        f"share_ok_{name}_high": share and share.high,
+    }
 
 
 def _json_values(value: object) -> object:

@@ -18,38 +18,38 @@ from ..plots import algorithm_of
 
 @dataclass(frozen=True, kw_only=True)
 class Entry:
-    """One of the results compared."""
+    """One of the results of a comparison."""
 
     name: str
-    """The algorithm; with the directory where two results are of one algorithm."""
+    """The name of the algorithm; with the directory where two results are of one algorithm."""
     source: str
     """The result directory, with as many parents as make it unique."""
     result: Result
-    """What it found."""
+    """The contents of the result."""
     sha256: str
-    """Hash of its ``result.json``."""
-    unchecked: str | None = None
-    """Which of its rows were not checked against journals, and why; None: all were."""
+    """The hash of its ``result.json``."""
+    check_note: str | None = None
+    """The rows that were not checked against journals, with the reason; None: all were checked."""
 
 
 def read_entries(paths: Sequence[Path]) -> tuple[Entry, ...]:
     """Read results, check their rows against the journals, and name them.
 
     Raises:
-        ResultError: one cannot be read, contradicts its journals, or is given twice, or there
-            are fewer than two.
+        ResultError: a result cannot be read, contradicts its journals or is given twice, or there
+            are fewer than two results.
     """
     directories = [file_of(path).resolve().parent for path in paths]
     for i, path in enumerate(paths):
         if directories[i] in directories[:i]:
-            raise ResultError(f"{path}: given twice; a result is no comparison with itself.")
+            raise ResultError(f"{path}: is given twice; expected different results.")
     results = [load(path) for path in paths]
     if len(paths) < 2:
         raise ResultError("A comparison needs at least two results.")
-    checked = [
+    check_notes = [
         check_rows(result, place) for result, place in zip(results, directories, strict=True)
     ]
-    sources = _distinct(directories)
+    sources = _unique_path_ends(directories)
     algorithms = [algorithm_of(result) or "no algorithm" for result in results]
     return tuple(
         Entry(
@@ -57,141 +57,152 @@ def read_entries(paths: Sequence[Path]) -> tuple[Entry, ...]:
             source=source,
             result=result,
             sha256=hashlib.sha256(file_of(path).read_bytes()).hexdigest(),
-            unchecked=unchecked,
+            check_note=check_note,
         )
-        for name, source, result, path, unchecked in zip(
-            algorithms, sources, results, paths, checked, strict=True
+        for name, source, result, path, check_note in zip(
+            algorithms, sources, results, paths, check_notes, strict=True
         )
     )
 
 
 def shared_column(entries: Sequence[Entry], name: str | None) -> Column:
-    """Return the column that is compared: ``name``, else the score.
+    """Return the column to compare: ``name``, else the score.
 
     Raises:
         UnknownName: a result has no such column.
-        ResultError: it holds no numbers, or other units; or the results sweep different things.
+        ResultError: it has no numbers, its units differ, or the results sweep other parameters.
     """
-    first = entries[0].result
+    first_result = entries[0].result
     if name is None:
-        scores = first.columns_of_kind("score") + first.columns_of_kind("measure")
+        scores = first_result.columns_of_kind("score") + first_result.columns_of_kind("measure")
         if not scores:
-            raise ResultError(f"{entries[0].source}: has neither a score nor a measure.")
+            raise ResultError(f"{entries[0].source}: has no score and no measure to compare.")
         name = scores[0].name
     columns = [entry.result.columns[entry.result.index(name)] for entry in entries]
     if columns[0].kind not in ("score", "measure", "detail", "time"):
-        raise ResultError(f"--measure {name}: is a {columns[0].kind}, not something measured.")
-    for what, values in (
-        (
-            "sweep different levels",
-            [_labels(entry.result.columns_of_kind("level")) for entry in entries],
-        ),
+        raise ResultError(
+            f"--measure {name}: is a {columns[0].kind}; expected a score, measure, detail or time."
+        )
+    levels = [_labels(entry.result.columns_of_kind("level")) for entry in entries]
+    for problem, values in (
+        ("sweep different levels", levels),
         (f"have {name} in different units", [column.unit or "no unit" for column in columns]),
     ):
         if len(set(values)) > 1:
-            raise ResultError(f"These results {what}: {_who(entries, values)}.")
-    return replace(columns[0], unit=unit_of(first, columns[0]) or None)
+            raise ResultError(f"These results {problem}: {_values_by_source(entries, values)}.")
+    return replace(columns[0], unit=unit_of(first_result, columns[0]) or None)
 
 
 def differences(entries: Sequence[Entry]) -> tuple[str, ...]:
     """Return the differences that make results incomparable."""
-    found = []
-    for what, value in _EXPERIMENT.items():
+    texts = []
+    for condition, value in _EXPERIMENT_CONDITIONS.items():
         values = [value(entry.result) for entry in entries]
         if len(set(values)) > 1:
-            found.append(f"{what}: {_who(entries, values)}")
-    found += _few(_said_of_files(entries, "assets", "asset"), "assets")
-    found += [line for line in _said_of_files(entries, "plugins", "plugin") if "absent" not in line]
-    return tuple(found)
+            texts.append(f"{condition}: {_values_by_source(entries, values)}")
+    texts += _shorten_list(_file_differences(entries, "assets", "asset"), "assets")
+    texts += [
+        line for line in _file_differences(entries, "plugins", "plugin") if "absent" not in line
+    ]
+    return tuple(texts)
 
 
 def remarks(entries: Sequence[Entry]) -> tuple[str, ...]:
-    """Return remarks on differences that do not forbid a comparison."""
-    found = []
-    for what in ("version", "physics", "renderer", "numpy"):
-        values = [getattr(entry.result.run, what) or "unknown" for entry in entries]
-        if len(set(values)) > 1 and not (what == "renderer" and "none" in values):
-            found.append(f"run with different versions, {what}: {_who(entries, values)}")
+    """Return remarks on differences that still allow a comparison."""
+    texts = []
+    for subject in ("version", "physics", "renderer", "numpy"):
+        values = [getattr(entry.result.run, subject) or "unknown" for entry in entries]
+        if len(set(values)) > 1 and not (subject == "renderer" and "none" in values):
+            texts.append(
+                f"run with different versions, {subject}: {_values_by_source(entries, values)}"
+            )
     for entry in entries:
         units = entry.result.run.units
         if units is not None and not entry.result.run.is_finished:
-            found.append(f"{entry.name} is not finished: {units[0]} of {units[1]} units finished")
-    for what in dict.fromkeys(entry.unchecked for entry in entries if entry.unchecked):
-        sources = [entry.source for entry in entries if entry.unchecked == what]
-        found.append(f"{' and '.join(sources)}: {what}")
-    found += [line for line in _said_of_files(entries, "plugins", "plugin") if "absent" in line]
+            texts.append(f"{entry.name} is not finished: {units[0]} of {units[1]} units finished")
+    for subject in dict.fromkeys(entry.check_note for entry in entries if entry.check_note):
+        sources = [entry.source for entry in entries if entry.check_note == subject]
+        texts.append(f"{' and '.join(sources)}: {subject}")
+    texts += [line for line in _file_differences(entries, "plugins", "plugin") if "absent" in line]
     for name in dict.fromkeys(algorithm_of(entry.result) for entry in entries):
-        alike = [entry for entry in entries if algorithm_of(entry.result) == name]
-        found += _few(_said_of_files(alike, ALGORITHM, f"source of {name},"), "sources")
-    return tuple(found)
+        entries_of_algorithm = [entry for entry in entries if algorithm_of(entry.result) == name]
+        texts += _shorten_list(
+            _file_differences(entries_of_algorithm, ALGORITHM, f"source of {name},"), "sources"
+        )
+    return tuple(texts)
 
 
-def same_images(first: Result, second: Result) -> tuple[int, int] | None:
-    """Return how many image streams both have, and how many of them are identical.
+def count_same_images(first_result: Result, second_result: Result) -> tuple[int, int] | None:
+    """Return the number of image streams that both have, and the number of identical ones.
 
-    None where there is none in common: no camera was read, or no seed is shared.
+    None where they have none in common: no camera was read, or the seeds differ.
     """
-    seen = {(s.seed, s.level, s.topic): s.sha256 for s in first.image_streams}
-    shared = [
-        seen[key] == s.sha256
-        for s in second.image_streams
-        if (key := (s.seed, s.level, s.topic)) in seen
+    first_hashes = {
+        (stream.seed, stream.level, stream.topic): stream.sha256
+        for stream in first_result.image_streams
+    }
+    matches = [
+        first_hashes[key] == stream.sha256
+        for stream in second_result.image_streams
+        if (key := (stream.seed, stream.level, stream.topic)) in first_hashes
     ]
-    return (len(shared), sum(shared)) if shared else None
+    return (len(matches), sum(matches)) if matches else None
 
 
-# ---------------------------------------------------------------------------- what is held equal
+# ---------------------------------------------------------------------------- one experiment
 
 
-def _file(file: tuple[str, str] | None) -> str:
+def _file_text(file: tuple[str, str] | None) -> str:
     return "unknown" if file is None else f"{file[0]} {short_hash(file[1])}"
 
 
 def _scene_settings(result: Result) -> str:
-    given = result.run.settings or ()
-    of_scene = [f"{path}={value}" for path, value in given if not path.startswith("algorithm.")]
-    return " ".join(of_scene) or "none"
+    settings = result.run.settings or ()
+    scene_settings = [
+        f"{path}={value}" for path, value in settings if not path.startswith("algorithm.")
+    ]
+    return " ".join(scene_settings) or "none"
 
 
-def _words(value: object) -> str:
+def _value_text(value: object) -> str:
     words = value if isinstance(value, tuple) else () if value is None else (value,)
     return " ".join(f"{w:g}" if isinstance(w, float) else str(w) for w in words) or "none"
 
 
-_EXPERIMENT: dict[str, Callable[[Result], str]] = {
-    "benchmark": lambda result: _file(result.inputs.benchmark),
-    "scene": lambda result: _file(result.inputs.scene),
-    "mode": lambda result: _words(result.run.mode),
-    "timestep": lambda result: _words(result.run.timestep),
-    "compatibility": lambda result: _words(result.run.compatibility),
+_EXPERIMENT_CONDITIONS: dict[str, Callable[[Result], str]] = {
+    "benchmark": lambda result: _file_text(result.inputs.benchmark),
+    "scene": lambda result: _file_text(result.inputs.scene),
+    "mode": lambda result: _value_text(result.run.mode),
+    "timestep": lambda result: _value_text(result.run.timestep),
+    "compatibility": lambda result: _value_text(result.run.compatibility),
     "settings of the scene": _scene_settings,
 }
-"""What must be equal -> its text in a message."""
+"""A condition that is the same in one experiment -> its text in a message."""
 
 
-def _said_of_files(entries: Sequence[Entry], role: str, what: str) -> list[str]:
-    """Name every file of a role that is not the same in all results."""
+def _file_differences(entries: Sequence[Entry], role: str, file_kind: str) -> list[str]:
+    """Return a text for every file of a role that is not the same in all results."""
     tables = [
-        {name: digest for of, name, digest in entry.result.inputs.files() if of == role}
+        {name: digest for r, name, digest in entry.result.inputs.files() if r == role}
         for entry in entries
     ]
-    found = []
+    texts = []
     for name in dict.fromkeys(name for table in tables for name in table):
         values = [short_hash(table[name]) if name in table else "absent" for table in tables]
         if len(set(values)) > 1:
-            found.append(f"{what} {name}: {_who(entries, values)}")
-    return found
+            texts.append(f"{file_kind} {name}: {_values_by_source(entries, values)}")
+    return texts
 
 
-def _few(found: list[str], what: str) -> list[str]:
-    return [*found[:2], f"{len(found) - 2} more {what}"] if len(found) > 3 else found
+def _shorten_list(texts: list[str], noun: str) -> list[str]:
+    return [*texts[:2], f"{len(texts) - 2} more {noun}"] if len(texts) > 3 else texts
 
 
 # ---------------------------------------------------------------------------- wording
 
 
-def _who(entries: Sequence[Entry], values: Sequence[str]) -> str:
-    """``0.002 s in a.result, 0.001 s in b.result and c.result``."""
+def _values_by_source(entries: Sequence[Entry], values: Sequence[str]) -> str:
+    """Return ``0.002 s in a.result, 0.001 s in b.result and c.result``."""
     parts = []
     for value in dict.fromkeys(values):
         sources = [e.source for e, other in zip(entries, values, strict=True) if other == value]
@@ -203,15 +214,12 @@ def _labels(columns: Sequence[Column]) -> str:
     return " and ".join(column.label for column in columns) or "nothing"
 
 
-def _distinct(directories: Sequence[Path]) -> list[str]:
-    """Shortest unique ends of paths."""
-    found = []
+def _unique_path_ends(directories: Sequence[Path]) -> list[str]:
+    path_ends = []
     for i, directory in enumerate(directories):
-        others = [other for j, other in enumerate(directories) if j != i]
-        parts = directory.parts
-        n = next(
-            (n for n in range(1, len(parts)) if all(o.parts[-n:] != parts[-n:] for o in others)),
-            len(parts),
-        )
-        found.append("/".join(parts[-n:]))
-    return found
+        other_parts = [other.parts for j, other in enumerate(directories) if j != i]
+        parts, n = directory.parts, 1
+        while n < len(parts) and any(other[-n:] == parts[-n:] for other in other_parts):
+            n += 1
+        path_ends.append("/".join(parts[-n:]))
+    return path_ends

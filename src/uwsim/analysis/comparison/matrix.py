@@ -1,4 +1,4 @@
-"""Matrix of pairwise verdicts: every result against every other, over the whole sweep.
+"""The matrix of pairwise verdicts: every result against every other, over the whole sweep.
 
 .. code-block:: text
 
@@ -7,9 +7,9 @@
     ecc      93 %  not shown +0.12               better -44.5
     frozen  100 %  worse +44.6    worse +44.5
 
-A row against a column: which of the two is better after Holm's correction over all pairs of
-results, and the mean difference, row less column. Those that beat most stand first. With a baseline
-there is one column.
+A cell states whether its row is better than its column after Holm's correction over all pairs of
+results, and the mean difference, row minus column. Rows are sorted by wins minus losses. With a
+baseline there is one column.
 """
 
 from __future__ import annotations
@@ -20,13 +20,13 @@ from typing import Literal
 
 from ...results.per_level import success_rates
 from .inputs import Entry
-from .model import Comparison, Outcome, PairedDifference, Versus
+from .model import Comparison, PairComparison, PairedDifference, Verdict
 
-Standing = Literal[
+CellVerdict = Literal[
     "better", "worse", "equal", "not shown", "too few", "one repeat", "no pair", "itself"
 ]
 
-SYMBOLS: dict[Standing, str] = {
+SYMBOLS: dict[CellVerdict, str] = {
     "better": "+",
     "worse": "-",
     "equal": "=",
@@ -36,43 +36,43 @@ SYMBOLS: dict[Standing, str] = {
     "no pair": "none",
     "itself": "",
 }
-"""Symbols for narrow terminals."""
-MEANINGS: dict[Standing, str] = {
+"""The symbols for narrow terminals."""
+MEANINGS: dict[CellVerdict, str] = {
     "better": "the row is better",
     "worse": "the column is better",
     "equal": "equal in every repeat",
     "not shown": "no difference is shown",
     "too few": "too few repeats to test",
-    "one repeat": "one repeat, which shows nothing for others",
-    "no pair": "at no level does every repeat of both have a value",
+    "one repeat": "one repeat, which allows no inference",
+    "no pair": "no level has a value from both in every repeat",
 }
 
 
 @dataclass(frozen=True, kw_only=True)
 class Cell:
-    """One result against another."""
+    """The comparison of one result with another."""
 
-    standing: Standing
-    """Of the row against the column."""
+    verdict: CellVerdict
+    """The verdict on the row against the column."""
     text: str
-    """``better -44.6``, ``not shown +0.12``: with the mean difference, row less column."""
+    """The verdict with the mean difference, row minus column: ``better -44.6``."""
 
     @property
     def symbol(self) -> str:
-        """``+``, ``-``, ``?``: for narrow terminals."""
-        return SYMBOLS[self.standing]
+        """The symbol of the verdict for narrow terminals: ``+``, ``-``, ``?``."""
+        return SYMBOLS[self.verdict]
 
 
 @dataclass(frozen=True, kw_only=True)
 class MatrixRow:
-    """One result against all others."""
+    """The comparison of one result with all others."""
 
     name: str
-    """Of the result."""
+    """The name of the result."""
     ok: str
-    """Share of its rows that ended ``ok``, ``93 %``; a dash where it is not recorded."""
+    """The share of its rows that ended ``ok``, ``93 %``; a dash where it is not recorded."""
     cells: tuple[Cell, ...]
-    """In the order of the matrix's columns."""
+    """The cells, in the order of the matrix's columns."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -80,94 +80,101 @@ class Matrix:
     """The matrix of pairwise verdicts."""
 
     columns: tuple[str, ...]
-    """Names of the results that the rows are compared with."""
+    """The names of the results that the rows are compared with."""
     rows: tuple[MatrixRow, ...]
-    """One result each, those that beat most first."""
+    """The rows, one for each result, sorted by wins minus losses."""
 
     def legend(self) -> str:
         """Explain the symbols that occur: ``+ the row is better; ? no difference ...``."""
-        found = {cell.standing for row in self.rows for cell in row.cells}
-        return "; ".join(f"{SYMBOLS[s]} {message}" for s, message in MEANINGS.items() if s in found)
+        verdicts = {cell.verdict for row in self.rows for cell in row.cells}
+        return "; ".join(f"{SYMBOLS[v]} {text}" for v, text in MEANINGS.items() if v in verdicts)
 
 
 def matrix(comparison: Comparison) -> Matrix:
     """Return the matrix of pairwise verdicts over the whole sweep."""
-    found: dict[tuple[int, int], tuple[Versus, bool]] = {}
-    places = {id(entry): i for i, entry in enumerate(comparison.entries)}
-    for versus in comparison.versus:
-        i, j = places[id(versus.first)], places[id(versus.second)]
-        found[i, j], found[j, i] = (versus, True), (versus, False)
-    order = _order(len(comparison.entries), found)
-    columns = order
+    pairs: dict[tuple[int, int], tuple[PairComparison, bool]] = {}
+    indices = {id(entry): i for i, entry in enumerate(comparison.entries)}
+    for pair in comparison.pairs:
+        i, j = indices[id(pair.first)], indices[id(pair.second)]
+        pairs[i, j], pairs[j, i] = (pair, True), (pair, False)
+    row_indices = _sorted_indices(len(comparison.entries), pairs)
+    column_indices = row_indices
     if comparison.baseline is not None:
-        columns = [places[id(comparison.baseline)]]
-        order = [*columns, *(i for i in order if i not in columns)]
+        column_indices = [indices[id(comparison.baseline)]]
+        row_indices = [*column_indices, *(i for i in row_indices if i not in column_indices)]
     return Matrix(
-        columns=tuple(comparison.entries[j].name for j in columns),
+        columns=tuple(comparison.entries[j].name for j in column_indices),
         rows=tuple(
             MatrixRow(
                 name=comparison.entries[i].name,
-                ok=_ok(comparison.entries[i]),
-                cells=tuple(_cell(found, i, j) for j in columns),
+                ok=_ok_share(comparison.entries[i]),
+                cells=tuple(_cell(pairs, i, j) for j in column_indices),
             )
-            for i in order
+            for i in row_indices
         ),
     )
 
 
-def title(comparison: Comparison) -> str:
-    """Return ``Who beats whom: total [px] over the sweep as a whole, lower is better``."""
-    better = "higher" if comparison.higher_is_better else "lower"
-    return (
-        f"Who beats whom: {comparison.column.label} over the sweep as a whole, {better} is better"
-    )
+def matrix_title(comparison: Comparison) -> str:
+    """Return ``Each result against each: total [px] over the whole sweep, lower is better``."""
+    direction = "higher" if comparison.higher_is_better else "lower"
+    label = comparison.column.label
+    return f"Each result against each: {label} over the whole sweep, {direction} is better"
 
 
-def note(comparison: Comparison) -> str:
-    """Return the note of the matrix, with whether the repeats were enough."""
-    n = len(comparison.versus)
-    over = f", Holm over {n} pairs of results" if n > 1 else ""
+def matrix_note(comparison: Comparison) -> str:
+    """Return the note under the matrix, which states if there are too few repeats."""
+    n = len(comparison.pairs)
+    correction = f", Holm over {n} pairs of results" if n > 1 else ""
     text = (
-        "Row against column, with the difference row less column, over the levels at which every "
-        f"repeat of both has a value (sign-flip test at 5 %{over}); ok: share of the rows that "
-        "ended ok."
+        "A cell has the verdict on its row against its column, and the mean difference, row minus "
+        "column. It is over the levels at which every repeat of both has a value (sign-flip test "
+        f"at 5 %{correction}). The column ok has the share of the rows that ended ok."
     )
-    few = [v.overall.value for v in comparison.versus if v.overall.value.verdict == "too few"]
-    return f"{too_few(few[0])}. {text}" if few else text
+    differences = [
+        pair.sweep.value for pair in comparison.pairs if pair.sweep.value.verdict == "too few"
+    ]
+    return f"{few_repeats_text(differences[0])}. {text}" if differences else text
 
 
-def too_few(d: PairedDifference) -> str:
+def few_repeats_text(d: PairedDifference) -> str:
     """Return ``Too few repeats to test (6 of 7 needed)``."""
-    return f"Too few repeats to test ({d.difference.n} of {d.fewest} needed)"
+    return f"Too few repeats to test ({d.difference.n} of {d.repeats_to_test} needed)"
 
 
-def _order(n: int, found: Mapping[tuple[int, int], tuple[Versus, bool]]) -> list[int]:
-    """Order by wins minus losses; else as given."""
-    score = [0] * n
-    for i, j in found:
-        standing = _cell(found, i, j).standing
-        score[i] += (standing == "better") - (standing == "worse")
-    return sorted(range(n), key=lambda i: -score[i])
+def _sorted_indices(
+    n: int, pairs: Mapping[tuple[int, int], tuple[PairComparison, bool]]
+) -> list[int]:
+    """Return the indices of the results by wins minus losses, equal ones in their order."""
+    scores = [0] * n
+    for i, j in pairs:
+        verdict = _cell(pairs, i, j).verdict
+        scores[i] += (verdict == "better") - (verdict == "worse")
+    return sorted(range(n), key=lambda i: -scores[i])
 
 
-def _cell(found: Mapping[tuple[int, int], tuple[Versus, bool]], i: int, j: int) -> Cell:
-    if (i, j) not in found:
-        return Cell(standing="itself", text="")
-    versus, is_first = found[i, j]
-    d = versus.overall.value
-    standing, mean = _standing(d.verdict, is_first), d.difference.mean
-    if mean is None or standing == "equal":
-        return Cell(standing=standing, text=standing)
-    return Cell(standing=standing, text=f"{standing} {-mean if is_first else mean:+.3g}")
+def _cell(pairs: Mapping[tuple[int, int], tuple[PairComparison, bool]], i: int, j: int) -> Cell:
+    if (i, j) not in pairs:
+        return Cell(verdict="itself", text="")
+    pair, is_first = pairs[i, j]
+    d = pair.sweep.value
+    verdict, mean = _cell_verdict(d.verdict, is_first), d.difference.mean
+    if mean is None or verdict == "equal":
+        return Cell(verdict=verdict, text=verdict)
+    return Cell(verdict=verdict, text=f"{verdict} {-mean if is_first else mean:+.3g}")
 
 
-def _standing(verdict: Outcome, is_first: bool) -> Standing:
+def _cell_verdict(verdict: Verdict, is_first: bool) -> CellVerdict:
     if verdict == "first" or verdict == "second":
         return "better" if is_first == (verdict == "first") else "worse"
     return verdict
 
 
-def _ok(entry: Entry) -> str:
-    found = [at.success for at in success_rates(entry.result) if at.success is not None]
-    n = sum(rate.n for rate in found)
-    return f"{100 * sum(rate.successes for rate in found) / n:.3g} %" if n else "-"
+def _ok_share(entry: Entry) -> str:
+    rates = [
+        level_rate.success
+        for level_rate in success_rates(entry.result)
+        if level_rate.success is not None
+    ]
+    n = sum(rate.n for rate in rates)
+    return f"{100 * sum(rate.successes for rate in rates) / n:.3g} %" if n else "-"

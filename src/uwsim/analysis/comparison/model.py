@@ -1,4 +1,4 @@
-"""The data of a comparison, made by `compare`."""
+"""The results of a comparison, as `compare` returns them."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
+from ...base.deprecation import deprecated_name
 from ...results.result import Column
 from ...statistics import Interval, Rate, holm, min_p_value, min_pairs
 from .inputs import Entry
@@ -14,193 +15,235 @@ from .repeats import ALPHA
 
 CONFIDENCE = 0.95
 POWER = 0.8
-"""Chance of showing the observed effect with the repeats that are called needed."""
+"""The probability that the repeats needed show an effect of the observed size."""
 
-Outcome = Literal["first", "second", "not shown", "too few", "equal", "one repeat", "no pair"]
-"""Which is better, or why not decided. ``too few``: with so many repeats no data at all could
-have shown a difference (see `least_corrected`), so nothing was tested."""
+Verdict = Literal["first", "second", "not shown", "too few", "equal", "one repeat", "no pair"]
+"""The result that is better, or the reason why none is named. ``too few``: with so many repeats no
+values can show a difference (`min_corrected_p`), so nothing was tested."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class PairedDifference:
-    """Second less first, over pairs in which both have a value."""
+    """The paired differences, second minus first, over the pairs in which both have a value."""
 
     first: Interval
-    """Of the first, over these pairs."""
+    """The mean of the first over these pairs, with its interval."""
     second: Interval
-    """Of the second, over these pairs."""
+    """The mean of the second over these pairs, with its interval."""
     difference: Interval
-    """Of the paired differences."""
+    """The mean of the paired differences, with its interval."""
     cohens_d: float | None
-    """Mean difference over the deviation of the differences."""
+    """The mean difference over the standard deviation of the differences."""
     hedges_g: float | None
-    """The same, right on average for few repeats."""
+    """The unbiased estimate of `cohens_d` for few repeats."""
     rank_biserial: float | None
-    """-1 to 1, from the signed ranks."""
+    """The rank-biserial correlation of the signed ranks, -1 to 1."""
     superiority: float | None
-    """Vargha and Delaney's A: chance that one of the second is better than one of the first;
-    None below two repeats."""
+    """Vargha and Delaney's A, the probability that a value of the second is better than one of the
+    first; None for fewer than two repeats."""
     p: float | None
-    """Sign-flip test; None below two repeats."""
+    """The p-value of the sign-flip test; None for fewer than two repeats."""
     p_signed_rank: float | None
-    """Wilcoxon's signed-rank test."""
+    """The p-value of Wilcoxon's signed-rank test."""
     p_holm: float | None = None
-    """`p`, corrected over its family; None where so few repeats could not reach `ALPHA`."""
-    needed: int | None = None
-    """Repeats that would show the observed effect; None where there is none to plan by."""
-    fewest: int | None = None
-    """Repeats below which no test of its family can show anything."""
-    verdict: Outcome = "no pair"
-    """Which is better."""
+    """The p-value `p`, corrected over its family; None for too few repeats to reach `ALPHA`."""
+    repeats_needed: int | None = None
+    """The number of repeats that would show the observed effect; None without an effect."""
+    repeats_to_test: int | None = None
+    """The number of repeats below which no test of its family can show a difference."""
+    verdict: Verdict = "no pair"
+    """The verdict on the two results."""
 
     @property
     def is_tested(self) -> bool:
-        """Whether there are repeats enough for p to reach `ALPHA`."""
+        """True if the repeats are enough for p to reach `ALPHA`."""
         return self.difference.n >= min_pairs(ALPHA)
+
+    @property
+    @deprecated_name("repeats_needed")
+    def needed(self) -> int | None:
+        """The repeats needed; its old name."""
+        return self.repeats_needed
+
+    @property
+    @deprecated_name("repeats_to_test")
+    def fewest(self) -> int | None:
+        """The repeats to test; its old name."""
+        return self.repeats_to_test
 
 
 @dataclass(frozen=True, kw_only=True)
 class Success:
-    """How often both, one or neither ended ``ok``."""
+    """The rates of success: both, one or neither ended ``ok``."""
 
     first: Rate
-    """Of the first."""
+    """The rate of the first."""
     second: Rate
-    """Of the second."""
+    """The rate of the second."""
     first_only: int
-    """Pairs in which only the first ended ``ok``."""
+    """The number of pairs in which only the first ended ``ok``."""
     second_only: int
-    """Pairs in which only the second did."""
+    """The number of pairs in which only the second ended ``ok``."""
     p: float | None
-    """McNemar's exact test; None below two repeats."""
+    """The p-value of McNemar's exact test; None for fewer than two repeats."""
     p_holm: float | None = None
-    """`p`, corrected over its family; None where so few unlike pairs could not reach `ALPHA`."""
+    """The p-value `p`, corrected over its family; None for too few unlike pairs."""
 
     @property
     def is_tested(self) -> bool:
-        """Whether there are unlike pairs enough for p to reach `ALPHA`."""
+        """True if the unlike pairs are enough for p to reach `ALPHA`."""
         return self.first_only + self.second_only >= min_pairs(ALPHA)
 
 
 @dataclass(frozen=True, kw_only=True)
-class AtLevel:
-    """Both at one level, over the seeds."""
+class LevelStatistics:
+    """The comparison of two results at one level, over the seeds."""
 
     level: Level
     """The swept parameters, outermost first."""
     seeds: tuple[int, ...]
-    """Of the pairs."""
+    """The seeds of the pairs."""
     n_only_first: int
-    """Pairs in which only the first has a value."""
+    """The number of pairs in which only the first has a value."""
     n_only_second: int
-    """Pairs in which only the second has one."""
+    """The number of pairs in which only the second has a value."""
     n_neither: int
-    """Pairs in which neither has one."""
+    """The number of pairs in which neither has a value."""
     value: PairedDifference
-    """Of the measure, over the pairs in which both have a value."""
+    """The differences of the measure, over the pairs in which both have a value."""
     success: Success | None
-    """Over all pairs; None where a result has no status."""
+    """The rates of success over all pairs; None where a result has no status."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class Overall:
-    """Both over the whole sweep: one number a seed."""
+class SweepStatistics:
+    """The comparison of two results over the whole sweep, with one number a seed."""
 
     seeds: tuple[int, ...]
-    """Seeds that both ran at every shared level."""
+    """The seeds that both ran at every shared level."""
     n_levels: int
-    """Number of shared levels."""
+    """The number of shared levels."""
     levels: tuple[Level, ...]
-    """Those at which every one of these seeds has a value from both: `value` is over them."""
+    """The levels at which all these seeds have a value from both."""
     value: PairedDifference
-    """Of the seeds' means over `levels`."""
+    """The differences of the seeds' means over `levels`."""
     success: PairedDifference | None
-    """Of the seeds' shares of levels that ended ``ok``, 0 to 1; more is better."""
+    """The differences of the seeds' shares of levels that ended ``ok``, 0 to 1; more is better."""
     n_first_smaller: int
-    """Levels at which the first's mean is the smaller one; a description, not a test."""
+    """The number of levels at which the mean of the first is smaller; a description, not a test."""
     n_second_smaller: int
-    """Levels at which the second's is."""
+    """The number of levels at which the mean of the second is smaller."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class Versus:
+class PairComparison:
     """The comparison of two results."""
 
     first: Entry
-    """The baseline, or the one given first."""
+    """The baseline, or the earlier argument."""
     second: Entry
-    """The other."""
-    levels: tuple[AtLevel, ...]
-    """Every shared level."""
-    overall: Overall
-    """The whole sweep."""
+    """The other result."""
+    levels: tuple[LevelStatistics, ...]
+    """The comparison at every shared level."""
+    sweep: SweepStatistics
+    """The comparison over the whole sweep."""
     n_only_first: int
-    """Rows that only the first has."""
+    """The number of rows that only the first has."""
     n_only_second: int
-    """Rows that only the second has."""
+    """The number of rows that only the second has."""
     same_images: tuple[int, int] | None
-    """Image streams that both have, and how many of them are identical."""
+    """The number of image streams that both have, and of identical ones; None without any."""
+
+    @property
+    @deprecated_name("sweep")
+    def overall(self) -> SweepStatistics:
+        """The comparison over the whole sweep; its old name."""
+        return self.sweep
 
 
 @dataclass(frozen=True, kw_only=True)
 class Comparison:
-    """Everything that was compared."""
+    """The comparison of results, pair by pair."""
 
     entries: tuple[Entry, ...]
     """The results, the baseline first if there is one."""
     baseline: Entry | None
     """The baseline; None: each result is compared with each."""
     column: Column
-    """What was compared."""
+    """The column that is compared."""
     higher_is_better: bool
-    """Whether more of it is better."""
-    forced: tuple[str, ...]
-    """What differs between the experiments, compared all the same."""
+    """True if a higher value is better."""
+    experiment_differences: tuple[str, ...]
+    """The differences between the experiments, which ``--force`` accepted."""
     remarks: tuple[str, ...]
-    """What else is worth knowing."""
-    versus: tuple[Versus, ...]
-    """Every pair of results."""
+    """The remarks on versions, unfinished results and unchecked rows."""
+    pairs: tuple[PairComparison, ...]
+    """The comparison of every pair of results."""
 
     @property
     def levels(self) -> tuple[Level, ...]:
-        """The levels that were compared: those that two of the results share."""
-        return tuple(dict.fromkeys(at.level for versus in self.versus for at in versus.levels))
+        """The levels that at least two of the results share."""
+        return tuple(dict.fromkeys(stats.level for pair in self.pairs for stats in pair.levels))
 
     @property
     def n_tests(self) -> int:
-        """Number of levels, over all pairs of results, that Holm's correction counts."""
-        return family_size([at.value for versus in self.versus for at in versus.levels])
+        """The number of levels, over all pairs of results, that Holm's correction counts."""
+        return family_size([stats.value for pair in self.pairs for stats in pair.levels])
 
     @property
+    def min_level_repeats(self) -> int:
+        """The number of repeats below which no level can differ after Holm's correction."""
+        return min_family_repeats([stats.value for pair in self.pairs for stats in pair.levels])
+
+    @property
+    def min_sweep_repeats(self) -> int:
+        """The number of repeats below which no sweep can differ after Holm's correction."""
+        return min_family_repeats([pair.sweep.value for pair in self.pairs])
+
+    @property
+    @deprecated_name("pairs")
+    def versus(self) -> tuple[PairComparison, ...]:
+        """The pairs; their old name."""
+        return self.pairs
+
+    @property
+    @deprecated_name("experiment_differences")
+    def forced(self) -> tuple[str, ...]:
+        """The differences between the experiments; their old name."""
+        return self.experiment_differences
+
+    @property
+    @deprecated_name("min_level_repeats")
     def fewest(self) -> int:
-        """Repeats below which no level can differ after Holm's correction."""
-        return fewest_of([at.value for versus in self.versus for at in versus.levels])
+        """The repeats for single levels; their old name."""
+        return self.min_level_repeats
 
     @property
+    @deprecated_name("min_sweep_repeats")
     def fewest_for_sweep(self) -> int:
-        """Repeats below which no sweep as a whole can differ after Holm's correction."""
-        return fewest_of([versus.overall.value for versus in self.versus])
+        """The repeats for the sweep; their old name."""
+        return self.min_sweep_repeats
 
 
 def family_size(family: Sequence[PairedDifference]) -> int:
-    """Return how many tests Holm counts; where no test is possible, how many there would be."""
-    tested = sum(d.is_tested for d in family)
-    return tested or sum(d.difference.n > 0 for d in family) or 1
+    """Return the number of tests that Holm counts; without any, the number that may be possible."""
+    n_tested = sum(d.is_tested for d in family)
+    return n_tested or sum(d.difference.n > 0 for d in family) or 1
 
 
-def fewest_of(family: Sequence[PairedDifference]) -> int:
-    """Return how many repeats it takes until a test of this family can show a difference.
+def min_family_repeats(family: Sequence[PairedDifference]) -> int:
+    """Return the least number of repeats at which a test of this family can show a difference.
 
-    With m tests of n repeats each the smallest corrected p there is is m times :math:`2/2^n`; m
-    are all that have a pair, for with more repeats all of them will be tested.
+    With m tests of n repeats each, the smallest corrected p is m times :math:`2/2^n`. All tests
+    with a pair are counted, because with more repeats all of them will be tested.
     """
     return min_pairs(ALPHA / max(1, sum(d.difference.n > 0 for d in family)))
 
 
-def least_corrected(family: Sequence[PairedDifference]) -> tuple[float | None, ...]:
-    """Return the smallest p that each test could have after Holm's correction; None: not tested.
+def min_corrected_p(family: Sequence[PairedDifference]) -> tuple[float | None, ...]:
+    """Return the smallest possible p of each test after Holm's correction; None: not tested.
 
-    Holm's correction of no test falls when the p of another rises, so the least there is is that of
-    all tests at their smallest (`min_p_value`), which depends on their numbers of pairs alone.
+    A corrected p never falls when the p of another test rises. The smallest one therefore has all
+    tests at their minimum (`min_p_value`), which depends on their numbers of pairs alone.
     """
     return holm([min_p_value(d.difference.n) if d.is_tested else None for d in family])

@@ -1,4 +1,4 @@
-"""Pairing the rows of two results by seed and level."""
+"""The pairing of the rows of two results by seed and level."""
 
 from __future__ import annotations
 
@@ -13,96 +13,99 @@ Level = tuple[float, ...]
 
 
 @dataclass(frozen=True, kw_only=True)
-class Pair:
-    """One level of one repeat that both ran."""
+class RowPair:
+    """The rows of two results at one level of one repeat."""
 
     seed: int
-    """Seed of both."""
-    first: float | None
-    """What the first measured; None where it had nothing to measure."""
-    second: float | None
-    """What the second measured."""
+    """The seed of both."""
+    first_value: float | None
+    """The value of the first; None where it is missing."""
+    second_value: float | None
+    """The value of the second; None where it is missing."""
     first_ok: bool | None
-    """Whether the first ended ``ok``; None where its result has no status."""
+    """True if the first ended ``ok``; None where its result has no status."""
     second_ok: bool | None
-    """Whether the second did."""
+    """True if the second ended ``ok``; None where its result has no status."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class Paired:
-    """All pairs of rows of two results, and unpaired rows."""
+class PairedRows:
+    """The pairs of rows of two results, and the numbers of unpaired rows."""
 
-    levels: dict[Level, tuple[Pair, ...]]
-    """Level -> its pairs, in the order of the first result."""
+    levels: dict[Level, tuple[RowPair, ...]]
+    """The pairs of each level, in the order of the first result."""
     n_only_first: int
-    """Rows of the first that the second does not have."""
+    """The number of rows of the first that the second does not have."""
     n_only_second: int
-    """Rows of the second that the first does not have."""
+    """The number of rows of the second that the first does not have."""
 
 
-def pair_up(first: Entry, second: Entry, column: str) -> Paired:
+def pair_rows(first_entry: Entry, second_entry: Entry, column: str) -> PairedRows:
     """Pair the rows of two results by seed and level.
 
     Raises:
         ResultError: no rows can be paired, or a result does not record its seeds.
     """
-    ours, theirs = _rows(first), _rows(second)
-    levels: dict[Level, list[Pair]] = {}
-    cells = [(entry.result.numbers(column), _endings(entry.result)) for entry in (first, second)]
-    (values, ended), (other_values, other_ended) = cells
-    for (seed, level, turn), row in ours.items():
-        partner = theirs.get((seed, level, turn))
-        if partner is not None:
-            pair = Pair(
+    first_rows, second_rows = _rows(first_entry), _rows(second_entry)
+    levels: dict[Level, list[RowPair]] = {}
+    first_ok, second_ok = _ok_flags(first_entry.result), _ok_flags(second_entry.result)
+    first_values = first_entry.result.numbers(column)
+    second_values = second_entry.result.numbers(column)
+    for (seed, level, n_earlier), first_row in first_rows.items():
+        second_row = second_rows.get((seed, level, n_earlier))
+        if second_row is not None:
+            pair = RowPair(
                 seed=seed,
-                first=values[row],
-                second=other_values[partner],
-                first_ok=ended[row],
-                second_ok=other_ended[partner],
+                first_value=first_values[first_row],
+                second_value=second_values[second_row],
+                first_ok=first_ok[first_row],
+                second_ok=second_ok[second_row],
             )
             levels.setdefault(level, []).append(pair)
     n = sum(len(pairs) for pairs in levels.values())
     if n == 0:
         raise ResultError(
-            f"{first.source} and {second.source} have no seed and level in common: "
-            f"{_said(ours)}; {_said(theirs)}."
+            f"{first_entry.source} and {second_entry.source} have no seed and level in common: "
+            f"{_seeds_and_levels(first_rows)}; {_seeds_and_levels(second_rows)}."
         )
-    return Paired(
+    return PairedRows(
         levels={level: tuple(pairs) for level, pairs in levels.items()},
-        n_only_first=len(ours) - n,
-        n_only_second=len(theirs) - n,
+        n_only_first=len(first_rows) - n,
+        n_only_second=len(second_rows) - n,
     )
 
 
 def _rows(entry: Entry) -> dict[tuple[int, Level, int], int]:
-    """(seed, level, how often seen before) -> row."""
+    """Return the row number of each seed, level and number of earlier rows of both."""
     seeds = seeds_of(entry.result)
-    found: dict[tuple[int, Level, int], int] = {}
+    row_numbers: dict[tuple[int, Level, int], int] = {}
     for level, rows in rows_by_level(entry.result).items():
-        turns: dict[int, int] = {}
+        counts: dict[int, int] = {}
         for row in rows:
             seed = seeds[row]
             if seed is None:
                 raise ResultError(
-                    f"{entry.source}: does not record its seeds; nothing can be paired."
+                    f"{entry.source}: does not record its seeds, so no rows can be paired."
                 )
-            turn = turns[seed] = turns.get(seed, -1) + 1
-            found[seed, round_level(level), turn] = row
-    return found
+            n_earlier = counts[seed] = counts.get(seed, -1) + 1
+            row_numbers[seed, round_level(level), n_earlier] = row
+    return row_numbers
 
 
-def _endings(result: Result) -> tuple[bool | None, ...]:
+def _ok_flags(result: Result) -> tuple[bool | None, ...]:
     status = result.columns_of_kind("status")
     if not status:
         return (None,) * len(result.rows)
     return tuple(cell == "ok" for cell in result.values(status[0].name))
 
 
-def _said(rows: dict[tuple[int, Level, int], int]) -> str:
+def _seeds_and_levels(rows: dict[tuple[int, Level, int], int]) -> str:
     seeds = sorted({seed for seed, _, _ in rows})
     levels = sorted({level for _, level, _ in rows})
     if not rows:
         return "no rows"
-    span = f"{seeds[0]}" + (f" to {seeds[-1]}" if len(seeds) > 1 else "")
-    at = [" ".join(f"{v:g}" for v in level) for level in (levels[0], levels[-1])]
-    return f"seed {span} at " + (at[0] if len(levels) == 1 else f"{at[0]} to {at[1]}")
+    seed_range = f"{seeds[0]}" + (f" to {seeds[-1]}" if len(seeds) > 1 else "")
+    level_texts = [" ".join(f"{v:g}" for v in level) for level in (levels[0], levels[-1])]
+    return f"seed {seed_range} at " + (
+        level_texts[0] if len(levels) == 1 else f"{level_texts[0]} to {level_texts[1]}"
+    )

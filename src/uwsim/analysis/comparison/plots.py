@@ -1,8 +1,8 @@
-"""Plots of a comparison: the curves with their bands, the differences on their zero line, success.
+"""Plots of a comparison: curves with bands, differences about a zero line, and success rates.
 
-Bands and bars are 95 % intervals. In the plot of differences a filled marker is a level at which
-one is better after Holm's correction; a hollow one shows no difference. Where there is one level,
-or none, the same is drawn as bars. Levels that only one result has are left out, as in the tables.
+Bands and bars are 95 % intervals. In the plot of differences, a filled marker is a level at which
+one result is better after Holm's correction; a hollow marker shows no difference. A single level is
+drawn as bars. Levels that only one result has are omitted, as in the tables.
 """
 
 from __future__ import annotations
@@ -21,35 +21,35 @@ from ...results.per_level import intervals_of, select_levels, success_rates
 from ...results.result import Column
 from ...statistics import Interval, Rate
 from ..plots import (
-    FAINT,
+    GREY,
     INK,
     MARKERS,
     PALETTE,
     SIZE,
     compare_plot,
+    escape,
     level_label,
     level_text,
-    plain,
     save_pdf,
     save_plot,
     styled_figure,
     write_note,
     written_unit,
 )
-from ..plots.drawing import say_no_data
+from ..plots.drawing import write_no_data
 from .inputs import Entry
-from .model import AtLevel, Comparison, Versus
+from .model import Comparison, LevelStatistics, PairComparison
 
-FILLED = "; filled: p ≤ 0.05 after Holm"
+FILLED_MARKERS = "; filled: p ≤ 0.05 after Holm"
 Bar = tuple[str, Interval, bool]
-"""Label, interval, and whether its marker is filled."""
+"""The label, the interval, and a flag that is true if the marker is filled."""
 
 
 def draw_comparison(comparison: Comparison, directory: Path) -> tuple[Path, ...]:
-    """Draw every plot into ``directory``, each as PNG and as PDF; return the PNGs."""
-    figures = {"curves": curves(comparison)}
-    if (ended := success(comparison)) is not None:
-        figures["success"] = ended
+    """Draw every plot into ``directory`` as PNG and PDF; return the paths of the PNGs."""
+    figures = {"curves": curves_plot(comparison)}
+    if (success_figure := success_plot(comparison)) is not None:
+        figures["success"] = success_figure
     figures["differences"] = differences_plot(comparison)
     files = []
     for name, figure in figures.items():
@@ -58,84 +58,80 @@ def draw_comparison(comparison: Comparison, directory: Path) -> tuple[Path, ...]
     return tuple(files)
 
 
-def curves(comparison: Comparison) -> Figure:
-    """Draw what was compared over the levels, a line and a band for each result."""
-    entries, column = _compared(comparison), comparison.column
+def curves_plot(comparison: Comparison) -> Figure:
+    """Draw the compared column over the levels, a line and a band for each result."""
+    entries, column = _common_entries(comparison), comparison.column
     if _has_one_level(comparison):
         bars = [
-            (entry.name, at.interval, True)
+            (entry.name, level_interval.interval, True)
             for entry in entries
-            for at in intervals_of(entry.result, column.name)
+            for level_interval in intervals_of(entry.result, column.name)
         ]
-        return _bars(bars, column.label, zero=False)
+        return _bars(bars, column.label, has_zero_line=False)
     figure = compare_plot(
         [entry.result for entry in entries], column.name, names=[entry.name for entry in entries]
     )
-    figure.axes[0].set_ylabel(plain(column.label))
+    figure.axes[0].set_ylabel(escape(column.label))
     return figure
 
 
 def differences_plot(comparison: Comparison) -> Figure:
-    """Draw second less first over the levels, a panel for each pair of results."""
-    column, all_versus = comparison.column, comparison.versus
+    """Draw the differences, second minus first, over the levels, a panel for each pair."""
+    column, pairs = comparison.column, comparison.pairs
     label = f"difference [{written_unit(column.unit)}]" if column.unit else "difference"
     if _has_one_level(comparison):
         bars = [
-            (_pair(versus), at.value.difference, _is_shown(at))
-            for versus in all_versus
-            for at in versus.levels
+            (_pair_name(pair), stats.value.difference, _is_significant(stats))
+            for pair in pairs
+            for stats in pair.levels
         ]
-        return _bars(bars, f"{column.name}, {label}", zero=True)
-    across = 1 if len(all_versus) < 4 else 2
-    down = math.ceil(len(all_versus) / across)
-    height = 0.7 + (2.2 if down == 1 else 1.7 * down)
-    with styled_figure((SIZE[0] if across == 1 else 7.0, height)) as figure:
-        grid = figure.subplots(down, across, sharex=True, squeeze=False)
+        return _bars(bars, f"{column.name}, {label}", has_zero_line=True)
+    n_columns = 1 if len(pairs) < 4 else 2
+    n_rows = math.ceil(len(pairs) / n_columns)
+    height = 0.7 + (2.2 if n_rows == 1 else 1.7 * n_rows)
+    with styled_figure((SIZE[0] if n_columns == 1 else 7.0, height)) as figure:
+        grid = figure.subplots(n_rows, n_columns, sharex=True, squeeze=False)
         for i, axes in enumerate(grid.ravel()):
-            if i >= len(all_versus):
+            if i >= len(pairs):
                 axes.axis("off")
                 continue
-            _draw_difference(axes, comparison, all_versus[i])
-            if i % across == 0:
-                axes.set_ylabel(plain(label if down > 1 else f"{column.name}, {label}"))
-            if i + across >= len(all_versus):
+            _draw_difference(axes, comparison, pairs[i])
+            if i % n_columns == 0:
+                axes.set_ylabel(escape(label if n_rows > 1 else f"{column.name}, {label}"))
+            if i + n_columns >= len(pairs):
                 _label_levels(axes, comparison)
                 axes.tick_params(labelbottom=True)
-        write_note(figure, f"bands: 95 % intervals over repeats{FILLED}")
+        write_note(figure, f"bands: 95 % intervals over repeats{FILLED_MARKERS}")
     return figure
 
 
-def success(comparison: Comparison) -> Figure | None:
-    """Draw the share of repeats that ended ``ok``; None where all did, or no status is stored."""
-    drawn = []
-    entries = _compared(comparison)
+def success_plot(comparison: Comparison) -> Figure | None:
+    """Draw the share of repeats that ended ``ok``; None where all are ``ok`` or have no status."""
+    entry_rates = []
+    entries = _common_entries(comparison)
     for entry in entries:
-        found = success_rates(entry.result)
-        drawn.append([(at.level, at.success) for at in found if at.success is not None])
-    if not any(rate.value < 1.0 for rates in drawn for _, rate in rates):
+        level_rates = success_rates(entry.result)
+        entry_rates.append([(r.level, r.success) for r in level_rates if r.success is not None])
+    if not any(rate.value < 1.0 for rates in entry_rates for _, rate in rates):
         return None
     if _has_one_level(comparison):
         bars = [
-            (
-                entry.name,
-                Interval(n=r.n, mean=r.value, std=None, low=r.low, high=r.high),
-                True,
-            )
-            for entry, rates in zip(entries, drawn, strict=True)
+            (entry.name, Interval(n=r.n, mean=r.value, std=None, low=r.low, high=r.high), True)
+            for entry, rates in zip(entries, entry_rates, strict=True)
             for _, r in rates
         ]
-        return _bars(bars, "share of repeats that ended ok", zero=False)
+        return _bars(bars, "share of repeats that ended ok", has_zero_line=False)
     with styled_figure((SIZE[0] + 1.6, 2.6)) as figure:
         axes = figure.subplots()
-        several = len({level[:-1] for rates in drawn for level, _ in rates}) > 1
+        has_outer_levels = len({level[:-1] for rates in entry_rates for level, _ in rates}) > 1
         i = 0
-        for entry, rates in zip(entries, drawn, strict=True):
-            for outer in dict.fromkeys(level[:-1] for level, _ in rates):
-                line = [(level[-1], rate) for level, rate in rates if level[:-1] == outer]
+        for entry, rates in zip(entries, entry_rates, strict=True):
+            for outer_level in dict.fromkeys(level[:-1] for level, _ in rates):
+                line = [(level[-1], rate) for level, rate in rates if level[:-1] == outer_level]
                 name = entry.name
-                if several:
-                    name += f", {_outer(entry, outer)}"
-                _draw_rates(figure, line, i, plain(name))
+                if has_outer_levels:
+                    name += f", {_outer_level_text(entry, outer_level)}"
+                _draw_rates(figure, line, i, escape(name))
                 i += 1
         axes.set(ylabel="share that ended ok", ylim=(-0.03, 1.03))
         _label_levels(axes, comparison)
@@ -147,67 +143,62 @@ def success(comparison: Comparison) -> Figure | None:
 # ---------------------------------------------------------------------------- drawing
 
 
-def _draw_difference(axes: Axes, comparison: Comparison, versus: Versus) -> None:
+def _draw_difference(axes: Axes, comparison: Comparison, pair: PairComparison) -> None:
     axes.axhline(0.0, color=INK, linewidth=0.9, zorder=2)
-    outers = list(dict.fromkeys(at.level[:-1] for at in versus.levels))
-    for i, outer in enumerate(outers):
-        levels = [at for at in versus.levels if at.level[:-1] == outer]
+    outer_levels = list(dict.fromkeys(stats.level[:-1] for stats in pair.levels))
+    for i, outer_level in enumerate(outer_levels):
+        levels = [stats for stats in pair.levels if stats.level[:-1] == outer_level]
         colour = PALETTE[i % len(PALETTE)]
-        known = [at for at in levels if at.value.difference.mean is not None]
-        xs = [at.level[-1] for at in known]
-        name = _outer(versus.first, outer) if len(outers) > 1 else None
-        axes.plot(
-            xs, [at.value.difference.mean or 0.0 for at in known], color=colour, zorder=3,
-            label=plain(name) if name else None,
-        )  # fmt: skip
+        levels_with_mean = [stats for stats in levels if stats.value.difference.mean is not None]
+        xs = [stats.level[-1] for stats in levels_with_mean]
+        ys = [stats.value.difference.mean or 0.0 for stats in levels_with_mean]
+        name = _outer_level_text(pair.first, outer_level) if len(outer_levels) > 1 else None
+        axes.plot(xs, ys, color=colour, zorder=3, label=escape(name) if name else None)
         bands = [
-            (at.level[-1], d.low, d.high)
-            for at in known
-            if (d := at.value.difference).low is not None and d.high is not None
+            (stats.level[-1], d.low, d.high)
+            for stats in levels_with_mean
+            if (d := stats.value.difference).low is not None and d.high is not None
         ]
         if bands:
             axes.fill_between(
                 [x for x, _, _ in bands], [low for _, low, _ in bands],
                 [high for _, _, high in bands], color=colour, alpha=0.18, linewidth=0,
             )  # fmt: skip
-        for at in known:
-            axes.plot(
-                [at.level[-1]], [at.value.difference.mean or 0.0], MARKERS[i % len(MARKERS)],
-                color=colour, zorder=3.5, markerfacecolor=colour if _is_shown(at) else "white",
-            )  # fmt: skip
-    if len(outers) > 1:
+        for x, y, stats in zip(xs, ys, levels_with_mean, strict=True):
+            face = colour if _is_significant(stats) else "white"
+            marker = MARKERS[i % len(MARKERS)]
+            axes.plot([x], [y], marker, color=colour, zorder=3.5, markerfacecolor=face)
+    if len(outer_levels) > 1:
         axes.legend(loc="best")
     axes.margins(y=0.15)
-    above, below = (
-        (versus.second, versus.first)
-        if comparison.higher_is_better
-        else (versus.first, versus.second)
+    upper_entry, lower_entry = (
+        (pair.second, pair.first) if comparison.higher_is_better else (pair.first, pair.second)
     )
     style: dict[str, Any] = {
         "fontsize": 7,
-        "color": FAINT,
+        "color": GREY,
         "transform": axes.transAxes,
         "ha": "left",
     }
-    axes.text(0.012, 0.985, plain(f"↑ {above.name} better"), va="top", **style)
-    axes.text(0.012, 0.015, plain(f"↓ {below.name} better"), va="bottom", **style)
+    axes.text(0.012, 0.985, escape(f"↑ {upper_entry.name} better"), va="top", **style)
+    axes.text(0.012, 0.015, escape(f"↓ {lower_entry.name} better"), va="bottom", **style)
     axes.text(
-        1.0, 1.02, plain(_pair(versus)), transform=axes.transAxes, ha="right", va="bottom",
+        1.0, 1.02, escape(_pair_name(pair)), transform=axes.transAxes, ha="right", va="bottom",
         fontsize=8.5,
     )  # fmt: skip
 
 
 def _draw_rates(figure: Figure, line: Sequence[tuple[float, Rate]], i: int, name: str) -> None:
-    """Draw one result's rates with their intervals, moved a little so that none hides another."""
+    """Draw the rates of one result with their intervals, shifted so that none hides another."""
     axes = figure.axes[0]
-    spread = [
+    error_bars = [
         [rate.value - rate.low for _, rate in line],
         [rate.high - rate.value for _, rate in line],
     ]
     axes.errorbar(
         [x for x, _ in line],
         [rate.value for _, rate in line],
-        yerr=spread if any(rate.n > 1 for _, rate in line) else None,
+        yerr=error_bars if any(rate.n > 1 for _, rate in line) else None,
         color=PALETTE[i % len(PALETTE)],
         marker=MARKERS[i % len(MARKERS)],
         elinewidth=0.8,
@@ -217,29 +208,28 @@ def _draw_rates(figure: Figure, line: Sequence[tuple[float, Rate]], i: int, name
     )
 
 
-def _bars(bars: Sequence[Bar], label: str, *, zero: bool) -> Figure:
-    """Draw intervals as horizontal bars, one below the other."""
+def _bars(bars: Sequence[Bar], label: str, *, has_zero_line: bool) -> Figure:
     with styled_figure((SIZE[0], 0.9 + 0.32 * len(bars))) as figure:
         axes = figure.subplots()
-        if zero:
+        if has_zero_line:
             axes.axvline(0.0, color=INK, linewidth=0.9, zorder=2)
-        for i, (_, found, is_filled) in enumerate(bars):
-            if found.mean is None:
+        for i, (_, interval, is_filled) in enumerate(bars):
+            if interval.mean is None:
                 continue
-            colour = PALETTE[0] if zero else PALETTE[i % len(PALETTE)]
-            if found.low is not None and found.high is not None:
-                axes.plot([found.low, found.high], [i, i], color=colour, linewidth=1.6)
+            colour = PALETTE[0] if has_zero_line else PALETTE[i % len(PALETTE)]
+            if interval.low is not None and interval.high is not None:
+                axes.plot([interval.low, interval.high], [i, i], color=colour, linewidth=1.6)
             axes.plot(
-                [found.mean], [i], MARKERS[0 if zero else i % len(MARKERS)], color=colour,
-                markersize=5, markerfacecolor=colour if is_filled else "white",
+                [interval.mean], [i], MARKERS[0 if has_zero_line else i % len(MARKERS)],
+                color=colour, markersize=5, markerfacecolor=colour if is_filled else "white",
             )  # fmt: skip
-        if all(found.mean is None for _, found, _ in bars):
-            say_no_data(axes, "no repeat has a value" + " in both results" * zero)
-        axes.set_yticks(range(len(bars)), [plain(name) for name, _, _ in bars])
+        if all(interval.mean is None for _, interval, _ in bars):
+            write_no_data(axes, "no repeat has a value" + " in both results" * has_zero_line)
+        axes.set_yticks(range(len(bars)), [escape(name) for name, _, _ in bars])
         axes.set_ylim(len(bars) - 0.5, -0.5)
         axes.grid(visible=False, axis="y")
-        axes.set_xlabel(plain(label))
-        write_note(figure, "bars: 95 % intervals over repeats" + FILLED * zero)
+        axes.set_xlabel(escape(label))
+        write_note(figure, "bars: 95 % intervals over repeats" + FILLED_MARKERS * has_zero_line)
     return figure
 
 
@@ -248,7 +238,7 @@ def _label_levels(axes: Axes, comparison: Comparison) -> None:
     xs = sorted({level[-1] for level in comparison.levels})
     pad = 0.03 * (xs[-1] - xs[0])
     axes.set_xlim(xs[0] - pad, xs[-1] + pad)
-    axes.set_xlabel(plain(level_label(column)))
+    axes.set_xlabel(escape(level_label(column)))
 
 
 def _has_one_level(comparison: Comparison) -> bool:
@@ -256,22 +246,21 @@ def _has_one_level(comparison: Comparison) -> bool:
     return not columns or len(comparison.levels) == 1
 
 
-def _compared(comparison: Comparison) -> tuple[Entry, ...]:
-    """Return the results with the levels that were compared."""
+def _common_entries(comparison: Comparison) -> tuple[Entry, ...]:
     levels = set(comparison.levels)
     return tuple(
         replace(entry, result=select_levels(entry.result, levels)) for entry in comparison.entries
     )
 
 
-def _is_shown(at: AtLevel) -> bool:
-    return at.value.verdict in ("first", "second")
+def _is_significant(stats: LevelStatistics) -> bool:
+    return stats.value.verdict in ("first", "second")
 
 
-def _pair(versus: Versus) -> str:
-    return f"{versus.second.name} − {versus.first.name}"
+def _pair_name(pair: PairComparison) -> str:
+    return f"{pair.second.name} − {pair.first.name}"
 
 
-def _outer(entry: Entry, outer: tuple[float, ...]) -> str:
+def _outer_level_text(entry: Entry, outer_level: tuple[float, ...]) -> str:
     columns = entry.result.columns_of_kind("level")[:-1]
-    return ", ".join(level_text(c, value) for c, value in zip(columns, outer, strict=True))
+    return ", ".join(level_text(c, value) for c, value in zip(columns, outer_level, strict=True))

@@ -1,4 +1,4 @@
-"""The sentences of a comparison: which is better, how certainly, and the repeats needed."""
+"""The sentences of a comparison: the better result, its certainty, and the repeats needed."""
 
 from __future__ import annotations
 
@@ -7,44 +7,43 @@ from collections.abc import Sequence
 
 from ...results.result import Column
 from ...statistics import Interval, min_p_value
-from ..plots import level_text, written_unit
+from ..plots import levels_text, written_unit
 from .inputs import Entry
-from .matrix import too_few
-from .model import AtLevel, Comparison, Overall, PairedDifference, Versus
-from .pairs import Level
+from .matrix import few_repeats_text
+from .model import Comparison, LevelStatistics, PairComparison, PairedDifference, SweepStatistics
 from .repeats import ALPHA
 
 
-def sentences(comparison: Comparison, versus: Versus) -> tuple[str, ...]:
-    """Return what follows, and what does not, from one pair of results."""
+def sentences(comparison: Comparison, pair: PairComparison) -> tuple[str, ...]:
+    """Return the conclusions on one pair of results."""
     parts = [
-        _sweep(comparison, versus),
-        _single_levels(comparison, versus),
-        _success(versus),
-        _missing(versus),
-        _unpaired(versus),
-        _images(versus),
+        _sweep_sentence(comparison, pair),
+        _level_sentence(comparison, pair),
+        _success_sentence(pair),
+        _missing_values_sentence(pair),
+        _unpaired_rows_sentence(pair),
+        _image_sentence(pair),
     ]
     return tuple(part for part in parts if part)
 
 
-def short_verdict(versus: Versus, d: PairedDifference) -> str:
-    """Return a verdict of a few words: ``ic better``, ``not shown``, ``too few (6 of 7)``."""
+def short_verdict(pair: PairComparison, d: PairedDifference) -> str:
+    """Return a short verdict: ``ic better``, ``not shown``, ``too few (6 of 7)``."""
     if d.verdict in ("first", "second"):
-        return f"{_winner(versus, d).name} better"
+        return f"{_better_and_worse(pair, d)[0].name} better"
     if d.verdict == "too few":
-        return f"too few ({d.difference.n} of {d.fewest})"
+        return f"too few ({d.difference.n} of {d.repeats_to_test})"
     return d.verdict
 
 
 def needed_text(comparison: Comparison, d: PairedDifference) -> str:
-    """Return how many repeats would show what was not shown: ``34``, ``290``, ``>1000``, ``≥6``."""
-    is_open = d.verdict in ("not shown", "too few")
-    if d.verdict == "one repeat" or (is_open and d.hedges_g is None):
-        return f"≥{comparison.fewest}"
-    if not is_open or d.needed is None:
+    """Return the number of repeats that would show a difference: ``34``, ``290``, ``>1000``."""
+    is_undecided = d.verdict in ("not shown", "too few")
+    if d.verdict == "one repeat" or (is_undecided and d.hedges_g is None):
+        return f"≥{comparison.min_level_repeats}"
+    if not is_undecided or d.repeats_needed is None:
         return "-"
-    return _about(max(d.needed, d.difference.n + 1)).replace("more than ", ">")
+    return _rounded_count(max(d.repeats_needed, d.difference.n + 1)).replace("more than ", ">")
 
 
 def p_text(p: float | None) -> str:
@@ -52,16 +51,6 @@ def p_text(p: float | None) -> str:
     if p is None:
         return "-"
     return "<0.001" if p < 0.001 else f"{p:.3f}"
-
-
-def levels_text(columns: Sequence[Column], level: Level) -> str:
-    """Return ``fog 0.3 m⁻¹, current 0.1 m/s``."""
-    parts = [
-        level_text(column, value)
-        for column, value in zip(columns, level, strict=True)
-        if column.name != "none"
-    ]
-    return ", ".join(parts) or "the only level"
 
 
 def unit_text(column: Column) -> str:
@@ -72,61 +61,60 @@ def unit_text(column: Column) -> str:
 # ---------------------------------------------------------------------------- the sweep
 
 
-def _sweep(comparison: Comparison, versus: Versus) -> str:
-    overall, d = versus.overall, versus.overall.value
+def _sweep_sentence(comparison: Comparison, pair: PairComparison) -> str:
+    sweep, d = pair.sweep, pair.sweep.value
     n = d.difference.n
-    where = _where(overall)
+    levels_phrase = _levels_phrase(sweep)
     if d.verdict == "no pair":
         return (
-            "The sweep as a whole is not compared: at no level does every repeat of both have a "
-            "value."
+            "The sweep as a whole is not compared: no level has a value from both in every repeat."
         )
-    found = _found(comparison, versus, d)
+    difference_text = _difference_text(comparison, pair, d)
     if d.verdict == "one repeat":
         return (
-            f"One repeat (seed {overall.seeds[0]}): nothing follows for other seeds. In this one, "
-            f"{found}, on average {where}: below it at {overall.n_second_smaller} of these levels "
-            f"and above it at {overall.n_first_smaller}. The levels of one repeat share its noise "
-            "and its history and are no repeats. Run each with --repeat "
-            f"{comparison.fewest_for_sweep} or more for the sweep as a whole, "
-            f"{comparison.fewest} or more for single levels."
+            f"One repeat (seed {sweep.seeds[0]}) allows no inference about other seeds. In it, "
+            f"{difference_text}, on average {levels_phrase}. It is below at "
+            f"{sweep.n_second_smaller} of these levels and above at {sweep.n_first_smaller}. "
+            "The levels of one repeat share its noise and its history; they are not repeats. "
+            f"Run each algorithm with --repeat {comparison.min_sweep_repeats} or more for the "
+            f"sweep as a whole, {comparison.min_level_repeats} or more for single levels."
         )
     if d.verdict == "equal":
-        return f"Both are equal in every one of {n} repeats, {where}."
-    over = f"over {n} repeats, each its mean {where}"
-    tested = f"{_effect(d)}{_tested(comparison, d)}"
+        return f"Both are equal in every one of {n} repeats, {levels_phrase}."
+    headline, plan = "No difference is shown", f" {_repeats_sentence(comparison, d)}"
     if d.verdict in ("first", "second"):
-        return (
-            f"{_winner(versus, d).name} is better than {_loser(versus, d).name}: {found}, {over}; "
-            f"{tested}."
-        )
-    if d.verdict == "too few":
-        return f"{too_few(d)}: {found}, {over}; {tested}. {_needed(comparison, d)}"
-    return f"No difference is shown: {found}, {over}; {tested}. {_needed(comparison, d)}"
-
-
-def _found(comparison: Comparison, versus: Versus, d: PairedDifference) -> str:
-    """``in 'total' ic lies 0.31 px above esm (95 % interval 0.22 to 0.41 px)``."""
-    mean = d.difference.mean or 0.0
-    unit = unit_text(comparison.column)
-    size = f"{abs(mean):.3g}{unit} {'above' if mean > 0 else 'below'}" if mean else "on"
+        winner, loser = _better_and_worse(pair, d)
+        headline, plan = f"{winner.name} is better than {loser.name}", ""
+    elif d.verdict == "too few":
+        headline = few_repeats_text(d)
     return (
-        f"in '{comparison.column.name}' {versus.second.name} lies {size} {versus.first.name}"
-        f"{_limits(d.difference, mean, unit)}"
+        f"{headline}: {difference_text}, over {n} repeats. The value of a repeat is its mean "
+        f"{levels_phrase}. {_effect_text(d)}{_test_text(comparison, d)}.{plan}"
     )
 
 
-def _limits(interval: Interval, mean: float, unit: str) -> str:
-    """The interval of the difference, in the direction of the mean."""
+def _difference_text(comparison: Comparison, pair: PairComparison, d: PairedDifference) -> str:
+    """Return ``'total' of ic is 0.31 px above that of esm (95 % interval 0.22 to 0.41 px)``."""
+    mean = d.difference.mean or 0.0
+    unit = unit_text(comparison.column)
+    size = f"{abs(mean):.3g}{unit} {'above' if mean > 0 else 'below'}" if mean else "equal to"
+    return (
+        f"'{comparison.column.name}' of {pair.second.name} is {size} that of {pair.first.name}"
+        f"{_interval_text(d.difference, mean, unit)}"
+    )
+
+
+def _interval_text(interval: Interval, mean: float, unit: str) -> str:
+    """Return the interval of the difference, in the direction of the mean."""
     if interval.low is None or interval.high is None:
         return ""
     ends = (interval.low, interval.high) if mean >= 0 else (-interval.high, -interval.low)
-    low, high = told_apart(*ends)
+    low, high = distinct_texts(*ends)
     return f" (95 % interval {low} to {high}{unit})"
 
 
-def told_apart(low: float, high: float) -> tuple[str, str]:
-    """Return two numbers with the digits that show them apart: three, and at most seven."""
+def distinct_texts(low: float, high: float) -> tuple[str, str]:
+    """Return two numbers with three digits, or the number up to seven at which they differ."""
     for digits in range(3, 8):
         texts = f"{low:.{digits}g}", f"{high:.{digits}g}"
         if texts[0] != texts[1]:
@@ -134,217 +122,210 @@ def told_apart(low: float, high: float) -> tuple[str, str]:
     return f"{low:.3g}", f"{high:.3g}"
 
 
-def _where(overall: Overall) -> str:
-    if overall.n_levels == 1:
+def _levels_phrase(sweep: SweepStatistics) -> str:
+    if sweep.n_levels == 1:
         return "at the only level"
-    n = len(overall.levels)
-    if n == overall.n_levels:
+    n = len(sweep.levels)
+    if n == sweep.n_levels:
         return f"over all {n} levels"
-    shared = f"the {n}" if n > 1 else "the only one"
-    return f"over {shared} of {overall.n_levels} levels at which every repeat of both has a value"
+    level_count = f"the {n}" if n > 1 else "the only one"
+    return (
+        f"over {level_count} of {sweep.n_levels} levels at which every repeat of both has a value"
+    )
 
 
-def _effect(d: PairedDifference) -> str:
+def _effect_text(d: PairedDifference) -> str:
     size = "" if d.hedges_g is None else f"Hedges' g = {d.hedges_g:.2f}, "
     return size if d.superiority is None else f"{size}A = {d.superiority:.2f}, "
 
 
-def _tested(comparison: Comparison, d: PairedDifference) -> str:
-    """``p = 0.012 (sign flips, Holm over 3 pairs of results)``."""
-    n = len(comparison.versus)
+def _test_text(comparison: Comparison, d: PairedDifference) -> str:
+    """Return ``p = 0.012 (sign-flip test, Holm over 3 pairs of results)``."""
+    n = len(comparison.pairs)
     if d.p_holm is None:
-        return f"{_p_said(d.p)} (sign flips)"
-    corrected = f", Holm over {n} pairs of results" if n > 1 else ""
-    return f"{_p_said(d.p_holm)} (sign flips{corrected})"
+        return f"{_p_phrase(d.p)} (sign-flip test)"
+    correction = f", Holm over {n} pairs of results" if n > 1 else ""
+    return f"{_p_phrase(d.p_holm)} (sign-flip test{correction})"
 
 
-def _needed(comparison: Comparison, d: PairedDifference) -> str:
-    """How many more repeats are needed, or why that cannot be planned."""
-    n, fewest = d.difference.n, comparison.fewest_for_sweep
+def _repeats_sentence(comparison: Comparison, d: PairedDifference) -> str:
+    n, min_repeats = d.difference.n, comparison.min_sweep_repeats
     if d.verdict == "too few":
-        least, of = min_p_value(n), len(comparison.versus)
-        corrected = f", {_round(of * least)} after Holm" if of > 1 else ""
+        min_p, n_pairs = min_p_value(n), len(comparison.pairs)
+        correction = f", {n_pairs * min_p:.3g} after Holm" if n_pairs > 1 else ""
         return (
-            f"With {n} repeats p cannot fall below {_round(least)}{corrected}: "
-            f"at least {fewest} are needed{_more(d, n, fewest)}."
+            f"With {n} repeats p cannot fall below {min_p:.3g}{correction}: "
+            f"at least {min_repeats} are needed{_more_repeats_text(d, n, min_repeats)}."
         )
-    if d.needed is None:
-        return "The observed difference is too small to plan by."
+    if d.repeats_needed is None:
+        return "The observed difference is too small to plan the repeats."
+    n_repeats = _rounded_count(max(d.repeats_needed, n + 1))
     return (
-        f"With {_about(max(d.needed, n + 1))} repeats 4 of 5 such experiments would show a "
-        "difference of the observed size."
+        f"With {n_repeats} repeats, 4 of 5 such experiments would show a difference of the "
+        "observed size."
     )
 
 
-def _more(d: PairedDifference, n: int, fewest: int) -> str:
-    if d.needed is None or d.needed <= max(n, fewest):
+def _more_repeats_text(d: PairedDifference, n: int, min_repeats: int) -> str:
+    if d.repeats_needed is None or d.repeats_needed <= max(n, min_repeats):
         return ""
-    return f", and about {_about(d.needed)} to show the observed difference in 4 of 5 experiments"
+    n_repeats = _rounded_count(d.repeats_needed)
+    return f", and about {n_repeats} to show the observed difference in 4 of 5 experiments"
 
 
 # ---------------------------------------------------------------------------- single levels
 
 
-def _single_levels(comparison: Comparison, versus: Versus) -> str:
-    tested = [at for at in versus.levels if at.value.p is not None]
-    if len(versus.levels) < 2 or not tested:
+def _level_sentence(comparison: Comparison, pair: PairComparison) -> str:
+    tested_levels = [stats for stats in pair.levels if stats.value.p is not None]
+    if len(pair.levels) < 2 or not tested_levels:
         return ""
-    columns = versus.first.result.columns_of_kind("level")
+    columns = pair.first.result.columns_of_kind("level")
     parts = []
-    for entry, verdict in ((versus.first, "first"), (versus.second, "second")):
-        levels = [at for at in versus.levels if at.value.verdict == verdict]
+    for entry, verdict in ((pair.first, "first"), (pair.second, "second")):
+        levels = [stats for stats in pair.levels if stats.value.verdict == verdict]
         if levels:
-            parts.append(f"{entry.name} is better at {_levels(columns, versus, levels)}")
-    rest = sum(at.value.verdict == "not shown" for at in tested)
-    if rest:
+            parts.append(f"{entry.name} is better at {_level_ranges(columns, pair, levels)}")
+    n_undecided = sum(stats.value.verdict == "not shown" for stats in tested_levels)
+    if n_undecided:
         other = "other " if parts else ""
         parts.append(
-            f"no difference is shown at {'the ' if other else ''}{rest} {other}level"
-            f"{'s' if rest > 1 else ''}"
+            f"no difference is shown at {'the ' if other else ''}{n_undecided} {other}level"
+            f"{'s' if n_undecided > 1 else ''}"
         )
-    few = [at.value for at in tested if at.value.verdict == "too few"]
-    if few:
+    small_samples = [stats.value for stats in tested_levels if stats.value.verdict == "too few"]
+    if small_samples:
+        n_repeats = _range_text([d.difference.n for d in small_samples])
         parts.append(
-            f"{len(few)} level{'s have' if len(few) > 1 else ' has'} too few repeats to test "
-            f"({_span([d.difference.n for d in few])} of {comparison.fewest} needed)"
+            f"{len(small_samples)} level{'s have' if len(small_samples) > 1 else ' has'} too few "
+            f"repeats to test ({n_repeats} of {comparison.min_level_repeats} needed)"
         )
-    equal = sum(at.value.verdict == "equal" for at in tested)
-    if equal:
-        parts.append(f"equal in every repeat at {equal}")
-    return f"Level by level (Holm over {comparison.n_tests}): {'; '.join(parts)}."
+    n_equal = sum(stats.value.verdict == "equal" for stats in tested_levels)
+    if n_equal:
+        parts.append(f"both are equal in every repeat at {n_equal}")
+    return f"Single levels (Holm over {comparison.n_tests} tests): {'; '.join(parts)}."
 
 
-def _levels(columns: Sequence[Column], versus: Versus, chosen: Sequence[AtLevel]) -> str:
-    """Runs of neighbouring levels: ``14 levels (fog 0.3 to 0.95)``."""
-    places = [i for i, at in enumerate(versus.levels) if at in chosen]
+def _level_ranges(
+    columns: Sequence[Column], pair: PairComparison, level_statistics: Sequence[LevelStatistics]
+) -> str:
+    """Return ranges of neighbouring levels: ``14 levels (fog 0.3 to 0.95)``."""
+    indices = [i for i, stats in enumerate(pair.levels) if stats in level_statistics]
     runs: list[list[int]] = []
-    for place in places:
-        if runs and place == runs[-1][-1] + 1:
-            runs[-1].append(place)
+    for index in indices:
+        if runs and index == runs[-1][-1] + 1:
+            runs[-1].append(index)
         else:
-            runs.append([place])
+            runs.append([index])
     names = [
-        levels_text(columns, versus.levels[run[0]].level)
-        + (f" to {levels_text(columns, versus.levels[run[-1]].level)}" if len(run) > 1 else "")
+        levels_text(columns, pair.levels[run[0]].level)
+        + (f" to {levels_text(columns, pair.levels[run[-1]].level)}" if len(run) > 1 else "")
         for run in runs
     ]
-    n = len(places)
+    n = len(indices)
     return f"{n} level{'s' if n > 1 else ''} ({'; '.join(names)})"
 
 
 # ---------------------------------------------------------------------------- success
 
 
-def _success(versus: Versus) -> str:
-    d = versus.overall.success
+def _success_sentence(pair: PairComparison) -> str:
+    d = pair.sweep.success
     if d is None or d.first.mean is None or d.second.mean is None:
         return ""
-    shares = (
-        f"{versus.first.name} {_percent(d.first.mean)}, "
-        f"{versus.second.name} {_percent(d.second.mean)}"
-    )
-    text = f"Levels that ended ok: {shares}"
+    shares = [
+        f"{100 * share.mean:.3g} %" for share in (d.first, d.second) if share.mean is not None
+    ]
+    text = f"Levels that ended ok: {pair.first.name} {shares[0]}, {pair.second.name} {shares[1]}"
     if d.difference.mean == 0.0 and d.difference.std in (0.0, None):
         text += ", the same in every repeat."
     elif d.verdict == "one repeat":
         text += " (one repeat)."
     elif d.difference.low is not None and d.difference.high is not None:
         text += (
-            f"; difference {100 * (d.difference.mean or 0.0):.3g} points "
+            f"; difference {100 * (d.difference.mean or 0.0):.3g} percentage points "
             f"({100 * d.difference.low:.3g} to {100 * d.difference.high:.3g}), "
-            f"{_p_said(d.p if d.p_holm is None else d.p_holm)}: "
+            f"{_p_phrase(d.p if d.p_holm is None else d.p_holm)}: "
         )
-        winner = {"first": versus.first, "second": versus.second}.get(d.verdict)
-        text += f"{winner.name} more often." if winner else f"{_open(d)}."
-    columns = versus.first.result.columns_of_kind("level")
-    shown = [
-        at
-        for at in versus.levels
-        if at.success and at.success.p_holm is not None and at.success.p_holm <= ALPHA
+        winner = {"first": pair.first, "second": pair.second}.get(d.verdict)
+        text += f"{winner.name} more often." if winner else f"{_undecided_text(d)}."
+    columns = pair.first.result.columns_of_kind("level")
+    different_levels = [
+        stats
+        for stats in pair.levels
+        if stats.success and stats.success.p_holm is not None and stats.success.p_holm <= ALPHA
     ]
-    if shown and len(versus.levels) > 1:
-        text += f" McNemar's test finds a difference at {_levels(columns, versus, shown)}."
+    if different_levels and len(pair.levels) > 1:
+        ranges = _level_ranges(columns, pair, different_levels)
+        text += f" McNemar's test shows a difference at {ranges}."
     return text
 
 
-def _missing(versus: Versus) -> str:
-    partly = [at for at in versus.levels if at.n_only_first or at.n_only_second or at.n_neither]
-    if not partly:
+def _missing_values_sentence(pair: PairComparison) -> str:
+    incomplete_levels = [
+        stats
+        for stats in pair.levels
+        if stats.n_only_first or stats.n_only_second or stats.n_neither
+    ]
+    if not incomplete_levels:
         return ""
-    lost = [sum(getattr(at, name) for at in partly) for name in _MISSING]
-    n = sum(len(at.seeds) for at in versus.levels)
+    names = ("n_only_first", "n_only_second", "n_neither")
+    counts = [sum(getattr(stats, name) for stats in incomplete_levels) for name in names]
+    n = sum(len(stats.seeds) for stats in pair.levels)
     return (
-        f"Of {n} pairs {lost[0] + lost[1] + lost[2]} have no difference: {lost[1]} where only "
-        f"{versus.first.name} has no value, {lost[0]} where only {versus.second.name} has none, "
-        f"{lost[2]} where neither has one. They are left out, not guessed: where values are "
-        "missing the measure describes the remaining runs only, and the levels that ended ok of "
-        "the "
-        "rest."
+        f"Of {n} pairs, {sum(counts)} have no difference: {counts[1]} where only "
+        f"{pair.first.name} has no value, {counts[0]} where only {pair.second.name} has none, "
+        f"{counts[2]} where neither has one. They are counted, never estimated. Where values are "
+        "missing, the measure describes the remaining runs only, and the levels that ended ok "
+        "describe all runs."
     )
 
 
-_MISSING = ("n_only_first", "n_only_second", "n_neither")
-
-
-def _unpaired(versus: Versus) -> str:
-    if not versus.n_only_first and not versus.n_only_second:
+def _unpaired_rows_sentence(pair: PairComparison) -> str:
+    if not pair.n_only_first and not pair.n_only_second:
         return ""
     return (
-        f"Rows without a partner are left out: {versus.n_only_first} of {versus.first.name}, "
-        f"{versus.n_only_second} of {versus.second.name}."
+        f"Rows without a partner are omitted: {pair.n_only_first} of {pair.first.name}, "
+        f"{pair.n_only_second} of {pair.second.name}."
     )
 
 
-def _images(versus: Versus) -> str:
-    if versus.same_images is None:
+def _image_sentence(pair: PairComparison) -> str:
+    if pair.same_images is None:
         return ""
-    n, same = versus.same_images
-    if same == n:
-        return f"Both were handed the same images, byte for byte ({n} stream{'s' * (n > 1)})."
+    n, n_identical = pair.same_images
+    if n_identical == n:
+        return f"Both received the same images, byte for byte ({n} stream{'s' * (n > 1)})."
     return (
-        f"{same} of {n} image streams were the same bytes for both: what an algorithm does, or "
-        "when it stops, changes what it sees."
+        f"Both received the same bytes in {n_identical} of {n} image streams. The actions of an "
+        "algorithm, and the time at which it ends, change the images."
     )
 
 
-# ---------------------------------------------------------------------------- small words
+# ---------------------------------------------------------------------------- phrases
 
 
-def _winner(versus: Versus, d: PairedDifference) -> Entry:
-    return versus.first if d.verdict == "first" else versus.second
+def _better_and_worse(pair: PairComparison, d: PairedDifference) -> tuple[Entry, Entry]:
+    return (pair.first, pair.second) if d.verdict == "first" else (pair.second, pair.first)
 
 
-def _loser(versus: Versus, d: PairedDifference) -> Entry:
-    return versus.second if d.verdict == "first" else versus.first
-
-
-def _open(d: PairedDifference) -> str:
-    """Return why no result is named as better."""
-    message = too_few(d) if d.verdict == "too few" else "no difference is shown"
+def _undecided_text(d: PairedDifference) -> str:
+    message = few_repeats_text(d) if d.verdict == "too few" else "no difference is shown"
     return message[0].lower() + message[1:]
 
 
-def _span(numbers: Sequence[int]) -> str:
-    """``4``, ``2 to 4``."""
+def _range_text(numbers: Sequence[int]) -> str:
     low, high = min(numbers), max(numbers)
     return str(low) if low == high else f"{low} to {high}"
 
 
-def _about(n: int) -> str:
-    """``34``, ``290``: a plan has two digits; ``more than 1000`` is enough to know."""
+def _rounded_count(n: int) -> str:
+    """Return a number of repeats in two digits: ``34``, ``290``, ``more than 1000``."""
     if n > 1000:
         return "more than 1000"
     return str(n if n < 100 else math.ceil(n / 10) * 10)
 
 
-def _p_said(p: float | None) -> str:
+def _p_phrase(p: float | None) -> str:
     text = p_text(p)
     return f"p {text.replace('<', '< ')}" if text.startswith("<") else f"p = {text}"
-
-
-def _percent(share: float) -> str:
-    return f"{100 * share:.3g} %"
-
-
-def _round(p: float) -> str:
-    return f"{p:.3g}"

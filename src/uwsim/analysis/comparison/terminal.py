@@ -1,4 +1,4 @@
-"""A comparison on the terminal: a table for each pair of results, and what follows in words."""
+"""A comparison on the terminal: a table for each pair of results, and the conclusions."""
 
 from __future__ import annotations
 
@@ -13,36 +13,37 @@ from rich.text import Text
 from ...results.result import Column
 from ...results.table import exact_decimals, interval_text, number_text, sensible_decimals
 from ...statistics import Interval
-from .matrix import Standing, matrix, note, title
-from .model import AtLevel, Comparison, Versus
+from .matrix import CellVerdict, matrix, matrix_note, matrix_title
+from .model import Comparison, LevelStatistics, PairComparison
 from .sentences import needed_text, p_text, sentences, short_verdict
 
-STYLES: dict[Standing, str] = {"better": "green", "worse": "red", "too few": "yellow"}
+STYLES: dict[CellVerdict, str] = {"better": "green", "worse": "red", "too few": "yellow"}
 LEGEND = (
-    "n: pairs with a value from both; difference: with its 95 % interval; g: Hedges' g; A: chance "
-    "that a repeat of the second is better; p: sign-flip test after Holm; ok: repeats that ended "
-    "ok, first : second; needs: repeats that would show the observed difference in 4 of 5 "
-    "experiments. See docs/statistics.md."
+    "A line has n, the pairs with a value from both, and the difference with its 95 % interval. "
+    "Effect sizes are Hedges' g, and A: the probability that a repeat of the second is better. "
+    "The sign-flip test gives p after Holm's correction. Repeats that ended ok: first : second. "
+    "Repeats needed would show the observed difference in 4 of 5 experiments. "
+    "See docs/statistics.md."
 )
-GIVES_WAY = ("a", "g", "ok", "n")
-"""Columns that give way on a narrow terminal, in this order, named by the field of
-`ComparisonLine` that they hold. Headings do not decide: an algorithm may have any name."""
+OMITTED_COLUMNS = ("a", "g", "ok", "n")
+"""The columns that a narrow terminal omits, in this order, by their field of `ComparisonLine`.
+Headings are not used here: an algorithm may have any name."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class Shown:
+class TableColumn:
     """One column of a table."""
 
     kind: str
-    """What it holds: a field of `ComparisonLine`."""
+    """The field of `ComparisonLine` that it shows."""
     heading: str
-    """Its heading; two columns may have the same."""
+    """The heading; two columns may have the same."""
     cells: tuple[str, ...]
-    """A text a line."""
+    """The text of each line."""
 
     @property
     def width(self) -> int:
-        """Letters of the longest text in it."""
+        """The number of letters of its longest text."""
         return max(len(self.heading), *map(len, self.cells))
 
 
@@ -53,92 +54,98 @@ class ComparisonLine:
     level: tuple[str, ...]
     """The swept parameters."""
     n: str
-    """Pairs with a value from both."""
-    first: str
-    """Mean of the first."""
-    second: str
-    """Mean of the second."""
+    """The number of pairs with a value from both."""
+    first_mean: str
+    """The mean of the first."""
+    second_mean: str
+    """The mean of the second."""
     difference: str
-    """Second less first with its interval."""
+    """The difference, second minus first, with its interval."""
     g: str
     """Hedges' g."""
     a: str
     """Vargha and Delaney's A."""
     p: str
-    """After Holm's correction."""
+    """The p-value after Holm's correction."""
     ok: str
-    """Repeats that ended ok, first and second: ``10 : 8 of 10``."""
+    """The numbers of repeats that ended ok, first and second: ``10 : 8 of 10``."""
     verdict: str
-    """Which is better, in a few words."""
-    needed: str
-    """Repeats that would show what was not shown."""
+    """The short verdict."""
+    repeats_needed: str
+    """The number of repeats that would show a difference."""
     is_shown: bool
-    """Whether one is better."""
+    """True if one result is better."""
 
 
-def lines(comparison: Comparison, versus: Versus) -> tuple[ComparisonLine, ...]:
+def lines(comparison: Comparison, pair: PairComparison) -> tuple[ComparisonLine, ...]:
     """Return the table of one pair of results, a line a level."""
-    columns = versus.first.result.columns_of_kind("level")
-    decimals = [exact_decimals([at.level[i] for at in versus.levels]) for i in range(len(columns))]
-    means = [v for at in versus.levels for v in (at.value.first.mean, at.value.second.mean) if v]
-    places = sensible_decimals(means)
-    steps = [at.value.difference.mean for at in versus.levels if at.value.difference.mean]
-    fine = max(places, min(places + 1, sensible_decimals(steps)))
-    return tuple(_line(comparison, versus, at, decimals, places, fine) for at in versus.levels)
-
-
-def heading(comparison: Comparison, versus: Versus) -> str:
-    """Return ``total [px]: ic less esm; lower is better``."""
-    better = "higher" if comparison.higher_is_better else "lower"
-    return (
-        f"{comparison.column.label}: {versus.second.name} less {versus.first.name}; "
-        f"{better} is better"
+    columns = pair.first.result.columns_of_kind("level")
+    level_decimals = [
+        exact_decimals([stats.level[i] for stats in pair.levels]) for i in range(len(columns))
+    ]
+    values = [stats.value for stats in pair.levels]
+    mean_decimals = sensible_decimals(
+        [v for d in values for v in (d.first.mean, d.second.mean) if v]
+    )
+    decimals = sensible_decimals([d.difference.mean for d in values if d.difference.mean])
+    difference_decimals = max(mean_decimals, min(mean_decimals + 1, decimals))
+    return tuple(
+        _line(comparison, pair, stats, level_decimals, mean_decimals, difference_decimals)
+        for stats in pair.levels
     )
 
 
-def drawn(comparison: Comparison, *, width: int) -> Iterator[RenderableType]:
-    """Give everything that is printed, for a terminal of ``width`` columns."""
-    yield from _matrix(comparison, width)
-    for versus in comparison.versus:
-        yield Text(heading(comparison, versus), style="bold")
-        yield _table(comparison, versus, width)
-        for sentence in sentences(comparison, versus):
+def heading(comparison: Comparison, pair: PairComparison) -> str:
+    """Return ``total [px]: ic minus esm; lower is better``."""
+    direction = "higher" if comparison.higher_is_better else "lower"
+    return (
+        f"{comparison.column.label}: {pair.second.name} minus {pair.first.name}; "
+        f"{direction} is better"
+    )
+
+
+def renderables(comparison: Comparison, *, width: int) -> Iterator[RenderableType]:
+    """Yield all parts of the output for a terminal of ``width`` columns."""
+    yield from _matrix_parts(comparison, width)
+    for pair in comparison.pairs:
+        yield Text(heading(comparison, pair), style="bold")
+        yield _table(comparison, pair, width)
+        for sentence in sentences(comparison, pair):
             yield Padding(Text(sentence), (0, 0, 0, 2), expand=False)
         yield Text("")
     yield Text(LEGEND)
 
 
-def _matrix(comparison: Comparison, width: int) -> Iterator[RenderableType]:
-    """The matrix: in words where the terminal is wide enough, else in symbols."""
-    found = matrix(comparison)
-    yield Text(title(comparison), style="bold")
-    named = max(len(row.name) for row in found.rows) + len("  100 %")
-    cells = [
-        (name, [row.cells[j].text for row in found.rows]) for j, name in enumerate(found.columns)
-    ]
-    is_wide = named + sum(2 + max(len(name), *map(len, c)) for name, c in cells) <= width
+def _matrix_parts(comparison: Comparison, width: int) -> Iterator[RenderableType]:
+    """Yield the matrix in words where the terminal is wide enough, else in symbols."""
+    verdicts = matrix(comparison)
+    yield Text(matrix_title(comparison), style="bold")
+    table_width = max(len(row.name) for row in verdicts.rows) + len("  100 %")
+    for j, name in enumerate(verdicts.columns):
+        table_width += 2 + max(len(name), *(len(row.cells[j].text) for row in verdicts.rows))
+    is_wide = table_width <= width
     table = Table(box=None, pad_edge=False, header_style="bold")
     table.add_column("", no_wrap=is_wide, overflow="fold")
     table.add_column("ok", justify="right", no_wrap=True)
-    for number, name in enumerate(found.columns, 1):  # rows stand in the order of the columns
+    for number, name in enumerate(verdicts.columns, 1):  # as the rows
         heading = Text(name if is_wide else str(number), justify="right")
         table.add_column(heading, justify="right", no_wrap=True)
-    for number, row in enumerate(found.rows, 1):
+    for number, row in enumerate(verdicts.rows, 1):
         name = row.name if is_wide else f"{number} {row.name}"
         texts = (
-            Text(cell.text if is_wide else cell.symbol, style=STYLES.get(cell.standing, ""))
+            Text(cell.text if is_wide else cell.symbol, style=STYLES.get(cell.verdict, ""))
             for cell in row.cells
         )
         table.add_row(Text(name, style="bold"), Text(row.ok), *texts)
     yield table
-    yield Text(note(comparison) if is_wide else f"{found.legend()}. {note(comparison)}")
+    yield Text(("" if is_wide else f"{verdicts.legend()}. ") + matrix_note(comparison))
     yield Text("")
 
 
-def _table(comparison: Comparison, versus: Versus, width: int) -> Table:
-    found = lines(comparison, versus)
-    columns = _columns(versus.first.result.columns_of_kind("level"), versus, found)
-    for kind in GIVES_WAY:
+def _table(comparison: Comparison, pair: PairComparison, width: int) -> Table:
+    rows = lines(comparison, pair)
+    columns = _columns(pair.first.result.columns_of_kind("level"), pair, rows)
+    for kind in OMITTED_COLUMNS:
         if sum(column.width + 2 for column in columns) > width:
             columns = [column for column in columns if column.kind != kind]
     table = Table(box=None, pad_edge=False, header_style="bold")
@@ -150,35 +157,36 @@ def _table(comparison: Comparison, versus: Versus, width: int) -> Table:
             no_wrap=not is_verdict,
             overflow="fold",
         )
-    for i, line in enumerate(found):
-        row = [Text(column.cells[i]) for column in columns]
-        table.add_row(*row, style="bold" if line.is_shown else "")
+    for i, row in enumerate(rows):
+        cells = [Text(column.cells[i]) for column in columns]
+        table.add_row(*cells, style="bold" if row.is_shown else "")
     return table
 
 
 def _columns(
-    levels: Sequence[Column], versus: Versus, found: Sequence[ComparisonLine]
-) -> list[Shown]:
-    """The columns of a table, from left to right."""
+    levels: Sequence[Column], pair: PairComparison, rows: Sequence[ComparisonLine]
+) -> list[TableColumn]:
     headings = {
         "n": "n",
-        "first": versus.first.name,
-        "second": versus.second.name,
+        "first_mean": pair.first.name,
+        "second_mean": pair.second.name,
         "difference": "difference",
         "g": "g",
         "a": "A",
         "p": "p",
         "ok": "ok",
         "verdict": "verdict",
-        "needed": "needs",
+        "repeats_needed": "needs",
     }
     return [
         *(
-            Shown(kind="level", heading=column.label, cells=tuple(line.level[i] for line in found))
+            TableColumn(
+                kind="level", heading=column.label, cells=tuple(row.level[i] for row in rows)
+            )
             for i, column in enumerate(levels)
         ),
         *(
-            Shown(kind=kind, heading=heading, cells=tuple(getattr(line, kind) for line in found))
+            TableColumn(kind=kind, heading=heading, cells=tuple(getattr(row, kind) for row in rows))
             for kind, heading in headings.items()
         ),
     ]
@@ -186,27 +194,27 @@ def _columns(
 
 def _line(
     comparison: Comparison,
-    versus: Versus,
-    at: AtLevel,
-    decimals: Sequence[int],
-    places: int,
-    fine: int,
+    pair: PairComparison,
+    stats: LevelStatistics,
+    level_decimals: Sequence[int],
+    mean_decimals: int,
+    difference_decimals: int,
 ) -> ComparisonLine:
-    d, success = at.value, at.success
+    d, success = stats.value, stats.success
     return ComparisonLine(
-        level=tuple(number_text(v, k) for v, k in zip(at.level, decimals, strict=True)),
+        level=tuple(number_text(v, k) for v, k in zip(stats.level, level_decimals, strict=True)),
         n=str(d.difference.n),
-        first=_mean(d.first, places),
-        second=_mean(d.second, places),
-        difference=str(interval_text(d.difference, fine)),
+        first_mean=_mean(d.first, mean_decimals),
+        second_mean=_mean(d.second, mean_decimals),
+        difference=str(interval_text(d.difference, difference_decimals)),
         g="-" if d.hedges_g is None else f"{d.hedges_g:.2f}",
         a="-" if d.superiority is None else f"{d.superiority:.2f}",
         p=p_text(d.p_holm),
         ok="-"
         if success is None
         else f"{success.first.successes} : {success.second.successes} of {success.first.n}",
-        verdict=short_verdict(versus, d),
-        needed=needed_text(comparison, d),
+        verdict=short_verdict(pair, d),
+        repeats_needed=needed_text(comparison, d),
         is_shown=d.verdict in ("first", "second"),
     )
 

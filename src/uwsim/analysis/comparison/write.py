@@ -1,4 +1,4 @@
-"""Writing the directory of a comparison."""
+"""The files in the directory of a comparison."""
 
 from __future__ import annotations
 
@@ -11,14 +11,16 @@ from .model import Comparison
 from .page import render
 from .plots import draw_comparison
 
-OURS = re.compile(r"(comparison\.(json|csv|html)|plots/(curves|differences|success)\.(png|pdf))")
-"""Files that uwsim writes into the directory of a comparison."""
-FOLDERS = ("plots",)
+WRITTEN_FILES = re.compile(
+    r"(comparison\.(json|csv|html)|plots/(curves|differences|success)\.(png|pdf))"
+)
+"""The files that uwsim writes into the directory of a comparison."""
+WRITTEN_FOLDERS = ("plots",)
 PAGE = "comparison.html"
 
 
 def write_comparison(comparison: Comparison, directory: Path) -> Path:
-    """Write numbers, plots and page into ``directory``; return the page."""
+    """Write the numbers, plots and page into ``directory``; return the path of the page."""
     directory.mkdir(parents=True, exist_ok=True)
     write_text(directory / "comparison.json", json_text(comparison))
     write_text(directory / "comparison.csv", csv_text(comparison))

@@ -3,61 +3,61 @@
 from __future__ import annotations
 
 from .curves import (
-    Curve,
     algorithm_of,
     curves_of,
     label_of,
     level_text,
+    levels_text,
     repeats_of,
     written_unit,
 )
 from .drawing import CONTROL, MAX_INSIDE, is_fog_swept
 from .of_a_run import RunPlot, draw_run_plots
 from .over_levels import (
-    OVERVIEW,
+    OVERVIEW_NAME,
     compare_plot,
     draw_plots,
     small_multiples,
     value_plot,
 )
+from .panels import choose_evenly
 from .save import save_pdf, save_plot
 from .style import (
-    DPI,
-    FAINT,
+    GREY,
     INK,
     LEVEL_WORDS,
     MARKERS,
     PALETTE,
     SIZE,
+    escape,
     level_label,
-    plain,
     styled_figure,
     write_note,
 )
 
 __all__ = [
     "CONTROL",
-    "DPI",
-    "FAINT",
+    "GREY",
     "INK",
     "LEVEL_WORDS",
     "MARKERS",
     "MAX_INSIDE",
-    "OVERVIEW",
+    "OVERVIEW_NAME",
     "PALETTE",
     "SIZE",
-    "Curve",
     "RunPlot",
     "algorithm_of",
+    "choose_evenly",
     "compare_plot",
     "curves_of",
     "draw_plots",
     "draw_run_plots",
+    "escape",
     "is_fog_swept",
     "label_of",
     "level_label",
     "level_text",
-    "plain",
+    "levels_text",
     "repeats_of",
     "save_pdf",
     "save_plot",

@@ -1,4 +1,4 @@
-"""Drawing curves on axes, with their ends, predictions and labels."""
+"""The drawing of curves on axes, with their ends, predictions and labels."""
 
 from __future__ import annotations
 
@@ -19,44 +19,45 @@ from ...base.optics import LENGTHS
 from ...results.per_level import rows_by_level
 from ...results.result import Column, Result
 from .curves import Curve, algorithm_of, curves_of, label_of, repeats_of, written_unit
-from .style import FAINT, INK, MARKERS, PALETTE, cut, level_label, plain
+from .panels import choose_evenly
+from .style import GREY, INK, MARKERS, PALETTE, escape, level_label, shorten_name
 
 CONTROL = "frozen"
-"""The algorithm that only echoes what it was given: dashed in every plot."""
-MAX_NAMED = 18
-"""Curves that a legend names; of more the first, the last and some between."""
-FAR_ABOVE = 2.5
-"""The control is clipped when it is this many times higher than all other curves."""
-COUNTED = ("armPosition", "iteration")
-"""Levels that are whole numbers."""
-FOLD = 28
-"""Letters of an axis' name before it is folded."""
-FEW_LEVELS = 6
-"""Levels up to which every one has its tick."""
-FEWEST_FOR_BOX = 5
-"""The number of values from which on a level has a box."""
+"""The control: the algorithm that repeats its initial corners; dashed in every plot."""
+MAX_LEGEND_ENTRIES = 18
+"""The greatest number of entries of a legend; of more, the first, the last and some between."""
+CONTROL_CLIP_RATIO = 2.5
+"""The control is clipped when it is higher than all other curves by this factor."""
+INTEGER_LEVELS = ("armPosition", "iteration")
+"""The levels with integer values."""
+LABEL_WIDTH = 28
+"""The number of letters in a line of an axis label."""
+MAX_LEVEL_TICKS = 6
+"""The greatest number of levels that all have ticks."""
+MIN_BOX_VALUES = 5
+"""The least number of values of a level with a box."""
 MAX_INSIDE = 4
-"""Greatest number of curves with the legend inside the axes."""
+"""The greatest number of curves with the legend inside the axes."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class Look:
-    """How a curve looks."""
+class LineStyle:
+    """The colour, marker and dashes of a curve."""
 
     colour: str
     marker: str
-    line: Any = "-"
+    dashes: Any = "-"
 
 
-CONTROL_LOOK = Look(colour=INK, marker="o", line=(0, (4, 2)))
+CONTROL_STYLE = LineStyle(colour=INK, marker="o", dashes=(0, (4, 2)))
 
 
-def look_of(i: int, n: int) -> Look:
-    """The style of curve i of n; many curves are coloured by a scale."""
+def curve_style(i: int, n: int) -> LineStyle:
+    """Return the style of curve i of n; many curves have the colours of a scale."""
     marker = MARKERS[i % len(MARKERS)]
     if n <= len(PALETTE):
-        return Look(colour=PALETTE[i], marker=marker)
-    return Look(colour=to_hex(mpl.colormaps["viridis"](0.92 * i / (n - 1))), marker=marker)
+        return LineStyle(colour=PALETTE[i], marker=marker)
+    return LineStyle(colour=to_hex(mpl.colormaps["viridis"](0.92 * i / (n - 1))), marker=marker)
 
 
 def draw_column(
@@ -66,34 +67,33 @@ def draw_column(
     curves: Sequence[Curve],
     control: Result | None,
     *,
-    labels: bool = True,
-    fold: int = FOLD,
+    has_labels: bool = True,
+    label_width: int = LABEL_WIDTH,
 ) -> None:
-    """Draw a column's curves, their references, and where they end."""
+    """Draw the curves of a column with the control, losses and the predicted loss."""
     for i, curve in enumerate(curves):
-        look = look_of(i, len(curves))
-        name = cut(curve.name or algorithm_of(result) or column.name)
+        style = curve_style(i, len(curves))
+        name = shorten_name(curve.name or algorithm_of(result) or column.name)
         if curve.name:
             name = with_loss(name, curve)
-        draw_curve(axes, curve, look, name)
-        draw_repeats(axes, curve, look, with_boxes=len(curves) == 1)
+        draw_curve(axes, curve, style, name)
+        draw_repeats(axes, curve, style, with_boxes=len(curves) == 1)
         if len(curves) > 1:
-            draw_end(axes, curve, look)
-    compared = _curves_of_control(control, column.name)
-    above = [_is_far_above(other, curves) for other in compared]
-    for other, is_above in zip(compared, above, strict=True):
+            draw_end(axes, curve, style)
+    controls = _curves_of_control(control, column.name)
+    for other in controls:
         name = f"{CONTROL}, {other.name}" if other.name else CONTROL
-        if is_above:
+        if _is_far_above(other, curves):
             name += f": {other.mean_text}, above"
-        draw_curve(axes, other, CONTROL_LOOK, name)
-    near = [other for other, is_above in zip(compared, above, strict=True) if not is_above]
-    scale_axes(axes, [*curves, *near])
-    label_axes(axes, result, column, fold=fold)
+        draw_curve(axes, other, CONTROL_STYLE, name)
+    near_curves = [other for other in controls if not _is_far_above(other, curves)]
+    scale_axes(axes, [*curves, *near_curves])
+    label_axes(axes, result, column, label_width)
     if all(curve.is_empty for curve in curves):
-        say_no_data(axes, next((curve.why for curve in curves if curve.why), None))
+        write_no_data(axes, next((curve.reason for curve in curves if curve.reason), None))
     if len(curves) == 1:
-        _draw_losses(axes, curves[0], labels)
-    draw_prediction(axes, result, labels)
+        _draw_losses(axes, curves[0], has_labels)
+    draw_prediction(axes, result, has_labels)
 
 
 def add_legend(axes: Axes, n_curves: int) -> None:
@@ -106,46 +106,43 @@ def add_legend(axes: Axes, n_curves: int) -> None:
 
 
 def legend_entries(axes: Axes) -> tuple[list[Artist], list[str]]:
-    """The legend's entries; of very many the first, the last and some between."""
+    """Return handles and names of the legend; of many, the first, the last and some between."""
     handles, names = axes.get_legend_handles_labels()
-    if len(handles) > MAX_NAMED:
-        kept = np.linspace(0, len(handles) - 1, MAX_NAMED).round().astype(int)
-        handles, names = [handles[k] for k in kept], [names[k] for k in kept]
-    return list(handles), names
+    return choose_evenly(handles, MAX_LEGEND_ENTRIES), choose_evenly(names, MAX_LEGEND_ENTRIES)
 
 
-def draw_curve(axes: Axes, curve: Curve, look: Look, name: str) -> None:
-    """Draw means, their band, and hollow markers where not every repeat has a value."""
-    is_control = look is CONTROL_LOOK
+def draw_curve(axes: Axes, curve: Curve, style: LineStyle, name: str) -> None:
+    """Draw the means with their band; markers are hollow where a repeat has no value."""
+    is_control = style is CONTROL_STYLE
     axes.plot(
         curve.x,
         curve.mean,
-        color=look.colour,
-        linestyle=look.line,
+        color=style.colour,
+        linestyle=style.dashes,
         linewidth=1.1 if is_control else None,
-        marker="none" if is_control and len(curve.x) > 1 else look.marker,
-        label=plain(name),
+        marker="none" if is_control and len(curve.x) > 1 else style.marker,
+        label=escape(name),
         zorder=2.5 if is_control else 3,
     )
-    partial = [k for k, n in enumerate(curve.n_missing) if n and not np.isnan(curve.mean[k])]
-    if partial and not is_control:
-        points = [curve.x[k] for k in partial], [curve.mean[k] for k in partial]
-        axes.plot(*points, look.marker, color=look.colour, markerfacecolor="white", zorder=3.5)
+    partial_levels = [k for k, n in enumerate(curve.n_missing) if n and not np.isnan(curve.mean[k])]
+    if partial_levels and not is_control:
+        points = [curve.x[k] for k in partial_levels], [curve.mean[k] for k in partial_levels]
+        axes.plot(*points, style.marker, color=style.colour, markerfacecolor="white", zorder=3.5)
     if len(curve.x) == 1:
-        spread = [[curve.mean[0] - curve.low[0]], [curve.high[0] - curve.mean[0]]]
-        if not np.isnan(spread).any():
-            axes.errorbar(curve.x, curve.mean, yerr=spread, color=look.colour, capsize=4, zorder=3)
+        errors = [[curve.mean[0] - curve.low[0]], [curve.high[0] - curve.mean[0]]]
+        if not np.isnan(errors).any():
+            axes.errorbar(curve.x, curve.mean, yerr=errors, color=style.colour, capsize=4, zorder=3)
     elif not np.all(np.isnan(curve.low)):
         axes.fill_between(
-            curve.x, curve.low, curve.high, color=look.colour, alpha=0.18, linewidth=0
+            curve.x, curve.low, curve.high, color=style.colour, alpha=0.18, linewidth=0
         )
 
 
-def draw_repeats(axes: Axes, curve: Curve, look: Look, *, with_boxes: bool) -> None:
+def draw_repeats(axes: Axes, curve: Curve, style: LineStyle, *, with_boxes: bool) -> None:
     """Draw a point for each repeat, and at each level a box from the lower to the upper quartile.
 
-    The line in the box is the median; whiskers reach to the last value within 1.5 times the box. A
-    level with fewer than five values has points only.
+    The line in the box is the median. Whiskers reach to the last value within 1.5 times the length
+    of the box. A level with fewer than `MIN_BOX_VALUES` values has points only.
     """
     if max(map(len, curve.values), default=0) < 2:
         return
@@ -154,19 +151,19 @@ def draw_repeats(axes: Axes, curve: Curve, look: Look, *, with_boxes: bool) -> N
         n = len(values)
         offsets = (np.arange(n) - 0.5 * (n - 1)) / max(n - 1, 1) * (0.6 if with_boxes else 0.0)
         axes.plot(
-            x + width * offsets, values, "o", color=look.colour, markersize=2.8, alpha=0.55,
+            x + width * offsets, values, "o", color=style.colour, markersize=2.8, alpha=0.55,
             markeredgewidth=0, zorder=2.8,
         )  # fmt: skip
-    boxed = [k for k, values in enumerate(curve.values) if len(values) >= FEWEST_FOR_BOX]
-    if with_boxes and boxed:
-        places = [curve.x[k] for k in boxed]
-        draw_boxes(axes, [curve.values[k] for k in boxed], places, width, look.colour)
+    box_indices = [k for k, values in enumerate(curve.values) if len(values) >= MIN_BOX_VALUES]
+    if with_boxes and box_indices:
+        positions = [curve.x[k] for k in box_indices]
+        draw_boxes(axes, [curve.values[k] for k in box_indices], positions, width, style.colour)
 
 
 def draw_boxes(
     axes: Axes,
     values: Sequence[Sequence[float]],
-    places: Sequence[float],
+    positions: Sequence[float],
     width: float,
     colour: str,
     **settings: Any,
@@ -174,23 +171,23 @@ def draw_boxes(
     """Draw boxes of quartiles with medians and whiskers, behind points; without outliers.
 
     Args:
-        axes: where.
-        values: those of each box.
-        places: of the boxes along the other axis.
-        width: of each.
-        colour: of their lines.
-        settings: others of Matplotlib.
+        axes: the axes to draw on.
+        values: the values of each box.
+        positions: the positions of the boxes along the other axis.
+        width: the width of each box, in units of the other axis.
+        colour: the colour of the lines.
+        settings: other settings of `Axes.boxplot`.
     """
-    line = {"color": colour, "linewidth": 0.7, "alpha": 0.8}
+    line_settings = {"color": colour, "linewidth": 0.7, "alpha": 0.8}
     axes.boxplot(
         values,
-        positions=places,
+        positions=positions,
         widths=width,
         manage_ticks=False,
         showfliers=False,
-        boxprops=line,
-        whiskerprops=line,
-        capprops=line,
+        boxprops=line_settings,
+        whiskerprops=line_settings,
+        capprops=line_settings,
         medianprops={"color": INK, "linewidth": 1.0},
         zorder=2.7,
         **settings,
@@ -198,67 +195,67 @@ def draw_boxes(
 
 
 def _box_width(levels: Iterable[float]) -> float:
-    """Return the width of a box: a third of the least step, and a tenth of the axis at most."""
+    """Return the width of a box: 0.36 of the least step, and a tenth of the axis at most."""
     xs = sorted(set(levels))
     if len(xs) < 2:
         return 0.3
     return float(min(0.36 * min(np.diff(xs)), 0.1 * (xs[-1] - xs[0])))
 
 
-def _draw_losses(axes: Axes, curve: Curve, label: bool) -> None:
-    """Mark the first level that did not end ok: a line, over repeats from first to last."""
+def _draw_losses(axes: Axes, curve: Curve, has_label: bool) -> None:
+    """Mark the first level that did not end ok by a line, over repeats by a band."""
     if not curve.losses:
         return
     levels = [level for level, _ in curve.losses]
-    first, last = min(levels), max(levels)
-    if first < last:
-        axes.axvspan(first, last, color=PALETTE[1], alpha=0.10, linewidth=0, zorder=1)
-    for level in dict.fromkeys((first, last)):
+    first_level, last_level = min(levels), max(levels)
+    if first_level < last_level:
+        axes.axvspan(first_level, last_level, color=PALETTE[1], alpha=0.10, linewidth=0, zorder=1)
+    for level in dict.fromkeys((first_level, last_level)):
         axes.axvline(level, color=PALETTE[1], linewidth=1.0, zorder=2)
-    if label:
-        _write_above(axes, last, curve.loss_text, PALETTE[1], line=1)
+    if has_label:
+        _write_above_axes(axes, last_level, curve.loss_text, PALETTE[1], line=1)
 
 
-def draw_end(axes: Axes, curve: Curve, look: Look) -> None:
+def draw_end(axes: Axes, curve: Curve, style: LineStyle) -> None:
     """Mark with a cross the last value before a loss."""
-    known = [k for k, value in enumerate(curve.mean) if not np.isnan(value)]
-    if curve.losses and known and known[-1] < len(curve.x) - 1:
-        x, y = curve.x[known[-1]], curve.mean[known[-1]]
-        axes.plot([x], [y], "x", color=look.colour, markersize=8, mew=1.6, zorder=4)
+    indices = [k for k, value in enumerate(curve.mean) if not np.isnan(value)]
+    if curve.losses and indices and indices[-1] < len(curve.x) - 1:
+        x, y = curve.x[indices[-1]], curve.mean[indices[-1]]
+        axes.plot([x], [y], "x", color=style.colour, markersize=8, mew=1.6, zorder=4)
 
 
-def draw_prediction(axes: Axes, result: Result, label: bool = True) -> None:
+def draw_prediction(axes: Axes, result: Result, has_label: bool = True) -> None:
     """Draw f*, the fog at which the ZNCC is expected to reach its threshold."""
     fact, levels = result.fact("f_star"), result.columns_of_kind("level")
     if fact is None or not is_fog_swept(result):
         return
     low, high = axes.get_xlim()
-    text = f"$f^*$ = {_two_decimals(fact[0])} {plain(written_unit(fact[1]))}"
+    text = f"$f^*$ = {_two_decimals(fact[0])} {escape(written_unit(fact[1]))}"
     x = fact[0]
     if (length := LENGTHS.get(levels[-1].name)) is not None:
         x = length(x) if x > 0.0 else math.inf
         text = f"{_two_decimals(x)} m, {text}"
     if low <= x <= high:
-        axes.axvline(x, color=FAINT, linewidth=1.1, linestyle=(0, (1, 1.5)), zorder=2)
-        if label:
-            _write_above(axes, x, f"loss predicted at {text}", FAINT, line=0)
-    elif label:
-        _write_above(axes, high, f"loss predicted beyond these levels, {text}", FAINT, line=0)
+        axes.axvline(x, color=GREY, linewidth=1.1, linestyle=(0, (1, 1.5)), zorder=2)
+        if has_label:
+            _write_above_axes(axes, x, f"loss predicted at {text}", GREY, line=0)
+    elif has_label:
+        _write_above_axes(axes, high, f"loss predicted beyond these levels, {text}", GREY, line=0)
 
 
 def _two_decimals(number: float) -> str:
-    """Two digits behind the point, unless there would be many before it."""
+    """Return a number with two decimals, a large one with three digits."""
     return f"{number:.2f}" if abs(number) < 1e4 else f"{number:.3g}"
 
 
 def is_fog_swept(result: Result) -> bool:
-    """Whether the axis of the plots is fog, as a density or as a length."""
+    """Return True if the innermost level is fog, as a density or as a length."""
     levels = result.columns_of_kind("level")
     return bool(levels) and levels[-1].name in ("fog", *LENGTHS)
 
 
-def _write_above(axes: Axes, x: float, text: str, colour: str, *, line: int) -> None:
-    """Write over the axes, ending (or on the left half, beginning) at a vertical line."""
+def _write_above_axes(axes: Axes, x: float, text: str, colour: str, *, line: int) -> None:
+    """Write a text above the axes that ends (on the left half: begins) at a vertical line."""
     low, high = axes.get_xlim()
     axes.annotate(
         text,
@@ -273,11 +270,11 @@ def _write_above(axes: Axes, x: float, text: str, colour: str, *, line: int) -> 
     )
 
 
-def label_axes(axes: Axes, result: Result, column: Column, *, fold: int = FOLD) -> None:
-    """Label the axes with units; ticks are at the levels where these are few."""
+def label_axes(axes: Axes, result: Result, column: Column, label_width: int = LABEL_WIDTH) -> None:
+    """Label the axes with units; few levels have a tick each."""
     levels = result.columns_of_kind("level")
     if levels:
-        axes.set_xlabel(plain(level_label(levels[-1])))
+        axes.set_xlabel(escape(level_label(levels[-1])))
         xs = sorted({level[-1] for level in rows_by_level(result)})
         if levels[-1].name == "none":
             axes.set_xticks([])
@@ -288,17 +285,17 @@ def label_axes(axes: Axes, result: Result, column: Column, *, fold: int = FOLD) 
             has_repeats = len(set(repeats_of(result))) > 1
             pad = max(0.03 * (xs[-1] - xs[0]), 0.7 * _box_width(xs) * has_repeats)
             axes.set_xlim(xs[0] - pad, xs[-1] + pad)
-            if len(xs) <= FEW_LEVELS:
+            if len(xs) <= MAX_LEVEL_TICKS:
                 axes.set_xticks(xs, [f"{x:g}" for x in xs])
-            elif levels[-1].name in COUNTED:
+            elif levels[-1].name in INTEGER_LEVELS:
                 axes.xaxis.set_major_locator(MaxNLocator(integer=True))
-    axes.set_ylabel(plain(textwrap.fill(label_of(result, column), fold)))
+    axes.set_ylabel(escape(textwrap.fill(label_of(result, column), label_width)))
 
 
 def scale_axes(axes: Axes, curves: Sequence[Curve]) -> None:
-    """Begin at 0 when nothing is negative; logarithmic between 1 : 50 and 1 : 1000.
+    """Begin at 0 without negative values; use a logarithmic axis between 1 : 50 and 1 : 1000.
 
-    What is below a thousandth of the largest value is nothing (a control that echoes the truth).
+    Values below a thousandth of the largest one count as zero (a control that repeats the truth).
     """
     values = np.array([v for curve in curves for v in curve.mean if not np.isnan(v)])
     if values.size == 0 or values.min() < 0:
@@ -315,33 +312,33 @@ def scale_axes(axes: Axes, curves: Sequence[Curve]) -> None:
 
 
 def _is_far_above(other: Curve, curves: Sequence[Curve]) -> bool:
-    """Whether drawing the control would press all else flat."""
+    """Return True if an axis with the control would make all other curves flat."""
     spans = [span for curve in curves if (span := curve.span) is not None]
     return (
         other.span is not None
         and bool(spans)
         and min(low for low, _ in spans) >= 0
-        and other.span[0] > FAR_ABOVE * max(high for _, high in spans)
+        and other.span[0] > CONTROL_CLIP_RATIO * max(high for _, high in spans)
     )
 
 
-def say_no_data(axes: Axes, why: str | None) -> None:
-    """Write the reason where a curve would be."""
+def write_no_data(axes: Axes, reason: str | None) -> None:
+    """Write the reason for a missing curve in its place."""
     axes.text(
         0.5,
         0.5,
-        plain(textwrap.fill(f"no data: {why or 'no level was run'}", 60)),
+        escape(textwrap.fill(f"no data: {reason or 'no level was run'}", 60)),
         transform=axes.transAxes,
         ha="center",
         va="center",
-        color=FAINT,
+        color=GREY,
         bbox={"facecolor": "white", "edgecolor": "none"},
     )
     axes.set_yticks([])
 
 
 def with_loss(name: str, curve: Curve) -> str:
-    """Return a curve's name with where it was lost: ``esm (lost at 1.2)``."""
+    """Return a curve's name with the level of its loss: ``esm (lost at 1.2)``."""
     return f"{name} ({curve.loss_text})" if curve.losses else name
 
 

@@ -1,56 +1,62 @@
-"""Plots of what happened within the levels of a run: measures over time, tracks from above."""
+"""Plots of the time within the levels of a run: measures over time, tracks from above."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
 
+from matplotlib.figure import Figure
+
 from ...base.files.file_names import file_names
 from ...errors import ResultError
 from ...results.log import load_log, logs_of
 from ...results.per_level import rows_by_level
 from ...results.result import Result
-from .one_level import NOTE, one_level_plot
-from .over_time import note_of, over_time_plot
+from .one_level import MARKS_NOTE, one_level_plot
+from .over_time import marks_note, time_plot
 from .save import save_pdf, save_plot
 from .track_plot import read_tracks, track_plot
 
-TRACK = "track"
-ONE_LEVEL = "repeats"
-OVER_TIME = "-over-time"
+TRACK_PLOT_NAME = "track"
+ONE_LEVEL_PLOT_NAME = "repeats"
+TIME_PLOT_SUFFIX = "-over-time"
 
 
 @dataclass(frozen=True, kw_only=True)
 class RunPlot:
-    """A plot of what happened within the levels."""
+    """A plot of the time within the levels."""
 
     path: Path
-    """The PNG."""
+    """The path of the PNG."""
     measure: str | None
     """The measure that it shows over time; None for the tracks."""
     caption: str
-    """What it shows; the caption of a measure comes before it."""
+    """The caption; that of a measure follows its name and meaning."""
 
 
 def draw_run_plots(
     result: Result, directory: Path, folder: Path, *, pdf: bool = False
 ) -> tuple[RunPlot, ...]:
-    """Draw every measure that has a log over time, and the tracks of the vehicles from above.
+    """Draw every measure with a log over time, and the tracks of the vehicles from above.
 
     Args:
         result: the result.
-        directory: of the result; its logs and motion tracks are read.
-        folder: the plots are written there.
-        pdf: also draw each as PDF.
+        directory: the directory of the result, with its logs and motion tracks.
+        folder: the folder for the plots.
+        pdf: write each plot as PDF, too.
     """
     plots: list[RunPlot] = []
-    if len(rows_by_level(result)) == 1 and len(result.rows) > 1:
-        figure = one_level_plot(result)
+
+    def add_plot(figure: Figure | None, name: str, caption: str, measure: str | None) -> None:
         if figure is not None:
-            path = save_plot(figure, folder / f"{ONE_LEVEL}.png")
-            plots.append(RunPlot(path=path, measure=None, caption=f"The repeats; {NOTE}"))
+            path = save_plot(figure, folder / f"{name}.png")
+            plots.append(RunPlot(path=path, measure=measure, caption=caption))
             if pdf:
                 save_pdf(figure, path.with_suffix(".pdf"))
+
+    if len(rows_by_level(result)) == 1 and len(result.rows) > 1:
+        caption = f"The repeats; {MARKS_NOTE}"
+        add_plot(one_level_plot(result), ONE_LEVEL_PLOT_NAME, caption, None)
     logs = {}
     for path in logs_of(directory):
         try:
@@ -59,23 +65,13 @@ def draw_run_plots(
             continue  # a damaged log has no plot
         logs[path.stem] = log
     order = {column.name: i for i, column in enumerate(result.columns_of_kind("measure"))}
-    files = file_names(logs, existing_names=[TRACK, ONE_LEVEL])
-    for stem, log in sorted(logs.items(), key=lambda each: order.get(each[1].measure, len(order))):
-        figure = over_time_plot(result, log)
-        if figure is not None:
-            name = files[stem].removeprefix("measure-")
-            path = save_plot(figure, folder / f"{name}{OVER_TIME}.png")
-            n_seeds = len({row[0] for row in result.rows}) if result.columns_of_kind("run") else 1
-            note = note_of(n_seeds)
-            caption = "over the time of the level" + (f"; {note}" if note else "")
-            plots.append(RunPlot(path=path, measure=log.measure, caption=caption))
-            if pdf:
-                save_pdf(figure, path.with_suffix(".pdf"))
-    figure = track_plot(result, read_tracks(result, directory))
-    if figure is not None:
-        path = save_plot(figure, folder / f"{TRACK}.png")
-        caption = "Tracks of the vehicles and loose objects from above, in the world frame"
-        plots.append(RunPlot(path=path, measure=None, caption=caption))
-        if pdf:
-            save_pdf(figure, path.with_suffix(".pdf"))
+    files = file_names(logs, existing_names=[TRACK_PLOT_NAME, ONE_LEVEL_PLOT_NAME])
+    for stem, log in sorted(logs.items(), key=lambda item: order.get(item[1].measure, len(order))):
+        name = files[stem].removeprefix("measure-") + TIME_PLOT_SUFFIX
+        n_seeds = len({row[0] for row in result.rows}) if result.columns_of_kind("run") else 1
+        note = marks_note(n_seeds)
+        caption = "over the time of the level" + (f"; {note}" if note else "")
+        add_plot(time_plot(result, log), name, caption, log.measure)
+    caption = "Tracks of the vehicles and free objects from above, in the world frame"
+    add_plot(track_plot(result, read_tracks(result, directory)), TRACK_PLOT_NAME, caption, None)
     return tuple(plots)

@@ -8,34 +8,33 @@ from matplotlib.ticker import MaxNLocator
 
 from ...results.result import Result
 from .curves import Curve, curves_of, label_of
-from .drawing import FEWEST_FOR_BOX, draw_boxes
-from .style import PALETTE, plain, styled_figure, write_note
+from .drawing import MIN_BOX_VALUES, draw_boxes
+from .style import PALETTE, escape, styled_figure, write_note
 
-NOTE = "dots: repeats; circle: mean with its 95 % interval; boxes: quartiles and median"
+MARKS_NOTE = "dots: repeats; circle: mean with its 95 % interval; boxes: quartiles and median"
 
 
 def one_level_plot(result: Result) -> Figure | None:
     """Draw the values of all repeats, a row for each column; None where no column has values."""
     columns = result.columns_of_kind("score") + result.columns_of_kind("measure")
-    found = [(column, curves_of(result, column.name)) for column in columns]
-    drawn = [(column, curves[0]) for column, curves in found if curves and curves[0].values[0]]
-    if not drawn:
+    column_curves = [(column, curves_of(result, column.name)) for column in columns]
+    rows = [(column, c[0]) for column, c in column_curves if c and c[0].values[0]]
+    if not rows:
         return None
-    with styled_figure((6.4, 0.5 + 0.62 * len(drawn))) as figure:
-        grid = figure.subplots(len(drawn), 1, squeeze=False).ravel()
-        for axes, (column, curve) in zip(grid, drawn, strict=True):
+    with styled_figure((6.4, 0.5 + 0.62 * len(rows))) as figure:
+        grid = figure.subplots(len(rows), 1, squeeze=False).ravel()
+        for axes, (column, curve) in zip(grid, rows, strict=True):
             _draw(axes, curve)
             axes.set_ylabel(
-                plain(label_of(result, column)), rotation=0, ha="right", va="center", labelpad=8
+                escape(label_of(result, column)), rotation=0, ha="right", va="center", labelpad=8
             )
-        write_note(figure, NOTE)
+        write_note(figure, MARKS_NOTE)
     return figure
 
 
 def _draw(axes: Axes, curve: Curve) -> None:
-    """Draw the repeats of one column along x."""
     values, colour = curve.values[0], PALETTE[0]
-    if len(values) >= FEWEST_FOR_BOX:
+    if len(values) >= MIN_BOX_VALUES:
         draw_boxes(axes, [values], [-0.35], 0.4, colour, orientation="horizontal")
     axes.plot(values, [0.3] * len(values), "o", color=colour, markersize=3.2, alpha=0.55, mew=0)
     low, high = curve.low[0], curve.high[0]

@@ -1,11 +1,10 @@
 """Plots of a result over its levels.
 
-Every plot is drawn from results alone. Axes carry units; a loss is a vertical line with its level,
-or where several curves share the axes a cross at the last value before it. Bands are 95 % intervals
-of the mean over repeats (a hollow marker: not every repeat has a value), the control (`frozen`,
-which never looks at an image) is a dashed line, named but left outside when it is far above. A
-column without values says why instead of showing nothing. No plot has a title: what was found is
-for the reader to say.
+Every plot is drawn from results alone. Axes have units. A loss is a vertical line with its level;
+where several curves share the axes, it is a cross at the last value before it. Bands are 95 %
+intervals of the mean over repeats; a hollow marker has repeats without a value. The control
+(`frozen`, which reads no image) is a dashed line, or only named when it is far above. A column
+without values has the reason in its place. No plot has a title.
 """
 
 from __future__ import annotations
@@ -22,60 +21,61 @@ from ...results.result import Result
 from .curves import algorithm_of, curves_of, repeats_of
 from .drawing import (
     CONTROL,
-    CONTROL_LOOK,
+    CONTROL_STYLE,
     MAX_INSIDE,
     add_legend,
+    curve_style,
     draw_column,
     draw_curve,
     draw_end,
     draw_prediction,
     label_axes,
     legend_entries,
-    look_of,
-    say_no_data,
     scale_axes,
     with_loss,
+    write_no_data,
 )
 from .save import save_pdf, save_plot
-from .style import SIZE, cut, styled_figure, write_note
+from .style import SIZE, shorten_name, styled_figure, write_note
 
-OVERVIEW = "all-measures"
-MAX_IN_A_COLUMN = 8
-"""Greatest number of panels in one column; more are in two columns."""
+OVERVIEW_NAME = "all-measures"
+MAX_PANELS_IN_COLUMN = 8
+"""The greatest number of panels in one column; more are in two columns."""
 
 
 def value_plot(result: Result, column: str, *, control: Result | None = None) -> Figure:
     """Draw one column over the levels; ``control`` is the same benchmark run with `frozen`."""
     curves = curves_of(result, column)
-    with styled_figure(_with_room(SIZE, len(curves))) as figure:
+    with styled_figure(_widen_for_legend(SIZE, len(curves))) as figure:
         axes = figure.subplots()
         draw_column(axes, result, result.columns[result.index(column)], curves, control)
         add_legend(axes, len(curves))
-        write_note(figure, *_origin(result))
+        write_note(figure, *_notes(result))
     return figure
 
 
 def small_multiples(result: Result, *, control: Result | None = None) -> Figure:
     """Draw every measure and the total over the same levels, in two columns if there are many."""
     columns = result.columns_of_kind("measure", "score")
-    drawn = [curves_of(result, column.name) for column in columns]
-    n_curves = max(map(len, drawn), default=0)
-    across = 2 if len(columns) > MAX_IN_A_COLUMN else 1
-    rows = max(1, math.ceil(len(columns) / across))
-    with styled_figure(_with_room((SIZE[0] * across, 0.6 + 1.9 * rows), n_curves)) as figure:
-        grid = figure.subplots(rows, across, sharex=True, squeeze=False).T.ravel()
+    curve_lists = [curves_of(result, column.name) for column in columns]
+    n_curves = max(map(len, curve_lists), default=0)
+    n_columns = 2 if len(columns) > MAX_PANELS_IN_COLUMN else 1
+    n_rows = max(1, math.ceil(len(columns) / n_columns))
+    size = (SIZE[0] * n_columns, 0.6 + 1.9 * n_rows)
+    with styled_figure(_widen_for_legend(size, n_curves)) as figure:
+        grid = figure.subplots(n_rows, n_columns, sharex=True, squeeze=False).T.ravel()
         for axes in grid[len(columns) or 1 :]:
             axes.remove()
-        for axes, column, curves in zip(grid, columns, drawn, strict=False):
+        for axes, column, curves in zip(grid, columns, curve_lists, strict=False):
             is_first = axes is grid[0]
-            draw_column(axes, result, column, curves, control, labels=is_first, fold=18)
+            draw_column(axes, result, column, curves, control, has_labels=is_first, label_width=18)
             if is_first:
                 add_legend(axes, n_curves)
-            is_lowest = axes in (grid[rows - 1], grid[len(columns) - 1])
+            is_lowest = axes in (grid[n_rows - 1], grid[len(columns) - 1])
             axes.tick_params(labelbottom=is_lowest)
             if not is_lowest:
                 axes.set_xlabel("")
-        write_note(figure, *_origin(result))
+        write_note(figure, *_notes(result))
     return figure
 
 
@@ -85,42 +85,42 @@ def compare_plot(
     """Draw one column of several results of the same benchmark, a line a result.
 
     Args:
-        results: what is drawn.
-        column: Name of the column.
-        names: What the legend calls them; None: their algorithms, with the seed if need be.
+        results: the results to draw.
+        column: the name of the column.
+        names: the names in the legend; None: the algorithms, with the seed where two are equal.
 
     Raises:
-        ResultError: they sweep different levels, or the column has different units.
+        ResultError: the results sweep different levels, or the column has different units.
     """
-    _same_axes(results, column)
+    _check_same_axes(results, column)
     with styled_figure((SIZE[0] + 1.6, SIZE[1])) as figure:
         axes = figure.subplots()
-        shown = results[0].columns[results[0].index(column)]
-        drawn = [
-            (cut(f"{name}, {curve.name}" if curve.name else name), result, curve)
-            for name, result in zip(names or _distinct_names(results), results, strict=True)
+        compared_column = results[0].columns[results[0].index(column)]
+        named_curves = [
+            (shorten_name(f"{name}, {curve.name}" if curve.name else name), result, curve)
+            for name, result in zip(names or _unique_names(results), results, strict=True)
             for curve in curves_of(result, column)
         ]
-        for i, (name, result, curve) in enumerate(drawn):
+        for i, (name, result, curve) in enumerate(named_curves):
             is_control = algorithm_of(result) == CONTROL
-            look = CONTROL_LOOK if is_control else look_of(i, len(drawn))
-            draw_curve(axes, curve, look, with_loss(name, curve))
-            draw_end(axes, curve, look)
-        curves = [curve for _, _, curve in drawn]
+            style = CONTROL_STYLE if is_control else curve_style(i, len(named_curves))
+            draw_curve(axes, curve, style, with_loss(name, curve))
+            draw_end(axes, curve, style)
+        curves = [curve for _, _, curve in named_curves]
         scale_axes(axes, curves)
         limits = []
-        for result in reversed(results):  # the first one last: its labels stay
-            label_axes(axes, result, shown)
+        for result in reversed(results):  # the axes keep the labels of the first result
+            label_axes(axes, result, compared_column)
             limits.append(axes.get_xlim())
         axes.set_xlim(min(low for low, _ in limits), max(high for _, high in limits))
-        predicted = {result.fact("f_star"): result for result in results}
-        predicted.pop(None, None)
-        if len(predicted) == 1:  # the same for all that have the rule
-            draw_prediction(axes, next(iter(predicted.values())))
+        predictions = {result.fact("f_star"): result for result in results}
+        predictions.pop(None, None)
+        if len(predictions) == 1:  # the same for all results with a prediction
+            draw_prediction(axes, next(iter(predictions.values())))
         if all(curve.is_empty for curve in curves):
-            say_no_data(axes, next((c.why for c in curves if c.why), None))
+            write_no_data(axes, next((c.reason for c in curves if c.reason), None))
         figure.legend(*legend_entries(axes), loc="outside right upper")
-        write_note(figure, *_origin(results[0], with_algorithm=False))
+        write_note(figure, *_notes(results[0], with_algorithm=False))
     return figure
 
 
@@ -130,13 +130,13 @@ def draw_plots(
     """Draw all plots of a result into ``directory``.
 
     Args:
-        result: what is drawn.
-        directory: made if it is not there.
+        result: the result to draw.
+        directory: the folder for the plots; it is created if it does not exist.
         control: the same benchmark run with `frozen`.
-        pdf: also draw each as PDF, which takes three times as long.
+        pdf: write each plot as PDF, too, which takes three times as long.
 
     Returns:
-        The PNGs, the total first, the overview of all measures last.
+        The paths of the PNGs, the total first, the overview of all measures last.
     """
     directory.mkdir(parents=True, exist_ok=True)
     files: list[Path] = []
@@ -150,38 +150,32 @@ def draw_plots(
         column.name
         for column in result.columns_of_kind("score") + result.columns_of_kind("measure")
     ]
-    for name, file in file_names(names, existing_names=[OVERVIEW]).items():
+    for name, file in file_names(names, existing_names=[OVERVIEW_NAME]).items():
         save(value_plot(result, name, control=control), file)
     if len(files) > 1:
-        save(small_multiples(result, control=control), OVERVIEW)
+        save(small_multiples(result, control=control), OVERVIEW_NAME)
     return tuple(files)
 
 
-def _with_room(size: tuple[float, float], n_curves: int) -> tuple[float, float]:
-    """Widen a figure whose legend is next to the axes."""
+def _widen_for_legend(size: tuple[float, float], n_curves: int) -> tuple[float, float]:
     return (size[0] + 1.5, size[1]) if n_curves > MAX_INSIDE else size
 
 
-def _same_axes(results: Sequence[Result], column: str) -> None:
+def _check_same_axes(results: Sequence[Result], column: str) -> None:
     if not results:
-        raise ResultError("There is nothing to compare: no result was given.")
-    first = results[0]
+        raise ResultError("A plot of a comparison needs at least one result.")
+    first_result = results[0]
     for other in results[1:]:
-        if [c.name for c in other.columns_of_kind("level")] != [
-            c.name for c in first.columns_of_kind("level")
-        ]:
-            raise ResultError(
-                "These results sweep different things: "
-                f"{', '.join(c.name for c in first.columns_of_kind('level'))} and "
-                f"{', '.join(c.name for c in other.columns_of_kind('level'))}."
-            )
-        units = [r.columns[r.index(column)].unit for r in (first, other)]
+        names = [[c.name for c in r.columns_of_kind("level")] for r in (first_result, other)]
+        if names[0] != names[1]:
+            parameters = " and ".join(", ".join(part) for part in names)
+            raise ResultError(f"These results sweep different parameters: {parameters}.")
+        units = [r.columns[r.index(column)].unit for r in (first_result, other)]
         if units[0] != units[1]:
             raise ResultError(f"{column} is in {units[0]} in one result and {units[1]} in another.")
 
 
-def _distinct_names(results: Sequence[Result]) -> list[str]:
-    """Name results by their algorithm, and where that is not enough by their seed too."""
+def _unique_names(results: Sequence[Result]) -> list[str]:
     names = [algorithm_of(result) or f"result {i + 1}" for i, result in enumerate(results)]
     return [
         name if names.count(name) == 1 else f"{name}, seed {result.run.seed}"
@@ -189,20 +183,20 @@ def _distinct_names(results: Sequence[Result]) -> list[str]:
     ]
 
 
-def _origin(result: Result, *, with_algorithm: bool = True) -> tuple[str, str]:
-    """The run (file, algorithm, mode, seed, version), and the meaning of the bands."""
+def _notes(result: Result, *, with_algorithm: bool = True) -> tuple[str, str]:
+    """Return the run (file, algorithm, mode, seed, version), and the meaning of the marks."""
     benchmark, run = result.inputs.benchmark, result.run
     n_repeats = len(set(repeats_of(result)))
     seeds = f"{n_repeats} repeats from seed" if n_repeats > 1 else "seed"
     parts = [
-        "" if benchmark is None else cut(benchmark[0], 28),
-        cut(algorithm_of(result), 28) if with_algorithm else "",
+        "" if benchmark is None else shorten_name(benchmark[0], 28),
+        shorten_name(algorithm_of(result), 28) if with_algorithm else "",
         run.mode or "",
         f"{seeds} {'?' if run.seed is None else run.seed}",
         f"uwsim {run.version or '?'}",
     ]
-    bands = (
+    marks = (
         "bands: 95 % intervals of the mean; dots: repeats; boxes: quartiles and median; "
         "hollow: not every repeat has a value"
     )
-    return " · ".join(part for part in parts if part), bands if n_repeats > 1 else ""
+    return " · ".join(part for part in parts if part), marks if n_repeats > 1 else ""

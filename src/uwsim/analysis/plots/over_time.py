@@ -1,9 +1,8 @@
 """The values of a measure over the time of a level, with quantiles over the seeds.
 
-A panel is a level. With five seeds or more it has the median, the range of the middle half and that
-of the middle nine tenths; with fewer, the line of each seed and the median. Quantiles are those of
-the seeds that have a sample at that time: a level that ends early, or that has lost its target, has
-none.
+Each panel is a level. With five seeds or more it has the median, the range of the middle half and
+that of the middle nine tenths; with fewer, the line of each seed and the median. Quantiles are over
+the seeds with a sample at that time: a level that ended before, or a lost target, has none.
 """
 
 from __future__ import annotations
@@ -21,19 +20,19 @@ from matplotlib.figure import Figure
 from ...results.log import TIME, Log
 from ...results.result import Column, Result
 from .curves import level_text, written_unit
-from .panels import panels_of
-from .style import FAINT, INK, PALETTE, plain, styled_figure, write_note
+from .panels import choose_evenly, choose_panels
+from .style import GREY, INK, PALETTE, escape, styled_figure, write_note
 
 Array = npt.NDArray[np.float64]
 Level = tuple[float, ...]
 
-FEWEST_FOR_BANDS = 5
-"""The number of seeds from which on quantiles are drawn as bands."""
-OUTER, INNER = (0.05, 0.95), (0.25, 0.75)
-"""Quantiles at the edges of the bands."""
+MIN_BAND_SEEDS = 5
+"""The least number of seeds whose quantiles are drawn as bands."""
+OUTER_QUANTILES, INNER_QUANTILES = (0.05, 0.95), (0.25, 0.75)
+"""The quantiles at the edges of the outer and the inner band."""
 MAX_POINTS = 1500
 """The greatest number of times at which a line has a point."""
-LOG_SCALE = 50.0
+LOG_SCALE_RATIO = 50.0
 """The axis is logarithmic where the lines differ by more than this factor."""
 
 
@@ -42,42 +41,40 @@ class Samples:
     """The samples of a measure in one level, by seed."""
 
     times: Array
-    """Times since the measure began, (n,) [s]."""
+    """The times since the start of the measure, (n,) [s]."""
     values: Array
-    """Value of each seed, (seeds, n); NaN where there is none."""
+    """The value of each seed, (seeds, n); NaN where there is none."""
 
 
 def samples_of(result: Result, log: Log) -> dict[Level, Samples]:
-    """Return the samples of a log by level, in the order of the log; times without a value stay."""
-    time = log.header.index(TIME)
-    levels = [log.header.index(column.label) for column in result.columns_of_kind("level")]
-    runs = [log.header.index(column.label) for column in result.columns_of_kind("run")]
-    found: dict[Level, dict[tuple[object, ...], list[tuple[float, float]]]] = {}
+    """Return the samples of a log by level, in the order of the log; a missing value is NaN."""
+    time_index = log.header.index(TIME)
+    level_indices = [log.header.index(column.label) for column in result.columns_of_kind("level")]
+    run_indices = [log.header.index(column.label) for column in result.columns_of_kind("run")]
+    samples_by_seed: dict[Level, dict[tuple[object, ...], list[tuple[float, float]]]] = {}
     for sample in log.samples:
-        level = tuple(float(sample[i] or 0.0) for i in levels)
-        seed = tuple(sample[i] for i in runs)
-        value = sample[time + 1]
-        at = (float(sample[time] or 0.0), math.nan if value is None else float(value))
-        found.setdefault(level, {}).setdefault(seed, []).append(at)
-    return {level: _table(seeds) for level, seeds in found.items()}
+        level = tuple(float(sample[i] or 0.0) for i in level_indices)
+        seed = tuple(sample[i] for i in run_indices)
+        time, value = float(sample[time_index] or 0.0), sample[time_index + 1]
+        points = samples_by_seed.setdefault(level, {}).setdefault(seed, [])
+        points.append((time, math.nan if value is None else float(value)))
+    return {level: _table(seeds) for level, seeds in samples_by_seed.items()}
 
 
 def _table(seeds: Mapping[tuple[object, ...], Sequence[tuple[float, float]]]) -> Samples:
-    """Put the samples of seeds in one table; times begin at the first sample of each."""
+    """Combine the samples of seeds in one table; times are since the first sample of each seed."""
     rows = [{round(t - line[0][0], 3): value for t, value in line} for line in seeds.values()]
     times = sorted({t for row in rows for t in row})
-    if len(times) > MAX_POINTS:
-        kept = np.linspace(0, len(times) - 1, MAX_POINTS).round().astype(int)
-        times = [times[i] for i in dict.fromkeys(kept.tolist())]
+    times = choose_evenly(times, MAX_POINTS)
     values = [[row.get(t, math.nan) for t in times] for row in rows]
     return Samples(times=np.array(times), values=np.array(values).reshape(len(rows), len(times)))
 
 
-def over_time_plot(result: Result, log: Log) -> Figure | None:
-    """Draw a measure over the time of each level; None where no sample has a value but 0.
+def time_plot(result: Result, log: Log) -> Figure | None:
+    """Draw a measure over the time of each level; None where all samples are 0 or missing.
 
     Args:
-        result: whose levels and seeds the log has.
+        result: the result with the levels and seeds of the log.
         log: the samples of the measure.
     """
     if TIME not in log.header or len(log.header) < log.header.index(TIME) + 2:
@@ -86,30 +83,30 @@ def over_time_plot(result: Result, log: Log) -> Figure | None:
     if any(name not in log.header for name in names):
         return None
     samples = {
-        level: found
-        for level, found in samples_of(result, log).items()
-        if len(found.times) > 1 and not np.isnan(found.values).all()
+        level: table
+        for level, table in samples_of(result, log).items()
+        if len(table.times) > 1 and not np.isnan(table.values).all()
     }
-    if not any(np.nan_to_num(found.values).any() for found in samples.values()):
+    if not any(np.nan_to_num(table.values).any() for table in samples.values()):
         return None
-    shown = panels_of(samples)
-    with styled_figure(shown.size) as figure:
-        grid = shown.axes(figure, sharex=True, sharey=True)
-        for axes, level in zip(grid, shown.levels, strict=True):
+    panels = choose_panels(samples)
+    with styled_figure(panels.size) as figure:
+        grid = panels.axes(figure, sharex=True, sharey=True)
+        for axes, level in zip(grid, panels.levels, strict=True):
             _draw(axes, samples[level])
-            axes.set_title(plain(level_title(result, level)), fontsize=8, loc="left", color=INK)
-        _scale(grid, [samples[level] for level in shown.levels])
-        n_seeds = max(len(samples[level].values) for level in shown.levels)
-        write_note(figure, note_of(n_seeds), shown.note)
-        shown.label(grid, "time in the level [s]", plain(_label(log)))
+            axes.set_title(escape(level_title(result, level)), fontsize=8, loc="left", color=INK)
+        _scale(grid, [samples[level] for level in panels.levels])
+        n_seeds = max(len(samples[level].values) for level in panels.levels)
+        write_note(figure, marks_note(n_seeds), panels.note)
+        panels.label(grid, "time in the level [s]", escape(_label(log)))
     return figure
 
 
-def note_of(n_seeds: int) -> str:
-    """Return what the lines and bands of so many seeds are."""
+def marks_note(n_seeds: int) -> str:
+    """Return the meaning of the lines and bands of so many seeds."""
     if n_seeds == 1:
         return ""
-    if n_seeds < FEWEST_FOR_BANDS:
+    if n_seeds < MIN_BAND_SEEDS:
         return f"thin lines: {n_seeds} seeds; thick line: their median"
     return f"line: median of {n_seeds} seeds; dark band: middle 50 %; light band: middle 90 %"
 
@@ -117,12 +114,11 @@ def note_of(n_seeds: int) -> str:
 def level_title(result: Result, level: Level) -> str:
     """Return a level as a title: ``current 0.4 m/s, fog 0.5 m⁻¹``."""
     columns: Sequence[Column] = result.columns_of_kind("level")
-    named = zip(columns, level, strict=True)
-    return ", ".join(level_text(column, v) for column, v in named if column.name != "none")
+    column_values = zip(columns, level, strict=True)
+    return ", ".join(level_text(column, v) for column, v in column_values if column.name != "none")
 
 
 def _label(log: Log) -> str:
-    """Return the label of the axis: the name of the measure with the unit of its value."""
     unit = log.header[log.header.index(TIME) + 1].partition("[")[2].rstrip("]")
     return f"{log.measure} [{written_unit(unit)}]" if unit else log.measure
 
@@ -135,8 +131,8 @@ def _draw(axes: Axes, samples: Samples) -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", RuntimeWarning)  # of times at which no seed has a value
         median = np.nanmedian(values, axis=0)
-        edges = [np.nanquantile(values, both, axis=0) for both in (OUTER, INNER)]
-    if len(values) < FEWEST_FOR_BANDS:
+        edges = [np.nanquantile(values, q, axis=0) for q in (OUTER_QUANTILES, INNER_QUANTILES)]
+    if len(values) < MIN_BAND_SEEDS:
         axes.plot(times, values.T, color=colour, linewidth=0.6, alpha=0.45)
     else:
         for (low, high), alpha in zip(edges, (0.16, 0.30), strict=True):
@@ -145,16 +141,16 @@ def _draw(axes: Axes, samples: Samples) -> None:
 
 
 def _scale(grid: Sequence[Axes], samples: Sequence[Samples]) -> None:
-    """Begin at 0 where nothing is negative; logarithmic where levels differ by a large factor."""
-    finite = [each.values[np.isfinite(each.values)] for each in samples]
-    values = np.concatenate(finite)
+    """Begin at 0 without negative values; use a logarithmic axis for very different levels."""
+    finite_values = [s.values[np.isfinite(s.values)] for s in samples]
+    values = np.concatenate(finite_values)
     for axes in grid:
-        axes.set_xlim(0.0, max(float(each.times[-1]) for each in samples))
-        axes.axhline(0.0, color=FAINT, linewidth=0.5, zorder=1)
+        axes.set_xlim(0.0, max(float(s.times[-1]) for s in samples))
+        axes.axhline(0.0, color=GREY, linewidth=0.5, zorder=1)
     if values.min() < 0.0:
         return
-    medians = [float(np.median(part)) for part in finite]
-    if min(medians) > 0.0 and max(medians) > LOG_SCALE * min(medians):
+    medians = [float(np.median(part)) for part in finite_values]
+    if min(medians) > 0.0 and max(medians) > LOG_SCALE_RATIO * min(medians):
         positive = values[values > 0.0]
         grid[0].set_yscale("log")
         grid[0].set_ylim(0.8 * float(np.quantile(positive, 0.02)), 1.25 * float(positive.max()))

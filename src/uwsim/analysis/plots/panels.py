@@ -1,10 +1,11 @@
-"""Panels of a figure, one for each level."""
+"""The panels of a figure, one for each level."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -12,13 +13,14 @@ from matplotlib.figure import Figure
 from matplotlib.layout_engine import ConstrainedLayoutEngine
 from matplotlib.ticker import MaxNLocator
 
+T = TypeVar("T")
 Level = tuple[float, ...]
 
 MAX_PANELS = 6
-"""The greatest number of levels in a figure; of more the first, the last and some between."""
-WIDTH, HEIGHT = 2.5, 1.9
-"""Of a panel, with its title [inch]."""
-ALONE = (5.0, 2.7)
+"""The greatest number of levels in a figure; of more, the first, the last and some between."""
+PANEL_WIDTH, PANEL_HEIGHT = 2.5, 1.9
+"""The size of a panel with its title [inch]."""
+SINGLE_PANEL_SIZE = (5.0, 2.7)
 """The size of a figure with one panel [inch]."""
 
 
@@ -31,7 +33,7 @@ class Panels:
     n_levels: int
     """The number of all levels."""
     is_square: bool = False
-    """Whether the panels are as high as wide."""
+    """True if the panels are as high as wide."""
 
     @property
     def n_columns(self) -> int:
@@ -48,13 +50,13 @@ class Panels:
     def size(self) -> tuple[float, float]:
         """The size of the figure [inch]."""
         if len(self.levels) == 1:
-            return (4.2, 3.9) if self.is_square else ALONE
-        height = WIDTH + 0.2 if self.is_square else HEIGHT
-        return 0.5 + WIDTH * self.n_columns, 0.7 + 0.1 * self.is_square + height * self.n_rows
+            return (4.2, 3.9) if self.is_square else SINGLE_PANEL_SIZE
+        height = PANEL_WIDTH + 0.2 if self.is_square else PANEL_HEIGHT
+        return 0.5 + PANEL_WIDTH * self.n_columns, 0.7 + 0.1 * self.is_square + height * self.n_rows
 
     @property
     def note(self) -> str:
-        """Which levels are shown; empty where all are."""
+        """The note on a choice of levels; empty where all are shown."""
         n = len(self.levels)
         return f"{n} of {self.n_levels} levels, evenly chosen" if n < self.n_levels else ""
 
@@ -71,7 +73,7 @@ class Panels:
         """Label the axes at the left and at the bottom of the figure."""
         layout = grid[0].figure.get_layout_engine()
         if isinstance(layout, ConstrainedLayoutEngine):
-            layout.set(wspace=0.07)  # the numbers of two panels do not touch
+            layout.set(wspace=0.07)  # space between the numbers of two panels
         for i, axes in enumerate(grid):
             is_lowest = i + self.n_columns >= len(grid)
             axes.tick_params(labelbottom=is_lowest, labelleft=i % self.n_columns == 0)
@@ -80,10 +82,17 @@ class Panels:
             axes.set_ylabel(y if i % self.n_columns == 0 else "")
 
 
-def panels_of(levels: Iterable[Level], *, is_square: bool = False) -> Panels:
-    """Choose evenly from levels, the first and the last among them."""
-    known = tuple(levels)
-    kept = np.linspace(0, len(known) - 1, min(len(known), MAX_PANELS)).round().astype(int)
-    return Panels(
-        levels=tuple(known[i] for i in kept.tolist()), n_levels=len(known), is_square=is_square
-    )
+def choose_panels(levels: Iterable[Level], *, is_square: bool = False) -> Panels:
+    """Return the panels of evenly chosen levels, with the first and the last."""
+    all_levels = tuple(levels)
+    shown_levels = tuple(choose_evenly(all_levels, MAX_PANELS))
+    return Panels(levels=shown_levels, n_levels=len(all_levels), is_square=is_square)
+
+
+def choose_evenly(items: Sequence[T], max_items: int) -> list[T]:
+    """Return evenly chosen items of a sequence, with the first and the last."""
+    if len(items) <= max_items:
+        return list(items)
+    return [
+        items[i] for i in np.linspace(0, len(items) - 1, max_items).round().astype(int).tolist()
+    ]

@@ -1,4 +1,4 @@
-"""The style of plots: colour-blind safe colours, sizes, names, footnotes."""
+"""The style of plots: colours that colour-blind readers can distinguish, sizes, names, notes."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ from ...results.result import Column
 from .curves import written_unit
 
 PALETTE = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#7A5C00")
-"""Okabe and Ito's colour-blind safe colours, in an order that prints well."""
+"""The colours of Okabe and Ito, which colour-blind readers can distinguish."""
 
 MARKERS = ("o", "s", "^", "D", "v", "P", "X")
-INK, FAINT = "#222222", "#777777"
+INK, GREY = "#222222", "#777777"
 DPI = 200
 SIZE = (5.0, 3.1)  # [inch]
 MAX_NAME_LENGTH = 36
-"""Letters of a name before it is cut."""
+"""The greatest number of letters of a name before it is shortened."""
 
 LEVEL_WORDS = {
     "armPosition": "arm position",
@@ -36,7 +36,7 @@ LEVEL_WORDS = {
     "none": "",
     "visibilityRange": "visibility range",
 }
-"""Swept parameter -> its label on an axis."""
+"""The label on an axis of each swept parameter."""
 
 STYLE: Any = {
     "font.family": "DejaVu Sans",
@@ -64,42 +64,42 @@ STYLE: Any = {
 
 @contextmanager
 def styled_figure(size: tuple[float, float] = SIZE) -> Iterator[Figure]:
-    """Give an empty figure of ``size`` [inch] in the house style."""
+    """Yield an empty figure of ``size`` [inch] in the style of uwsim."""
     with mpl.rc_context(STYLE):
         yield Figure(figsize=size, layout=ConstrainedLayoutEngine(rect=(0, 0.03, 1, 0.97)))
 
 
 def write_note(figure: Figure, *lines: str) -> None:
-    """Write small lines below a plot, the axes making room for them."""
-    written = [line for line in lines if line]
-    height = (0.02 + 0.085 * len(written)) / float(figure.get_figheight())
+    """Write small lines below a plot, and move its axes up."""
+    note_lines = [line for line in lines if line]
+    height = (0.02 + 0.085 * len(note_lines)) / float(figure.get_figheight())
     figure.set_layout_engine(ConstrainedLayoutEngine(rect=(0, height, 1, 1 - height)))
-    text = "\n".join(map(plain, written))
-    figure.text(0.995, 0.004, text, ha="right", va="bottom", fontsize=5.5, color=FAINT)
+    text = "\n".join(map(escape, note_lines))
+    figure.text(0.995, 0.004, text, ha="right", va="bottom", fontsize=5.5, color=GREY)
 
 
 @contextmanager
-def any_letter() -> Iterator[None]:
-    """Let names have letters that the font has not: they are drawn as boxes, without a warning."""
+def ignore_missing_glyphs() -> Iterator[None]:
+    """Suppress the warnings about letters that the font lacks, which are drawn as boxes."""
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", r"Glyph \d+ .* missing from", UserWarning)
         yield
 
 
-def plain(text: str) -> str:
-    """Return a name as matplotlib shows it: a dollar in it is a dollar, not mathematics."""
+def escape(text: str) -> str:
+    """Return a text whose dollar signs matplotlib draws, and does not read as mathematics."""
     return re.sub(r"(?<!\\)\$", r"\\$", text)
 
 
-def cut(name: str, longest: int = MAX_NAME_LENGTH) -> str:
-    """Leave the middle of a very long name out."""
-    if len(name) <= longest:
+def shorten_name(name: str, max_length: int = MAX_NAME_LENGTH) -> str:
+    """Return a name without the middle of a very long one."""
+    if len(name) <= max_length:
         return name
-    half = longest // 2
+    half = max_length // 2
     return f"{name[:half]}…{name[-half + 1 :]}"
 
 
 def level_label(column: Column) -> str:
-    """Return what the axis of a level is called: ``fog density [m⁻¹]``."""
-    word = LEVEL_WORDS.get(column.name, column.name)
-    return f"{word} [{written_unit(column.unit)}]" if column.unit else word
+    """Return the label of the axis of a level: ``fog density [m⁻¹]``."""
+    label = LEVEL_WORDS.get(column.name, column.name)
+    return f"{label} [{written_unit(column.unit)}]" if column.unit else label

@@ -1,4 +1,4 @@
-"""Report: one HTML file with configuration, results and caveats of a run."""
+"""The report: one HTML file with configuration, results and caveats of a run."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Captions of figures, with the meaning of their marks."""
+"""The captions of figures, with the meaning of their marks."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from ...results.result import Column, Result
 from ..plots import curves_of, is_fog_swept, label_of, repeats_of
 
 Notes = Mapping[str, MeasureNote]
-"""Measure -> what it is."""
+"""The note on each measure."""
 STATISTICS = {
     "mean": "mean over each level",
     "rms": "root mean square over each level",
     "max": "greatest value of each level",
 }
-"""Detail of a measure -> its text in a caption."""
+"""The text in a caption of each detail of a measure."""
 
 
-def caption(result: Result, column: Column, notes: Notes) -> str:
+def figure_caption(result: Result, column: Column, notes: Notes) -> str:
     """Return the caption of a figure.
 
     ``corners [px]: distance between truth g and estimate e; mean over each level``.
@@ -35,20 +35,20 @@ def caption(result: Result, column: Column, notes: Notes) -> str:
     return f"{label}: {note.meaning}" + (f"; {statistic}" if statistic else "")
 
 
-def over_time_caption(result: Result, measure: str, what: str, notes: Notes) -> str:
-    """Return the caption of a measure over time: ``corners [px], distance ..., over the time``."""
+def caption_over_time(result: Result, measure: str, time_text: str, notes: Notes) -> str:
+    """Return the caption of a measure over time: ``corners [px]: distance ..., over the time``."""
     names = {column.name: column for column in result.columns_of_kind("measure")}
     label = label_of(result, names[measure]) if measure in names else measure
     note = notes.get(measure)
     if note is None or not note.meaning or note.value == "last":
-        return f"{label} {what}"
-    return f"{label}: {note.meaning}, {what}"
+        return f"{label} {time_text}"
+    return f"{label}: {note.meaning}, {time_text}"
 
 
 def statistic_of(result: Result, measure: str, notes: Notes) -> str:
-    """Return which statistic a measure's values are; empty where nothing shows it.
+    """Return the statistic of a measure's values; empty where it is unknown.
 
-    The benchmark file says it (``u:value``); of results without `notes` the details show it.
+    The benchmark file states it (``u:value``); without `notes` the details show it.
     """
     if (note := notes.get(measure)) is not None:
         return STATISTICS.get(note.value, "")
@@ -57,38 +57,38 @@ def statistic_of(result: Result, measure: str, notes: Notes) -> str:
     details = [key for key in STATISTICS if f"{measure}.{key}" in names]
     if not details or all(value is None for value in values):
         return ""
-    same = [key for key in details if result.values(f"{measure}.{key}") == values]
-    if len(same) > 1:
+    equal_details = [key for key in details if result.values(f"{measure}.{key}") == values]
+    if len(equal_details) > 1:
         return ""
-    return STATISTICS[same[0]] if same else "last value of each level"
+    return STATISTICS[equal_details[0]] if equal_details else "last value of each level"
 
 
-def marks(result: Result, *, has_control: bool) -> str:
+def marks_text(result: Result, *, has_control: bool) -> str:
     """Explain points, bands, lines and crosses of the figures."""
     n_repeats = len(set(repeats_of(result)))
     columns = result.columns_of_kind("score", "measure")
     curves = curves_of(result, columns[0].name) if columns else []
-    messages = ["Points: one value a level."]
+    messages = ["Points: one value for each level."]
     if n_repeats > 1:
         messages = [
             f"Points: means over {n_repeats} repeats ({seeds_text(result)}).",
             "Bands: 95 % intervals of that mean (smoothed bootstrap-t over the repeats).",
-            "Dots: one a repeat. Boxes: quartiles and median; whiskers: up to 1.5 times the box.",
-            "Hollow points: levels at which not every repeat has a value.",
+            "Dots: repeats. Boxes: quartiles and median; whiskers: up to 1.5 times the box.",
+            "Hollow points: levels at which a repeat has no value.",
         ]
     if any(curve.losses for curve in curves):
-        over = ", over the repeats from the first to the last" if n_repeats > 1 else ""
+        repeat_range = ", over the repeats from the first to the last" if n_repeats > 1 else ""
         messages.append(
-            f"Solid vertical line: first level that did not end ok{over}."
+            f"Solid vertical line: first level that did not end ok{repeat_range}."
             if len(curves) == 1
             else "Cross: last value before the first level that did not end ok."
         )
     if result.fact("f_star") is not None and is_fog_swept(result):
-        messages.append("Dotted: f*, where a tracker that compares by ZNCC should lose the patch.")
+        messages.append("Dotted: f*, the predicted loss of a tracker that compares by ZNCC.")
     if has_control:
         messages.append(
-            "Dashed: the control frozen, which never looks at an image; "
-            "where it is far above, the legend gives its values."
+            "Dashed: the control frozen, which reads no image; "
+            "where it is far above, the legend has its values."
         )
     return " ".join(messages)
 

@@ -1,4 +1,4 @@
-"""Caveats of a report: the error floor, a static scene, the optics."""
+"""The caveats of a report: the error floor, a static scene, the optics."""
 
 from __future__ import annotations
 
@@ -12,20 +12,20 @@ from ..plots import is_fog_swept
 from .outcomes import Ending
 
 PAPER_FOG, PAPER_DISTANCE, PAPER_VISIBILITY = 1.1, 1.36, 0.86
-"""What the UWSim benchmarking paper (Perez et al.) states: [1/m], [m], 1."""
-STILL = 0.05
-"""Below this the target counts as static in the image [px]."""
+"""The values in the UWSim benchmarking paper (Perez et al.): [1/m], [m], 1."""
+MAX_STATIC_SHIFT = 0.05
+"""The motion in the image below which the target is static [px]."""
 
 
-def floor(result: Result) -> str | None:
-    """Return what a perfect tracker would score, ``corners 2.88 px, centroid 1.63 px``.
+def floor_text(result: Result) -> str | None:
+    """Return the score of a perfect tracker, ``corners 2.88 px, centroid 1.63 px``.
 
-    As the run has measured it (facts ``floor_...``). None where no measure of pixels compares with
-    what a tracker cannot know; an empty text where the result does not record it.
+    The run has measured it (facts ``floor_...``). None where a perfect tracker scores zero; an
+    empty text where the result does not record it.
     """
     names = {column.name for column in result.columns}
     in_pixels = [column.name for column in result.columns_of_kind("measure") if column.unit == "px"]
-    if all(f"{name}.visible" in names for name in in_pixels):  # of a body itself: no estimate
+    if all(f"{name}.visible" in names for name in in_pixels):  # measures of a body, not an estimate
         return None
     messages = []
     for name in result.facts:
@@ -36,37 +36,38 @@ def floor(result: Result) -> str | None:
 
 
 def is_static(result: Result) -> bool:
-    """Whether the target was static in the image, within levels and from one to the next.
+    """Return True if the target was static in the image, within levels and between them.
 
-    Without the recorded motion (fact ``shift``), images at the ends of levels that were run alone
-    are not used: a swaying vehicle is at the same phase in all of them.
+    Without the recorded motion (fact ``shift``), images at the ends of independent levels are not
+    used: a swaying vehicle has the same phase in all of them.
     """
     shift = result.fact("shift")
-    if shift is not None and shift[0] >= STILL:
+    if shift is not None and shift[0] >= MAX_STATIC_SHIFT:
         return False
     quads: dict[str, list[tuple[float, ...]]] = {}
     for image in result.images:
         if image.truth is not None:
             quads.setdefault(image.camera, []).append(image.truth)
-    if any(float(np.ptp(np.array(found), axis=0).max()) >= STILL for found in quads.values()):
+    motions = [float(np.ptp(np.array(corners), axis=0).max()) for corners in quads.values()]
+    if any(motion >= MAX_STATIC_SHIFT for motion in motions):
         return False
     if shift is not None:
         return True
     is_known = result.run.mode != "independent"
-    return is_known and any(len(found) > 1 for found in quads.values())
+    return is_known and any(len(corners) > 1 for corners in quads.values())
 
 
-def optics(result: Result, endings: Sequence[Ending]) -> dict[str, str] | None:
-    """Compare the paper's fog 1.1 with f*, as density and as transmission.
+def optics_texts(result: Result, endings: Sequence[Ending]) -> dict[str, str] | None:
+    """Return texts that compare the paper's fog 1.1 with f*, as density and as transmission.
 
-    None where no fog is swept, or f* is not known.
+    None where no fog is swept, or f* is unknown.
     """
     star, distance = result.fact("f_star"), result.fact("d")
     if star is None or distance is None or not is_fog_swept(result):
         return None
     f, d = star[0], distance[0]
     z = result.fact("z")
-    losses = [ending.first for ending in endings if ending.status == "lost" and ending.n]
+    losses = [ending.first_levels for ending in endings if ending.status == "lost" and ending.n]
     return {
         "f_star": f"{f:.3f}",
         "d": f"{d:.3f}",

@@ -22,39 +22,39 @@ FACTS = {
     "f_star_grey": "predicted loss f*, with the noise of the grey image",
     "shift": "how far the target moved in the image",
 }
-"""Constant of a scene -> what it is (`uwsim.runs.trial.visibility`)."""
-SAID_ELSEWHERE = ("notes", "clients", "levels", "settings", "compatibility", "units")
-"""Parts of ``run`` that are in sentences above the table."""
+"""The description of each constant of a scene (`uwsim.runs.trial.visibility`)."""
+OMITTED_KEYS = ("notes", "clients", "levels", "settings", "compatibility", "units")
+"""The parts of ``run`` that are in sentences above the table."""
 CLIENTS = {
-    "own process, grade (b)": "in lock-step, in a process of its own, by messages only (grade b: "
-    "each call is waited for)",
+    "own process, grade (b)": "in lock-step, in its own process, by messages only (grade b: the "
+    "simulation waits for each call)",
     "in process": "in the process of the simulation (--in-process)",
 }
-"""How an algorithm class takes part -> what that means."""
-SURE = ("own process, grade (b)",)
-"""Ways of taking part, other than those of programs outside, that give the same numbers again."""
+"""The meaning of each way in which an algorithm class takes part."""
+REPEATABLE_CLIENTS = ("own process, grade (b)",)
+"""The clients, other than external programs, whose runs give the same numbers again."""
 TRANSPORTS = {"web": "WebSocket", "ros1": "ROS 1", "ros2": "ROS 2"}
 GRADES = {
     "grade (a)": "in lock-step: simulation time waits for its answers (grade a: each names its "
     "tick)",
-    "grade (b)": "in lock-step: simulation time passes in the steps that it asks for (grade b)",
+    "grade (b)": "in lock-step: simulation time passes in the steps that it requests (grade b)",
     "grade (c)": "in lock-step: simulation time waits for the outputs that are due (grade c: it "
-    "works by /clock alone)",
-    "not repeatable": "in real time, which waits for nothing: another run gives other numbers",
+    "uses /clock alone)",
+    "not repeatable": "in real time, without waiting: another run gives other numbers",
 }
-"""How a program outside takes part -> what that means."""
-UNSURE = "what it was sent is only likely to have arrived: the same numbers are not guaranteed"
-CODE = ("code", "code_before")
-"""Parts of the provenance: what libraries chose for the processor."""
-NOT_OF_THE_RESULT = {"--out": 1, "--workers": 1, "--resume": 0, "--overwrite": 0}
-"""Options of ``bench`` that change nothing of what is found, and how many words each takes."""
+"""The meaning of each way in which an external program takes part."""
+MISSING_MESSAGES_TEXT = "messages to it may be lost, so the same numbers are not guaranteed"
+CODE_KEYS = ("code", "code_before")
+"""The parts of the provenance with the code that libraries chose for the processor."""
+IRRELEVANT_OPTIONS = {"--out": 1, "--workers": 1, "--resume": 0, "--overwrite": 0}
+"""The options of ``bench`` that do not change the result, with their numbers of words."""
 
 
 def command(result: Result, provenance: Mapping[str, object]) -> str:
-    """Return what to type to have this result again, as it was typed if that is known."""
-    typed = provenance.get("command")
-    if isinstance(typed, list) and typed:
-        return shlex.join(["uwsim", *_of_the_result([str(word) for word in typed])])
+    """Return the command that gives this result again, as it was typed where that is recorded."""
+    typed_words = provenance.get("command")
+    if isinstance(typed_words, list) and typed_words:
+        return shlex.join(["uwsim", *_omit_irrelevant_options([str(w) for w in typed_words])])
     algorithm = algorithm_of(result)
     words = bench_words(
         result.run,
@@ -65,157 +65,153 @@ def command(result: Result, provenance: Mapping[str, object]) -> str:
     return shlex.join(words)
 
 
-def warnings(result: Result, unchecked: str | None = None) -> list[str]:
-    """Return what reduces confidence: unfinished parts, unchecked rows, results that may differ."""
+def warnings(result: Result, check_note: str | None = None) -> list[str]:
+    """Return the warnings: unfinished parts, unchecked rows, clients that are not repeatable."""
     run, messages = result.run, []
     if run.units is not None and not run.is_finished:
         messages.append(
-            f"Not finished: {run.units[0]} of {run.units[1]} parts are finished. --resume "
-            f"continues."
+            f"Not finished: {run.units[0]} of {run.units[1]} parts are finished. Use --resume "
+            "to continue."
         )
-    if unchecked is not None:
-        messages.append(f"{unchecked[0].upper()}{unchecked[1:]}.")
-    messages += [_participation(who, how) for who, how in run.clients or () if not _is_sure(how)]
+    if check_note is not None:
+        messages.append(f"{check_note[0].upper()}{check_note[1:]}.")
+    messages += [
+        _participation(*client) for client in run.clients or () if not _is_repeatable(client[1])
+    ]
     messages += [f"{text}." for text in refused_lines(result)]
     return messages + [f"{note}." for note in run.notes or ()]
 
 
 def remarks(result: Result) -> list[str]:
-    """Return what a reader should know: chosen levels, changed settings, how clients take part."""
+    """Return the remarks: chosen levels, changed settings, repeatable clients."""
     run, messages = result.run, []
-    if chosen := run.pairs_of_levels:
-        messages.append(f"Only these levels of the sweep were run: {', '.join(chosen)}.")
+    if levels := run.pairs_of_levels:
+        messages.append(f"Only these levels of the sweep were run: {', '.join(levels)}.")
     if settings := run.pairs_of_settings:
         messages.append(f"Changed for this run: {', '.join(settings)}.")
-    messages += [_participation(who, how) for who, how in run.clients or () if _is_sure(how)]
+    messages += [
+        _participation(*client) for client in run.clients or () if _is_repeatable(client[1])
+    ]
     if names := run.compatibility:
         messages.append(f"Compatibility quirks: {', '.join(names)}.")
     return messages
 
 
-def _is_sure(how: str) -> bool:
-    """Whether another run gives the same numbers: in lock-step, by messages only."""
-    return how in SURE or (
-        any(grade in how for grade in ("grade (a)", "grade (b)", "grade (c)"))
-        and "not guaranteed" not in how
+def _is_repeatable(mode: str) -> bool:
+    return mode in REPEATABLE_CLIENTS or (
+        any(grade in mode for grade in ("grade (a)", "grade (b)", "grade (c)"))
+        and "not guaranteed" not in mode
     )
 
 
-def _participation(who: str, how: str) -> str:
-    """Describe in a sentence how an algorithm takes part: ``lock-step, ros1, grade (a)``."""
-    return f"{who} takes part {_words_of(how)}."
+def _participation(name: str, mode: str) -> str:
+    return f"{name} takes part {_participation_phrase(mode)}."
 
 
-def _words_of(how: str) -> str:
-    _, *more = how.split(", ")
-    if how in CLIENTS or not more or more[0] not in TRANSPORTS:
-        return CLIENTS.get(how, how)
-    said = [f"as a program outside over {TRANSPORTS[more[0]]}", *(GRADES.get(w) for w in more[1:2])]
-    text = ", ".join(word for word in said if word is not None)
-    return f"{text}; {UNSURE}" if "not guaranteed" in more else text
+def _participation_phrase(mode: str) -> str:
+    _, *details = mode.split(", ")
+    if mode in CLIENTS or not details or details[0] not in TRANSPORTS:
+        return CLIENTS.get(mode, mode)
+    text = f"as an external program over {TRANSPORTS[details[0]]}"
+    if grade := GRADES.get("".join(details[1:2])):
+        text += f", {grade}"
+    return f"{text}; {MISSING_MESSAGES_TEXT}" if "not guaranteed" in details else text
 
 
 def settings(result: Result) -> list[tuple[str, str]]:
-    """Return all other parts of ``run``."""
-    run = {
-        name: value for name, value in result.run.as_dict().items() if name not in SAID_ELSEWHERE
-    }
-    found = flat(run)
-    return [(_setting(name), text) for name, text in found]
+    """Return all other parts of ``run``, as names and texts."""
+    run = {name: value for name, value in result.run.as_dict().items() if name not in OMITTED_KEYS}
+    return [(_setting_name(name), text) for name, text in flatten(run)]
 
 
-def flat(mapping: Mapping[str, object], prefix: str = "") -> list[tuple[str, str]]:
-    """Flatten nested mappings into (dotted name, text); (value, unit) becomes one text.
+def flatten(mapping: Mapping[str, object], prefix: str = "") -> list[tuple[str, str]]:
+    """Return nested mappings as (dotted name, text); (value, unit) becomes one text.
 
-    What is empty is left out.
+    Empty texts are omitted.
     """
-    found: list[tuple[str, str]] = []
+    texts: list[tuple[str, str]] = []
     for name, value in mapping.items():
         if isinstance(value, Mapping):
-            found += flat(value, f"{prefix}{name}.")
+            texts += flatten(value, f"{prefix}{name}.")
         else:
-            words = [_word(v) for v in (value if isinstance(value, tuple | list) else (value,))]
-            found.append((f"{prefix}{name}", " ".join(words)))
-    return [(name, text) for name, text in found if text]
+            values = value if isinstance(value, tuple | list) else (value,)
+            texts.append((f"{prefix}{name}", " ".join(map(_value_text, values))))
+    return [(name, text) for name, text in texts if text]
 
 
-def machine(provenance: Mapping[str, object]) -> list[tuple[str, str]]:
+def provenance_texts(provenance: Mapping[str, object]) -> list[tuple[str, str]]:
     """Return the provenance, with short numbers and lists of code."""
     code = provenance.get("code")
-    shown = {library: names_text(names) for library, names in _lists(code)}
-    others = {name: _rounded(value) for name, value in provenance.items() if name not in CODE}
-    return flat({**others, "code": shown})
+    code_texts = {library: names_text(names) for library, names in _code_lists(code)}
+    values = {name: _round_numbers(v) for name, v in provenance.items() if name not in CODE_KEYS}
+    return flatten({**values, "code": code_texts})
 
 
 def facts(result: Result) -> list[tuple[str, str]]:
-    """Return the constants of the scene, in words, with units."""
-    found = []
+    """Return the constants of the scene with their descriptions and units."""
+    texts = []
     for name in result.facts:
         fact = result.fact(name)
         unit = "" if fact is None or fact[1] == "1" else f" {written_unit(fact[1])}"
         text = str(result.facts[name]) if fact is None else f"{fact[0]:.4g}{unit}"
-        found.append((_meaning(name), text))
-    return found
+        texts.append((_fact_name(name), text))
+    return texts
 
 
-def _meaning(name: str) -> str:
+def _fact_name(name: str) -> str:
     if name.startswith(FLOOR):
-        return f"floor of {name.removeprefix(FLOOR)}: what a perfect tracker scores"
+        return f"floor of {name.removeprefix(FLOOR)}: the score of a perfect tracker"
     return FACTS.get(name, name)
 
 
 def variations(result: Result) -> list[tuple[str, str, str]]:
-    """Return what varies: which value, drawn from what, and what was drawn.
-
-    Of several seeds the least and the largest value are shown.
-    """
-    found = []
-    for each in result.variations:
-        unit = "" if each.unit == "1" else f" {written_unit(each.unit)}"
-        drawn = [value for _, value in each.values]
-        ends = dict.fromkeys(f"{value:.4g}" for value in (min(drawn), max(drawn))) if drawn else []
-        found.append((each.path, each.drawn_from + unit, " to ".join(ends) + unit))
-    return found
+    """Return the varied values: the path, the distribution, and the least and largest sample."""
+    texts = []
+    for variation in result.variations:
+        unit = "" if variation.unit == "1" else f" {written_unit(variation.unit)}"
+        values = [value for _, value in variation.values]
+        ends = dict.fromkeys(f"{v:.4g}" for v in (min(values), max(values))) if values else []
+        texts.append((variation.path, variation.drawn_from + unit, " to ".join(ends) + unit))
+    return texts
 
 
 def logs_text(logs: Sequence[Path]) -> list[tuple[str, str]]:
-    """Return name and size of files next to the report."""
+    """Return the names and sizes of files next to the report."""
     return [(log.name, f"{log.stat().st_size / 1000:.0f} kB") for log in logs]
 
 
-def _of_the_result(words: Sequence[str]) -> list[str]:
-    kept: list[str] = []
+def _omit_irrelevant_options(words: Sequence[str]) -> list[str]:
+    remaining_words: list[str] = []
     skip = 0
     for word in words:
-        option, _, joined = word.partition("=")
+        option, _, value = word.partition("=")
         if skip:
             skip -= 1
-        elif option in NOT_OF_THE_RESULT:
-            skip = 0 if joined else NOT_OF_THE_RESULT[option]
+        elif option in IRRELEVANT_OPTIONS:
+            skip = 0 if value else IRRELEVANT_OPTIONS[option]
         else:
-            kept.append(word)
-    return kept
+            remaining_words.append(word)
+    return remaining_words
 
 
-def _lists(value: object) -> list[tuple[str, list[object]]]:
+def _code_lists(value: object) -> list[tuple[str, list[object]]]:
     pairs = value.items() if isinstance(value, Mapping) else ()
-    return [(str(name), each) for name, each in pairs if isinstance(each, list)]
+    return [(str(name), names) for name, names in pairs if isinstance(names, list)]
 
 
-def _setting(name: str) -> str:
+def _setting_name(name: str) -> str:
     if name.startswith("parameters."):
         return f"parameter {name.removeprefix('parameters.')}"
     return {"version": "uwsim"}.get(name, name)
 
 
-def _word(value: object) -> str:
-    """A value as a person writes it: ``3`` for 3.0."""
+def _value_text(value: object) -> str:
     if isinstance(value, float):
         return f"{value:.10g}"
     return "" if value is None else str(value)
 
 
-def _rounded(value: object) -> object:
+def _round_numbers(value: object) -> object:
     if isinstance(value, float):
         return float(f"{value:.4g}")
-    return [_rounded(v) for v in value] if isinstance(value, list) else value
+    return [_round_numbers(v) for v in value] if isinstance(value, list) else value

@@ -1,129 +1,114 @@
-"""The images of a report: which are shown, and how."""
+"""The images of a report: their choice, captions and drawing."""
 
 from __future__ import annotations
 
-import base64
 import io
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TypeVar
 
 import numpy as np
 from PIL import Image
 
 from ...results.per_level import rows_by_level, seeds_of
 from ...results.result import Result, SavedImage
-from ..plots import repeats_of
-from .outcomes import named_level
+from ..plots import choose_evenly, repeats_of
+from ..templates import data_url
+from .outcomes import result_level_text
 from .overlay import overlay
 
 MAX_IMAGES = 40
-"""Of the first repeat; more are thinned out evenly, with a note."""
-MAX_OTHERS = 8
-"""Of other repeats: where they first failed."""
-PHASE = "phase "
-"""How the name of the camera begins of an image of a task's phase."""
-MAX_BYTES = 3_000_000
-"""Of all images together; if they are more, they are thinned out further."""
-
-T = TypeVar("T")
+"""The greatest number of images of the first repeat, evenly chosen from more, with a note."""
+MAX_OTHER_IMAGES = 8
+"""The greatest number of images of the first failures of other repeats."""
+PHASE_CAMERA_PREFIX = "phase "
+"""The beginning of the name of the camera of an image of a task's phase."""
+MAX_IMAGE_BYTES = 3_000_000
+"""The greatest size of all images together, evenly chosen from more [bytes]."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class Shown:
+class ShownImage:
     """An image in the report."""
 
     caption: str
-    """Level and status; of several repeats also the seed."""
+    """The level and status; with several repeats, the seed too."""
     data: str | None
     """The image as a data URL; None when its file cannot be read."""
-    ok: bool
-    """Whether its level ended ``ok``."""
+    is_ok: bool
+    """True if its level ended ``ok``."""
 
 
-def phase_images(result: Result, directory: Path) -> list[Shown]:
-    """Return the images of the phases of a task: the first level that has any."""
-    found = [saved for saved in result.images if saved.camera.startswith(PHASE)]
+def phase_images(result: Result, directory: Path) -> list[ShownImage]:
+    """Return the images of the phases of a task in the first level that has any."""
+    images = [image for image in result.images if image.camera.startswith(PHASE_CAMERA_PREFIX)]
     return [
-        Shown(
-            caption=saved.camera.removeprefix(PHASE),
-            data=_drawn(saved, directory),
-            ok=True,
+        ShownImage(
+            caption=image.camera.removeprefix(PHASE_CAMERA_PREFIX),
+            data=_draw_image(image, directory),
+            is_ok=True,
         )
-        for saved in found
-        if saved.row == found[0].row
+        for image in images
+        if image.row == images[0].row
     ]
 
 
-def shown_images(result: Result, directory: Path) -> list[Shown]:
-    """Return the images of the first repeat, and of the others where they first failed."""
+def shown_images(result: Result, directory: Path) -> list[ShownImage]:
+    """Return the images of the first repeat, and of the first failures of other repeats."""
     if not result.images:
         return []
     levels = {row: level for level, rows in rows_by_level(result).items() for row in rows}
-    several = len(set(repeats_of(result))) > 1
-    seeds, endings = seeds_of(result), _endings(result)
-    shown: list[Shown] = []
-    for saved in _chosen(result, endings):
-        ended = endings[saved.row]
-        caption = f"{named_level(result, levels[saved.row])} · {ended or saved.camera}"
-        if several:
-            caption = f"seed {seeds[saved.row]} · {caption}"
-        data = _drawn(saved, directory)
-        shown.append(Shown(caption=caption, data=data, ok=ended in ("ok", "")))
-    n_bytes = sum(len(one.data or "") for one in shown)
-    return evenly(shown, max(1, len(shown) * MAX_BYTES // max(n_bytes, MAX_BYTES)))
-
-
-def evenly(items: Sequence[T], most: int) -> list[T]:
-    """Return at most so many of the items, the first and the last among them."""
-    if len(items) <= most:
-        return list(items)
-    return [items[i] for i in np.linspace(0, len(items) - 1, most).round().astype(int).tolist()]
+    has_repeats = len(set(repeats_of(result))) > 1
+    seeds, endings = seeds_of(result), _statuses(result)
+    report_images: list[ShownImage] = []
+    for image in _choose_images(result, endings):
+        status = endings[image.row]
+        caption = f"{result_level_text(result, levels[image.row])} · {status or image.camera}"
+        if has_repeats:
+            caption = f"seed {seeds[image.row]} · {caption}"
+        data = _draw_image(image, directory)
+        report_images.append(ShownImage(caption=caption, data=data, is_ok=status in ("ok", "")))
+    n_bytes = sum(len(image.data or "") for image in report_images)
+    max_images = len(report_images) * MAX_IMAGE_BYTES // max(n_bytes, MAX_IMAGE_BYTES)
+    return choose_evenly(report_images, max(1, max_images))
 
 
 def images_text(result: Result, n_shown: int) -> str:
-    """Say which images are shown; empty when all are."""
-    images = [saved for saved in result.images if not saved.camera.startswith(PHASE)]
+    """Return a note on the choice of images; empty when all are shown."""
+    images = [image for image in result.images if not image.camera.startswith(PHASE_CAMERA_PREFIX)]
     if n_shown >= len(images):
         return ""
     repeats = repeats_of(result)
-    n_first = sum(repeats[saved.row] == repeats[0] for saved in images)
-    which = "evenly chosen" if n_first > MAX_IMAGES or n_shown < n_first else "every level"
+    n_first = sum(repeats[image.row] == repeats[0] for image in images)
+    choice = "evenly chosen" if n_first > MAX_IMAGES or n_shown < n_first else "every level"
     if len(set(repeats)) > 1:
-        which += " of the first repeat, and of the others where they first did not end ok"
-    return f"{n_shown} of {len(images)} images: {which}. All are in the folder pictures."
+        choice += " of the first repeat, and the first failures of the others"
+    return f"{n_shown} of {len(images)} images: {choice}. All are in the folder pictures."
 
 
-def data_url(data: bytes, kind: str) -> str:
-    """Return an image as a page holds it in itself."""
-    return f"data:image/{kind};base64,{base64.b64encode(data).decode('ascii')}"
-
-
-def _chosen(result: Result, endings: Sequence[str]) -> list[SavedImage]:
+def _choose_images(result: Result, statuses: Sequence[str]) -> list[SavedImage]:
     repeats = repeats_of(result)
-    images = [saved for saved in result.images if not saved.camera.startswith(PHASE)]
-    own = [saved for saved in images if repeats[saved.row] == repeats[0]]
-    own = evenly(own, MAX_IMAGES)
-    failed: dict[tuple[object, ...], int] = {}
-    for row, (repeat, ended) in enumerate(zip(repeats, endings, strict=True)):
-        if ended not in ("ok", "") and repeat != repeats[0]:
-            failed.setdefault(repeat, row)
-    rows = set(failed.values())
-    return own + [saved for saved in images if saved.row in rows][:MAX_OTHERS]
+    images = [image for image in result.images if not image.camera.startswith(PHASE_CAMERA_PREFIX)]
+    first_images = [image for image in images if repeats[image.row] == repeats[0]]
+    first_failures: dict[tuple[object, ...], int] = {}
+    for row, (repeat, status) in enumerate(zip(repeats, statuses, strict=True)):
+        if status not in ("ok", "") and repeat != repeats[0]:
+            first_failures.setdefault(repeat, row)
+    rows = set(first_failures.values())
+    other_images = [image for image in images if image.row in rows][:MAX_OTHER_IMAGES]
+    return choose_evenly(first_images, MAX_IMAGES) + other_images
 
 
-def _endings(result: Result) -> list[str]:
-    """The status of every row; empty texts where it is not recorded."""
+def _statuses(result: Result) -> list[str]:
     status = result.columns_of_kind("status")
     if not status:
         return [""] * len(result.rows)
     return [str(cell) for cell in result.values(status[0].name)]
 
 
-def _drawn(saved: SavedImage, directory: Path) -> str | None:
-    """Read an image from inside the directory, draw its quads; None when that fails."""
-    file = (directory / saved.file).resolve()
+def _draw_image(saved_image: SavedImage, directory: Path) -> str | None:
+    """Read an image inside the directory and draw its quads; None if it cannot be read."""
+    file = (directory / saved_image.file).resolve()
     if not file.is_relative_to(directory.resolve()):
         return None
     try:
@@ -132,7 +117,7 @@ def _drawn(saved: SavedImage, directory: Path) -> str | None:
     except (OSError, ValueError, Image.DecompressionBombError, SyntaxError):
         return None
     scale = 2 if max(pixels.shape) <= 400 else 1
-    drawn = overlay(pixels, truth=saved.truth, estimate=saved.estimate, scale=scale)
+    drawing = overlay(pixels, truth=saved_image.truth, estimate=saved_image.estimate, scale=scale)
     stream = io.BytesIO()
-    Image.fromarray(drawn).save(stream, format="JPEG", quality=80)
+    Image.fromarray(drawing).save(stream, format="JPEG", quality=80)
     return data_url(stream.getvalue(), "jpeg")

@@ -1,4 +1,4 @@
-"""Statistics of the status of levels: how often each, from which level on, and why."""
+"""Statistics of the status of levels: numbers, first levels and reasons."""
 
 from __future__ import annotations
 
@@ -9,153 +9,152 @@ from dataclasses import dataclass
 
 from ...results.per_level import rows_by_level, seeds_of
 from ...results.result import Result
-from ..plots import level_text, repeats_of
+from ..plots import levels_text, repeats_of
 
 MEANINGS = {
-    "ok": "run to its end, with estimates to score",
+    "ok": "the level ran to its end, with estimates to score",
     "lost": "the algorithm reported that it is lost",
-    "timeout": "no estimate for more than 1 s, or an end of the level that never came",
+    "timeout": "no estimate for more than 1 s, or the level did not end in time",
     "collision": "a contact ended the level, as the benchmark requires",
     "algorithm error": "the algorithm raised an exception, or reported that it failed",
-    "simulation error": "a body moved as none can, or the engine gave up: nothing of it is true",
+    "simulation error": "the motion of a body is impossible, or the engine stopped: not valid",
     "not found": "the object was never found",
-    "lost target": "the object was found and lost before anything closed on it",
-    "missed": "the object was reached for and never lifted",
+    "lost target": "the object was found, and lost before it was touched",
+    "missed": "the object was touched, but never lifted",
     "dropped": "the object was lifted and fell",
 }
-"""Status of a row -> its meaning (``docs/levels.md``)."""
-SELDOM = ("simulation error", "not found", "lost target", "missed", "dropped")
-"""Listed where one occurred: failed simulations, and what a measure that judges a task gives."""
+"""The meaning of each status of a row (``docs/levels.md``)."""
+RARE_STATUSES = ("simulation error", "not found", "lost target", "missed", "dropped")
+"""The statuses that are listed only where they occur."""
 MAX_REASONS = 5
-"""Greatest number of reasons listed for a status."""
-MAX_BREAKS = 100
-"""Greatest number of repeats whose first failure is listed."""
+"""The greatest number of reasons listed for a status."""
+MAX_FIRST_FAILURES = 100
+"""The greatest number of repeats whose first failure is listed."""
 
 _NUMBER = re.compile(r"\d+(\.\d+)?([eE][+-]?\d+)?")
 
 
 @dataclass(frozen=True, kw_only=True)
 class Ending:
-    """One way in which levels ended, and how often."""
+    """The rows that ended with one status."""
 
     status: str
-    """``ok``, ``lost``, ``timeout``, ..."""
+    """The status: ``ok``, ``lost``, ``timeout``, ..."""
     meaning: str
-    """Its meaning; empty for an unknown status."""
+    """The meaning of the status; empty for an unknown one."""
     n: int
-    """Rows that ended so."""
+    """The number of rows."""
     share: str
-    """Share of all rows; no interval, for the levels of one repeat are no repeats."""
-    first: str
-    """First level of each repeat that ended so: one, or from the lowest to the last."""
+    """The share of all rows; without interval, because the levels of a repeat are not repeats."""
+    first_levels: str
+    """The first such level of each repeat: one level, or the lowest to the highest."""
     reasons: tuple[tuple[int, str], ...]
-    """(rows, the first such reason): reasons that differ in numbers alone are listed once."""
+    """The number of rows and the first reason of each kind; numbers do not make another kind."""
     n_others: int
-    """Further kinds of reasons that are left out."""
+    """The number of omitted kinds of reasons."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class Break:
+class FirstFailure:
     """The first level of a repeat that did not end ``ok``."""
 
     repeat: str
-    """Its seed."""
+    """The seed."""
     level: str
     """The level; empty when all ended ``ok``."""
     status: str
-    """How it ended."""
-    why: str
+    """The status of the level."""
+    reason: str
     """The reason."""
 
 
 def endings(result: Result) -> list[Ending]:
-    """Group the rows by status: ok, then by number, finally those that never occurred."""
+    """Return the rows by status: ok first, then by number, finally those that never occurred."""
     status = result.columns_of_kind("status")
     if not status:
         return []
     cells = [str(cell) for cell in result.values(status[0].name)]
     levels = {row: level for level, rows in rows_by_level(result).items() for row in rows}
     repeats = repeats_of(result)
-    known = [name for name in MEANINGS if name in cells or name not in SELDOM]
+    statuses = [name for name in MEANINGS if name in cells or name not in RARE_STATUSES]
     names = sorted(
-        {*cells, *known},
-        key=lambda s: (s != "ok", -cells.count(s), known.index(s) if s in known else 99, s),
+        {*cells, *statuses},
+        key=lambda s: (s != "ok", -cells.count(s), statuses.index(s) if s in statuses else 99, s),
     )
-    found = []
+    groups = []
     for name in names:
         rows = [row for row, cell in enumerate(cells) if cell == name]
-        reasons = _alike(why for row in rows for why in result.reasons(row))
-        found.append(
+        reasons = _count_reasons(reason for row in rows for reason in result.reasons(row))
+        groups.append(
             Ending(
                 status=name,
                 meaning=MEANINGS.get(name, ""),
                 n=len(rows),
                 share=f"{100 * len(rows) / max(1, len(cells)):.0f} %",
-                first=_first_at(result, [(repeats[row], levels[row]) for row in rows]),
+                first_levels=_first_levels_text(result, [(repeats[r], levels[r]) for r in rows]),
                 reasons=tuple(reasons[:MAX_REASONS]),
                 n_others=max(0, len(reasons) - MAX_REASONS),
             )
         )
-    return found
+    return groups
 
 
-def breaks(result: Result) -> list[Break]:
-    """Say for each of several repeats where it first did not end ``ok``.
+def first_failures(result: Result) -> list[FirstFailure]:
+    """Return the first level of each of several repeats that did not end ``ok``.
 
-    Nothing for nested sweeps, in which every outer level has its own.
+    Empty for nested sweeps, in which every outer level has a first one.
     """
     status, repeats = result.columns_of_kind("status"), repeats_of(result)
     if not status or len(result.columns_of_kind("level")) != 1 or len(set(repeats)) < 2:
         return []
     cells, seeds = result.values(status[0].name), seeds_of(result)
     levels = {row: level for level, rows in rows_by_level(result).items() for row in rows}
-    first: dict[tuple[object, ...], int] = {}
+    first_rows: dict[tuple[object, ...], int] = {}
     for row, repeat in enumerate(repeats):
         if cells[row] != "ok":
-            first.setdefault(repeat, row)
-    found = []
-    for repeat, seed in list(dict(zip(repeats, seeds, strict=True)).items())[:MAX_BREAKS]:
-        at = first.get(repeat)
-        found.append(
-            Break(
+            first_rows.setdefault(repeat, row)
+    failures = []
+    for repeat, seed in list(dict(zip(repeats, seeds, strict=True)).items())[:MAX_FIRST_FAILURES]:
+        failed_row = first_rows.get(repeat)
+        failures.append(
+            FirstFailure(
                 repeat="?" if seed is None else str(seed),
-                level="" if at is None else named_level(result, levels[at]),
-                status="ok" if at is None else str(cells[at]),
-                why="" if at is None else "; ".join(result.reasons(at)),
+                level="" if failed_row is None else result_level_text(result, levels[failed_row]),
+                status="ok" if failed_row is None else str(cells[failed_row]),
+                reason="" if failed_row is None else "; ".join(result.reasons(failed_row)),
             )
         )
-    return found
+    return failures
 
 
-def named_level(result: Result, level: tuple[float, ...]) -> str:
-    """Return a level as text: ``noise 0.02, fog 0.5 m⁻¹``."""
-    named = zip(result.columns_of_kind("level"), level, strict=True)
-    parts = [level_text(column, value) for column, value in named if column.name != "none"]
-    return ", ".join(parts) or "the only level"
+def result_level_text(result: Result, level: tuple[float, ...]) -> str:
+    """Return a level of a result as text: ``noise 0.02, fog 0.5 m⁻¹``."""
+    return levels_text(result.columns_of_kind("level"), level)
 
 
-def kind_of(why: str) -> str:
+def reason_kind(reason: str) -> str:
     """Return a reason without its numbers."""
-    return _NUMBER.sub("#", why)
+    return _NUMBER.sub("#", reason)
 
 
-def _alike(reasons: Iterable[str]) -> list[tuple[int, str]]:
-    """Count reasons that differ in numbers alone; the first stands for each kind."""
-    first: dict[str, str] = {}
+def _count_reasons(reasons: Iterable[str]) -> list[tuple[int, str]]:
+    first_reasons: dict[str, str] = {}
     counts: Counter[str] = Counter()
-    for why in reasons:
-        kind = kind_of(why)
-        first.setdefault(kind, why)
+    for reason in reasons:
+        kind = reason_kind(reason)
+        first_reasons.setdefault(kind, reason)
         counts[kind] += 1
-    return [(counts[kind], why) for kind, why in first.items()]
+    return [(counts[kind], reason) for kind, reason in first_reasons.items()]
 
 
-def _first_at(result: Result, rows: Iterable[tuple[tuple[object, ...], tuple[float, ...]]]) -> str:
-    first: dict[tuple[object, ...], tuple[float, ...]] = {}
+def _first_levels_text(
+    result: Result, rows: Iterable[tuple[tuple[object, ...], tuple[float, ...]]]
+) -> str:
+    first_levels: dict[tuple[object, ...], tuple[float, ...]] = {}
     for repeat, level in rows:
-        first.setdefault(repeat, level)
-    if not first:
+        first_levels.setdefault(repeat, level)
+    if not first_levels:
         return ""
-    low, high = min(first.values()), max(first.values())
-    text = named_level(result, low)
-    return text if low == high else f"{text} to {named_level(result, high)}"
+    low, high = min(first_levels.values()), max(first_levels.values())
+    text = result_level_text(result, low)
+    return text if low == high else f"{text} to {result_level_text(result, high)}"

@@ -1,8 +1,8 @@
-"""Overlay: truth and estimate drawn on a camera's image.
+"""The overlay of truth and estimate on a camera's image.
 
 Coordinates are those of `uwsim.base.geometry.Intrinsics`: pixels from the centre of the first one.
-Truth is green and solid, the estimate orange and dashed, so that they are told apart in print and
-by colour-blind readers; lines have a dark rim.
+Truth is green and solid, the estimate orange and dashed, so that both can be distinguished in print
+and by colour-blind readers. Lines have a dark rim.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from PIL import Image, ImageDraw, ImageFont
 
 Quad = Sequence[float]
 
-TRUTH, ESTIMATE, RIM = (0, 200, 140), (255, 140, 0), (10, 20, 30)
+TRUTH_COLOUR, ESTIMATE_COLOUR, RIM_COLOUR = (0, 200, 140), (255, 140, 0), (10, 20, 30)
 
 
 def overlay(
@@ -31,10 +31,10 @@ def overlay(
 
     Args:
         image: (h, w, 3) or, grey, (h, w).
-        truth: corners x, y, x, y, ... [px]; None draws none.
-        estimate: corners alike.
-        label: text for the top left corner, such as ``fog 0.5 1/m``.
-        scale: how many times larger the drawing is; pixels are repeated, not blurred.
+        truth: the corners x, y, x, y, ... [px]; None draws none.
+        estimate: the corners, in the same order [px]; None draws none.
+        label: the text in the top left corner, such as ``fog 0.5 1/m``.
+        scale: the factor by which the drawing is larger; pixels are repeated, not blurred.
 
     Returns:
         The drawing, (h * scale, w * scale, 3).
@@ -44,42 +44,42 @@ def overlay(
     drawing = grey_or_colour.resize(size, Image.Resampling.NEAREST)
     pen = ImageDraw.Draw(drawing)
     if truth is not None:
-        _outline(pen, _points(truth, scale), TRUTH, scale, dashed=False)
+        _draw_outline(pen, _drawing_points(truth, scale), TRUTH_COLOUR, scale, is_dashed=False)
     if estimate is not None:
-        _outline(pen, _points(estimate, scale), ESTIMATE, scale, dashed=True)
+        _draw_outline(pen, _drawing_points(estimate, scale), ESTIMATE_COLOUR, scale, is_dashed=True)
     if label:
-        _write(pen, label, scale)
-    drawn: npt.NDArray[np.uint8] = np.asarray(drawing).copy()
-    return drawn
+        _write_label(pen, label, scale)
+    pixels: npt.NDArray[np.uint8] = np.asarray(drawing).copy()
+    return pixels
 
 
-def _points(quad: Quad, scale: int) -> list[tuple[float, float]]:
-    """Corners in pixels of the drawing, whose first pixel's centre PIL calls 0."""
+def _drawing_points(quad: Quad, scale: int) -> list[tuple[float, float]]:
+    """Return the corners in pixels of the drawing; the centre of PIL's first pixel is 0."""
     if len(quad) != 8:
-        raise ValueError(f"a quadrangle has 8 numbers, not {len(quad)}")
-    flat = [(value + 0.5) * scale - 0.5 for value in quad]
-    return list(zip(flat[0::2], flat[1::2], strict=True))
+        raise ValueError(f"expected 8 numbers of a quadrangle, not {len(quad)}")
+    coordinates = [(value + 0.5) * scale - 0.5 for value in quad]
+    return list(zip(coordinates[0::2], coordinates[1::2], strict=True))
 
 
-def _outline(
+def _draw_outline(
     pen: ImageDraw.ImageDraw,
     points: list[tuple[float, float]],
     colour: tuple[int, int, int],
     scale: int,
     *,
-    dashed: bool,
+    is_dashed: bool,
 ) -> None:
     width = max(2, round(1.5 * scale))
     for begin, end in zip(points, points[1:] + points[:1], strict=True):
-        for a, b in _dashes(begin, end, 6.0 * scale if dashed else math.inf):
-            pen.line([a, b], fill=RIM, width=width + 2)
+        for a, b in _dashes(begin, end, 6.0 * scale if is_dashed else math.inf):
+            pen.line([a, b], fill=RIM_COLOUR, width=width + 2)
             pen.line([a, b], fill=colour, width=width)
 
 
 def _dashes(
     begin: tuple[float, float], end: tuple[float, float], dash: float
 ) -> Iterator[tuple[tuple[float, float], tuple[float, float]]]:
-    """Cut a line into dashes of that length with gaps of half of it; at most 1000."""
+    """Yield the dashes of a line, with gaps of half their length; at most 1000."""
     length = math.dist(begin, end)
     if length <= dash:
         yield begin, end
@@ -91,7 +91,9 @@ def _dashes(
         yield (a[0], a[1]), (b[0], b[1])
 
 
-def _write(pen: ImageDraw.ImageDraw, label: str, scale: int) -> None:
+def _write_label(pen: ImageDraw.ImageDraw, label: str, scale: int) -> None:
     font = ImageFont.load_default(size=8 * scale)
-    at = (3 * scale, 2 * scale)
-    pen.text(at, label, font=font, fill=(255, 255, 255), stroke_width=scale, stroke_fill=RIM)
+    position = (3 * scale, 2 * scale)
+    pen.text(
+        position, label, font=font, fill=(255, 255, 255), stroke_width=scale, stroke_fill=RIM_COLOUR
+    )

@@ -1,10 +1,10 @@
 """The page of a report, rendered from its template.
 
-Drawn from the result directory alone (``result.json``, logs, images, ``provenance.json``), so an
-old run can be drawn again. The file holds its images and its style in itself, loads nothing, runs
-no script (a content security policy forbids both), and every name that came from a file is text.
+It is made from the result directory alone (``result.json``, logs, images, ``provenance.json``), so
+reports of old runs can be written again. The file contains its images and its style. A content
+security policy forbids scripts and other files, and every name from a file is escaped.
 
-A directory ``control`` inside it, the same benchmark run with `frozen`, gives every plot its
+With a directory ``control`` inside it, the same benchmark run with `frozen`, every plot has a
 dashed line.
 """
 
@@ -23,13 +23,13 @@ from ...results.log import logs_of
 from ...results.measures_file import load_measures
 from ...results.per_level import LevelInterval, intervals_of, rows_by_level
 from ...results.provenance import load_provenance
-from ...results.result import Result
+from ...results.result import ImageStream, Result
 from ...results.result_file import file_of, load
 from ...results.table import MAX_FIXED, number_text, sensible_decimals, unit_of
 from ..plots import (
     LEVEL_WORDS,
     MAX_INSIDE,
-    OVERVIEW,
+    OVERVIEW_NAME,
     RunPlot,
     algorithm_of,
     draw_plots,
@@ -38,55 +38,55 @@ from ..plots import (
     repeats_of,
     written_unit,
 )
-from ..templates import template
-from .captions import Notes, caption, marks, over_time_caption, seeds_text, statistic_of
-from .caveats import floor, is_static, optics
+from ..templates import data_url, template
+from .captions import Notes, caption_over_time, figure_caption, marks_text, seeds_text, statistic_of
+from .caveats import floor_text, is_static, optics_texts
 from .configuration import (
     command,
     facts,
     logs_text,
-    machine,
+    provenance_texts,
     remarks,
     settings,
     variations,
     warnings,
 )
-from .images import data_url, images_text, phase_images, shown_images
-from .outcomes import Ending, breaks, endings, named_level
-from .rows import all_cells, heads, level_rows
+from .images import images_text, phase_images, shown_images
+from .outcomes import Ending, endings, first_failures, result_level_text
+from .rows import all_cells, column_heads, level_rows
 from .task_section import task_section
 
 MAX_CARDS = 12
-SHORT_LIST = 6
-"""Greatest number of image streams with an open list."""
+MAX_OPEN_STREAMS = 6
+"""The greatest number of image streams whose list is open."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Card:
-    """A number worth reading first."""
+    """One of the main numbers at the top of the page."""
 
     label: str
-    """What it is."""
+    """The name of the number."""
     value: str
     """The number with its unit."""
     note: str = ""
-    """How it was found."""
+    """The levels, or the reason."""
 
 
 def write_report(path: Path, *, pdf: bool = False) -> Path:
-    """Draw plots and ``report.html`` of a result directory (or its ``result.json``).
+    """Write the plots and ``report.html`` of a result directory (or its ``result.json``).
 
     Args:
         path: the directory, or the file in it.
-        pdf: also draw every plot as PDF.
+        pdf: write every plot as PDF, too.
 
     Raises:
         ResultError: there is no result, it cannot be read, or it contradicts its journals.
     """
     directory = file_of(path).parent
     result = load(path)
-    unchecked = check_rows(result, directory)
-    control = _control(directory)
+    check_note = check_rows(result, directory)
+    control = _load_control(directory)
     plots = draw_plots(result, directory / "plots", control=control, pdf=pdf)
     run_plots = draw_run_plots(result, directory, directory / "plots", pdf=pdf)
     target = directory / REPORT
@@ -96,7 +96,7 @@ def write_report(path: Path, *, pdf: bool = False) -> Path:
         plots=plots,
         run_plots=run_plots,
         control=control,
-        unchecked=unchecked,
+        check_note=check_note,
     )
     write_text(target, page)
     return target
@@ -109,10 +109,10 @@ def render(
     plots: Iterable[Path],
     run_plots: Iterable[RunPlot] = (),
     control: Result | None = None,
-    unchecked: str | None = None,
+    check_note: str | None = None,
 ) -> str:
-    """Return the report's HTML; ``unchecked`` is the text returned by `check_rows`."""
-    found = endings(result)
+    """Return the HTML of the report; ``check_note`` is the text that `check_rows` returns."""
+    ending_groups = endings(result)
     provenance, notes = load_provenance(directory), load_measures(directory)
     images = shown_images(result, directory)
     return template("report.html.j2").render(
@@ -122,70 +122,65 @@ def render(
         task=task_section(result, directory / "plots"),
         phases=phase_images(result, directory),
         remarks=remarks(result),
-        warnings=warnings(result, unchecked),
+        warnings=warnings(result, check_note),
         command=command(result, provenance),
-        cards=_cards(result, found),
-        heads=heads(result),
+        cards=_cards(result, ending_groups),
+        heads=column_heads(result),
         table=level_rows(result),
         n_levels=len(rows_by_level(result)),
-        values=_values(result, notes),
+        value_notes=_value_notes(result, notes),
         repeats=len(set(repeats_of(result))) or 1,
-        full=all_cells(result),
+        all_cells=all_cells(result),
         replay=REPLAY if (directory / REPLAY).is_file() else None,
         has_motion=bool(recorded_trials(directory)),
         n_rows=len(result.rows),
         plots=_captioned_plots(result, notes, plots),
         run_plots=_captioned_run_plots(result, notes, run_plots),
-        are_wide=_n_curves(result) > MAX_INSIDE,
-        marks=marks(result, has_control=control is not None),
+        are_wide=_count_curves(result) > MAX_INSIDE,
+        marks=marks_text(result, has_control=control is not None),
         images=images,
-        which_images=images_text(result, len(images)),
-        endings=found,
-        breaks=breaks(result),
+        images_text=images_text(result, len(images)),
+        endings=ending_groups,
+        first_failures=first_failures(result),
         settings=settings(result),
         inputs=list(result.inputs.files()),
         facts=facts(result),
         variations=variations(result),
-        streams=[
-            (
-                f"seed {stream.seed}"
-                + (f", {named_level(result, stream.level)}" if stream.level else ""),
-                stream,
-            )
-            for stream in result.image_streams
-        ],
-        short_list=SHORT_LIST,
+        streams=[(_stream_name(result, stream), stream) for stream in result.image_streams],
+        max_open_streams=MAX_OPEN_STREAMS,
         logs=logs_text(logs_of(directory)),
         is_static=is_static(result),
-        floor=floor(result),
-        optics=optics(result, found),
-        provenance=machine(provenance),
+        floor=floor_text(result),
+        optics=optics_texts(result, ending_groups),
+        provenance=provenance_texts(provenance),
         version=result.run.version or "?",
     )
 
 
+def _stream_name(result: Result, stream: ImageStream) -> str:
+    seed = f"seed {stream.seed}"
+    return f"{seed}, {result_level_text(result, stream.level)}" if stream.level else seed
+
+
 def _captioned_plots(result: Result, notes: Notes, plots: Iterable[Path]) -> list[tuple[str, str]]:
-    """Return caption and image of the plot of each score and measure over the levels."""
     if len(rows_by_level(result)) < 2:
         return []
     columns = result.columns_of_kind("score") + result.columns_of_kind("measure")
+    column_plots = [plot for plot in plots if plot.stem != OVERVIEW_NAME]
     return [
-        (caption(result, column, notes), data_url(plot.read_bytes(), "png"))
-        for column, plot in zip(
-            columns, (plot for plot in plots if plot.stem != OVERVIEW), strict=False
-        )
+        (figure_caption(result, column, notes), data_url(plot.read_bytes(), "png"))
+        for column, plot in zip(columns, column_plots, strict=False)
     ]
 
 
 def _captioned_run_plots(
     result: Result, notes: Notes, plots: Iterable[RunPlot]
 ) -> list[tuple[str, str]]:
-    """Return caption and image of each plot over time."""
     return [
         (
             plot.caption
             if plot.measure is None
-            else over_time_caption(result, plot.measure, plot.caption, notes),
+            else caption_over_time(result, plot.measure, plot.caption, notes),
             data_url(plot.path.read_bytes(), "png"),
         )
         for plot in plots
@@ -193,79 +188,81 @@ def _captioned_run_plots(
 
 
 def _lead(result: Result) -> str:
-    """One sentence: what was swept, over what, how often."""
     levels = rows_by_level(result)
-    spans, counts = [], []
+    ranges, counts = [], []
     for i, column in enumerate(result.columns_of_kind("level")):
         values = sorted({level[i] for level in levels})
-        word = LEVEL_WORDS.get(column.name, column.name)
-        if word and values:
+        label = LEVEL_WORDS.get(column.name, column.name)
+        if label and values:
             span = f"{values[0]:g}" + (f" to {values[-1]:g}" if len(values) > 1 else "")
-            spans.append(f"{word} {span}{_space(column.unit)}")
+            ranges.append(f"{label} {span}{_unit_suffix(column.unit)}")
             counts.append(len(values))
-    over = " and ".join(spans) or "one scene"
+    swept_ranges = " and ".join(ranges) or "one scene"
     n_repeats = len(set(repeats_of(result)))
-    many = f", {n_repeats} repeats" if n_repeats > 1 else ""
+    repeats_text = f", {n_repeats} repeats" if n_repeats > 1 else ""
     count = f"{len(levels)} level" + ("s" if len(levels) != 1 else "")
     if len(counts) > 1:
         count += f" ({' × '.join(map(str, counts))})"
     mode = result.run.mode or "sequential"
-    return f"{count}, {over}{many}; {mode}, {seeds_text(result)}."
+    return f"{count}, {swept_ranges}{repeats_text}; {mode}, {seeds_text(result)}."
 
 
-def _cards(result: Result, found: Sequence[Ending]) -> list[Card]:
-    n_ok = sum(ending.n for ending in found if ending.status == "ok")
+def _cards(result: Result, ending_groups: Sequence[Ending]) -> list[Card]:
+    n_ok = sum(ending.n for ending in ending_groups if ending.status == "ok")
     share = f"{n_ok} of {len(result.rows)}"
     cards = [Card(label="rows that ended ok", value=share, note="a row: one level of one repeat")]
-    for ending in found:
+    for ending in ending_groups:
         if ending.status != "ok" and ending.n:
             note = ending.reasons[0][1] if ending.reasons else "no reason was given"
-            cards.append(Card(label=f"first {ending.status}", value=ending.first, note=note))
+            cards.append(Card(label=f"first {ending.status}", value=ending.first_levels, note=note))
     star = result.fact("f_star")
     if star is not None and is_fog_swept(result):
         note = "fog at which the patch's ZNCC should fall to its threshold"
-        value = f"{rounded(star[0], star[0])}{_space(star[1])}"
+        value = f"{rounded_text(star[0], star[0])}{_unit_suffix(star[1])}"
         cards.append(Card(label="loss predicted at f*", value=value, note=note))
     for column in result.columns_of_kind("score") + result.columns_of_kind("measure"):
-        known = [e for e in intervals_of(result, column.name) if e.interval.mean is not None]
-        if not known:
+        means = [e for e in intervals_of(result, column.name) if e.interval.mean is not None]
+        if not means:
             continue
-        first, last = known[0], known[-1]
-        value, other, at = _mean_text(first, last), _mean_text(last, first), ""
-        if len(known) > 1:
-            value += f" to {other}" if value != other else ""
-            at = f"at {named_level(result, first.level)} and {named_level(result, last.level)}"
-        unit = _space(unit_of(result, column))
-        cards.append(Card(label=column.name, value=value + unit, note=at))
+        value, other_value, note = (
+            _mean_text(means[0], means[-1]),
+            _mean_text(means[-1], means[0]),
+            "",
+        )
+        if len(means) > 1:
+            value += f" to {other_value}" if value != other_value else ""
+            ends = [result_level_text(result, entry.level) for entry in (means[0], means[-1])]
+            note = f"at {' and '.join(ends)}"
+        unit = _unit_suffix(unit_of(result, column))
+        cards.append(Card(label=column.name, value=value + unit, note=note))
     return cards[:MAX_CARDS]
 
 
 def _mean_text(entry: LevelInterval, other: LevelInterval) -> str:
-    """The mean of a level, beside that of another one."""
-    return rounded(entry.interval.mean or 0.0, other.interval.mean or 0.0)
+    return rounded_text(entry.interval.mean or 0.0, other.interval.mean or 0.0)
 
 
-def rounded(value: float, against: float) -> str:
-    """Return a number in three digits; in those of another one where it is nothing against that.
+def rounded_text(value: float, reference: float) -> str:
+    """Return a number in three digits, or with the decimals of a much larger reference.
 
-    Whole numbers beside whole numbers, as counts, have no decimals.
+    Integers with an integer reference, such as counts, have no decimals.
     """
     if (
         value == round(value)
-        and against == round(against)
-        and max(abs(value), abs(against)) < MAX_FIXED
+        and reference == round(reference)
+        and max(abs(value), abs(reference)) < MAX_FIXED
     ):
         return f"{value:.0f}".replace("-", "−")
-    measure = against if abs(value) < 1e-3 * abs(against) else value
-    decimals = sensible_decimals([measure])
-    shown = 0.0 if abs(value) < 0.5 * 10**-decimals and measure is not value else value
-    if 1e3 <= abs(shown) < MAX_FIXED:
-        shown = float(f"{shown:.3g}")
-    return number_text(shown, decimals).replace("-", "−")
+    scale_value = reference if abs(value) < 1e-3 * abs(reference) else value
+    decimals = sensible_decimals([scale_value])
+    rounded_value = 0.0 if abs(value) < 0.5 * 10**-decimals and scale_value is not value else value
+    if 1e3 <= abs(rounded_value) < MAX_FIXED:
+        rounded_value = float(f"{rounded_value:.3g}")
+    return number_text(rounded_value, decimals).replace("-", "−")
 
 
-def _values(result: Result, notes: Notes) -> list[str]:
-    """Say what the values in the table are: the statistic of each measure, the score, the time."""
+def _value_notes(result: Result, notes: Notes) -> list[str]:
+    """Return the meaning of the values in the table: statistic of each measure, score, time."""
     by_statistic: dict[str, list[str]] = {}
     for column in result.columns_of_kind("measure"):
         if statistic := statistic_of(result, column.name, notes):
@@ -273,21 +270,22 @@ def _values(result: Result, notes: Notes) -> list[str]:
     messages = [f"{', '.join(names)}: {statistic}" for statistic, names in by_statistic.items()]
     messages += [f"total = {c.expression}" for c in result.columns_of_kind("score") if c.expression]
     if result.columns_of_kind("time"):
-        over = "from its start" if result.run.mode == "independent" else "summed over the levels"
-        messages.append(f"ended_at: running time when the level ended, {over}")
+        is_independent = result.run.mode == "independent"
+        origin = "from its start" if is_independent else "summed over the levels"
+        messages.append(f"ended_at: running time when the level ended, {origin}")
     return messages
 
 
-def _n_curves(result: Result) -> int:
-    """How many curves one plot has: one for each combination of the outer levels."""
+def _count_curves(result: Result) -> int:
+    """Return the number of curves of a plot, one for each combination of the outer levels."""
     return len({level[:-1] for level in rows_by_level(result)})
 
 
-def _space(unit: str | None) -> str:
+def _unit_suffix(unit: str | None) -> str:
     return f" {written_unit(unit)}" if unit else ""
 
 
-def _control(directory: Path) -> Result | None:
+def _load_control(directory: Path) -> Result | None:
     try:
         control = load(directory / CONTROL)
     except ResultError:

@@ -1,4 +1,4 @@
-"""The tables of a report: a line a level, and every cell of every row."""
+"""The tables of a report: a line for each level, and every cell of every row."""
 
 from __future__ import annotations
 
@@ -7,18 +7,18 @@ from dataclasses import dataclass
 from ...results.result import Column, Result
 from ...results.table import GAP, CellText, exact_decimals, lines, shown_columns, unit_of
 from ..plots import written_unit
-from .outcomes import kind_of
+from .outcomes import reason_kind
 
 MAX_LINES = 1000
-"""Greatest number of levels in the table; others are in result.json only, with a note."""
+"""The greatest number of levels in the table; others are in result.json only, with a note."""
 MAX_CELLS = 15_000
-"""Greatest number of cells in the table of all columns."""
-LONG_REASON = 80
-"""Longer reasons are not repeated where only numbers differ."""
+"""The greatest number of cells in the table of all columns."""
+MIN_LONG_REASON = 80
+"""The length above which a reason is not repeated where only numbers differ."""
 MAX_REASON_LENGTH = 100
-"""Letters of a reason behind a cell of that table."""
-Head = tuple[str, str]
-"""Name and unit of a column."""
+"""The greatest number of letters of a reason in the table of all columns."""
+ColumnHead = tuple[str, str]
+"""The name and unit of a column."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,48 +26,48 @@ class TableRow:
     """One level in the table."""
 
     cells: tuple[tuple[str, str], ...]
-    """(value, interval) of levels, measures, total, time; an interval may be empty."""
+    """The value and interval of levels, measures, total and time; an interval may be empty."""
     status: str
-    """``ok``, ``lost``, ... or ``8 of 10 ok``."""
+    """The status: ``ok``, ``lost``, ... or ``8 of 10 ok``."""
     rate: str
-    """Limits of that rate: ``44 to 97 %``."""
-    ok: bool
-    """Whether every repeat ended ``ok``."""
-    why: str
-    """The reason, ``as above``, or over repeats how many ended how."""
-    begins: bool
-    """Whether an outer level begins here."""
+    """The limits of that rate: ``44 to 97 %``."""
+    is_ok: bool
+    """True if every repeat ended ``ok``."""
+    reason: str
+    """The reason, or ``as above``; over repeats, the number of each status."""
+    begins_outer_level: bool
+    """True if an outer level begins with this row."""
     rows: tuple[int, ...]
-    """Numbers of its rows in the result, one a repeat."""
+    """The numbers of its rows in the result, one for each repeat."""
 
 
-def heads(result: Result) -> list[Head]:
-    """Return name and unit of the table's columns."""
-    return [_head(result, column) for column in shown_columns(result)]
+def column_heads(result: Result) -> list[ColumnHead]:
+    """Return the name and unit of each column of the table."""
+    return [_column_head(result, column) for column in shown_columns(result)]
 
 
 def level_rows(result: Result) -> list[TableRow]:
-    """Return the table, a row a level; repeats are gathered."""
-    found: list[TableRow] = []
-    above = ""
-    outer: tuple[float, ...] | None = None
+    """Return the table with a row for each level; repeats are combined."""
+    table_rows: list[TableRow] = []
+    previous_reason = ""
+    outer_level: tuple[float, ...] | None = None
     for line in lines(result)[:MAX_LINES]:
-        found.append(
+        table_rows.append(
             TableRow(
-                cells=tuple(_printed(cell) for cell in line.cells),
+                cells=tuple(_printed_cell(cell) for cell in line.cells),
                 status=line.status,
                 rate=line.rate,
-                ok=line.is_ok,
-                why=_told_once(line.reason, above),
-                begins=outer is not None and line.level[:-1] != outer,
+                is_ok=line.is_ok,
+                reason=_shorten_repeated_reason(line.reason, previous_reason),
+                begins_outer_level=outer_level is not None and line.level[:-1] != outer_level,
                 rows=line.rows,
             )
         )
-        above, outer = line.reason, line.level[:-1]
-    return found
+        previous_reason, outer_level = line.reason, line.level[:-1]
+    return table_rows
 
 
-def all_cells(result: Result) -> tuple[list[Head], list[list[tuple[str, str]]]]:
+def all_cells(result: Result) -> tuple[list[ColumnHead], list[list[tuple[str, str]]]]:
     """Return all columns, and the rows as (text, reason) cells."""
     decimals = {
         column.name: exact_decimals(
@@ -83,22 +83,22 @@ def all_cells(result: Result) -> tuple[list[Head], list[list[tuple[str, str]]]]:
     return [(column.name, unit_of(result, column)) for column in result.columns], rows
 
 
-def _head(result: Result, column: Column) -> Head:
+def _column_head(result: Result, column: Column) -> ColumnHead:
     name = "total" if column.kind == "score" else column.name
     return name, written_unit(unit_of(result, column))
 
 
-def _told_once(why: str, above: str) -> str:
-    """Leave out the reason of the line above, a long one also if only numbers differ."""
-    if why and why == above:
+def _shorten_repeated_reason(reason: str, previous_reason: str) -> str:
+    """Replace the reason of the row above, and a long one that differs in numbers alone."""
+    if reason and reason == previous_reason:
         return "as above"
-    if len(why) > LONG_REASON and kind_of(why) == kind_of(above):
+    if len(reason) > MIN_LONG_REASON and reason_kind(reason) == reason_kind(previous_reason):
         return "as above, with other numbers"
-    return why
+    return reason
 
 
-def _printed(cell: CellText) -> tuple[str, str]:
-    """Value and interval, with signs and gaps as they are printed."""
+def _printed_cell(cell: CellText) -> tuple[str, str]:
+    """Return value and interval with typographic signs and dashes."""
     value = "–" if cell.value == GAP else cell.value.replace("-", "−")
     return value, f"[{cell.limits}]".replace("-", "−") if cell.limits else ""
 
@@ -106,8 +106,9 @@ def _printed(cell: CellText) -> tuple[str, str]:
 def _cell(result: Result, row: int, column: Column, decimals: int | None) -> tuple[str, str]:
     value = result.rows[row][result.index(column.name)]
     if value is None:
-        why = result.reason(row, column.name) or "no reason was given"
-        return "–", why if len(why) <= MAX_REASON_LENGTH else f"{why[: MAX_REASON_LENGTH - 1]}…"
+        reason = result.reason(row, column.name) or "no reason was given"
+        is_long = len(reason) > MAX_REASON_LENGTH
+        return "–", f"{reason[: MAX_REASON_LENGTH - 1]}…" if is_long else reason
     if isinstance(value, str):
         return value, ""
     return (f"{value:.{decimals}f}" if decimals is not None else _number(value)), ""

@@ -10,17 +10,17 @@ from ...results.table import number_text, sensible_decimals
 from ..plots import written_unit
 from ..task import (
     TaskCell,
-    crossings,
+    crossing_sentence,
     draw_task_figures,
-    sentence,
+    find_crossings,
     task_cells,
     task_measure,
 )
-from .images import data_url
-from .rows import Head
+from ..templates import data_url
+from .rows import ColumnHead
 
 DETAILS = ("time_lifted", "slip", "excursion", "impulse_on_object")
-"""Of the measure that judges: what the table has of the successes."""
+"""The details of the judging measure whose medians are in the table."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,60 +30,60 @@ class TaskRow:
     level: tuple[str, ...]
     """The swept parameters."""
     success: str
-    """``9 of 10``."""
+    """The number of successes: ``9 of 10``."""
     limits: str
-    """``55 to 100 %``."""
-    is_half: bool
-    """Whether half or more succeed."""
+    """The limits of the success rate: ``55 to 100 %``."""
+    is_at_least_half: bool
+    """True if half or more of the episodes succeed."""
     failures: str
-    """``2 dropped, 1 missed``."""
+    """The failures: ``2 dropped, 1 missed``."""
     medians: tuple[str, ...]
-    """Of the successes; a dash where there are none."""
+    """The medians over the successes; a dash where there are none."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class TaskSection:
-    """What a report says of a task."""
+    """The section of a report about a task."""
 
     lead: str
-    """Successes of all episodes."""
+    """The successes of all episodes."""
     sentences: tuple[str, ...]
-    """Where the rate crosses 50 %."""
+    """The levels at which the rate crosses 50 %."""
     figures: tuple[tuple[str, str], ...]
-    """(caption, image as a data URL)."""
-    heads: tuple[Head, ...]
-    """Name and unit of the medians."""
-    level_heads: tuple[Head, ...]
-    """Name and unit of the parameters."""
+    """The captions, and the images as data URLs."""
+    median_heads: tuple[ColumnHead, ...]
+    """The names and units of the medians."""
+    level_heads: tuple[ColumnHead, ...]
+    """The names and units of the parameters."""
     rows: tuple[TaskRow, ...]
-    """One a level."""
+    """The rows of the table, one for each level."""
 
 
 def task_section(result: Result, folder: Path) -> TaskSection | None:
     """Return the section; None for a result that is not of a task.
 
     Args:
-        result: what is reported.
-        folder: the figures are written there as PNG.
+        result: the result.
+        folder: the folder for the figures as PNG.
     """
     judge = task_measure(result)
     if judge is None:
         return None
     cells = task_cells(result)
-    known = {column.name: column for column in result.columns}
-    wanted = [column.name for column in result.columns_of_kind("measure") if column is not judge]
-    wanted += [f"{judge.name}.{detail}" for detail in DETAILS]
-    columns = [known[name] for name in wanted if name in known]
+    columns_by_name = {column.name: column for column in result.columns}
+    names = [column.name for column in result.columns_of_kind("measure") if column is not judge]
+    names += [f"{judge.name}.{detail}" for detail in DETAILS]
+    columns = [columns_by_name[name] for name in names if name in columns_by_name]
     n = sum(cell.success.n for cell in cells)
     n_ok = sum(cell.success.successes for cell in cells)
     return TaskSection(
         lead=f"{n_ok} of {n} episodes succeeded.",
-        sentences=tuple(sentence(result, each) for each in crossings(result)),
+        sentences=tuple(crossing_sentence(result, crossing) for crossing in find_crossings(result)),
         figures=tuple(
             (caption, data_url(path.read_bytes(), "png"))
             for path, caption in draw_task_figures(result, folder).items()
         ),
-        heads=tuple(
+        median_heads=tuple(
             (c.name.removeprefix(f"{judge.name}."), written_unit(c.unit or "")) for c in columns
         ),
         level_heads=tuple(
@@ -99,7 +99,7 @@ def _row(result: Result, cell: TaskCell, columns: list[str]) -> TaskRow:
         level=tuple(f"{value:g}" for value in cell.level),
         success=f"{success.successes} of {success.n}",
         limits=f"{100 * success.low:.0f} to {100 * success.high:.0f} %",
-        is_half=success.value >= 0.5,
+        is_at_least_half=success.value >= 0.5,
         failures=", ".join(f"{n} {status}" for status, n in cell.failures.items()),
         medians=tuple(_median(result, cell, column) for column in columns),
     )

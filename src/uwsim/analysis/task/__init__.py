@@ -1,20 +1,19 @@
-"""Results of tasks that succeed or fail: success rates, classes of failure, crossings of 50 %."""
+"""Results of tasks that succeed or fail: success rates, failures, crossings of 50 %."""
 
 from __future__ import annotations
 
 from .cells import TaskCell, task_cells, task_measure
-from .crossing import Crossing, along, crossings, sentence
+from .crossing import cells_along, crossing_sentence, find_crossings
 from .figures import draw_task_figures
 from .phases import phase_means
 
 __all__ = [
-    "Crossing",
     "TaskCell",
-    "along",
-    "crossings",
+    "cells_along",
+    "crossing_sentence",
     "draw_task_figures",
+    "find_crossings",
     "phase_means",
-    "sentence",
     "task_cells",
     "task_measure",
 ]

@@ -1,4 +1,4 @@
-"""The levels of a task's result: success rate, how the others ended, what the successes took."""
+"""The levels of a task's result: success rates, failures, and medians over the successes."""
 
 from __future__ import annotations
 
@@ -11,35 +11,35 @@ from ...results.per_level import rows_by_level
 from ...results.result import Column, Result
 from ...statistics import Rate, rate
 
-JUDGED_BY = "time_done"
-"""The detail by which the measure that judges a task is known."""
+JUDGING_DETAIL = "time_done"
+"""The detail that only the measure that judges a task has."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class TaskCell:
-    """One level, over its seeds."""
+    """One level of a task, over its seeds."""
 
     level: tuple[float, ...]
     """The swept parameters, outermost first."""
     success: Rate
-    """Episodes that ended ``ok``, with exact 95 % limits."""
+    """The rate of episodes that ended ``ok``, with exact 95 % limits."""
     failures: Mapping[str, int]
-    """Status -> episodes that ended so, the most frequent first."""
+    """The number of episodes with each other status, the most frequent first."""
     rows: tuple[int, ...]
-    """Numbers of its rows in the result."""
+    """The numbers of its rows in the result."""
 
     def median(self, result: Result, column: str) -> float | None:
-        """Median of a column over the successes of the level; None if there are none."""
+        """Return the median of a column over the successes of the level; None without any."""
         status = result.values(result.columns_of_kind("status")[0].name)
         values = result.numbers(column)
-        found = [values[row] for row in self.rows if status[row] == "ok"]
-        present = [value for value in found if value is not None]
-        return median(present) if present else None
+        ok_rows = [row for row in self.rows if status[row] == "ok"]
+        present_values = [value for row in ok_rows if (value := values[row]) is not None]
+        return median(present_values) if present_values else None
 
 
 def task_measure(result: Result) -> Column | None:
-    """Return the column of the measure that judges the task; None: it is no task."""
-    suffix = f".{JUDGED_BY}"
+    """Return the column of the measure that judges the task; None without a task."""
+    suffix = f".{JUDGING_DETAIL}"
     names = [
         column.name for column in result.columns_of_kind("detail") if column.name.endswith(suffix)
     ]
@@ -51,12 +51,12 @@ def task_measure(result: Result) -> Column | None:
 def task_cells(result: Result) -> list[TaskCell]:
     """Return the levels in the order of execution."""
     status = [str(cell) for cell in result.values(result.columns_of_kind("status")[0].name)]
-    found = []
+    cells = []
     for level, rows in rows_by_level(result).items():
         counts = Counter(status[row] for row in rows)
         n_ok = counts.pop("ok", 0)
         success = rate(n_ok, len(rows))
         assert success is not None
         failures = dict(sorted(counts.items(), key=lambda item: (-item[1], item[0])))
-        found.append(TaskCell(level=level, success=success, failures=failures, rows=tuple(rows)))
-    return found
+        cells.append(TaskCell(level=level, success=success, failures=failures, rows=tuple(rows)))
+    return cells

@@ -1,4 +1,4 @@
-"""Where the success rate crosses 50 % along one swept parameter, the others at a fixed value."""
+"""The levels at which the success rate crosses 50 % along one swept parameter."""
 
 from __future__ import annotations
 
@@ -9,7 +9,9 @@ from ...results.result import Result
 from ..plots import LEVEL_WORDS, level_text
 from .cells import TaskCell, task_cells
 
-HALF = 0.5
+Level = tuple[float, ...]
+
+HALF_RATE = 0.5
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -17,79 +19,81 @@ class Crossing:
     """The first level along a parameter at which fewer than half of the episodes succeed."""
 
     parameter: int
-    """Number of the level column that varies."""
-    at: tuple[float, ...]
-    """Values of all parameters; that of the one that varies does not count."""
-    holds: TaskCell | None
-    """The last level before it; None: the first level is below half already."""
-    breaks: TaskCell | None
-    """The level; None: half or more succeed everywhere."""
+    """The index of the level column that varies."""
+    level: Level
+    """The values of all parameters; that of the varied one is not used."""
+    last_above: TaskCell | None
+    """The level before `first_below`; None: the first level is below half."""
+    first_below: TaskCell | None
+    """The first level below half; None: all are at half or above."""
 
 
-def along(cells: Sequence[TaskCell], parameter: int, at: tuple[float, ...]) -> list[TaskCell]:
-    """Return the cells that differ from ``at`` in one parameter alone, in its order."""
-    line = [
-        cell
-        for cell in cells
-        if all(
-            a == b for i, (a, b) in enumerate(zip(cell.level, at, strict=True)) if i != parameter
-        )
-    ]
+def cells_along(cells: Sequence[TaskCell], parameter: int, level: Level) -> list[TaskCell]:
+    """Return the cells that differ from ``level`` in one parameter alone, in its order."""
+
+    def other_values(values: Level) -> Level:
+        return (*values[:parameter], *values[parameter + 1 :])
+
+    line = [cell for cell in cells if other_values(cell.level) == other_values(level)]
     return sorted(line, key=lambda cell: cell.level[parameter])
 
 
-def crossing(cells: Sequence[TaskCell], parameter: int, at: tuple[float, ...]) -> Crossing:
-    """Find where the rate falls below half along one parameter."""
-    holds = None
-    for cell in along(cells, parameter, at):
-        if cell.success.value < HALF:
-            return Crossing(parameter=parameter, at=at, holds=holds, breaks=cell)
-        holds = cell
-    return Crossing(parameter=parameter, at=at, holds=holds, breaks=None)
+def find_crossing(cells: Sequence[TaskCell], parameter: int, level: Level) -> Crossing:
+    """Return the levels between which the rate falls below half along one parameter."""
+    last_above = first_below = None
+    for cell in cells_along(cells, parameter, level):
+        if cell.success.value < HALF_RATE:
+            first_below = cell
+            break
+        last_above = cell
+    return Crossing(
+        parameter=parameter, level=level, last_above=last_above, first_below=first_below
+    )
 
 
-def crossings(result: Result) -> list[Crossing]:
+def find_crossings(result: Result) -> list[Crossing]:
     """Return a crossing for each parameter that varies, at each value of the others."""
     cells = task_cells(result)
     columns = result.columns_of_kind("level")
-    found = []
+    crossings = []
     for parameter in range(len(columns)):
         if len({cell.level[parameter] for cell in cells}) < 2:
             continue
         starts = dict.fromkeys(
             (*cell.level[:parameter], 0.0, *cell.level[parameter + 1 :]) for cell in cells
         )
-        found += [crossing(cells, parameter, start) for start in starts]
-    return found
+        crossings += [find_crossing(cells, parameter, start) for start in starts]
+    return crossings
 
 
-def sentence(result: Result, found: Crossing) -> str:
-    """Say where it is: ``At current 0 m/s it falls below 50 % between fog 0.75 and 1 m⁻¹``."""
+def crossing_sentence(result: Result, crossing: Crossing) -> str:
+    """Return the sentence ``The success rate falls below 50 % between fog 0.75 and 1 m⁻¹ ...``."""
     columns = result.columns_of_kind("level")
-    column = columns[found.parameter]
-    word = LEVEL_WORDS.get(column.name, column.name)
+    column = columns[crossing.parameter]
+    label = LEVEL_WORDS.get(column.name, column.name)
     fixed = [
         level_text(other, value)
-        for i, (other, value) in enumerate(zip(columns, found.at, strict=True))
-        if i != found.parameter and other.name != "none"
+        for i, (other, value) in enumerate(zip(columns, crossing.level, strict=True))
+        if i != crossing.parameter and other.name != "none"
     ]
-    where = f"At {', '.join(fixed)} " if fixed else ""
-    it = "the success rate" if fixed else "The success rate"
-    if found.breaks is None:
-        assert found.holds is not None
-        last = level_text(column, found.holds.level[found.parameter])
-        return f"{where}{it} stays at 50 % or above up to {last} ({_of(found.holds)})."
-    broken = level_text(column, found.breaks.level[found.parameter])
-    if found.holds is None:
-        return f"{where}{it} is below 50 % from the first level on, {broken} ({_of(found.breaks)})."
-    held = f"{found.holds.level[found.parameter]:g}"
-    value = f"{found.breaks.level[found.parameter]:g}"
-    unit = broken.removeprefix(column.name).strip().removeprefix(value).strip()
+    subject = f"At {', '.join(fixed)} the success rate" if fixed else "The success rate"
+    cell_above, cell_below = crossing.last_above, crossing.first_below
+    if cell_below is None:
+        assert cell_above is not None
+        last_level = level_text(column, cell_above.level[crossing.parameter])
+        return f"{subject} is 50 % or above up to {last_level} ({_count_text(cell_above)})."
+    level_below = level_text(column, cell_below.level[crossing.parameter])
+    n_below = _count_text(cell_below)
+    if cell_above is None:
+        return f"{subject} is below 50 % from the first level on, {level_below} ({n_below})."
+    value_above = f"{cell_above.level[crossing.parameter]:g}"
+    value_below = f"{cell_below.level[crossing.parameter]:g}"
+    unit = level_below.removeprefix(column.name).strip().removeprefix(value_below).strip()
     return (
-        f"{where}{it} falls below 50 % between {word} {held} and {value} {unit} "
-        f"({_of(found.holds)}, then {_of(found.breaks)})."
+        f"{subject} falls below 50 % between {label} {value_above} and {value_below} {unit} "
+        f"({_count_text(cell_above)}, then {n_below})."
     )
 
 
-def _of(cell: TaskCell) -> str:
+def _count_text(cell: TaskCell) -> str:
     return f"{cell.success.successes} of {cell.success.n}"

@@ -1,4 +1,4 @@
-"""How long the phases of an algorithm took, over the levels of a result."""
+"""The times of the phases of an algorithm, over the levels of a result."""
 
 from __future__ import annotations
 
@@ -7,16 +7,16 @@ from .cells import TaskCell, task_measure
 
 
 def phase_means(result: Result, cell: TaskCell) -> dict[str, float]:
-    """Mean time in each phase over all episodes of a level, in the phases' order [s]."""
+    """Return the mean time in each phase over all episodes of a level, in their order [s]."""
     judge = task_measure(result)
     if judge is None:
         return {}
     prefix = f"{judge.name}.time."
-    found = {}
+    means = {}
     for column in result.columns_of_kind("detail"):
         if column.name.startswith(prefix):
             values = result.numbers(column.name)
-            present = [v for row in cell.rows if (v := values[row]) is not None]
-            if present:
-                found[column.name.removeprefix(prefix)] = sum(present) / len(present)
-    return found
+            times = [v for row in cell.rows if (v := values[row]) is not None]
+            if times:
+                means[column.name.removeprefix(prefix)] = sum(times) / len(times)
+    return means
