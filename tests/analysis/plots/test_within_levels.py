@@ -11,8 +11,8 @@ import pytest
 from tests.support.synthetic_results import one_level, visibility
 from uwsim.analysis.plots import INK, draw_run_plots
 from uwsim.analysis.plots.one_level import one_level_plot
-from uwsim.analysis.plots.over_time import samples_of, time_plot
 from uwsim.analysis.plots.panels import MAX_PANELS, choose_panels
+from uwsim.analysis.plots.time_plots import samples_of, time_plot
 from uwsim.analysis.plots.track_plot import read_tracks, track_plot
 from uwsim.analysis.report import render
 from uwsim.results.log import Log, save_log

@@ -101,9 +101,8 @@ def differences(entries: Sequence[Entry]) -> tuple[str, ...]:
         if len(set(values)) > 1:
             texts.append(f"{condition}: {_values_by_source(entries, values)}")
     texts += _shorten_list(_file_differences(entries, "assets", "asset"), "assets")
-    texts += [
-        line for line in _file_differences(entries, "plugins", "plugin") if "absent" not in line
-    ]
+    plugins = _file_differences(entries, "plugins", "plugin")
+    texts += [text for text in plugins if "absent" not in text]
     return tuple(texts)
 
 
@@ -113,9 +112,8 @@ def remarks(entries: Sequence[Entry]) -> tuple[str, ...]:
     for subject in ("version", "physics", "renderer", "numpy"):
         values = [getattr(entry.result.run, subject) or "unknown" for entry in entries]
         if len(set(values)) > 1 and not (subject == "renderer" and "none" in values):
-            texts.append(
-                f"run with different versions, {subject}: {_values_by_source(entries, values)}"
-            )
+            versions = _values_by_source(entries, values)
+            texts.append(f"run with different versions, {subject}: {versions}")
     for entry in entries:
         units = entry.result.run.units
         if units is not None and not entry.result.run.is_finished:
@@ -137,14 +135,11 @@ def count_same_images(first_result: Result, second_result: Result) -> tuple[int,
 
     None where they have none in common: no camera was read, or the seeds differ.
     """
-    first_hashes = {
-        (stream.seed, stream.level, stream.topic): stream.sha256
-        for stream in first_result.image_streams
-    }
+    hashes = {(s.seed, s.level, s.topic): s.sha256 for s in first_result.image_streams}
     matches = [
-        first_hashes[key] == stream.sha256
+        hashes[key] == stream.sha256
         for stream in second_result.image_streams
-        if (key := (stream.seed, stream.level, stream.topic)) in first_hashes
+        if (key := (stream.seed, stream.level, stream.topic)) in hashes
     ]
     return (len(matches), sum(matches)) if matches else None
 
@@ -158,10 +153,8 @@ def _file_text(file: tuple[str, str] | None) -> str:
 
 def _scene_settings(result: Result) -> str:
     settings = result.run.settings or ()
-    scene_settings = [
-        f"{path}={value}" for path, value in settings if not path.startswith("algorithm.")
-    ]
-    return " ".join(scene_settings) or "none"
+    texts = [f"{path}={value}" for path, value in settings if not path.startswith("algorithm.")]
+    return " ".join(texts) or "none"
 
 
 def _value_text(value: object) -> str:

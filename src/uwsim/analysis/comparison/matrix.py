@@ -131,10 +131,8 @@ def matrix_note(comparison: Comparison) -> str:
         "column. It is over the levels at which every repeat of both has a value (sign-flip test "
         f"at 5 %{correction}). The column ok has the share of the rows that ended ok."
     )
-    differences = [
-        pair.sweep.value for pair in comparison.pairs if pair.sweep.value.verdict == "too few"
-    ]
-    return f"{few_repeats_text(differences[0])}. {text}" if differences else text
+    pairs = [pair for pair in comparison.pairs if pair.sweep.value.verdict == "too few"]
+    return f"{few_repeats_text(pairs[0].sweep.value)}. {text}" if pairs else text
 
 
 def few_repeats_text(d: PairedDifference) -> str:
@@ -171,10 +169,6 @@ def _cell_verdict(verdict: Verdict, is_first: bool) -> CellVerdict:
 
 
 def _ok_share(entry: Entry) -> str:
-    rates = [
-        level_rate.success
-        for level_rate in success_rates(entry.result)
-        if level_rate.success is not None
-    ]
+    rates = [r.success for r in success_rates(entry.result) if r.success is not None]
     n = sum(rate.n for rate in rates)
     return f"{100 * sum(rate.successes for rate in rates) / n:.3g} %" if n else "-"

@@ -12,8 +12,7 @@ from .curves import (
     written_unit,
 )
 from .drawing import CONTROL, MAX_INSIDE, is_fog_swept
-from .of_a_run import RunPlot, draw_run_plots
-from .over_levels import (
+from .level_plots import (
     OVERVIEW_NAME,
     compare_plot,
     draw_plots,
@@ -21,6 +20,7 @@ from .over_levels import (
     value_plot,
 )
 from .panels import choose_evenly
+from .run_plots import RunPlot, draw_run_plots
 from .save import save_pdf, save_plot
 from .style import (
     GREY,

@@ -30,11 +30,8 @@ def save_plot(figure: Figure, path: Path) -> Path:
 
 def save_pdf(figure: Figure, path: Path) -> Path:
     """Write a plot as PDF with text as text, without the date and the name of a program."""
-    with (
-        mpl.rc_context({"pdf.fonttype": 42}),
-        ignore_missing_glyphs(),
-        atomic_write(path) as draft,
-    ):
+    settings = mpl.rc_context({"pdf.fonttype": 42})
+    with settings, ignore_missing_glyphs(), atomic_write(path) as draft:
         figure.savefig(
             draft, format="pdf", metadata={"CreationDate": None, "Producer": None, "Creator": None}
         )

@@ -20,9 +20,9 @@ from ...errors import ResultError
 from ...results.journal import recorded_trials, track_path
 from ...results.motion.motion_track import MotionTrack, load_track
 from ...results.result import Result
-from .over_time import level_title
 from .panels import choose_evenly, choose_panels
 from .style import INK, PALETTE, escape, shorten_name, styled_figure, write_note
+from .time_plots import level_title
 
 Array = npt.NDArray[np.float64]
 Level = tuple[float, ...]

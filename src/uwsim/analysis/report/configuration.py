@@ -75,9 +75,8 @@ def warnings(result: Result, check_note: str | None = None) -> list[str]:
         )
     if check_note is not None:
         messages.append(f"{check_note[0].upper()}{check_note[1:]}.")
-    messages += [
-        _participation(*client) for client in run.clients or () if not _is_repeatable(client[1])
-    ]
+    clients = run.clients or ()
+    messages += [_participation(name, mode) for name, mode in clients if not _is_repeatable(mode)]
     messages += [f"{text}." for text in refused_lines(result)]
     return messages + [f"{note}." for note in run.notes or ()]
 
@@ -89,9 +88,8 @@ def remarks(result: Result) -> list[str]:
         messages.append(f"Only these levels of the sweep were run: {', '.join(levels)}.")
     if settings := run.pairs_of_settings:
         messages.append(f"Changed for this run: {', '.join(settings)}.")
-    messages += [
-        _participation(*client) for client in run.clients or () if _is_repeatable(client[1])
-    ]
+    clients = run.clients or ()
+    messages += [_participation(name, mode) for name, mode in clients if _is_repeatable(mode)]
     if names := run.compatibility:
         messages.append(f"Compatibility quirks: {', '.join(names)}.")
     return messages

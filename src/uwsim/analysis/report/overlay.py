@@ -16,7 +16,7 @@ from PIL import Image, ImageDraw, ImageFont
 
 Quad = Sequence[float]
 
-TRUTH_COLOUR, ESTIMATE_COLOUR, RIM_COLOUR = (0, 200, 140), (255, 140, 0), (10, 20, 30)
+TRUTH_COLOUR, ESTIMATE_COLOUR, RIM = (0, 200, 140), (255, 140, 0), (10, 20, 30)
 
 
 def overlay(
@@ -72,7 +72,7 @@ def _draw_outline(
     width = max(2, round(1.5 * scale))
     for begin, end in zip(points, points[1:] + points[:1], strict=True):
         for a, b in _dashes(begin, end, 6.0 * scale if is_dashed else math.inf):
-            pen.line([a, b], fill=RIM_COLOUR, width=width + 2)
+            pen.line([a, b], fill=RIM, width=width + 2)
             pen.line([a, b], fill=colour, width=width)
 
 
@@ -93,7 +93,5 @@ def _dashes(
 
 def _write_label(pen: ImageDraw.ImageDraw, label: str, scale: int) -> None:
     font = ImageFont.load_default(size=8 * scale)
-    position = (3 * scale, 2 * scale)
-    pen.text(
-        position, label, font=font, fill=(255, 255, 255), stroke_width=scale, stroke_fill=RIM_COLOUR
-    )
+    corner, white = (3 * scale, 2 * scale), (255, 255, 255)
+    pen.text(corner, label, font=font, fill=white, stroke_width=scale, stroke_fill=RIM)

@@ -13,8 +13,8 @@ from ...results.log import load_log, logs_of
 from ...results.per_level import rows_by_level
 from ...results.result import Result
 from .one_level import MARKS_NOTE, one_level_plot
-from .over_time import marks_note, time_plot
 from .save import save_pdf, save_plot
+from .time_plots import marks_note, time_plot
 from .track_plot import read_tracks, track_plot
 
 TRACK_PLOT_NAME = "track"
