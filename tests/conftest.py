@@ -1,4 +1,4 @@
-"""What every test gets: a home of its own, children that hear Ctrl-C, no limit of an example."""
+"""The fixtures of all tests: a separate home, children that receive Ctrl-C, no deadlines."""
 
 from __future__ import annotations
 
@@ -14,21 +14,21 @@ pytest_plugins = ["tests.support.crashed_processes"]
 settings.register_profile(
     "any computer", deadline=None, suppress_health_check=[HealthCheck.too_slow]
 )
-settings.load_profile("any computer")  # a slow one is no error
+settings.load_profile("any computer")  # a slow computer causes no error
 
 
 @pytest.fixture(scope="session", autouse=True)
-def _hear_ctrl_c() -> None:
-    """Tests that press Ctrl-C do so to children that hear it, also when pytest was told not to."""
+def _receive_ctrl_c() -> None:
+    """The handler of Ctrl-C, which children of tests inherit, also if pytest ignores it."""
     if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
         signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.fixture(scope="session", autouse=True)
 def _may_dump_core() -> Iterator[None]:
-    """A run of an external algorithm denies access to memory, of a test's process it does not.
+    """The access to the memory of a test's process, which runs of external algorithms deny.
 
-    A process that denies it leaves no core file, hence no native stacks of a crash.
+    A process that denies access leaves no core file, hence no native stacks of a crash.
     """
     with pytest.MonkeyPatch.context() as patch:
         for module in ("uwsim.runs.sealing", "uwsim.runs.executors.executor"):
@@ -38,7 +38,7 @@ def _may_dump_core() -> Iterator[None]:
 
 @pytest.fixture(scope="session", autouse=True)
 def home(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
-    """Make an empty home directory; commands that tests start inherit it."""
+    """An empty home directory, which commands of tests inherit."""
     folder = tmp_path_factory.mktemp("home")
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("HOME", str(folder))

@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import uwsim
-from tests.support.failing import Raises
+from tests.support.failing import RaisedError
 from tests.support.short_benchmark import write_benchmark
 from uwsim.bus import Node
 from uwsim.cli import main
@@ -208,10 +208,10 @@ def test_a_result_directory_of_python_has_the_bytes_of_one_of_the_command(
 def test_a_class_that_breaks_in_every_row_is_an_error_and_all_is_written(tmp_path: Path) -> None:
     benchmark, out = write_benchmark(tmp_path, "0.2"), tmp_path / "out"
     with pytest.raises(RunFailed, match=r"Every row ended in 'algorithm error': .*no focus"):
-        uwsim.bench(benchmark, algorithm=Raises, levels={"fog": [0]}, out=out)
+        uwsim.bench(benchmark, algorithm=RaisedError, levels={"fog": [0]}, out=out)
     result = uwsim.read_result(out)
     assert result.values("status") == ("algorithm error",)
-    assert dict(result.run.clients or ()) == {"tests.support.failing:Raises": "in process"}
+    assert dict(result.run.clients or ()) == {"tests.support.failing:RaisedError": "in process"}
     assert (out / "report.html").is_file()
     assert (out / "control" / "result.json").is_file()
 

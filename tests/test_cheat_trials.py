@@ -10,11 +10,11 @@ from tests.support.cheat_trials import (
     CHEATS,
     GAINS,
     Bursts,
-    Holds,
+    FirstQuadTracker,
     ReadsTheFolder,
     bench_of,
-    by_name,
-    errors,
+    find_errors,
+    results_by_name,
     trial,
 )
 from tests.support.short_trial import rows_of
@@ -23,7 +23,7 @@ from tests.support.short_trial import rows_of
 @pytest.mark.slow
 def test_guesses_that_nobody_looks_at_gain_nothing(tmp_path: Path) -> None:
     scores = []
-    for cheat in (Holds, Bursts):
+    for cheat in (FirstQuadTracker, Bursts):
         plan = bench_of(tmp_path, cheat, seed=2, length=0.3).plan
         scores.append([row.total for row in rows_of(plan)])
     assert scores[0] == scores[1]
@@ -32,8 +32,8 @@ def test_guesses_that_nobody_looks_at_gain_nothing(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_no_cheat_gains_but_those_within_their_own_process(tmp_path: Path) -> None:
-    results = by_name(trial(tmp_path, CHEATS, seed=2, length=1.0))
-    assert errors(results) == []
+    results = results_by_name(trial(tmp_path, CHEATS, seed=2, length=1.0))
+    assert find_errors(results) == []
     for cheat in GAINS:
         assert results[cheat.__name__].values("total") == pytest.approx((0.0, 0.0), abs=0.1)
 
@@ -43,5 +43,5 @@ def test_the_rows_of_a_run_tell_the_truth_only_when_they_are_not_sealed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("uwsim.runs.sealing.is_foreign", lambda plan: False)
-    results = by_name(trial(tmp_path, (ReadsTheFolder,), seed=2, length=0.5))
-    assert len(errors(results)) == 2  # else the test above says nothing
+    results = results_by_name(trial(tmp_path, (ReadsTheFolder,), seed=2, length=0.5))
+    assert len(find_errors(results)) == 2  # else the test above says nothing

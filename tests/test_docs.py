@@ -10,7 +10,7 @@ import pytest
 from typer.main import get_command
 
 from scripts.reference import command_line
-from tests.support.documented import commands
+from tests.support.documented import read_commands
 from uwsim.assets.bundled import bundled_files
 from uwsim.cli import COMMANDS
 from uwsim.cli.app import build_application
@@ -35,7 +35,7 @@ def ids(path: Path) -> str:
 def typed(page: Path) -> list[tuple[str, ...]]:
     """Every command of a page's consoles, without what is set for it (``PYTHONPATH=.``)."""
     found = []
-    for command in commands(page.read_text()):
+    for command in read_commands(page.read_text()):
         words = command.words
         while "=" in words[0]:
             words = words[1:]
@@ -157,7 +157,7 @@ def test_the_readme_is_short_and_shows_at_most_eight_commands_of_use() -> None:
     readme = (ROOT / "README.md").read_text()
     assert len(readme.splitlines()) <= 120
     usage = readme.split("\n## Usage\n")[1].split("\n## ")[0]
-    shown = commands(usage)
+    shown = read_commands(usage)
     assert 0 < len(shown) <= 8
     assert all(not command.output for command in shown)
     assert "docs/command-line.md" in usage  # which has all other commands

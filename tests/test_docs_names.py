@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.support.documented import commands
+from tests.support.documented import read_commands
 
 ROOT = Path(__file__).parent.parent
 PACKAGE = ROOT / "src" / "uwsim"
@@ -199,7 +199,7 @@ def missing_in_docstring(text: str) -> list[str]:
 
 def missing_options(page: str) -> list[str]:
     """The scripts, and their options, that a page names and that do not exist."""
-    calls = [command.words for command in commands(page)]
+    calls = [command.words for command in read_commands(page)]
     calls += [tuple(code.split()) for code in CODE.findall(FENCE.sub("", page))]
     found = []
     for script, *options in calls:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.support.documented import commands, is_said, write_files
+from tests.support.documented import is_printed, read_commands, write_files
 from uwsim.cli import main
 from uwsim.scene.reader import read_scene
 
@@ -33,12 +33,12 @@ def test_the_scene_of_the_page_can_be_read(folder: Path) -> None:
 def test_every_command_of_the_page_prints_what_the_page_shows(
     folder: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    for command in commands(PAGE):
+    for command in read_commands(PAGE):
         is_sweep = command.words[1] == "bench" and "--level" not in command.words
         level = ("--level", "current=0") if is_sweep else ()
         assert main([*command.words[1:], *level]) == 0, command.words
         printed = "".join(capsys.readouterr())
         expected = [line for line in command.output if not (is_sweep and OTHER_LEVEL.match(line))]
-        missing = [line for line in expected if not is_said(line, printed, within=0.05)]
+        missing = [line for line in expected if not is_printed(line, printed, tolerance=0.05)]
         assert missing == [], printed
     assert (folder / "hover.result" / "report.html").exists()

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from tests.support.kill_trials import KINDS, Workplace, prepare, trial
+from tests.support.kill_trials import KINDS, Workplace, prepare, run_trial
 
 SEED = 9
 
@@ -19,4 +19,4 @@ def place(tmp_path_factory: pytest.TempPathFactory) -> Workplace:
 def test_a_disturbed_run_loses_nothing_and_leaves_nothing_behind(
     kind: str, place: Workplace
 ) -> None:
-    assert trial(place, SEED, 0, [kind]) == []
+    assert run_trial(place, SEED, 0, [kind]) == []

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.support.compared_results import entries, noisy
+from tests.support.compared_results import entries, noisy_result
 from tests.support.short_benchmark import write_benchmark
 from uwsim.analysis.comparison import compare, shared_column
 from uwsim.analysis.repeats_note import repeats_note
@@ -18,7 +18,7 @@ def test_bench_says_at_the_start_how_many_repeats_a_comparison_needs(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     benchmark = str(write_benchmark(tmp_path, "0.1"))
-    algorithms = ["--algorithm", "frozen", "--algorithm", "tests.support.failing:Raises"]
+    algorithms = ["--algorithm", "frozen", "--algorithm", "tests.support.failing:RaisedError"]
     call = ["bench", benchmark, *algorithms]
     main([*call, "--level", "fog=0", "--out", str(tmp_path / "out")])
     first = capsys.readouterr().err.splitlines()[0]
@@ -43,7 +43,7 @@ def test_the_note_says_what_compare_will_find(n_results: int, repeats: int, said
 
 @pytest.mark.parametrize("n_results", [2, 3, 4])
 def test_the_plan_and_the_comparison_count_the_same(n_results: int) -> None:
-    results = [noisy(f"a{i}", 1.0, n=4, salt=i) for i in range(n_results)]
+    results = [noisy_result(f"a{i}", 1.0, n=4, salt=i) for i in range(n_results)]
     found = entries(*results)
     comparison = compare(found, shared_column(found, None))
     sweep, level = comparison.min_sweep_repeats, comparison.min_level_repeats

@@ -3,7 +3,7 @@
 from pathlib import Path
 
 from tests.support.short_benchmark import BENCHMARK, run
-from tests.support.synthetic_results import visibility
+from tests.support.synthetic_results import visibility_result
 from uwsim.analysis.plots import draw_plots
 from uwsim.assets.bundled import bundled_files
 from uwsim.cli.bench import result_folders
@@ -30,7 +30,10 @@ def test_measures_that_are_alike_in_80_letters_have_a_plot_each(tmp_path: Path) 
         *(Column(name=name, kind="measure") for name in names),
     )
     result = Result(
-        inputs=Inputs(), run=visibility().run, columns=columns, rows=((0.0, 1.0, 2.0, 3.0),) * 2
+        inputs=Inputs(),
+        run=visibility_result().run,
+        columns=columns,
+        rows=((0.0, 1.0, 2.0, 3.0),) * 2,
     )
     plots = draw_plots(result, tmp_path)
     assert len({plot.name for plot in plots}) == len(plots) == 4

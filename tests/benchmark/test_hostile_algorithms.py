@@ -9,8 +9,16 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tests.support.hostile import ATTACKS, TOPIC, Attacker, Dies, Hangs, Honest, Patches
-from tests.support.short_trial import INIT, TIME, make_plan, rows_of, with_algorithm
+from tests.support.hostile import (
+    ATTACKS,
+    TOPIC,
+    Attacker,
+    ExitsProcess,
+    NeverReturns,
+    Patches,
+    PublishesWrongEstimate,
+)
+from tests.support.short_trial import INIT_TRIGGER, TIME, make_plan, rows_of, with_algorithm
 from uwsim.bus import Node
 from uwsim.errors import NotAllowed
 from uwsim.messages import Float32MultiArray, PoseStamped, floats, header
@@ -35,7 +43,7 @@ def test_an_attack_ends_the_row_with_its_reason(
 ) -> None:
     monkeypatch.setattr(undelivered, "MAX_MESSAGES", 100)
     monkeypatch.setattr(undelivered, "MAX_BYTES", 2**20)
-    rows = rows_of(make_plan(tmp_path, algorithm, LEVELS, measures=MEASURES, start=INIT))
+    rows = rows_of(make_plan(tmp_path, algorithm, LEVELS, measures=MEASURES, start=INIT_TRIGGER))
     assert [row.status for row in rows] == ["algorithm error"] * 2
     assert "algorithm raised at 0.4 s: " in rows[0].missing_reasons["total"]
     assert ATTACKS[algorithm] in rows[0].missing_reasons["total"]
@@ -144,7 +152,10 @@ def reasons(result: Result) -> list[str | None]:
 def test_an_algorithm_that_dies_or_hangs_or_falsifies_does_so_to_itself_alone(
     tmp_path: Path,
 ) -> None:
-    benches = [bench_of(tmp_path, algorithm) for algorithm in (Dies, Hangs, Patches, Honest)]
+    benches = [
+        bench_of(tmp_path, algorithm)
+        for algorithm in (ExitsProcess, NeverReturns, Patches, PublishesWrongEstimate)
+    ]
     dead, hanging, patched, honest = run_all(benches, ProcessExecutor(1, callback_limit=5.0))
     died = "Dies was stopped at 0.4 s: its process ended (with exit status 0)"
     assert reasons(dead) == [died, died]
@@ -153,5 +164,5 @@ def test_an_algorithm_that_dies_or_hangs_or_falsifies_does_so_to_itself_alone(
     assert patched.values("total") == (0.0, 0.0)  # in its own process nothing keeps it from that
     assert honest.values("total") == (1.0, 1.0)
     (tmp_path / "immortal").touch()
-    again = run_all([bench_of(tmp_path, Dies)], ProcessExecutor(1))[0]
+    again = run_all([bench_of(tmp_path, ExitsProcess)], ProcessExecutor(1))[0]
     assert reasons(again) == ["no value for e"] * 2

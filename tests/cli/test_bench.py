@@ -77,7 +77,16 @@ def test_when_every_row_broke_all_is_written_and_the_run_has_failed(
 ) -> None:
     out = tmp_path / "out"
     assert (
-        main(["bench", benchmark, "--algorithm", "tests.support.failing:Raises", "--out", str(out)])
+        main(
+            [
+                "bench",
+                benchmark,
+                "--algorithm",
+                "tests.support.failing:RaisedError",
+                "--out",
+                str(out),
+            ]
+        )
         == 3
     )
     said = capsys.readouterr()
@@ -211,7 +220,14 @@ def test_a_clock_that_is_set_back_does_not_change_how_long_a_run_took(
     days = iter(range(10**6, 0, -1))
     monkeypatch.setattr("time.time", lambda: next(days) * 86_400.0)
     out = tmp_path / "out"
-    call = ["bench", benchmark, "--algorithm", "tests.support.failing:Raises", "--level", "fog=0"]
+    call = [
+        "bench",
+        benchmark,
+        "--algorithm",
+        "tests.support.failing:RaisedError",
+        "--level",
+        "fog=0",
+    ]
     assert main([*call, "--out", str(out)]) == 3
     assert 0.0 < float(str(load_provenance(out)["wall_s"])) < 600.0
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.support.compared_results import made, noisy, saved
+from tests.support.compared_results import make_result, noisy_result, save_results
 from uwsim.analysis.comparison import write
 from uwsim.cli import main
 from uwsim.results.result_file import save
@@ -17,7 +17,9 @@ from uwsim.results.result_file import save
 @pytest.fixture
 def two(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> list[str]:
     monkeypatch.chdir(tmp_path)
-    return saved(tmp_path, noisy("esm", 1.0, n=8, salt=1), noisy("ic", 1.5, n=8, salt=2))
+    return save_results(
+        tmp_path, noisy_result("esm", 1.0, n=8, salt=1), noisy_result("ic", 1.5, n=8, salt=2)
+    )
 
 
 @pytest.fixture
@@ -65,7 +67,7 @@ def test_an_earlier_comparison_is_replaced_only_with_overwrite(
 def test_another_experiment_is_refused_in_one_line_and_forced_with_a_warning(
     two: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
-    other = noisy("ecc", 1.2, n=8, salt=3)
+    other = noisy_result("ecc", 1.2, n=8, salt=3)
     save(replace(other, run=replace(other.run, timestep=(0.001, "s"))), Path("ecc.result"))
     assert main(["compare", two[0], "ecc.result"]) == 2
     error = one_line(capsys)
@@ -94,7 +96,7 @@ def test_a_directory_of_several_algorithms_stands_for_all_of_them(
 ) -> None:
     monkeypatch.chdir(tmp_path)
     for i, name in enumerate(("esm", "ecc", "ic")):
-        save(noisy(name, 1.0 + i, n=3, salt=i), Path("both.result", name))
+        save(noisy_result(name, 1.0 + i, n=3, salt=i), Path("both.result", name))
     assert main(["compare", "both.result"]) == 0
     pairs = json.loads(Path("comparison/comparison.json").read_text())["pairs"]
     assert [(p["first"], p["second"]) for p in pairs] == [
@@ -109,7 +111,7 @@ def test_a_directory_of_several_algorithms_stands_for_all_of_them(
 def test_results_of_one_algorithm_are_distinguished_by_their_directories(
     two: list[str], capsys: pytest.CaptureFixture[str]
 ) -> None:
-    save(noisy("esm", 1.1, n=8, salt=9), Path("fast/esm.result"))
+    save(noisy_result("esm", 1.1, n=8, salt=9), Path("fast/esm.result"))
     assert main(["compare", two[0], "fast/esm.result"]) == 0
     assert "esm (fast/esm.result) minus esm (" in capsys.readouterr().out
 
@@ -129,7 +131,7 @@ def test_results_of_one_algorithm_are_distinguished_by_their_directories(
 def test_a_wrong_call_is_one_clean_line_and_writes_nothing(
     two: list[str], arguments: list[str], said: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    save(made("late", {0.0: [1.0]}, seed=70), Path("late.result"))
+    save(make_result("late", {0.0: [1.0]}, seed=70), Path("late.result"))
     assert main(["compare", *arguments]) == 2
     assert said in one_line(capsys)
     assert not Path("comparison").exists()

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.support.packs import unpacked
+from tests.support.packs import unpack
 from tests.support.short_benchmark import run, write_benchmark
 from uwsim.analysis.report import write_report
 from uwsim.cli.replay import open_replay, open_trials, show_page
@@ -55,7 +55,7 @@ def test_a_level_without_motion_is_listed_and_warned_of(
     pack = open_replay(torn, None, None, ()).pack()
     (line,) = capsys.readouterr().err.splitlines()
     assert line.startswith(f"uwsim: warning: {torn}/units: 00001.motion: missing; ")
-    head, _ = unpacked(pack)
+    head, _ = unpack(pack)
     levels = [level for trial in head["trials"] for level in trial["levels"]]
     assert [level["label"] for level in levels] == ["fog 0", "fog 0.4", "fog 0.8"]
     assert [level["status"] for level in levels] == ["ok", "no motion", "ok"]

@@ -16,22 +16,22 @@ from typing import Any
 import pytest
 
 from tests.support.byte_hashes import short_currents
-from tests.support.keep_station import LEVELS, scored_in_process, short_benchmark
+from tests.support.keep_station import LEVELS, score_in_process, short_benchmark
 from tests.support.ros2_peers import (
     BOUND_S,
     PYTHON,
     ROOT,
-    beside_rclpy,
     environment,
     free_domain,
     needs_messages,
     needs_rclpy,
     of_one_version,
     peer,
-    until,
+    rclpy_environment,
+    wait_until,
 )
 from tests.support.short_benchmark import BENCHMARK, write_benchmark
-from tests.support.timed_algorithm import TIMED
+from tests.support.timed_algorithm import TIMED_PUSH
 
 pytest.importorskip("cyclonedds", reason="cyclonedds is not installed: pip install uwsim[ros2]")
 
@@ -55,7 +55,7 @@ SCENE = """<UWSimScene>
 def simulator(way: str) -> tuple[str | Path, dict[str, str]]:
     """Return Python and variables by which uwsim is a node of rclpy, or one on Cyclone DDS."""
     if way == "rclpy":
-        return PYTHON, beside_rclpy() | {"UWSIM_ROS2": "rclpy"}
+        return PYTHON, rclpy_environment() | {"UWSIM_ROS2": "rclpy"}
     kept = {k: v for k, v in os.environ.items() if not k.startswith(("ROS_", "CYCLONE"))}
     return sys.executable, kept | {"UWSIM_ROS2": "dds"}
 
@@ -180,7 +180,7 @@ def test_a_node_of_fast_dds_pauses_steps_and_ends_a_simulation_that_is_a_node_of
     with free_domain() as domain, uwsim(*arguments, str(domain), way="rclpy") as simulation:
         with peer(CONTROL, domain) as node:
             answers: list[dict[str, Any]] = []
-            until(lambda: answers, lambda: answers.extend(node.answers()))
+            wait_until(lambda: answers, lambda: answers.extend(node.answers()))
             simulation.wait(timeout=BOUND_S)
         assert simulation.returncode == 0
     (told,) = answers
@@ -345,8 +345,8 @@ def test_the_bundled_controller_as_a_node_scores_the_rows_of_the_process(
 @pytest.mark.slow
 def test_a_class_with_a_timer_is_a_node_without_a_change(tmp_path: Path) -> None:
     benchmark, level = short_currents(tmp_path), ("--level", "current=0.2")
-    inside = scored(benchmark, tmp_path / "inside", "--algorithm", TIMED, *level)
-    outside = scored_by_a_node(benchmark, tmp_path / "outside", TIMED, "0", *level, way="dds")
+    inside = scored(benchmark, tmp_path / "inside", "--algorithm", TIMED_PUSH, *level)
+    outside = scored_by_a_node(benchmark, tmp_path / "outside", TIMED_PUSH, "0", *level, way="dds")
     assert {part: inside[part] for part in MEASURED} == {part: outside[part] for part in MEASURED}
 
 
@@ -354,7 +354,7 @@ def test_a_class_with_a_timer_is_a_node_without_a_change(tmp_path: Path) -> None
 @pytest.mark.slow
 def test_a_node_that_knows_nothing_of_lock_step_is_waited_for(tmp_path: Path) -> None:
     benchmark = short_benchmark(tmp_path)
-    inside = scored_in_process(benchmark, tmp_path / "inside")
+    inside = score_in_process(benchmark, tmp_path / "inside")
     words = [ROOT / "examples" / "ros2" / "keep_station.py", "--ros-args", "-p"]
     how = ("--client", "station", "--sync", "output", "--output", "/g500/twist=10Hz")
     with free_domain() as domain, tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as logs:

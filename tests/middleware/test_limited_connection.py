@@ -10,7 +10,7 @@ from collections.abc import Iterator
 import pytest
 from websockets.sync.client import connect
 
-from tests.support.waiting import until
+from tests.support.waiting import wait_until
 from uwsim.bus import Bus
 from uwsim.middleware import limited_connection
 from uwsim.middleware.limited_connection import LARGE_FRAME, ConnectionLimits, LimitedConnection
@@ -90,7 +90,7 @@ def test_pings_beyond_the_share_wait(impatient: WebBridge, monkeypatch: pytest.M
 
     monkeypatch.setattr(LimitedConnection, "pause", property(count_pause))
     with connect(f"ws://127.0.0.1:{impatient.port}", ping_interval=None) as client:
-        until(lambda: len(pauses) > 3, lambda: client.socket.sendall(PING * 1000))
+        wait_until(lambda: len(pauses) > 3, lambda: client.socket.sendall(PING * 1000))
     assert any("sends faster than it is read" in line for line in impatient.log.lines)
 
 
@@ -145,6 +145,6 @@ def test_a_large_frame_of_who_has_left_is_not_handled(bridge: WebBridge) -> None
         client.send(json.dumps({"op": "nonsense", "blanks": " " * LARGE_FRAME}))
         assert client.ping().wait(60.0)
         (session,) = bridge._sessions
-    until(lambda: not bridge._sessions)
+    wait_until(lambda: not bridge._sessions)
     assert not any("nonsense" in line for line in bridge.log.lines)
     assert session._has_left

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.support.compared_results import made
+from tests.support.compared_results import make_result
 from tests.support.stored_rows import stored_row
 from uwsim.analysis.report.configuration import provenance_texts as shown
 from uwsim.errors import ReplayDiffers
@@ -110,7 +110,7 @@ def test_a_row_that_cannot_be_played_again_names_the_other_code(tmp_path: Path) 
 def test_verify_names_what_was_chosen_otherwise_and_nothing_where_it_was_the_same(
     tmp_path: Path,
 ) -> None:
-    result = made("esm", {0.0: [1.0]})
+    result = make_result("esm", {0.0: [1.0]})
     run = RunInfo(version="0.1.0")
     save_provenance({**machine(), "cpu": "abacus"}, tmp_path)
     assert environment_differences(result, tmp_path, run) == {}

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from tests.support.compared_results import made
+from tests.support.compared_results import make_result
 from tests.support.stored_rows import end_record, row_record
 from uwsim.analysis.comparison import read_entries, remarks
 from uwsim.analysis.report import write_report
@@ -27,7 +27,7 @@ Found = dict[float, list[Any]]
 
 def written(directory: Path, algorithm: str = "esm", found: Found = FOUND) -> Path:
     """A result of two seeds and two levels, with what its units have stored."""
-    result = made(algorithm, found)
+    result = make_result(algorithm, found)
     save(result, directory)
     for seed in (0, 1):
         lines: list[dict[str, Any]] = [{"unit": {"run": {"seed": 0}, "seed": seed}}]

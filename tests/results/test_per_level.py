@@ -7,7 +7,7 @@ import io
 
 import pytest
 
-from tests.support.synthetic_results import one_level, visibility
+from tests.support.synthetic_results import one_level_result, visibility_result
 from uwsim.results.inputs import Inputs
 from uwsim.results.per_level import (
     intervals_of,
@@ -58,7 +58,7 @@ def test_success_is_what_ended_ok_with_exact_limits_and_its_seeds() -> None:
 
 
 def test_a_row_without_seed_or_status_has_those_of_the_run_or_none() -> None:
-    assert set(seeds_of(visibility(seeds=(7,)))) == {7}
+    assert set(seeds_of(visibility_result(seeds=(7,)))) == {7}
     bare = Result(
         inputs=Inputs(), run=RunInfo(), columns=(Column(name="none", kind="level"),), rows=((1.0,),)
     )
@@ -67,7 +67,7 @@ def test_a_row_without_seed_or_status_has_those_of_the_run_or_none() -> None:
 
 
 def test_the_summary_has_a_line_for_every_column_at_every_level() -> None:
-    result = visibility(seeds=(1, 2, 3, 4))
+    result = visibility_result(seeds=(1, 2, 3, 4))
     lines = list(csv.DictReader(io.StringIO(summary_text(result))))
     assert len(lines) == 27 * 3
     first = lines[1]
@@ -86,7 +86,7 @@ def test_the_summary_has_a_line_for_every_column_at_every_level() -> None:
 
 
 def test_the_summary_of_one_repeat_has_no_limits_but_those_of_the_rate() -> None:
-    line = next(csv.DictReader(io.StringIO(summary_text(one_level()))))
+    line = next(csv.DictReader(io.StringIO(summary_text(one_level_result()))))
     assert (line["n"], line["std"], line["low"], line["rate_high"]) == ("1", "", "", "1.0")
 
 

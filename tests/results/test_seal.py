@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from tests.support.stored_rows import stored_end, stored_row
-from tests.support.waiting import until
+from tests.support.waiting import wait_until
 from uwsim.errors import ResultError
 from uwsim.results import journal
 from uwsim.results.seal import Keeper, Seal
@@ -119,7 +119,7 @@ def test_the_rows_of_a_run_that_is_killed_are_opened(tmp_path: Path) -> None:
         path = journal.path_of(tmp_path / "killed", 0)
         assert b"17.125" not in path.read_bytes()
         run.send_signal(signal.SIGKILL)
-    until(lambda: path.read_bytes() == plain.read_bytes())
+    wait_until(lambda: path.read_bytes() == plain.read_bytes())
 
 
 def test_a_keeper_that_is_dismissed_ends_and_has_its_key_in_no_argument(tmp_path: Path) -> None:

@@ -9,7 +9,13 @@ from dataclasses import replace
 import pytest
 from rich.console import Console
 
-from tests.support.synthetic_results import WHY, nested, nothing_measured, one_level, visibility
+from tests.support.synthetic_results import (
+    LOSS_REASON,
+    lost_result,
+    nested_result,
+    one_level_result,
+    visibility_result,
+)
 from uwsim.errors import ResultError
 from uwsim.results.inputs import Inputs
 from uwsim.results.result import Column, Remark, Result
@@ -33,26 +39,26 @@ def text(result: Result, width: int = 160) -> list[str]:
 
 
 def test_every_level_is_a_line_and_a_gap_has_its_reason() -> None:
-    drawn = text(visibility())
+    drawn = text(visibility_result())
     assert len(drawn) == 29
     assert drawn[0].split() == ["fog", "corners", "centroid", "total", "ended_at"]
     assert drawn[1].split() == ["[1/m]", "[px]", "[px]", "[px]", "[s]", "status"]
     assert drawn[3].split()[0] == "0.05"
     assert drawn[3].split()[-1] == "ok"
     assert drawn[26].split()[:5] == ["1.20", "-", "-", "-", "50.0"]
-    assert drawn[26].endswith(WHY)
+    assert drawn[26].endswith(LOSS_REASON)
     assert drawn[27].endswith("as above")
 
 
 def test_on_a_narrow_terminal_reasons_stand_below_and_nothing_is_cut() -> None:
-    drawn = text(visibility(), width=60)
+    drawn = text(visibility_result(), width=60)
     assert len(drawn) == 29 + 2
     assert "…" not in "".join(drawn)
-    assert " ".join(drawn[29:]) == f"1.20 to 1.30: {WHY}"
+    assert " ".join(drawn[29:]) == f"1.20 to 1.30: {LOSS_REASON}"
 
 
 def test_repeats_are_gathered_into_mean_and_interval() -> None:
-    drawn = lines(visibility(seeds=(1, 2, 3, 4)))
+    drawn = lines(visibility_result(seeds=(1, 2, 3, 4)))
     assert len(drawn) == 27
     assert re.fullmatch(r"\d\.\d+ \[\d\.\d+, \d\.\d+\]", str(drawn[0].cells[1]))
     assert drawn[0].status_text == "4 of 4 ok, 40 to 100 %"
@@ -61,12 +67,12 @@ def test_repeats_are_gathered_into_mean_and_interval() -> None:
 
 
 def test_a_benchmark_that_measured_nothing_still_has_its_table() -> None:
-    assert {str(line.cells[1]) for line in lines(nothing_measured())} == {"-"}
+    assert {str(line.cells[1]) for line in lines(lost_result())} == {"-"}
 
 
 def test_one_level_and_nested_levels_have_tables() -> None:
-    assert len(lines(one_level())) == 1
-    assert [[*map(str, line.cells[:2])] for line in lines(nested())][27] == ["0.1", "0.00"]
+    assert len(lines(one_level_result())) == 1
+    assert [[*map(str, line.cells[:2])] for line in lines(nested_result())][27] == ["0.1", "0.00"]
 
 
 def test_markup_in_a_name_is_shown_not_obeyed() -> None:
@@ -173,21 +179,21 @@ REMARK = "corners: all estimates are exactly the start"
 
 
 def test_a_remark_stands_beside_the_status_of_a_row_that_has_all_values() -> None:
-    result = replace(visibility(), remarks=(Remark(row=0, text=REMARK),))
+    result = replace(visibility_result(), remarks=(Remark(row=0, text=REMARK),))
     drawn = text(result)
     assert drawn[2].split()[5] == "ok"
     assert drawn[2].endswith(REMARK)
     assert drawn[3].split()[-1] == "ok"
     assert loads(dumps(result)) == result
-    assert "remarks" not in dumps(visibility())
+    assert "remarks" not in dumps(visibility_result())
 
 
 def test_over_repeats_it_is_said_of_how_many_a_remark_is() -> None:
     rows = [Remark(row=row, text=REMARK) for row in (0, 27)]
-    drawn = lines(replace(visibility(seeds=(1, 2, 3, 4)), remarks=tuple(rows)))
+    drawn = lines(replace(visibility_result(seeds=(1, 2, 3, 4)), remarks=tuple(rows)))
     assert [line.reason for line in drawn if line.reason.endswith(REMARK)] == [f"2 of 4: {REMARK}"]
 
 
 def test_a_remark_about_a_row_that_is_not_there_is_an_error() -> None:
     with pytest.raises(ResultError, match=r"remarks\[0\] is about row 99, which is not there"):
-        replace(visibility(), remarks=(Remark(row=99, text=REMARK),))
+        replace(visibility_result(), remarks=(Remark(row=99, text=REMARK),))

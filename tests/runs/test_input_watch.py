@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.support.short_trial import INIT, make_plan, with_algorithm
+from tests.support.short_trial import INIT_TRIGGER, make_plan, with_algorithm
 from uwsim.base.files.input_files import InputFile, compute_hash
 from uwsim.bus import Node
 from uwsim.errors import RunFailed
@@ -35,7 +35,7 @@ class Edits:
 
 def test_a_row_is_kept_only_while_all_files_are_as_they_were(tmp_path: Path) -> None:
     (tmp_path / "box.png").write_text("texture")
-    plan = make_plan(tmp_path, Edits, LEVELS, start=INIT)
+    plan = make_plan(tmp_path, Edits, LEVELS, start=INIT_TRIGGER)
     plan = with_algorithm(plan, parameters={"path": str(tmp_path / "box.png")})
     files = unique_files([file_of(tmp_path / "box.png")])
     bench = Run(plan=plan, out=tmp_path / "out", inputs=Inputs(), renderer="none", files=files)

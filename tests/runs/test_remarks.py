@@ -24,9 +24,9 @@ def test_a_tracker_that_answers_its_start_has_it_said_in_each_row(
     rows = {remark.row for remark in result.remarks}
     assert rows == set(range(len(result.rows)))
     for line in lines(result):
-        assert line.ok
-        assert SAID in line.why
-        assert line.why.startswith(f"{repeat} of {repeat}: corners" if repeat > 1 else "corners")
+        assert line.is_ok
+        assert SAID in line.reason
+        assert line.reason.startswith(f"{repeat} of {repeat}: corners" if repeat > 1 else "corners")
     (remark,) = {remark.text for remark in result.remarks}
     assert any(SAID in note for note in result.run.notes)
     assert remark in dumps(result)

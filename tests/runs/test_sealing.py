@@ -13,7 +13,7 @@ from typing import Any, ClassVar
 
 import pytest
 
-from tests.support.cheat_trials import Holds, bench_of
+from tests.support.cheat_trials import FirstQuadTracker, bench_of
 from tests.support.short_benchmark import write_benchmark
 from uwsim.results.motion import load_track
 from uwsim.results.seal import PR_SET_DUMPABLE, deny_access_to_memory
@@ -25,7 +25,7 @@ IS_DUMPABLE = 3
 """Number of a request to prctl."""
 
 
-class Looks(Holds):
+class Looks(FirstQuadTracker):
     """Notes what is on disk of the level before, and whether its process may be looked into."""
 
     folder = Path()

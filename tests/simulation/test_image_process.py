@@ -12,7 +12,7 @@ import pytest
 
 import uwsim
 from tests.support.opened import open_scene
-from tests.support.waiting import until
+from tests.support.waiting import wait_until
 from uwsim.messages import Image, Odometry
 from uwsim.scene.reader import read_scene
 from uwsim.simulation.scenery.image_process import ImageProcess
@@ -52,7 +52,7 @@ def elsewhere(scene: str, topic: str) -> Iterator[tuple[Seen, ImageProcess, list
     process = ImageProcess(seen.simulation, said.append)
     try:
         seen.advance()
-        until(lambda: process.is_ready and process.is_idle, process.step)
+        wait_until(lambda: process.is_ready and process.is_idle, process.step)
         yield seen, process, said
     finally:
         process.close()
@@ -75,7 +75,7 @@ def test_images_are_the_same_bytes_with_the_stamps_of_their_samples(scene: str, 
         before = set(there.images)
         for _ in range(5):
             there.advance()
-            until(lambda: process.is_idle, process.step)
+            wait_until(lambda: process.is_idle, process.step)
         there.simulation.advance(0.01)
         for _ in range(6):
             here.advance()
@@ -103,9 +103,9 @@ def test_a_sample_that_is_due_too_soon_is_left_out_and_the_next_is_the_right_one
         for _ in range(3):
             there.advance()
         os.kill(process.pid, signal.SIGCONT)
-        until(lambda: process.is_idle, process.step)
+        wait_until(lambda: process.is_idle, process.step)
         there.advance()
-        until(lambda: process.is_idle, process.step)
+        wait_until(lambda: process.is_idle, process.step)
         there.simulation.advance(0.01)
         assert process.n_left_out > 0
     for _ in range(6):
@@ -121,7 +121,7 @@ def test_a_process_that_is_killed_is_reported_and_images_are_drawn_here() -> Non
     here = Seen("cirs", "/uwsim/camera1")
     with elsewhere("cirs", "/uwsim/camera1") as (there, process, said):
         os.kill(process.pid or 0, signal.SIGKILL)
-        until(lambda: said, process.step)
+        wait_until(lambda: said, process.step)
         before = set(there.images)
         for _ in range(2):
             there.advance()

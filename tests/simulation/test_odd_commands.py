@@ -13,7 +13,7 @@ from tests.middleware.ros1.nodes import Graph
 from tests.middleware.test_bridge import FakeBridge
 from tests.middleware.web.test_web import Setting, send
 from tests.simulation.girona500 import make
-from tests.support.waiting import until
+from tests.support.waiting import wait_until
 from uwsim.bus import Node
 from uwsim.messages import (
     Float64MultiArray,
@@ -156,9 +156,9 @@ def test_a_node_of_ros_1_that_sends_it_is_named() -> None:
         )
         publish = other.bus.publisher("twist", TwistStamped)
         graph.wait_until_ready()
-        until(lambda: other.bus.has_subscribers("twist"), graph.step)
+        wait_until(lambda: other.bus.has_subscribers("twist"), graph.step)
         publish(twist(1.0))
-        until(lambda: "it is odd" in "".join(graph.lines), graph.step)
+        wait_until(lambda: "it is odd" in "".join(graph.lines), graph.step)
         [line] = [line for line in graph.lines if "it is odd" in line]
         said = "/twist: in a message of node /my_pilot, it is odd; expected another"
         assert line == f"uwsim: test: {said}"

@@ -1,4 +1,4 @@
-"""Small bags, written by rosbags: ROS 1, ROS 2 with SQLite, ROS 2 with MCAP."""
+"""Write small bags with rosbags: ROS 1, ROS 2 with SQLite, ROS 2 with MCAP."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from rosbags.typesys import Stores, get_typestore
 
 KINDS = ("ros1", "sqlite3", "mcap")
 IMAGE, INFO = "/camera/image_raw", "/camera/camera_info"
-BEGAN = 1_700_000_000_000_000_000  # ns
+START_TIME = 1_700_000_000_000_000_000  # [ns]
 NAMES = {"ros1": "dive.bag", "sqlite3": "dive", "mcap": "dive"}
 
 
 def sample_pixels(shade: int, encoding: str = "rgb8") -> np.ndarray:
-    """An image of 5x4 pixels of all sorts of values, in the encoding's own order."""
+    """Return an image of 5x4 pixels with varied values, in the order of the encoding."""
     channels = {"mono8": 1, "rgba8": 4, "bgra8": 4}.get(encoding, 3)
     values = (np.arange(4 * 5 * channels) * 13 + shade) % 256
     shape = (4, 5) if channels == 1 else (4, 5, channels)
@@ -37,7 +37,7 @@ def write_bag(
     with_info: bool = True,
     image_type: str = "sensor_msgs/msg/Image",
 ) -> Path:
-    """Write images at times [s], each with a camera's info 1 ms later; returns its path."""
+    """Write images at times [s], each with a camera's info 1 ms later; return the path."""
     is_ros1 = kind == "ros1"
     store = get_typestore(Stores.ROS1_NOETIC if is_ros1 else Stores.ROS2_HUMBLE)
     types = store.types
@@ -54,18 +54,18 @@ def write_bag(
         if image_type == "std_msgs/msg/String":
             return types[image_type](data="no image")
         if image_type == "sensor_msgs/msg/CompressedImage":
-            _, packed = cv2.imencode(".png", pixels)
-            return types[image_type](header=header(time), format="png", data=packed.reshape(-1))
+            _, png_data = cv2.imencode(".png", pixels)
+            return types[image_type](header=header(time), format="png", data=png_data.reshape(-1))
         rows = pixels.reshape(pixels.shape[0], -1)
-        padded = np.pad(rows, ((0, 0), (0, padding)), constant_values=77)
+        padded_rows = np.pad(rows, ((0, 0), (0, padding)), constant_values=77)
         return types[image_type](
             header=header(time),
             height=pixels.shape[0],
             width=pixels.shape[1],
             encoding=encoding,
             is_bigendian=0,
-            step=padded.shape[1],
-            data=padded.reshape(-1),
+            step=padded_rows.shape[1],
+            data=padded_rows.reshape(-1),
         )
 
     def info(time: float) -> Any:
@@ -94,9 +94,9 @@ def write_bag(
         infos = writer.add_connection(INFO, "sensor_msgs/msg/CameraInfo", typestore=store)
         serialize = store.serialize_ros1 if is_ros1 else store.serialize_cdr
         for time, pixels in frames:
-            at = BEGAN + round(time * 1e9)
-            writer.write(images, at, serialize(image(time, pixels), image_type))
+            timestamp = START_TIME + round(time * 1e9)
+            writer.write(images, timestamp, serialize(image(time, pixels), image_type))
             if with_info:
-                packed = serialize(info(time), "sensor_msgs/msg/CameraInfo")
-                writer.write(infos, at + 1_000_000, packed)
+                info_data = serialize(info(time), "sensor_msgs/msg/CameraInfo")
+                writer.write(infos, timestamp + 1_000_000, info_data)
     return path

@@ -1,14 +1,14 @@
-"""Cheating trials: what an algorithm that never looks at an image gains by each way to cheat.
+"""Measure the gain of each way to cheat, for algorithms that read no image.
 
-Each cheat plays a short benchmark of a swaying vehicle, blind: its images are black, and all of
-them get the same first quad. `Holds` gives that quad for ever, which is what can be had without
-looking. What scores better has gained something; `GAINS` says which of them are known to, because
-nothing is kept from code in the same process. `Holds` is played once more behind all of them: if it
-does not score the same to the last digit, a cheat has falsified another algorithm.
+Each cheat runs a short benchmark of a swaying vehicle with black images; all have the same first
+quad. `FirstQuadTracker`, the baseline, publishes this quad at every image. A cheat with a better
+score has a gain; `GAINS` lists the cheats with a known gain, because code in the same process can
+read everything. The baseline runs again after all cheats: if its score is not the same to the last
+digit, a cheat has changed the result of another algorithm.
 
     scripts/cheat_trials --seed 3
 
-Exit status 1: a cheat gained that should not have, or changed what another scores.
+Exit status 1: a cheat has an unexpected gain, or changes the score of another algorithm.
 """
 
 from __future__ import annotations
@@ -51,61 +51,61 @@ LEVELS = """<sceneFogUpdater> <initialValue>0</initialValue> <finalValue>0.5</fi
 <step>0.5</step> <interval>LENGTH</interval> </sceneFogUpdater>"""
 FUNCTION = '<function publishResult="true">corners</function>'
 FOLDER = "UWSIM_CHEAT_FOLDER"
-"""Variable with the folder of the results."""
-WORTH = 0.97
-"""A cheat that scores less than this share of what `Holds` does has gained something."""
+"""The environment variable of the results' folder."""
+GAIN_THRESHOLD = 0.97
+"""A cheat that scores less than this share of what `FirstQuadTracker` does has gained something."""
 
 
-class Holds:
-    """Gives the first quad for ever."""
+class FirstQuadTracker:
+    """The baseline: it publishes the first quad at every image."""
 
     def start(self, node: Node) -> None:
-        self.node, self.started = node, False
+        self.node, self.has_started = node, False
         self.quad = np.zeros(8, dtype=np.float32)
-        self.say = node.publisher("cornersTopic", Float32MultiArray)
-        node.serve("autoInit", GTpublish, self.told)
+        self.publish = node.publisher("cornersTopic", Float32MultiArray)
+        node.serve("autoInit", GTpublish, self.store_quad)
         node.subscribe("/uwsim/camera1", Image, self.on_image)
 
-    def told(self, request: GTpublish) -> GTpublishResponse:
+    def store_quad(self, request: GTpublish) -> GTpublishResponse:
         self.quad = np.array(request.groundTruth, dtype=np.float32)
         return GTpublishResponse()
 
     def on_image(self, image: Image) -> None:
-        if not self.started:
-            self.started = True
+        if not self.has_started:
+            self.has_started = True
             self.node.call("startBench", Empty())
         elif self.quad.any():
             self.cheat()
 
     def cheat(self) -> None:
-        self.say(floats(self.quad))
+        self.publish(floats(self.quad))
 
 
-class HoldsAfterwards(Holds):
-    """The same behind all cheats."""
+class FirstQuadTrackerAfterwards(FirstQuadTracker):
+    """The baseline after all cheats."""
 
 
-class Bursts(Holds):
-    """Publishes two hundred guesses at every image."""
+class Bursts(FirstQuadTracker):
+    """A cheat that publishes two hundred guesses at every image."""
 
     def cheat(self) -> None:
         for guess in self.node.rng.normal(0.0, 20.0, (200, 8)):
-            self.say(floats(self.quad + guess))
-        self.say(floats(self.quad))
+            self.publish(floats(self.quad + guess))
+        self.publish(floats(self.quad))
 
 
-class BurstsOnce(Holds):
-    """Publishes a thousand times when it knows the truth, and then as seldom as it may."""
+class BurstsOnce(FirstQuadTracker):
+    """A cheat that publishes a thousand times at the start, and then as rarely as allowed."""
 
     def cheat(self) -> None:
-        first = self.node.now < 0.5
-        if first or round(self.node.now / 0.033) % 27 == 0:
-            for _ in range(1000 if first else 1):
-                self.say(floats(self.quad))
+        is_start = self.node.now < 0.5
+        if is_start or round(self.node.now / 0.033) % 27 == 0:
+            for _ in range(1000 if is_start else 1):
+                self.publish(floats(self.quad))
 
 
-class Listens(Holds):
-    """Reads how far it is off from the live results."""
+class CorrectsFromResults(FirstQuadTracker):
+    """A cheat that corrects its estimate by the live results."""
 
     def start(self, node: Node) -> None:
         super().start(node)
@@ -116,23 +116,23 @@ class Listens(Holds):
             self.quad[0] += results.data[3]
 
 
-class SaysNothingWhenUnsure(Holds):
-    """Publishes NaN but now and then."""
+class SaysNothingWhenUnsure(FirstQuadTracker):
+    """A cheat that publishes NaN in most cases."""
 
     def cheat(self) -> None:
-        sure = round(self.node.now / 0.033) % 20 == 0
-        self.say(floats(self.quad if sure else np.full(8, np.nan)))
+        is_sure = round(self.node.now / 0.033) % 20 == 0
+        self.publish(floats(self.quad if is_sure else np.full(8, np.nan)))
 
 
-class SaysInfinity(Holds):
-    """Hopes that no mean can hold it."""
+class SaysInfinity(FirstQuadTracker):
+    """A cheat that publishes infinite values."""
 
     def cheat(self) -> None:
-        self.say(floats(np.full(8, np.inf)))
+        self.publish(floats(np.full(8, np.inf)))
 
 
-class ChangesAfterwards(Holds):
-    """Publishes one array and moves it from then on."""
+class ChangesAfterwards(FirstQuadTracker):
+    """A cheat that publishes an array, and changes it afterwards."""
 
     def start(self, node: Node) -> None:
         super().start(node)
@@ -142,7 +142,7 @@ class ChangesAfterwards(Holds):
     def cheat(self) -> None:
         if self.array is None:
             self.array = self.quad.copy()
-        self.say(Float32MultiArray(data=self.array))
+        self.publish(Float32MultiArray(data=self.array))
 
     def move(self) -> None:
         if self.array is not None:
@@ -150,37 +150,37 @@ class ChangesAfterwards(Holds):
             self.array += self.node.rng.normal(0.0, 1.0, 8)
 
 
-class Floods(Holds):
-    """Publishes without end."""
+class Floods(FirstQuadTracker):
+    """A cheat that publishes endlessly."""
 
     def cheat(self) -> None:
         while True:
-            self.say(floats(self.quad))
+            self.publish(floats(self.quad))
 
 
-class HugeMessage(Holds):
-    """Publishes half a gibibyte."""
+class HugeMessage(FirstQuadTracker):
+    """A cheat that publishes half a gibibyte."""
 
     def cheat(self) -> None:
-        self.say(Float32MultiArray(data=np.zeros(2**27, dtype=np.float32)))
+        self.publish(Float32MultiArray(data=np.zeros(2**27, dtype=np.float32)))
 
 
-class UsesThreads(Holds):
-    """Publishes from a thread that outlives the level."""
+class UsesThreads(FirstQuadTracker):
+    """A cheat that publishes from a thread, also after the level."""
 
     def start(self, node: Node) -> None:
         super().start(node)
-        threading.Thread(target=self.publish, daemon=True).start()
+        threading.Thread(target=self.publish_forever, daemon=True).start()
 
-    def publish(self) -> None:
+    def publish_forever(self) -> None:
         while True:
             time.sleep(0.01)
             with suppress(Exception):
-                self.say(floats(self.quad))
+                self.publish(floats(self.quad))
 
 
-class ChangesTime(Holds):
-    """Stops the clocks and the chance of the whole process."""
+class ChangesTime(FirstQuadTracker):
+    """A cheat that replaces clocks and random numbers of the process."""
 
     def start(self, node: Node) -> None:
         super().start(node)
@@ -189,16 +189,16 @@ class ChangesTime(Holds):
         np.random.default_rng = lambda seed=None: None  # type: ignore[assignment, return-value]
 
 
-class Patches(Holds):
-    """Makes every measure of its class a perfect one."""
+class Patches(FirstQuadTracker):
+    """A cheat that replaces the value of all measures of a class."""
 
     def cheat(self) -> None:
         EuclideanNorm.value = 0.0  # type: ignore[method-assign, assignment]
         super().cheat()
 
 
-class FindsTheTruth(Holds):
-    """Looks the truth up among the objects of the process."""
+class FindsTheTruth(FirstQuadTracker):
+    """A cheat that reads the ground truth from the objects of the process."""
 
     def start(self, node: Node) -> None:
         super().start(node)
@@ -206,13 +206,15 @@ class FindsTheTruth(Holds):
 
     def cheat(self) -> None:
         if self.truth is None:
-            found = [thing for thing in gc.get_objects() if isinstance(thing, EuclideanNorm)]
-            self.truth = found[-1]._truth
-        self.say(floats(self.truth.read()))
+            measures = [
+                instance for instance in gc.get_objects() if isinstance(instance, EuclideanNorm)
+            ]
+            self.truth = measures[-1]._truth
+        self.publish(floats(self.truth.read()))
 
 
-class ReadsTheFolder(Holds):
-    """Looks the truth up in the rows of the run that have been written already, and in tracks."""
+class ReadsTheFolder(FirstQuadTracker):
+    """A cheat that reads the ground truth from rows and tracks in the folder of the run."""
 
     def start(self, node: Node) -> None:
         super().start(node)
@@ -220,39 +222,51 @@ class ReadsTheFolder(Holds):
 
     def cheat(self) -> None:
         if self.truth is None:
-            self.truth = list(self.found())
-        known = [(abs(at - self.node.now), quad) for at, quad in self.truth]
-        quad = min(known, key=lambda pair: pair[0])[1] if known else self.quad
-        self.say(floats(quad))
+            self.truth = list(self.read_corners())
+        candidates = [
+            (abs(time_in_trial - self.node.now), quad) for time_in_trial, quad in self.truth
+        ]
+        quad = min(candidates, key=lambda pair: pair[0])[1] if candidates else self.quad
+        self.publish(floats(quad))
 
-    def found(self) -> Iterator[tuple[float, np.ndarray[Any, Any]]]:
-        """Times in the trial and true corners, from every file that has any."""
+    def read_corners(self) -> Iterator[tuple[float, np.ndarray[Any, Any]]]:
+        """Yield times in the trial and true corners from all files."""
         for path in sorted(Path(os.environ[FOLDER]).rglob("*")):
             for line in path.read_bytes().splitlines() if path.suffix == ".jsonl" else ():
                 row = json.loads(line).get("row", {})
                 for samples in row.get("logs", {}).values():
                     for time_in_level, _, *offsets in samples:
-                        at = row["ended_at"] - row["duration"] + time_in_level
-                        yield at, self.quad + np.array(offsets[:8])
+                        time_in_trial = row["ended_at"] - row["duration"] + time_in_level
+                        yield time_in_trial, self.quad + np.array(offsets[:8])
             if path.suffix == ".motion":
                 with suppress(ResultError):  # sealed
                     track = load_track(path)
-                    truth = [k for k, each in enumerate(track.signals) if "truth/" in each.name]
-                    for n, quad in enumerate(track.values[:, truth]):
+                    truth_columns = [
+                        k for k, signal in enumerate(track.signals) if "truth/" in signal.name
+                    ]
+                    for n, quad in enumerate(track.values[:, truth_columns]):
                         if np.isfinite(quad).all():
                             yield n / track.rate, quad
 
 
-CHEATS: tuple[type[Holds], ...] = (
-    *(Bursts, BurstsOnce, Listens, SaysNothingWhenUnsure, SaysInfinity, ChangesAfterwards),
+BASELINE, REPEATED_BASELINE = FirstQuadTracker.__name__, FirstQuadTrackerAfterwards.__name__
+CHEATS: tuple[type[FirstQuadTracker], ...] = (
+    *(
+        Bursts,
+        BurstsOnce,
+        CorrectsFromResults,
+        SaysNothingWhenUnsure,
+        SaysInfinity,
+        ChangesAfterwards,
+    ),
     *(Floods, HugeMessage, UsesThreads, ChangesTime, ReadsTheFolder, Patches, FindsTheTruth),
 )
 GAINS = (Patches, FindsTheTruth)
-"""Known to gain in their own rows: they are in the process of the truth and of the measure."""
+"""The cheats that gain in their own rows: they run in the process of ground truth and measure."""
 
 
-def bench_of(folder: Path, algorithm: type[Holds], *, seed: int, length: float) -> Run:
-    """Return a short benchmark for one of them."""
+def bench_of(folder: Path, algorithm: type[FirstQuadTracker], *, seed: int, length: float) -> Run:
+    """Return a short benchmark for a cheat."""
     plan = make_plan(
         folder,
         algorithm,  # type: ignore[arg-type]
@@ -267,44 +281,52 @@ def bench_of(folder: Path, algorithm: type[Holds], *, seed: int, length: float) 
     return Run(plan=plan, out=folder / name, inputs=Inputs(), renderer="none")
 
 
-def trial(folder: Path, cheats: Sequence[type[Holds]], *, seed: int, length: float) -> Outcome:
-    """Play them with one worker, `Holds` before and behind."""
-    players = (Holds, *cheats, HoldsAfterwards)
+def trial(
+    folder: Path, cheats: Sequence[type[FirstQuadTracker]], *, seed: int, length: float
+) -> Outcome:
+    """Play them with one worker, `FirstQuadTracker` before and after."""
+    players = (FirstQuadTracker, *cheats, FirstQuadTrackerAfterwards)
     benches = [bench_of(folder, player, seed=seed, length=length) for player in players]
     with set_environment({FOLDER: str(folder)}):
         return run_each(benches, ProcessExecutor(1, callback_limit=60.0))
 
 
-def by_name(outcome: Outcome) -> dict[str, Result]:
-    """Name of an algorithm -> its result; without rows, where it never started."""
+def results_by_name(outcome: Outcome) -> dict[str, Result]:
+    """Return the result of each algorithm, by name; a result without a start has no rows."""
     return {str(result.run.algorithm): result for result in outcome.results}
 
 
-def errors(results: dict[str, Result]) -> list[str]:
-    """Say what a cheat gained that should not have, and whom it changed."""
-    before, after = results["Holds"], results["HoldsAfterwards"]
-    found = []
-    if before.values("total") != after.values("total") or None in before.values("total"):
-        found.append(f"Holds: {before.values('total')} before, {after.values('total')} behind")
-    for cheat in set(results) - {"Holds", "HoldsAfterwards"} - {g.__name__ for g in GAINS}:
+def find_errors(results: dict[str, Result]) -> list[str]:
+    """Describe unexpected gains, and changes of the baseline."""
+    baseline, repeated_baseline = results[BASELINE], results[REPEATED_BASELINE]
+    messages = []
+    if baseline.values("total") != repeated_baseline.values("total") or None in baseline.values(
+        "total"
+    ):
+        messages.append(
+            f"Holds: {baseline.values('total')} before, {repeated_baseline.values('total')} behind"
+        )
+    for cheat in set(results) - {BASELINE, REPEATED_BASELINE} - {g.__name__ for g in GAINS}:
         totals = results[cheat].values("total")  # none, where it never started
-        for row, (total, honest) in enumerate(zip(totals, before.values("total"), strict=False)):
-            if total is not None and float(total) < WORTH * float(honest or 0.0):
-                found.append(f"{cheat}: row {row} has {total}, Holds {honest}")
-    return sorted(found)
+        for row, (total, baseline_total) in enumerate(
+            zip(totals, baseline.values("total"), strict=False)
+        ):
+            if total is not None and float(total) < GAIN_THRESHOLD * float(baseline_total or 0.0):
+                messages.append(f"{cheat}: row {row} has {total}, Holds {baseline_total}")
+    return sorted(messages)
 
 
 def main() -> int:
-    """Play all cheats, and print a line each."""
+    """Run all cheats, and print a line for each row."""
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawTextHelpFormatter
     )
-    parser.add_argument("--seed", type=int, default=1, help="of the benchmark")
-    parser.add_argument("--length", type=float, default=5.0, help="of a level [s]")
-    chosen = parser.parse_args()
+    parser.add_argument("--seed", type=int, default=1, help="seed of the benchmark")
+    parser.add_argument("--length", type=float, default=5.0, help="length of a level [s]")
+    options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
-        outcome = trial(Path(folder), CHEATS, seed=chosen.seed, length=chosen.length)
-    for name, result in (results := by_name(outcome)).items():
+        outcome = trial(Path(folder), CHEATS, seed=options.seed, length=options.length)
+    for name, result in (results := results_by_name(outcome)).items():
         for row, (total, status) in enumerate(
             zip(result.values("total"), result.values("status"), strict=True)
         ):
@@ -313,9 +335,9 @@ def main() -> int:
             )
     for bench, error in outcome.failures:
         print(f"{bench.plan.algorithm.name}: {error}")
-    for error in (found := errors(results)):
+    for error in (errors := find_errors(results)):
         print("ERROR", error)
-    return 1 if found else 0
+    return 1 if errors else 0
 
 
 if __name__ == "__main__":

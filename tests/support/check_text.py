@@ -14,17 +14,17 @@ from uwsim.scene.reader import read_document
 from uwsim.scene.xacro import parse_expanded
 from uwsim.schema import Diagnostics
 
-ABOUT_FILES = (robot_places, projectors, model_files)
+FILE_RULES = (robot_places, projectors, model_files)
 
 
 def check_text(path: Path) -> list[Diagnostic]:
-    """Return what the reader and the rules about its spec say of a scene without robots."""
+    """Return the diagnostics of the reader and of the spec's rules for a scene without robots."""
     diagnostics = Diagnostics(path)
     document = parse_expanded(path)
     spec = read_document(document, diagnostics)
     assert spec is not None
     scene = CheckedScene(spec, (), document=document, diagnostics=diagnostics, parts=({}, {}))
     for rule in SCENE_RULES:
-        if rule.in_check and rule.need is Need.SPEC and rule.find not in ABOUT_FILES:
+        if rule.in_check and rule.need is Need.SPEC and rule.find not in FILE_RULES:
             diagnostics.extend(rule.find(scene))
     return diagnostics.to_list()

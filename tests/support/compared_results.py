@@ -1,4 +1,4 @@
-"""Results of a few levels and seeds with chosen values, to be compared (no module under test)."""
+"""Results of a few levels and seeds with given values (no module under test)."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from uwsim.results.result_file import save
 from uwsim.results.run_info import RunInfo
 
 Values = Mapping[float, Sequence[float | None]]
-"""Fog -> the value of each seed; None: lost."""
+"""The values of each fog, one a seed; None: lost."""
 
 INPUTS = {
     "benchmark": ("visibility.xml", "sha256:" + "3f" * 32),
@@ -23,8 +23,8 @@ INPUTS = {
 }
 
 
-def made(algorithm: str, values: Values, *, seed: int = 0) -> Result:
-    """A sweep of fog, played with seeds from ``seed`` on."""
+def make_result(algorithm: str, values: Values, *, seed: int = 0) -> Result:
+    """Return a sweep of fog with seeds from ``seed`` on."""
     columns = (
         Column(name="repeat", kind="run"),
         Column(name="seed", kind="run"),
@@ -35,13 +35,15 @@ def made(algorithm: str, values: Values, *, seed: int = 0) -> Result:
         Column(name="ended_at", kind="time", unit="s"),
     )
     rows: list[tuple[Cell, ...]] = []
-    missing = []
-    n = max((len(found) for found in values.values()), default=0)
+    missing_values = []
+    n = max((len(seed_values) for seed_values in values.values()), default=0)
     for repeat in range(n):
-        for i, (fog, found) in enumerate(values.items()):
-            value = found[repeat]
+        for i, (fog, seed_values) in enumerate(values.items()):
+            value = seed_values[repeat]
             if value is None:
-                missing.append(MissingValue(row=len(rows), column="total", reason="lost at 3.1 s"))
+                missing_values.append(
+                    MissingValue(row=len(rows), column="total", reason="lost at 3.1 s")
+                )
             status = "ok" if value is not None else "lost"
             rows.append((repeat, seed + repeat, fog, value, value, status, 2.0 * (i + 1)))
     run = RunInfo(
@@ -59,22 +61,22 @@ def made(algorithm: str, values: Values, *, seed: int = 0) -> Result:
         run=run,
         columns=columns,
         rows=tuple(rows),
-        missing_values=tuple(missing),
+        missing_values=tuple(missing_values),
     )
 
 
-def noisy(
+def noisy_result(
     algorithm: str, mean: float, *, n: int, salt: int, levels: Sequence[float] = (0.0, 0.5, 1.0)
 ) -> Result:
-    """Values of deviation 0.1 about a mean, the same part of the noise for each seed."""
-    shared = np.random.Generator(np.random.Philox(99)).normal(0.0, 0.5, (n, len(levels)))
-    own = np.random.Generator(np.random.Philox(salt)).normal(mean, 0.1, (n, len(levels)))
-    drawn = shared + own
-    return made(algorithm, {fog: drawn[:, i].tolist() for i, fog in enumerate(levels)})
+    """Return values of deviation 0.1 about a mean, with noise common to each seed."""
+    shared_noise = np.random.Generator(np.random.Philox(99)).normal(0.0, 0.5, (n, len(levels)))
+    own_noise = np.random.Generator(np.random.Philox(salt)).normal(mean, 0.1, (n, len(levels)))
+    samples = shared_noise + own_noise
+    return make_result(algorithm, {fog: samples[:, i].tolist() for i, fog in enumerate(levels)})
 
 
 def entries(*results: Result) -> tuple[Entry, ...]:
-    """Results as they would be read, named by their algorithms."""
+    """Return the entries of results, named by their algorithms."""
     return tuple(
         Entry(name=name, source=f"{name}.result", result=result, sha256="00" * 32)
         for result in results
@@ -82,8 +84,8 @@ def entries(*results: Result) -> tuple[Entry, ...]:
     )
 
 
-def saved(directory: Path, *results: Result) -> list[str]:
-    """Results in directories named by their algorithms."""
+def save_results(directory: Path, *results: Result) -> list[str]:
+    """Save results in directories named by their algorithms; return the directories."""
     paths = []
     for result in results:
         paths.append(str(directory / f"{result.run.algorithm}.result"))

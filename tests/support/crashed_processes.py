@@ -1,6 +1,6 @@
-"""A test whose process crashes in native code is reported, and run once more by another process.
+"""Report tests whose process crashes in native code, and run them again in another process.
 
-The crash itself is not of the test: the software rasteriser has crashed twice in some hundred runs
+The test does not cause such a crash: the software rasteriser has crashed twice in some hundred runs
 of all tests. A test that crashes its process twice has failed. `scripts/test` prints the native
 stacks of all crashes, of tests that pass the second time, too.
 """
@@ -12,7 +12,7 @@ from _pytest.terminal import TerminalReporter
 from xdist.scheduler import Scheduling
 
 RERUN = "rerun"
-"""Outcome of a test that is run again."""
+"""The outcome of a test that runs again."""
 
 
 class CrashedProcesses:
@@ -20,7 +20,7 @@ class CrashedProcesses:
 
     def __init__(self) -> None:
         self.names: list[str] = []
-        """Their names, in order."""
+        """The names of the tests, in order."""
 
     @pytest.hookimpl(optionalhook=True)
     def pytest_handlecrashitem(
@@ -33,7 +33,7 @@ class CrashedProcesses:
         self.names.append(crashitem)
 
     def pytest_terminal_summary(self, terminalreporter: TerminalReporter) -> None:
-        """Name them, whether the tests have passed or not."""
+        """List the tests, whether or not they passed."""
         if self.names:
             terminalreporter.section("processes that crashed in native code", yellow=True)
             for name in self.names:
@@ -41,5 +41,5 @@ class CrashedProcesses:
 
 
 def pytest_configure(config: pytest.Config) -> None:
-    """Note crashes."""
+    """Register the plugin."""
     config.pluginmanager.register(CrashedProcesses())

@@ -1,4 +1,4 @@
-"""What a page of the documentation shows: files to be written, commands to be typed, output."""
+"""Read files, commands and their output from a page of the documentation."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ CONSOLE = re.compile(r"^```console\n(.*?)^```", re.MULTILINE | re.DOTALL)
 
 @dataclass(frozen=True)
 class DocumentedCommand:
-    """A line after ``$``, and what stands below it."""
+    """A command after ``$``, and the output below it."""
 
     words: tuple[str, ...]
-    """The command as a shell takes it apart; its comment is left out."""
+    """The words of the command, as a shell splits them, without its comment."""
     output: tuple[str, ...]
-    """Lines that it should print."""
+    """The expected lines of output."""
 
 
 def write_files(page: str, folder: Path) -> list[str]:
@@ -29,32 +29,38 @@ def write_files(page: str, folder: Path) -> list[str]:
     return [name for name, _ in FILE.findall(page)]
 
 
-def commands(page: str) -> list[DocumentedCommand]:
-    """Every command of a page's consoles, in order."""
-    found = []
+def read_commands(page: str) -> list[DocumentedCommand]:
+    """Return all commands of a page, in order."""
+    documented_commands = []
     for block in CONSOLE.findall(page):
-        joined = block.replace("\\\n", " ")
-        for part in re.split(r"^\$ ", joined, flags=re.MULTILINE)[1:]:
+        text = block.replace("\\\n", " ")
+        for part in re.split(r"^\$ ", text, flags=re.MULTILINE)[1:]:
             line, *output = part.splitlines()
             words = tuple(shlex.split(line, comments=True))
-            found.append(DocumentedCommand(words, tuple(each for each in output if each.strip())))
-    return found
+            documented_commands.append(
+                DocumentedCommand(
+                    words, tuple(printed_line for printed_line in output if printed_line.strip())
+                )
+            )
+    return documented_commands
 
 
-def is_said(line: str, printed: str, *, within: float) -> bool:
-    """Whether a line was printed, up to blanks, with numbers that are equal within a share."""
-    return any(_alike(line.split(), other.split(), within) for other in printed.splitlines())
-
-
-def _alike(words: list[str], others: list[str], within: float) -> bool:
-    return len(words) == len(others) and all(
-        word == other or _close(word, other, within)
-        for word, other in zip(words, others, strict=True)
+def is_printed(line: str, output: str, *, tolerance: float) -> bool:
+    """Return True if the output has a line, up to blanks and a relative tolerance of numbers."""
+    return any(
+        _are_similar(line.split(), other.split(), tolerance) for other in output.splitlines()
     )
 
 
-def _close(word: str, other: str, within: float) -> bool:
+def _are_similar(words: list[str], other_words: list[str], tolerance: float) -> bool:
+    return len(words) == len(other_words) and all(
+        word == other or _is_close(word, other, tolerance)
+        for word, other in zip(words, other_words, strict=True)
+    )
+
+
+def _is_close(word: str, other: str, tolerance: float) -> bool:
     try:
-        return math.isclose(float(word), float(other), rel_tol=within)
+        return math.isclose(float(word), float(other), rel_tol=tolerance)
     except ValueError:
         return False

@@ -1,4 +1,4 @@
-"""Algorithms that do not do what they should: one breaks, one never starts, one says nothing."""
+"""Algorithms that fail: without publication, without start, with an error or a reported failure."""
 
 from __future__ import annotations
 
@@ -6,36 +6,36 @@ from uwsim.bus import Node
 from uwsim.messages import Empty, Image, String
 
 
-class Silent:
-    """Starts the benchmark and then says nothing."""
+class NoPublication:
+    """An algorithm that starts the benchmark and publishes nothing."""
 
     def start(self, node: Node) -> None:
         node.call("startBench", Empty())
 
 
-class Absent:
-    """Never starts anything."""
+class NeverStarted:
+    """An algorithm that never starts the benchmark."""
 
     def start(self, node: Node) -> None:
         pass
 
 
-class Raises:
-    """Breaks at its fourth image."""
+class RaisedError:
+    """An algorithm that raises an error at the fourth image."""
 
     def start(self, node: Node) -> None:
         self.n = 0
-        node.subscribe("/uwsim/camera1", Image, self.look)
+        node.subscribe("/uwsim/camera1", Image, self.on_image)
         node.call("startBench", Empty())
 
-    def look(self, image: Image) -> None:
+    def on_image(self, image: Image) -> None:
         self.n += 1
         if self.n == 4:
             raise ZeroDivisionError("no focus")
 
 
-class Fails:
-    """Says that it failed."""
+class ReportedFailure:
+    """An algorithm that reports its failure."""
 
     def start(self, node: Node) -> None:
         node.call("startBench", Empty())

@@ -1,4 +1,4 @@
-"""A world without engine, renderer or file: what law tests look at instead of a simulation."""
+"""A world without engine, renderer or file, for tests of formulas without a simulation."""
 
 from __future__ import annotations
 
@@ -21,17 +21,17 @@ from uwsim.world.mounts import MOUNT
 
 
 def place_fixed(parameters: int, values: int, time: float) -> None:
-    """Write the frame that `FakeBody.prepare` has written down."""
+    """Write the frame of the last `FakeBody.prepare`."""
     view_doubles(values, 12)[:] = view_doubles(parameters, 12)
 
 
 def move_fixed(parameters: int, values: int, time: float) -> None:
-    """Write the motion that `FakeBody.prepare` has written down."""
+    """Write the motion of the last `FakeBody.prepare`."""
     view_doubles(values + 24, 9)[:] = view_doubles(parameters + 96, 9)
 
 
 class FakeBody:
-    """A body that stands where it is put."""
+    """A body at a given pose."""
 
     is_compiled = False
 
@@ -55,12 +55,12 @@ class FakeBody:
             self.turn(rotation)
 
     def prepare(self) -> None:
-        """Write down where it is and how it moves, for compiled code."""
+        """Store pose and motion for compiled code."""
         self._numbers[:3], self._numbers[3:12] = self._pose.position, self._pose.rotation.ravel()
         if self.motion is not None:
-            moving = self.motion()
+            motion = self.motion()
             self._numbers[12:] = np.concatenate(
-                [moving.velocity, moving.angular_velocity, moving.acceleration]
+                [motion.velocity, motion.angular_velocity, motion.acceleration]
             )
 
     @property
@@ -68,16 +68,16 @@ class FakeBody:
         return Pose(self._pose.position.copy(), self._pose.rotation.copy())
 
     def move(self, *position: float) -> None:
-        """Put its origin at ``position`` [m]."""
+        """Set the position of the origin [m]."""
         self._pose = Pose(np.array(position, dtype=float), self._pose.rotation)
 
     def turn(self, rotation: np.ndarray) -> None:
-        """Give it the rotation matrix (3, 3)."""
+        """Set the rotation matrix (3, 3)."""
         self._pose = Pose(self._pose.position, np.array(rotation, dtype=float))
 
 
 class FakeCamera:
-    """A pinhole that looks down -z of W (x right, y up) unless it is turned."""
+    """A pinhole camera along -z of W (x right, y up) without a rotation."""
 
     def __init__(
         self,
@@ -91,20 +91,20 @@ class FakeCamera:
         self.name, self.std = name, std
         self.n_images: int | None = None
         self.intrinsics = intrinsics or Intrinsics.from_fovy(320, 240, np.radians(50.0))
-        turned = np.eye(3) if rotation is None else np.array(rotation, dtype=float)
-        self._pose = Pose(np.array(position, dtype=float), turned)
+        rotation_matrix = np.eye(3) if rotation is None else np.array(rotation, dtype=float)
+        self._pose = Pose(np.array(position, dtype=float), rotation_matrix)
 
     @property
     def world_from_camera(self) -> Pose:
         return Pose(self._pose.position.copy(), self._pose.rotation.copy())
 
     def move(self, *position: float) -> None:
-        """Put its centre at ``position`` [m]."""
+        """Set the position of the centre [m]."""
         self._pose = Pose(np.array(position, dtype=float), self._pose.rotation)
 
 
 class FakeActuators:
-    """Thrusters and joints that draw what they are told to."""
+    """Thrusters and joints with given electrical powers."""
 
     def __init__(self, *, thrusters: tuple[str, ...] = (), joints: tuple[str, ...] = ()) -> None:
         self.thrusters, self.joints = thrusters, joints
@@ -117,9 +117,8 @@ class FakeActuators:
 class FakeWorld:
     """A `uwsim.world.World` and its `uwsim.world.Stage`; time moves only by `advance`.
 
-    What updaters do to it is kept in ``fog``, ``light_rate``, ``camera_noise``, ``joints``,
-    ``current`` and ``put_backs``; what touches what stands in ``touching``, with which force in
-    ``pressing``, what drives a vehicle in ``driven``.
+    Updaters change ``fog``, ``light_rate``, ``camera_noise``, ``joints``, ``current`` and
+    ``put_backs``. Tests set ``contacts_by_body``, ``forces_by_body`` and ``actuators_by_vehicle``.
     """
 
     def __init__(
@@ -146,9 +145,9 @@ class FakeWorld:
         self.joints: dict[str, dict[int, float]] = {}
         self.current: Flow | None = None
         self.put_backs: list[tuple[str, float]] = []
-        self.touching: dict[str, list[Contact]] = {}
-        self.pressing: dict[str, dict[str, np.ndarray]] = {}
-        self.driven: dict[str, Actuators] = {}
+        self.contacts_by_body: dict[str, list[Contact]] = {}
+        self.forces_by_body: dict[str, dict[str, np.ndarray]] = {}
+        self.actuators_by_vehicle: dict[str, Actuators] = {}
         self._timers: list[tuple[float, Callable[[], None]]] = []
         self._seed = seed
 
@@ -165,7 +164,7 @@ class FakeWorld:
         return self.step * self.timestep
 
     def advance(self, steps: int = 1) -> None:
-        """Let time pass, and deliver what was published."""
+        """Advance time, and deliver published messages."""
         for _ in range(steps):
             self.bus.step += 1
             for rate, call in list(self._timers):
@@ -181,17 +180,17 @@ class FakeWorld:
 
     def contacts(self, name: str) -> Sequence[Contact]:
         self.body(name)
-        return tuple(self.touching.get(name, ()))
+        return tuple(self.contacts_by_body.get(name, ()))
 
     def contact_forces(self, name: str) -> Mapping[str, np.ndarray]:
         self.body(name)
-        return self.pressing.get(name, {})
+        return self.forces_by_body.get(name, {})
 
     def actuators(self, name: str) -> Actuators | None:
-        known = {*self.driven, *self.vehicles}
-        if name not in known:
-            raise UnknownName("vehicle", name, sorted(known))
-        return self.driven.get(name)
+        known_vehicles = {*self.actuators_by_vehicle, *self.vehicles}
+        if name not in known_vehicles:
+            raise UnknownName("vehicle", name, sorted(known_vehicles))
+        return self.actuators_by_vehicle.get(name)
 
     def camera(self, name: str) -> Camera:
         if name not in self.cameras:

@@ -1,8 +1,8 @@
-"""Damage files by chance and see that every error is one clean line.
+"""Damage files at random, and check that each error is one clean line.
 
     scripts/fuzz results --trials 5000 --seed 1
 
-Each trial is known by its target and its seed; what went wrong can be repeated with them.
+The target and the seed of a trial repeat it.
 """
 
 from __future__ import annotations
@@ -16,85 +16,92 @@ import time
 from collections import Counter
 from pathlib import Path
 
-SLOW = 5.0
-"""A trial that takes longer is told [s of the processor]."""
-LARGE = 200
-"""A trial that makes the process grow by more is told [MB]."""
+MAX_CPU_TIME = 5.0
+"""The largest CPU time of a trial [s]."""
+MAX_MEMORY_GROWTH = 200
+"""The largest growth of the process in a trial [MB]."""
 
 
-def results(trials: int, seed: int) -> Counter[str]:
-    """Results that `report`, `compare`, `verify` and `bench --resume` read."""
-    from tests.support.fuzzed_results import TARGETS, made, trial
+def fuzz_results(trials: int, seed: int) -> Counter[str]:
+    """Damage results, and read them as `report`, `compare`, `verify` and `bench --resume`."""
+    from tests.support.fuzzed_results import TARGETS, make_intact_result, trial
 
-    wrong: Counter[str] = Counter()
+    error_counts: Counter[str] = Counter()
     with tempfile.TemporaryDirectory(prefix="uwsim-fuzz-") as folder:
-        sound = made(Path(folder))
+        intact_result = make_intact_result(Path(folder))
         for number in range(seed, seed + trials):
             for target in TARGETS:
-                said = trial(sound, target, number)
-                if said is not None:
-                    print(f"results, {target}, seed {number}: {said}"[:300], flush=True)
-                    wrong[f"{target}: {said.partition(':')[0]}"] += 1
-    return wrong
+                error = trial(intact_result, target, number)
+                if error is not None:
+                    print(f"results, {target}, seed {number}: {error}"[:300], flush=True)
+                    error_counts[f"{target}: {error.partition(':')[0]}"] += 1
+    return error_counts
 
 
-def obj(trials: int, seed: int) -> Counter[str]:
-    """OBJ files and their materials, that models are read from."""
+def fuzz_obj(trials: int, seed: int) -> Counter[str]:
+    """Damage OBJ files and their materials, and read them."""
     from tests.support.fuzzed_obj import trial
 
-    wrong: Counter[str] = Counter()
+    error_counts: Counter[str] = Counter()
     with tempfile.TemporaryDirectory(prefix="uwsim-fuzz-") as folder:
         for number in range(seed, seed + trials):
-            said = trial(Path(folder), number)
-            if said is not None:
-                print(f"obj, seed {number}: {said}"[:300], flush=True)
-                wrong[said.partition(":")[0]] += 1
-    return wrong
+            error = trial(Path(folder), number)
+            if error is not None:
+                print(f"obj, seed {number}: {error}"[:300], flush=True)
+                error_counts[error.partition(":")[0]] += 1
+    return error_counts
 
 
-def files(target: str, trials: int, seed: int) -> Counter[str]:
-    """Files that a scene or a benchmark is made of; each within a bound of time and memory."""
+def fuzz_files(target: str, trials: int, seed: int) -> Counter[str]:
+    """Damage files of a scene or a benchmark, and read them within limits of time and memory."""
     from tests.support.fuzzed_files import trial
 
-    wrong: Counter[str] = Counter()
+    error_counts: Counter[str] = Counter()
     with tempfile.TemporaryDirectory(prefix="uwsim-fuzz-") as folder:
         for number in range(seed, seed + trials):
-            before, peak = time.process_time(), resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-            said = trial(Path(folder), target, number)
-            took = time.process_time() - before
-            grew = (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - peak) >> 10
-            if said is None and number > seed:  # the first loads all that reading takes
-                said = f"slow: {took:.1f} s" if took > SLOW else None
-                said = said or (f"large: {grew} MB more" if grew > LARGE else None)
-            if said is not None:
-                print(f"{target}, seed {number}: {said}"[:300], flush=True)
-                wrong[said.partition(":")[0]] += 1
-    return wrong
+            start_time, peak = (
+                time.process_time(),
+                resource.getrusage(resource.RUSAGE_SELF).ru_maxrss,
+            )
+            error = trial(Path(folder), target, number)
+            cpu_time = time.process_time() - start_time
+            memory_growth = (resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - peak) >> 10
+            if error is None and number > seed:  # the first trial imports the readers
+                error = f"slow: {cpu_time:.1f} s" if cpu_time > MAX_CPU_TIME else None
+                error = error or (
+                    f"large: {memory_growth} MB more" if memory_growth > MAX_MEMORY_GROWTH else None
+                )
+            if error is not None:
+                print(f"{target}, seed {number}: {error}"[:300], flush=True)
+                error_counts[error.partition(":")[0]] += 1
+    return error_counts
 
 
-WHAT = {
-    "obj": obj,
-    "results": results,
+FUZZERS = {
+    "obj": fuzz_obj,
+    "results": fuzz_results,
     **{
-        target: functools.partial(files, target)
+        target: functools.partial(fuzz_files, target)
         for target in ("benchmark", "current", "expression", "image", "mesh", "robot", "scene")
     },
 }
-"""What can be damaged -> how many trials from which seed on; returns what went wrong, counted."""
+"""The function of each target: number of trials, first seed -> numbers of errors."""
 
 
 def main() -> int:
-    """Run the trials; returns 1 if any went wrong."""
+    """Run the trials; return 1 if any failed."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
-    parser.add_argument("what", choices=WHAT, help="what is damaged")
-    parser.add_argument("--trials", type=int, default=1000, help="how many for each reader")
+    parser.add_argument("what", choices=FUZZERS, help="target to damage")
+    parser.add_argument("--trials", type=int, default=1000, help="number of trials for each reader")
     parser.add_argument("--seed", type=int, default=1, help="seed of the first trial")
     options = parser.parse_args()
-    wrong = WHAT[options.what](options.trials, options.seed)
-    for what, n in wrong.most_common():
-        print(f"{n:6} {what}")
-    print(f"{options.what}: {sum(wrong.values())} wrong in {options.trials} trials of each reader")
-    return 1 if wrong else 0
+    error_counts = FUZZERS[options.what](options.trials, options.seed)
+    for error, n in error_counts.most_common():
+        print(f"{n:6} {error}")
+    print(
+        f"{options.what}: {sum(error_counts.values())} wrong in {options.trials} trials of each reader"
+    )
+    return 1 if error_counts else 0
 
 
 if __name__ == "__main__":

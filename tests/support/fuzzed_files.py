@@ -1,4 +1,4 @@
-"""Scenes, robots, benchmarks, meshes, images, currents' data and scores, damaged by chance."""
+"""Scenes, robots, benchmarks, meshes, images, currents' data and scores, damaged at random."""
 
 from __future__ import annotations
 
@@ -31,12 +31,12 @@ SIGNS = ("(", ")", ",", "?", ":", "^", "-", "*", "/", "&&", "||", "<", "==", " "
 NAMES = ("a", "b", "_pi", "max", "min", "sin", "sqrt", "rint", "if", "ln", "2", "0.5", "1e300")
 SCORE = "a > 0 ? 100 - 2*b : max(a, b, 0)^2 + sqrt(sin(_pi))"
 MAX_LETTERS = 5000
-"""An error line is at most so long; `clean_text` cuts what is longer."""
+"""The longest line of an error; `clean_text` cuts longer lines."""
 
 
 @functools.cache
 def sources(kind: str) -> tuple[Path, ...]:
-    """The sound files that are damaged."""
+    """Return the intact files of a kind."""
     return {
         "scene": (TESTS / "scene" / "every-element.xml", *sorted(DATA.glob("scenes/*.xml"))),
         "robot": (DATA / "scenes" / "g500ARM5.urdf", *sorted(DATA.glob("vehicles/*.urdf"))),
@@ -48,40 +48,40 @@ def sources(kind: str) -> tuple[Path, ...]:
     }[kind]
 
 
-def xml(kind: str, folder: Path, chance: random.Random) -> None:
+def check_damaged_xml(kind: str, folder: Path, chance: random.Random) -> None:
     """Damage a file of XML, by its elements or its bytes, and check it."""
     text = chance.choice(sources(kind)).read_text()
     path = folder / "damaged.xml"
     if chance.random() < 0.2:
-        path.write_bytes(bent(text.encode(), chance))
+        path.write_bytes(damage_bytes(text.encode(), chance))
     else:
-        path.write_text(rewritten(text, chance))
+        path.write_text(damage_xml(text, chance))
     for error in check_file(path):
         is_score = "<function>" in error.message  # shown with a mark below the place
         assert is_score or "\n" not in str(error), f"two lines: {str(error)[:200]!r}"
         assert len(str(error)) < MAX_LETTERS, f"{len(str(error))} letters"
 
 
-def rewritten(text: str, chance: random.Random) -> str:
-    """Change some values, or leave out, repeat or exchange some elements."""
+def damage_xml(text: str, chance: random.Random) -> str:
+    """Change values, or remove, repeat or exchange elements."""
     for _ in range(chance.choice((1, 1, 2, 5))):
         values = list(re.finditer(r">([^<>\n]+)<|\"([^\"<>]*)\"", text))
         elements = list(re.finditer(r"<(\w[\w:]*)[^<>]*>[^<>]*</\1>|<\w[^<>]*/>", text))
         if chance.random() < 0.6 and values:
-            found = chance.choice(values)
-            start, end = found.span(1 if found[1] is not None else 2)
-            new = chance.choice((*WORDS, found[0][1:-1] * 2))
+            value_match = chance.choice(values)
+            start, end = value_match.span(1 if value_match[1] is not None else 2)
+            replacement = chance.choice((*WORDS, value_match[0][1:-1] * 2))
         elif elements:
             start, end = chance.choice(elements).span()
-            new = chance.choice(("", text[start:end] * 2, chance.choice(elements)[0]))
+            replacement = chance.choice(("", text[start:end] * 2, chance.choice(elements)[0]))
         else:
             return text
-        text = text[:start] + new + text[end:]
+        text = text[:start] + replacement + text[end:]
     return text
 
 
-def bent(data: bytes, chance: random.Random) -> bytes:
-    """Change, leave out, repeat or add bytes."""
+def damage_bytes(data: bytes, chance: random.Random) -> bytes:
+    """Change, remove, repeat or add bytes."""
     for _ in range(chance.choice((1, 1, 2, 8))):
         k = chance.randrange(len(data) + 1)
         n = chance.choice((1, 1, 2, 4, 16))
@@ -101,40 +101,43 @@ def bent(data: bytes, chance: random.Random) -> bytes:
 
 @functools.cache
 def meshes() -> dict[str, bytes]:
-    """A sound file of each format."""
+    """Return an intact mesh file of each format."""
     box = trimesh.creation.box()
     box.visual.vertex_colors = np.full((8, 4), 200, np.uint8)
-    made = {kind: box.export(file_type=kind) for kind in ("stl", "stl_ascii", "glb", "ply", "dae")}
-    ascii_stl = made.pop("stl_ascii")
-    packed = {
-        kind: data.encode() if isinstance(data, str) else bytes(data) for kind, data in made.items()
+    exports = {
+        kind: box.export(file_type=kind) for kind in ("stl", "stl_ascii", "glb", "ply", "dae")
     }
-    return {**packed, "stl ascii": ascii_stl.encode()}
+    ascii_stl = exports.pop("stl_ascii")
+    contents = {
+        kind: data.encode() if isinstance(data, str) else bytes(data)
+        for kind, data in exports.items()
+    }
+    return {**contents, "stl ascii": ascii_stl.encode()}
 
 
-def mesh(folder: Path, chance: random.Random) -> None:
+def read_damaged_mesh(folder: Path, chance: random.Random) -> None:
     """Damage a mesh and read it."""
     kind, data = chance.choice(sorted(meshes().items()))
     path = folder / f"damaged.{kind.partition(' ')[0]}"
-    path.write_bytes(bent(data, chance))
+    path.write_bytes(damage_bytes(data, chance))
     read_model(path, name="m")
 
 
 @functools.cache
 def images() -> dict[str, bytes]:
-    """A sound image of each format."""
-    found = {}
+    """Return an intact image file of each format."""
+    contents = {}
     for kind in ("PNG", "JPEG", "BMP", "GIF", "TIFF", "TGA", "WEBP", "PPM"):
         with io.BytesIO() as stream:
             Image.radial_gradient("L").resize((9, 7)).convert("RGB").save(stream, kind)
-            found[kind] = stream.getvalue()
-    return found
+            contents[kind] = stream.getvalue()
+    return contents
 
 
-def image(folder: Path, chance: random.Random) -> None:
+def read_damaged_image(folder: Path, chance: random.Random) -> None:
     """Damage the image of a mesh and read the mesh."""
     _, data = chance.choice(sorted(images().items()))
-    (folder / "p.png").write_bytes(bent(data, chance))
+    (folder / "p.png").write_bytes(damage_bytes(data, chance))
     (folder / "m.mtl").write_text("newmtl m\nmap_Kd p.png\n")
     (folder / "m.obj").write_text(
         "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nusemtl m\nf 1/1 2/2 3/3\n"
@@ -144,7 +147,7 @@ def image(folder: Path, chance: random.Random) -> None:
 
 @functools.cache
 def currents() -> dict[str, bytes]:
-    """A table and a NetCDF file of a current."""
+    """Return a table and a NetCDF file of a current."""
     stream = io.BytesIO()
     with netcdf_file(stream, "w") as file:
         for name in ("t", "x"):
@@ -156,16 +159,16 @@ def currents() -> dict[str, bytes]:
             file.variables[name].units = "cm/s"
             file.variables[name].scale_factor = 0.5
         file.flush()
-        packed = stream.getvalue()
+        netcdf_data = stream.getvalue()
     table = "x,y,t,u,v\n" + "".join(f"{i},{j},0,0.1,-0.2\n" for i in range(3) for j in range(2))
-    return {"csv": table.encode(), "nc": packed}
+    return {"csv": table.encode(), "nc": netcdf_data}
 
 
 def current(folder: Path, chance: random.Random) -> None:
     """Damage the data of a current and read it."""
     kind, data = chance.choice(sorted(currents().items()))
     path = folder / f"damaged.{kind}"
-    path.write_bytes(bent(data, chance))
+    path.write_bytes(damage_bytes(data, chance))
     read_grid(path)
 
 
@@ -181,18 +184,18 @@ def expression(folder: Path, chance: random.Random) -> None:
 
 
 TARGETS: dict[str, Callable[[Path, random.Random], None]] = {
-    "benchmark": functools.partial(xml, "benchmark"),
+    "benchmark": functools.partial(check_damaged_xml, "benchmark"),
     "current": current,
     "expression": expression,
-    "image": image,
-    "mesh": mesh,
-    "robot": functools.partial(xml, "robot"),
-    "scene": functools.partial(xml, "scene"),
+    "image": read_damaged_image,
+    "mesh": read_damaged_mesh,
+    "robot": functools.partial(check_damaged_xml, "robot"),
+    "scene": functools.partial(check_damaged_xml, "scene"),
 }
 
 
 def trial(folder: Path, target: str, seed: int) -> str | None:
-    """Damage and read something; returns what is wrong with how that ended."""
+    """Damage and read a file; return a description of the failure."""
     chance = random.Random(f"{target} {seed}")
     try:
         with warnings.catch_warnings():

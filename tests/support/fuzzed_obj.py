@@ -1,4 +1,4 @@
-"""OBJ files that were damaged by chance, with their materials: for a test and for scripts/fuzz."""
+"""OBJ files and materials, damaged at random, for a test and for scripts/fuzz."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ WORDS = (
 )  # fmt: skip
 
 
-def damaged(text: str, chance: random.Random) -> str:
+def damage_text(text: str, chance: random.Random) -> str:
     """Return the text with a few errors in its lines."""
     for _ in range(chance.choice((1, 1, 2, 4))):
         lines = text.split("\n")
@@ -73,12 +73,12 @@ def damaged(text: str, chance: random.Random) -> str:
 
 
 def trial(folder: Path, seed: int) -> str | None:
-    """Damage an OBJ file or its materials and read it; returns what is wrong with how it ended."""
+    """Damage an OBJ file or its materials, and read it; return a description of the failure."""
     chance = random.Random(f"obj {seed}")
     is_mesh = chance.random() < 0.6
     file = folder / f"m{seed}.obj"
-    file.write_text(damaged(OBJ, chance) if is_mesh else OBJ)
-    (folder / "m.mtl").write_text(MATERIALS if is_mesh else damaged(MATERIALS, chance))
+    file.write_text(damage_text(OBJ, chance) if is_mesh else OBJ)
+    (folder / "m.mtl").write_text(MATERIALS if is_mesh else damage_text(MATERIALS, chance))
     if not (folder / "p.png").exists():
         Image.new("RGB", (4, 2)).save(folder / "p.png")
     try:

@@ -1,4 +1,4 @@
-"""Results that were damaged by chance, and what reads them: for a test and for scripts/fuzz."""
+"""Results, damaged at random, and their readers, for a test and for scripts/fuzz."""
 
 from __future__ import annotations
 
@@ -30,27 +30,27 @@ from uwsim.verify.recorded_plan import FileOverrides, check_inputs, plan_of
 from uwsim.verify.verify import complete_trials, verify
 
 FILES = ("result.json", "units/00000.jsonl", "units/00001.jsonl", "provenance.json")
-"""What is damaged."""
+"""The files to damage."""
 VALUES: tuple[Any, ...] = (
     None, True, False, 0, -1, 3, 1.5, -0.0, 1e300, -1e61, 10**30, float("nan"), float("inf"),
     "", "x", "esm", "../../etc/passwd", "\x1b[31m", "a" * 400, [], {}, [[]], [1, 2], ["a", "b"],
     {"a": 1}, [None] * 8, [["a", 1]],
 )  # fmt: skip
-"""What is put in the place of something."""
+"""The replacements of values."""
 
 
 @dataclass(frozen=True)
-class Sound:
-    """A tiny result that is sound, and the run that made it."""
+class IntactResult:
+    """A small intact result and its run."""
 
     folder: Path
-    """Benchmark and result directory ``out``; and ``other``, the same under another name."""
+    """The folder with the benchmark, the result directory ``out`` and its copy ``other``."""
     bench: Run
     """The run."""
 
 
-def made(folder: Path) -> Sound:
-    """Play a tiny benchmark in two trials."""
+def make_intact_result(folder: Path) -> IntactResult:
+    """Run a small benchmark in two trials."""
     benchmark = write_benchmark(folder, "0.1")
     levels = ["fog=0", "fog=0.4"]
     bench = bench_of(benchmark, folder / "out", mode="independent", levels=levels)
@@ -58,13 +58,13 @@ def made(folder: Path) -> Sound:
     command = ["bench", str(benchmark), "--algorithm", "esm", "--out", "out"]
     save_provenance({"command": command, "wall_s": 1.0, **machine()}, folder / "out")
     shutil.copytree(folder / "out", folder / "other")
-    return Sound(folder, bench)
+    return IntactResult(folder, bench)
 
 
-def damaged(data: bytes, chance: random.Random) -> bytes:
+def damage_json(data: bytes, chance: random.Random) -> bytes:
     """Return the bytes of a JSON file, or of one with a document a line, with a few errors."""
     if chance.random() < 0.15:
-        return _damaged_bytes(data, chance)
+        return _damage_bytes(data, chance)
     lines = data.split(b"\n") if data.count(b"\n{") else [data]
     k = chance.choice([i for i, line in enumerate(lines) if line.strip()])
     document = json.loads(lines[k])
@@ -74,7 +74,7 @@ def damaged(data: bytes, chance: random.Random) -> bytes:
     return b"\n".join(lines)
 
 
-def _damaged_bytes(data: bytes, chance: random.Random) -> bytes:
+def _damage_bytes(data: bytes, chance: random.Random) -> bytes:
     place = chance.randrange(len(data))
     return chance.choice(
         [
@@ -89,54 +89,54 @@ def _damaged_bytes(data: bytes, chance: random.Random) -> bytes:
     )
 
 
-def _places(node: Any) -> Iterator[tuple[Any, Any]]:
-    """Every container, with each of its keys."""
-    todo = [node]
-    while todo:
-        here = todo.pop()
-        keys = list(here) if isinstance(here, dict) else range(len(here))
+def _walk_keys(node: Any) -> Iterator[tuple[Any, Any]]:
+    """Yield every container with each of its keys."""
+    containers = [node]
+    while containers:
+        container = containers.pop()
+        keys = list(container) if isinstance(container, dict) else range(len(container))
         for key in keys:
-            yield here, key
-            if isinstance(here[key], dict | list):
-                todo.append(here[key])
+            yield container, key
+            if isinstance(container[key], dict | list):
+                containers.append(container[key])
 
 
 def _with_error(document: Any, chance: random.Random) -> Any:
-    places = list(_places(document)) if isinstance(document, dict | list) else []
+    places = list(_walk_keys(document)) if isinstance(document, dict | list) else []
     if not places or chance.random() < 0.03:
         return deepcopy(chance.choice(VALUES))
-    here, key = chance.choice(places)
+    container, key = chance.choice(places)
     match chance.randrange(6):
         case 0:
-            del here[key]
-        case 1 if isinstance(here, dict):
-            here[chance.choice(("x", "", str(key) + "s"))] = here.pop(key)
+            del container[key]
+        case 1 if isinstance(container, dict):
+            container[chance.choice(("x", "", str(key) + "s"))] = container.pop(key)
         case 2:
-            there, other = chance.choice(places)
-            here[key] = json.loads(json.dumps(there[other]))
+            source, source_key = chance.choice(places)
+            container[key] = json.loads(json.dumps(source[source_key]))
         case 3:
-            nested: Any = 1
+            nested_list: Any = 1
             for _ in range(chance.choice((3, 30, 300))):
-                nested = [nested]
-            here[key] = nested
+                nested_list = [nested_list]
+            container[key] = nested_list
         case _:
-            here[key] = deepcopy(chance.choice(VALUES))
+            container[key] = deepcopy(chance.choice(VALUES))
     return document
 
 
-# ---------------------------------------------------------------------------- what reads them
+# ---------------------------------------------------------------------------- readers
 
 
-def read_for_report(sound: Sound, directory: Path) -> None:
-    """What ``uwsim report`` does but draw."""
+def read_for_report(intact_result: IntactResult, directory: Path) -> None:
+    """Read as ``uwsim report``, without drawing."""
     result = load(directory)
-    unchecked = check_rows(result, directory)
-    render(result, directory, plots=[], check_note=unchecked)
+    check_note = check_rows(result, directory)
+    render(result, directory, plots=[], check_note=check_note)
 
 
-def read_for_compare(sound: Sound, directory: Path) -> None:
-    """What ``uwsim compare`` does but draw."""
-    entries = read_entries([directory, sound.folder / "other"])
+def read_for_compare(intact_result: IntactResult, directory: Path) -> None:
+    """Read as ``uwsim compare``, without drawing."""
+    entries = read_entries([directory, intact_result.folder / "other"])
     column = shared_column(entries, None)
     comparison = compare(
         entries, column, experiment_differences=differences(entries), remarks=remarks(entries)
@@ -144,44 +144,46 @@ def read_for_compare(sound: Sound, directory: Path) -> None:
     render_comparison(comparison, [])
 
 
-def read_for_verify(sound: Sound, directory: Path) -> None:
-    """What ``uwsim verify`` does but play."""
-    stored = load(directory)
+def read_for_verify(intact_result: IntactResult, directory: Path) -> None:
+    """Read as ``uwsim verify``, without simulation."""
+    result = load(directory)
     plan = plan_of(
-        stored, directory, FileOverrides(benchmark=Path(sound.bench.plan.benchmark.path))
+        result, directory, FileOverrides(benchmark=Path(intact_result.bench.plan.benchmark.path))
     )
-    check_inputs(stored.inputs, sound.bench.inputs)
-    bench = Run(plan=plan, out=directory, inputs=stored.inputs, renderer=sound.bench.renderer)
-    trials = complete_trials(directory, plan, stored)
-    clean_text(describe_result(stored, directory, len(trials), len(plan.trials())))
+    check_inputs(result.inputs, intact_result.bench.inputs)
+    bench = Run(
+        plan=plan, out=directory, inputs=result.inputs, renderer=intact_result.bench.renderer
+    )
+    trials = complete_trials(directory, plan, result)
+    clean_text(describe_result(result, directory, len(trials), len(plan.trials())))
     if trials:
-        environment_differences(stored, directory, bench.info)
-        verify(directory, stored, bench, trials, executor=Copies(sound))
+        environment_differences(result, directory, bench.info)
+        verify(directory, result, bench, trials, executor=CopyingExecutor(intact_result))
 
 
-def read_for_resume(sound: Sound, directory: Path) -> None:
-    """What ``uwsim bench --resume`` does but play; and what is said of an interrupted run."""
+def read_for_resume(intact_result: IntactResult, directory: Path) -> None:
+    """Read as ``uwsim bench --resume``, without simulation, and describe an interrupted run."""
     resume_command(directory)
     describe_missing_result(directory)
-    bench = replace(sound.bench, out=directory)
+    bench = replace(intact_result.bench, out=directory)
     bench.begin()
     bench.write()
 
 
 @dataclass(frozen=True)
-class Copies:
-    """An executor that gives what the sound result has."""
+class CopyingExecutor:
+    """An executor that copies trials of the intact result."""
 
-    sound: Sound
+    intact_result: IntactResult
 
     def execute(self, queue: Any) -> None:
-        """Copy the trials that are asked for."""
+        """Copy the requested trials."""
         while (job := queue.take()) is not None:
             place = job.run.out / "units"
-            shutil.copytree(self.sound.folder / "out" / "units", place, dirs_exist_ok=True)
+            shutil.copytree(self.intact_result.folder / "out" / "units", place, dirs_exist_ok=True)
 
 
-TARGETS: dict[str, Callable[[Sound, Path], None]] = {
+TARGETS: dict[str, Callable[[IntactResult, Path], None]] = {
     "report": read_for_report,
     "compare": read_for_compare,
     "verify": read_for_verify,
@@ -189,15 +191,15 @@ TARGETS: dict[str, Callable[[Sound, Path], None]] = {
 }
 
 
-def trial(sound: Sound, target: str, seed: int) -> str | None:
-    """Damage a copy of the result and read it; returns what is wrong with how that ended."""
+def trial(intact_result: IntactResult, target: str, seed: int) -> str | None:
+    """Damage a copy of the result, and read it; return a description of the failure."""
     chance = random.Random(f"{target} {seed}")
-    directory = sound.folder / f"trial-{target}-{seed}"
-    shutil.copytree(sound.folder / "out", directory)
+    directory = intact_result.folder / f"trial-{target}-{seed}"
+    shutil.copytree(intact_result.folder / "out", directory)
     try:
         file = directory / chance.choice(FILES)
-        file.write_bytes(damaged(file.read_bytes(), chance))
-        TARGETS[target](sound, directory)
+        file.write_bytes(damage_json(file.read_bytes(), chance))
+        TARGETS[target](intact_result, directory)
     except UwsimError as error:
         line = format_error(error)
         return None if line.count("\n") == 0 and len(line) < 4100 else f"many lines: {line[:200]}"

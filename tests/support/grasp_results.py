@@ -1,4 +1,4 @@
-"""Results of a grasping benchmark that nobody ran: fog and current (no module under test)."""
+"""Synthetic results of a grasping benchmark over fog and current (no module under test)."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from uwsim.results.run_info import RunInfo
 FOGS, CURRENTS = (0.0, 0.5, 1.0), (0.0, 0.1, 0.2, 0.3)
 
 
-def succeeds(fog: float, current: float, seed: int) -> bool:
-    """Fewer seeds the thicker the fog and the stronger the current: 4 of 4 down to 0."""
+def is_successful(fog: float, current: float, seed: int) -> bool:
+    """Return True for fewer seeds in thicker fog and stronger current: 4 of 4 down to 0."""
     return seed < 4.5 - 3.0 * fog - 10.0 * current
 
 
-def grasping(n_seeds: int = 4) -> Result:
+def grasping_result(n_seeds: int = 4) -> Result:
     columns = [
         Column(name="repeat", kind="run"),
         Column(name="seed", kind="run"),
@@ -32,18 +32,20 @@ def grasping(n_seeds: int = 4) -> Result:
         Column(name="ended_at", kind="time", unit="s"),
     ]
     rows: list[tuple[Cell, ...]] = []
-    missing: list[MissingValue] = []
+    missing_values: list[MissingValue] = []
     for seed in range(n_seeds):
         for fog in FOGS:
             for current in CURRENTS:
                 level = (seed, seed, fog, current)
-                if succeeds(fog, current, seed):
-                    took = 40.0 + 10.0 * seed
-                    details = (0.001 + 0.001 * seed, took, 6.0, 10.0 + 40.0 * fog, 15.0)
-                    rows.append((*level, 1.0, *details, took, took, "ok", took))
+                if is_successful(fog, current, seed):
+                    duration = 40.0 + 10.0 * seed
+                    details = (0.001 + 0.001 * seed, duration, 6.0, 10.0 + 40.0 * fog, 15.0)
+                    rows.append((*level, 1.0, *details, duration, duration, "ok", duration))
                     continue
                 names = ("success.slip", "success.time_done", "total")
-                missing += [MissingValue(row=len(rows), column=n, reason="not held") for n in names]
+                missing_values += [
+                    MissingValue(row=len(rows), column=n, reason="not held") for n in names
+                ]
                 status = "not found" if fog == 1.0 else "dropped"
                 details = (None, None, 1.0, 100.0, 0.0)
                 rows.append((*level, 0.0, *details, 240.0, None, status, 240.0))
@@ -58,5 +60,5 @@ def grasping(n_seeds: int = 4) -> Result:
         ),
         columns=tuple(columns),
         rows=tuple(rows),
-        missing_values=tuple(missing),
+        missing_values=tuple(missing_values),
     )

@@ -1,4 +1,4 @@
-"""Requests for a WebSocket, byte for byte, of clients that no library would send."""
+"""Requests for a WebSocket, byte by byte, that no library sends."""
 
 import socket
 
@@ -11,12 +11,12 @@ def request_of(request_lines: str) -> bytes:
 
 
 def status_of(port: int, request_lines: str, timeout: float) -> str:
-    """Send a request that begins with these lines; returns the status of its answer.
+    """Send a request that begins with these lines; return the status of the response.
 
     Args:
-        port: of this computer.
+        port: the port on this computer.
         request_lines: the first lines, without the last line end.
-        timeout: of the connection [s].
+        timeout: the timeout of the connection [s].
     """
     with socket.create_connection(("127.0.0.1", port), timeout) as client:
         client.sendall(request_of(request_lines))

@@ -1,6 +1,6 @@
-"""Algorithms that break, flood, hang or cheat; `ATTACKS` says what each row is to say of it.
+"""Algorithms that fail, flood, hang or cheat; `ATTACKS` has the expected reason of each.
 
-With limits of 100 messages and 1 MiB.
+The limits are 100 messages and 1 MiB.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ TOPIC = "estimate"
 
 
 class Attacker:
-    """Does something bad half a second after the start."""
+    """The base class of attacks, half a second after the start."""
 
     def start(self, node: Node) -> None:
         self.node = node
@@ -67,7 +67,7 @@ class RaisesTheUnshowable(Attacker):
 
 
 class Floods(Attacker):
-    """Goes on whatever it is told."""
+    """An attack that publishes on, despite errors."""
 
     def attack(self) -> None:
         for _ in range(2 * undelivered.MAX_MESSAGES):
@@ -76,7 +76,7 @@ class Floods(Attacker):
 
 
 class Echoes(Attacker):
-    """Answers itself without end."""
+    """An attack that answers its own messages endlessly."""
 
     def attack(self) -> None:
         self.node.subscribe(TOPIC, Float32MultiArray, self.publish)
@@ -84,7 +84,7 @@ class Echoes(Attacker):
 
 
 class Swells(Attacker):
-    """Publishes more than is let through, in pieces that are."""
+    """An attack that publishes more bytes than the limit, in messages below it."""
 
     def attack(self) -> None:
         piece = np.zeros(undelivered.MAX_BYTES // 16, dtype=np.float32)  # a quarter
@@ -103,13 +103,13 @@ class UsesAThread(Attacker):
         thread.join()
 
 
-class Derived(Float32MultiArray):
-    """A message that says something else each time it is looked at."""
+class DerivedMessage(Float32MultiArray):
+    """A message of a derived class, which could change its values at each read."""
 
 
 class PublishesTheDerived(Attacker):
     def attack(self) -> None:
-        self.publish(Derived(data=np.ones(1, dtype=np.float32)))
+        self.publish(DerivedMessage(data=np.ones(1, dtype=np.float32)))
 
 
 class PublishesTheWrongPart(Attacker):
@@ -119,16 +119,16 @@ class PublishesTheWrongPart(Attacker):
         )
 
 
-class Dies(Attacker):
-    """Leaves as though all was well, unless a file is there."""
+class ExitsProcess(Attacker):
+    """An attack that exits its process with status 0, unless a file exists."""
 
     def attack(self) -> None:
         if not Path(str(self.node.parameters["immortal"])).exists():
             os._exit(0)
 
 
-class Hangs(Attacker):
-    """Does not come back, whatever is raised."""
+class NeverReturns(Attacker):
+    """An attack that never returns, whatever is raised."""
 
     def attack(self) -> None:
         while True:
@@ -137,15 +137,15 @@ class Hangs(Attacker):
 
 
 class Patches(Attacker):
-    """Makes every estimate a perfect one."""
+    """An attack that replaces the value of the measure."""
 
     def attack(self) -> None:
         EuclideanNorm.value = 0.0  # type: ignore[method-assign, assignment]
         self.publish(floats([7.0]))
 
 
-class Honest(Attacker):
-    """Is off by 1."""
+class PublishesWrongEstimate(Attacker):
+    """A fair algorithm with an error of 1."""
 
     def tick(self) -> None:
         self.publish(floats([2.0]))

@@ -15,20 +15,20 @@ ROOT = Path(__file__).parents[2]
 BENCHMARK = ROOT / "examples" / "ros1" / "keep_station.xml"
 GOAL, KP, PERIOD = (-9.0, -8.0, 10.0), 0.4, 0.1
 LIMIT = 240.0
-"""Nothing takes longer unless it hangs [s]."""
+"""The timeout of a process [s]."""
 LEVELS = ("--level", "current=0.2", "--level", "current=0.4")
 
 
 class KeepStation:
-    """From 0.1 s on it commands a velocity towards a place, in each tenth of a second."""
+    """An algorithm that commands a velocity towards a goal every 0.1 s, from 0.1 s on."""
 
     def start(self, node: Node) -> None:
         self._node, self._odometry, self._has_begun = node, Odometry(), False
         self._publish = node.publisher("/g500/twist", TwistStamped)
-        node.subscribe("/g500/odom", Odometry, self._hear)
+        node.subscribe("/g500/odom", Odometry, self._store_odometry)
         node.create_timer(PERIOD, self._control)
 
-    def _hear(self, odometry: Odometry) -> None:
+    def _store_odometry(self, odometry: Odometry) -> None:
         self._odometry = odometry
 
     def _control(self) -> None:
@@ -51,31 +51,32 @@ def short_benchmark(folder: Path) -> Path:
 
 
 def bench_words(benchmark: Path, out: Path, *options: str) -> list[str]:
-    """The command that runs two levels of it."""
+    """Return the command that runs two levels of the benchmark."""
     words = ["-m", "uwsim", "bench", str(benchmark), *LEVELS, *options, "--out", str(out)]
     return [sys.executable, *words]
 
 
-def result_in(out: Path) -> dict[str, Any]:
+def read_result(out: Path) -> dict[str, Any]:
     """Read a result."""
-    found: dict[str, Any] = json.loads((out / "result.json").read_text())
-    return found
+    result: dict[str, Any] = json.loads((out / "result.json").read_text())
+    return result
 
 
-def scored_in_process(benchmark: Path, out: Path) -> dict[str, Any]:
-    """Score the class of this file."""
+def score_in_process(benchmark: Path, out: Path) -> dict[str, Any]:
+    """Score the class of this module in process."""
     run(benchmark, out, algorithm=f"{__file__}:KeepStation", levels=[*LEVELS[1::2]], seed=0)
-    return result_in(out)
+    return read_result(out)
 
 
 def _velocity(odometry: Odometry) -> list[float]:
-    """Velocity towards the goal with the axes of the vehicle, 3 numbers [m/s]."""
+    """Return the velocity towards the goal in the axes of the vehicle, 3 numbers [m/s]."""
     p, q = odometry.pose.pose.position, odometry.pose.pose.orientation
-    away = [KP * (wanted - is_at) for wanted, is_at in zip(GOAL, (p.x, p.y, p.z), strict=True)]
+    ground_velocity = [KP * (g - x) for g, x in zip(GOAL, (p.x, p.y, p.z), strict=True)]
     axis = [q.x, q.y, q.z]
-    turn = _cross(axis, away)
+    turn = _cross(axis, ground_velocity)
     return [
-        v - 2.0 * q.w * t + 2.0 * u for v, t, u in zip(away, turn, _cross(axis, turn), strict=True)
+        v - 2.0 * q.w * t + 2.0 * u
+        for v, t, u in zip(ground_velocity, turn, _cross(axis, turn), strict=True)
     ]
 
 

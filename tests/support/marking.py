@@ -1,4 +1,4 @@
-"""An algorithm that marks what it goes for, and moves its mark."""
+"""An algorithm that spawns, moves and deletes markers."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ from uwsim.messages import (
 )
 
 BOX, FLASH = "1+goal", "2+goal"
-BEGIN, MOVED, GONE = 0.4, 0.8, 1.2
-"""When the box is spawned, moved and deleted [s]; the flash is there for 0.2 s from the move."""
+SPAWN_TIME, MOVE_TIME, DELETE_TIME = 0.4, 0.8, 1.2
+"""The times of the spawn, move and deletion of the box [s]; the flash lasts 0.2 s from the move."""
 
 
-class Marking:
-    """Spawns a box, moves it 0.2 m along x of L, adds a word for a while, deletes the box."""
+class MarkingAlgorithm:
+    """An algorithm that spawns a box, moves it 0.2 m along x of L, adds a text, deletes the box."""
 
     def start(self, node: Node) -> None:
         self._node, self._n = node, 0
         node.call("startBench", Empty())
-        node.create_timer(BEGIN, self._act)
+        node.create_timer(SPAWN_TIME, self._act)
 
     def _act(self) -> None:
         acts = [Marker.DELETE] if self._n == 3 else [Marker.ADD] if self._n in (1, 2) else []

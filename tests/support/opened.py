@@ -1,4 +1,4 @@
-"""Scenes opened for tests: what `compile_scene` and `Simulation` take, in one call."""
+"""Open scenes for tests: `compile_scene` and `Simulation` in one call."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ from uwsim.simulation import Simulation
 from uwsim.world import TIMESTEP
 
 N_MODELS = 6
-"""Models of bundled scenes that a test process keeps; the files of others may change in a test."""
-_MODELS: dict[object, SceneModel] = {}  # the one used last is the last
+"""The number of models of bundled scenes that a test process caches."""
+_MODELS: dict[object, SceneModel] = {}  # in the order of use
 
 
 def open_scene(
@@ -32,7 +32,7 @@ def open_scene(
 ) -> Simulation:
     """Compile a scene and open it; ``options`` are those of `Simulation`.
 
-    The model of a bundled scene is kept, also for a changed spec of it.
+    The model of a bundled scene is cached, also for a changed spec of it.
     """
     folders = tuple(data_path)
     key = digest_of(scene), scene.path, seed, timestep, folders, compatibility, integrator
@@ -46,6 +46,6 @@ def open_scene(
     )
     if Path(scene.path) in bundled_files("scenes").values():
         _MODELS[key] = model
-    for oldest in list(_MODELS)[:-N_MODELS]:
-        del _MODELS[oldest]
+    for key_to_drop in list(_MODELS)[:-N_MODELS]:
+        del _MODELS[key_to_drop]
     return Simulation(model, **options)

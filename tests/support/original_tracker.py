@@ -1,9 +1,9 @@
-"""A tracker as those of the original: it knows nothing of lock-step, and has two outputs.
+"""A tracker like those of the original: without lock-step, and with two outputs.
 
 It subscribes to the images, calls ``startBench`` at the first, and publishes nothing until its
 service ``autoInit`` is called. From then on it publishes corners and centroid for each image: the
-quad of ``autoInit``, moved by a number that is computed from the pixels. An answer to another image
-is another answer.
+quad of ``autoInit``, moved by a number that is computed from the pixels. So each image has
+its own answer.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ def corners_and_centroid(quad, pixels):
     corners = [value + shift for value in quad]
     return corners, [sum(corners[0::2]) / 4.0, sum(corners[1::2]) / 4.0]
 '''
-"""What all of them compute; Debian's Python has no packages of ours."""
+"""The computation of all variants, without numpy for Debian's Python."""
 
 ROSPY = (
     COMPUTE
@@ -79,7 +79,7 @@ tracker = Tracker()
 rospy.spin()
 '''.replace("CAMERA", CAMERA)
 )
-"""The program of rospy; its argument is the MD5 sum of ``GTpublish``."""
+"""The program with rospy; its argument is the MD5 sum of ``GTpublish``."""
 
 WEB = (
     COMPUTE
@@ -115,14 +115,14 @@ with connect(sys.argv[1], max_size=2**26) as socket:
                 send(op="publish", topic=topic, msg={"data": answer})
 """.replace("CAMERA", CAMERA)
 )
-"""The program that speaks rosbridge; its argument is the URI."""
+"""The program with rosbridge; its argument is the URI."""
 
 _compute: dict[str, object] = {}
 exec(COMPUTE, _compute)
 
 
 class OriginalTracker:
-    """The same as a class in the process of the simulation."""
+    """The tracker as an algorithm in the process of the simulation."""
 
     def start(self, node: Node) -> None:
         self._node, self._has_begun = node, False

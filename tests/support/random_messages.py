@@ -23,17 +23,17 @@ class RandomMessages:
     """Messages from a seed.
 
     Args:
-        seed: of the numbers.
+        seed: the seed of the random numbers.
         words: texts that messages contain, besides random ones: names of the scene.
     """
 
     def __init__(self, seed: int, words: Sequence[str]) -> None:
-        self.random = np.random.default_rng(seed)
+        self.rng = np.random.default_rng(seed)
         self._words = words
 
     def message(self, cls: type) -> Any:
         """Return a message of a class."""
-        kinds = {name: (kind, inner) for name, kind, inner in _definition(cls)}
+        kinds = {name: (kind, element_type) for name, kind, element_type in _definition(cls)}
         values = {
             field.name: self._value(cls, str(field.type), *kinds[field.name])
             for field in dataclasses.fields(cls)
@@ -43,42 +43,42 @@ class RandomMessages:
 
     def number(self) -> float:
         """Return a number: an extreme one, or a usual one."""
-        if self.random.random() < 0.6:
-            return float(self.random.choice(EXTREMES))
-        return float(self.random.normal())
+        if self.rng.random() < 0.6:
+            return float(self.rng.choice(EXTREMES))
+        return float(self.rng.normal())
 
-    def _value(self, cls: type, declared: str, kind: str, inner: str) -> Any:
+    def _value(self, cls: type, declared_type: str, kind: str, element_type: str) -> Any:
         if kind == "float":
             return self.number()
         if kind == "int":
-            return int(self.random.choice(INTEGERS))
+            return int(self.rng.choice(INTEGERS))
         if kind == "bool":
-            return bool(self.random.random() < 0.5)
+            return bool(self.rng.random() < 0.5)
         if kind == "str":
             return self._text()
         if kind == "array":
-            return self._array(np.dtype(inner))
-        if kind == "list" and inner == "str":
-            return [self._text() for _ in range(self.random.integers(5))]
-        name = re.sub(r"^list\[(.*)\]$", r"\1", declared)
+            return self._array(np.dtype(element_type))
+        if kind == "list" and element_type == "str":
+            return [self._text() for _ in range(self.rng.integers(5))]
+        name = re.sub(r"^list\[(.*)\]$", r"\1", declared_type)
         part = _class_in(cls, name)
         assert part is not None, f"{cls.__name__}: {name} is no message"
         if kind == "list":
-            return [self.message(part) for _ in range(self.random.integers(4))]
+            return [self.message(part) for _ in range(self.rng.integers(4))]
         return self.message(part)
 
     def _text(self) -> str:
-        if self.random.random() < 0.8:
-            return str(self.random.choice(self._words))
-        codes = self.random.integers(1, 1000, self.random.integers(20))
+        if self.rng.random() < 0.8:
+            return str(self.rng.choice(self._words))
+        codes = self.rng.integers(1, 1000, self.rng.integers(20))
         return "".join(map(chr, codes.tolist()))
 
     def _array(self, dtype: np.dtype[Any]) -> np.ndarray[Any, Any]:
-        length = int(self.random.choice(LENGTHS))
+        length = int(self.rng.choice(LENGTHS))
         if dtype.kind == "b":
-            return self.random.random(length) < 0.5
+            return self.rng.random(length) < 0.5
         if dtype.kind != "f":
             limits = np.iinfo(dtype)
-            return self.random.integers(limits.min, limits.max, length, dtype, endpoint=True)
+            return self.rng.integers(limits.min, limits.max, length, dtype, endpoint=True)
         with np.errstate(over="ignore"):
             return np.array([self.number() for _ in range(length)]).astype(dtype)

@@ -1,4 +1,4 @@
-"""ROS 1 as Debian packages it, in processes of its own: a master, and programs that use rospy."""
+"""ROS 1 of Debian's packages for tests: a master, and programs with rospy as processes."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.support.waiting import LIMIT, free_port, until
+from tests.support.waiting import LIMIT, free_port, wait_until
 from uwsim.middleware.ros1.tcpros import PeerError
 from uwsim.middleware.ros1.xmlrpc import call
 
@@ -23,7 +23,7 @@ EXAMPLES = Path(__file__).parents[2] / "examples" / "ros1"
 
 @functools.cache
 def is_installed() -> bool:
-    """Whether rospy and the command-line tools are there."""
+    """Return True if rospy and its command-line tools are installed."""
     if shutil.which("rostopic") is None or shutil.which("rosmaster") is None:
         return False
     test = "import rospy, rosbag, nav_msgs.msg, sensor_msgs.msg, std_srvs.srv"
@@ -36,27 +36,38 @@ needs_ros1 = pytest.mark.skipif(
 
 
 class Peers:
-    """A real master, and programs at it.
+    """A real master and its programs.
 
     Args:
-        folder: for logs.
+        folder: the folder of logs.
     """
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
         self.uri = f"http://127.0.0.1:{free_port()}"
-        own = {"ROS_MASTER_URI": self.uri, "ROS_IP": "127.0.0.1", "ROS_LOG_DIR": str(folder)}
-        kept = {k: v for k, v in os.environ.items() if not k.startswith(("PYTHON", "VIRTUAL"))}
-        self.environment = {**kept, **own, "PYTHONUNBUFFERED": "1", "PYTHONFAULTHANDLER": "1"}
+        ros_variables = {
+            "ROS_MASTER_URI": self.uri,
+            "ROS_IP": "127.0.0.1",
+            "ROS_LOG_DIR": str(folder),
+        }
+        inherited_variables = {
+            k: v for k, v in os.environ.items() if not k.startswith(("PYTHON", "VIRTUAL"))
+        }
+        self.environment = {
+            **inherited_variables,
+            **ros_variables,
+            "PYTHONUNBUFFERED": "1",
+            "PYTHONFAULTHANDLER": "1",
+        }
         self._programs: list[subprocess.Popen[str]] = []
 
     def start_master(self) -> None:
         """Start rosmaster and wait until it answers."""
         self._master = self._popen(["rosmaster", "--core", "-p", self.uri.rpartition(":")[2]])
-        until(self._answers)
+        wait_until(self._answers)
 
     def kill_master(self) -> None:
-        """Kill it."""
+        """Kill rosmaster."""
         self._master.kill()
         self._master.wait(LIMIT)
 
@@ -67,30 +78,30 @@ class Peers:
             return False
 
     def start(self, *command: str) -> subprocess.Popen[str]:
-        """Start a program; one that ends with .py is an example."""
+        """Start a program; a name that ends with .py is an example."""
         words = list(command)
         if words[0].endswith(".py"):
             words = [PYTHON, str(EXAMPLES / words[0]), *words[1:]]
         return self._popen(words)
 
     def output(self, program: subprocess.Popen[str], *steps: Callable[[], object]) -> str:
-        """Wait until a program has ended, and return what it printed.
+        """Wait until a program has ended, and return its standard output.
 
-        Of a program that does not end, the AssertionError says where all its threads are.
+        If a program does not end, the AssertionError has the stacks of all its threads.
 
         Args:
-            program: one of `start`.
-            steps: called again and again meanwhile.
+            program: a program of `start`.
+            steps: called repeatedly meanwhile.
         """
         try:
-            until(lambda: program.poll() is not None, *steps)
+            wait_until(lambda: program.poll() is not None, *steps)
         except AssertionError as error:
             program.send_signal(signal.SIGABRT)
             _, errors = program.communicate(timeout=LIMIT)
             raise AssertionError(f"{program.args} does not end:\n{errors}") from error
-        printed, errors = program.communicate(timeout=LIMIT)
+        output, errors = program.communicate(timeout=LIMIT)
         assert program.returncode == 0, errors
-        return printed
+        return output
 
     def _popen(self, words: list[str]) -> subprocess.Popen[str]:
         program = subprocess.Popen(
@@ -106,7 +117,7 @@ class Peers:
         return program
 
     def close(self) -> None:
-        """End everything."""
+        """Kill all programs."""
         for program in reversed(self._programs):
             if program.poll() is None:
                 os.killpg(program.pid, signal.SIGKILL)
@@ -115,10 +126,10 @@ class Peers:
 
 @contextmanager
 def peers(folder: Path) -> Iterator[Peers]:
-    """Give a master and what it takes to start programs."""
-    made = Peers(folder)
+    """Start a master; yield it with the means to start programs."""
+    master_and_programs = Peers(folder)
     try:
-        made.start_master()
-        yield made
+        master_and_programs.start_master()
+        yield master_and_programs
     finally:
-        made.close()
+        master_and_programs.close()

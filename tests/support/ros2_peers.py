@@ -1,4 +1,4 @@
-"""Real ROS 2 nodes for tests: rclpy in an environment of its own, each node a process."""
+"""Real ROS 2 nodes for tests: rclpy in a separate environment, each node a process."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ import pytest
 ROOT = Path(__file__).parents[2]
 PYTHON = ROOT / "build" / "ros2-peers" / "bin" / "python"
 BOUND_S = 200.0
-"""How long a test waits for what must come [s]; nothing that works takes nearly as long."""
+"""The timeout of tests [s]."""
 needs_rclpy = pytest.mark.skipif(
     not (PYTHON.parents[1] / "installed").is_file(),
     reason="rclpy is not installed; scripts/ros2_peers installs it",
@@ -36,20 +36,24 @@ of_one_version = pytest.mark.skipif(
 )
 
 
-def beside_rclpy() -> dict[str, str]:
-    """Variables by which `PYTHON` has uwsim and all that this process has, before its rclpy."""
-    ours = [str(Path(path).resolve()) for path in sys.path if path and Path(path).is_dir()]
-    kept = {k: v for k, v in os.environ.items() if not k.startswith(("PYTHON", "ROS_", "CYCLONE"))}
-    return kept | {"PYTHONPATH": os.pathsep.join(ours)}
+def rclpy_environment() -> dict[str, str]:
+    """Return environment variables by which `PYTHON` imports packages of this process first."""
+    import_folders = [
+        str(Path(path).resolve()) for path in sys.path if path and Path(path).is_dir()
+    ]
+    inherited_variables = {
+        k: v for k, v in os.environ.items() if not k.startswith(("PYTHON", "ROS_", "CYCLONE"))
+    }
+    return inherited_variables | {"PYTHONPATH": os.pathsep.join(import_folders)}
 
 
 @contextmanager
 def free_domain() -> Iterator[int]:
-    """Reserve a DDS domain for one test: the port of its first participant is held."""
+    """Reserve a DDS domain for a test by the port of its first participant."""
     for domain in range(1 + os.getpid() % 50, 101):
-        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as held:
+        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as reserved_port:
             try:
-                held.bind(("0.0.0.0", 7400 + 250 * domain + 10))
+                reserved_port.bind(("0.0.0.0", 7400 + 250 * domain + 10))
             except OSError:
                 continue
             yield domain
@@ -58,7 +62,7 @@ def free_domain() -> Iterator[int]:
 
 
 def environment(domain: int, log_folder: str) -> dict[str, str]:
-    """Variables of a node in a domain, on this computer only, with large receive buffers."""
+    """Return variables of a node in a domain on this computer, with large receive buffers."""
     variables = {k: v for k, v in os.environ.items() if not k.startswith(("PYTHON", "ROS_"))}
     return variables | {
         "ROS_DOMAIN_ID": str(domain),
@@ -69,7 +73,7 @@ def environment(domain: int, log_folder: str) -> dict[str, str]:
 
 
 class Peer:
-    """A node in a process of its own; it prints JSON, one object a line."""
+    """A node as a process that prints JSON, one object a line."""
 
     def __init__(self, source: str, domain: int, log_folder: str) -> None:
         self.process = subprocess.Popen(
@@ -86,27 +90,27 @@ class Peer:
         self._reader.start()
 
     def answers(self) -> list[Any]:
-        """What it has printed since the last call."""
+        """Return the output since the last call."""
         assert self.process.poll() in (None, 0), "the node failed"
-        found = []
+        answers = []
         while True:
             try:
-                found.append(json.loads(self._lines.get_nowait()))
+                answers.append(json.loads(self._lines.get_nowait()))
             except Empty:
-                return found
+                return answers
 
     def kill(self) -> None:
-        """End it at once, as a crash does."""
+        """Kill the node, as a crash does."""
         self.process.kill()
         self.process.wait()
 
     def errors(self) -> str:
-        """What it wrote to standard error, once it has ended."""
+        """Return the standard error of the node after its end."""
         assert self.process.stderr is not None
         return self.process.stderr.read()
 
     def close(self) -> None:
-        """End it and close its pipes."""
+        """Kill the node and close its pipes."""
         self.kill()
         self._reader.join(timeout=BOUND_S)
         for stream in (self.process.stdin, self.process.stderr, self.process.stdout):
@@ -121,7 +125,7 @@ class Peer:
 
 @contextmanager
 def peer(source: str, domain: int, *, prelude: str | None = None) -> Iterator[Peer]:
-    """Run a node while the block lasts; what it wrote to standard error is shown if it fails."""
+    """Run a node during the block; print its standard error if the block fails."""
     program = (PRELUDE if prelude is None else prelude) + source
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as logs:
         node = Peer(program, domain, logs)
@@ -135,8 +139,8 @@ def peer(source: str, domain: int, *, prelude: str | None = None) -> Iterator[Pe
             node.close()
 
 
-def until(is_done: Callable[[], object], step: Callable[[], object]) -> None:
-    """Call ``step`` again and again until something is so."""
+def wait_until(is_done: Callable[[], object], step: Callable[[], object]) -> None:
+    """Call ``step`` repeatedly until a condition holds."""
     end = time.monotonic() + BOUND_S
     while not is_done():
         assert time.monotonic() < end, "it did not come"
@@ -157,4 +161,4 @@ def spin_until(is_done):
     while not is_done():
         rclpy.spin_once(node, timeout_sec=0.05)
 """
-"""What each node begins with."""
+"""The first lines of each node."""

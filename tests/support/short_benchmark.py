@@ -1,4 +1,4 @@
-"""A benchmark that is over in a second: a black box, fog in three levels, small images."""
+"""A benchmark of a second: a black box, three levels of fog, small images."""
 
 import hashlib
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""A benchmark played in memory: an empty tank, no camera, a step costs nearly nothing."""
+"""A benchmark in memory: an empty tank without cameras, with a small cost of a step."""
 
 from dataclasses import replace
 from importlib import resources
@@ -14,12 +14,12 @@ from uwsim.scene.spec import SceneSpec
 
 DATA = Path(str(resources.files("uwsim"))) / "data"
 TIME = "<time> <name>t</name> </time>"
-INIT = "<type>onInit</type>"
-NEVER = "<type>never</type>"
+INIT_TRIGGER = "<type>onInit</type>"
+NEVER_TRIGGER = "<type>never</type>"
 
 
 def tank() -> SceneSpec:
-    """The bundled scene of `visibility` without objects, and nothing published."""
+    """Return the bundled scene of `visibility` without objects and topics."""
     scene = read_scene(DATA / "scenes" / "visibility-scene.xml")
     return replace(scene, objects=(), ros_interfaces=())
 
@@ -30,8 +30,8 @@ def make_plan(
     updater: str,
     *,
     measures: str = TIME,
-    start: str = INIT,
-    stop: str = NEVER,
+    start: str = INIT_TRIGGER,
+    stop: str = NEVER_TRIGGER,
     function: str = "<function>t</function>",
     scene: SceneSpec | None = None,
     mode: Mode = "sequential",
@@ -53,13 +53,13 @@ def make_plan(
     )
 
 
-def with_algorithm(plan: Plan, **changed: object) -> Plan:
-    """The plan with its algorithm's fields changed."""
-    return replace(plan, algorithm=replace(plan.algorithm, **changed))  # type: ignore[arg-type]
+def with_algorithm(plan: Plan, **changes: object) -> Plan:
+    """Return the plan with changed fields of its algorithm."""
+    return replace(plan, algorithm=replace(plan.algorithm, **changes))  # type: ignore[arg-type]
 
 
 def rows_of(plan: Plan) -> list[LevelRow]:
-    """Play every unit of a plan."""
+    """Run all trials of a plan; return their rows."""
     return [
         row for trial in plan.trials() for row in execute(plan, trial) if isinstance(row, LevelRow)
     ]

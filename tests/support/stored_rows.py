@@ -1,4 +1,4 @@
-"""Rows and ends as a trial's journal has them, with chosen values."""
+"""Rows and ends of a trial's journal, with given values."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from typing import Any
 from uwsim.results.stored.stored_row import StoredEnd, StoredRow
 
 
-def row_record(**given: Any) -> dict[str, Any]:
-    """A row of one level as it is written; ``given`` stands in it as it is."""
+def row_record(**values: Any) -> dict[str, Any]:
+    """Return the record of a level's row; ``values`` replace or add to its fields."""
     return {
         "values": [0.0],
         "measures": {"corners": [1.5, "px"]},
@@ -20,20 +20,20 @@ def row_record(**given: Any) -> dict[str, Any]:
         "logs": {},
         "log_headers": {},
         "pictures": [],
-        **given,
+        **values,
     }
 
 
-def end_record(**given: Any) -> dict[str, Any]:
-    """The end of a trial as it is written; ``given`` stands in it as it is."""
-    return {"facts": {}, "parameters": {}, "streams": [], "notes": [], **given}
+def end_record(**values: Any) -> dict[str, Any]:
+    """Return the record of a trial's end; ``values`` replace or add to its fields."""
+    return {"facts": {}, "parameters": {}, "streams": [], "notes": [], **values}
 
 
-def stored_row(**given: Any) -> StoredRow:
-    """A row of one level; ``given`` are values as they are written."""
-    return StoredRow.from_dict(row_record(**given))
+def stored_row(**values: Any) -> StoredRow:
+    """Return a level's row with values as in a record."""
+    return StoredRow.from_dict(row_record(**values))
 
 
-def stored_end(**given: Any) -> StoredEnd:
-    """The end of a trial; ``given`` are values as they are written."""
-    return StoredEnd.from_dict(end_record(**given))
+def stored_end(**values: Any) -> StoredEnd:
+    """Return a trial's end with values as in a record."""
+    return StoredEnd.from_dict(end_record(**values))

@@ -1,4 +1,4 @@
-"""Results nobody simulated, shaped like those of the bundled benchmarks (no module under test)."""
+"""Synthetic results like those of the bundled benchmarks (no module under test)."""
 
 from __future__ import annotations
 
@@ -13,17 +13,17 @@ from uwsim.results.run_info import RunInfo
 
 S, SIGMA, D, ZNCC = 30.8, 5.1, 1.304, 0.5
 F_STAR = math.sqrt(math.log(S * math.sqrt(1 / ZNCC**2 - 1) / SIGMA)) / D
-WHY = "tracker lost at 47.83 s: ZNCC 0.48 on 5 frames in a row"
+LOSS_REASON = "tracker lost at 47.83 s: ZNCC 0.48 on 5 frames in a row"
 
 
-def visibility(
+def visibility_result(
     algorithm: str = "esm",
     *,
     seeds: tuple[int, ...] = (1,),
     lost_at: float = 1.2,
     gain: float = 1.0,
 ) -> Result:
-    """A sweep of fog whose error grows as 1/T and ends in a loss (CRLB: domain 7.3)."""
+    """Return a sweep of fog whose error grows as 1/T and ends in a loss (CRLB: domain 7.3)."""
     columns = [
         Column(name="fog", kind="level", unit="1/m"),
         Column(name="corners", kind="measure", unit="px"),
@@ -35,29 +35,29 @@ def visibility(
         Column(name="status", kind="status"),
         Column(name="ended_at", kind="time", unit="s"),
     ]
-    several = len(seeds) > 1
-    if several:
+    is_repeated = len(seeds) > 1
+    if is_repeated:
         columns = [Column(name="repeat", kind="run"), Column(name="seed", kind="run"), *columns]
     rows: list[tuple[Cell, ...]] = []
-    missing: list[MissingValue] = []
+    missing_values: list[MissingValue] = []
     for repeat, seed in enumerate(seeds):
-        random = np.random.Generator(np.random.Philox(seed))
-        loss = lost_at + 0.05 * int(random.integers(-1, 2)) * several
+        rng = np.random.Generator(np.random.Philox(seed))
+        loss = lost_at + 0.05 * int(rng.integers(-1, 2)) * is_repeated
         for i in range(27):
             fog = i * 0.05
-            lead = (repeat, seed) if several else ()
+            lead = (repeat, seed) if is_repeated else ()
             if fog > loss - 1e-9:
-                missing += [
-                    MissingValue(row=len(rows), column=name, reason=WHY)
+                missing_values += [
+                    MissingValue(row=len(rows), column=name, reason=LOSS_REASON)
                     for name in ("corners", "centroid", "total")
                 ]
                 rows.append((*lead, fog, *(None,) * 6, "lost", 2.0 * (i + 1)))
                 continue
             noise = math.exp((fog * D) ** 2) * gain
-            corners = 1.05 + 0.16 * noise * float(1 + 0.25 * random.standard_normal())
-            centroid = 0.35 + 0.05 * noise * float(1 + 0.25 * random.standard_normal())
-            measured = (corners, corners, corners * 1.6, 60, centroid, corners + centroid)
-            rows.append((*lead, fog, *measured, "ok", 2.0 * (i + 1)))
+            corners = 1.05 + 0.16 * noise * float(1 + 0.25 * rng.standard_normal())
+            centroid = 0.35 + 0.05 * noise * float(1 + 0.25 * rng.standard_normal())
+            measured_values = (corners, corners, corners * 1.6, 60, centroid, corners + centroid)
+            rows.append((*lead, fog, *measured_values, "ok", 2.0 * (i + 1)))
     return Result(
         inputs=Inputs(
             benchmark=("visibility.xml", "sha256:" + "3f" * 32),
@@ -77,7 +77,7 @@ def visibility(
         ),
         columns=tuple(columns),
         rows=tuple(rows),
-        missing_values=tuple(missing),
+        missing_values=tuple(missing_values),
         facts={
             "S": (S, "grey level"),
             "sigma": (SIGMA, "grey level"),
@@ -92,21 +92,21 @@ def visibility(
     )
 
 
-def frozen() -> Result:
-    """The control: it echoes what it was given, nothing moves, it is never lost."""
-    result = visibility("frozen")
+def frozen_result() -> Result:
+    """Return the result of the control, which repeats the initial estimate and is never lost."""
+    result = visibility_result("frozen")
     rows = tuple((row[0], 0.0, 0.0, 0.0, 60, 0.4, 0.4, "ok", row[-1]) for row in result.rows)
     return replace(result, rows=rows, missing_values=())
 
 
-def nothing_measured() -> Result:
-    """Every level lost."""
-    return visibility(lost_at=0.0)
+def lost_result() -> Result:
+    """Return a result whose levels are all lost."""
+    return visibility_result(lost_at=0.0)
 
 
-def one_level() -> Result:
-    """A benchmark without an updater: one row."""
-    result = visibility()
+def one_level_result() -> Result:
+    """Return the result of a benchmark without an updater: one row."""
+    result = visibility_result()
     return replace(
         result,
         columns=(Column(name="none", kind="level"), *result.columns[1:]),
@@ -116,20 +116,20 @@ def one_level() -> Result:
     )
 
 
-def nested() -> Result:
-    """Fog inside current: two level columns."""
-    result = visibility()
-    rows, missing = [], []
+def nested_result() -> Result:
+    """Return a result of fog within current: two level columns."""
+    result = visibility_result()
+    rows, missing_values = [], []
     for current in (0.0, 0.1, 0.2):
         for note in result.missing_values:
-            missing.append(replace(note, row=note.row + len(rows)))
+            missing_values.append(replace(note, row=note.row + len(rows)))
         for row in result.rows:
-            scaled = [v * (1 + 4 * current) if isinstance(v, float) else v for v in row[1:7]]
-            rows.append((current, row[0], *scaled, *row[7:]))
+            scaled_values = [v * (1 + 4 * current) if isinstance(v, float) else v for v in row[1:7]]
+            rows.append((current, row[0], *scaled_values, *row[7:]))
     return replace(
         result,
         columns=(Column(name="current", kind="level", unit="m/s"), *result.columns),
         rows=tuple(rows),
-        missing_values=tuple(missing),
+        missing_values=tuple(missing_values),
         facts={},
     )

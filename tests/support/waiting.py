@@ -1,4 +1,4 @@
-"""Waiting for what other threads and processes do, without guessing how long it takes; ports."""
+"""Wait for other threads and processes, and find free ports."""
 
 from __future__ import annotations
 
@@ -8,24 +8,24 @@ import time
 from collections.abc import Callable
 
 LIMIT = 200.0
-"""When a test gives up [s]; nothing is measured by it."""
+"""The timeout of tests [s]."""
 
 
-def until(condition: Callable[[], object], *steps: Callable[[], object]) -> None:
-    """Call the steps again and again until the condition holds."""
+def wait_until(condition: Callable[[], object], *steps: Callable[[], object]) -> None:
+    """Call the steps repeatedly until the condition holds."""
     end = time.monotonic() + LIMIT
     while not condition():
         for step in steps:
             step()
         if time.monotonic() > end:
-            raise AssertionError("what was waited for did not happen in time")
+            raise AssertionError("the condition did not hold before the timeout")
         time.sleep(0.002)
 
 
 def free_port() -> int:
-    """Return a port that nobody listens on, outside the range from which the system gives ports.
+    """Return a free port outside the range of ephemeral ports.
 
-    So nothing else takes it meanwhile, and who calls it before somebody listens never reaches
+    So no other process takes it meanwhile, and a client that connects early never connects to
     itself.
     """
     for port in random.SystemRandom().sample(range(10_000, 30_000), 100):

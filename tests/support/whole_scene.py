@@ -1,4 +1,4 @@
-"""Run any scene for a time and check what its topics carry: type, rate, and values."""
+"""Run any scene, and check type, rate and values of the messages on its topics."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ TYPES = {
     "segmentationToROS": ("sensor_msgs/msg/Image", "std_msgs/msg/String"),
     "sonarToROS": ("marine_acoustic_msgs/msg/ProjectedSonarImage", "sensor_msgs/msg/Image"),
 }
-"""Element -> the message types that it may publish."""
+"""The message types that each element may publish."""
 
 LIMITS = {
     "position": 1e4,
@@ -54,11 +54,11 @@ LIMITS = {
     "force": 1e5,
     "torque": 1e5,
 }
-"""Largest plausible absolute value of fields of that name, in the message's unit."""
+"""The largest plausible absolute value of fields of each name, in the message's unit."""
 
 
 @dataclass
-class Heard:
+class ReceivedMessages:
     """The messages of one topic."""
 
     times: list[float] = field(default_factory=list)
@@ -67,75 +67,94 @@ class Heard:
 
 @dataclass
 class SceneRun:
-    """What is wrong with the topics of a scene, and what it does not simulate."""
+    """The faults of the topics of a scene, and the topics that are not simulated."""
 
     faults: list[str]
-    """Topic and fault, sorted."""
+    """The topics and their faults, sorted."""
     not_simulated: list[str]
-    """Declared topics whose sensor or device is only parsed."""
+    """The declared topics whose sensor or device is parsed only."""
     n_messages: dict[str, int]
-    """Messages on each topic that is published."""
+    """The number of messages on each published topic."""
 
 
 def run_scene(path: Path, duration: float, *, data_path: tuple[Path, ...] = ()) -> SceneRun:
-    """Run a scene headless and read every topic that it declares."""
+    """Run a scene headless, and read all its declared topics."""
     spec = read_scene(path)
     with open_scene(spec, seed=1, data_path=data_path) as simulation:
-        declared = [
-            each
-            for each in inventory(spec, simulation, [])["topics"]
-            if each["direction"] == "publishes"
+        declared_topics = [
+            topic_entry
+            for topic_entry in inventory(spec, simulation, [])["topics"]
+            if topic_entry["direction"] == "publishes"
         ]
-        heard: dict[str, Heard] = {each["topic"]: Heard() for each in declared}
-        heard |= {f"/{name}": Heard() for name in simulation.bus.topics}
-        for topic, there in heard.items():
-            simulation.bus.subscribe(topic, object, _reader(simulation, there))
+        messages_by_topic: dict[str, ReceivedMessages] = {
+            topic_entry["topic"]: ReceivedMessages() for topic_entry in declared_topics
+        }
+        messages_by_topic |= {f"/{name}": ReceivedMessages() for name in simulation.bus.topics}
+        for topic, messages in messages_by_topic.items():
+            simulation.bus.subscribe(topic, object, _make_receiver(simulation, messages))
         simulation.advance(duration)
-        simulated = [each for each in declared if not each["limit"]]
-        faults = [fault for each in simulated for fault in type_faults(each)]
-        faults += rate_faults(simulated, heard, duration)
-    faults += [f"{topic}: {fault}" for topic, there in heard.items() for fault in there.faults]
+        simulated_topics = [
+            topic_entry for topic_entry in declared_topics if not topic_entry["limit"]
+        ]
+        faults = [fault for topic_entry in simulated_topics for fault in type_faults(topic_entry)]
+        faults += rate_faults(simulated_topics, messages_by_topic, duration)
+    faults += [
+        f"{topic}: {fault}"
+        for topic, messages in messages_by_topic.items()
+        for fault in messages.faults
+    ]
     return SceneRun(
         faults=sorted(set(faults)),
-        not_simulated=sorted({each["topic"] for each in declared if each["limit"]}),
-        n_messages={topic: len(there.times) for topic, there in heard.items() if there.times},
+        not_simulated=sorted(
+            {topic_entry["topic"] for topic_entry in declared_topics if topic_entry["limit"]}
+        ),
+        n_messages={
+            topic: len(messages.times)
+            for topic, messages in messages_by_topic.items()
+            if messages.times
+        },
     )
 
 
-def _reader(simulation: Simulation, there: Heard) -> Any:
+def _make_receiver(simulation: Simulation, messages: ReceivedMessages) -> Any:
     def read(message: Any) -> None:
-        there.times.append(simulation.time)
-        there.faults.update(message_faults(message, simulation.time))
+        messages.times.append(simulation.time)
+        messages.faults.update(message_faults(message, simulation.time))
 
     return read
 
 
-def type_faults(declared: dict[str, Any]) -> list[str]:
-    """A message type other than the one that the element publishes."""
-    expected = TYPES.get(declared["interface"])
-    if expected is None or declared["type"] in expected:
+def type_faults(topic_entry: dict[str, Any]) -> list[str]:
+    """Describe a message type that the element does not publish."""
+    expected = TYPES.get(topic_entry["interface"])
+    if expected is None or topic_entry["type"] in expected:
         return []
-    return [f"{declared['topic']}: {declared['type']}, expected {' or '.join(expected)}"]
+    return [f"{topic_entry['topic']}: {topic_entry['type']}, expected {' or '.join(expected)}"]
 
 
 def rate_faults(
-    declared: list[dict[str, Any]], heard: dict[str, Heard], duration: float
+    topic_entries: list[dict[str, Any]],
+    messages_by_topic: dict[str, ReceivedMessages],
+    duration: float,
 ) -> list[str]:
-    """Topics on which more or fewer messages came than all publishers send; on /tf too few."""
+    """Describe topics with more or fewer messages than their publishers send; on /tf fewer."""
     expected: dict[str, int] = {}
-    for each in declared:
-        if each["rate_hz"]:
-            number = math.floor(duration * each["rate_hz"] + 1e-9) + 1
-            expected[each["topic"]] = expected.get(each["topic"], 0) + number
+    for topic_entry in topic_entries:
+        if topic_entry["rate_hz"]:
+            number = math.floor(duration * topic_entry["rate_hz"] + 1e-9) + 1
+            expected[topic_entry["topic"]] = expected.get(topic_entry["topic"], 0) + number
     return [
-        f"{topic}: {len(heard[topic].times)} messages in {duration:g} s, expected {number}"
+        f"{topic}: {len(messages_by_topic[topic].times)} messages in {duration:g} s, "
+        f"expected {number}"
         for topic, number in expected.items()
-        if not 0 <= len(heard[topic].times) - number <= (math.inf if topic == "/tf" else 0)
+        if not 0
+        <= len(messages_by_topic[topic].times) - number
+        <= (math.inf if topic == "/tf" else 0)
     ]
 
 
 def message_faults(message: Any, now: float) -> Iterator[str]:
-    """What no real device would send."""
+    """Yield implausible values of a message."""
     kind = type(message).__name__
     header = getattr(message, "header", None)
     if header is not None and not now - 1.0 <= seconds(header.stamp) <= now + 1e-9:
@@ -160,7 +179,7 @@ def message_faults(message: Any, now: float) -> Iterator[str]:
 
 
 def dvl_faults(message: Any) -> Iterator[str]:
-    """Velocities that are not finite while their status says that they are known."""
+    """Yield velocities that are not finite despite a valid status."""
     for group in ("bi", "bs", "be", "wi", "ws", "we"):
         for name, value in vars(message).items():
             is_known = getattr(message, f"{group}_status") == "A"
@@ -169,7 +188,7 @@ def dvl_faults(message: Any) -> Iterator[str]:
 
 
 def image_faults(message: Any) -> Iterator[str]:
-    """Sizes that do not fit, an unknown encoding, and images that show nothing."""
+    """Yield invalid sizes, an unknown encoding, and images without content."""
     n_bytes = {"rgb8": 3, "mono8": 1, "16UC1": 2, "32FC1": 4}.get(message.encoding)
     if n_bytes is None:
         yield f"encoding {message.encoding}"
@@ -190,40 +209,40 @@ def image_faults(message: Any) -> Iterator[str]:
 
 
 def scan_faults(message: Any) -> Iterator[str]:
-    """Ranges beyond the limits, or another number of them than there are angles."""
+    """Yield ranges beyond the limits, or a number of ranges that is not that of the angles."""
     ranges = np.asarray(message.ranges)
     n_angles = round((message.angle_max - message.angle_min) / message.angle_increment) + 1
     if len(ranges) != n_angles:
         yield f"{len(ranges)} ranges at {n_angles} angles"
     tolerance = 1e-6 * message.range_max
-    outside = (ranges < message.range_min) | (ranges > message.range_max + tolerance)
-    if (outside & np.isfinite(ranges)).any():
+    is_outside = (ranges < message.range_min) | (ranges > message.range_max + tolerance)
+    if (is_outside & np.isfinite(ranges)).any():
         yield "ranges beyond the limits"
     if not (ranges < message.range_max - tolerance).any():
         yield "no beam that meets anything"
 
 
 def number_faults(value: Any, name: str) -> Iterator[str]:
-    """Numbers that are not finite or too large, and quaternions that are no rotation."""
+    """Yield numbers that are not finite or too large, and quaternions that are not unit."""
     if dataclasses.is_dataclass(value):
         if type(value).__name__ == "Quaternion":
             norm = value.x**2 + value.y**2 + value.z**2 + value.w**2
             if not math.isclose(norm, 1.0, abs_tol=1e-6):
                 yield f"{name}: quaternion of norm {math.sqrt(norm):g}"
         limit = LIMITS.get(name, math.inf)
-        for each in dataclasses.fields(value):
-            number = getattr(value, each.name)
+        for field_of_value in dataclasses.fields(value):
+            number = getattr(value, field_of_value.name)
             if isinstance(number, float) and abs(number) > limit:
-                yield f"{name}.{each.name} is {number:g}"
-            yield from number_faults(number, each.name)
+                yield f"{name}.{field_of_value.name} is {number:g}"
+            yield from number_faults(number, field_of_value.name)
     elif isinstance(value, list | tuple):
         for item in value:
             yield from number_faults(item, name)
-    elif isinstance(value, float | np.ndarray) and not finite(value):
+    elif isinstance(value, float | np.ndarray) and not is_finite(value):
         yield f"{name} is not finite"
 
 
-def finite(value: Any) -> bool:
-    """Whether no number of it is infinite or NaN; integers never are."""
+def is_finite(value: Any) -> bool:
+    """Return True if no number is infinite or NaN."""
     array = np.asarray(value)
     return array.dtype.kind != "f" or bool(np.isfinite(array).all())

@@ -8,7 +8,7 @@ import pytest
 
 import uwsim
 from tests.support.opened import open_scene
-from tests.support.packs import numbers
+from tests.support.packs import read_array
 from uwsim.base.geometry import Pose
 from uwsim.simulation.tracked_bodies import TrackedBodies
 from uwsim.simulation.views import FIELD_OF_VIEW, find_focus, orbit_view
@@ -55,7 +55,7 @@ def test_meshes_have_all_triangles_of_the_models(described: Any) -> None:
     assert sum(mesh["triangles"][1] for mesh in head["meshes"]) == 3 * wanted
     for mesh in head["meshes"]:
         n_vertices = mesh["positions"][1] // 3
-        assert numbers(mesh["triangles"], data).max() < n_vertices
+        assert read_array(mesh["triangles"], data).max() < n_vertices
         assert sum(piece[1] for piece in mesh["pieces"]) == mesh["triangles"][1]
 
 

@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from tests.support.packs import from_text, numbers, unpacked
+from tests.support.packs import decode_text, read_array, unpack
 from uwsim.viewer.pack import Blob, as_text, make_pack
 
 
@@ -16,11 +16,11 @@ def test_what_was_packed_comes_back() -> None:
         np.array([2**32 - 1], "<u4"),
     ]
     refs = [blob.add(array) for array in arrays]
-    head, data = unpacked(make_pack({"refs": refs, "name": "é"}, blob))
+    head, data = unpack(make_pack({"refs": refs, "name": "é"}, blob))
     assert head["name"] == "é"
     for array, ref in zip(arrays, head["refs"], strict=True):
         assert ref[0] % 4 == 0
-        assert numbers(ref, data).tolist() == array.ravel().tolist()
+        assert read_array(ref, data).tolist() == array.ravel().tolist()
 
 
 def test_the_same_content_gives_the_same_bytes() -> None:
@@ -51,4 +51,4 @@ def test_text_of_a_pack_is_free_of_markup_and_gives_its_bytes_again(n: int) -> N
     text = as_text(data)
     assert len(text) == len(data) + -(-len(data) // 4)
     assert not set(text) & set("<>&\"'\\ \n")
-    assert from_text(text) == data
+    assert decode_text(text) == data

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from tests.support.packs import from_text, numbers, unpacked
+from tests.support.packs import decode_text, read_array, unpack
 from tests.support.short_benchmark import run, write_benchmark
 from tests.support.short_trial import DATA
 from tests.support.stored_rows import stored_row
@@ -29,7 +29,7 @@ def page(stored: Path) -> str:
 def pack_of(page: str) -> tuple[dict[str, Any], bytes]:
     found = re.search(r'id="pack">([^<]+)<', page)
     assert found is not None
-    return unpacked(from_text(found[1]))
+    return unpack(decode_text(found[1]))
 
 
 def test_the_same_result_gives_the_same_bytes(stored: Path, page: str, tmp_path: Path) -> None:
@@ -48,7 +48,7 @@ def test_levels_and_curves_are_those_of_the_result(stored: Path, page: str) -> N
     names = [f"corners.{corner}_{axis}" for corner in corners for axis in "xy"]
     assert [each["name"] for each in further] == names
     assert (curve["name"], curve["unit"]) == ("corners", "px")
-    values = numbers(curve["values"], data)
+    values = read_array(curve["values"], data)
     logged = [sample[2] for sample in load_log(stored / "measure-corners.csv").samples]
     found = values[~(values != values)].tolist()
     assert found == pytest.approx([v for v in logged if v is not None], rel=1e-6)
@@ -83,7 +83,7 @@ def test_curves_have_the_further_columns_of_a_log_with_names_of_phases_and_range
     assert curves["held.phase"]["names"] == ["look", "take"]
     assert [name for name, each in curves.items() if each["is_share"]] == ["held"]
     assert [each["names"] for name, each in curves.items() if name != "held.phase"] == [[]] * 4
-    height = numbers(curves["held.height"]["values"], blob.data)
+    height = read_array(curves["held.height"]["values"], blob.data)
     assert height.tolist() == pytest.approx([0.1, np.nan, np.nan, 0.1, np.nan], nan_ok=True)
 
 
@@ -131,7 +131,7 @@ def test_what_a_seed_puts_elsewhere_is_there(tmp_path: Path) -> None:
     (tmp_path / "visibility-scene.xml").write_text(scene.replace("</UWSimScene>", vary))
     benchmark = write_benchmark(tmp_path, "0.1")
     run(benchmark, tmp_path / "result", repeat=2)
-    head, _ = unpacked(Replay(tmp_path / "result").pack())
+    head, _ = unpack(Replay(tmp_path / "result").pack())
     at_first = next(body["pose"] for body in head["bodies"] if body["name"] == "blackbox")
     first, second = head["trials"]
     assert first["poses"] == {}

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from tests.support.synthetic_results import visibility
+from tests.support.synthetic_results import visibility_result
 from uwsim.analysis.report import write_report
 from uwsim.results.result_file import save
 
@@ -44,7 +44,7 @@ CONTRAST = """() => {
 @pytest.fixture(scope="module")
 def report(tmp_path_factory: pytest.TempPathFactory) -> str:
     """A report whose measures have long names."""
-    base = visibility()
+    base = visibility_result()
     columns = tuple(replace(c, name=NAMES.get(c.name, c.name)) for c in base.columns)
     missing = tuple(replace(m, column=NAMES.get(m.column, m.column)) for m in base.missing_values)
     folder = tmp_path_factory.mktemp("report")

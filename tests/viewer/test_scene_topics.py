@@ -13,7 +13,7 @@ from mcap_ros2.decoder import DecoderFactory
 from websockets.sync.client import connect
 
 import uwsim
-from tests.support.waiting import until
+from tests.support.waiting import wait_until
 from uwsim.cli import main
 from uwsim.middleware.log import Log
 from uwsim.middleware.web.options import WebOptions
@@ -140,7 +140,7 @@ def test_a_late_web_client_gets_what_was_published_once(tmp_path: Path) -> None:
                         return
                     heard[frame["topic"]] = frame["msg"]
 
-                until(lambda: len(heard) == len(topics), hear)
+                wait_until(lambda: len(heard) == len(topics), hear)
         finally:
             bridge.close()
     assert "<robot" in heard["/robot_description"]["data"]

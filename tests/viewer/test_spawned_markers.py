@@ -13,7 +13,7 @@ import pytest
 import uwsim
 from tests.simulation.markers.test_lines import marker
 from tests.support import marking
-from tests.support.marking import BEGIN, BOX, FLASH, GONE, MOVED
+from tests.support.marking import BOX, DELETE_TIME, FLASH, MOVE_TIME, SPAWN_TIME
 from tests.support.short_benchmark import run, write_benchmark
 from uwsim.errors import ResultError
 from uwsim.messages import Marker, Point, SpawnMarker
@@ -34,8 +34,13 @@ from uwsim.viewer.recorded import RecordedTrial
 from uwsim.viewer.replay import Replay
 
 WORDS = f"{marking.__file__}:Marking"
-TIMES = {BEGIN - 0.1: [], BEGIN + 0.1: [BOX], MOVED + 0.1: [BOX, FLASH], MOVED + 0.3: [BOX]}
-TIMES |= {GONE + 0.1: []}
+TIMES = {
+    SPAWN_TIME - 0.1: [],
+    SPAWN_TIME + 0.1: [BOX],
+    MOVE_TIME + 0.1: [BOX, FLASH],
+    MOVE_TIME + 0.3: [BOX],
+}
+TIMES |= {DELETE_TIME + 0.1: []}
 
 
 @pytest.fixture(scope="module")

@@ -16,8 +16,14 @@ import pytest
 from rich.console import Console
 from scipy import stats
 
-from tests.support.compared_results import INPUTS, entries, made, noisy
-from tests.support.synthetic_results import frozen, nested, nothing_measured, one_level, visibility
+from tests.support.compared_results import INPUTS, entries, make_result, noisy_result
+from tests.support.synthetic_results import (
+    frozen_result,
+    lost_result,
+    nested_result,
+    one_level_result,
+    visibility_result,
+)
 from uwsim.analysis.comparison import (
     Comparison,
     compare,
@@ -55,8 +61,8 @@ def said(comparison: Comparison) -> str:
 
 
 def test_rows_are_paired_by_seed_and_level_and_lost_ones_are_counted_not_guessed() -> None:
-    first = made("esm", {0.0: [1.0, 2.0, 3.0, 4.0], 0.5: [5.0, None, 7.0, None]})
-    second = made("ic", {0.0: [1.5, 2.0, 3.25, 4.0], 0.5: [None, 6.0, 8.0, None]})
+    first = make_result("esm", {0.0: [1.0, 2.0, 3.0, 4.0], 0.5: [5.0, None, 7.0, None]})
+    second = make_result("ic", {0.0: [1.5, 2.0, 3.25, 4.0], 0.5: [None, 6.0, 8.0, None]})
     clear, foggy = compared(first, second).pairs[0].levels
     assert clear.seeds == (0, 1, 2, 3)
     assert clear.value.difference == mean_interval([0.5, 0.0, 0.25, 0.0])
@@ -69,8 +75,8 @@ def test_rows_are_paired_by_seed_and_level_and_lost_ones_are_counted_not_guessed
 
 
 def test_only_seeds_and_levels_of_both_are_compared_and_the_rest_is_reported() -> None:
-    first = made("esm", {0.0: [1.0] * 4, 0.5: [1.0] * 4})
-    second = made("ic", {0.5: [2.0] * 4, 1.0: [2.0] * 4}, seed=2)
+    first = make_result("esm", {0.0: [1.0] * 4, 0.5: [1.0] * 4})
+    second = make_result("ic", {0.5: [2.0] * 4, 1.0: [2.0] * 4}, seed=2)
     comparison = compared(first, second)
     (at,) = comparison.pairs[0].levels
     assert (at.level, at.seeds) == ((0.5,), (2, 3))
@@ -78,12 +84,15 @@ def test_only_seeds_and_levels_of_both_are_compared_and_the_rest_is_reported() -
 
 
 def test_levels_are_paired_though_their_last_bits_differ() -> None:
-    first, second = made("esm", {0.1 + 0.2: [1.0] * 2}), made("ic", {0.3: [2.0] * 2})
+    first, second = make_result("esm", {0.1 + 0.2: [1.0] * 2}), make_result("ic", {0.3: [2.0] * 2})
     assert compared(first, second).pairs[0].levels[0].value.difference.mean == 1.0
 
 
 def test_without_a_seed_in_common_nothing_is_compared() -> None:
-    first, second = made("esm", {0.0: [1.0] * 3}), made("ic", {0.0: [1.0] * 3}, seed=5)
+    first, second = (
+        make_result("esm", {0.0: [1.0] * 3}),
+        make_result("ic", {0.0: [1.0] * 3}, seed=5),
+    )
     with pytest.raises(
         ResultError,
         match=r"esm\.result and ic\.result have no seed .* seed 0 to 2 at 0; seed 5 to 7 at 0\.",
@@ -92,7 +101,7 @@ def test_without_a_seed_in_common_nothing_is_compared() -> None:
 
 
 def test_a_result_that_does_not_say_its_seed_cannot_be_paired() -> None:
-    bare = replace(one_level(), run=RunInfo(algorithm="esm"))
+    bare = replace(one_level_result(), run=RunInfo(algorithm="esm"))
     with pytest.raises(ResultError, match="does not record its seeds"):
         compared(bare, replace(bare, run=RunInfo(algorithm="ic")))
 
@@ -113,7 +122,7 @@ def test_a_result_that_does_not_say_its_seed_cannot_be_paired() -> None:
     ],
 )
 def test_what_makes_another_experiment_is_named(change: dict[str, object], said: str) -> None:
-    first, second = made("esm", {0.0: [1.0]}), made("ic", {0.0: [1.0]})
+    first, second = make_result("esm", {0.0: [1.0]}), make_result("ic", {0.0: [1.0]})
     run = replace(second.run, **change.get("run", {}))
     other = replace(second, run=run, inputs=Inputs.from_dict(change.get("inputs", INPUTS)))
     found = differences(entries(first, other))
@@ -127,7 +136,7 @@ def with_files(result: Result, **roles: object) -> Result:
 
 
 def test_another_plugin_of_the_same_name_makes_another_experiment() -> None:
-    first, second = made("esm", {0.0: [1.0]}), made("ic", {0.0: [1.0]})
+    first, second = make_result("esm", {0.0: [1.0]}), make_result("ic", {0.0: [1.0]})
     one = with_files(first, plugins=(("parts.py", "sha256:aa"),))
     assert differences(entries(one, with_files(second, plugins=(("parts.py", "sha256:bb"),)))) == (
         "plugin parts.py: aa in esm.result, bb in ic.result",
@@ -140,7 +149,10 @@ def test_another_plugin_of_the_same_name_makes_another_experiment() -> None:
 
 
 def test_another_source_of_one_algorithm_is_remarked() -> None:
-    first, second = made("own:Tracker", {0.0: [1.0]}), made("own:Tracker", {0.0: [2.0]})
+    first, second = (
+        make_result("own:Tracker", {0.0: [1.0]}),
+        make_result("own:Tracker", {0.0: [2.0]}),
+    )
     found = entries(
         with_files(first, algorithm={"own.py": "sha256:aa"}),
         with_files(second, algorithm={"own.py": "sha256:bb"}),
@@ -151,13 +163,13 @@ def test_another_source_of_one_algorithm_is_remarked() -> None:
 
 
 def test_parameters_and_settings_of_an_algorithm_make_no_other_experiment() -> None:
-    first, second = made("esm", {0.0: [1.0]}), made("esm2", {0.0: [1.0]})
+    first, second = make_result("esm", {0.0: [1.0]}), make_result("esm2", {0.0: [1.0]})
     run = replace(second.run, parameters={"levels": 1}, settings=(("algorithm.levels", "1"),))
     assert differences(entries(first, replace(second, run=run))) == ()
 
 
 def test_versions_and_unfinished_runs_are_remarked() -> None:
-    first, second = made("esm", {0.0: [1.0]}), made("ic", {0.0: [1.0]})
+    first, second = make_result("esm", {0.0: [1.0]}), make_result("ic", {0.0: [1.0]})
     other = replace(second, run=replace(second.run, version="0.2.0", units=(3, 12)))
     assert remarks(entries(first, second)) == ()
     assert remarks(entries(first, other)) == (
@@ -167,27 +179,29 @@ def test_versions_and_unfinished_runs_are_remarked() -> None:
 
 
 def test_what_cannot_be_held_together_is_an_error_with_the_nearest_name() -> None:
-    first = made("esm", {0.0: [1.0]})
+    first = make_result("esm", {0.0: [1.0]})
     with pytest.raises(UnknownName, match="Did you mean 'corners'"):
-        shared_column(entries(first, made("ic", {0.0: [1.0]})), "corner")
+        shared_column(entries(first, make_result("ic", {0.0: [1.0]})), "corner")
     with pytest.raises(ResultError, match="is a status; expected a score"):
         shared_column(entries(first, first), "status")
     with pytest.raises(ResultError, match=r"sweep different levels: fog \[1/m\] in esm.result"):
-        shared_column(entries(first, nested()), None)
+        shared_column(entries(first, nested_result()), None)
     columns = [replace(c, unit="m") if c.name == "corners" else c for c in first.columns]
     with pytest.raises(ResultError, match="in different units: px in esm"):
         shared_column(entries(first, replace(first, columns=tuple(columns))), "corners")
 
 
 def test_a_total_of_pixels_is_in_pixels() -> None:
-    assert shared_column(entries(made("esm", {0.0: [1.0]})), None).label == "total [px]"
+    assert shared_column(entries(make_result("esm", {0.0: [1.0]})), None).label == "total [px]"
 
 
 # ---------------------------------------------------------------------------- what follows
 
 
 def test_a_clear_difference_is_found_and_the_winner_named() -> None:
-    comparison = compared(noisy("esm", 1.0, n=10, salt=1), noisy("ic", 1.5, n=10, salt=2))
+    comparison = compared(
+        noisy_result("esm", 1.0, n=10, salt=1), noisy_result("ic", 1.5, n=10, salt=2)
+    )
     (versus,) = comparison.pairs
     assert {at.value.verdict for at in versus.levels} == {"first"}
     assert versus.sweep.value.verdict == "first"
@@ -196,7 +210,7 @@ def test_a_clear_difference_is_found_and_the_winner_named() -> None:
 
 
 def test_where_more_is_better_the_winner_is_the_other() -> None:
-    results = noisy("esm", 1.0, n=10, salt=1), noisy("ic", 1.5, n=10, salt=2)
+    results = noisy_result("esm", 1.0, n=10, salt=1), noisy_result("ic", 1.5, n=10, salt=2)
     (versus,) = compared(*results, higher_is_better=True).pairs
     assert versus.sweep.value.verdict == "second"
     (other,) = compared(*results).pairs
@@ -204,7 +218,7 @@ def test_where_more_is_better_the_winner_is_the_other() -> None:
 
 
 def test_pairs_show_what_their_shared_noise_would_hide() -> None:
-    a, b = noisy("esm", 1.0, n=12, salt=1), noisy("ic", 1.25, n=12, salt=2)
+    a, b = noisy_result("esm", 1.0, n=12, salt=1), noisy_result("ic", 1.25, n=12, salt=2)
     (versus,) = compared(a, b).pairs
     at = versus.levels[0]
     unpaired = stats.ttest_ind(a.numbers("total")[0::3], b.numbers("total")[0::3])
@@ -213,7 +227,7 @@ def test_pairs_show_what_their_shared_noise_would_hide() -> None:
 
 
 def test_the_other_way_round_everything_is_mirrored() -> None:
-    a, b = noisy("esm", 1.0, n=7, salt=1), noisy("ic", 1.1, n=7, salt=2)
+    a, b = noisy_result("esm", 1.0, n=7, salt=1), noisy_result("ic", 1.1, n=7, salt=2)
     (there,), (back,) = compared(a, b).pairs, compared(b, a).pairs
     one, other = there.sweep.value, back.sweep.value
     assert one.p == other.p
@@ -225,7 +239,8 @@ def test_the_other_way_round_everything_is_mirrored() -> None:
 def test_levels_are_no_repeats() -> None:
     levels = tuple(np.linspace(0.0, 1.0, 20).tolist())
     comparison = compared(
-        noisy("esm", 1.0, n=4, salt=1, levels=levels), noisy("ic", 1.5, n=4, salt=2, levels=levels)
+        noisy_result("esm", 1.0, n=4, salt=1, levels=levels),
+        noisy_result("ic", 1.5, n=4, salt=2, levels=levels),
     )
     overall = comparison.pairs[0].sweep
     assert overall.value.difference.n == 4
@@ -238,8 +253,8 @@ def test_levels_are_no_repeats() -> None:
 
 def test_six_seeds_and_three_results_are_too_few_to_test_and_not_no_difference() -> None:
     # 48.8 px against 4.2 px in every seed, and 3 * 2/2^6 = 0.094 is the smallest p there is
-    near = noisy("esm", 4.2, n=6, salt=1), noisy("ecc", 4.3, n=6, salt=2)
-    comparison = compared(*near, noisy("frozen", 48.8, n=6, salt=3))
+    near = noisy_result("esm", 4.2, n=6, salt=1), noisy_result("ecc", 4.3, n=6, salt=2)
+    comparison = compared(*near, noisy_result("frozen", 48.8, n=6, salt=3))
     assert {versus.sweep.value.verdict for versus in comparison.pairs} == {"too few"}
     text = said(comparison)
     assert "Too few repeats to test (6 of 7 needed): 'total' of frozen is 44.6 px above" in text
@@ -254,7 +269,7 @@ def test_with_the_repeats_that_are_called_needed_the_clearest_difference_is_show
     for n_results in (2, 3, 5):
         means = [10.0**i for i in range(n_results)]
         for n in range(2, 11):
-            results = [noisy(f"a{i}", m, n=n, salt=i) for i, m in enumerate(means)]
+            results = [noisy_result(f"a{i}", m, n=n, salt=i) for i, m in enumerate(means)]
             comparison = compared(*results)
             found = {versus.sweep.value.verdict for versus in comparison.pairs}
             at = {a.value.verdict for versus in comparison.pairs for a in versus.levels}
@@ -267,7 +282,7 @@ def test_few_pairs_that_a_step_of_holm_can_reach_are_tested() -> None:
     # 7 pairs pass the first step, 2 * 2/2^7 = 0.031; then 6 pass the second, 2/2^6 = 0.031
     values = {0.0: [1.0 + 0.1 * i for i in range(7)], 1.0: [1.0] * 6 + [None]}
     other = {0.0: [9.0 - 0.1 * i for i in range(7)], 1.0: [3.0 + 0.1 * i for i in range(7)]}
-    clear, few = compared(made("a", values), made("b", other)).pairs[0].levels
+    clear, few = compared(make_result("a", values), make_result("b", other)).pairs[0].levels
     assert (clear.value.difference.n, few.value.difference.n) == (7, 6)
     assert (clear.value.p_holm, few.value.p_holm) == (2 / 2**6, 2 / 2**6)
     assert (clear.value.verdict, few.value.verdict) == ("first", "first")
@@ -284,9 +299,9 @@ def test_a_narrow_interval_is_printed_with_the_digits_that_show_it() -> None:
 
 def test_the_matrix_says_who_beats_whom_and_the_best_stands_first() -> None:
     comparison = compared(
-        noisy("bad", 3.0, n=10, salt=1),
-        noisy("good", 1.0, n=10, salt=2),
-        noisy("twin", 1.0, n=10, salt=3),
+        noisy_result("bad", 3.0, n=10, salt=1),
+        noisy_result("good", 1.0, n=10, salt=2),
+        noisy_result("twin", 1.0, n=10, salt=3),
     )
     found = matrix(comparison)
     assert found.columns == ("good", "twin", "bad")
@@ -297,13 +312,17 @@ def test_the_matrix_says_who_beats_whom_and_the_best_stands_first() -> None:
     ]  # fmt: skip
     assert found.rows[0].cells[2].text == "better -2"
     higher = matrix(
-        compared(noisy("a", 1.0, n=8, salt=1), noisy("b", 3.0, n=8, salt=2), higher_is_better=True)
+        compared(
+            noisy_result("a", 1.0, n=8, salt=1),
+            noisy_result("b", 3.0, n=8, salt=2),
+            higher_is_better=True,
+        )
     )
     assert higher.columns == ("b", "a")
 
 
 def test_the_matrix_against_a_baseline_has_one_column() -> None:
-    found = entries(*(noisy(name, i + 1.0, n=8, salt=i) for i, name in enumerate("abc")))
+    found = entries(*(noisy_result(name, i + 1.0, n=8, salt=i) for i, name in enumerate("abc")))
     comparison = compare(found, shared_column(found, None), baseline=found[1])
     against = matrix(comparison)
     assert against.columns == ("b",)
@@ -334,8 +353,8 @@ def test_the_matrix_stands_before_the_tables_and_on_a_narrow_terminal_in_symbols
 
 def test_one_repeat_shows_nothing_and_says_so() -> None:
     comparison = compared(
-        made("esm", {0.0: [1.0], 0.5: [2.0], 1.0: [3.0]}),
-        made("ic", {0.0: [1.5], 0.5: [2.5], 1.0: [2.75]}),
+        make_result("esm", {0.0: [1.0], 0.5: [2.0], 1.0: [3.0]}),
+        make_result("ic", {0.0: [1.5], 0.5: [2.5], 1.0: [2.75]}),
     )
     (versus,) = comparison.pairs
     assert {at.value.verdict for at in versus.levels} == {"one repeat"}
@@ -348,14 +367,16 @@ def test_one_repeat_shows_nothing_and_says_so() -> None:
 
 
 def test_equal_results_are_equal_and_not_merely_not_different() -> None:
-    comparison = compared(made("a", {0.0: [1.0, 2.0, 3.0]}), made("b", {0.0: [1.0, 2.0, 3.0]}))
+    comparison = compared(
+        make_result("a", {0.0: [1.0, 2.0, 3.0]}), make_result("b", {0.0: [1.0, 2.0, 3.0]})
+    )
     assert comparison.pairs[0].sweep.value.verdict == "equal"
     assert "Both are equal in every one of 3 repeats" in said(comparison)
 
 
 def test_the_sweep_is_over_the_levels_where_every_repeat_has_a_value_from_both() -> None:
-    first = made("esm", {0.0: [1.0, 1.0], 0.5: [2.0, 2.0], 1.0: [9.0, None]})
-    second = made("ic", {0.0: [2.0, 3.0], 0.5: [2.0, 3.0], 1.0: [1.0, 1.0]})
+    first = make_result("esm", {0.0: [1.0, 1.0], 0.5: [2.0, 2.0], 1.0: [9.0, None]})
+    second = make_result("ic", {0.0: [2.0, 3.0], 0.5: [2.0, 3.0], 1.0: [1.0, 1.0]})
     comparison = compared(first, second)
     overall = comparison.pairs[0].sweep
     assert overall.levels == ((0.0,), (0.5,))
@@ -365,8 +386,8 @@ def test_the_sweep_is_over_the_levels_where_every_repeat_has_a_value_from_both()
 
 
 def test_a_sweep_in_which_nobody_survives_is_not_compared_but_success_is() -> None:
-    first = made("esm", {0.0: [1.0, None], 0.5: [None, 2.0]})
-    comparison = compared(first, made("ic", {0.0: [1.0, 1.0], 0.5: [1.0, 1.0]}))
+    first = make_result("esm", {0.0: [1.0, None], 0.5: [None, 2.0]})
+    comparison = compared(first, make_result("ic", {0.0: [1.0, 1.0], 0.5: [1.0, 1.0]}))
     overall = comparison.pairs[0].sweep
     assert overall.value.verdict == "no pair"
     assert overall.success is not None
@@ -375,8 +396,8 @@ def test_a_sweep_in_which_nobody_survives_is_not_compared_but_success_is() -> No
 
 
 def test_success_at_a_level_is_mcnemars_test() -> None:
-    first = made("esm", {0.0: [1.0] * 9, 1.0: [1.0] * 8 + [None]})
-    second = made("ic", {0.0: [1.0] * 9, 1.0: [None] * 8 + [1.0]})
+    first = make_result("esm", {0.0: [1.0] * 9, 1.0: [1.0] * 8 + [None]})
+    second = make_result("ic", {0.0: [1.0] * 9, 1.0: [None] * 8 + [1.0]})
     comparison = compared(first, second)
     easy, hard = comparison.pairs[0].levels
     assert easy.success is not None
@@ -389,7 +410,7 @@ def test_success_at_a_level_is_mcnemars_test() -> None:
 
 
 def test_holm_counts_the_levels_of_all_pairs_of_results() -> None:
-    comparison = compared(*(noisy(name, 1.0, n=8, salt=i) for i, name in enumerate("abc")))
+    comparison = compared(*(noisy_result(name, 1.0, n=8, salt=i) for i, name in enumerate("abc")))
     assert comparison.n_tests == 9
     at = [at.value for versus in comparison.pairs for at in versus.levels]
     ps = sorted(d.p for d in at if d.p is not None)
@@ -400,8 +421,8 @@ def test_holm_counts_the_levels_of_all_pairs_of_results() -> None:
 
 def test_levels_with_too_few_pairs_for_any_test_do_not_count() -> None:
     few: list[float | None] = [1.0] * 3 + [None] * 5
-    first = made("a", {0.0: [1.0 + 0.01 * i for i in range(8)], 1.0: few})
-    second = made("b", {0.0: [2.0 - 0.02 * i for i in range(8)], 1.0: few})
+    first = make_result("a", {0.0: [1.0 + 0.01 * i for i in range(8)], 1.0: few})
+    second = make_result("b", {0.0: [2.0 - 0.02 * i for i in range(8)], 1.0: few})
     comparison = compared(first, second)
     assert comparison.n_tests == 1
     shown, hidden = comparison.pairs[0].levels
@@ -412,28 +433,33 @@ def test_levels_with_too_few_pairs_for_any_test_do_not_count() -> None:
 def test_algorithms_that_do_not_differ_are_seldom_called_different() -> None:
     found = 0
     for trial in range(100):
-        a, b = noisy("a", 1.0, n=9, salt=2 * trial + 1000), noisy("b", 1.0, n=9, salt=2 * trial + 1)
+        a, b = (
+            noisy_result("a", 1.0, n=9, salt=2 * trial + 1000),
+            noisy_result("b", 1.0, n=9, salt=2 * trial + 1),
+        )
         (versus,) = compared(a, b).pairs
         found += any(at.value.verdict in ("first", "second") for at in versus.levels)
     assert found <= 10  # 5 expected; more than 10 once in 90 times
 
 
 def test_repeats_are_planned_for_the_strictest_step_of_holm() -> None:
-    (versus,) = compared(noisy("a", 1.0, n=9, salt=1), noisy("b", 1.09, n=9, salt=2)).pairs
+    (versus,) = compared(
+        noisy_result("a", 1.0, n=9, salt=1), noisy_result("b", 1.09, n=9, salt=2)
+    ).pairs
     for at in versus.levels:
         assert at.value.hedges_g is not None
         assert at.value.repeats_needed == repeats_needed(at.value.hedges_g, alpha=0.05 / 3)
 
 
 def test_against_a_baseline_only_that_is_compared_and_it_stands_first() -> None:
-    found = entries(*(noisy(name, 1.0, n=3, salt=i) for i, name in enumerate("abc")))
+    found = entries(*(noisy_result(name, 1.0, n=3, salt=i) for i, name in enumerate("abc")))
     comparison = compare(found, shared_column(found, None), baseline=found[1])
     assert [(v.first.name, v.second.name) for v in comparison.pairs] == [("b", "a"), ("b", "c")]
     assert [entry.name for entry in comparison.entries] == ["b", "a", "c"]
 
 
 def test_it_is_reported_whether_both_saw_the_same_images() -> None:
-    a, b = visibility("a", seeds=(1, 2)), visibility("b", seeds=(1, 2))
+    a, b = visibility_result("a", seeds=(1, 2)), visibility_result("b", seeds=(1, 2))
     streams = (replace(b.image_streams[0], sha256="d5" * 32), b.image_streams[1])
     assert "the same images, byte for byte (2 streams)" in said(compared(a, b))
     assert "the same bytes in 1 of 2 image streams" in said(
@@ -446,14 +472,14 @@ def test_it_is_reported_whether_both_saw_the_same_images() -> None:
 
 @pytest.fixture(scope="module")
 def three() -> Comparison:
-    lost = noisy("orb", 1.6, n=8, salt=3)
+    lost = noisy_result("orb", 1.6, n=8, salt=3)
     rows = [
         (*row[:3], None, None, "lost", row[6]) if row[2] == 1.0 and row[0] in range(5) else row
         for row in lost.rows
     ]
     return compared(
-        noisy("esm", 1.0, n=8, salt=1),
-        noisy("ic", 1.05, n=8, salt=2),
+        noisy_result("esm", 1.0, n=8, salt=1),
+        noisy_result("ic", 1.05, n=8, salt=2),
         replace(lost, rows=tuple(rows)),
     )
 
@@ -532,14 +558,16 @@ def test_plots_have_the_same_bytes_every_time(
 
 
 def test_names_from_results_are_text(tmp_path: Path) -> None:
-    comparison = compared(noisy(EVIL, 1.0, n=2, salt=1), noisy("$\\evil/$", 1.2, n=2, salt=2))
+    comparison = compared(
+        noisy_result(EVIL, 1.0, n=2, salt=1), noisy_result("$\\evil/$", 1.2, n=2, salt=2)
+    )
     page = Page(write_comparison(comparison, tmp_path).read_text())
     assert "script" not in [tag for tag, _ in page.tags]
     assert EVIL in page.text
 
 
 def test_experiments_that_differ_are_warned_of_on_the_page() -> None:
-    found = entries(noisy("a", 1.0, n=2, salt=1), noisy("b", 1.0, n=2, salt=2))
+    found = entries(noisy_result("a", 1.0, n=2, salt=1), noisy_result("b", 1.0, n=2, salt=2))
     comparison = compare(
         found, shared_column(found, None), experiment_differences=("mode: x in a, y in b",)
     )
@@ -582,11 +610,11 @@ def table_of(comparison: Comparison) -> list[list[str]]:
 )
 def test_an_algorithm_named_like_a_heading_takes_no_columns_place(name: str) -> None:
     values = {"first": 1.0, "second": 1.5}
-    neutral = [noisy(who, mean, n=7, salt=i) for i, (who, mean) in enumerate(values.items())]
+    neutral = [noisy_result(who, mean, n=7, salt=i) for i, (who, mean) in enumerate(values.items())]
     expected = [
         [cell.replace("first", name) for cell in row] for row in table_of(compared(*neutral))
     ]
-    renamed = noisy(name, 1.0, n=7, salt=0), neutral[1]
+    renamed = noisy_result(name, 1.0, n=7, salt=0), neutral[1]
     assert table_of(compared(*renamed)) == expected
     assert len({len(row) for row in expected}) == 1
     swapped = table_of(compared(neutral[1], renamed[0]))
@@ -596,7 +624,7 @@ def test_an_algorithm_named_like_a_heading_takes_no_columns_place(name: str) -> 
 
 def test_a_level_named_like_a_number_of_the_comparison_does_not_replace_it_in_the_csv() -> None:
     results = []
-    for result in (noisy("a", 1.0, n=3, salt=1), noisy("b", 1.1, n=3, salt=2)):
+    for result in (noisy_result("a", 1.0, n=3, salt=1), noisy_result("b", 1.1, n=3, salt=2)):
         columns = [
             replace(c, name="n", unit=None) if c.kind == "level" else c for c in result.columns
         ]
@@ -608,10 +636,10 @@ def test_a_level_named_like_a_number_of_the_comparison_does_not_replace_it_in_th
 @pytest.mark.parametrize(
     "make",
     [
-        visibility,
+        visibility_result,
         *(
             pytest.param(make, marks=pytest.mark.slow)
-            for make in (nothing_measured, one_level, nested, frozen)
+            for make in (lost_result, one_level_result, nested_result, frozen_result)
         ),
     ],
 )
@@ -630,7 +658,10 @@ def test_differences_stand_on_a_zero_line_and_the_winning_side_is_named(three: C
     assert figure.axes[0].lines[0].get_ydata()[0] == 0.0
     assert curves_plot(three).axes[0].get_ylabel() == "total [px]"
     assert (
-        success_plot(compared(noisy("a", 1.0, n=2, salt=1), noisy("b", 1.0, n=2, salt=2))) is None
+        success_plot(
+            compared(noisy_result("a", 1.0, n=2, salt=1), noisy_result("b", 1.0, n=2, salt=2))
+        )
+        is None
     )
 
 
@@ -641,7 +672,7 @@ SWEEPS = [
 
 
 def sweep(algorithm: str, means: dict[float, float]) -> Result:
-    return made(algorithm, {fog: [mean, mean + 0.25, None] for fog, mean in means.items()})
+    return make_result(algorithm, {fog: [mean, mean + 0.25, None] for fog, mean in means.items()})
 
 
 @pytest.mark.parametrize("is_reversed", [False, True])

@@ -16,11 +16,11 @@ from matplotlib.text import Text
 from tests.support.synthetic_results import (
     F_STAR,
     WHY,
-    frozen,
-    nested,
-    nothing_measured,
-    one_level,
-    visibility,
+    frozen_result,
+    lost_result,
+    nested_result,
+    one_level_result,
+    visibility_result,
 )
 from uwsim.analysis.plots import (
     INK,
@@ -47,22 +47,22 @@ def vertical_lines(figure: Figure) -> list[float]:
 
 
 def test_axes_carry_names_and_units() -> None:
-    axes = value_plot(visibility(), "corners").axes[0]
+    axes = value_plot(visibility_result(), "corners").axes[0]
     assert axes.get_xlabel() == "fog density [m⁻¹]"
     assert axes.get_ylabel() == "corners [px]"
     assert axes.get_title() == ""
-    assert value_plot(visibility(), "total").axes[0].get_ylabel() == "total [px]"
+    assert value_plot(visibility_result(), "total").axes[0].get_ylabel() == "total [px]"
 
 
 def test_a_loss_and_its_prediction_are_vertical_lines_with_labels() -> None:
-    figure = value_plot(visibility(lost_at=1.2), "corners")
+    figure = value_plot(visibility_result(lost_at=1.2), "corners")
     assert vertical_lines(figure) == pytest.approx([F_STAR, 1.2])
     assert "lost at 1.2" in words(figure)
     assert f"$f^*$ = {F_STAR:.2f} m⁻¹" in words(figure)
 
 
 def test_a_sweep_of_lengths_shows_the_prediction_as_a_length() -> None:
-    result = visibility(lost_at=1.2)
+    result = visibility_result(lost_at=1.2)
     fog, *others = result.columns
     length = replace(fog, name="attenuationLength", unit="m")
     rows = tuple((1.0 / max(row[0], 0.05), *row[1:]) for row in result.rows)  # type: ignore[type-var]
@@ -73,25 +73,25 @@ def test_a_sweep_of_lengths_shows_the_prediction_as_a_length() -> None:
 
 
 def test_without_a_loss_and_without_facts_there_is_no_such_line() -> None:
-    result = replace(frozen(), facts={})
+    result = replace(frozen_result(), facts={})
     assert vertical_lines(value_plot(result, "corners")) == []
 
 
 def test_the_losses_of_repeats_are_a_span() -> None:
-    figure = value_plot(visibility(seeds=tuple(range(1, 11))), "corners")
+    figure = value_plot(visibility_result(seeds=tuple(range(1, 11))), "corners")
     assert "lost at 1.15 to 1.25" in words(figure)
     assert "95 % intervals" in words(figure)
 
 
 def test_the_control_is_dashed_and_named() -> None:
-    axes = value_plot(visibility(), "corners", control=frozen()).axes[0]
+    axes = value_plot(visibility_result(), "corners", control=frozen_result()).axes[0]
     styles = {str(line.get_label()): line.get_linestyle() for line in axes.lines}
     assert styles["frozen"] == "--"
     assert styles["esm"] == "-"
 
 
 def scaled(*factors: float) -> Result:
-    result = replace(frozen(), facts={})
+    result = replace(frozen_result(), facts={})
     rows = [
         (row[0], *(1.0 * factor for _ in range(6)), "ok", 2.0)
         for row, factor in zip(result.rows, factors, strict=False)
@@ -109,12 +109,12 @@ def test_errors_far_apart_are_drawn_on_a_logarithmic_axis_but_nothing_is_not_an_
 
 
 def test_a_column_without_values_says_why() -> None:
-    said = words(value_plot(nothing_measured(), "corners"))
+    said = words(value_plot(lost_result(), "corners"))
     assert f"no data: {WHY}" in said.replace("\n", " ")
 
 
 def test_nested_levels_are_one_curve_for_each_outer_level() -> None:
-    curves = curves_of(nested(), "corners")
+    curves = curves_of(nested_result(), "corners")
     assert [curve.name for curve in curves] == [
         "current 0 m/s",
         "current 0.1 m/s",
@@ -125,14 +125,14 @@ def test_nested_levels_are_one_curve_for_each_outer_level() -> None:
 
 
 def test_nested_curves_end_in_a_cross_and_the_legend_says_where() -> None:
-    figure = value_plot(nested(), "corners")
+    figure = value_plot(nested_result(), "corners")
     assert [line.get_marker() for line in figure.axes[0].lines].count("x") == 3
     assert "current 0.1 m/s (lost at 1.2)" in words(figure)
     assert vertical_lines(figure) == []
 
 
 def test_many_curves_look_all_different_and_stand_in_a_legend_beside_the_axes() -> None:
-    one = visibility(lost_at=2.0)
+    one = visibility_result(lost_at=2.0)
     columns = (Column(name="current", kind="level", unit="m/s"), *one.columns)
     rows = tuple((0.01 * i, *row) for i in range(30) for row in one.rows)
     many = replace(one, columns=columns, rows=rows, facts={})
@@ -147,18 +147,18 @@ def test_many_curves_look_all_different_and_stand_in_a_legend_beside_the_axes() 
 
 
 def test_a_control_far_above_is_named_and_does_not_press_the_curve_flat() -> None:
-    rows = tuple((row[0], *[48.6] * 6, *row[7:]) for row in frozen().rows)
-    figure = value_plot(visibility(), "corners", control=replace(frozen(), rows=rows))
+    rows = tuple((row[0], *[48.6] * 6, *row[7:]) for row in frozen_result().rows)
+    figure = value_plot(visibility_result(), "corners", control=replace(frozen_result(), rows=rows))
     assert "frozen: 48.6, above" in words(figure)
     assert figure.axes[0].get_ylim()[1] < 10
-    near = tuple((row[0], *[4.0] * 6, *row[7:]) for row in frozen().rows)
-    figure = value_plot(visibility(), "corners", control=replace(frozen(), rows=near))
+    near = tuple((row[0], *[4.0] * 6, *row[7:]) for row in frozen_result().rows)
+    figure = value_plot(visibility_result(), "corners", control=replace(frozen_result(), rows=near))
     assert "above" not in words(figure)
     assert figure.axes[0].get_ylim()[1] > 4
 
 
 def test_the_value_of_a_control_is_that_of_its_means_not_of_their_intervals() -> None:
-    (found,) = curves_of(frozen(), "corners")
+    (found,) = curves_of(frozen_result(), "corners")
     curve = replace(found, x=(0.0, 1.0), mean=(104.64, 104.64), low=(70.0,) * 2, high=(148.0,) * 2)
     assert curve.mean_text == "105"
     assert replace(curve, mean=(32.0, 48.6)).mean_text == "32 to 48.6"
@@ -166,16 +166,16 @@ def test_the_value_of_a_control_is_that_of_its_means_not_of_their_intervals() ->
 
 
 def test_few_levels_have_a_tick_each_and_iterations_are_whole_numbers() -> None:
-    few = replace(frozen(), rows=frozen().rows[:3])
+    few = replace(frozen_result(), rows=frozen_result().rows[:3])
     assert list(value_plot(few, "corners").axes[0].get_xticks()) == [0.0, 0.05, 0.1]
-    columns = (Column(name="iteration", kind="level"), *frozen().columns[1:])
-    rows = tuple((float(i), *row[1:]) for i, row in enumerate(frozen().rows[:9]))
-    counted = replace(frozen(), columns=columns, rows=rows, facts={})
+    columns = (Column(name="iteration", kind="level"), *frozen_result().columns[1:])
+    rows = tuple((float(i), *row[1:]) for i, row in enumerate(frozen_result().rows[:9]))
+    counted = replace(frozen_result(), columns=columns, rows=rows, facts={})
     assert all(x.is_integer() for x in value_plot(counted, "corners").axes[0].get_xticks())
 
 
 def test_very_long_names_leave_nothing_outside_the_figure() -> None:
-    base, long = visibility(), "a_measure_whose_name_tells_a_very_long_story_" * 2
+    base, long = visibility_result(), "a_measure_whose_name_tells_a_very_long_story_" * 2
     columns = tuple(replace(c, name=long) if c.name == "corners" else c for c in base.columns)
     result = replace(
         base,
@@ -184,7 +184,7 @@ def test_very_long_names_leave_nothing_outside_the_figure() -> None:
         inputs=Inputs(benchmark=(f"{long}.xml", "sha256:0")),
         run=replace(base.run, algorithm=f"package:{long}"),
     )
-    for figure in (value_plot(result, long, control=frozen()), small_multiples(result)):
+    for figure in (value_plot(result, long, control=frozen_result()), small_multiples(result)):
         renderer = FigureCanvasAgg(figure).get_renderer()
         figure.draw(renderer)
         for text in figure.findobj(Text):
@@ -195,37 +195,43 @@ def test_very_long_names_leave_nothing_outside_the_figure() -> None:
 
 
 def test_several_results_are_one_curve_each_and_the_legend_says_where_they_end() -> None:
-    figure = compare_plot([visibility(), visibility("orb", lost_at=0.6), frozen()], "corners")
+    figure = compare_plot(
+        [visibility_result(), visibility_result("orb", lost_at=0.6), frozen_result()], "corners"
+    )
     assert "esm (lost at 1.2)" in words(figure)
     assert "orb (lost at 0.6)" in words(figure)
     assert "frozen" in words(figure)
 
 
 def test_a_comparison_shows_the_predicted_loss_of_those_that_have_one() -> None:
-    no_rule = replace(frozen(), facts={})
-    figure = compare_plot([no_rule, visibility()], "corners")
+    no_rule = replace(frozen_result(), facts={})
+    figure = compare_plot([no_rule, visibility_result()], "corners")
     assert vertical_lines(figure)[:1] == pytest.approx([F_STAR])
     assert vertical_lines(compare_plot([no_rule, no_rule], "corners")) == []
-    stricter = replace(visibility(), facts={"f_star": (0.9 * F_STAR, "1/m")})
-    figure = compare_plot([visibility(), stricter], "corners")
+    stricter = replace(visibility_result(), facts={"f_star": (0.9 * F_STAR, "1/m")})
+    figure = compare_plot([visibility_result(), stricter], "corners")
     assert "predicted" not in words(figure)  # one line would be wrong for one of them
 
 
 def test_the_same_algorithm_twice_is_distinguished_by_its_seed() -> None:
-    second = replace(visibility(), run=replace(visibility().run, seed=2))
-    assert "esm, seed 2 (lost at 1.2)" in words(compare_plot([visibility(), second], "corners"))
+    second = replace(visibility_result(), run=replace(visibility_result().run, seed=2))
+    assert "esm, seed 2 (lost at 1.2)" in words(
+        compare_plot([visibility_result(), second], "corners")
+    )
 
 
 def test_what_cannot_be_compared_is_an_error() -> None:
     with pytest.raises(ResultError, match="sweep different parameters: fog and current, fog"):
-        compare_plot([visibility(), nested()], "corners")
+        compare_plot([visibility_result(), nested_result()], "corners")
     with pytest.raises(ResultError, match="needs at least one result"):
         compare_plot([], "corners")
 
 
-@pytest.mark.parametrize("make", [visibility, nothing_measured, one_level, nested, frozen])
+@pytest.mark.parametrize(
+    "make", [visibility_result, lost_result, one_level_result, nested_result, frozen_result]
+)
 def test_any_result_can_be_drawn(make: Callable[[], Result], tmp_path: Path) -> None:
-    files = draw_plots(make(), tmp_path / "plots", control=frozen())
+    files = draw_plots(make(), tmp_path / "plots", control=frozen_result())
     assert [f.name for f in files] == [
         "total.png",
         "corners.png",
@@ -237,7 +243,7 @@ def test_any_result_can_be_drawn(make: Callable[[], Result], tmp_path: Path) -> 
 
 @pytest.mark.slow
 def test_plots_come_as_pdf_too_when_asked(tmp_path: Path) -> None:
-    base = visibility()
+    base = visibility_result()
     kept = [base.index(name) for name in ("fog", "total", "status")]
     result = replace(
         base,
@@ -255,14 +261,14 @@ def test_plots_come_as_pdf_too_when_asked(tmp_path: Path) -> None:
 
 
 def test_a_result_without_rows_can_be_drawn(tmp_path: Path) -> None:
-    empty = replace(visibility(), rows=(), missing_values=())
+    empty = replace(visibility_result(), rows=(), missing_values=())
     assert "no level was run" in words(small_multiples(empty))
     save_plot(small_multiples(empty), tmp_path / "empty.png")
 
 
 @pytest.mark.parametrize(("n", "across"), [(8, 1), (9, 2), (16, 2), (17, 2)])
 def test_many_measures_stand_in_two_columns_with_levels_below_each(n: int, across: int) -> None:
-    base = visibility()
+    base = visibility_result()
     k = base.index("corners")
     more = tuple(replace(base.columns[k], name=f"m{i}") for i in range(n - 3))
     result = replace(
@@ -280,19 +286,22 @@ def test_many_measures_stand_in_two_columns_with_levels_below_each(n: int, acros
 
 
 def test_a_plot_has_the_same_bytes_every_time(tmp_path: Path) -> None:
-    first = save_plot(value_plot(visibility(), "total"), tmp_path / "a.png").read_bytes()
-    assert save_plot(value_plot(visibility(), "total"), tmp_path / "b.png").read_bytes() == first
+    first = save_plot(value_plot(visibility_result(), "total"), tmp_path / "a.png").read_bytes()
+    assert (
+        save_plot(value_plot(visibility_result(), "total"), tmp_path / "b.png").read_bytes()
+        == first
+    )
 
 
 def test_a_dollar_or_a_slash_in_a_name_is_no_mathematics_and_no_folder(tmp_path: Path) -> None:
-    result = visibility()
+    result = visibility_result()
     columns = [replace(c, name="$\\evil/$") if c.name == "corners" else c for c in result.columns]
     files = draw_plots(replace(result, columns=tuple(columns), missing_values=()), tmp_path)
     assert {f.parent for f in files} == {tmp_path}
 
 
 def test_each_repeat_is_a_point_and_each_level_of_five_or_more_a_box() -> None:
-    result = visibility(seeds=(1, 2, 3, 4, 5, 6), lost_at=0.3)
+    result = visibility_result(seeds=(1, 2, 3, 4, 5, 6), lost_at=0.3)
     (axes,) = value_plot(result, "corners").axes
     (curve,) = curves_of(result, "corners")
     lines = [line for line in axes.lines if line.get_marker() == "o" and line.get_alpha() == 0.55]
@@ -310,5 +319,5 @@ def test_each_repeat_is_a_point_and_each_level_of_five_or_more_a_box() -> None:
 
 @pytest.mark.parametrize("seeds", [(1,), (1, 2)])
 def test_few_repeats_have_no_box(seeds: tuple[int, ...]) -> None:
-    (axes,) = value_plot(visibility(seeds=seeds), "corners").axes
+    (axes,) = value_plot(visibility_result(seeds=seeds), "corners").axes
     assert not [line for line in axes.lines if line.get_color() == INK]

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.support.synthetic_results import one_level, visibility
+from tests.support.synthetic_results import one_level_result, visibility_result
 from uwsim.analysis.plots import INK, draw_run_plots
 from uwsim.analysis.plots.one_level import one_level_plot
 from uwsim.analysis.plots.panels import MAX_PANELS, choose_panels
@@ -37,7 +37,7 @@ def log_of(seeds: tuple[int, ...], *, levels: tuple[float, ...] = LEVELS) -> Log
 
 
 def test_samples_are_gathered_by_level_and_seed_with_the_time_in_the_level() -> None:
-    found = samples_of(visibility(seeds=(1, 2, 5)), log_of((1, 2, 5)))
+    found = samples_of(visibility_result(seeds=(1, 2, 5)), log_of((1, 2, 5)))
     assert list(found) == [(fog,) for fog in LEVELS]
     for each in found.values():
         np.testing.assert_allclose(each.times, [0.0, 0.5, 1.0, 1.5])
@@ -46,7 +46,7 @@ def test_samples_are_gathered_by_level_and_seed_with_the_time_in_the_level() -> 
 
 def test_the_line_is_the_median_of_the_seeds_and_the_bands_are_quantiles() -> None:
     seeds = (1, 2, 3, 4, 90)
-    figure = time_plot(visibility(seeds=seeds), log_of(seeds))
+    figure = time_plot(visibility_result(seeds=seeds), log_of(seeds))
     assert figure is not None
     assert [axes.get_title(loc="left") for axes in figure.axes] == [
         "fog 0 m⁻¹",
@@ -63,7 +63,7 @@ def test_the_line_is_the_median_of_the_seeds_and_the_bands_are_quantiles() -> No
 
 @pytest.mark.parametrize(("seeds", "lines"), [((4,), 1), ((4, 5), 3), ((1, 2, 3, 4), 5)])
 def test_few_seeds_are_a_line_each_and_have_no_bands(seeds: tuple[int, ...], lines: int) -> None:
-    figure = time_plot(visibility(seeds=seeds), log_of(seeds))
+    figure = time_plot(visibility_result(seeds=seeds), log_of(seeds))
     assert figure is not None
     drawn = [line for line in figure.axes[0].lines if len(line.get_xdata()) == 4]
     assert len(drawn) == lines
@@ -73,9 +73,9 @@ def test_few_seeds_are_a_line_each_and_have_no_bands(seeds: tuple[int, ...], lin
 def test_a_seed_that_ends_early_leaves_the_others() -> None:
     log = log_of((1, 2))
     cut = replace(log, samples=tuple(s for s in log.samples if s[1] == 1 or s[3] % 2.0 < 0.75))
-    (found, *_) = samples_of(visibility(seeds=(1, 2)), cut).values()
+    (found, *_) = samples_of(visibility_result(seeds=(1, 2)), cut).values()
     assert np.isnan(found.values[1, 2:]).all()
-    figure = time_plot(visibility(seeds=(1, 2)), cut)
+    figure = time_plot(visibility_result(seeds=(1, 2)), cut)
     assert figure is not None
     np.testing.assert_allclose(figure.axes[0].lines[-2].get_ydata(), [1.5, 2.0, 2.0, 2.5])
 
@@ -83,17 +83,17 @@ def test_a_seed_that_ends_early_leaves_the_others() -> None:
 def test_a_log_without_any_value_or_of_another_benchmark_has_no_plot() -> None:
     log = log_of((1,))
     empty = replace(log, samples=tuple((*s[:2], None, None) for s in log.samples))
-    assert time_plot(visibility(), empty) is None
-    assert time_plot(one_level(), log) is None
-    assert time_plot(visibility(), Log(measure="corners", header=("time [s]",))) is None
+    assert time_plot(visibility_result(), empty) is None
+    assert time_plot(one_level_result(), log) is None
+    assert time_plot(visibility_result(), Log(measure="corners", header=("time [s]",))) is None
 
 
 def test_a_log_of_zeros_has_no_plot() -> None:
     log = log_of((1, 2))
     zeros = tuple((*sample[:-2], 0.0, 0.0) for sample in log.samples)
-    assert time_plot(visibility(seeds=(1, 2)), replace(log, samples=zeros)) is None
+    assert time_plot(visibility_result(seeds=(1, 2)), replace(log, samples=zeros)) is None
     once = ((*zeros[0][:-2], 1.0, 0.0), *zeros[1:])
-    assert time_plot(visibility(seeds=(1, 2)), replace(log, samples=once)) is not None
+    assert time_plot(visibility_result(seeds=(1, 2)), replace(log, samples=once)) is not None
 
 
 def test_of_many_levels_some_are_chosen_with_the_first_and_the_last() -> None:
@@ -132,7 +132,7 @@ def line(length: float) -> np.ndarray:
 def test_a_track_is_that_of_the_vehicle_within_the_level_and_objects_stand_in_it(
     tmp_path: Path,
 ) -> None:
-    result = visibility(seeds=(1, 2))
+    result = visibility_result(seeds=(1, 2))
     for index, length in enumerate((0.8, 1.2)):
         write_track(tmp_path, index, line(length))
     tracks = read_tracks(result, tmp_path)
@@ -159,11 +159,11 @@ def test_a_track_is_that_of_the_vehicle_within_the_level_and_objects_stand_in_it
 def test_a_vehicle_at_rest_and_a_damaged_track_have_no_plot(tmp_path: Path) -> None:
     write_track(tmp_path, 0, line(0.001))
     (tmp_path / "units" / "00001.motion").write_bytes(b"not a track")
-    assert track_plot(visibility(), read_tracks(visibility(), tmp_path)) is None
+    assert track_plot(visibility_result(), read_tracks(visibility_result(), tmp_path)) is None
 
 
 def saved(directory: Path, seeds: tuple[int, ...]) -> Result:
-    result = visibility(seeds=seeds)
+    result = visibility_result(seeds=seeds)
     save_log(log_of(seeds), directory)
     write_track(directory, 0, line(1.0))
     return result
@@ -182,7 +182,7 @@ def test_plots_of_a_run_have_captions_and_the_same_bytes_every_time(tmp_path: Pa
 
 def of_one_level(seeds: tuple[int, ...]) -> Result:
     """The first level of a sweep, over several seeds."""
-    result = visibility(seeds=seeds)
+    result = visibility_result(seeds=seeds)
     level = result.index("fog")
     rows = tuple(row for row in result.rows if row[level] == 0.0)
     return replace(result, rows=rows, missing_values=())
@@ -212,6 +212,6 @@ def test_a_report_of_one_level_has_no_curves_but_its_repeats(tmp_path: Path) -> 
     page = render(result, tmp_path, plots=[curve], run_plots=plots)
     assert "<h2>Curves</h2>" not in page
     assert "The repeats; dots: repeats" in page
-    whole = visibility(seeds=(1, 2))
+    whole = visibility_result(seeds=(1, 2))
     assert not draw_run_plots(whole, tmp_path, tmp_path / "plots")
     assert "<h2>Curves</h2>" in render(whole, tmp_path, plots=[curve])

@@ -16,11 +16,11 @@ from PIL import Image
 from tests.support.synthetic_results import (
     F_STAR,
     WHY,
-    frozen,
-    nested,
-    nothing_measured,
-    one_level,
-    visibility,
+    frozen_result,
+    lost_result,
+    nested_result,
+    one_level_result,
+    visibility_result,
 )
 from uwsim.analysis.report import render, write_report
 from uwsim.analysis.report.page import rounded_text
@@ -80,7 +80,7 @@ def with_image(result: Result, directory: Path, *rows: int) -> Result:
 def test_the_report_says_what_was_run_and_found(tmp_path: Path) -> None:
     save_provenance({"host": "reef", "load": [0.25, 0.5, 1.0], "packages": {"x": "1.2"}}, tmp_path)
     save_log(Log(measure="corners", header=("time [s]",)), tmp_path)
-    result = visibility()
+    result = visibility_result()
     text = page_of(result, tmp_path).text
     for said in (
         "visibility run with esm",
@@ -104,7 +104,7 @@ def test_the_report_says_what_was_run_and_found(tmp_path: Path) -> None:
 
 
 def test_every_level_stands_in_the_table(tmp_path: Path) -> None:
-    page = page_of(visibility(), tmp_path)
+    page = page_of(visibility_result(), tmp_path)
     rows = re.findall(r"<tr( class=\"bad\")?><td>\d", (tmp_path / "report.html").read_text())
     assert len(rows) >= 27
     assert page.text.count("0.85") >= 1
@@ -112,7 +112,7 @@ def test_every_level_stands_in_the_table(tmp_path: Path) -> None:
 
 
 def test_the_report_loads_nothing_and_runs_nothing(tmp_path: Path) -> None:
-    page = whole_page_of(with_image(visibility(), tmp_path, 0, 5), tmp_path)
+    page = whole_page_of(with_image(visibility_result(), tmp_path, 0, 5), tmp_path)
     sources = [v for _, attrs in page.tags for k, v in attrs.items() if k in ("src", "href")]
     assert len(sources) == 3 + 2
     assert all(source is not None and source.startswith("data:image/") for source in sources)
@@ -122,7 +122,7 @@ def test_the_report_loads_nothing_and_runs_nothing(tmp_path: Path) -> None:
 
 
 def test_names_from_files_are_text_wherever_they_stand(tmp_path: Path) -> None:
-    base = visibility()
+    base = visibility_result()
     columns = [replace(c, name=EVIL) if c.name == "corners" else c for c in base.columns]
     columns = [replace(c, unit=EVIL) if c.name == "centroid" else c for c in columns]
     rows = [(*row[:-2], EVIL if row[-2] == "lost" else row[-2], row[-1]) for row in base.rows]
@@ -152,7 +152,7 @@ def test_names_from_files_are_text_wherever_they_stand(tmp_path: Path) -> None:
 def test_the_paragraph_about_the_static_scene_stands_only_where_nothing_moves(
     tmp_path: Path,
 ) -> None:
-    still = with_image(visibility(), tmp_path, 0, 5)
+    still = with_image(visibility_result(), tmp_path, 0, 5)
     moved = replace(still.images[1], truth=tuple(v + 3 for v in QUAD))
     sentence = "This scene cannot tell trackers apart"
     assert sentence in page_of(still, tmp_path).text
@@ -174,7 +174,7 @@ def test_the_paragraph_about_the_static_scene_stands_only_where_nothing_moves(
 def test_a_vehicle_that_sways_is_no_static_scene_though_levels_end_at_one_phase(
     mode: str, facts: dict[str, object], name: str, is_static: bool, tmp_path: Path
 ) -> None:
-    result = with_image(visibility(), tmp_path, 0, 5)
+    result = with_image(visibility_result(), tmp_path, 0, 5)
     result = replace(
         result,
         run=replace(result.run, mode=mode),
@@ -186,13 +186,13 @@ def test_a_vehicle_that_sways_is_no_static_scene_though_levels_end_at_one_phase(
 
 
 def test_the_control_beside_the_result_is_drawn_into_the_plots(tmp_path: Path) -> None:
-    save(frozen(), tmp_path / "control")
-    page = whole_page_of(visibility(), tmp_path)
+    save(frozen_result(), tmp_path / "control")
+    page = whole_page_of(visibility_result(), tmp_path)
     assert "frozen, which reads no image" in page.text
 
 
 def test_losses_over_repeats_are_given_from_first_to_last(tmp_path: Path) -> None:
-    page = page_of(visibility(seeds=tuple(range(1, 11))), tmp_path)
+    page = page_of(visibility_result(seeds=tuple(range(1, 11))), tmp_path)
     assert "fog 1.15 m⁻¹ to fog 1.25 m⁻¹" in page.text
     assert "exact 95 % interval" in page.text
 
@@ -200,7 +200,7 @@ def test_losses_over_repeats_are_given_from_first_to_last(tmp_path: Path) -> Non
 def test_an_image_that_is_gone_or_broken_is_reported_and_does_not_stop_the_report(
     tmp_path: Path,
 ) -> None:
-    result = with_image(visibility(), tmp_path, 0, 1)
+    result = with_image(visibility_result(), tmp_path, 0, 1)
     (tmp_path / "pictures" / "b.png").write_bytes(b"\x89PNG broken")
     gone = replace(result.images[0], file="pictures/gone.png")
     broken = replace(result.images[1], file="pictures/b.png")
@@ -215,17 +215,17 @@ def test_a_link_out_of_the_directory_is_not_followed(tmp_path: Path) -> None:
     directory.mkdir()
     (directory / "a.png").symlink_to(secret)
     image = SavedImage(row=0, camera="c", file="a.png")
-    page = page_of(replace(visibility(), images=(image,)), directory)
+    page = page_of(replace(visibility_result(), images=(image,)), directory)
     assert "image cannot be read" in page.text
 
 
-@pytest.mark.parametrize("make", [nothing_measured, one_level, nested, frozen])
+@pytest.mark.parametrize("make", [lost_result, one_level_result, nested_result, frozen_result])
 def test_any_result_has_a_report(make: Callable[[], Result], tmp_path: Path) -> None:
     assert "Results by level" in page_of(make(), tmp_path).text
 
 
 def test_the_largest_numbers_of_all_are_drawn_without_a_warning(tmp_path: Path) -> None:
-    swept = visibility(seeds=(1, 2, 3, 4))
+    swept = visibility_result(seeds=(1, 2, 3, 4))
     numbers = {swept.index(name) for name in ("corners", "corners.mean", "centroid", "total")}
     rows = tuple(
         tuple(
@@ -242,7 +242,7 @@ def test_the_largest_numbers_of_all_are_drawn_without_a_warning(tmp_path: Path) 
 
 def test_a_prediction_beyond_everything_is_drawn_without_a_warning(tmp_path: Path) -> None:
     facts = {"f_star": (1e308, "1/m"), "S": (1e308, "1")}
-    assert "1e+308" in whole_page_of(replace(visibility(), facts=facts), tmp_path).text
+    assert "1e+308" in whole_page_of(replace(visibility_result(), facts=facts), tmp_path).text
 
 
 def test_letters_of_no_font_are_drawn_without_a_warning(tmp_path: Path) -> None:
@@ -256,7 +256,7 @@ def test_letters_of_no_font_are_drawn_without_a_warning(tmp_path: Path) -> None:
 
 
 def test_a_result_with_no_rows_has_a_report(tmp_path: Path) -> None:
-    empty = replace(visibility(), rows=(), missing_values=())
+    empty = replace(visibility_result(), rows=(), missing_values=())
     assert "No level was run" in page_of(empty, tmp_path).text
 
 
@@ -271,7 +271,7 @@ def test_without_measures_there_is_still_a_report(tmp_path: Path) -> None:
 def test_uwsim_report_draws_it_again_from_the_directory_or_the_file(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    save(one_level(), tmp_path)
+    save(one_level_result(), tmp_path)
     assert main(["report", str(tmp_path)]) == 0
     first = (tmp_path / "report.html").read_bytes()
     assert main(["report", str(tmp_path / "result.json")]) == 0
@@ -292,7 +292,7 @@ def test_parameters_are_written_as_people_write_them_and_empty_ones_not_at_all(
     tmp_path: Path,
 ) -> None:
     said = RunInfo(parameters={"levels": 3.0, "threshold": 0.25}, notes=())
-    page_of(replace(visibility(), run=said), tmp_path)
+    page_of(replace(visibility_result(), run=said), tmp_path)
     text = (tmp_path / "report.html").read_text()
     assert "parameter levels</td><td>3</td>" in text
     assert "parameter threshold</td><td>0.25</td>" in text
@@ -303,7 +303,9 @@ def test_parameters_are_written_as_people_write_them_and_empty_ones_not_at_all(
 def test_the_floor_is_what_the_run_has_measured_and_not_what_its_name_suggests(
     tmp_path: Path,
 ) -> None:
-    named = replace(visibility(), inputs=Inputs(benchmark=("visibility-of-mine.xml", "sha256:0")))
+    named = replace(
+        visibility_result(), inputs=Inputs(benchmark=("visibility-of-mine.xml", "sha256:0"))
+    )
     text = page_of(named, tmp_path).text
     assert "This result does not state its score" in text
     assert "about 1 px" not in text
@@ -323,7 +325,7 @@ def endings_of(page: Page) -> dict[str, str]:
 
 
 def test_every_class_of_ending_is_counted_also_those_that_never_came(tmp_path: Path) -> None:
-    counts = endings_of(page_of(visibility(), tmp_path))
+    counts = endings_of(page_of(visibility_result(), tmp_path))
     assert counts == {
         "ok": "24",
         "lost": "3",
@@ -334,7 +336,7 @@ def test_every_class_of_ending_is_counted_also_those_that_never_came(tmp_path: P
 
 
 def test_reasons_that_differ_in_numbers_alone_are_reported_once_and_counted(tmp_path: Path) -> None:
-    base = visibility()
+    base = visibility_result()
     notes = [
         MissingValue(
             row=row, column="total", reason=f"tracker lost at {row}.5 s: ZNCC 0.{row} on 5 frames"
@@ -348,7 +350,7 @@ def test_reasons_that_differ_in_numbers_alone_are_reported_once_and_counted(tmp_
 
 
 def test_a_long_reason_is_not_repeated_in_every_line(tmp_path: Path) -> None:
-    base = visibility()
+    base = visibility_result()
     long = "tracker raised: " + "a very long message of a library " * 5
     notes = [MissingValue(row=row, column="total", reason=f"{long}{row}") for row in (24, 25)]
     notes.append(MissingValue(row=26, column="total", reason=f"{long}25"))
@@ -358,16 +360,16 @@ def test_a_long_reason_is_not_repeated_in_every_line(tmp_path: Path) -> None:
 
 
 def test_each_repeat_has_its_first_failure(tmp_path: Path) -> None:
-    page = page_of(visibility(seeds=(1, 2, 3)), tmp_path)
+    page = page_of(visibility_result(seeds=(1, 2, 3)), tmp_path)
     assert "The first level of each repeat that did not end ok" in page.text
     assert (
         len(re.findall(r'<tr><td>[123]</td><td class="text">fog 1\.\d+ m⁻¹</td>', page.source)) == 3
     )
-    assert "The first level of each repeat" not in page_of(visibility(), tmp_path).text
+    assert "The first level of each repeat" not in page_of(visibility_result(), tmp_path).text
 
 
 def test_captions_say_unit_statistic_and_what_bands_are(tmp_path: Path) -> None:
-    text = whole_page_of(visibility(seeds=(1, 2, 3)), tmp_path).text
+    text = whole_page_of(visibility_result(seeds=(1, 2, 3)), tmp_path).text
     for said in (
         "Figure 1. total [px] = corners+centroid.",
         "Figure 2. corners [px], mean over each level.",
@@ -379,7 +381,7 @@ def test_captions_say_unit_statistic_and_what_bands_are(tmp_path: Path) -> None:
 
 
 def test_intervals_stand_apart_from_their_means(tmp_path: Path) -> None:
-    source = page_of(visibility(seeds=(1, 2, 3)), tmp_path).source
+    source = page_of(visibility_result(seeds=(1, 2, 3)), tmp_path).source
     assert re.search(r'<td>\d\.\d+<span class="interval">\[\d\.\d+, \d\.\d+\]</span></td>', source)
     assert '<span class="status ok">3 of 3 ok</span><span class="interval">29 to 100 %' in source
 
@@ -387,13 +389,13 @@ def test_intervals_stand_apart_from_their_means(tmp_path: Path) -> None:
 def test_the_command_is_given_as_typed_without_what_changes_nothing(tmp_path: Path) -> None:
     typed = ["bench", "visibility", "--seed", "1", "--out", "/a b", "--workers=2", "--overwrite"]
     save_provenance({"command": [*typed, "--set", "oceanState.fog.density=0.4"]}, tmp_path)
-    source = page_of(visibility(), tmp_path).source
+    source = page_of(visibility_result(), tmp_path).source
     command = "uwsim bench visibility --seed 1 --set oceanState.fog.density=0.4\nuwsim verify"
     assert command in source
 
 
 def test_without_provenance_the_command_is_put_together(tmp_path: Path) -> None:
-    base = visibility(seeds=(1, 2))
+    base = visibility_result(seeds=(1, 2))
     run = replace(
         base.run,
         settings=(("vehicle[g].virtualCamera[c].std", "0.016"),),
@@ -410,7 +412,7 @@ def test_without_provenance_the_command_is_put_together(tmp_path: Path) -> None:
 
 
 def test_an_unfinished_result_says_so_first(tmp_path: Path) -> None:
-    base = visibility()
+    base = visibility_result()
     text = page_of(replace(base, run=replace(base.run, units=(1, 3))), tmp_path).text
     assert "Not finished: 1 of 3 parts are finished." in text
     assert "Not finished" not in page_of(base, tmp_path).text
@@ -419,13 +421,13 @@ def test_an_unfinished_result_says_so_first(tmp_path: Path) -> None:
 def test_of_many_images_forty_are_shown_and_of_other_repeats_the_failures(
     tmp_path: Path,
 ) -> None:
-    several = visibility(seeds=(1, 2, 3))
+    several = visibility_result(seeds=(1, 2, 3))
     page = page_of(with_image(several, tmp_path, *range(len(several.rows))), tmp_path)
     captions = re.findall(r"<figcaption[^>]*>(seed \d) · (fog [\d.]+)", page.source)
     assert [seed for seed, _ in captions].count("seed 1") == 27
     assert len(captions) == 27 + 2
     assert "29 of 81 images: every level of the first repeat" in page.text
-    large = nested()
+    large = nested_result()
     (tmp_path / "b").mkdir()
     page = page_of(with_image(large, tmp_path / "b", *range(len(large.rows))), tmp_path / "b")
     assert page.source.count("<figcaption") == 40
@@ -433,12 +435,12 @@ def test_of_many_images_forty_are_shown_and_of_other_repeats_the_failures(
 
 
 def test_one_row_is_no_curve(tmp_path: Path) -> None:
-    assert "Figure 1." not in whole_page_of(one_level(), tmp_path).text
-    assert "1 row, 9 columns" in page_of(one_level(), tmp_path).text
+    assert "Figure 1." not in whole_page_of(one_level_result(), tmp_path).text
+    assert "1 row, 9 columns" in page_of(one_level_result(), tmp_path).text
 
 
 def test_cards_have_three_digits_and_nothing_is_zero(tmp_path: Path) -> None:
-    base = visibility()
+    base = visibility_result()
     rows = list(base.rows)
     rows[0] = (0.0, 2.06e-05, *rows[0][2:5], 36.4, *rows[0][6:])
     rows[23] = (rows[23][0], 1.7, *rows[23][2:5], -2083.2, *rows[23][6:])
@@ -470,7 +472,7 @@ def test_a_number_on_a_card_has_three_digits_and_a_count_no_decimals(
 
 
 def test_a_measure_that_is_the_same_at_both_ends_is_one_number(tmp_path: Path) -> None:
-    base = visibility()
+    base = visibility_result()
     kinds = [column.name for column in base.columns]
     at = kinds.index("centroid")
     rows = tuple((*row[:at], None if row[at] is None else 1.0, *row[at + 1 :]) for row in base.rows)
@@ -480,7 +482,7 @@ def test_a_measure_that_is_the_same_at_both_ends_is_one_number(tmp_path: Path) -
 
 
 def test_the_prediction_is_given_only_where_fog_is_swept(tmp_path: Path) -> None:
-    base = visibility()
+    base = visibility_result()
     current = (Column(name="current", kind="level", unit="m/s"), *base.columns[1:])
     text = page_of(replace(base, columns=current), tmp_path).text
     assert "loss predicted" not in text
@@ -489,13 +491,13 @@ def test_the_prediction_is_given_only_where_fog_is_swept(tmp_path: Path) -> None
 
 
 def test_without_pixels_their_floor_is_not_reported(tmp_path: Path) -> None:
-    base = visibility()
+    base = visibility_result()
     columns = tuple(replace(c, unit="m") if c.unit == "px" else c for c in base.columns)
     assert "floor of the ground truth" not in page_of(replace(base, columns=columns), tmp_path).text
 
 
 def test_where_a_body_is_in_the_image_has_no_floor(tmp_path: Path) -> None:
-    base = visibility()
+    base = visibility_result()
     others = {"centroid": {"unit": "m"}, "corners.max": {"name": "corners.visible", "unit": None}}
     columns = tuple(replace(c, **others.get(c.name, {})) for c in base.columns)
     assert "floor of the ground truth" in page_of(base, tmp_path).text
@@ -504,7 +506,7 @@ def test_where_a_body_is_in_the_image_has_no_floor(tmp_path: Path) -> None:
 
 @pytest.mark.slow
 def test_a_huge_result_has_a_report_of_sane_size(tmp_path: Path) -> None:
-    base = visibility()
+    base = visibility_result()
     rows = tuple((0.001 * i, *base.rows[26][1:]) for i in range(5_000))
     notes = tuple(MissingValue(row=i, column="total", reason=WHY * 4) for i in range(5_000))
     page = page_of(replace(base, rows=rows, missing_values=notes), tmp_path)
@@ -518,7 +520,7 @@ def test_captions_are_the_measures_own_words_and_value(tmp_path: Path) -> None:
         "centroid": MeasureNote(meaning="", value="last"),
     }
     save_measures(notes, tmp_path)
-    text = whole_page_of(visibility(), tmp_path).text
+    text = whole_page_of(visibility_result(), tmp_path).text
     assert (
         "corners [px]: distance between truth g and estimate e; root mean square over each level."
         in text
@@ -528,7 +530,7 @@ def test_captions_are_the_measures_own_words_and_value(tmp_path: Path) -> None:
 
 def test_lock_step_and_chosen_levels_are_plain_lines_and_not_warnings(tmp_path: Path) -> None:
     for how in ("own process, grade (b)", "lock-step, web, grade (a)"):
-        result = visibility()
+        result = visibility_result()
         run = replace(result.run, clients=(("esm", how),), levels=(("fog", 0.5),))
         page = page_of(replace(result, run=run), tmp_path)
         assert "esm takes part" in page.text
@@ -546,7 +548,7 @@ def test_lock_step_and_chosen_levels_are_plain_lines_and_not_warnings(tmp_path: 
     ],
 )
 def test_what_reduces_confidence_is_a_warning(how: str, tmp_path: Path) -> None:
-    result = visibility()
+    result = visibility_result()
     run = replace(result.run, clients=(("tracker", how),))
     source = page_of(replace(result, run=run), tmp_path).source
     warning = re.search(r'<div class="warning">(.*?)</div>', source, re.DOTALL)
@@ -555,7 +557,7 @@ def test_what_reduces_confidence_is_a_warning(how: str, tmp_path: Path) -> None:
 
 
 def test_no_hash_of_an_input_is_empty(tmp_path: Path) -> None:
-    result = visibility()
+    result = visibility_result()
     assets = {"box": "sha256:", **(result.inputs.assets or {})}
     page = page_of(replace(result, inputs=replace(result.inputs, assets=assets)), tmp_path)
     assert not re.search(r"sha256:\s*<", page.source)
@@ -565,6 +567,6 @@ def test_the_report_shows_measures_over_time(tmp_path: Path) -> None:
     header = ("fog [1/m]", "time [s]", "total [px]")
     samples = tuple((0.0, 0.1 * k, 1.0 + 0.1 * k) for k in range(5))
     save_log(Log(measure="corners", header=header, samples=samples), tmp_path)
-    page = whole_page_of(visibility(), tmp_path)
+    page = whole_page_of(visibility_result(), tmp_path)
     assert "Within the levels" in page.text
     assert "corners [px] over the time of the level." in page.text

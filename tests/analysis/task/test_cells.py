@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from tests.support.grasp_results import CURRENTS, FOGS, grasping, succeeds
-from tests.support.synthetic_results import visibility
+from tests.support.grasp_results import CURRENTS, FOGS, grasping_result, is_successful
+from tests.support.synthetic_results import visibility_result
 from uwsim.analysis.report.task_section import task_section
 from uwsim.analysis.task import (
     cells_along,
@@ -22,18 +22,18 @@ from uwsim.analysis.task import (
 
 
 def test_only_a_result_with_a_judge_is_of_a_task() -> None:
-    judge = task_measure(grasping())
+    judge = task_measure(grasping_result())
     assert judge is not None
     assert judge.name == "success"
-    assert task_measure(visibility()) is None
-    assert task_section(visibility(), Path()) is None
+    assert task_measure(visibility_result()) is None
+    assert task_section(visibility_result(), Path()) is None
 
 
 def test_each_level_has_its_successes_with_exact_limits_and_its_failures() -> None:
-    cells = task_cells(grasping())
+    cells = task_cells(grasping_result())
     assert [cell.level for cell in cells] == [(f, c) for f in FOGS for c in CURRENTS]
     for cell in cells:
-        n_ok = sum(succeeds(*cell.level, seed) for seed in range(4))
+        n_ok = sum(is_successful(*cell.level, seed) for seed in range(4))
         assert (cell.success.successes, cell.success.n) == (n_ok, 4)
         assert sum(cell.failures.values()) == 4 - n_ok
     first = cells[0].success
@@ -42,7 +42,7 @@ def test_each_level_has_its_successes_with_exact_limits_and_its_failures() -> No
 
 
 def test_medians_are_over_the_successes() -> None:
-    result = grasping()
+    result = grasping_result()
     cells = task_cells(result)
     assert cells[0].median(result, "success.slip") == pytest.approx(0.0025)
     assert cells[0].median(result, "time") == pytest.approx(55.0)
@@ -50,12 +50,12 @@ def test_medians_are_over_the_successes() -> None:
 
 
 def test_a_line_of_cells_varies_one_parameter() -> None:
-    line = cells_along(task_cells(grasping()), 0, (0.0, 0.1))
+    line = cells_along(task_cells(grasping_result()), 0, (0.0, 0.1))
     assert [cell.level for cell in line] == [(0.0, 0.1), (0.5, 0.1), (1.0, 0.1)]
 
 
 def test_where_the_rate_crosses_half_is_said_in_words() -> None:
-    result = grasping()
+    result = grasping_result()
     said = [crossing_sentence(result, each) for each in find_crossings(result)]
     assert (
         "At current 0.1 m/s the success rate falls below 50 % between fog density 0.5 and 1 m⁻¹ "
@@ -70,7 +70,7 @@ def test_where_the_rate_crosses_half_is_said_in_words() -> None:
 
 
 def test_a_first_level_that_is_below_half_says_so() -> None:
-    result = grasping()
+    result = grasping_result()
     cells = [cell for cell in task_cells(result) if cell.success.value < 0.5]
     assert cells
     found = [each for each in find_crossings(result) if each.last_above is None]
@@ -79,14 +79,14 @@ def test_a_first_level_that_is_below_half_says_so() -> None:
 
 
 def test_the_mean_time_in_each_phase() -> None:
-    result = grasping()
+    result = grasping_result()
     assert phase_means(result, task_cells(result)[0]) == {"search": 10.0, "lift": 15.0}
 
 
 @pytest.mark.slow
 def test_the_figures_are_drawn_and_the_same_every_time(tmp_path: Path) -> None:
-    first = draw_task_figures(grasping(), tmp_path / "a")
-    again = draw_task_figures(grasping(), tmp_path / "b")
+    first = draw_task_figures(grasping_result(), tmp_path / "a")
+    again = draw_task_figures(grasping_result(), tmp_path / "b")
     assert [path.name for path in first] == ["success-map.png", "success-rates.png", "phases.png"]
     for one, other in zip(first, again, strict=True):
         assert one.read_bytes() == other.read_bytes()
@@ -95,9 +95,9 @@ def test_the_figures_are_drawn_and_the_same_every_time(tmp_path: Path) -> None:
 
 
 def test_the_section_of_the_report(tmp_path: Path) -> None:
-    section = task_section(grasping(), tmp_path)
+    section = task_section(grasping_result(), tmp_path)
     assert section is not None
-    n_ok = sum(succeeds(f, c, s) for f in FOGS for c in CURRENTS for s in range(4))
+    n_ok = sum(is_successful(f, c, s) for f in FOGS for c in CURRENTS for s in range(4))
     assert section.lead == f"{n_ok} of 48 episodes succeeded."
     assert section.rows[0].success == "4 of 4"
     assert section.rows[0].limits == "40 to 100 %"

@@ -26,7 +26,7 @@ def play(world: FakeWorld, *steps: list[Contact]) -> Collision:
     """Measure over steps with these contacts."""
     collision = SPEC.bind(world)
     for i, contacts in enumerate(steps):
-        world.touching["girona500"] = contacts
+        world.contacts_by_body["girona500"] = contacts
         if i == 0:
             collision.start()
         else:
@@ -110,9 +110,9 @@ def test_its_log_has_a_name_for_every_number() -> None:
 def test_a_collision_that_goes_on_again_begins_anew_in_the_original() -> None:
     for quirks, highest in ((frozenset[str](), 0.4), (frozenset({"restart"}), 0.1)):
         collision = play(tank(compatibility=quirks), [hit(0.4)], [])
-        collision._world.touching["girona500"] = []  # type: ignore[attr-defined]
+        collision._world.contacts_by_body["girona500"] = []  # type: ignore[attr-defined]
         collision.start()
-        collision._world.touching["girona500"] = [hit(0.1)]  # type: ignore[attr-defined]
+        collision._world.contacts_by_body["girona500"] = [hit(0.1)]  # type: ignore[attr-defined]
         collision.update()
         assert collision.details["max_speed"] == highest
     assert collision.value == pytest.approx(1.0 - (0.1 / 2) / 0.5 - 0.1 / 0.5)
@@ -138,9 +138,9 @@ def test_only_a_file_that_asks_for_it_ends_a_level_at_the_first_contact() -> Non
     collision.start()
     assert collision.ends_level is None
     world.advance()
-    world.touching["girona500"] = [hit(0.2)]
+    world.contacts_by_body["girona500"] = [hit(0.2)]
     collision.update()
     world.advance()
-    world.touching["girona500"] = []
+    world.contacts_by_body["girona500"] = []
     collision.update()
     assert collision.ends_level == "'girona500' touched 'blackbox' at 0.5 s"

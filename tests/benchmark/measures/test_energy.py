@@ -19,7 +19,7 @@ def rov() -> FakeActuators:
 def bound(actuators: FakeActuators | None, **given: object) -> tuple[Energy, FakeWorld]:
     world = FakeWorld(timestep=DT, vehicles=("rov", "ghost"))
     if actuators is not None:
-        world.driven["rov"] = actuators
+        world.actuators_by_vehicle["rov"] = actuators
     spec = EnergySpec(name="e", **{"target": "rov", **given})  # type: ignore[arg-type]
     return spec.bind(world), world
 

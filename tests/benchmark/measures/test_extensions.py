@@ -138,7 +138,7 @@ def test_every_element_and_every_detail_stands_in_the_page_of_measures(
     of_all = {field.name for field in fields_of(MeasureSpec)}
     elements = [field.label for field in fields_of(spec) if field.name not in of_all]
     world = FakeWorld({"v": FakeBody()})
-    world.driven["v"] = FakeActuators()
+    world.actuators_by_vehicle["v"] = FakeActuators()
     place = {"topic": "u", "position": (1.0, 0.0, 0.0)} if spec is ControlSpec else {}
     details = spec(name="m", target="v", **place).bind(world).details  # type: ignore[arg-type]
     assert [each for each in (*elements, *details) if f"`{each}`" not in section] == []

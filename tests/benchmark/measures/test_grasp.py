@@ -41,13 +41,13 @@ class Tank:
         self.measure.start()
 
     def lie(self) -> None:
-        self.world.pressing["blackbox"] = {"terrain": WEIGHT}
+        self.world.forces_by_body["blackbox"] = {"terrain": WEIGHT}
 
     def carry(self, height: float, slipped: float = 0.0) -> None:
         """Hold the box so high above where it lay, so far below its place in the jaw [m]."""
         self.box.move(0.0, 0.0, height)
         self.jaw.move(0.0, 0.0, height + 0.2 + slipped)
-        self.world.pressing["blackbox"] = {"girona500": WEIGHT}
+        self.world.forces_by_body["blackbox"] = {"girona500": WEIGHT}
 
     def fall(self) -> None:
         self.box.move(0.0, 0.0, 0.0)
@@ -128,17 +128,17 @@ def test_a_box_that_was_hardly_lifted_may_be_tried_again_and_was_missed() -> Non
 def test_a_box_that_is_pushed_along_the_ground_is_not_carried() -> None:
     tank = Tank()
     tank.box.move(0.0, 0.0, 0.6)
-    tank.world.pressing["blackbox"] = {"girona500": WEIGHT, "terrain": WEIGHT}
+    tank.world.forces_by_body["blackbox"] = {"girona500": WEIGHT, "terrain": WEIGHT}
     tank.wait(5.0)
     assert (tank.measure.value, tank.status) == (0.0, "missed")
 
 
 def test_a_hit_is_a_collision_by_its_impulse_and_ends_the_level() -> None:
     tank = Tank()
-    tank.world.pressing["girona500"] = {"terrain": np.array([0.0, 0.0, 300.0])}
+    tank.world.forces_by_body["girona500"] = {"terrain": np.array([0.0, 0.0, 300.0])}
     tank.wait(0.1)
     assert tank.measure.ends_level is None  # 30 N s in one step of 0.1 s
-    tank.world.pressing["girona500"] = {"terrain": np.array([0.0, 0.0, 500.0])}
+    tank.world.forces_by_body["girona500"] = {"terrain": np.array([0.0, 0.0, 500.0])}
     tank.wait(0.1)
     assert "girona500" in str(tank.measure.ends_level)
     assert tank.status == "collision"
@@ -183,7 +183,7 @@ def test_the_excursion_is_counted_from_the_first_touch_until_it_is_off_the_groun
     tank = Tank()
     tank.base.move(5.0, 0.0, 0.0)
     tank.wait(0.5)
-    tank.world.pressing["blackbox"] = {"girona500": WEIGHT, "terrain": WEIGHT}
+    tank.world.forces_by_body["blackbox"] = {"girona500": WEIGHT, "terrain": WEIGHT}
     tank.wait(0.1)
     tank.base.move(5.03, 0.0, 0.04)
     tank.wait(0.1)

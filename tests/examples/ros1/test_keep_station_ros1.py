@@ -13,12 +13,12 @@ import pytest
 from tests.support.keep_station import (
     LIMIT,
     bench_words,
-    result_in,
-    scored_in_process,
+    read_result,
+    score_in_process,
     short_benchmark,
 )
 from tests.support.ros1_peers import EXAMPLES, PYTHON, Peers, needs_ros1, peers
-from tests.support.waiting import until
+from tests.support.waiting import wait_until
 from uwsim.middleware.ros1.xmlrpc import call
 
 pytestmark = [needs_ros1, pytest.mark.slow]
@@ -53,7 +53,7 @@ def scored_outside(graph: Peers, program: Path, words: list[str], out: Path) -> 
     )
     node = None
     try:
-        until(lambda: call(graph.uri, "hasParam", "/test", "/use_sim_time"))
+        wait_until(lambda: call(graph.uri, "hasParam", "/test", "/use_sim_time"))
         said = [PYTHON, str(program), *WORDS]
         node = subprocess.Popen(said, env=graph.environment, stdout=subprocess.DEVNULL)
         _, errors = bench.communicate(timeout=LIMIT)
@@ -63,14 +63,14 @@ def scored_outside(graph: Peers, program: Path, words: list[str], out: Path) -> 
             if process is not None:
                 process.kill()
                 process.communicate()
-    return result_in(out)
+    return read_result(out)
 
 
 def test_its_commands_are_waited_for_and_give_the_rows_of_the_class_in_process(
     graph: Peers, tmp_path: Path
 ) -> None:
     benchmark = short_benchmark(tmp_path)
-    inside = scored_in_process(benchmark, tmp_path / "inside")
+    inside = score_in_process(benchmark, tmp_path / "inside")
     (tmp_path / "dawdles.py").write_text(DAWDLES)
     out = tmp_path / "outside"
     how = ("--ros1", "--client", "station", "--sync", "output", "--output", "/g500/twist=10Hz")
@@ -86,7 +86,7 @@ def test_in_real_time_it_is_scored_and_the_result_says_that_it_cannot_be_repeate
     graph: Peers, tmp_path: Path
 ) -> None:
     benchmark = short_benchmark(tmp_path)
-    inside = scored_in_process(benchmark, tmp_path / "inside")
+    inside = score_in_process(benchmark, tmp_path / "inside")
     out = tmp_path / "outside"
     words = bench_words(benchmark, out, "--ros1", "--client", "station", "--sync", "none")
     outside = scored_outside(graph, EXAMPLES / "keep_station.py", words, out)

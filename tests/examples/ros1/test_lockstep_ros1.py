@@ -15,7 +15,7 @@ import pytest
 from tests.support.byte_hashes import short_currents
 from tests.support.ros1_peers import EXAMPLES, Peers, needs_ros1, peers
 from tests.support.short_benchmark import write_benchmark
-from tests.support.timed_algorithm import TIMED
+from tests.support.timed_algorithm import TIMED_PUSH
 from tests.support.waiting import LIMIT
 
 FORGETFUL = f"""
@@ -181,8 +181,8 @@ def test_a_class_with_a_timer_runs_in_rospy_without_a_change(
         "PYTHONPATH", os.pathsep.join(filter(None, [str(EXAMPLES.parents[1]), before]))
     )
     benchmark, level = short_currents(tmp_path), ("--level", "current=0.2")
-    inside = scored(tmp_path / "inside", str(benchmark), "--algorithm", TIMED, *level)
-    outside = scored_outside(graph, benchmark, tmp_path / "outside", *level, program=(TIMED,))
+    inside = scored(tmp_path / "inside", str(benchmark), "--algorithm", TIMED_PUSH, *level)
+    outside = scored_outside(graph, benchmark, tmp_path / "outside", *level, program=(TIMED_PUSH,))
     assert outside["rows"] == inside["rows"]
 
 

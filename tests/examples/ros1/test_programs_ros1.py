@@ -11,7 +11,7 @@ import pytest
 
 from tests.middleware.ros1.sea import Sea
 from tests.support.ros1_peers import EXAMPLES, needs_ros1, peers
-from tests.support.waiting import LIMIT, until
+from tests.support.waiting import LIMIT, wait_until
 from uwsim.base.geometry import Pose
 from uwsim.messages import Float64MultiArray, JointState, Odometry, TwistStamped
 
@@ -47,13 +47,13 @@ def heard(sea: Sea, topic: str, kind: type, n: int, *program: str) -> list[Any]:
     stop = sea.simulation.bus.subscribe(topic, kind, found.append)
     running = sea.peers.start(*program)
     try:
-        until(lambda: len(found) >= n or running.poll() is not None, sea.advance)
+        wait_until(lambda: len(found) >= n or running.poll() is not None, sea.advance)
         assert len(found) >= n, running.communicate(timeout=LIMIT)[1]
     finally:
         stop()
         running.kill()
         running.wait(LIMIT)
-        until(lambda: sea.bridge.n_connected(topic) == 0, sea.advance)
+        wait_until(lambda: sea.bridge.n_connected(topic) == 0, sea.advance)
     return found[:n]
 
 
@@ -83,7 +83,7 @@ def test_a_vehicle_is_held_at_a_pose(sea: Sea, program: str, topic: str) -> None
     z = "2.1" if topic == COMMAND else "2.3"
     running = sea.peers.start(program, topic, "0.5", "0.25", z, "0.1", "0.2", "0.3")
     wanted = Pose(np.array([0.5, 0.25, float(z)]), turned(0.1, 0.2, 0.3).rotation)
-    until(is_at(sea, wanted), sea.advance)
+    wait_until(is_at(sea, wanted), sea.advance)
     running.kill()
 
 
@@ -104,7 +104,7 @@ def test_a_program_goes_to_a_pose(sea: Sea, kind: str) -> None:
         wanted = start @ Pose(np.array([0.3, 0.0, 0.0]), turned(0.0, 0.0, -0.5).rotation)
     program = sea.peers.start("goto_pose.py", kind, ODOMETRY, COMMAND, *goal)
     assert sea.output(program) == "goal reached\n"
-    until(is_at(sea, wanted), sea.advance)
+    wait_until(is_at(sea, wanted), sea.advance)
 
 
 def test_a_survey_has_lanes(sea: Sea) -> None:
@@ -151,7 +151,7 @@ def test_a_vehicle_follows_an_interactive_marker(sea: Sea) -> None:
     server = sea.peers.start("follow_marker.py", COMMAND, "0.1", "0.2", "2", "0", "0", "0.3")
     panel = sea.peers.start("/usr/bin/python3", "-c", PANEL)
     wanted = Pose(np.array([0.6, 0.2, 2.0]), turned(0.0, 0.0, 0.3).rotation)
-    until(is_at(sea, wanted), sea.advance)
+    wait_until(is_at(sea, wanted), sea.advance)
     for program in (panel, server):
         program.kill()
     assert panel.communicate(timeout=LIMIT)[0] == "uwsim_marker world 7\n"
@@ -163,7 +163,7 @@ def test_a_vehicle_follows_an_interactive_marker(sea: Sea) -> None:
 )
 def test_a_program_without_arguments_says_how_it_is_called(sea: Sea, program: str) -> None:
     running = sea.peers.start(program)
-    until(lambda: running.poll() is not None, sea.advance)
+    wait_until(lambda: running.poll() is not None, sea.advance)
     _, errors = running.communicate(timeout=LIMIT)
     assert running.returncode != 0
     assert program in errors

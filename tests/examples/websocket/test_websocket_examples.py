@@ -12,10 +12,10 @@ from typing import Any
 import pytest
 
 from tests.support.byte_hashes import short_currents
-from tests.support.keep_station import LEVELS, scored_in_process, short_benchmark
+from tests.support.keep_station import LEVELS, score_in_process, short_benchmark
 from tests.support.short_benchmark import run, write_benchmark
-from tests.support.timed_algorithm import TIMED
-from tests.support.waiting import free_port, until
+from tests.support.timed_algorithm import TIMED_PUSH
+from tests.support.waiting import free_port, wait_until
 from uwsim import load
 from uwsim.middleware.log import Log
 from uwsim.middleware.web.options import WebOptions
@@ -106,8 +106,8 @@ def test_a_class_with_a_timer_runs_outside_without_a_change(
     """Its first tick is due at the join: its join was refused."""
     monkeypatch.setenv("PYTHONPATH", str(EXAMPLES.parents[1]))
     benchmark, level = short_currents(tmp_path), ("--level", "current=0.2")
-    inside = scored_inside(benchmark, tmp_path / "inside", TIMED, [*level[1:]])
-    program = ["run_algorithm.py", TIMED, "--name", "outside"]
+    inside = scored_inside(benchmark, tmp_path / "inside", TIMED_PUSH, [*level[1:]])
+    program = ["run_algorithm.py", TIMED_PUSH, "--name", "outside"]
     outside, said = scored_outside(benchmark, tmp_path / "outside", program, *level)
     assert outside["rows"] == inside["rows"], said
 
@@ -115,7 +115,7 @@ def test_a_class_with_a_timer_runs_outside_without_a_change(
 @pytest.mark.slow
 def test_a_program_that_takes_the_steps_itself_scores_the_rows_of_the_class(tmp_path: Path) -> None:
     benchmark = short_benchmark(tmp_path)
-    inside = scored_in_process(benchmark, tmp_path / "inside")
+    inside = score_in_process(benchmark, tmp_path / "inside")
     outside, said = scored_outside(
         benchmark,
         tmp_path / "outside",
@@ -144,7 +144,7 @@ def test_a_program_puts_a_mesh_into_the_scene_and_takes_it_away() -> None:
                 text=True,
             )
             try:
-                until(lambda: program.poll() is not None, lambda: simulation.advance(0.01))
+                wait_until(lambda: program.poll() is not None, lambda: simulation.advance(0.01))
             finally:
                 program.kill()
                 printed, _ = program.communicate(timeout=LIMIT)

@@ -15,10 +15,10 @@ from typing import Any
 import pytest
 
 from tests.support import original_tracker
-from tests.support.keep_station import LIMIT, result_in
+from tests.support.keep_station import LIMIT, read_result
 from tests.support.ros1_peers import PYTHON, needs_ros1, peers
 from tests.support.short_benchmark import write_benchmark
-from tests.support.waiting import free_port, until
+from tests.support.waiting import free_port, wait_until
 from uwsim.messages import GTpublish
 from uwsim.middleware.ros1.xmlrpc import call
 from uwsim.middleware.types import service_of, wire_service
@@ -56,7 +56,7 @@ def scored_in_process(benchmark: Path, out: Path) -> dict[str, Any]:
     words = command(benchmark, out, "--algorithm", algorithm)
     completed_process = subprocess.run(words, capture_output=True, text=True, timeout=LIMIT)
     assert completed_process.returncode == 0, completed_process.stderr
-    return result_in(out)
+    return read_result(out)
 
 
 def scored_outside(words: list[str], environment: dict[str, str], start: Start) -> None:
@@ -92,7 +92,7 @@ def run_over_ros1(benchmark: Path, out: Path, folder: Path) -> None:
         own_names = {name: graph.environment[name] for name in names}
 
         def start() -> subprocess.Popen[str]:
-            until(lambda: call(graph.uri, "hasParam", "/test", "/use_sim_time"))
+            wait_until(lambda: call(graph.uri, "hasParam", "/test", "/use_sim_time"))
             words = [PYTHON, str(program), md5]
             return subprocess.Popen(words, env=graph.environment, text=True, stderr=subprocess.PIPE)
 
@@ -114,7 +114,7 @@ def run_over_web(benchmark: Path, out: Path, folder: Path) -> None:
         return False
 
     def start() -> subprocess.Popen[str]:
-        until(is_listening)
+        wait_until(is_listening)
         words = [sys.executable, str(program), f"ws://127.0.0.1:{port}"]
         return subprocess.Popen(words, text=True, stderr=subprocess.PIPE)
 
@@ -136,7 +136,7 @@ def test_a_tracker_with_two_outputs_that_is_silent_until_auto_init_has_the_rows_
     benchmark = benchmark_of_two_outputs(tmp_path)
     local_rows = scored_in_process(benchmark, tmp_path / "inside")
     score(benchmark, tmp_path / "outside", tmp_path / "program")
-    external_rows = result_in(tmp_path / "outside")
+    external_rows = read_result(tmp_path / "outside")
     names = [column["name"] for column in local_rows["columns"]]
     rows = [dict(zip(names, row, strict=True)) for row in local_rows["rows"]]
     assert [row["status"] for row in rows] == ["ok"] * 3

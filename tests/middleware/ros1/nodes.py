@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import Any
 
-from tests.support.waiting import LIMIT, free_port, until
+from tests.support.waiting import LIMIT, free_port, wait_until
 from uwsim.bus import Bus
 from uwsim.middleware.log import Log
 from uwsim.middleware.ros1 import Master, PeerTimeouts, Ros1Bridge
@@ -59,7 +59,7 @@ class Graph:
 
     def wait_for_connections(self, topic: str) -> None:
         """Wait until a topic has a subscriber outside, and the bus knows."""
-        until(
+        wait_until(
             lambda: self.nodes[0].n_connected(topic) and self.nodes[0].bus.has_subscribers(topic),
             self.step,
         )

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from tests.middleware.ros1.nodes import Graph
-from tests.support.waiting import until
+from tests.support.waiting import wait_until
 from uwsim.errors import UwsimError
 from uwsim.messages import (
     Empty,
@@ -48,7 +48,7 @@ def test_another_node_on_the_topic_is_not_heard(graph: Graph, sim: Ros1Bridge) -
         for name in ("/stranger", "/tracker")
     ]
     graph.wait_until_ready()
-    until(lambda: sim.n_connected("/corners") == 2, graph.step)
+    wait_until(lambda: sim.n_connected("/corners") == 2, graph.step)
     assert sim.admission is not None
     arrivals: list[float] = []
     refusals: list[object] = []
@@ -60,7 +60,7 @@ def test_another_node_on_the_topic_is_not_heard(graph: Graph, sim: Ros1Bridge) -
         arrivals.extend(float(message.data[0]) for message in estimates.take())
         refusals.extend(sim.admission.take_refusals() if sim.admission is not None else ())
 
-    until(lambda: arrivals and refusals, publish)
+    wait_until(lambda: arrivals and refusals, publish)
     assert set(arrivals) == {1.0}
     assert {entry[:2] for entry in refusals if isinstance(entry, tuple)} == {(OTHER, "/corners")}
 
@@ -82,7 +82,7 @@ def test_another_node_calls_no_service(
 
     thread = threading.Thread(target=call, daemon=True)
     thread.start()
-    until(lambda: answers, sim.step)
+    wait_until(lambda: answers, sim.step)
     assert (answers == [EmptyResponse()]) == is_answered
     assert is_answered or "takes part" in str(answers[0])
 
@@ -111,7 +111,7 @@ def test_another_node_is_not_given_the_ground_truth(
 
     thread = threading.Thread(target=call, daemon=True)
     thread.start()
-    until(lambda: answers, other.step)
+    wait_until(lambda: answers, other.step)
     assert (answers == [GTpublishResponse()], len(requests)) == (is_taken, int(is_taken))
     assert is_taken or "/stranger does not take part" in str(answers[0])
 
@@ -120,7 +120,7 @@ def test_a_message_to_one_node_reaches_no_other(graph: Graph, sim: Ros1Bridge) -
     sim.bus.publisher("tick", String)
     inboxes = [graph.node(name).bus.inbox("tick", String) for name in ("/stranger", "/tracker")]
     graph.wait_until_ready()
-    until(lambda: sim.n_connected("/tick") == 2, graph.step)
+    wait_until(lambda: sim.n_connected("/tick") == 2, graph.step)
     arrivals: list[list[str]] = [[], []]
 
     def send() -> None:
@@ -130,6 +130,6 @@ def test_a_message_to_one_node_reaches_no_other(graph: Graph, sim: Ros1Bridge) -
         for texts, inbox in zip(arrivals, inboxes, strict=True):
             texts.extend(message.data for message in inbox.take())
 
-    until(lambda: all("all" in texts for texts in arrivals), send)
+    wait_until(lambda: all("all" in texts for texts in arrivals), send)
     assert "no" in arrivals[0]
     assert "no" not in arrivals[1]

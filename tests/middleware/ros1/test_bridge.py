@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from tests.middleware.ros1.nodes import TIMESTEP, Graph
-from tests.support.waiting import until
+from tests.support.waiting import wait_until
 from uwsim.errors import UwsimError
 from uwsim.messages import (
     DVL,
@@ -61,7 +61,7 @@ def test_a_message_arrives_as_it_was_sent(graph: Graph, message: Any) -> None:
     graph.wait_until_ready()
     graph.wait_for_connections("/topic")
     publish(message)
-    until(lambda: actual, graph.step)
+    wait_until(lambda: actual, graph.step)
     assert actual[0].header == message.header
     assert repr(actual[0]) == repr(message)
 
@@ -75,7 +75,7 @@ def test_a_topic_without_subscribers_outside_is_not_read(graph: Graph) -> None:
     graph.wait_until_ready()
     graph.wait_for_connections("/camera")
     stop()
-    until(lambda: not sim.bus.has_subscribers("camera"), graph.step)
+    wait_until(lambda: not sim.bus.has_subscribers("camera"), graph.step)
 
 
 def test_a_command_from_outside_arrives_with_its_stamp_in_simulation_time(graph: Graph) -> None:
@@ -83,10 +83,10 @@ def test_a_command_from_outside_arrives_with_its_stamp_in_simulation_time(graph:
     actual = heard_by(sim, "twist", TwistStamped)
     publish = other.bus.publisher("twist", TwistStamped)
     graph.wait_until_ready()
-    until(lambda: other.bus.has_subscribers("twist"), graph.step)
+    wait_until(lambda: other.bus.has_subscribers("twist"), graph.step)
     for i in range(20):
         publish(TwistStamped(header=header(0.5 + i)))
-    until(lambda: len(actual) == 20, graph.step)
+    wait_until(lambda: len(actual) == 20, graph.step)
     assert [entry.header.stamp for entry in actual] == [
         Time(sec=i, nanosec=500_000_000) for i in range(20)
     ]
@@ -97,7 +97,7 @@ def test_the_clock_begins_at_one_second(graph: Graph) -> None:
     clock = message_class("rosgraph_msgs/Clock")
     actual = heard_by(other, "clock", clock)
     graph.wait_until_ready()
-    until(lambda: sim.n_connected("/clock") and actual, graph.step)
+    wait_until(lambda: sim.n_connected("/clock") and actual, graph.step)
     assert actual[0].clock.sec >= 1
 
 
@@ -106,11 +106,11 @@ def test_the_clock_comes_at_every_step_while_it_is_read(graph: Graph) -> None:
     sim, other = graph.node(), graph.node("/other")
     actual = heard_by(other, "clock", message_class("rosgraph_msgs/Clock"))
     graph.wait_until_ready()
-    until(lambda: sim.n_connected("/clock") and actual, graph.step)
+    wait_until(lambda: sim.n_connected("/clock") and actual, graph.step)
     first_time = sim.bus.step
     for _ in range(25):
         graph.step()
-    until(lambda: _step_of(actual[-1]) >= sim.bus.step, other.step)
+    wait_until(lambda: _step_of(actual[-1]) >= sim.bus.step, other.step)
     steps = [_step_of(message) for message in actual]
     assert steps[-25:] == list(range(first_time + 1, first_time + 26))
 
@@ -140,7 +140,7 @@ def test_a_service_is_called_from_outside(graph: Graph) -> None:
         target=lambda: results.append(other.bus.services.call("vision/init", request)), daemon=True
     )
     caller.start()
-    until(lambda: results, sim.step)
+    wait_until(lambda: results, sim.step)
     assert results == [GTpublishResponse()]
     assert requests[0].groundTruth.tolist() == list(range(8))
 
@@ -164,7 +164,7 @@ def test_a_service_that_fails_is_an_error_of_the_caller(graph: Graph) -> None:
             errors.append(str(error))
 
     threading.Thread(target=ask, daemon=True).start()
-    until(lambda: errors, sim.step)
+    wait_until(lambda: errors, sim.step)
     assert "the arm is stuck" in errors[0]
 
 
@@ -187,7 +187,7 @@ def test_a_topic_of_another_type_is_refused_on_both_sides(graph: Graph) -> None:
     sim.bus.publisher("depth", Float64)
     other.bus.subscribe("depth", Odometry, print)
     graph.wait_until_ready()
-    until(lambda: any("topic /depth carries std_msgs/Float64" in x for x in graph.lines))
+    wait_until(lambda: any("topic /depth carries std_msgs/Float64" in x for x in graph.lines))
     assert sim.n_connected("/depth") == 0
 
 
@@ -195,7 +195,7 @@ def test_parameters_are_set_while_the_node_is_there_and_put_back(graph: Graph) -
     call(graph.master.uri, "setParam", "/x", "/use_sim_time", False)
     sim = graph.node(parameters={"/use_sim_time": True, "/uwsim/seed": 7})
     graph.wait_until_ready()
-    until(lambda: call(graph.master.uri, "hasParam", "/x", "/uwsim/seed"))
+    wait_until(lambda: call(graph.master.uri, "hasParam", "/x", "/uwsim/seed"))
     assert call(graph.master.uri, "getParam", "/x", "/uwsim/seed") == 7
     assert call(graph.master.uri, "getParam", "/x", "/use_sim_time") is True
     sim.close()
@@ -211,10 +211,10 @@ def test_a_master_that_is_restarted_knows_the_node_again(graph: Graph) -> None:
     graph.wait_until_ready()
     port = int(graph.master.uri.rsplit(":", 1)[1].strip("/"))
     graph.master.close()
-    until(lambda: any("is tried again" in line for line in graph.lines))
+    wait_until(lambda: any("is tried again" in line for line in graph.lines))
     graph.step()
     graph.master = Master(graph.log, port=port)
-    until(lambda: _topics(graph.master) == ["/clock", "/depth", "/rosout"])
+    wait_until(lambda: _topics(graph.master) == ["/clock", "/depth", "/rosout"])
     assert any("restarted" in line for line in graph.lines)
 
 
@@ -226,8 +226,8 @@ def test_a_node_whose_name_is_taken_leaves_the_graph(graph: Graph) -> None:
     first_node = graph.node()
     graph.wait_until_ready()
     second = graph.node()
-    until(lambda: any("leave" in line for line in graph.lines), graph.step)
-    until(lambda: call(graph.master.uri, "lookupNode", "/x", "/uwsim") == second.uri)
+    wait_until(lambda: any("leave" in line for line in graph.lines), graph.step)
+    wait_until(lambda: call(graph.master.uri, "lookupNode", "/x", "/uwsim") == second.uri)
     first_node.step()
 
 
@@ -240,7 +240,7 @@ def test_what_happens_is_on_rosout(graph: Graph) -> None:
     peer = open_connection(place[1], place[2], 60.0)
     peer.sendall(encode_header({"callerid": "/x", "md5sum": "*", "topic": "/rosout", "type": "*"}))
     assert read_header(peer)["type"] == "rosgraph_msgs/Log"
-    until(lambda: sim.n_connected("/rosout"))
+    wait_until(lambda: sim.n_connected("/rosout"))
     sim.log.report("something happened")
     frame = read_frame(peer)
     assert frame is not None
@@ -256,7 +256,7 @@ def test_a_late_node_gets_the_newest_message_of_a_latched_topic(graph: Graph) ->
     say(MarkerArray(markers=[Marker(ns="second", text="x")]))
     graph.step()
     arrivals = heard_by(other, "scene", MarkerArray)
-    until(lambda: arrivals, graph.step)
+    wait_until(lambda: arrivals, graph.step)
     assert [entry.ns for entry in arrivals[-1].markers] == ["second"]
 
 
@@ -270,7 +270,7 @@ def test_a_topic_whose_name_is_none_of_ros_is_told_and_the_others_are_there(grap
     graph.wait_until_ready()
     graph.wait_for_connections("/zz")
     publish(Float64(data=1.0))
-    until(lambda: actual, graph.step)
+    wait_until(lambda: actual, graph.step)
     reports = [line for line in graph.lines if "not on the graph" in line]
     assert len(reports) == 6
     assert "uwsim: test: not on the graph: /a b: " in reports[0]

@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 
 from tests.middleware.ros1.nodes import Graph
-from tests.support.waiting import LIMIT, until
+from tests.support.waiting import LIMIT, wait_until
 from uwsim.middleware.log import Log
 from uwsim.middleware.ros1 import master as master_module
 from uwsim.middleware.ros1 import parameters, xmlrpc
@@ -122,7 +122,7 @@ def test_a_header_that_comes_byte_by_byte_has_a_deadline() -> None:
         data = encode_header({"callerid": "/slow", "topic": "/clock", "md5sum": "*", "type": "*"})
         with socket.create_connection(("127.0.0.1", sim._listener.port), LIMIT) as peer:
             assert drips(peer, data, 0.02)
-        until(lambda: sim._listener.n_connections == 0)
+        wait_until(lambda: sim._listener.n_connections == 0)
 
 
 @pytest.mark.parametrize("data", [b"POST / HTTP/1.0\r\nX: " + b"x" * 200, b"POST" * 50])

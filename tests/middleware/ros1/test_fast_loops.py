@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from tests.support.ros1_peers import PYTHON, needs_ros1, peers
-from tests.support.waiting import LIMIT, until
+from tests.support.waiting import LIMIT, wait_until
 from uwsim.bus import Bus
 from uwsim.messages import Float64
 from uwsim.middleware.log import Log
@@ -74,7 +74,7 @@ def test_the_time_that_it_integrates_is_that_of_the_simulation(
                 return inbox.last_message.data if inbox.last_message is not None else 0.0
 
             graph.start(PYTHON, str(program), str(timestep))
-            until(lambda: has_integrated() > 10 * timestep, step)
+            wait_until(lambda: has_integrated() > 10 * timestep, step)
             value_before = has_integrated()
             for _ in range(N_STEPS):
                 step()

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from tests.middleware.ros1.nodes import Graph
-from tests.support.waiting import LIMIT, until
+from tests.support.waiting import LIMIT, wait_until
 from uwsim.messages import Empty, EmptyResponse, Float64, Image, JointState, image
 from uwsim.middleware.admission import SingleProgram
 from uwsim.middleware.encodings import to_ros1
@@ -104,7 +104,7 @@ def test_garbage_on_the_port_is_reported(graph: Graph, data: bytes, text: str) -
         peer.shutdown(socket.SHUT_WR)
         while peer.recv(4096):
             pass
-    until(lambda: any(text in line for line in graph.lines), graph.step)
+    wait_until(lambda: any(text in line for line in graph.lines), graph.step)
     assert call(sim.uri, "getPid", "/x") > 0
 
 
@@ -113,7 +113,7 @@ def test_a_client_that_sends_no_header_is_left(graph: Graph) -> None:
     graph.wait_until_ready()
     with connect(port_of(sim)) as peer:
         assert peer.recv(1) == b""
-    until(lambda: any("sends nothing" in line for line in graph.lines), graph.step)
+    wait_until(lambda: any("sends nothing" in line for line in graph.lines), graph.step)
 
 
 def test_a_subscriber_that_stalls_costs_bounded_memory(graph: Graph) -> None:
@@ -142,8 +142,8 @@ def test_a_subscriber_that_stalls_is_left(graph: Graph) -> None:
         graph.step()
 
     with subscribe(sim, "/camera"):
-        until(lambda: any("does not read" in line for line in graph.lines), step)
-        until(lambda: not sim.bus.has_subscribers("camera"), graph.step)
+        wait_until(lambda: any("does not read" in line for line in graph.lines), step)
+        wait_until(lambda: not sim.bus.has_subscribers("camera"), graph.step)
 
 
 def test_a_subscriber_killed_in_mid_transfer_is_forgotten(graph: Graph) -> None:
@@ -157,7 +157,7 @@ def test_a_subscriber_killed_in_mid_transfer_is_forgotten(graph: Graph) -> None:
     assert peer.recv(1000)
     peer.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
     peer.close()  # with a reset
-    until(lambda: not sim.bus.has_subscribers("camera"), graph.step)
+    wait_until(lambda: not sim.bus.has_subscribers("camera"), graph.step)
 
 
 @pytest.mark.slow
@@ -173,7 +173,7 @@ def test_a_flood_of_messages_is_bounded(graph: Graph, monkeypatch: pytest.Monkey
     frames = b"".join(add_length(to_ros1(Float64(data=float(i)))) for i in range(100_000))
     connection.sendall(frames)
     last_value = 99_999.0
-    until(lambda: _newest_value(sim, "cmd") == last_value)
+    wait_until(lambda: _newest_value(sim, "cmd") == last_value)
     graph.step()
     assert actual[-1].data == last_value
     assert len(actual) <= 1000
@@ -197,7 +197,7 @@ def test_a_flood_of_messages_waits_in_the_sockets(
     publisher = FakePublisher(graph, "/cmd", Float64)
     connection = publisher.accept()
     connection.sendall(add_length(to_ros1(Float64(data=1.0))) * N_FLOOD)
-    until(lambda: any("faster than it is read" in line for line in graph.lines))
+    wait_until(lambda: any("faster than it is read" in line for line in graph.lines))
     assert 0 < sim.arrivals.n_arrived["cmd"] < N_FLOOD
     connection.close()
     publisher.close()
@@ -216,7 +216,7 @@ def test_a_node_that_the_run_waits_for_does_not_wait(
     publisher = FakePublisher(graph, "/cmd", Float64)
     connection = publisher.accept()
     connection.sendall(add_length(to_ros1(Float64(data=1.0))) * N_FLOOD)
-    until(lambda: sim.arrivals.n_arrived["cmd"] == N_FLOOD)
+    wait_until(lambda: sim.arrivals.n_arrived["cmd"] == N_FLOOD)
     connection.close()
     publisher.close()
 
@@ -237,7 +237,7 @@ def test_garbage_from_a_publisher_is_reported_and_the_next_message_is_read(graph
     connection.sendall(
         add_length(b"\xff" * 100) + add_length(b"") + add_length(to_ros1(JointState(name=["a"])))
     )
-    until(lambda: actual, graph.step)
+    wait_until(lambda: actual, graph.step)
     assert actual[0].name == ["a"]
     assert any("100 bytes are not a sensor_msgs/msg/JointState" in line for line in graph.lines)
     connection.close()
@@ -264,10 +264,10 @@ def test_a_publisher_that_breaks_off_is_tried_again(
     connection = publisher.accept()
     connection.sendall(data)
     connection.close()
-    until(lambda: any(text in line for line in graph.lines), graph.step)
+    wait_until(lambda: any(text in line for line in graph.lines), graph.step)
     next_connection = publisher.accept()
     next_connection.sendall(add_length(to_ros1(Float64(data=3.0))))
-    until(lambda: actual, graph.step)
+    wait_until(lambda: actual, graph.step)
     next_connection.close()
     publisher.close()
 
@@ -278,7 +278,7 @@ def test_a_publisher_that_does_not_exist_is_reported(graph: Graph) -> None:
     graph.wait_until_ready()
     call(graph.master.uri, "registerPublisher", "/x", "/cmd", "std_msgs/Float64", "http://[bad")
     call(graph.master.uri, "registerPublisher", "/y", "/cmd", "*", "http://127.0.0.1:1/")
-    until(lambda: sum("publisher http://" in line for line in graph.lines) >= 2, graph.step)
+    wait_until(lambda: sum("publisher http://" in line for line in graph.lines) >= 2, graph.step)
 
 
 def test_a_client_of_a_service_that_sends_garbage_gets_an_error(graph: Graph) -> None:
@@ -317,8 +317,8 @@ def test_a_client_of_a_service_killed_in_the_middle_of_its_request_is_forgotten(
         peer.close()  # with a reset
     with connect(port_of(sim)) as peer:
         peer.sendall(fields + request)
-        until(lambda: requests, graph.step)
-    until(lambda: not sim._listener.n_connections, graph.step)
+        wait_until(lambda: requests, graph.step)
+    wait_until(lambda: not sim._listener.n_connections, graph.step)
     assert len(requests) == 1
 
 
@@ -334,7 +334,7 @@ def ask_persistently(sim: Ros1Bridge) -> socket.socket:
         with sim._idle_clients._lock:
             return any(port == entry.getpeername()[1] for entry in sim._idle_clients._connections)
 
-    until(is_awaited)
+    wait_until(is_awaited)
     return peer
 
 
@@ -354,9 +354,9 @@ def test_of_too_many_clients_that_ask_nothing_the_longest_idle_is_left(
         assert second.recv(1) == b""
         for peer in (third_client, fourth, third_client):
             peer.sendall(add_length(b""))
-            until(lambda peer=peer: select([peer], [], [], 0.0)[0], graph.step)
+            wait_until(lambda peer=peer: select([peer], [], [], 0.0)[0], graph.step)
             assert peer.recv(5, socket.MSG_WAITALL) == b"\x01" + bytes(4)
-    until(lambda: any("it sent no request" in line for line in graph.lines))
+    wait_until(lambda: any("it sent no request" in line for line in graph.lines))
 
 
 def test_many_connections_are_bounded(graph: Graph, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -365,10 +365,12 @@ def test_many_connections_are_bounded(graph: Graph, monkeypatch: pytest.MonkeyPa
     graph.wait_until_ready()
     port = port_of(sim)
     peers = [connect(port) for _ in range(8)]
-    until(lambda: any("more than 5 connections" in x or "one is refused" in x for x in graph.lines))
+    wait_until(
+        lambda: any("more than 5 connections" in x or "one is refused" in x for x in graph.lines)
+    )
     for peer in peers:
         peer.close()
-    until(lambda: not sim._listener.n_connections)
+    wait_until(lambda: not sim._listener.n_connections)
     assert QUEUE_LENGTH > 0
 
 
@@ -379,7 +381,7 @@ def test_many_connections_that_break_off_are_few_lines(graph: Graph) -> None:
     for n in range(1, 40):
         with connect(port) as peer:
             peer.sendall(struct.pack("<I", 100 + n) + bytes(n))
-    until(lambda: "further such lines" in "".join(graph.lines), graph.step)
+    wait_until(lambda: "further such lines" in "".join(graph.lines), graph.step)
     assert sum("it closed the connection after" in line for line in graph.lines) == 6
 
 
@@ -391,7 +393,7 @@ def test_a_thousand_publishers_of_a_topic_are_bounded(graph: Graph) -> None:
     value_before = threading.active_count()
     uris = [f"http://127.0.0.1:{port}/" for port in range(1, 1001)]
     call(sim.uri, "publisherUpdate", "/x", "/cmd", uris)
-    until(lambda: any("1000 publishers; 100" in line for line in graph.lines), graph.step)
+    wait_until(lambda: any("1000 publishers; 100" in line for line in graph.lines), graph.step)
     assert threading.active_count() - value_before < 110
     call(sim.uri, "publisherUpdate", "/x", "/cmd", [])
-    until(lambda: threading.active_count() <= value_before + 2, graph.step)
+    wait_until(lambda: threading.active_count() <= value_before + 2, graph.step)

@@ -12,7 +12,7 @@ from typing import Any
 
 import pytest
 
-from tests.support.waiting import LIMIT, until
+from tests.support.waiting import LIMIT, wait_until
 from uwsim.middleware.log import Log
 from uwsim.middleware.ros1.master import Master
 from uwsim.middleware.ros1.tcpros import PeerError
@@ -83,7 +83,7 @@ def test_subscribers_hear_of_new_publishers(master: Master, lines: list[str]) ->
     uri = f"http://127.0.0.1:{node.port}/"
     call(master.uri, "registerSubscriber", "/echo", "/odom", "*", uri)
     call(master.uri, "registerPublisher", "/sim", "/odom", "nav_msgs/Odometry", NODE)
-    until(lambda: arrivals)
+    wait_until(lambda: arrivals)
     assert arrivals[0] == ("/master", "/odom", [NODE])
     node.close()
 
@@ -99,7 +99,7 @@ def test_a_second_node_of_the_same_name_ends_the_first(master: Master, lines: li
     uri = f"http://127.0.0.1:{node.port}/"
     call(master.uri, "registerPublisher", "/sim", "/a", "std_msgs/String", uri)
     call(master.uri, "registerPublisher", "/sim", "/b", "std_msgs/String", NODE)
-    until(lambda: reasons)
+    wait_until(lambda: reasons)
     assert "/sim" in reasons[0][1]
     assert call(master.uri, "getPublishedTopics", "/x", "") == [["/b", "std_msgs/String"]]
     node.close()
@@ -141,7 +141,7 @@ def test_a_subscriber_of_a_parameter_hears_of_its_change(master: Master, lines: 
     uri = f"http://127.0.0.1:{node.port}/"
     assert call(master.uri, "subscribeParam", "/x", uri, "/gain") == {}
     call(master.uri, "setParam", "/x", "/gain", 0.5)
-    until(lambda: arrivals)
+    wait_until(lambda: arrivals)
     assert arrivals[0] == ("/master", "/gain/", 0.5)
     assert call(master.uri, "unsubscribeParam", "/x", uri, "/gain") == 1
     node.close()
@@ -287,6 +287,6 @@ def test_the_last_update_that_a_subscriber_gets_is_the_newest(
     call(master.uri, "registerPublisher", "/one", "/corners", kind, "http://x:1/")
     time.sleep(0.1)  # the first update has begun
     call(master.uri, "registerPublisher", "/two", "/corners", kind, "http://x:2/")
-    until(lambda: updates and len(updates[-1]) == 2 and is_newest_sent.is_set())
+    wait_until(lambda: updates and len(updates[-1]) == 2 and is_newest_sent.is_set())
     time.sleep(0.1)
     assert updates[-1] == ["http://x:1/", "http://x:2/"]

@@ -11,7 +11,7 @@ from typing import Any
 import pytest
 
 from tests.middleware.ros1.nodes import Graph
-from tests.support.waiting import LIMIT, until
+from tests.support.waiting import LIMIT, wait_until
 from uwsim.messages import Float64
 from uwsim.middleware.log import Log
 from uwsim.middleware.ros1.registrar import Registrar, Registrations
@@ -73,7 +73,7 @@ def test_a_publisher_with_an_odd_answer_is_asked_again(
     graph.wait_until_ready()
     with answering(ODD_ANSWERS["a text of nested lists"]) as uri:
         call(graph.master.uri, "registerPublisher", "/x", "/cmd", "std_msgs/Float64", uri)
-        until(lambda: sum("does not answer as ROS" in x for x in graph.lines) > 2, graph.step)
+        wait_until(lambda: sum("does not answer as ROS" in x for x in graph.lines) > 2, graph.step)
     graph.close()
 
 
@@ -97,7 +97,7 @@ def test_registering_goes_on_after_a_master_that_answers_with_a_number_for_a_lis
         poll=0.02,
     )
     registrar.set_registrations(Registrations(subscribers={"/cmd": "std_msgs/Float64"}))
-    until(lambda: arrivals)
+    wait_until(lambda: arrivals)
     assert arrivals == [("/cmd", [])]
     registrar.close()
     master.close()

@@ -12,7 +12,7 @@ import pytest
 import uwsim
 from tests.middleware.ros1.sea import Sea
 from tests.support.ros1_peers import needs_ros1, peers
-from tests.support.waiting import LIMIT, until
+from tests.support.waiting import LIMIT, wait_until
 from uwsim.middleware.types import wire_type
 
 pytestmark = [needs_ros1, pytest.mark.slow]
@@ -51,9 +51,9 @@ def test_rostopic_hz_finds_a_rate(sea: Sea) -> None:
     assert program.stdout is not None
     reader = threading.Thread(target=lines.extend, args=(program.stdout,), daemon=True)
     reader.start()
-    until(lambda: any(line.startswith("average rate: ") for line in lines), sea.advance)
+    wait_until(lambda: any(line.startswith("average rate: ") for line in lines), sea.advance)
     program.kill()  # on Ctrl-C rospy asks the master first, which is neither ours nor tested here
-    until(lambda: not reader.is_alive(), sea.advance)
+    wait_until(lambda: not reader.is_alive(), sea.advance)
 
 
 def test_the_robot_is_told_to_a_node_that_comes_late(sea: Sea) -> None:
@@ -75,7 +75,7 @@ def test_a_program_of_the_originals_kind_drives_the_vehicle(sea: Sea) -> None:
         now = sea.odometry().pose.pose.position
         return math.dist((now.x, now.y), (value_before.position.x, value_before.position.y))
 
-    until(lambda: has_moved() > 0.1, sea.advance)
+    wait_until(lambda: has_moved() > 0.1, sea.advance)
     assert program.poll() is None
     program.kill()
 
@@ -90,7 +90,7 @@ def test_a_program_of_the_originals_kind_moves_the_arm(sea: Sea) -> None:
         actual = sea.simulation.latest_message("/uwsim/joint_state")
         return math.nan if actual is None else float(actual.position[0])
 
-    until(lambda: math.isclose(slew(), 0.3, abs_tol=1e-6), sea.advance)
+    wait_until(lambda: math.isclose(slew(), 0.3, abs_tol=1e-6), sea.advance)
     program.kill()
 
 
@@ -108,7 +108,7 @@ def test_a_program_sees_the_images_of_a_camera_and_no_others_are_rendered(sea: S
     assert len(lines) == 2
     assert all("320x240 rgb8" in line for line in lines)
     assert not sea.simulation.bus.has_subscribers("/uwsim/camera2")
-    until(lambda: not sea.simulation.bus.has_subscribers("/uwsim/camera1"), sea.advance)
+    wait_until(lambda: not sea.simulation.bus.has_subscribers("/uwsim/camera1"), sea.advance)
 
 
 def test_the_sums_of_types_are_those_of_ros(sea: Sea) -> None:
@@ -142,9 +142,9 @@ def test_the_sums_of_types_are_those_of_ros(sea: Sea) -> None:
 
 def test_a_master_killed_and_started_again_has_the_topics_back(sea: Sea) -> None:
     sea.peers.kill_master()
-    until(lambda: any("is tried again" in line for line in sea.lines), sea.advance)
+    wait_until(lambda: any("is tried again" in line for line in sea.lines), sea.advance)
     sea.peers.start_master()
-    until(lambda: any("restarted" in line for line in sea.lines), sea.advance)
+    wait_until(lambda: any("restarted" in line for line in sea.lines), sea.advance)
     assert sea.bridge.wait(LIMIT)
     topic_list = sea.output(sea.peers.start("rostopic", "list"))
     assert "/uwsim/girona500/odom" in topic_list
@@ -177,5 +177,5 @@ def test_a_service_of_a_rospy_node_is_called_from_the_bus(sea: Sea, tmp_path: Pa
         "rospy.Service('/vision/reset', Empty, lambda r: EmptyResponse())\nrospy.spin()\n"
     )
     sea.peers.start("/usr/bin/python3", str(tmp_path / "server.py"))
-    until(lambda: sea.simulation.bus.services.is_offered("vision/reset"), sea.advance)
+    wait_until(lambda: sea.simulation.bus.services.is_offered("vision/reset"), sea.advance)
     assert sea.simulation.call("vision/reset", Empty()) == EmptyResponse()

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from tests.middleware.ros1.nodes import Graph
-from tests.support.waiting import until
+from tests.support.waiting import wait_until
 from uwsim.messages import Float64
 from uwsim.middleware.ros1 import Master
 from uwsim.middleware.ros1.xmlrpc import Answer, call
@@ -39,7 +39,7 @@ def test_a_publisher_that_comes_while_a_topic_is_registered_is_kept(graph: Graph
     actual: list[Any] = []
     sim.bus.subscribe("topic", Float64, actual.append)
     graph.wait_until_ready()
-    until(lambda: other.bus.has_subscribers("topic"), graph.step)
+    wait_until(lambda: other.bus.has_subscribers("topic"), graph.step)
     publish(Float64(2.5))
-    until(lambda: actual, graph.step)
+    wait_until(lambda: actual, graph.step)
     assert actual == [Float64(2.5)]

@@ -9,7 +9,7 @@ from contextlib import contextmanager, suppress
 
 import pytest
 
-from tests.support.waiting import LIMIT, until
+from tests.support.waiting import LIMIT, wait_until
 from uwsim.middleware.log import Log
 from uwsim.middleware.ros1.master import Master
 from uwsim.middleware.ros1.node_calls import NodeCalls
@@ -79,11 +79,11 @@ def test_slow_subscribers_do_not_hold_up_others(monkeypatch: pytest.MonkeyPatch)
             call(master.uri, "registerSubscriber", f"/evil{n}", topic, KIND, node)
     for topic in ("/evil", "/more"):
         call(master.uri, "registerPublisher", "/x", topic, KIND, NODE)
-    until(lambda: len(called_uris) == 8)
+    wait_until(lambda: len(called_uris) == 8)
     node = f"http://127.0.0.1:{honest_node.port}/"
     call(master.uri, "registerSubscriber", "/honest", "/chat", KIND, node)
     call(master.uri, "registerPublisher", "/y", "/chat", KIND, NODE)
-    until(lambda: arrivals)
+    wait_until(lambda: arrivals)
     assert arrivals == [[NODE]]
     master.close()
     assert all(entry.daemon for entry in threading.enumerate() if "ros1-master" in entry.name)
@@ -100,14 +100,14 @@ def test_the_calls_of_a_node_are_made_in_their_order_one_at_a_time() -> None:
         finished_calls.append("1")
 
     calls.add("a", "1", run_first)
-    until(lambda: not calls._calls["a"])  # it has begun
+    wait_until(lambda: not calls._calls["a"])  # it has begun
     calls.add("a", "2", lambda: finished_calls.append("old"))
     calls.add("a", "3", lambda: finished_calls.append("3"))
     calls.add("a", "2", lambda: finished_calls.append("2"))
     calls.add("b", "1", lambda: finished_calls.append("b"))
-    until(lambda: finished_calls)
+    wait_until(lambda: finished_calls)
     assert finished_calls == ["b"]
     is_free.set()
-    until(lambda: len(finished_calls) == 4)
+    wait_until(lambda: len(finished_calls) == 4)
     assert finished_calls == ["b", "1", "2", "3"]
     calls.close()

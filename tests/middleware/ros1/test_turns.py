@@ -10,7 +10,7 @@ from contextlib import closing
 
 import pytest
 
-from tests.support.waiting import LIMIT, until
+from tests.support.waiting import LIMIT, wait_until
 from uwsim.middleware.log import Log
 from uwsim.middleware.ros1 import turns
 from uwsim.middleware.ros1.tcpros import PeerError
@@ -76,7 +76,7 @@ def test_a_short_request_does_not_wait_behind_long_ones() -> None:
     with shared_turns.turn(0):
         for n_waiting, thread in enumerate(threads, 1):
             thread.start()
-            until(lambda n=n_waiting: len(shared_turns._waiting_turns) == n)
+            wait_until(lambda n=n_waiting: len(shared_turns._waiting_turns) == n)
         assert not order
     for thread in threads:
         thread.join(LIMIT)

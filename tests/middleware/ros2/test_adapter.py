@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.support.ros2_peers import needs_rclpy, peer, until
+from tests.support.ros2_peers import needs_rclpy, peer, wait_until
 from uwsim.messages import Image, Odometry, String, TwistStamped
 from uwsim.messages.build import image
 
@@ -49,7 +49,7 @@ say(x=got[0].pose.pose.position.x, sec=got[0].header.stamp.sec, has_begun=has_be
             simulator.step()
             answers.extend(node.answers())
 
-        until(lambda: answers, step)
+        wait_until(lambda: answers, step)
     assert answers == [{"x": 1.25, "sec": 1, "has_begun": True}]
 
 
@@ -65,7 +65,7 @@ while True:
     rclpy.spin_once(node, timeout_sec=0.02)
 """
     with peer(source, simulator.domain):
-        until(lambda: inbox.last_message is not None, simulator.step)
+        wait_until(lambda: inbox.last_message is not None, simulator.step)
     assert inbox.last_message is not None
     assert inbox.last_message.twist.linear.x == 0.5
     assert inbox.last_message.header.stamp.sec == 0, "none given: none"
@@ -94,7 +94,7 @@ say(
 """
     with peer(source, simulator.domain) as node:
         answers: list[dict[str, object]] = []
-        until(lambda: answers, lambda: (simulator.step(), answers.extend(node.answers())))
+        wait_until(lambda: answers, lambda: (simulator.step(), answers.extend(node.answers())))
     odometry = wire_type(Odometry)
     assert odometry is not None
     assert answers == [
@@ -120,9 +120,9 @@ spin_until(lambda: False)
     simulator.step()
     assert not simulator.bus.has_subscribers("camera")
     with peer(source, simulator.domain) as node:
-        until(lambda: simulator.bus.has_subscribers("camera"), simulator.step)
+        wait_until(lambda: simulator.bus.has_subscribers("camera"), simulator.step)
         node.process.terminate()  # rclpy leaves the graph
-        until(lambda: not simulator.bus.has_subscribers("camera"), simulator.step)
+        wait_until(lambda: not simulator.bus.has_subscribers("camera"), simulator.step)
 
 
 @pytest.mark.skipif(
@@ -155,10 +155,10 @@ spin_until(lambda: False)
 
     with peer(source, simulator.domain):
         small_image = np.zeros((1, 1, 3), dtype=np.uint8)
-        until(lambda: samples, lambda: (publish(image(small_image.copy(), time=0.0)), step()))
+        wait_until(lambda: samples, lambda: (publish(image(small_image.copy(), time=0.0)), step()))
         for n in range(1, 21):  # both ends know each other
             send(n)
-            until(lambda n=n: samples[-1].startswith(f"640x480 {n} "), step)
+            wait_until(lambda n=n: samples[-1].startswith(f"640x480 {n} "), step)
     large_image = [entry for entry in samples if not entry.startswith("1x1 ")]
     assert large_image == [f"640x480 {n} 921600" for n in range(1, 21)]
 
@@ -176,7 +176,7 @@ spin_until(lambda: False)
 """
     with peer(source, simulator.domain) as node:
         answers: list[dict[str, object]] = []
-        until(lambda: answers, lambda: (simulator.step(), answers.extend(node.answers())))
+        wait_until(lambda: answers, lambda: (simulator.step(), answers.extend(node.answers())))
     assert answers == [{"text": "<robot/>"}]
 
 
@@ -188,6 +188,6 @@ out = node.create_publisher(TwistStamped, "/rov/twist", qos_profile_sensor_data)
 spin_until(lambda: False)
 """
     with peer(source, simulator.domain):
-        until(lambda: simulator.lines, simulator.step)
+        wait_until(lambda: simulator.lines, simulator.step)
     assert "/rov/twist" in simulator.lines[0]
     assert "best effort" in simulator.lines[0]

@@ -9,7 +9,7 @@ import pytest
 pytest.importorskip("cyclonedds", reason="cyclonedds is not installed: pip install uwsim[ros2]")
 
 from tests.middleware.ros2.simulator import Simulator, run_in_thread
-from tests.support.waiting import until
+from tests.support.waiting import wait_until
 from uwsim.messages import Empty, EmptyResponse, String
 from uwsim.middleware.admission import SingleProgram
 from uwsim.middleware.encodings import to_cdr
@@ -49,7 +49,7 @@ def test_another_participant_publishes_nothing(
     kind = raw_type(ros2_store(), "std_msgs/msg/String")
     writers = [participant.writer("rt/status", kind, Quality()) for participant in two]
     simulator.step()
-    until(lambda: all(writer.n_readers for writer in writers), simulator.step)
+    wait_until(lambda: all(writer.n_readers for writer in writers), simulator.step)
     admission = simulator.bridge.admission
     assert admission is not None
     admission.admit(participant_name(two[1]))
@@ -62,7 +62,7 @@ def test_another_participant_publishes_nothing(
         arrivals.extend(message.data for message in inbox.take())
 
     refusals: list[tuple[str, str, int]] = []
-    until(
+    wait_until(
         lambda: arrivals and refusals, publish, lambda: refusals.extend(admission.take_refusals())
     )
     assert set(arrivals) == {"tracking"}
@@ -82,18 +82,18 @@ def test_another_participant_calls_no_service(
     simulator.step()
     kind = raw_type(ros2_store(), "std_srvs/srv/Empty_Request", prefix=CALL_FIELDS)
     writers = [participant.writer("rq/resetRequest", kind, Quality()) for participant in two]
-    until(lambda: all(writer.n_readers for writer in writers), simulator.step)
+    wait_until(lambda: all(writer.n_readers for writer in writers), simulator.step)
     admission = simulator.bridge.admission
     assert admission is not None
     admission.admit(participant_name(two[1]))
     data = bytes(to_cdr(Empty()))
     call = data[:CDR_HEADER] + CALL_HEADER.pack(1, 1) + data[CDR_HEADER:]
     refusals: list[tuple[str, str, int]] = []
-    until(
+    wait_until(
         lambda: refusals,
         lambda: writers[0].write(call),  # again: a reader may not know the writer yet
         simulator.step,
         lambda: refusals.extend(admission.take_refusals()),
     )
     assert (n, {entry[:2] for entry in refusals}) == ([0], {(participant_name(two[0]), "/reset")})
-    until(lambda: n[0], lambda: writers[1].write(call), simulator.step)
+    wait_until(lambda: n[0], lambda: writers[1].write(call), simulator.step)

@@ -10,7 +10,7 @@ import time
 import numpy as np
 import pytest
 
-from tests.support.ros2_peers import BOUND_S, until
+from tests.support.ros2_peers import BOUND_S, wait_until
 from uwsim.messages import Image
 from uwsim.messages.build import image
 
@@ -83,12 +83,14 @@ def test_images_of_307_kb_reach_a_reader_of_best_effort(
             text=True,
         )
         try:
-            until(lambda: simulator.bus.has_subscribers("camera"), simulator.step)
+            wait_until(lambda: simulator.bus.has_subscribers("camera"), simulator.step)
             start_time = time.monotonic()
             for n in range(N_IMAGES):
-                until(lambda due=start_time + n / RATE: time.monotonic() >= due, simulator.step)
+                wait_until(
+                    lambda due=start_time + n / RATE: time.monotonic() >= due, simulator.step
+                )
                 publish(image(pixels, time=simulator.time))
-            until(lambda: program.poll() is not None, simulator.step)
+            wait_until(lambda: program.poll() is not None, simulator.step)
             lines, _ = program.communicate(timeout=BOUND_S)
         finally:
             program.kill()

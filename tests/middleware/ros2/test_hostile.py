@@ -16,7 +16,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from tests.support.ros2_peers import needs_rclpy, peer, until
+from tests.support.ros2_peers import needs_rclpy, peer, wait_until
 from uwsim.messages import Empty, EmptyResponse, Image, String
 from uwsim.messages.build import image
 
@@ -100,7 +100,7 @@ def writer_to(simulator: Simulator, other: Participant, topic: str) -> Writer:
     """A writer of texts that the simulator reads."""
     type = raw_type(ros2_store(), "std_msgs/msg/String")
     writer = other.writer(f"rt/{topic}", type, Quality())
-    until(lambda: writer.n_readers == 1, simulator.step)
+    wait_until(lambda: writer.n_readers == 1, simulator.step)
     return writer
 
 
@@ -119,7 +119,7 @@ def test_garbage_on_its_ports_does_not_disturb_it(simulator: Simulator, other: P
                 for start in (b"", b"RTPS", b"RTPS\x02\x01\x01\x10" + bytes(12)):
                     sender.sendto(start + data, ("127.0.0.1", port))
     writer.write(text("still here"))
-    until(lambda: inbox.last_message is not None, simulator.step)
+    wait_until(lambda: inbox.last_message is not None, simulator.step)
     assert inbox.last_message is not None
     assert inbox.last_message.data == "still here"
 
@@ -147,7 +147,7 @@ def test_of_a_flood_the_newest_are_kept_and_it_is_reported(
     def is_told() -> bool:
         return any("faster than the simulation" in line for line in simulator.lines)
 
-    until(is_told, lambda: [writer.write(text("more")) for _ in range(1000)])
+    wait_until(is_told, lambda: [writer.write(text("more")) for _ in range(1000)])
     writer.write(text("end"))
 
     def step() -> None:
@@ -156,7 +156,7 @@ def test_of_a_flood_the_newest_are_kept_and_it_is_reported(
         assert len(new_samples) <= MAX_KEPT
         samples.extend(new_samples)
 
-    until(lambda: samples and samples[-1] == "end", step)
+    wait_until(lambda: samples and samples[-1] == "end", step)
 
 
 @needs_rclpy
@@ -175,12 +175,12 @@ spin_until(lambda: False)
         simulator.step()
 
     with peer(source, simulator.domain) as first_reader:
-        until(first_reader.answers, step)
+        wait_until(first_reader.answers, step)
         first_reader.kill()
         with peer(source, simulator.domain) as second:
-            until(second.answers, step)
+            wait_until(second.answers, step)
             start_step = simulator.bus.step
-            until(
+            wait_until(
                 lambda: samples, lambda: (step(), samples.extend(a["n"] for a in second.answers()))
             )
     assert simulator.bus.step > start_step
@@ -209,16 +209,16 @@ def test_a_reader_that_is_frozen_costs_bounded_memory_and_holds_nobody_up(
 
     with process(READER_PROGRAM, simulator.domain) as reader:
         assert reader.stdout is not None
-        until(reader.stdout.read, step)
-        until(lambda: arrivals, step)
+        wait_until(reader.stdout.read, step)
+        wait_until(lambda: arrivals, step)
         os.kill(reader.pid, signal.SIGSTOP)
         value_before = memory()
         for _ in range(100):  # 370 MB, of which the reader takes none
             step()
             text = f"{simulator.time - 0.002:.3f}"
-            until(partial(arrivals.__contains__, text), lambda: None)
+            wait_until(partial(arrivals.__contains__, text), lambda: None)
         assert memory() - value_before < 200.0
-        until(lambda: not simulator.bus.has_subscribers("camera"), step)
+        wait_until(lambda: not simulator.bus.has_subscribers("camera"), step)
     reports = f"/camera: a reader has left, or was silent {simulator.bridge._node.lease}"
     assert any(reports in line for line in simulator.lines)
 
@@ -230,11 +230,11 @@ def test_a_writer_killed_in_the_middle_of_an_image_does_no_harm(
     inbox = simulator.bus.inbox("picture", Image)
     texts = simulator.bus.inbox("text", String)
     with process(WRITER_PROGRAM, simulator.domain) as writer:
-        until(lambda: inbox.last_message is not None, simulator.step)
+        wait_until(lambda: inbox.last_message is not None, simulator.step)
         writer.kill()
     own_samples = writer_to(simulator, other, "text")
     own_samples.write(text("still here"))
-    until(lambda: texts.last_message is not None, simulator.step)
+    wait_until(lambda: texts.last_message is not None, simulator.step)
     assert all(entry.data.size == 960 * 1280 * 3 for entry in inbox.take())
 
 
@@ -250,7 +250,7 @@ def test_names_that_are_none_of_ros_2_are_told_and_the_others_are_there(
     samples: list[bytes] = []
     kind = raw_type(ros2_store(), "std_msgs/msg/String")
     other.reader("rt/zz", kind, Quality(), lambda sample: samples.append(sample.data))
-    until(lambda: samples, lambda: (publish(String(data="here")), simulator.step()))
+    wait_until(lambda: samples, lambda: (publish(String(data="here")), simulator.step()))
     reports = [line for line in simulator.lines if "not on the graph: /" in line]
     assert len(reports) == 3 * 6
     assert any("not on the graph: /a b. A name of ROS 2 has letters" in line for line in reports)
@@ -273,5 +273,5 @@ say(done=True)
 spin_until(lambda: False)
 """
     with peer(source, simulator.domain) as node:
-        until(node.answers, simulator.step)
+        wait_until(node.answers, simulator.step)
     assert "deserialization" not in capfd.readouterr().err

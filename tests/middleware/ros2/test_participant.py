@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from tests.support.ros2_peers import free_domain, until
+from tests.support.ros2_peers import free_domain, wait_until
 from uwsim.errors import UwsimError
 from uwsim.messages import String
 from uwsim.middleware.encodings import from_cdr, to_cdr
@@ -50,11 +50,11 @@ def test_bytes_go_from_one_to_the_other_as_they_are(two: tuple[Participant, Part
     )
     samples: list[Any] = []
     receiver.reader("rt/a", TEXT, Quality(), samples.append)
-    until(lambda: n_readers and n_readers[-1] == 1, assert_nothing_comes)
+    wait_until(lambda: n_readers and n_readers[-1] == 1, assert_nothing_comes)
     sent_messages = [bytes(to_cdr(String(data="x" * n))) for n in range(5)]
     for data in sent_messages:
         assert writer.write(data)
-    until(lambda: len(samples) == 5, assert_nothing_comes)
+    wait_until(lambda: len(samples) == 5, assert_nothing_comes)
     assert [from_cdr(String, entry.data).data for entry in samples] == ["x" * n for n in range(5)]
 
 
@@ -67,7 +67,7 @@ def test_what_is_latched_reaches_a_reader_that_comes_late(
         writer.write(bytes(to_cdr(String(data=text))))
     samples: list[Any] = []
     receiver.reader("rt/a", TEXT, Quality(is_latched=True), samples.append)
-    until(lambda: len(samples) == 2, assert_nothing_comes)
+    wait_until(lambda: len(samples) == 2, assert_nothing_comes)
     assert [from_cdr(String, entry.data).data for entry in samples] == ["b", "c"]
 
 
@@ -77,9 +77,9 @@ def test_a_writer_that_is_forgotten_leaves_its_readers(
     sender, receiver = two
     writer = sender.writer("rt/a", TEXT, Quality())
     reader = receiver.reader("rt/a", TEXT, Quality(), lambda sample: None)
-    until(reader.get_matched_publications, assert_nothing_comes)
+    wait_until(reader.get_matched_publications, assert_nothing_comes)
     sender.forget(writer.entity)
-    until(lambda: not reader.get_matched_publications(), assert_nothing_comes)
+    wait_until(lambda: not reader.get_matched_publications(), assert_nothing_comes)
 
 
 def test_a_configuration_that_cyclone_dds_refuses_is_an_error_of_the_user() -> None:

@@ -10,7 +10,7 @@ from types import ModuleType
 import pytest
 
 from tests.middleware.ros2.simulator import Simulator, run_in_thread
-from tests.support.ros2_peers import peer, until
+from tests.support.ros2_peers import peer, wait_until
 from uwsim.errors import UwsimError
 from uwsim.messages import Float32MultiArray, Odometry, ProjectedSonarImage, TwistStamped
 from uwsim.messages.services import Empty, EmptyResponse, GTpublish
@@ -51,7 +51,9 @@ def test_a_node_of_fast_dds_calls_a_service_of_the_simulation(simulator: Simulat
     simulator.bus.services.serve("start", Empty, start)
     with peer(CALLER, simulator.domain) as node:
         answers: list[dict[str, int]] = []
-        until(lambda: len(answers) == 3, lambda: (simulator.step(), answers.extend(node.answers())))
+        wait_until(
+            lambda: len(answers) == 3, lambda: (simulator.step(), answers.extend(node.answers()))
+        )
     assert requests == [Empty()] * 3
     assert simulator.lines == []
 
@@ -72,7 +74,9 @@ def test_a_call_that_fails_is_reported_and_the_next_is_answered(simulator: Simul
     )
     with peer(source, simulator.domain) as node:
         answers: list[dict[str, int]] = []
-        until(lambda: len(answers) == 3, lambda: (simulator.step(), answers.extend(node.answers())))
+        wait_until(
+            lambda: len(answers) == 3, lambda: (simulator.step(), answers.extend(node.answers()))
+        )
     assert [line.removeprefix("uwsim: : ") for line in simulator.lines] == [
         "service /start: no answer: not yet"
     ]
@@ -90,10 +94,10 @@ spin_until(lambda: False)
     services = simulator.bus.services
     assert not services.is_offered("home")
     with peer(source, simulator.domain) as node:
-        until(lambda: services.is_offered("home"), simulator.step)
+        wait_until(lambda: services.is_offered("home"), simulator.step)
         assert [services.call("home", Empty()) for _ in range(3)] == [EmptyResponse()] * 3
         answers: list[dict[str, bool]] = []
-        until(lambda: len(answers) == 3, lambda: answers.extend(node.answers()))
+        wait_until(lambda: len(answers) == 3, lambda: answers.extend(node.answers()))
 
 
 def test_what_is_published_and_read_in_the_simulation_comes_back_to_it_once(
@@ -127,7 +131,7 @@ spin_until(lambda: False)
         "the simulation's own reader is no demand"
     )
     with peer(source.replace("3.0 in got", "len(got) > 20"), simulator.domain):
-        until(lambda: 0.0 in samples, step)
+        wait_until(lambda: 0.0 in samples, step)
         for _ in range(20):
             step()
     assert sorted(samples) == [0.0, *(3.0 + entry for entry in range(1, n + 1))]
@@ -157,7 +161,7 @@ node.create_subscription(Odometry, "/rov/odom", lambda m: say(x=1), 10)
 spin_until(lambda: False)
 """
     with peer(source, simulator.domain) as node:
-        until(node.answers, lambda: (publish(Odometry()), simulator.step()))
+        wait_until(node.answers, lambda: (publish(Odometry()), simulator.step()))
 
 
 def test_a_topic_whose_name_ros_2_refuses_is_left_out(simulator: Simulator) -> None:
@@ -179,7 +183,7 @@ out = node.create_publisher(TwistStamped, "/rov/twist", 10)
 spin_until(lambda: False)
 """
     with peer(source, simulator.domain):
-        until(lambda: simulator.bridge.has_publisher("rov/twist"), simulator.step)
+        wait_until(lambda: simulator.bridge.has_publisher("rov/twist"), simulator.step)
 
 
 def test_a_service_outside_whose_type_rclpy_lacks_is_an_error_that_names_it(
@@ -249,6 +253,6 @@ while True:
     rclpy.spin_once(node, timeout_sec=0.05)
 """
     with peer(source, simulator.domain):
-        until(lambda: any("it is odd" in line for line in simulator.lines), simulator.step)
+        wait_until(lambda: any("it is odd" in line for line in simulator.lines), simulator.step)
     [line] = [line for line in simulator.lines if "it is odd" in line]
     assert "/rov/twist: in a message of node /peer, it is odd; expected another" in line

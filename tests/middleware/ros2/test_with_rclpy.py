@@ -11,9 +11,9 @@ from tests.support.ros2_peers import (
     BOUND_S,
     PYTHON,
     ROOT,
-    beside_rclpy,
     needs_rclpy,
     of_one_version,
+    rclpy_environment,
 )
 
 FOLDER = Path(__file__).parent
@@ -28,7 +28,7 @@ def test_it_holds_for_a_node_of_rclpy(file: str) -> None:
     completed_process = subprocess.run(
         [PYTHON, "-m", "pytest", "-q", "-p", "no:cacheprovider", FOLDER / file],
         cwd=ROOT,
-        env=beside_rclpy(),
+        env=rclpy_environment(),
         capture_output=True,
         text=True,
         timeout=2 * BOUND_S,

@@ -10,7 +10,7 @@ from contextlib import ExitStack
 import pytest
 
 from tests.support.handshakes import request_of
-from tests.support.waiting import LIMIT, until
+from tests.support.waiting import LIMIT, wait_until
 from uwsim.bus import Bus
 from uwsim.middleware.log import Log
 from uwsim.middleware.web.options import WebOptions
@@ -69,7 +69,7 @@ def test_connections_without_a_handshake_are_closed(unraisable_errors: list[str]
     bridge = open_connections()
     with peer(bridge), peer(bridge) as second:
         second.sendall(b"GET / HTTP/1.1\r\n")
-        until(lambda: len(bridge._limits._open_connections) == 2)
+        wait_until(lambda: len(bridge._limits._open_connections) == 2)
         close(bridge)
     assert unraisable_errors == []
 
@@ -79,11 +79,11 @@ def test_a_connection_whose_client_takes_nothing_is_closed(unraisable_errors: li
     with peer(bridge) as client:
         client.sendall(request_of("GET / HTTP/1.1"))
         assert client.recv(12) == b"HTTP/1.1 101"
-        until(lambda: bridge._sessions)
+        wait_until(lambda: bridge._sessions)
         (session,) = bridge._sessions
         for _ in range(8):
             session.reply({"op": "status", "msg": 2**20 * "a"})
         (connection,) = bridge._limits._open_connections
-        until(connection.transport.get_write_buffer_size)
+        wait_until(connection.transport.get_write_buffer_size)
         close(bridge)
     assert unraisable_errors == []

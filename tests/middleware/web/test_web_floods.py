@@ -8,7 +8,7 @@ import json
 import pytest
 from websockets.sync.client import connect
 
-from tests.support.waiting import until
+from tests.support.waiting import wait_until
 from uwsim.bus import Bus
 from uwsim.messages import TwistStamped
 from uwsim.middleware.admission import FirstCaller, SingleProgram, TopicOwners
@@ -57,7 +57,7 @@ def test_what_a_run_waits_for_is_read_at_once(sync: str, pauses: list[float]) ->
             admission.admit(f"client 127.0.0.1:{client.local_address[1]}")
             for _ in range(n):
                 client.send(json.dumps({"op": "publish", "topic": "/twist", "msg": {}}))
-            until(lambda: bridge.arrivals.n_arrived["twist"] == n)
+            wait_until(lambda: bridge.arrivals.n_arrived["twist"] == n)
     finally:
         bridge.close()
     assert bool(pauses) == (sync == "none")
@@ -76,7 +76,7 @@ def test_a_client_that_calls_itself_a_participant_waits_as_others_do(pauses: lis
             )
             for _ in range(n):
                 client.send(json.dumps(join))
-            until(lambda: len(pauses) > 1)
+            wait_until(lambda: len(pauses) > 1)
     finally:
         bridge.close()
 
@@ -91,7 +91,7 @@ def test_a_flood_is_read_in_few_bursts(pauses: list[float]) -> None:
         with connect(f"ws://127.0.0.1:{bridge.port}") as flooder:
             for _ in range(n):
                 flooder.send(json.dumps({"op": "publish", "topic": "/twist", "msg": {}}))
-            until(lambda: bridge.arrivals.n_arrived["twist"] == n)
+            wait_until(lambda: bridge.arrivals.n_arrived["twist"] == n)
     finally:
         bridge.close()
     assert 0 < len(pauses) < n / 5

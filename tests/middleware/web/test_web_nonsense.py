@@ -9,7 +9,7 @@ import pytest
 from websockets.sync.client import connect
 
 from tests.support.handshakes import status_of
-from tests.support.waiting import until
+from tests.support.waiting import wait_until
 from uwsim.bus import Bus
 from uwsim.errors import BadMessage
 from uwsim.messages import String
@@ -70,7 +70,7 @@ def test_a_join_of_nonsense_leaves_its_client_connected(
         message = {"op": "publish", "topic": f"/{JOIN}", "msg": {"data": "[" * 200_000}}
         client.send(json.dumps(message))
         client.send(json.dumps(message))
-        until(lambda: bridge.arrivals.n_arrived[JOIN] == 2)
+        wait_until(lambda: bridge.arrivals.n_arrived[JOIN] == 2)
     assert "Traceback" not in capfd.readouterr().err
 
 

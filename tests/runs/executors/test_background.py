@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from tests.support.short_benchmark import bench_of, fingerprint, run, write_benchmark
-from tests.support.synthetic_results import one_level
+from tests.support.synthetic_results import one_level_result
 from uwsim.analysis.load_reporter import load_reporter
 from uwsim.errors import RunFailed
 from uwsim.results import journal
@@ -25,7 +25,7 @@ def test_draws_reports_and_says_in_a_line_what_it_cannot_do_and_goes_on(
     tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:
     for name in ("blocked", "good"):
-        save(one_level(), tmp_path / name)
+        save(one_level_result(), tmp_path / name)
     (tmp_path / "blocked" / "report.html").mkdir()
     with BackgroundProcess(load_reporter) as background:
         for name in ("nowhere", "blocked", "good"):
@@ -64,7 +64,7 @@ def test_ends_with_the_block() -> None:
 @pytest.mark.slow
 def test_what_it_was_asked_is_done_here_if_it_dies(tmp_path: Path) -> None:
     for name in ("before", "after"):
-        save(one_level(), tmp_path / name)
+        save(one_level_result(), tmp_path / name)
     with BackgroundProcess(load_reporter) as background:
         os.kill(background._process.pid or 0, signal.SIGSTOP)  # asked, and never answers
         background.submit(tmp_path / "before")

@@ -89,7 +89,7 @@ def test_what_is_wrong_with_one_algorithm_does_not_stop_the_other(
     benchmark: Path, tmp_path: Path, executor: executor.Executor
 ) -> None:
     absent = bench_of(
-        benchmark, tmp_path / "absent", algorithm="tests.support.failing:Absent", repeat=2
+        benchmark, tmp_path / "absent", algorithm="tests.support.failing:NeverStarted", repeat=2
     )
     good = bench_of(benchmark, tmp_path / "good")
     with pytest.raises(NeverStarted, match="10 s of simulation time"):

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.support.cheat_trials import FOLDER, Holds, bench_of
+from tests.support.cheat_trials import FOLDER, FirstQuadTracker, bench_of
 from uwsim.base.environment import set_environment
 from uwsim.errors import RunFailed
 from uwsim.runs.executors.executor import run_each
@@ -78,7 +78,7 @@ def wait_for(pipe: Connection) -> None:
     pipe.poll(60)
 
 
-class KillsItsWorker(Holds):
+class KillsItsWorker(FirstQuadTracker):
     """Kills the process that runs its trial, once; notes by whom the next one was started."""
 
     def cheat(self) -> None:

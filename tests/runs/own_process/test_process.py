@@ -12,7 +12,7 @@ import pytest
 
 from tests.runs.own_process import programs
 from tests.support.short_trial import TIME, make_plan, rows_of, with_algorithm
-from tests.support.waiting import until
+from tests.support.waiting import wait_until
 from uwsim.base.rng import stream
 from uwsim.bus import Bus
 from uwsim.errors import BadMessage, BadSetting, NeverStarted, RunFailed
@@ -215,7 +215,7 @@ def test_a_request_that_takes_too_long_ends_the_process() -> None:
         process._limit = 0.1
         with pytest.raises(CallStopped, match="a callback took longer than --callback-limit"):
             process.request(["make", sys.path, [], programs.__name__, "NeverMade"], lambda asked: 0)
-        until(lambda: not is_there(process.pid))
+        wait_until(lambda: not is_there(process.pid))
         with pytest.raises(CallStopped, match=r"its process ended \(killed by SIGKILL\)"):
             process.request(["parameters", {}], lambda asked: 0)
 
@@ -311,4 +311,4 @@ def test_a_process_ends_with_its_parent_also_from_an_endless_callback() -> None:
     finally:
         parent.kill()
         parent.wait()
-    until(lambda: not is_there(pid))
+    wait_until(lambda: not is_there(pid))

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.support.short_trial import NEVER, make_plan, rows_of
+from tests.support.short_trial import NEVER_TRIGGER, make_plan, rows_of
 from uwsim.base.compatibility import COMPATIBILITY
 from uwsim.bus import Node
 from uwsim.errors import NeverStarted
@@ -176,7 +176,7 @@ def test_any_message_starts_a_benchmark_that_waits_for_a_topic(tmp_path: Path) -
 
 def test_a_benchmark_that_cannot_begin_says_which_trigger_it_waits_for(tmp_path: Path) -> None:
     with pytest.raises(NeverStarted, match=r"The benchmark never started: its startOn \(never\)"):
-        rows_of(make_plan(tmp_path, Idle, REPEAT, start=NEVER))
+        rows_of(make_plan(tmp_path, Idle, REPEAT, start=NEVER_TRIGGER))
 
 
 def test_a_benchmark_that_cannot_begin_says_what_the_algorithm_waits_for(tmp_path: Path) -> None:
@@ -187,4 +187,4 @@ def test_a_benchmark_that_cannot_begin_says_what_the_algorithm_waits_for(tmp_pat
 
     said = r"see to it\? \w+: it subscribes to '/front/image', but it has no publisher\.$"
     with pytest.raises(NeverStarted, match=said):
-        rows_of(make_plan(tmp_path, Waits, REPEAT, start=NEVER))
+        rows_of(make_plan(tmp_path, Waits, REPEAT, start=NEVER_TRIGGER))

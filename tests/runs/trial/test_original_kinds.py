@@ -58,7 +58,8 @@ def play(
         path.write_text(plain.replace("</rosInterfaces>", f"{TWIST}</rosInterfaces>"))
         scene = str(path)
     status = main(
-        ["bench", str(file), "--scene", scene, "--algorithm", "tests.support.scripted:Scripted",
+        ["bench", str(file), "--scene", scene,
+         "--algorithm", "tests.support.scripted:ScriptedAlgorithm",
          "--set", f"algorithm.file={file}", "--out", str(out), *words]
     )  # fmt: skip
     assert status == 0

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from tests.support.opened import open_scene
-from tests.support.scripted import Scripted
+from tests.support.scripted import ScriptedAlgorithm
 from uwsim.base.compatibility import compatibility
 from uwsim.benchmark.reader import read_benchmark
 from uwsim.benchmark.spec import BenchmarkSpec
@@ -120,7 +120,7 @@ def plan_of(file: Path, scene: SceneSpec, compatibility: frozenset[str]) -> Plan
         benchmark=replace(spec, scene_updater=updater),
         scene=scene,
         algorithm=AlgorithmUnderTest(
-            cls=Scripted,
+            cls=ScriptedAlgorithm,
             name="scripted",
             parameters={
                 "file": str(file),
@@ -128,7 +128,7 @@ def plan_of(file: Path, scene: SceneSpec, compatibility: frozenset[str]) -> Plan
                 "stop_after": 2.0,
             },
         ),
-        chosen=tuple(chosen),
+        level_choices=tuple(chosen),
         compatibility=compatibility,
         is_blind=True,
     )
@@ -200,8 +200,8 @@ def test_an_original_is_played_by_the_public_command(file: Path, tmp_path: Path)
     out = tmp_path / "out"
     status = main(
         ["bench", str(file), "--scene", str(scene),
-         "--algorithm", "tests.support.scripted:Scripted", "--set", f"algorithm.file={file}",
-         "--out", str(out), *chosen]
+         "--algorithm", "tests.support.scripted:ScriptedAlgorithm",
+         "--set", f"algorithm.file={file}", "--out", str(out), *chosen]
     )  # fmt: skip
     assert status == 0
     lines = (out / "result.dat").read_text().split("\n")

@@ -110,21 +110,21 @@ def test_an_algorithm_that_never_starts_the_benchmark_stops_it(
     benchmark: Path, tmp_path: Path
 ) -> None:
     with pytest.raises(NeverStarted, match="10 s of simulation time"):
-        run(benchmark, tmp_path / "a", algorithm="tests.support.failing:Absent")
+        run(benchmark, tmp_path / "a", algorithm="tests.support.failing:NeverStarted")
     assert load(tmp_path / "a").rows == ()
 
 
 def test_an_algorithm_that_raises_fails_its_rows_and_no_other_measure(
     benchmark: Path, tmp_path: Path
 ) -> None:
-    result = run(benchmark, tmp_path / "a", algorithm="tests.support.failing:Raises")
+    result = run(benchmark, tmp_path / "a", algorithm="tests.support.failing:RaisedError")
     assert result.values("status") == ("algorithm error",) * 3
     assert result.values("corners") == (None,) * 3
     assert result.values("total") == (None,) * 3
     assert result.numbers("taskTime") == pytest.approx((0.2, 0.2, 0.2))
     line = inspect.getsource(failing).split("no focus")[0].count("\n") + 1
     raised = (
-        "tests.support.failing:Raises raised at 0.1 s: "
+        "tests.support.failing:RaisedError raised at 0.1 s: "
         f"failing.py:{line}: ZeroDivisionError: no focus"
     )
     assert result.reason(0, "corners") == raised
@@ -132,19 +132,19 @@ def test_an_algorithm_that_raises_fails_its_rows_and_no_other_measure(
 
 def test_an_error_of_a_library_is_put_on_the_line_of_the_algorithm_that_called_it() -> None:
     try:
-        failing.Raises().start(None)  # type: ignore[arg-type]
+        failing.RaisedError().start(None)  # type: ignore[arg-type]
     except AttributeError as error:
-        said = describe_failure(error, failing.Raises)
+        said = describe_failure(error, failing.RaisedError)
     assert re.fullmatch(r"failing\.py:\d+: AttributeError: 'NoneType' .*", said)
     try:
         json.loads("{")
     except ValueError as error:
-        said = describe_failure(error, failing.Raises)
+        said = describe_failure(error, failing.RaisedError)
     assert re.match(r"decoder\.py:\d+: JSONDecodeError: ", said)
 
 
 def test_an_algorithm_that_reports_its_failure_has_failed(benchmark: Path, tmp_path: Path) -> None:
-    result = run(benchmark, tmp_path / "a", algorithm="tests.support.failing:Fails")
+    result = run(benchmark, tmp_path / "a", algorithm="tests.support.failing:ReportedFailure")
     assert result.values("status")[0] == "algorithm error"
     assert "no template" in str(result.reason(0, "corners"))
 
@@ -153,7 +153,7 @@ def test_silence_for_more_than_a_second_is_a_timeout(tmp_path: Path) -> None:
     result = run(
         write_benchmark(tmp_path, "1.2"),
         tmp_path / "a",
-        algorithm="tests.support.failing:Silent",
+        algorithm="tests.support.failing:NoPublication",
         levels=["fog=0"],
         in_process=True,
     )
@@ -180,7 +180,7 @@ def test_the_last_estimate_received_is_valid_in_the_original(tmp_path: Path) -> 
     never = run(
         file,
         tmp_path / "never",
-        algorithm="tests.support.failing:Silent",
+        algorithm="tests.support.failing:NoPublication",
         levels=spoke,
         compat=["last-norm"],
         in_process=True,

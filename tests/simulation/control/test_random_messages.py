@@ -46,9 +46,9 @@ def exchange(simulation: Simulation, seed: int, n: int) -> None:
         bus.inbox(topic, object)  # everything that the scene publishes is made
     assert len(bus.services.names) >= 11
     for _ in range(n):
-        is_request = not topics or messages.random.random() < 0.3
+        is_request = not topics or messages.rng.random() < 0.3
         names = bus.services.names if is_request else topics
-        name = names[messages.random.integers(len(names))]
+        name = names[messages.rng.integers(len(names))]
         cls = bus.services.request_type(name) if is_request else bus.message_type(name)
         assert cls is not None
         send(simulation, name, messages.message(cls), is_request=is_request)
