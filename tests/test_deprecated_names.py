@@ -12,7 +12,7 @@ import pytest
 
 import uwsim
 from tests.results.test_result import make
-from tests.support.compared_results import entries, made
+from tests.support.compared_results import entries, make_result
 from uwsim.analysis.comparison import Comparison, compare, shared_column
 from uwsim.base.deprecation import deprecated_name, renamed_parameter
 from uwsim.messages import CameraInfo
@@ -138,7 +138,7 @@ def test_the_old_name_of_the_trials_of_a_replay_works() -> None:
 
 
 def test_old_names_of_a_comparison_work() -> None:
-    results = entries(made("a", {0.0: [1.0, 2.0]}), made("b", {0.0: [1.5, 2.0]}))
+    results = entries(make_result("a", {0.0: [1.0, 2.0]}), make_result("b", {0.0: [1.5, 2.0]}))
     comparison = compare(results, shared_column(results, None))
     (pair,) = warned(lambda: comparison.versus, "versus", "pairs")
     assert pair is comparison.pairs[0]

@@ -98,9 +98,8 @@ def main() -> int:
     error_counts = FUZZERS[options.what](options.trials, options.seed)
     for error, n in error_counts.most_common():
         print(f"{n:6} {error}")
-    print(
-        f"{options.what}: {sum(error_counts.values())} wrong in {options.trials} trials of each reader"
-    )
+    n_errors = sum(error_counts.values())
+    print(f"{options.what}: {n_errors} errors in {options.trials} trials of each reader")
     return 1 if error_counts else 0
 
 

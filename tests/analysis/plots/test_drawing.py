@@ -15,7 +15,7 @@ from matplotlib.text import Text
 
 from tests.support.synthetic_results import (
     F_STAR,
-    WHY,
+    LOSS_REASON,
     frozen_result,
     lost_result,
     nested_result,
@@ -110,7 +110,7 @@ def test_errors_far_apart_are_drawn_on_a_logarithmic_axis_but_nothing_is_not_an_
 
 def test_a_column_without_values_says_why() -> None:
     said = words(value_plot(lost_result(), "corners"))
-    assert f"no data: {WHY}" in said.replace("\n", " ")
+    assert f"no data: {LOSS_REASON}" in said.replace("\n", " ")
 
 
 def test_nested_levels_are_one_curve_for_each_outer_level() -> None:

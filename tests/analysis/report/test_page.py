@@ -15,7 +15,7 @@ from PIL import Image
 
 from tests.support.synthetic_results import (
     F_STAR,
-    WHY,
+    LOSS_REASON,
     frozen_result,
     lost_result,
     nested_result,
@@ -86,7 +86,7 @@ def test_the_report_says_what_was_run_and_found(tmp_path: Path) -> None:
         "visibility run with esm",
         "27 levels, fog density 0 to 1.3 m⁻¹",
         "24 of 27",
-        WHY,
+        LOSS_REASON,
         "threshold",
         "sha256:" + "3f" * 32,
         "c4" * 32,
@@ -508,7 +508,7 @@ def test_where_a_body_is_in_the_image_has_no_floor(tmp_path: Path) -> None:
 def test_a_huge_result_has_a_report_of_sane_size(tmp_path: Path) -> None:
     base = visibility_result()
     rows = tuple((0.001 * i, *base.rows[26][1:]) for i in range(5_000))
-    notes = tuple(MissingValue(row=i, column="total", reason=WHY * 4) for i in range(5_000))
+    notes = tuple(MissingValue(row=i, column="total", reason=LOSS_REASON * 4) for i in range(5_000))
     page = page_of(replace(base, rows=rows, missing_values=notes), tmp_path)
     assert len(page.source) < 2_000_000
     assert "The first 1000 of 5000 levels" in page.text
