@@ -24,8 +24,8 @@ class AdaptiveLaw:
     def step(self, motion: Motion, dt: float) -> tuple[np.ndarray, float]:
         """Return the velocity through the water and the yaw rate, in the vehicle's axes."""
         self.current -= ADAPTATION_GAIN * dt * np.clip(motion.error, -0.3, 0.3)
-        velocity = np.clip(GAIN * motion.error, -0.3, 0.3) + motion.wanted - self.current
-        return motion.rotation.T @ velocity, 0.5 * motion.turn
+        velocity = np.clip(GAIN * motion.error, -0.3, 0.3) + motion.goal_velocity - self.current
+        return motion.rotation.T @ velocity, 0.5 * motion.heading_error
 
 
 class MyGrasp(Grasp):

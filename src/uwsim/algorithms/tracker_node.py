@@ -145,7 +145,6 @@ class TrackerNode(abc.ABC):
         self._report_tracking()
 
     def _set_quad(self, tracker: Tracker, message: Image, quad: Array) -> None:
-        """Set the estimate to another quad and keep the template."""
         if reason := quad_error(quad, message.width, message.height):
             self._report_loss(f"autoInit: {reason}")
             return

@@ -18,7 +18,7 @@ from uwsim.algorithms.grasp import (
     Target,
     View,
 )
-from uwsim.algorithms.grasp.box import half_turn
+from uwsim.algorithms.grasp.box import wrap_half_turn
 from uwsim.base.numerics.linear import transform_points
 
 WEDGE = np.array(
@@ -31,7 +31,7 @@ RING = [(r * math.cos(a), r * math.sin(a), z) for a in TURNS for r, z in ((0.1, 
 def drawn(model: ConvexObject, pose: BoxPose, seen: View, seed: int = 0) -> np.ndarray:
     """An image (240, 320, 3) of the object's convex hull on sand, with noise."""
     image = np.full((240 * 4, 320 * 4, 3), SAND, np.uint8)
-    pixels = seen.project(transform_points(model.points, pose.rotation, pose.place))
+    pixels = seen.project(transform_points(model.points, pose.rotation, pose.position))
     hull = cv2.convexHull(np.rint(pixels * 4.0 + 1.5).astype(np.int32))
     cv2.fillConvexPoly(image, hull, ORANGE)
     small = cv2.resize(image, (320, 240), interpolation=cv2.INTER_AREA).astype(float)
@@ -43,7 +43,7 @@ def look(model: ConvexObject, pose: BoxPose, seen: View, n: int = 4) -> Target:
     target = Target()
     perception = ConvexPerception(ColourDetector(), model)
     for i in range(n):
-        perception.look(drawn(model, pose, seen, i), seen, target, 0.1 * i)
+        perception.observe(drawn(model, pose, seen, i), seen, target, 0.1 * i)
     return target
 
 
@@ -53,10 +53,10 @@ def test_place_and_heading_of_an_object_are_found(
     heading: float, place: tuple[float, float]
 ) -> None:
     model = ConvexObject(points=WEDGE, grip_point=np.array([0.0, 0.02, 0.19]))
-    true = BoxPose(place=np.array([*place, BOTTOM]), heading=heading)
+    true = BoxPose(position=np.array([*place, BOTTOM]), heading=heading)
     found = look(model, true, view(1.5)).pose
     assert found is not None
-    assert np.linalg.norm(found.place - true.place) < 0.02
+    assert np.linalg.norm(found.position - true.position) < 0.02
     assert abs(math.remainder(found.heading - heading, 2.0 * math.pi)) < 0.15
     assert np.linalg.norm(model.grip(found) - model.grip(true)) < 0.025
 
@@ -65,7 +65,7 @@ def test_the_place_of_a_round_object_is_found() -> None:
     model = ConvexObject(
         points=np.array(RING), grip_point=np.array([0.0, 0.0, 0.28]), is_round=True
     )
-    true = BoxPose(place=np.array([-0.7, 0.2, BOTTOM]), heading=1.0)
+    true = BoxPose(position=np.array([-0.7, 0.2, BOTTOM]), heading=1.0)
     target = look(model, true, view(1.5))
     assert target.pose is not None
     assert np.linalg.norm(model.grip(target.pose) - model.grip(true)) < 0.02
@@ -74,18 +74,18 @@ def test_the_place_of_a_round_object_is_found() -> None:
 @pytest.mark.parametrize("angle", [0.0, 0.7, -1.2])
 def test_the_jaw_closes_along_the_axis_of_the_model(angle: float) -> None:
     model = ConvexObject(points=WEDGE, grip_point=np.zeros(3), closing_angle=angle)
-    pose = BoxPose(place=np.zeros(3), heading=0.3)
+    pose = BoxPose(position=np.zeros(3), heading=0.3)
     north, east, _ = pose.rotation @ np.array([math.cos(angle), math.sin(angle), 0.0])
-    assert model.closes(pose) == pytest.approx(half_turn(math.atan2(east, north)))
+    assert model.closing_heading(pose) == pytest.approx(wrap_half_turn(math.atan2(east, north)))
 
 
 def test_what_has_another_outline_is_not_the_object() -> None:
     small = ConvexObject(points=WEDGE, grip_point=np.zeros(3))
     large = ConvexObject(points=2.0 * WEDGE, grip_point=np.zeros(3))
-    pose = BoxPose(place=np.array([-0.7, 0.0, BOTTOM]), heading=0.3)
+    pose = BoxPose(position=np.array([-0.7, 0.0, BOTTOM]), heading=0.3)
     target = Target()
     seen = view(1.5)
-    sighting = ConvexPerception(ColourDetector(), large).look(
+    sighting = ConvexPerception(ColourDetector(), large).observe(
         drawn(small, pose, seen), seen, target, 0.0
     )
     assert sighting is None
@@ -94,6 +94,6 @@ def test_what_has_another_outline_is_not_the_object() -> None:
 
 def test_the_bundled_grasp_takes_the_box_by_default() -> None:
     grasp = Grasp()
-    pose = BoxPose(place=np.array([1.0, 2.0, 4.9]), heading=0.4)
+    pose = BoxPose(position=np.array([1.0, 2.0, 4.9]), heading=0.4)
     assert grasp.model().grip(pose)[2] == pytest.approx(4.9 - grasp.box().handle)
-    assert grasp.model().closes(pose) == pytest.approx(0.4)
+    assert grasp.model().closing_heading(pose) == pytest.approx(0.4)

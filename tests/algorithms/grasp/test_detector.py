@@ -31,7 +31,7 @@ def foggy(transmission: float, colour: tuple[float, float, float]) -> np.ndarray
 @pytest.mark.parametrize("transmission", [1.0, 0.3, 0.15])
 def test_an_orange_box_is_found_through_fog(transmission: float) -> None:
     [outline] = ColourDetector().detect(foggy(transmission, (220.0, 95.0, 20.0)), VIEW)
-    assert outline.middle == pytest.approx((159.5, 119.5), abs=2.0)
+    assert outline.centre == pytest.approx((159.5, 119.5), abs=2.0)
 
 
 def test_a_dark_hull_before_the_fog_is_no_box() -> None:
@@ -50,11 +50,11 @@ def test_an_orange_box_is_found_where_the_light_falls_off_and_the_hull_is_none()
     image[200:240, 0:45] = (4.0, 9.0, 11.0)
     noise = np.random.default_rng(2).normal(0.0, 2.55, image.shape)
     found = ColourDetector().detect(np.clip(image + noise, 0, 255).astype(np.uint8), VIEW)
-    assert [outline.middle for outline in found] == [pytest.approx((159.5, 119.5), abs=3.0)]
+    assert [outline.centre for outline in found] == [pytest.approx((159.5, 119.5), abs=3.0)]
 
 
 def test_the_arm_before_the_camera_is_no_box_and_does_not_hide_it() -> None:
     image = foggy(0.1, (220.0, 95.0, 20.0))
     image[150:240, 60:200] = (220, 150, 20)
     [outline] = ColourDetector().detect(image, VIEW)
-    assert outline.middle == pytest.approx((159.5, 119.5), abs=3.0)
+    assert outline.centre == pytest.approx((159.5, 119.5), abs=3.0)

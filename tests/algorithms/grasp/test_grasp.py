@@ -63,7 +63,7 @@ def test_a_variant_without_a_parameter_refuses_it() -> None:
 
 
 def test_every_phase_is_followed_by_phases_that_there_are() -> None:
-    assert {phase.late for phase in PHASES.values()} <= set(PHASES)
+    assert {phase.timeout_phase for phase in PHASES.values()} <= set(PHASES)
     assert [phase.name for phase in PHASES.values()] == list(PHASES)
 
 

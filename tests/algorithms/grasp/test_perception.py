@@ -6,7 +6,7 @@ import pytest
 from tests.algorithms.grasp.views import BOTTOM, BOX, draw, pose, view
 from uwsim.algorithms.direct_tracker import DirectTracker
 from uwsim.algorithms.esm.alignment import Method
-from uwsim.algorithms.grasp.box import BoxPose, half_turn
+from uwsim.algorithms.grasp.box import BoxPose, wrap_half_turn
 from uwsim.algorithms.grasp.box_pose import Sighting, pose_from_face, pose_from_outline
 from uwsim.algorithms.grasp.detector import ColourDetector
 from uwsim.algorithms.grasp.perception import Perception
@@ -26,7 +26,7 @@ def off(sighting: Sighting | None, true: BoxPose) -> tuple[float, float]:
     """Distance of the handle [m] and of the heading [rad]."""
     assert sighting is not None
     away = float(np.linalg.norm(BOX.grip(sighting.pose) - BOX.grip(true)))
-    return away, abs(half_turn(sighting.pose.heading - true.heading))
+    return away, abs(wrap_half_turn(sighting.pose.heading - true.heading))
 
 
 @pytest.mark.parametrize("place", PLACES)
@@ -56,7 +56,7 @@ def test_a_box_that_is_half_out_of_the_image_is_no_surprise() -> None:
 
 def test_the_corners_of_the_face_give_the_pose() -> None:
     true, seen = pose(-0.7, 0.1, 0.4), view()
-    corners = seen.project(transform_points(BOX.face, true.rotation, true.place))
+    corners = seen.project(transform_points(BOX.face, true.rotation, true.position))
     near = pose(-0.65, 0.15, 0.3)
     away, turned = off(pose_from_face(corners, seen, BOX, near), true)
     assert away < 0.002
@@ -68,7 +68,7 @@ def test_a_box_that_is_seen_again_and_again_is_tracked_and_its_place_gets_surer(
     perception = Perception(ColourDetector(), track, BOX)
     deviations = []
     for k in range(30):
-        perception.look(draw(true, seen, seed=k), seen, target, 0.1 * k)
+        perception.observe(draw(true, seen, seed=k), seen, target, 0.1 * k)
         deviations.append(target.deviation)
     assert perception.is_tracking
     assert target.pose is not None
@@ -80,9 +80,9 @@ def test_a_track_ends_when_the_box_is_gone() -> None:
     true, seen, target = pose(-0.7, 0.1, 0.4), view(), Target()
     perception = Perception(ColourDetector(), track, BOX)
     for k in range(10):
-        perception.look(draw(true, seen, seed=k), seen, target, 0.1 * k)
+        perception.observe(draw(true, seen, seed=k), seen, target, 0.1 * k)
     for k in range(3):
-        assert perception.look(draw(None, seen, seed=k), seen, target, 2.0) is None
+        assert perception.observe(draw(None, seen, seed=k), seen, target, 2.0) is None
     assert not perception.is_tracking
 
 
@@ -91,26 +91,26 @@ def test_a_target_ignores_one_wrong_sighting_and_believes_many() -> None:
     right = Sighting(pose=pose(0, 0, 0), covariance=1e-4 * np.eye(6), residual=0.1)
     wrong = Sighting(pose=pose(1, 0, 0), covariance=1e-4 * np.eye(6), residual=0.1)
     for k in range(5):
-        assert target.take(right, float(k))
-    assert not target.take(wrong, 5.0)
+        assert target.update(right, float(k))
+    assert not target.update(wrong, 5.0)
     assert target.pose is not None
-    assert target.pose.place[0] == pytest.approx(0.0)
+    assert target.pose.position[0] == pytest.approx(0.0)
     for k in range(20):
-        target.take(wrong, 6.0 + k)
-    assert target.pose.place[0] == pytest.approx(1.0)
+        target.update(wrong, 6.0 + k)
+    assert target.pose.position[0] == pytest.approx(1.0)
 
 
 def test_the_front_of_a_box_is_its_back() -> None:
     target = Target()
     for heading in (0.1, 0.1 + np.pi, 0.1 - np.pi):
         one = Sighting(pose=pose(0, 0, heading), covariance=1e-4 * np.eye(6), residual=0.1)
-        assert target.take(one, 0.0)
+        assert target.update(one, 0.0)
     assert target.pose is not None
-    assert half_turn(target.pose.heading) == pytest.approx(0.1)
+    assert wrap_half_turn(target.pose.heading) == pytest.approx(0.1)
 
 
 def test_a_pose_goes_to_numbers_and_back() -> None:
-    one = BoxPose(place=np.array([1.0, 2.0, BOTTOM]), heading=0.7, lean=(0.05, -0.1))
-    again = BoxPose.from_pose(Pose(one.place, one.rotation))
-    assert again.numbers == pytest.approx(one.numbers)
-    assert BoxPose.from_numbers(one.numbers).numbers == pytest.approx(one.numbers)
+    one = BoxPose(position=np.array([1.0, 2.0, BOTTOM]), heading=0.7, tilt=(0.05, -0.1))
+    again = BoxPose.from_pose(Pose(one.position, one.rotation))
+    assert again.vector == pytest.approx(one.vector)
+    assert BoxPose.from_vector(one.vector).vector == pytest.approx(one.vector)

@@ -14,10 +14,10 @@ def keep(law: Station, current: tuple[float, float], seconds: float = 60.0) -> n
     for _ in range(round(seconds / dt)):
         motion = Motion(
             error=-position,
-            turn=0.0,
+            heading_error=0.0,
             velocity=through + water,
             rotation=np.eye(3),
-            wanted=np.zeros(3),
+            goal_velocity=np.zeros(3),
         )
         command, _ = law.step(motion, dt)
         through = through + dt / LAG * (command - through)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from uwsim.algorithms.grasp.craft import Wrist
+from uwsim.algorithms.grasp.vehicle_interface import Wrist
 from uwsim.messages import Vector3, Wrench, WrenchStamped
 
 

@@ -26,19 +26,19 @@ def view(height: float = 1.5, tilt: float = 0.5) -> View:
 
 
 def pose(x: float, y: float, heading: float) -> BoxPose:
-    return BoxPose(place=np.array([x, y, BOTTOM - 0.07]), heading=heading)
+    return BoxPose(position=np.array([x, y, BOTTOM - 0.07]), heading=heading)
 
 
 def faces(where: BoxPose, seen: View) -> list[np.ndarray]:
     """Top and, where the camera sees them, the long sides, in the image."""
     x, y, z = BOX.corners.max(axis=0)
-    camera = where.rotation.T @ (seen.navigation_from_camera.position - where.place)
+    camera = where.rotation.T @ (seen.navigation_from_camera.position - where.position)
     shown = [BOX.face]
     for sign in (-1.0, 1.0):
         if sign * camera[0] > x:
             side = [(sign * x, a, b) for a, b in ((-y, z), (y, z), (y, -z), (-y, -z))]
             shown.append(np.array(side))
-    return [seen.project(transform_points(one, where.rotation, where.place)) for one in shown]
+    return [seen.project(transform_points(one, where.rotation, where.position)) for one in shown]
 
 
 def draw(where: BoxPose | None, seen: View, *, fog: float = 1.0, seed: int = 0) -> np.ndarray:

@@ -30,10 +30,7 @@ class Settings(NamedTuple):
 def iterate(
     image: Grey, patch: Patch, guess: Array, settings: Settings
 ) -> tuple[Array, float, int]:
-    """Iterate from ``guess``, a homography from normalised template to image points.
-
-    Returns the homography of the best score, its correlation and the number of steps.
-    """
+    """Refine ``guess`` (normalised template to image points); return it, its correlation, steps."""
     height, width = patch.values.shape
     samples = np.zeros((height + 2, width + 2), np.float32)
     mask = np.zeros((height + 2, width + 2), np.float32)

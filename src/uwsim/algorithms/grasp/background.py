@@ -1,8 +1,8 @@
-"""How the bottom looks where nothing lies on it: a smooth surface over the image.
+"""The brightness of the bottom without objects: a smooth surface over the image.
 
-Fog and the water's colour grow with the distance, so that the bottom is not equally bright
-everywhere. A polynomial of second degree in the place in the image follows that, fitted by least
-squares twice: the second time without what stands out from the first.
+The effects of fog and water colour grow with the distance, so the brightness of the bottom varies.
+It is modelled by a polynomial of second degree in the image coordinates. Least squares fit it
+twice, the second time without the outliers of the first fit.
 
 Not modelled: shadows and ripples of the sand, which count as noise.
 """
@@ -18,13 +18,13 @@ from ...base.geometry import Array
 from ...base.numerics.linear import product, solve
 
 Layer = npt.NDArray[np.float32]
-"""One number for each pixel, (h, w)."""
-SPARSE = 3
-"""Every which sample along rows and columns the fit takes."""
-OUTSTANDING = 2.5
-"""What is farther from the first fit than this is not in the second [deviations]."""
-LEAST_DEVIATION = 0.5
-"""The deviation is not taken to be less [grey levels]."""
+"""An image with one number for each pixel, (h, w)."""
+STRIDE = 3
+"""The stride of the fitted samples along rows and columns [samples]."""
+OUTLIER_THRESHOLD = 2.5
+"""The residual above which a sample is an outlier [deviations]."""
+MIN_DEVIATION = 0.5
+"""The lower limit of the deviation [grey levels]."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -32,53 +32,51 @@ class Background:
     """A smooth surface over an image."""
 
     coefficients: Array
-    """Of 1, x, y, xx, xy, yy with x, y from -1 to 1 over the image, (6,)."""
+    """The coefficients of 1, x, y, xx, xy, yy with x, y from -1 to 1 over the image, (6,)."""
     deviation: float
-    """Of the samples about it, without what stands out."""
+    """The standard deviation of the samples about the surface, without outliers."""
     shape: tuple[int, int]
-    """Of the image (h, w)."""
+    """The shape of the image (h, w)."""
 
     @classmethod
-    def of(cls, layer: Layer, step: int) -> Background:
-        """Fit it to every ``step``-th pixel of an image, (h / step, w / step)."""
+    def fit(cls, layer: Layer, step: int) -> Background:
+        """Fit a surface to every ``step``-th pixel of an image, (h / step, w / step)."""
         shape = step * layer.shape[0], step * layer.shape[1]
-        terms = _terms(shape, (0, 0), layer.shape, step)[::SPARSE, ::SPARSE].reshape(-1, 6)
-        values = layer[::SPARSE, ::SPARSE].reshape(-1).astype(np.float64)
-        middle = float(np.median(values))
-        is_in = np.abs(values - middle) <= OUTSTANDING * _deviation(values - middle)
+        terms = _terms(shape, (0, 0), layer.shape, step)[::STRIDE, ::STRIDE].reshape(-1, 6)
+        values = layer[::STRIDE, ::STRIDE].reshape(-1).astype(np.float64)
+        median = float(np.median(values))
+        is_inlier = np.abs(values - median) <= OUTLIER_THRESHOLD * _deviation(values - median)
         for _ in range(2):
-            chosen = terms[is_in]
-            coefficients = solve(product(chosen.T, chosen), product(chosen.T, values[is_in]))
-            off = values - product(terms, coefficients)
-            deviation = _deviation(off)
-            is_in = np.abs(off) <= OUTSTANDING * deviation
+            inliers = terms[is_inlier]
+            coefficients = solve(product(inliers.T, inliers), product(inliers.T, values[is_inlier]))
+            residuals = values - product(terms, coefficients)
+            deviation = _deviation(residuals)
+            is_inlier = np.abs(residuals) <= OUTLIER_THRESHOLD * deviation
         return cls(coefficients=coefficients, deviation=deviation, shape=shape)
 
-    def over(
+    def evaluate(
         self, shape: tuple[int, ...], corner: tuple[int, int] = (0, 0), step: int = 1
     ) -> Layer:
-        """Return it over a part of the image.
+        """Evaluate the surface over a part of the image.
 
         Args:
             shape: of the part, (h, w) samples.
-            corner: row and column of its first pixel.
-            step: of its samples [px].
+            corner: the row and column of the first pixel of the part.
+            step: between the samples of the part [px].
         """
-        found: Layer = product(_terms(self.shape, corner, shape, step), self.coefficients).astype(
-            np.float32
-        )
-        return found
+        surface: Array = product(_terms(self.shape, corner, shape, step), self.coefficients)
+        return surface.astype(np.float32)
 
 
 def _terms(
-    whole: tuple[int, int], corner: tuple[int, int], shape: tuple[int, ...], step: int
+    image_shape: tuple[int, int], corner: tuple[int, int], shape: tuple[int, ...], step: int
 ) -> Array:
-    """1, x, y, xx, xy, yy over a part of an image, (h, w, 6)."""
-    y, x = ((corner[k] + step * np.arange(shape[k])) * 2.0 / whole[k] - 1.0 for k in range(2))
+    """Return 1, x, y, xx, xy, yy over a part of an image, (h, w, 6)."""
+    y, x = ((corner[k] + step * np.arange(shape[k])) * 2.0 / image_shape[k] - 1.0 for k in range(2))
     y, x = np.meshgrid(y, x, indexing="ij")
     return np.stack([np.ones_like(x), x, y, x * x, x * y, y * y], axis=-1)
 
 
-def _deviation(off: Array) -> float:
-    """Standard deviation of normal numbers about 0 with a few others among them."""
-    return max(1.4826 * float(np.median(np.abs(off))), LEAST_DEVIATION)
+def _deviation(residuals: Array) -> float:
+    """Estimate the standard deviation of normal residuals with outliers, by the median."""
+    return max(1.4826 * float(np.median(np.abs(residuals))), MIN_DEVIATION)

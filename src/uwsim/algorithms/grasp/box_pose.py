@@ -1,13 +1,13 @@
 r"""The pose of a box from its outline, or from the corners of its top face.
 
-Gauss-Newton on place, heading and lean :math:`x \in R^6` of
+Gauss-Newton on position, heading and tilt :math:`x \in R^6` of
 
 .. math:: \sum_k \frac{(h_k(x) - h_k)^2}{\sigma^2} + \sum_i \frac{(x_i - m_i)^2}{p_i^2}
 
-where :math:`h_k(x)` is how far the projected corners reach along direction k (the support function
-of the painted faces that are seen), :math:`h_k` how far the outline does, and the second sum the
-prior: the box stands on the bottom and leans little. With the corners of a tracked face, the first
-sum is over their image coordinates. The covariance of x is the inverse of the normal matrix.
+where :math:`h_k(x)` is the support of the projected corners along direction k (the support function
+of the visible painted faces) and :math:`h_k` that of the outline. The second sum is the prior: the
+box rests on the bottom with a small tilt. With the corners of a tracked face, the first sum is over
+their image coordinates. The covariance of x is the inverse of the normal matrix.
 """
 
 from __future__ import annotations
@@ -25,95 +25,95 @@ from .camera import View
 from .detector import DIRECTIONS, Outline
 from .normal_equations import cholesky_solve
 
-LEAN = 0.03
-"""Deviation of the lean that is expected [rad]."""
-BOTTOM = 0.018
-"""Deviation of the depth of the box from that of the bottom [m]."""
-GRAZING = 0.3
-"""Tangent of the angle below which a side is seen too obliquely to count on it."""
-ANYWHERE = 10.0
-"""Deviation of what is not known beforehand [m, rad]."""
-MIN_KNOWN = 12
-"""So many directions of an outline have to be known."""
+TILT_DEVIATION = 0.03
+"""The standard deviation of the tilt in the prior [rad]."""
+DEPTH_DEVIATION = 0.018
+"""The standard deviation of the depth of the box from that of the bottom [m]."""
+GRAZING_TANGENT = 0.3
+"""The tangent of the angle between view and side below which a side may not be detected."""
+UNKNOWN_DEVIATION = 10.0
+"""The standard deviation of unknown coordinates in the prior [m, rad]."""
+MIN_KNOWN_DIRECTIONS = 12
+"""The least number of known directions of an outline."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Sighting:
-    """A pose that was found in one image."""
+    """The pose of an object in one image."""
 
     pose: BoxPose
-    """Where the box is."""
+    """The pose of the object."""
     covariance: Array
-    """Of place, heading and lean, (6, 6) [m, rad]."""
+    """The covariance of position, heading and tilt, (6, 6) [m, rad]."""
     residual: float
-    """Of the fit, root of the mean square [px]."""
+    """The residual of the fit, root mean square [px]."""
     source: str = "outline"
-    """What it was found from: ``outline`` or ``face``."""
+    """The source of the pose: ``outline``, ``face`` or ``truth``."""
 
 
 def pose_from_outline(
     outline: Outline, view: View, box: BoxSpec, *, deviation: float = 0.7
 ) -> Sighting | None:
-    """Return the pose that explains an outline best; None where nothing does.
+    """Fit the pose of the box to an outline; None if there is no fit.
 
     Args:
         outline: of the box in the image.
-        view: the camera when it took the image.
+        view: the camera at the time of the image.
         box: the model.
-        deviation: of the outline [px].
+        deviation: the standard deviation of the outline [px].
     """
-    if outline.is_known.sum() < MIN_KNOWN:
+    if outline.is_known.sum() < MIN_KNOWN_DIRECTIONS:
         return None
-    middle = view.on_plane(*outline.middle, view.bottom - box.size[2] / 2.0)
-    if middle is None:
+    centre = view.intersect_plane(*outline.centre, view.bottom - box.size[2] / 2.0)
+    if centre is None:
         return None
-    u, v = outline.middle
-    ahead = view.on_plane(
-        u + 10.0 * math.cos(outline.angle), v + 10.0 * math.sin(outline.angle), middle[2]
+    u, v = outline.centre
+    axis_point = view.intersect_plane(
+        u + 10.0 * math.cos(outline.angle), v + 10.0 * math.sin(outline.angle), centre[2]
     )
-    if ahead is None:
+    if axis_point is None:
         return None
-    along = math.atan2(float(ahead[1] - middle[1]), float(ahead[0] - middle[0]))
-    best: Sighting | None = None
-    for turn in (0.5, 0.35, 0.65):  # the longest direction is a diagonal at times
-        start = np.array([*middle.tolist(), along + turn * math.pi, 0.0, 0.0])
-        found = _fit(start, outline, view, box, deviation)
-        if found is not None and (best is None or found.residual < best.residual):
-            best = found
-    return best
+    axis_heading = math.atan2(float(axis_point[1] - centre[1]), float(axis_point[0] - centre[0]))
+    best_fit: Sighting | None = None
+    for turn in (0.5, 0.35, 0.65):  # the longest direction may be a diagonal
+        start = np.array([*centre.tolist(), axis_heading + turn * math.pi, 0.0, 0.0])
+        sighting = _fit_outline(start, outline, view, box, deviation)
+        if sighting is not None and (best_fit is None or sighting.residual < best_fit.residual):
+            best_fit = sighting
+    return best_fit
 
 
 def pose_from_face(
-    corners: Array, view: View, box: BoxSpec, near: BoxPose, *, deviation: float = 1.0
+    corners: Array, view: View, box: BoxSpec, initial_pose: BoxPose, *, deviation: float = 1.0
 ) -> Sighting | None:
-    """Return the pose that explains the corners of the top face (4, 2) [px], in their order.
+    """Fit the pose of the box to the corners of the top face (4, 2) [px], in their order.
 
-    The search begins at the pose ``near``.
+    The fit starts at ``initial_pose``.
     """
-    start = near.numbers
+    start = initial_pose.vector
     prior = _prior(start, view, box)
-    numbers, normal, residual = _fit_corners(
+    vector, normal, residual = _fit_corners(
         start, prior, box.face, corners, _camera(view), 1.0 / deviation**2
     )
-    return _sighting(numbers, normal, residual, "face")
+    return _sighting(vector, normal, residual, "face")
 
 
-def _fit(
+def _fit_outline(
     start: Array, outline: Outline, view: View, box: BoxSpec, deviation: float
 ) -> Sighting | None:
     prior = _prior(start, view, box)
     weights = outline.is_known.astype(np.float64) / deviation**2
-    numbers, normal, residual = _fit_support(
+    vector, normal, residual = _fit_support(
         start, prior, box.corners, DIRECTIONS, outline.support, weights, _camera(view)
     )
-    return _sighting(numbers, normal, residual, "outline")
+    return _sighting(vector, normal, residual, "outline")
 
 
-def _sighting(numbers: Array, normal: Array, residual: float, source: str) -> Sighting | None:
-    if not np.isfinite(numbers).all() or not math.isfinite(residual):
+def _sighting(vector: Array, normal: Array, residual: float, source: str) -> Sighting | None:
+    if not np.isfinite(vector).all() or not math.isfinite(residual):
         return None
     return Sighting(
-        pose=BoxPose.from_numbers(numbers),
+        pose=BoxPose.from_vector(vector),
         covariance=inverse(normal),  # the prior keeps it regular
         residual=residual,
         source=source,
@@ -121,16 +121,17 @@ def _sighting(numbers: Array, normal: Array, residual: float, source: str) -> Si
 
 
 def _prior(start: Array, view: View, box: BoxSpec) -> Array:
-    """Expected numbers and their weights, (2, 6)."""
+    """Return the pose vector of the prior and its weights, (2, 6)."""
     expected = start.copy()
     expected[2] = view.bottom - box.size[2] / 2.0
-    expected[4:] = lean_on(view.slopes, float(start[3]))
-    deviations = np.array([ANYWHERE, ANYWHERE, BOTTOM, ANYWHERE, LEAN, LEAN])
+    expected[4:] = tilt_on_slope(view.slopes, float(start[3]))
+    sigma, tilt_sigma = UNKNOWN_DEVIATION, TILT_DEVIATION
+    deviations = np.array([sigma, sigma, DEPTH_DEVIATION, sigma, tilt_sigma, tilt_sigma])
     return np.stack([expected, 1.0 / deviations**2])
 
 
-def lean_on(slopes: tuple[float, float], heading: float) -> tuple[float, float]:
-    """Lean [rad] of a box that lies with a heading [rad] on a bottom with two slopes [1]."""
+def tilt_on_slope(slopes: tuple[float, float], heading: float) -> tuple[float, float]:
+    """Return the tilt [rad] of a box with a heading [rad] on a bottom with two slopes [1]."""
     north, east = slopes
     c, s = math.cos(heading), math.sin(heading)
     size = math.sqrt(1.0 + north * north + east * east)
@@ -139,110 +140,110 @@ def lean_on(slopes: tuple[float, float], heading: float) -> tuple[float, float]:
 
 
 def _camera(view: View) -> Array:
-    """Position, rotation by rows, fx, fy, cx, cy, (16,)."""
+    """Return the position, the rotation by rows, fx, fy, cx, cy, (16,)."""
     pose = view.navigation_from_camera
-    return np.concatenate([pose.position, pose.rotation.reshape(9), view.pinhole.numbers])
+    return np.concatenate([pose.position, pose.rotation.reshape(9), view.pinhole.intrinsics])
 
 
 @njit
-def _projected(numbers: Array, points: Array, camera: Array) -> Array:
-    """Image coordinates (n, 2) of points of a box (n, 3) whose pose is given."""
-    ch, sh = math.cos(numbers[3]), math.sin(numbers[3])
-    cx, sx = math.cos(numbers[4]), math.sin(numbers[4])
-    cy, sy = math.cos(numbers[5]), math.sin(numbers[5])
-    found = np.empty((len(points), 2))
+def _project(vector: Array, points: Array, camera: Array) -> Array:
+    """Project points of a box (n, 3) with a pose vector to the image, (n, 2)."""
+    ch, sh = math.cos(vector[3]), math.sin(vector[3])
+    cx, sx = math.cos(vector[4]), math.sin(vector[4])
+    cy, sy = math.cos(vector[5]), math.sin(vector[5])
+    pixels = np.empty((len(points), 2))
     for k in range(len(points)):
         x, y, z = points[k]
-        x, z = cy * x + sy * z, -sy * x + cy * z  # lean about y, then about x
+        x, z = cy * x + sy * z, -sy * x + cy * z  # tilt about y, then about x
         y, z = cx * y - sx * z, sx * y + cx * z
         y, z = -y, -z  # from z up to z down
-        north = numbers[0] + ch * x - sh * y - camera[0]
-        east = numbers[1] + sh * x + ch * y - camera[1]
-        down = numbers[2] + z - camera[2]
-        right = camera[3] * north + camera[6] * east + camera[9] * down
-        below = camera[4] * north + camera[7] * east + camera[10] * down
-        ahead = camera[5] * north + camera[8] * east + camera[11] * down
-        ahead = max(ahead, 0.05)
-        found[k, 0] = camera[14] + camera[12] * right / ahead
-        found[k, 1] = camera[15] + camera[13] * below / ahead
-    return found
+        north = vector[0] + ch * x - sh * y - camera[0]
+        east = vector[1] + sh * x + ch * y - camera[1]
+        down = vector[2] + z - camera[2]
+        camera_x = camera[3] * north + camera[6] * east + camera[9] * down
+        camera_y = camera[4] * north + camera[7] * east + camera[10] * down
+        depth = camera[5] * north + camera[8] * east + camera[11] * down
+        depth = max(depth, 0.05)
+        pixels[k, 0] = camera[14] + camera[12] * camera_x / depth
+        pixels[k, 1] = camera[15] + camera[13] * camera_y / depth
+    return pixels
 
 
 @njit
-def _camera_in_box(numbers: Array, camera: Array) -> Array:
-    """Position of the camera in the frame of the box, (3,) [m]."""
-    ch, sh = math.cos(numbers[3]), math.sin(numbers[3])
-    cx, sx = math.cos(numbers[4]), math.sin(numbers[4])
-    cy, sy = math.cos(numbers[5]), math.sin(numbers[5])
-    north, east, down = camera[0] - numbers[0], camera[1] - numbers[1], camera[2] - numbers[2]
+def _camera_in_box(vector: Array, camera: Array) -> Array:
+    """Return the position of the camera in the frame of the box, (3,) [m]."""
+    ch, sh = math.cos(vector[3]), math.sin(vector[3])
+    cx, sx = math.cos(vector[4]), math.sin(vector[4])
+    cy, sy = math.cos(vector[5]), math.sin(vector[5])
+    north, east, down = camera[0] - vector[0], camera[1] - vector[1], camera[2] - vector[2]
     x, y, z = ch * north + sh * east, sh * north - ch * east, -down
     y, z = cx * y + sx * z, -sx * y + cx * z
     return np.array([cy * x - sy * z, y, sy * x + cy * z])
 
 
 @njit
-def _reach(numbers: Array, points: Array, directions: Array, camera: Array) -> Array:
-    """How far the painted faces that are seen reach along each direction, (2, n).
+def _support_bounds(vector: Array, points: Array, directions: Array, camera: Array) -> Array:
+    """Return the bounds of the support of the visible painted faces, (2, n).
 
-    The first row is without, the second with a long side that is seen at a grazing angle: it may
-    be found in an image or not. The top face is always seen; the ends are bare.
+    The first row is without, the second with a long side that is seen at a grazing angle: a
+    detector may miss it. The top face is always visible; the ends are bare.
     """
-    seen = _projected(numbers, points, camera)
-    place = _camera_in_box(numbers, camera)
-    found = np.full((2, len(directions)), -1e9)
-    for i in range(len(seen)):
+    pixels = _project(vector, points, camera)
+    camera_position = _camera_in_box(vector, camera)
+    bounds = np.full((2, len(directions)), -1e9)
+    for i in range(len(pixels)):
         x, _, z = points[i]
         is_lower = z < 0.0
-        beyond = place[0] * x / abs(x) - abs(x)  # how far the camera is out from that side
-        if is_lower and beyond <= 0.0:
+        side_distance = camera_position[0] * x / abs(x) - abs(x)  # from that side outwards
+        if is_lower and side_distance <= 0.0:
             continue
-        is_grazing = is_lower and beyond < GRAZING * (place[2] - abs(z))
+        is_grazing = is_lower and side_distance < GRAZING_TANGENT * (camera_position[2] - abs(z))
         for k in range(len(directions)):
-            reach = directions[k, 0] * seen[i, 0] + directions[k, 1] * seen[i, 1]
-            found[1, k] = max(found[1, k], reach)
+            support = directions[k, 0] * pixels[i, 0] + directions[k, 1] * pixels[i, 1]
+            bounds[1, k] = max(bounds[1, k], support)
             if not is_grazing:
-                found[0, k] = max(found[0, k], reach)
-    return found
+                bounds[0, k] = max(bounds[0, k], support)
+    return bounds
 
 
 @njit
 def _support(
-    numbers: Array, points: Array, directions: Array, camera: Array, measured: Array
+    vector: Array, points: Array, directions: Array, camera: Array, h_measured: Array
 ) -> Array:
-    """The reach that is nearest to the measured one between both of `_reach`, (n,)."""
-    reach = _reach(numbers, points, directions, camera)
-    found = np.empty(len(measured))
-    for k in range(len(measured)):
-        found[k] = min(max(measured[k], reach[0, k]), reach[1, k])
-    return found
+    """Return the support that is nearest to the measured one within its bounds, (n,)."""
+    bounds = _support_bounds(vector, points, directions, camera)
+    support = np.empty(len(h_measured))
+    for k in range(len(h_measured)):
+        support[k] = min(max(h_measured[k], bounds[0, k]), bounds[1, k])
+    return support
 
 
 @njit
 def _step(
-    numbers: Array, prior: Array, found: Array, moved: Array, measured: Array, weights: Array
+    vector: Array, prior: Array, h: Array, h_shifted: Array, h_measured: Array, weights: Array
 ) -> tuple[Array, Array]:
-    """Normal matrix (6, 6) and step (6,) of Gauss-Newton.
+    """Return the normal matrix (6, 6) and the step (6,) of Gauss-Newton.
 
-    ``moved`` (6, n) are the values with each number moved by `_DELTA`.
+    ``h_shifted`` (6, n) are the values with each coordinate shifted by `_DELTA`.
     """
     normal, right = np.zeros((6, 6)), np.zeros(6)
     for i in range(6):
         normal[i, i] = prior[1, i]
-        right[i] = prior[1, i] * (prior[0, i] - numbers[i])
-    for k in range(len(found)):
+        right[i] = prior[1, i] * (prior[0, i] - vector[i])
+    for k in range(len(h)):
         if weights[k] == 0.0:
             continue
-        error = measured[k] - found[k]
+        error = h_measured[k] - h[k]
         for i in range(6):
-            slope = (moved[i, k] - found[k]) / _DELTA
+            slope = (h_shifted[i, k] - h[k]) / _DELTA
             right[i] += weights[k] * slope * error
             for j in range(6):
-                normal[i, j] += weights[k] * slope * (moved[j, k] - found[k]) / _DELTA
+                normal[i, j] += weights[k] * slope * (h_shifted[j, k] - h[k]) / _DELTA
     return normal, cholesky_solve(normal, right)
 
 
 _DELTA = 1e-4
-_ITERATIONS = 12
+_N_ITERATIONS = 12
 
 
 @njit
@@ -251,24 +252,24 @@ def _fit_support(
     prior: Array,
     points: Array,
     directions: Array,
-    measured: Array,
+    h_measured: Array,
     weights: Array,
     camera: Array,
 ) -> tuple[Array, Array, float]:
-    """Numbers (6,), normal matrix (6, 6) and residual [px] of the fit to an outline."""
-    numbers = start.copy()
+    """Return the pose vector (6,), normal matrix (6, 6) and residual [px] for an outline."""
+    vector = start.copy()
     normal = np.zeros((6, 6))
-    moved = np.empty((6, len(directions)))
-    for _ in range(_ITERATIONS):
-        found = _support(numbers, points, directions, camera, measured)
+    h_shifted = np.empty((6, len(directions)))
+    for _ in range(_N_ITERATIONS):
+        h = _support(vector, points, directions, camera, h_measured)
         for i in range(6):
-            other = numbers.copy()
-            other[i] += _DELTA
-            moved[i] = _support(other, points, directions, camera, measured)
-        normal, by = _step(numbers, prior, found, moved, measured, weights)
-        numbers = numbers + np.minimum(np.maximum(by, -0.3), 0.3)
-    found = _support(numbers, points, directions, camera, measured)
-    return numbers, normal, _root_mean_square(found, measured, weights)
+            shifted_vector = vector.copy()
+            shifted_vector[i] += _DELTA
+            h_shifted[i] = _support(shifted_vector, points, directions, camera, h_measured)
+        normal, step = _step(vector, prior, h, h_shifted, h_measured, weights)
+        vector = vector + np.minimum(np.maximum(step, -0.3), 0.3)
+    h = _support(vector, points, directions, camera, h_measured)
+    return vector, normal, _root_mean_square(h, h_measured, weights)
 
 
 @njit
@@ -280,29 +281,29 @@ def _fit_corners(
     camera: Array,
     weight: float,
 ) -> tuple[Array, Array, float]:
-    """Numbers (6,), normal matrix (6, 6) and residual [px] of the fit to corners (n, 2)."""
-    numbers = start.copy()
+    """Return the pose vector (6,), normal matrix (6, 6) and residual [px] for corners (n, 2)."""
+    vector = start.copy()
     normal = np.zeros((6, 6))
-    measured = corners.copy().reshape(-1)
-    weights = np.full(len(measured), weight)
-    moved = np.empty((6, len(measured)))
-    for _ in range(_ITERATIONS):
-        found = _projected(numbers, points, camera).reshape(-1)
+    h_measured = corners.copy().reshape(-1)
+    weights = np.full(len(h_measured), weight)
+    h_shifted = np.empty((6, len(h_measured)))
+    for _ in range(_N_ITERATIONS):
+        h = _project(vector, points, camera).reshape(-1)
         for i in range(6):
-            other = numbers.copy()
-            other[i] += _DELTA
-            moved[i] = _projected(other, points, camera).reshape(-1)
-        normal, by = _step(numbers, prior, found, moved, measured, weights)
-        numbers = numbers + np.minimum(np.maximum(by, -0.3), 0.3)
-    found = _projected(numbers, points, camera).reshape(-1)
-    return numbers, normal, _root_mean_square(found, measured, weights)
+            shifted_vector = vector.copy()
+            shifted_vector[i] += _DELTA
+            h_shifted[i] = _project(shifted_vector, points, camera).reshape(-1)
+        normal, step = _step(vector, prior, h, h_shifted, h_measured, weights)
+        vector = vector + np.minimum(np.maximum(step, -0.3), 0.3)
+    h = _project(vector, points, camera).reshape(-1)
+    return vector, normal, _root_mean_square(h, h_measured, weights)
 
 
 @njit
-def _root_mean_square(found: Array, measured: Array, weights: Array) -> float:
+def _root_mean_square(h: Array, h_measured: Array, weights: Array) -> float:
     total, n = 0.0, 0
-    for k in range(len(found)):
+    for k in range(len(h)):
         if weights[k] > 0.0:
-            total += (found[k] - measured[k]) ** 2
+            total += (h[k] - h_measured[k]) ** 2
             n += 1
     return math.sqrt(total / max(n, 1))

@@ -1,4 +1,4 @@
-"""A camera that looks from the vehicle: what it is, and where it was when it took an image."""
+"""The intrinsics of a camera, and its pose at the time of an image."""
 
 from __future__ import annotations
 
@@ -13,62 +13,62 @@ from ...messages import CameraInfo
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Pinhole:
-    """A pinhole with OpenCV's axes: x right, y down, z along the view."""
+    """The intrinsics of a pinhole camera with OpenCV's axes: x right, y down, z forward."""
 
     fx: float
-    """Focal length along u [px]."""
+    """The focal length along u [px]."""
     fy: float
-    """Focal length along v [px]."""
+    """The focal length along v [px]."""
     cx: float
-    """Principal point, u [px]."""
+    """The principal point, u [px]."""
     cy: float
-    """Principal point, v [px]."""
+    """The principal point, v [px]."""
     width: int
-    """Columns [px]."""
+    """The width of the image [px]."""
     height: int
-    """Rows [px]."""
+    """The height of the image [px]."""
 
     @staticmethod
     def from_info(info: CameraInfo) -> Pinhole:
-        """From the K of a CameraInfo."""
+        """Read the intrinsics from a CameraInfo."""
         fx, cx, fy, cy = (float(info.k[i]) for i in (0, 2, 4, 5))
         return Pinhole(fx=fx, fy=fy, cx=cx, cy=cy, width=int(info.width), height=int(info.height))
 
     @property
-    def numbers(self) -> Array:
-        """fx, fy, cx, cy, (4,) [px]."""
+    def intrinsics(self) -> Array:
+        """The intrinsics fx, fy, cx, cy, (4,) [px]."""
         return np.array([self.fx, self.fy, self.cx, self.cy])
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class View:
-    """A pinhole, and its pose when it took an image."""
+    """A camera with its pose at the time of an image, and the bottom below it."""
 
     pinhole: Pinhole
-    """The camera."""
+    """The intrinsics of the camera."""
     navigation_from_camera: Pose
-    """OpenCV's axes in the navigation frame."""
+    """The pose of the camera (OpenCV's axes) in the navigation frame."""
     bottom: float
-    """Depth of the sea floor where the box is, or may be [m]."""
+    """The depth of the bottom at the position of the box, or where it may be [m]."""
     slopes: tuple[float, float] = (0.0, 0.0)
-    """Growth of that depth to the north and to the east [1]."""
+    """The slopes of that depth to the north and to the east [1]."""
 
     def project(self, points: Array) -> Array:
-        """Image coordinates (n, 2) [px] of points of the navigation frame (n, 3) [m].
+        """Project points of the navigation frame (n, 3) [m] to the image, (n, 2) [px].
 
-        NaN for those that are not in front of the camera.
+        NaN for points that are not in front of the camera.
         """
-        seen = self.navigation_from_camera.inverse().transform(points)
-        depth = np.where(seen[:, 2] > 1e-6, seen[:, 2], np.nan)
-        found = np.empty((len(points), 2))
-        found[:, 0] = self.pinhole.cx + self.pinhole.fx * seen[:, 0] / depth
-        found[:, 1] = self.pinhole.cy + self.pinhole.fy * seen[:, 1] / depth
-        return found
+        camera_points = self.navigation_from_camera.inverse().transform(points)
+        depth = np.where(camera_points[:, 2] > 1e-6, camera_points[:, 2], np.nan)
+        pixels = np.empty((len(points), 2))
+        pixels[:, 0] = self.pinhole.cx + self.pinhole.fx * camera_points[:, 0] / depth
+        pixels[:, 1] = self.pinhole.cy + self.pinhole.fy * camera_points[:, 1] / depth
+        return pixels
 
-    def on_plane(self, u: float, v: float, depth: float) -> Array | None:
-        """Return the point (3,) [m] that a pixel sees on a horizontal plane at a depth [m].
+    def intersect_plane(self, u: float, v: float, depth: float) -> Array | None:
+        """Intersect the ray of a pixel with a horizontal plane at a depth [m], (3,) [m].
 
-        None where the ray does not reach it.
+        None if the ray does not intersect it.
         """
         ray = rotate(
             self.navigation_from_camera.rotation,

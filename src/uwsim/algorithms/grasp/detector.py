@@ -1,17 +1,16 @@
-r"""Finding the outline of an orange box in an image: no weights, nothing learned.
+r"""The detection of the outline of an orange box in an image, by its colour.
 
-The colour score of a pixel is :math:`s = 2R - G - B`. Water takes contrast away but not the order:
-fog of transmission T leaves :math:`T s` of a score, plus an offset that changes slowly over the
-image (`Background`). So the threshold is relative: a share of the way between the bottom and the
-brightest spot, provided that this stands out from the noise by `CONTRAST` deviations. A blob whose
-score does not come from its red, by a share of `RED_SHARE`, is none: in fog a dark hull has less
-green and blue than the water behind it, and hardly more red. What is far larger than the box, as
-the arm before the camera, is left out, and the threshold is that of the rest. The blobs above it
-are closed over bands, lettering and handle. What is returned is, for each, the support function of
-its convex hull: how far it reaches along `N_DIRECTIONS` directions. It is all that a convex outline
-has, and is not known where the blob ends at the rim of the image.
+The colour score of a pixel is :math:`s = 2R - G - B`. Water reduces the contrast of scores and
+keeps their order: fog of transmission T leaves :math:`T s`, plus an offset that varies slowly over
+the image (`Background`). Therefore the threshold is a share of the peak over the bottom. The peak
+must exceed `MIN_CONTRAST` deviations of the noise. The red of a blob must be a share
+`MIN_RED_SHARE` of its score: a dark hull in fog has less green and blue than the water behind it,
+and little more red. Blobs far larger than the box, such as the arm in front of the camera, are
+removed, and the threshold is computed again. Gaps by bands, lettering and handle are closed. The
+outline of a blob is the support function of its convex hull along `N_DIRECTIONS` directions. It is
+unknown where the blob ends at the border of the image.
 
-Not modelled: other orange things of the size of the box.
+Not modelled: other orange objects of the size of the box.
 """
 
 from __future__ import annotations
@@ -30,73 +29,71 @@ from .camera import View
 
 Pixels = npt.NDArray[np.uint8]
 N_DIRECTIONS = 32
-CONTRAST = 7.0
-"""Least height of a blob over the bottom, in deviations of the bottom."""
-LEAST = 6.0
-"""Least height of a blob over the bottom [grey levels of the score]."""
-SHARE = 0.17
-"""Where the threshold is between the bottom (0) and the brightest spot (1)."""
-REDDER = 5.0
-"""Least height of the red of a blob over that of the bottom [grey levels]."""
-RED_SHARE = 0.2
-"""Least height of its red, as a share of that of its score: 0.3 and more for the box, 0.15 for a
-hull in fog [1]."""
-DARKEST = 10.0
-"""Where there is nothing but water, the red is that of this darkest part of an image [%]."""
-RIM = 2
-"""Pixels at the rim of the image where an outline is not known [px]."""
+MIN_CONTRAST = 7.0
+"""The least score of a blob over the bottom, in deviations of the bottom [1]."""
+MIN_SCORE = 6.0
+"""The least score of a blob over the bottom [grey levels of the score]."""
+THRESHOLD_SHARE = 0.17
+"""The threshold between the bottom (0) and the peak (1) [1]."""
+MIN_RED = 5.0
+"""The least red of a blob over that of the bottom [grey levels]."""
+MIN_RED_SHARE = 0.2
+"""The least red of a blob over the bottom, as a share of its score [1]: that of the box is 0.3 and
+more, that of a hull in fog 0.15."""
+DARK_PERCENTILE = 10.0
+"""The percentile of an image's red that is the red of water [%]."""
+BORDER_WIDTH = 2
+"""The width of the border of an image in which an outline is unknown [px]."""
 MAX_BLOBS = 3
 
 _angles = [2.0 * np.pi * k / N_DIRECTIONS for k in range(N_DIRECTIONS)]
 DIRECTIONS: Array = np.array([[np.cos(a), np.sin(a)] for a in _angles])
-"""Unit vectors in the image, (n, 2)."""
+"""The unit vectors of the directions in the image, (n, 2)."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Outline:
-    """A convex outline in an image."""
+    """The convex outline of a blob in an image."""
 
     support: Array
-    """How far it reaches along each of `DIRECTIONS` from the first pixel's centre, (n,) [px]."""
+    """The support along each of `DIRECTIONS` from the first pixel's centre, (n,) [px]."""
     is_known: npt.NDArray[np.bool_]
-    """Where that is known, (n,)."""
-    middle: tuple[float, float]
-    """Of the blob [px]."""
+    """The mask of the directions with a known support, (n,)."""
+    centre: tuple[float, float]
+    """The centre of the blob [px]."""
     angle: float
-    """Of its long axis, from u to v [rad]."""
+    """The angle of the long axis, from u to v [rad]."""
     area: float
-    """Of its hull [px^2]."""
+    """The area of the hull [px^2]."""
     contrast: float
-    """Its height over the bottom, in deviations of the bottom [1]."""
+    """The peak score over the bottom, in deviations of the bottom [1]."""
 
 
 class Detector(Protocol):
-    """Finds outlines of what may be the box; one of your own goes to `Grasp.detector`."""
+    """A detector of outlines of candidates for the object; see `Grasp.detector`."""
 
     def detect(self, image: Pixels, view: View) -> list[Outline]:
-        """Return outlines in an image (h, w, 3) RGB, the largest first; none if there is none."""
+        """Return the outlines in an image (h, w, 3) RGB, the largest first; may be empty."""
 
 
 class ColourDetector:
-    """Finds blobs that are more orange than the rest."""
+    """A detector of orange blobs."""
 
-    def __init__(
-        self, *, band: float = 0.03, least_size: float = 0.1, most_size: float = 0.4
-    ) -> None:
-        """Set its sizes.
+    def __init__(self, *, band: float = 0.03, min_size: float = 0.1, max_size: float = 0.4) -> None:
+        """Set the sizes.
 
         Args:
-            band: gaps as wide as this are closed [m].
-            least_size: what is smaller on the bottom is nothing [m].
-            most_size: what is larger on the bottom is something else [m].
+            band: the width of gaps that are closed [m].
+            min_size: the least size of an object on the bottom [m].
+            max_size: the largest size of an object on the bottom [m].
         """
-        self._band, self._least_size, self._most_size = band, least_size, most_size
+        self._band, self._min_size, self._max_size = band, min_size, max_size
 
     @deterministic_opencv()
     def detect(self, image: Pixels, view: View) -> list[Outline]:
         """Return the outlines, the largest first.
 
-        Blobs are looked for in every second pixel, and outlined in all pixels around each.
+        Blobs are detected in every second pixel; their outlines are from all pixels around them.
         """
         import cv2
 
@@ -106,90 +103,89 @@ class ColourDetector:
         scale = view.pinhole.fx / height  # [px/m] on the bottom
         half = image[::2, ::2]
         score = cv2.blur(colour_score(half), (3, 3)).astype(np.float32)
-        bottom = Background.of(score, 2)
-        over = score - bottom.over(score.shape, step=2)
-        level, blobs = self._blobs(over, bottom.deviation, scale / 2.0)
+        background = Background.fit(score, 2)
+        excess = score - background.evaluate(score.shape, step=2)
+        threshold, blobs = self._blobs(excess, background.deviation, scale / 2.0)
         if not blobs:
             return []
-        red = Background.of(half[:, :, 0].astype(np.float32), 2)
-        darkest = float(np.percentile(half[::3, ::3, 0], DARKEST))
-        contrast = float(over.max()) / bottom.deviation
-        found: list[tuple[float, Array]] = []
-        for left, above, right, below in blobs:
-            part, corner = image[above:below, left:right], (above, left)
-            own = bottom.over(part.shape, corner), red.over(part.shape, corner).clip(darkest)
-            hull = self._hull(part, own, level, scale)
+        red = Background.fit(half[:, :, 0].astype(np.float32), 2)
+        min_red = float(np.percentile(half[::3, ::3, 0], DARK_PERCENTILE))
+        contrast = float(excess.max()) / background.deviation
+        hulls: list[tuple[float, Array]] = []
+        for left, top, right, bottom in blobs:
+            part, corner = image[top:bottom, left:right], (top, left)
+            red_layer = red.evaluate(part.shape, corner).clip(min_red)
+            layers = background.evaluate(part.shape, corner), red_layer
+            hull = self._hull(part, layers, threshold, scale)
             if hull is not None:
-                found.append((hull[0], hull[1] + np.array([left, above])))
-        found.sort(key=lambda one: -one[0])
-        return [outline_of(hull, image.shape, area, contrast) for area, hull in found]
+                hulls.append((hull[0], hull[1] + np.array([left, top])))
+        hulls.sort(key=lambda entry: -entry[0])
+        return [outline_of(hull, image.shape, area, contrast) for area, hull in hulls]
 
     def _blobs(
-        self, over: Layer, noise: float, scale: float
+        self, excess: Layer, noise: float, scale: float
     ) -> tuple[float, list[tuple[int, int, int, int]]]:
-        """The threshold, and left, top, right, bottom of where to look closer [px].
+        """Return the threshold, and left, top, right, bottom of boxes around the blobs [px].
 
         Args:
-            over: scores of every second pixel over the bottom; what is too large is taken out.
-            noise: deviation of the bottom's score.
+            excess: the scores of every second pixel over the bottom; large blobs are set to 0.
+            noise: the deviation of the bottom's score.
             scale: of these pixels on the bottom [px/m].
         """
         import cv2
 
-        least, most = (0.25 * (self._least_size * scale) ** 2, (self._most_size * scale) ** 2)
+        min_area, max_area = (0.25 * (self._min_size * scale) ** 2, (self._max_size * scale) ** 2)
         margin = round(self._band * scale) + 3
         while True:
-            top = float(over.max())
-            if top < max(CONTRAST * noise, LEAST):
+            peak = float(excess.max())
+            if peak < max(MIN_CONTRAST * noise, MIN_SCORE):
                 return 0.0, []
-            level = max(SHARE * top, 2.5 * noise)
-            closed = self._closed(over > level, scale)
-            _, labels, stats, _ = cv2.connectedComponentsWithStats(closed)
-            large = 1 + np.flatnonzero(stats[1:, cv2.CC_STAT_AREA] > most)
-            if not len(large):
+            threshold = max(THRESHOLD_SHARE * peak, 2.5 * noise)
+            mask = self._close_gaps(excess > threshold, scale)
+            _, labels, stats, _ = cv2.connectedComponentsWithStats(mask)
+            large_labels = 1 + np.flatnonzero(stats[1:, cv2.CC_STAT_AREA] > max_area)
+            if not len(large_labels):
                 break
-            over[np.isin(labels, large)] = 0.0
-        found = []
-        for left, above, width, height, area in np.asarray(stats)[1:].tolist():
-            if area > least:
-                corner = max(left - margin, 0), max(above - margin, 0)
-                far = left + width + margin, above + height + margin
-                found.append((area, (2 * corner[0], 2 * corner[1], 2 * far[0], 2 * far[1])))
-        found.sort(key=lambda one: -one[0])
-        return level, [place for _, place in found[:MAX_BLOBS]]
+            excess[np.isin(labels, large_labels)] = 0.0
+        blobs = []
+        for left, top, width, height, area in np.asarray(stats)[1:].tolist():
+            if area > min_area:
+                corner = max(left - margin, 0), max(top - margin, 0)
+                far = left + width + margin, top + height + margin
+                blobs.append((area, (2 * corner[0], 2 * corner[1], 2 * far[0], 2 * far[1])))
+        blobs.sort(key=lambda entry: -entry[0])
+        return threshold, [box for _, box in blobs[:MAX_BLOBS]]
 
     def _hull(
-        self, part: Pixels, bottom: tuple[Layer, Layer], level: float, scale: float
+        self, part: Pixels, background: tuple[Layer, Layer], threshold: float, scale: float
     ) -> tuple[float, Array] | None:
-        """Area [px^2] and corners (n, 2) [px] of the largest hull in a part of the image.
+        """Return area [px^2] and corners (n, 2) [px] of the largest hull in a part of the image.
 
-        None where it is too small, too large, or not redder than the bottom; ``bottom`` has score
-        and red of that, (h, w) each.
+        None if it is too small, too large, or not redder than the bottom. ``background`` is the
+        score and the red of the bottom, (h, w) each.
         """
         import cv2
 
-        over = cv2.blur(colour_score(part), (3, 3)) - bottom[0]
-        orange = over > level
+        excess = cv2.blur(colour_score(part), (3, 3)) - background[0]
+        orange = excess > threshold
         if not orange.any():
             return None
-        score, red = (
-            float(np.percentile(each[orange], 90)) for each in (over, part[:, :, 0] - bottom[1])
-        )
-        if red < max(RED_SHARE * score, REDDER):
+        layers = excess, part[:, :, 0] - background[1]
+        score, red = (float(np.percentile(layer[orange], 90)) for layer in layers)
+        if red < max(MIN_RED_SHARE * score, MIN_RED):
             return None
-        mask = self._closed(orange, scale)
+        mask = self._close_gaps(orange, scale)
         contours, _ = cv2.findContours(mask, cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)
         hulls = [cv2.convexHull(contour) for contour in contours if len(contour) > 8]
-        sized = [(float(cv2.contourArea(hull)), hull) for hull in hulls]
-        if not sized:
+        sized_hulls = [(float(cv2.contourArea(hull)), hull) for hull in hulls]
+        if not sized_hulls:
             return None
-        area, hull = max(sized, key=lambda one: one[0])
-        if not (self._least_size * scale) ** 2 <= area <= (self._most_size * scale) ** 2:
+        area, hull = max(sized_hulls, key=lambda entry: entry[0])
+        if not (self._min_size * scale) ** 2 <= area <= (self._max_size * scale) ** 2:
             return None
         return area, hull[:, 0, :].astype(np.float64)
 
-    def _closed(self, mask: npt.NDArray[np.bool_], scale: float) -> Pixels:
-        """The mask without gaps as wide as the band."""
+    def _close_gaps(self, mask: npt.NDArray[np.bool_], scale: float) -> Pixels:
         import cv2
 
         gap = max(int(self._band * scale) | 1, 3)
@@ -198,35 +194,35 @@ class ColourDetector:
 
 
 def colour_score(image: Pixels) -> npt.NDArray[np.float32]:
-    """``2R - G - B`` of an RGB image (h, w, 3), (h, w)."""
-    wide = image.astype(np.int16)
-    score: npt.NDArray[np.float32] = (2 * wide[:, :, 0] - wide[:, :, 1] - wide[:, :, 2]).astype(
-        np.float32
-    )
+    """Return the score ``2R - G - B`` of an RGB image (h, w, 3), (h, w)."""
+    channels = image.astype(np.int16)
+    score: npt.NDArray[np.float32] = (
+        2 * channels[:, :, 0] - channels[:, :, 1] - channels[:, :, 2]
+    ).astype(np.float32)
     return score
 
 
 def outline_of(hull: Array, shape: tuple[int, ...], area: float, contrast: float) -> Outline:
     """Return the outline of a hull (n, 2) [px] of pixel centres in an image of a shape (h, w)."""
-    reach = product(hull, DIRECTIONS.T)  # (n, directions)
-    ends = hull[reach.argmax(axis=0)]
+    extents = product(hull, DIRECTIONS.T)  # (n, directions)
+    ends = hull[extents.argmax(axis=0)]
     height, width = shape[:2]
-    inside = (
-        (ends[:, 0] >= RIM)
-        & (ends[:, 1] >= RIM)
-        & (ends[:, 0] <= width - 1 - RIM)
-        & (ends[:, 1] <= height - 1 - RIM)
+    is_inside = (
+        (ends[:, 0] >= BORDER_WIDTH)
+        & (ends[:, 1] >= BORDER_WIDTH)
+        & (ends[:, 0] <= width - 1 - BORDER_WIDTH)
+        & (ends[:, 1] <= height - 1 - BORDER_WIDTH)
     )
-    # a pixel reaches half a pixel beyond its centre, along the axes
-    support = reach.max(axis=0) + 0.25 * np.abs(DIRECTIONS).sum(axis=1)
+    # a pixel extends half a pixel beyond its centre, along the axes
+    support = extents.max(axis=0) + 0.25 * np.abs(DIRECTIONS).sum(axis=1)
     widths = support + np.roll(support, N_DIRECTIONS // 2)
-    longest = int(widths[: N_DIRECTIONS // 2].argmax())
+    longest_index = int(widths[: N_DIRECTIONS // 2].argmax())
     mean = hull.mean(axis=0)
     return Outline(
         support=support,
-        is_known=inside,
-        middle=(float(mean[0]), float(mean[1])),
-        angle=float(_angles[longest]),
+        is_known=is_inside,
+        centre=(float(mean[0]), float(mean[1])),
+        angle=float(_angles[longest_index]),
         area=area,
         contrast=contrast,
     )

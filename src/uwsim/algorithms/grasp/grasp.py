@@ -1,10 +1,10 @@
-"""``grasp``: finds a box with a camera, takes it by its handle with the ARM5E, and brings it up.
+"""``grasp``: finds a box with a camera, grasps its handle with the ARM5E and lifts it.
 
-It uses what a real vehicle has: images, DVL, IMU, depth, joint states, efforts of the drives, and
-the force on the wrist. It is made of parts, each of which a derived class can replace:
+It uses the sensors of a real vehicle: images, DVL, IMU, depth, joint states, efforts of the drives
+and the force on the wrist. A derived class can replace each of its parts:
 `Grasp.navigation`, `Grasp.detector`, `Grasp.tracker`, `Grasp.controller`, `Grasp.kinematics`; and
 for another object than the box `Grasp.model` and `Grasp.perception`.
-`uwsim.algorithms.grasp.phases` says what it does when.
+`uwsim.algorithms.grasp.phases` describes the state machine.
 """
 
 from __future__ import annotations
@@ -39,22 +39,22 @@ from ..tracker_node import merge_parameters
 from .arm import Arm5e, Kinematics
 from .box import BoxSpec
 from .camera import Pinhole, View
-from .craft import Craft
 from .detector import ColourDetector, Detector
 from .perception import GraspModel, ObjectPerception, Perception
 from .phases import PHASES, Phase
 from .station import Station, StationLaw
 from .task import Task, square_spiral
+from .vehicle_interface import VehicleInterface
 
 PERIOD = 0.1
-"""Of the control loop [s]."""
+"""The period of the control loop [s]."""
 OPENCV_FROM_OPENGL: Array = np.diag([1.0, -1.0, -1.0])
-OWN_CLEARANCE = 2.6
-"""Height of the base over the bottom while it searches: what hangs below it, and some more [m]."""
+SEARCH_HEIGHT = 2.6
+"""The height of the base over the bottom during the search: clears the arm and the camera [m]."""
 
 
 class Grasp:
-    """Finds a box by camera, keeps station over it, takes it by its handle and lifts it."""
+    """Finds a box by camera, keeps station over it, grasps its handle and lifts it."""
 
     PARAMETERS: ClassVar[Mapping[str, float | str]] = {
         "kp": 0.6,
@@ -88,7 +88,7 @@ class Grasp:
         self._parameters: dict[str, float | str] = dict(self.PARAMETERS)
         self._info: CameraInfo | None = None
         self._phase: Phase | None = None
-        self._last = 0.0
+        self._last_time = 0.0
 
     @property
     def parameters(self) -> Mapping[str, float | str]:
@@ -97,30 +97,30 @@ class Grasp:
 
     @staticmethod
     def check_parameters(parameters: Mapping[str, float | str]) -> None:
-        """Refuse places and angles that are no three numbers, with BadSetting."""
+        """Raise BadSetting if a position or angles are not three numbers."""
         for name in ("camera_place", "camera_rpy", "dvl_place"):
             if name in parameters:
-                triple(name, parameters[name])
+                parse_triple(name, parameters[name])
 
-    # The parts; a derived class returns its own.
+    # The parts, which a derived class can replace.
 
     def navigation(self, node: Node) -> Navigator:
-        """Return what knows the pose, the velocity and the bottom."""
-        place = triple("dvl_place", self._parameters["dvl_place"])
+        """Make the estimator of the pose, the velocity and the bottom."""
+        position = parse_triple("dvl_place", self._parameters["dvl_place"])
         topics = {name: self.text(name) for name in ("imu_topic", "dvl_topic", "depth_topic")}
-        return Navigator(node, topics, NavigationSpec(dvl_place=place))
+        return Navigator(node, topics, NavigationSpec(dvl_place=position))
 
     def detector(self) -> Detector:
-        """Return what finds outlines of the box in an image."""
+        """Make the detector of outlines of the box in an image."""
         return ColourDetector()
 
     def tracker(self, image: Grey, quad: Array) -> Tracker | str:
-        """Return a tracker of the top face, a quad (4, 2) [px], or why there is none."""
+        """Make a tracker of the top face, a quad (4, 2) [px]; return the reason if it fails."""
         method = Method(blend="esm", photometric=True, max_iterations=10, precision=1e-3)
         return DirectTracker.from_image(image, quad, levels=2, method=method)
 
     def controller(self) -> StationLaw:
-        """Return the law that keeps station."""
+        """Make the control law of the station keeping."""
         return Station(
             kp=self.number("kp"),
             ki=self.number("ki"),
@@ -129,27 +129,27 @@ class Grasp:
         )
 
     def kinematics(self) -> Kinematics:
-        """Return the arm."""
+        """Make the kinematics of the arm."""
         return Arm5e()
 
     def box(self) -> BoxSpec:
-        """Return the model of the box that is looked for."""
+        """Make the model of the box."""
         return BoxSpec()
 
     def model(self) -> GraspModel:
-        """Return where the object is taken."""
+        """Make the model of the grasped object."""
         return self.box()
 
     def perception(self) -> ObjectPerception:
-        """Return what finds the object in images; by default the box, by detector and tracker."""
+        """Make the perception of the object in images; by default of the box."""
         return Perception(self.detector(), self.tracker, self.box())
 
     def number(self, name: str) -> float:
-        """A parameter that is a number."""
+        """Return a parameter as a number."""
         return float(self._parameters[name])
 
     def text(self, name: str) -> str:
-        """A parameter that is a text."""
+        """Return a parameter as text."""
         return str(self._parameters[name])
 
     def start(self, node: Node) -> None:
@@ -158,20 +158,20 @@ class Grasp:
         self.check_parameters(self._parameters)
         self._node = node
         status = node.publisher("algorithmStatus", String)
-        self._say_phase = node.publisher("phase", String)
-        self._say_twist = node.publisher(self.text("twist_topic"), TwistStamped)
-        self._say_joints = node.publisher(self.text("arm_topic"), JointState)
-        self.craft = Craft(self.controller(), self.kinematics())
+        self._publish_phase = node.publisher("phase", String)
+        self._publish_twist = node.publisher(self.text("twist_topic"), TwistStamped)
+        self._publish_joints = node.publisher(self.text("arm_topic"), JointState)
+        self.vehicle = VehicleInterface(self.controller(), self.kinematics())
         self.task = Task(
-            self.craft,
+            self.vehicle,
             self.perception(),
             self.model(),
             self._parameters,
             lambda text: status(String(data=text)),
         )
-        mount = triple("camera_rpy", self._parameters["camera_rpy"])
+        mount = parse_triple("camera_rpy", self._parameters["camera_rpy"])
         self._base_from_camera = Pose(
-            np.array(triple("camera_place", self._parameters["camera_place"])),
+            np.array(parse_triple("camera_place", self._parameters["camera_place"])),
             product(rotation_from_rpy(*mount), OPENCV_FROM_OPENGL),
         )
         self._subscribe(node)
@@ -179,8 +179,8 @@ class Grasp:
 
     def _subscribe(self, node: Node) -> None:
         self._navigator = self.navigation(node)
-        node.subscribe(self.text("joint_topic"), JointState, self.craft.on_joints)
-        node.subscribe(self.text("wrist_topic"), WrenchStamped, self.craft.wrist.on_wrist)
+        node.subscribe(self.text("joint_topic"), JointState, self.vehicle.on_joints)
+        node.subscribe(self.text("wrist_topic"), WrenchStamped, self.vehicle.wrist.on_wrist)
         node.subscribe(self.text("info_topic"), CameraInfo, self._on_info)
         node.subscribe(self.text("image_topic"), Image, self._on_image)
 
@@ -189,79 +189,79 @@ class Grasp:
 
     def _on_image(self, message: Image) -> None:
         phase = self._phase
-        if self._info is None or phase is None or not phase.looks:
+        if self._info is None or phase is None or not phase.uses_images:
             return
         view = self._view(Pinhole.from_info(self._info))
-        self.task.perception.look(pixels_of(message), view, self.task.target, self._node.now)
+        self.task.perception.observe(pixels_of(message), view, self.task.target, self._node.now)
 
     def _view(self, pinhole: Pinhole) -> View:
-        """The camera now, over the bottom where the box is, or else where the camera looks."""
+        """Return the view now, over the bottom at the target or else on the camera's axis."""
         bottom = self._navigator.bottom
         camera = self._navigator.pose @ self._base_from_camera
         if self.task.target.pose is not None:
-            place = self.task.target.pose.place
+            position = self.task.target.pose.position
         else:
-            ahead = camera.rotation[:, 2]
+            view_axis = camera.rotation[:, 2]
             height = bottom.depth_at(camera.position) - float(camera.position[2])
-            place = camera.position + ahead * (height / max(float(ahead[2]), 0.2))
+            position = camera.position + view_axis * (height / max(float(view_axis[2]), 0.2))
         return View(
             pinhole=pinhole,
             navigation_from_camera=camera,
-            bottom=bottom.depth_at(place),
+            bottom=bottom.depth_at(position),
             slopes=bottom.slopes,
         )
 
     def _tick(self) -> None:
-        """Run the state machine and the loops."""
-        navigator, craft, task = self._navigator, self.craft, self.task
+        """Run the state machine and publish the commands."""
+        navigator, vehicle, task = self._navigator, self.vehicle, self.task
         if not navigator.is_ready or not navigator.bottom.is_known:
             return
-        craft.pose, craft.velocity = navigator.pose, navigator.velocity
+        vehicle.pose, vehicle.velocity = navigator.pose, navigator.velocity
         task.now = now = self._node.now
         if self._phase is None:
-            self._begin(now)
+            self._start_search(now)
         assert self._phase is not None
-        following = self._phase.step(task)
-        if following is None and task.elapsed > self._phase.limit:
-            following = self._phase.late
-            task.why = task.why or f"{self._phase.name} took longer than {self._phase.limit:g} s"
-        if following is not None:
-            self._enter(following)
-        self._say_twist(craft.twist(now, now - self._last))
-        self._last = now
-        if (command := craft.joint_command(now)) is not None:
-            self._say_joints(command)
+        next_phase = self._phase.step(task)
+        if next_phase is None and task.phase_time > self._phase.limit:
+            next_phase = self._phase.timeout_phase
+            timeout = f"{self._phase.name} took longer than {self._phase.limit:g} s"
+            task.failure = task.failure or timeout
+        if next_phase is not None:
+            self._enter_phase(next_phase)
+        self._publish_twist(vehicle.twist(now, now - self._last_time))
+        self._last_time = now
+        if (command := vehicle.joint_command(now)) is not None:
+            self._publish_joints(command)
 
-    def _begin(self, now: float) -> None:
-        """Lay out the search and begin it."""
-        craft, task = self.craft, self.task
-        craft.heading, self._last = craft.own_heading, now
-        bottom = self._navigator.bottom.depth_at(craft.pose.position)
-        task.search_depth = bottom - OWN_CLEARANCE
+    def _start_search(self, now: float) -> None:
+        vehicle, task = self.vehicle, self.task
+        vehicle.goal_heading, self._last_time = vehicle.heading, now
+        bottom = self._navigator.bottom.depth_at(vehicle.pose.position)
+        task.search_depth = bottom - SEARCH_HEIGHT
         task.pattern = square_spiral(
-            craft.pose.position,
-            craft.heading,
+            vehicle.pose.position,
+            vehicle.goal_heading,
             self.number("search_spacing"),
             self.number("search_radius"),
         )
         with suppress(UnknownName):
             self._node.call("startBench", Empty())
-        self._enter("search")
+        self._enter_phase("search")
 
-    def _enter(self, name: str) -> None:
+    def _enter_phase(self, name: str) -> None:
         task = self.task
-        self._phase, task.since = PHASES[name](), task.now
-        self.craft.goal_velocity = np.zeros(3)
+        self._phase, task.phase_start = PHASES[name](), task.now
+        self.vehicle.goal_velocity = np.zeros(3)
         self._phase.enter(task)
-        text = f"{name}: {task.why}" if name in ("aborted", "retry") else name
-        self._say_phase(String(data=text))
+        text = f"{name}: {task.failure}" if name in ("aborted", "retry") else name
+        self._publish_phase(String(data=text))
 
 
-def triple(name: str, value: float | str) -> tuple[float, float, float]:
-    """Three numbers of a parameter.
+def parse_triple(name: str, value: float | str) -> tuple[float, float, float]:
+    """Parse a parameter of three numbers.
 
     Raises:
-        BadSetting: it is not three finite numbers.
+        BadSetting: the parameter is not three finite numbers.
     """
     try:
         x, y, z = (float(word) for word in str(value).replace(",", " ").split())

@@ -1,4 +1,4 @@
-"""Solving small normal equations inside compiled code."""
+"""The solution of small normal equations in compiled code."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ...base.numerics.jit import njit
 
 @njit
 def cholesky_solve(normal: Array, right: Array) -> Array:
-    """Return x (n,) of ``normal @ x = right`` for a positive definite matrix (n, n)."""
+    """Solve ``normal @ x = right`` for a positive definite matrix (n, n)."""
     n = len(right)
     lower = np.zeros((n, n))
     for i in range(n):
@@ -21,13 +21,13 @@ def cholesky_solve(normal: Array, right: Array) -> Array:
             for k in range(j):
                 total -= lower[i, k] * lower[j, k]
             lower[i, j] = math.sqrt(max(total, 1e-12)) if i == j else total / lower[j, j]
-    found = right.copy()
+    x = right.copy()
     for i in range(n):
         for k in range(i):
-            found[i] -= lower[i, k] * found[k]
-        found[i] /= lower[i, i]
+            x[i] -= lower[i, k] * x[k]
+        x[i] /= lower[i, i]
     for i in range(n - 1, -1, -1):
         for k in range(i + 1, n):
-            found[i] -= lower[k, i] * found[k]
-        found[i] /= lower[i, i]
-    return found
+            x[i] -= lower[k, i] * x[k]
+        x[i] /= lower[i, i]
+    return x

@@ -1,4 +1,4 @@
-"""One phase of a grasp: what all of them are."""
+"""The base class of the phases of a grasp."""
 
 from __future__ import annotations
 
@@ -9,18 +9,18 @@ from .task import Task
 
 
 class Phase(abc.ABC):
-    """One state of the machine."""
+    """A state of the state machine."""
 
     name: ClassVar[str]
     limit: ClassVar[float] = 60.0
-    """Longest duration [s]."""
-    late: ClassVar[str] = "retry"
-    """Phase that follows when that is over."""
-    looks: bool = True
-    """Whether images are looked at."""
+    """The longest duration [s]."""
+    timeout_phase: ClassVar[str] = "retry"
+    """The phase that follows when `limit` is exceeded."""
+    uses_images: bool = True
+    """True if the perception reads images."""
 
-    def enter(self, task: Task) -> None:  # noqa: B027 - most have nothing to begin
-        """Begin."""
+    def enter(self, task: Task) -> None:  # noqa: B027 - most have no start
+        """Start the phase."""
 
     @abc.abstractmethod
     def step(self, task: Task) -> str | None:

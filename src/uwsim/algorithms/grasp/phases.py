@@ -1,49 +1,49 @@
 """The phases of a grasp: a state machine whose states are classes.
 
-===========  ==================================================  =======================
-phase        what is done                                        then
-===========  ==================================================  =======================
-`Search`     fly a square spiral until the box was seen          detect
-`Detect`     stay, look again                                    station
-`Station`    fly over it, look until its place is sure           pregrasp
-`Pregrasp`   arm down, jaw open and across the handle            align
-`Align`      grip over the handle                                descend
-`Descend`    grip down to the handle                             close
-`Close`      close the jaw, feel whether something is in it      lift, or retry
-`Lift`       rise                                                hold, or retry
-`Hold`       stay there                                          retreat, or retry
-`Retreat`    rise further, with the box                          done
-`Retry`      open the jaw, rise, look again                      station, or search
-`Done`       stay
-`Aborted`    stay; the reason is published
-===========  ==================================================  =======================
+==========  ===================================================  =======================
+phase       action                                               next
+==========  ===================================================  =======================
+search      fly a square spiral until the box is detected        detect
+detect      stay for more sightings                              station
+station     fly over the box until its position is known         pregrasp
+pregrasp    arm down, jaw open and across the handle             align
+align       grip over the handle                                 descend
+descend     grip down to the handle                              close
+close       close the jaw, check that it holds an object         lift, or retry
+lift        rise                                                 hold, or retry
+hold        stay                                                 retreat, or retry
+retreat     rise further, with the box                           done
+retry       open the jaw, rise, wait for sightings               station, or search
+done        stay
+aborted     stay; the reason is published
+==========  ===================================================  =======================
 
-A phase that outlasts its `limit` goes on to `late`. `step` returns the name of the next phase, or
-None to stay.
+A phase that exceeds its `limit` continues with its `timeout_phase`. `step` returns the name of the
+next phase, or None to stay.
 """
 
 from __future__ import annotations
 
-from .carrying import Aborted, Done, Hold, Lift, Retreat, Retry
-from .finding import Detect, Pregrasp, Search, Station
+from .approach_phases import DetectPhase, PregraspPhase, SearchPhase, StationPhase
+from .grasp_phases import AlignPhase, ClosePhase, DescendPhase
+from .lift_phases import AbortedPhase, DonePhase, HoldPhase, LiftPhase, RetreatPhase, RetryPhase
 from .phase import Phase
-from .taking import Align, Close, Descend
 
 __all__ = ["PHASES", "Phase"]
 
 PHASES: dict[str, type[Phase]] = {
-    "search": Search,
-    "detect": Detect,
-    "station": Station,
-    "pregrasp": Pregrasp,
-    "align": Align,
-    "descend": Descend,
-    "close": Close,
-    "lift": Lift,
-    "hold": Hold,
-    "retreat": Retreat,
-    "retry": Retry,
-    "done": Done,
-    "aborted": Aborted,
+    "search": SearchPhase,
+    "detect": DetectPhase,
+    "station": StationPhase,
+    "pregrasp": PregraspPhase,
+    "align": AlignPhase,
+    "descend": DescendPhase,
+    "close": ClosePhase,
+    "lift": LiftPhase,
+    "hold": HoldPhase,
+    "retreat": RetreatPhase,
+    "retry": RetryPhase,
+    "done": DonePhase,
+    "aborted": AbortedPhase,
 }
 """The phases by name, in their usual order."""

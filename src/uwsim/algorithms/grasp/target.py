@@ -1,10 +1,10 @@
-r"""The estimate of where the box is, from many sightings.
+r"""The estimate of the pose of the box from many sightings.
 
-A Kalman filter over place, heading and lean of the box in the navigation frame. The box does not
-move; the navigation drifts, which is a random walk of the place of `DRIFT`. A sighting counts if
-its squared Mahalanobis distance is below `GATE`; after `MAX_REJECTED` others in a row the filter
-begins anew with the last one. Sightings have errors in common (of calibration, of the threshold):
-their covariance is increased by `SYSTEMATIC`.
+A Kalman filter over position, heading and tilt of the box in the navigation frame. The box does not
+move; the drift of the navigation is a random walk of the pose, `DRIFT`. A sighting is accepted if
+its squared Mahalanobis distance is at most `GATE`; after `MAX_REJECTED` rejected ones in a row the
+filter restarts with the next one. Sightings have common errors (of calibration, of the threshold):
+their covariance is increased by `SYSTEMATIC_ERROR`.
 """
 
 from __future__ import annotations
@@ -13,17 +13,17 @@ import numpy as np
 
 from ...base.geometry import Array
 from ...base.numerics.linear import dot, inverse, product
-from .box import BoxPose, half_turn
+from .box import BoxPose, wrap_half_turn
 from .box_pose import Sighting
 
 DRIFT = np.array([0.003, 0.003, 0.001, 0.001, 0.0005, 0.0005])
-"""Random walk of place, heading and lean [m/sqrt(s), rad/sqrt(s)]."""
-SYSTEMATIC = np.array([0.01, 0.01, 0.015, 0.02, 0.04, 0.04])
-"""Deviation of errors that a fit does not know of [m, rad]."""
+"""The random walk of position, heading and tilt, (6,) [m/sqrt(s), rad/sqrt(s)]."""
+SYSTEMATIC_ERROR = np.array([0.01, 0.01, 0.015, 0.02, 0.04, 0.04])
+"""The standard deviation of errors outside of a fit's covariance, (6,) [m, rad]."""
 GATE = 30.0
-"""Largest squared Mahalanobis distance of a sighting that counts."""
+"""The largest squared Mahalanobis distance of an accepted sighting."""
 MAX_REJECTED = 8
-"""So many sightings in a row do not count before the filter begins anew."""
+"""The number of rejected sightings in a row after which the filter restarts."""
 
 
 class Target:
@@ -31,51 +31,51 @@ class Target:
 
     def __init__(self) -> None:
         self.pose: BoxPose | None = None
-        """Where the box is; None before the first sighting."""
+        """The pose of the box; None before the first sighting."""
         self.covariance: Array = np.eye(6)
-        """Of place, heading and lean, (6, 6)."""
-        self.count = 0
-        """Sightings that the estimate is made of."""
-        self.seen_at = -1e9
-        """Time of the last one [s]."""
-        self._rejected = 0
+        """The covariance of position, heading and tilt, (6, 6) [m, rad]."""
+        self.n_sightings = 0
+        """The number of accepted sightings."""
+        self.last_sighting_time = -1e9
+        """The time of the last accepted sighting [s]."""
+        self._n_rejected = 0
         self._time = 0.0
 
     @property
     def deviation(self) -> float:
-        """Of the horizontal place [m]; infinite before the first sighting."""
+        """The deviation of the horizontal position [m]; infinite before the first sighting."""
         if self.pose is None:
             return float("inf")
         return float(np.sqrt(max(self.covariance[0, 0], self.covariance[1, 1])))
 
-    def forget(self) -> None:
-        """Begin anew."""
-        self.pose, self.count, self._rejected = None, 0, 0
+    def reset(self) -> None:
+        """Remove the estimate."""
+        self.pose, self.n_sightings, self._n_rejected = None, 0, 0
 
-    def take(self, sighting: Sighting, time: float) -> bool:
-        """Take a sighting at ``time`` [s]; whether it counts."""
+    def update(self, sighting: Sighting, time: float) -> bool:
+        """Update the estimate by a sighting at ``time`` [s]; return whether it is accepted."""
         if self.pose is None:
-            self._begin(sighting, time)
+            self._start(sighting, time)
             return True
         self.covariance = self.covariance + np.diag((time - self._time) * DRIFT**2)
         self._time = time
-        error = sighting.pose.numbers - self.pose.numbers
-        error[3] = half_turn(float(error[3]))
-        noise = sighting.covariance + np.diag(SYSTEMATIC**2)
+        error = sighting.pose.vector - self.pose.vector
+        error[3] = wrap_half_turn(float(error[3]))
+        noise = sighting.covariance + np.diag(SYSTEMATIC_ERROR**2)
         weights = inverse(self.covariance + noise)
         if dot(error, product(weights, error)) > GATE:
-            self._rejected += 1
-            if self._rejected > MAX_REJECTED:
-                self._begin(sighting, time)
+            self._n_rejected += 1
+            if self._n_rejected > MAX_REJECTED:
+                self._start(sighting, time)
             return False
         gain = product(self.covariance, weights)
-        self.pose = BoxPose.from_numbers(self.pose.numbers + product(gain, error))
+        self.pose = BoxPose.from_vector(self.pose.vector + product(gain, error))
         self.covariance = product(np.eye(6) - gain, self.covariance)
         self.covariance = 0.5 * (self.covariance + self.covariance.T)
-        self.count, self.seen_at, self._rejected = self.count + 1, time, 0
+        self.n_sightings, self.last_sighting_time, self._n_rejected = self.n_sightings + 1, time, 0
         return True
 
-    def _begin(self, sighting: Sighting, time: float) -> None:
+    def _start(self, sighting: Sighting, time: float) -> None:
         self.pose = sighting.pose
-        self.covariance = sighting.covariance + np.diag(SYSTEMATIC**2)
-        self.count, self.seen_at, self._time, self._rejected = 1, time, time, 0
+        self.covariance = sighting.covariance + np.diag(SYSTEMATIC_ERROR**2)
+        self.n_sightings, self.last_sighting_time, self._time, self._n_rejected = 1, time, time, 0

@@ -1,4 +1,4 @@
-"""What the phases share: the craft, the target, the clock, the parameters."""
+"""The state that the phases share: the vehicle, the target, the clock, the parameters."""
 
 from __future__ import annotations
 
@@ -8,132 +8,134 @@ from collections.abc import Callable, Mapping
 import numpy as np
 
 from ...base.geometry import Array
-from .craft import Craft
+from .arm import DOWN_POSTURE
 from .perception import GraspModel, ObjectPerception
-from .station import horizontal
+from .station import horizontal_length
 from .target import Target
+from .vehicle_interface import VehicleInterface
 
-ABOVE = 0.30
-"""Height of the grip over the handle from which it begins to descend [m]."""
+APPROACH_HEIGHT = 0.30
+"""The height of the grip over the handle at which it starts to descend [m]."""
 
 
 class Task:
-    """The state of one attempt to fetch a box."""
+    """The state of a grasp."""
 
     def __init__(
         self,
-        craft: Craft,
+        vehicle: VehicleInterface,
         perception: ObjectPerception,
         model: GraspModel,
         parameters: Mapping[str, float | str],
-        say_status: Callable[[str], None],
+        publish_status: Callable[[str], None],
     ) -> None:
-        self.craft, self.perception, self.model = craft, perception, model
-        self.say_status = say_status
-        """Publishes on ``algorithmStatus``."""
+        self.vehicle, self.perception, self.model = vehicle, perception, model
+        self.publish_status = publish_status
+        """The function that publishes on ``algorithmStatus``."""
         self.target = Target()
         self.now = 0.0
-        """Simulation time [s]."""
-        self.since = 0.0
-        """When the present phase began [s]."""
-        self.why = ""
-        """Why the last thing failed."""
+        """The simulation time [s]."""
+        self.phase_start = 0.0
+        """The start time of the present phase [s]."""
+        self.failure = ""
+        """The reason for the last failure."""
         self.failures = 0
         self.pattern: list[tuple[float, float]] = []
-        """Corners of the search pattern that are left, navigation frame [m]."""
+        """The remaining corners of the search pattern, navigation frame [m]."""
         self.search_depth = 0.0
-        """Of the base while it searches [m]."""
-        number = {name: float(value) for name, value in parameters.items() if _is_number(value)}
-        self.attempts = int(number["attempts"])
-        self.lift, self.settle, self.hold = number["lift"], number["settle"], number["hold"]
-        self.descent = number["descent"]
-        self._tolerance, self._min_load = number["tolerance"], number["min_load"]
+        """The depth of the base during the search [m]."""
+        numbers = {name: float(value) for name, value in parameters.items() if _is_number(value)}
+        self.attempts = int(numbers["attempts"])
+        self.lift, self.settle, self.hold = numbers["lift"], numbers["settle"], numbers["hold"]
+        self.descent = numbers["descent"]
+        self._tolerance, self._min_load = numbers["tolerance"], numbers["min_load"]
 
     @property
-    def elapsed(self) -> float:
-        """Since the present phase began [s]."""
-        return self.now - self.since
+    def phase_time(self) -> float:
+        """The duration of the present phase [s]."""
+        return self.now - self.phase_start
 
     @property
-    def gate(self) -> float:
-        """Largest horizontal error of the grip that will do [m]: larger in a current."""
-        return self._tolerance + 0.04 * horizontal(self.craft.law.current)
+    def tolerance(self) -> float:
+        """The largest accepted horizontal error of the grip [m]; it increases with the current."""
+        return self._tolerance + 0.04 * horizontal_length(self.vehicle.law.current)
 
     @property
     def grip(self) -> Array:
-        """The point of the target that the jaw takes, (3,) [m]."""
+        """The point of the target that the jaw grasps, (3,) [m]."""
         assert self.target.pose is not None
         return self.model.grip(self.target.pose)
 
     @property
-    def closes(self) -> float:
+    def closing_heading(self) -> float:
         """The heading of the axis along which the jaw closes, modulo half a turn [rad]."""
         assert self.target.pose is not None
-        return self.model.closes(self.target.pose)
+        return self.model.closing_heading(self.target.pose)
 
     @property
-    def carries_something(self) -> bool:
-        """Whether the wrist carries a weight; taken for true where it has no sensor."""
-        load = self.craft.wrist.load
+    def has_load(self) -> bool:
+        """True if the wrist carries a weight, or has no sensor."""
+        load = self.vehicle.wrist.load
         return load is None or load > self._min_load
 
-    def is_target_lost(self, patience: float) -> bool:
-        """Whether the target was not seen for longer than this [s]; the reason is noted."""
-        lost = self.target.pose is None or self.now - self.target.seen_at > patience
-        if lost:
-            self.why = f"lost target: it was not seen for {patience:g} s"
-        return lost
+    def is_target_lost(self, max_age: float) -> bool:
+        """Return whether the last sighting is older than ``max_age`` [s]; if so, set `failure`."""
+        is_lost = self.target.pose is None or self.now - self.target.last_sighting_time > max_age
+        if is_lost:
+            self.failure = f"lost target: it was not seen for {max_age:g} s"
+        return is_lost
 
-    def go(self, place: Array, velocity: Array | None = None) -> None:
-        """Send the base to a place (3,) [m] that moves at a velocity (3,) [m/s]."""
-        self.craft.goal = place
-        self.craft.goal_velocity = np.zeros(3) if velocity is None else velocity
+    def set_goal(self, position: Array, velocity: Array | None = None) -> None:
+        """Set the goal of the base, (3,) [m], and its velocity, (3,) [m/s]."""
+        self.vehicle.goal = position
+        self.vehicle.goal_velocity = np.zeros(3) if velocity is None else velocity
 
-    def station(self, height: float, *, settled: bool = False) -> Array:
-        """Keep the base where the reaching arm's grip would be over the handle.
+    def keep_station(self, height: float, *, is_settled: bool = False) -> Array:
+        """Set the goal of the base so that the grip is over the handle.
 
         Args:
             height: of the grip over the handle [m].
-            settled: the arm is as it is; else it is taken to reach down.
+            is_settled: True to use the present joints; otherwise those of the lowered arm.
 
         Returns:
-            How far the base is off, (3,) [m].
+            The error of the base, (3,) [m].
         """
-        craft = self.craft
+        vehicle = self.vehicle
         goal = self.grip - np.array([0.0, 0.0, height])
-        base = craft.base_for(goal, craft.joints) if settled else craft.base_for(goal)
-        self.go(base)
-        off: Array = base - craft.pose.position
-        return off
+        posture = vehicle.joints if is_settled else DOWN_POSTURE
+        base = vehicle.base_position_for(goal, posture)
+        self.set_goal(base)
+        error: Array = base - vehicle.pose.position
+        return error
 
     def hover(self, height: float) -> Array:
-        """Keep the grip over the handle with base and arm; return how far it is off, (3,) [m]."""
-        self.station(height)
-        craft = self.craft
-        craft.closes = self.closes
-        craft.grip_goal = self.grip - np.array([0.0, 0.0, height])
-        off: Array = craft.grip_goal - craft.grip
-        return off
+        """Keep the grip over the handle with base and arm; return its error, (3,) [m]."""
+        self.keep_station(height)
+        vehicle = self.vehicle
+        vehicle.closing_heading = self.closing_heading
+        vehicle.grip_goal = self.grip - np.array([0.0, 0.0, height])
+        error: Array = vehicle.grip_goal - vehicle.grip
+        return error
 
 
 def square_spiral(
     start: Array, heading: float, spacing: float, radius: float
 ) -> list[tuple[float, float]]:
-    """Corners of a square spiral about a start (at least 2,) [m], the first ahead of it.
+    """Return the corners of a square spiral about a start, the first ahead of it.
 
     Args:
-        start: north and east [m].
+        start: north and east [m], (at least 2,).
         heading: of the first leg [rad].
         spacing: between legs [m].
-        radius: how far it reaches [m].
+        radius: the largest distance of a corner along an axis [m].
     """
     corners: list[tuple[float, float]] = []
     x, y, n = 0.0, 0.0, 0
     c, s = math.cos(heading), math.sin(heading)
     while True:
         length = spacing * (n // 2 + 1)
-        ahead = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[n % 4]
-        x, y, n = x + length * ahead[0], y + length * ahead[1], n + 1
+        direction = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[n % 4]
+        x, y, n = x + length * direction[0], y + length * direction[1], n + 1
         if max(abs(x), abs(y)) > radius + 1e-9:
             return corners
         corners.append((float(start[0]) + c * x - s * y, float(start[1]) + s * x + c * y))

@@ -1,8 +1,8 @@
-"""What `grasp` is compared with: a simpler station keeping, the truth instead of senses, controls.
+"""The algorithms for comparison with `grasp`: simpler station keeping, ground truth, controls.
 
-``grasp-truth`` does what no vehicle can: it reads where vehicle and box are from
-``/truth/odometry`` and ``/tf``. It shows what perception and navigation cost. ``grasp-nothing`` and
-``grasp-blind-close`` do nothing useful: a benchmark in which one of them succeeds measures nothing.
+``grasp-truth`` reads the true poses of vehicle and box from ``/truth/odometry`` and ``/tf``, which
+no real vehicle can. The difference to `grasp` is the cost of perception and navigation.
+``grasp-nothing`` and ``grasp-blind-close`` are controls: if one succeeds, the benchmark is invalid.
 """
 
 from __future__ import annotations
@@ -29,13 +29,13 @@ from ...messages import (
 )
 from ..navigation import BottomPlane, Navigator
 from ..tracker_node import merge_parameters
-from .arm import CLOSED, DOWN, JAW, JOINTS, OPEN
+from .arm import DOWN_POSTURE, JAW, JAW_CLOSED, JAW_OPEN, JOINTS
 from .box import BoxPose
 from .box_pose import Sighting
 from .grasp import Grasp
 
-SURE = np.diag(np.square([1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 1e-3]))
-"""Covariance of the truth, (6, 6)."""
+TRUTH_COVARIANCE = np.diag(np.square([1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 1e-3]))
+"""The covariance of the truth, (6, 6)."""
 
 
 class GraspP(Grasp):
@@ -49,7 +49,7 @@ class GraspP(Grasp):
 
 
 class GraspTruth(Grasp):
-    """The algorithm grasp without senses: reads the true poses. An upper bound, no competitor."""
+    """The algorithm grasp with the true poses instead of sensors: an upper bound."""
 
     PARAMETERS: ClassVar[Mapping[str, float | str]] = {
         **Grasp.PARAMETERS,
@@ -59,7 +59,7 @@ class GraspTruth(Grasp):
     }
 
     def navigation(self, node: Node) -> Navigator:
-        """Return the truth: its pose is set by odometry."""
+        """Make the navigator with the true pose."""
         return TrueNavigator(node, self.text("odometry_topic"))
 
     def _subscribe(self, node: Node) -> None:
@@ -67,24 +67,26 @@ class GraspTruth(Grasp):
         node.subscribe(self.text("frames_topic"), TFMessage, self._on_frames)
 
     def _on_image(self, message: Image) -> None:
-        """See nothing."""
+        """Ignore the image."""
 
     def _on_frames(self, message: TFMessage) -> None:
-        for one in message.transforms:
-            if one.child_frame_id.strip("/") != self.text("target"):
+        for frame in message.transforms:
+            if frame.child_frame_id.strip("/") != self.text("target"):
                 continue
-            t, q = one.transform.translation, one.transform.rotation
+            t, q = frame.transform.translation, frame.transform.rotation
             pose = Pose.from_quaternion(np.array([t.x, t.y, t.z]), np.array([q.w, q.x, q.y, q.z]))
-            true = BoxPose.from_pose(pose)
-            depth = float(true.place[2]) + self.box().size[2] / 2.0
+            box_pose = BoxPose.from_pose(pose)
+            depth = float(box_pose.position[2]) + self.box().size[2] / 2.0
             self._navigator.bottom.set_depth(depth)
-            if self._phase is not None and self._phase.looks:
-                found = Sighting(pose=true, covariance=SURE, residual=0.0, source="truth")
-                self.task.target.take(found, self._node.now)
+            if self._phase is not None and self._phase.uses_images:
+                sighting = Sighting(
+                    pose=box_pose, covariance=TRUTH_COVARIANCE, residual=0.0, source="truth"
+                )
+                self.task.target.update(sighting, self._node.now)
 
 
 class TrueNavigator(Navigator):
-    """A navigator that is told the truth, in L."""
+    """A navigator that reads the true odometry, in L."""
 
     def __init__(self, node: Node, topic: str) -> None:
         """Subscribe to the odometry."""
@@ -94,17 +96,17 @@ class TrueNavigator(Navigator):
 
     @property
     def is_ready(self) -> bool:
-        """Whether odometry has come."""
+        """True if the odometry is known."""
         return self._is_ready
 
     @property
     def pose(self) -> Pose:
-        """``L_from_base``."""
+        """The pose ``L_from_base``."""
         return self._pose
 
     @property
     def velocity(self) -> Array:
-        """Over ground, in L, (3,) [m/s]."""
+        """The velocity over ground, in L, (3,) [m/s]."""
         return self._velocity
 
     def _on_odometry(self, message: Odometry) -> None:
@@ -116,19 +118,19 @@ class TrueNavigator(Navigator):
 
 
 class GraspNothing:
-    """Does nothing: the control that must never succeed."""
+    """A control that does nothing and must never succeed."""
 
     PARAMETERS: ClassVar[Mapping[str, float | str]] = {}
 
     def start(self, node: Node) -> None:
-        """Say that it gives up searching at once."""
+        """Publish the phase ``search`` once."""
         self.parameters = merge_parameters(self.PARAMETERS, node.parameters)
-        say = node.publisher("phase", String)
-        say(String(data="search"))
+        publish_phase = node.publisher("phase", String)
+        publish_phase(String(data="search"))
 
 
 class GraspBlindClose:
-    """Goes down where it is and closes the jaw, again and again: a control without senses."""
+    """A control without sensors that repeatedly descends and closes the jaw."""
 
     PARAMETERS: ClassVar[Mapping[str, float | str]] = {
         "period": 20.0,
@@ -137,29 +139,29 @@ class GraspBlindClose:
     }
 
     def start(self, node: Node) -> None:
-        """Begin the rounds."""
+        """Publish the phase ``search`` and start the timer."""
         self._node = node
         self.parameters = merge_parameters(self.PARAMETERS, node.parameters)
-        self._say_phase = node.publisher("phase", String)
-        self._say_twist = node.publisher(str(self.parameters["twist_topic"]), TwistStamped)
-        self._say_joints = node.publisher(str(self.parameters["arm_topic"]), JointState)
-        self._say_phase(String(data="search"))
+        self._publish_phase = node.publisher("phase", String)
+        self._publish_twist = node.publisher(str(self.parameters["twist_topic"]), TwistStamped)
+        self._publish_joints = node.publisher(str(self.parameters["arm_topic"]), JointState)
+        self._publish_phase(String(data="search"))
         node.create_timer(0.1, self._tick)
 
     def _tick(self) -> None:
-        """Down for a fifth of a round, close, up for a fifth."""
+        """Descend for a fifth of the period, close the jaw, later rise for a fifth."""
         now = self._node.now
-        share = math.modf(now / float(self.parameters["period"]))[0]
-        speed = 0.12 if share < 0.2 else -0.12 if share > 0.6 else 0.0
-        jaw = CLOSED if 0.25 < share < 0.9 else OPEN
-        still = Vector3(x=0.0, y=0.0, z=0.0)
-        twist = Twist(linear=Vector3(x=0.0, y=0.0, z=speed), angular=still)
-        self._say_twist(TwistStamped(header=header(now), twist=twist))
-        self._say_joints(
+        fraction = math.modf(now / float(self.parameters["period"]))[0]
+        speed = 0.12 if fraction < 0.2 else -0.12 if fraction > 0.6 else 0.0
+        jaw = JAW_CLOSED if 0.25 < fraction < 0.9 else JAW_OPEN
+        zero = Vector3(x=0.0, y=0.0, z=0.0)
+        twist = Twist(linear=Vector3(x=0.0, y=0.0, z=speed), angular=zero)
+        self._publish_twist(TwistStamped(header=header(now), twist=twist))
+        self._publish_joints(
             JointState(
                 header=header(now),
                 name=[*JOINTS, JAW],
-                position=np.array([*DOWN.tolist(), jaw]),
+                position=np.array([*DOWN_POSTURE.tolist(), jaw]),
                 velocity=np.zeros(0),
                 effort=np.zeros(0),
             )

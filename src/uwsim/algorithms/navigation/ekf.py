@@ -176,7 +176,6 @@ class NavigationFilter:
         self._add_error_state(correction)
 
     def _add_error_state(self, error: Array) -> None:
-        """Add an error state (15,) to the state."""
         self.position = self.position + error[POSITION]
         self.velocity = self.velocity + error[VELOCITY]
         self.gyro_bias = self.gyro_bias + error[GYRO_BIAS]

@@ -11,15 +11,13 @@ from ...base.numerics.jit import njit
 
 
 @njit
-def propagate(
-    covariance: Array, rotation: Array, specific_force: Array, dt: float, noise: Array
-) -> Array:
+def propagate(covariance: Array, rotation: Array, force: Array, dt: float, noise: Array) -> Array:
     """Compute the covariance ``F P F' + Q dt`` of the error state, (15, 15).
 
     Args:
         covariance: the covariance P, (15, 15).
         rotation: the axes of the base in the navigation frame, (3, 3).
-        specific_force: in navigation axes, (3,) [m/s2].
+        force: specific force in navigation axes, (3,) [m/s2].
         dt: the time step [s].
         noise: the diagonal of Q, (15,).
     """
@@ -29,7 +27,7 @@ def propagate(
         for k in range(3):
             transition[3 + i, 12 + k] = -dt * rotation[i, k]
             transition[6 + i, 9 + k] = -dt * rotation[i, k]
-    x, y, z = specific_force
+    x, y, z = force
     transition[3, 7], transition[3, 8] = dt * z, -dt * y
     transition[4, 6], transition[4, 8] = -dt * z, dt * x
     transition[5, 6], transition[5, 7] = dt * y, -dt * x
@@ -83,9 +81,8 @@ def rotation_between(rotation: Array, other: Array) -> Array:
 @njit
 def squared_distance(covariance: Array, jacobian: Array, error: Array, variance: float) -> float:
     """Return the squared Mahalanobis distance of an error (m,) with a Jacobian (m, 15)."""
-    weighted_error = _solve(
-        _innovation_covariance(covariance, jacobian, variance), error.copy().reshape(-1, 1)
-    )
+    innovation_covariance = _innovation_covariance(covariance, jacobian, variance)
+    weighted_error = _solve(innovation_covariance, error.copy().reshape(-1, 1))
     total = 0.0
     for i in range(len(error)):
         total += error[i] * weighted_error[i, 0]
@@ -98,9 +95,8 @@ def correct(
 ) -> tuple[Array, Array]:
     """Return the correction (15,) and the updated covariance (Joseph's form)."""
     cross_covariance = _product_transposed(covariance, jacobian)  # (15, m)
-    gain = _solve(
-        _innovation_covariance(covariance, jacobian, variance), cross_covariance.T.copy()
-    ).T.copy()
+    innovation_covariance = _innovation_covariance(covariance, jacobian, variance)
+    gain = _solve(innovation_covariance, cross_covariance.T.copy()).T.copy()
     complement = -_product(gain, jacobian)
     for i in range(15):
         complement[i, i] += 1.0
