@@ -41,7 +41,7 @@ from uwsim.world import Stage, World
 class CountSpec(MeasureSpec):
     """How many steps it was on."""
 
-    weight: float = element(default=1.0, above=0.0)
+    weight: float = element(default=1.0, exclusive_minimum=0.0)
     """What a step counts."""
 
     def bind(self, world: World) -> "Count":

@@ -53,7 +53,7 @@ def test_a_scene_may_hold_several_currents_in_any_order(tmp_path: Path) -> None:
         UwsimSinusoidSpec(speed=0.2),
         ConstantSpec(velocity=(1.0, 0.0, 0.0)),
     )
-    assert "comes after" not in str(check_file(path, strict=True))
+    assert "comes after" not in str(check_file(path, is_strict=True))
 
 
 def test_a_misspelt_current_is_an_error_that_names_the_right_one(tmp_path: Path) -> None:

@@ -172,7 +172,7 @@ def test_columns_are_asked_for_by_name() -> None:
 
 def test_what_a_run_says_that_this_version_does_not_know_is_kept() -> None:
     result = make()
-    other = replace(result, run=replace(result.run, others={"host": "abacus"}))
+    other = replace(result, run=replace(result.run, other_values={"host": "abacus"}))
     assert loads(dumps(other)) == other
     assert '"host": "abacus"' in dumps(other)
     assert result.run.as_dict() == {k: v for k, v in other.run.as_dict().items() if k != "host"}

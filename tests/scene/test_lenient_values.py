@@ -21,7 +21,7 @@ OBJECT = (
 def checked(folder: Path, body: str, *, strict: bool = False) -> list[Diagnostic]:
     file = folder / "scene.xml"
     file.write_text(f"<UWSimScene>\n{body}\n</UWSimScene>")
-    return check_file(file, strict=strict)
+    return check_file(file, is_strict=strict)
 
 
 @pytest.mark.parametrize(

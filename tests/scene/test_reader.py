@@ -140,7 +140,7 @@ def test_dropping_the_extensions_gives_a_scene_in_the_originals_order(
 ) -> None:
     text = without_extensions(read_scene(path))
     assert "urn:uwsim" not in text
-    said = check_file(written(text, tmp_path), strict=True)
+    said = check_file(written(text, tmp_path), is_strict=True)
     wrong = {diagnostic.message for diagnostic in said if diagnostic.severity == "error"}
     assert wrong <= {
         "<ProfilingSonar> is not in the original grammar",
@@ -175,12 +175,12 @@ def test_every_original_file_is_without_errors(path: Path) -> None:
 @needs_originals
 @pytest.mark.parametrize("path", originals("*[sS]cene.xml"), ids=lambda path: path.name)
 def test_every_original_scene_is_in_the_originals_order(path: Path) -> None:
-    assert [f for f in check_file(path, strict=True) if f.severity == "error"] == []
+    assert [f for f in check_file(path, is_strict=True) if f.severity == "error"] == []
 
 
 @pytest.mark.parametrize("path", BUNDLED, ids=lambda path: path.stem)
 def test_every_bundled_scene_is_without_errors_and_in_order(path: Path) -> None:
-    assert [f for f in check_file(path, strict=True) if f.severity == "error"] == []
+    assert [f for f in check_file(path, is_strict=True) if f.severity == "error"] == []
 
 
 def camera_in_l(scene: SceneSpec) -> tuple[np.ndarray, np.ndarray]:

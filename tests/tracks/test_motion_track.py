@@ -14,7 +14,7 @@ from uwsim.results.motion import Signal, TrackLevel, load_track, read_track, tra
 from uwsim.results.motion.motion_track import quantise, steps_of
 from uwsim.results.motion.packing import pack_table, unpack_table
 
-LEVELS = (TrackLevel(values={"fog": 0.5}, began=1.0, duration=2.0, status="ok"),)
+LEVELS = (TrackLevel(values={"fog": 0.5}, start_time=1.0, duration=2.0, status="ok"),)
 SIGNALS = (Signal(name="fog", unit="1/m"),)
 
 
@@ -133,7 +133,7 @@ def test_a_bench_keeps_the_motion_of_each_trial_with_its_fog_and_its_quadrangles
     assert fog is not None
     for level in track.levels:
         assert level.duration == pytest.approx(0.2)
-        k = round((level.began + 0.1) * track.rate)
+        k = round((level.start_time + 0.1) * track.rate)
         assert fog[k] == pytest.approx(level.values["fog"])
         assert np.isfinite(track.signal("truth/bowtech1/0/u")[k])  # type: ignore[index]
     assert np.isnan(track.signal("truth/bowtech1/0/u")[0])  # type: ignore[index]

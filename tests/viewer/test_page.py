@@ -80,7 +80,7 @@ def test_bodies_are_where_the_track_has_them(replayed: Any, stored: Path) -> Non
 def test_a_level_is_chosen_by_a_click_and_by_keys(replayed: Any, stored: Path) -> None:
     levels = load_track(stored / "units" / "00000.motion").levels
     replayed.get_by_role("button", name="fog 0.8").click()
-    assert replayed.evaluate("uwsim.time()") == pytest.approx(levels[2].began)
+    assert replayed.evaluate("uwsim.time()") == pytest.approx(levels[2].start_time)
     replayed.keyboard.press("[")
     assert replayed.evaluate("uwsim.level()") == 1
     replayed.keyboard.press("Home")
@@ -93,7 +93,7 @@ def test_a_link_to_a_level_opens_it(tab: Any, stored: Path, tmp_path: Path) -> N
     levels = load_track(stored / "units" / "00000.motion").levels
     tab.goto(Replay(stored).save(tmp_path / "replay.html").as_uri() + "#level=2")
     tab.wait_for_function(EVERY)
-    assert tab.evaluate("uwsim.time()") == pytest.approx(levels[2].began)
+    assert tab.evaluate("uwsim.time()") == pytest.approx(levels[2].start_time)
 
 
 def test_it_plays(replayed: Any) -> None:

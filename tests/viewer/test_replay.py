@@ -57,7 +57,7 @@ def test_levels_and_curves_are_those_of_the_result(stored: Path, page: str) -> N
 def level(began: float, row: dict[str, Any]) -> RecordedLevel:
     values = {"fog": began}
     return _level(
-        stored_row(**row), TrackLevel(values=values, began=began, duration=1.0, status="ok")
+        stored_row(**row), TrackLevel(values=values, start_time=began, duration=1.0, status="ok")
     )
 
 

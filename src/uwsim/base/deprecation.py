@@ -20,7 +20,7 @@ def deprecated_name(new_name: str) -> Callable[[F], F]:
     def decorate(function: F) -> F:
         @functools.wraps(function)
         def call_old_name(*args: Any, **kwargs: Any) -> Any:
-            _warn(function.__name__, new_name)
+            warn_old_name(function.__name__, new_name)
             return function(*args, **kwargs)
 
         return cast("F", call_old_name)
@@ -35,7 +35,7 @@ def renamed_parameter(old_name: str, new_name: str) -> Callable[[F], F]:
         @functools.wraps(function)
         def call_new_name(*args: Any, **kwargs: Any) -> Any:
             if old_name in kwargs and new_name not in kwargs:
-                _warn(old_name, new_name)
+                warn_old_name(old_name, new_name)
                 kwargs[new_name] = kwargs.pop(old_name)
             return function(*args, **kwargs)
 
@@ -44,6 +44,7 @@ def renamed_parameter(old_name: str, new_name: str) -> Callable[[F], F]:
     return decorate
 
 
-def _warn(old_name: str, new_name: str) -> None:
+def warn_old_name(old_name: str, new_name: str) -> None:
+    """Warn the caller of the calling function of an old name."""
     text = f"{old_name!r} is deprecated since uwsim 0.2.0; use {new_name!r}."
     warnings.warn(text, DeprecationWarning, stacklevel=3)

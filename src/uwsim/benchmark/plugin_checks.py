@@ -17,7 +17,7 @@ from ..world import Stage
 from .measures import Measure
 from .updaters import SceneUpdaterSpec
 
-TEXT_ATTRIBUTES = ("why", "ends_level")
+TEXT_ATTRIBUTES = ("missing_reason", "ends_level")
 """The attributes of a measure that are text or None."""
 DICT_ATTRIBUTES = ("details", "detail_units", "reasons")
 """The attributes of a measure that are dicts by the names of its details."""

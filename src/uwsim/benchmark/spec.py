@@ -58,10 +58,12 @@ class BenchmarkSpec(Spec):
     compatibility: tuple[str, ...] = element(default=(), attribute=True, namespaced=True)
     """The compatibility quirks of the original to reproduce (`uwsim.base.compatibility`), separated
     by blanks; ``uwsim`` is all of them but ``visual-frames``."""
-    patience: float | None = element(default=None, attribute=True, namespaced=True, above=0.0)
+    patience: float | None = element(
+        default=None, attribute=True, namespaced=True, exclusive_minimum=0.0
+    )
     """The longest wait for the start trigger, in simulation time [s]; None: 10 s."""
     timestep: float | None = element(
-        default=None, attribute=True, namespaced=True, above=0.0, maximum=0.02
+        default=None, attribute=True, namespaced=True, exclusive_minimum=0.0, maximum=0.02
     )
     """The length of a physics step [s]; None: 0.002 s."""
     vary: tuple[VariationSpec, ...] = element(namespaced=True, choice=DISTRIBUTIONS, default=())

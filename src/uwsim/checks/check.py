@@ -28,7 +28,7 @@ MAX_MACROS = 12
 def check_file(
     file: Path,
     *,
-    strict: bool = False,
+    is_strict: bool = False,
     data_path: tuple[Path, ...] = (),
     scene: Path | None = None,
     plugins: tuple[tuple[Plugin, ...], Tables] | None = None,
@@ -40,7 +40,7 @@ def check_file(
 
     Args:
         file: the file.
-        strict: True to compare the file with the order of the original's grammar, too.
+        is_strict: True to compare the file with the order of the original's grammar, too.
         data_path: the folders that are searched for files.
         scene: the scene of a benchmark; None for the one that it names.
         plugins: the result of `read_plugins`; None for the bundled tables.
@@ -63,9 +63,9 @@ def check_file(
         return check_robot(file, ROBOT_RULES, data_path=data_path, arguments=arguments)
     if root == "benchmark":
         plugin_list, tables = plugins or read_plugins(())
-        return _check_benchmark(file, strict, scene, data_path, plugin_list, tables, arguments)
+        return _check_benchmark(file, is_strict, scene, data_path, plugin_list, tables, arguments)
     if root == ROOT:
-        return _check_scene(file, strict, data_path, arguments)
+        return _check_scene(file, is_strict, data_path, arguments)
     if root == "hydrodynamics":
         return _check_hydrodynamics(file)
     message = (
@@ -78,13 +78,13 @@ def check_file(
 
 
 def _check_scene(
-    path: Path, strict: bool, data_path: tuple[Path, ...], arguments: Mapping[str, str] | None
+    path: Path, is_strict: bool, data_path: tuple[Path, ...], arguments: Mapping[str, str] | None
 ) -> list[Diagnostic]:
     from ..scene.reader import read_document
     from ..scene.xacro import parse_expanded
     from .subjects import CheckedScene
 
-    diagnostics = Diagnostics(path, is_strict=strict)
+    diagnostics = Diagnostics(path, is_strict=is_strict)
     try:
         document = parse_expanded(path, error=SceneError, data_path=data_path, arguments=arguments)
     except SceneError as error:
@@ -181,7 +181,7 @@ def _check_hydrodynamics(file: Path) -> list[Diagnostic]:
 
 def _check_benchmark(
     file: Path,
-    strict: bool,
+    is_strict: bool,
     scene: Path | None,
     data_path: tuple[Path, ...],
     plugins: tuple[Plugin, ...],
@@ -196,7 +196,7 @@ def _check_benchmark(
         with attribute_errors_to(plugins):
             diagnostics, spec = check_benchmark(
                 file,
-                is_strict=strict,
+                is_strict=is_strict,
                 measures=tables.measures,
                 triggers=tables.triggers,
                 updaters=tables.updaters,

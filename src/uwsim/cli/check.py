@@ -66,7 +66,7 @@ def check(
     reports = {
         str(file): check_file(
             file,
-            strict=is_strict,
+            is_strict=is_strict,
             data_path=folders,
             scene=scene,
             plugins=plugins,

@@ -37,7 +37,7 @@ class GaussMarkovSpec(CurrentSpec):
     """The mean velocity, in L [m/s]."""
     deviation: Triple = element(namespaced=True, minimum=0.0, maximum=MAX_SPEED)
     """The standard deviation of the velocity along each axis of L [m/s]."""
-    mu: float = element(namespaced=True, above=0)
+    mu: float = element(namespaced=True, exclusive_minimum=0)
     """The inverse of the correlation time [1/s]."""
     step: float = element(namespaced=True, default=0.05, minimum=0.001)
     """The time between random numbers, with linear interpolation between them [s]."""

@@ -51,9 +51,9 @@ class PowerProfileSpec(CurrentSpec):
 
     velocity: Triple = element(namespaced=True, minimum=-MAX_SPEED, maximum=MAX_SPEED)
     """The velocity of the water at the surface, in L [m/s]."""
-    depth: float = element(namespaced=True, above=0)
+    depth: float = element(namespaced=True, exclusive_minimum=0)
     """The depth of the ground below the still surface [m]."""
-    exponent: float = element(namespaced=True, default=1.0 / 7.0, above=0)
+    exponent: float = element(namespaced=True, default=1.0 / 7.0, exclusive_minimum=0)
     """The exponent of the power law [1]."""
 
     def bind(self, place: Place) -> PowerProfile:
@@ -67,9 +67,9 @@ class LogProfileSpec(CurrentSpec):
 
     velocity: Triple = element(namespaced=True, minimum=-MAX_SPEED, maximum=MAX_SPEED)
     """The velocity of the water at the surface, in L [m/s]."""
-    depth: float = element(namespaced=True, above=0)
+    depth: float = element(namespaced=True, exclusive_minimum=0)
     """The depth of the ground below the still surface [m]."""
-    roughness: float = element(namespaced=True, default=0.001, above=0)
+    roughness: float = element(namespaced=True, default=0.001, exclusive_minimum=0)
     """The roughness length z0 of the bottom: mud 0.0002, gravel 0.005 [m]."""
 
     def bind(self, place: Place) -> LogProfile:

@@ -62,9 +62,9 @@ class BatterySpec(DeviceSpec):
 
     name: str
     """The name of the battery."""
-    capacity: float = element(above=0.0, maximum=1e9)
+    capacity: float = element(exclusive_minimum=0.0, maximum=1e9)
     """The energy of a full battery [Wh]."""
-    voltage: float = element(default=24.0, above=0.0, maximum=10000.0)
+    voltage: float = element(default=24.0, exclusive_minimum=0.0, maximum=10000.0)
     """The open-circuit voltage [V]."""
     resistance: float = element(default=0.0, minimum=0.0, maximum=100.0)
     """The internal resistance [ohm]."""

@@ -62,9 +62,11 @@ class FaultSpec(DeviceSpec):
     """The latency [s]."""
     start: float = element(namespaced=True, default=0.0, minimum=0.0)
     """The simulation time from which on it may be present [s]."""
-    end: float | None = element(namespaced=True, default=None, above=0.0)
+    end: float | None = element(namespaced=True, default=None, exclusive_minimum=0.0)
     """The simulation time until which it may be present; without it there is no end [s]."""
-    rate: float | None = element(namespaced=True, default=None, above=0.0, maximum=1000.0)
+    rate: float | None = element(
+        namespaced=True, default=None, exclusive_minimum=0.0, maximum=1000.0
+    )
     """The rate of random occurrences between these times; without it it is permanent [1/s]."""
     duration: float = element(namespaced=True, default=0.0, minimum=0.0)
     """The duration of each random occurrence; 0: one sample or step [s]."""

@@ -50,7 +50,7 @@ class LampSpec(DeviceSpec):
     look_at: LookAt = element(namespaced=True, default=None)
     """The target of its light at the start, instead of ``orientation``: a point in L [m], or a
     direction of the vehicle. The lamp stays fixed to its link."""
-    fov: float = element(namespaced=True, default=60.0, above=0, maximum=160)
+    fov: float = element(namespaced=True, default=60.0, exclusive_minimum=0, maximum=160)
     """The angle of the whole cone [deg]."""
     softness: float = element(namespaced=True, default=0.2, minimum=0, maximum=1)
     """The share of the half angle over which the light fades towards the edge [1]."""

@@ -54,7 +54,7 @@ class LedArraySpec(DeviceSpec):
         default=(0.0, 0.0, 0.0), parts="rpy", original=REQUIRED_BY_DTD
     )
     """The orientation of the device in the link's frame, roll, pitch, yaw (Rz Ry Rx) [rad]."""
-    radio: float = element(default=0.02, above=0)
+    radio: float = element(default=0.02, exclusive_minimum=0)
     """The radius of each lamp [m]."""
     space: float = 0.2
     """The distance between the lamps, along y [m]."""

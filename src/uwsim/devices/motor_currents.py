@@ -32,7 +32,7 @@ class MotorCurrentsSpec(DeviceSpec):
 
     name: str
     """The name of the device."""
-    voltage: float = element(default=24.0, above=0.0, maximum=10000.0)
+    voltage: float = element(default=24.0, exclusive_minimum=0.0, maximum=10000.0)
     """The voltage of the supply [V]."""
     std: float = element(default=0.0, minimum=0.0, maximum=1e6)
     """The standard deviation of the noise of each current [A]."""

@@ -34,7 +34,7 @@ class StructuredLightProjectorSpec(DeviceSpec):
     """The name of the device."""
     relative_to: str
     """The link of the device, whose pose is relative to the link's kinematic frame."""
-    fov: float = element(above=0, below=180)
+    fov: float = element(exclusive_minimum=0, exclusive_maximum=180)
     """The vertical field of view [deg]; the aspect ratio is the image's."""
     image_name: str = element("image_name")
     """The image; transparent pixels emit no light, nor do black and white pixels of a laser."""

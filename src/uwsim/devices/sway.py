@@ -36,7 +36,7 @@ class SwaySpec(DeviceSpec):
     """The axis: of L for x, y, z; of the vehicle's orientation for roll, pitch, yaw."""
     amplitude: float = element(namespaced=True)
     """The amplitude [m or rad]."""
-    period: float = element(namespaced=True, above=0)
+    period: float = element(namespaced=True, exclusive_minimum=0)
     """The period [s]."""
     phase: float = element(namespaced=True, default=0.0)
     """The phase at time 0 [rad]."""

@@ -50,7 +50,7 @@ class DockingMagnetSpec(ForceSpec):
     """One magnet."""
     second: MagnetSpec
     """The other magnet."""
-    closest: float = element(above=0.0, maximum=100.0)
+    closest: float = element(exclusive_minimum=0.0, maximum=100.0)
     """The distance of the middles of the magnets when they touch; nearer, the force grows no more
     [m]."""
 

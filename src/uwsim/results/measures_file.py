@@ -40,7 +40,7 @@ def save_measures(notes: Mapping[str, MeasureNote], directory: Path) -> None:
     write_text(directory / FILE, json.dumps(texts, indent=2, ensure_ascii=False) + "\n")
 
 
-def without_meanings(text: str) -> str:
+def remove_meanings(text: str) -> str:
     """Return the text of a file without its meanings, whose words may change with the version."""
     try:
         notes = json.loads(text)

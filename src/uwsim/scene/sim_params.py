@@ -47,7 +47,7 @@ class SimParamsSpec(Spec):
     gravity: Triple = ZERO
     """The gravity in the world; all zero means (0, 0, -1) [m/s2]."""
     physics_frequency: float = element(
-        default=60.0, above=0, original=Original(is_window_setting=True)
+        default=60.0, exclusive_minimum=0, original=Original(is_window_setting=True)
     )
     """The rate of steps of the original's physics [Hz]."""
     physics_sub_steps: int = element(default=0, original=Original(is_window_setting=True))
@@ -89,9 +89,9 @@ class ViewerCameraSpec(Spec):
     """1: the mouse moves it; 0: it follows ``objectToTrack``."""
     object_to_track: str = ""
     """The route of the node to follow."""
-    fov: float = element(default=60.0, above=0, below=180)
+    fov: float = element(default=60.0, exclusive_minimum=0, exclusive_maximum=180)
     """The vertical field of view [deg]."""
-    aspect_ratio: float = element(default=1.33, above=0)
+    aspect_ratio: float = element(default=1.33, exclusive_minimum=0)
     """The width over the height [1]."""
     near: float = -1.0
     """The near plane; automatic unless both planes are given [m]."""

@@ -98,7 +98,7 @@ class NormalSpec(VariationSpec):
 
     mean: float = element(namespaced=True)
     """The mean before truncation, in the unit of the value that varies."""
-    deviation: float = element(namespaced=True, above=0.0)
+    deviation: float = element(namespaced=True, exclusive_minimum=0.0)
     """The standard deviation before truncation, in the unit of the value that varies."""
     low: float | None = element(namespaced=True, default=None)
     """The least value; without it the mean less three deviations."""

@@ -7,6 +7,8 @@ from collections.abc import Mapping
 from dataclasses import MISSING, dataclass
 from typing import Any, Literal, TypedDict, Unpack, get_args
 
+from ..base.deprecation import renamed_parameter
+
 
 @dataclass(frozen=True)
 class Original:
@@ -39,9 +41,9 @@ class Limits(TypedDict, total=False):
     """The smallest value allowed."""
     maximum: float
     """The largest value allowed."""
-    above: float
+    exclusive_minimum: float
     """The limit that values must exceed."""
-    below: float
+    exclusive_maximum: float
     """The limit that values must be less than."""
 
 
@@ -65,6 +67,8 @@ class XmlOptions:
     limits: Limits = dataclasses.field(default_factory=Limits)
 
 
+@renamed_parameter("above", "exclusive_minimum")
+@renamed_parameter("below", "exclusive_maximum")
 def element(
     name: str | None = None,
     *,
@@ -94,7 +98,7 @@ def element(
         original: the way in which the original reads the element.
         refers_to: the kind of part of a scene that the field names, such as ``body``
             (`uwsim.benchmark.unknown_names.RESOLVERS`).
-        limits: ``minimum``, ``maximum``, ``above`` and ``below`` of a number.
+        limits: the limits of a number, as in `Limits`.
     """
     if refers_to not in (None, *get_args(ReferenceKind)):
         raise ValueError(

@@ -36,9 +36,9 @@ TwoNumbers = Annotated[tuple[float, float], "numbers"]
 
 _SIGNS: dict[str, tuple[str, Callable[[float, float], bool]]] = {
     "minimum": (">=", operator.ge),
-    "above": (">", operator.gt),
+    "exclusive_minimum": (">", operator.gt),
     "maximum": ("<=", operator.le),
-    "below": ("<", operator.lt),
+    "exclusive_maximum": ("<", operator.lt),
 }
 """The sign and comparison of each limit in `Limits`."""
 

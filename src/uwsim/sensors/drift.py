@@ -52,7 +52,9 @@ class DriftSpec(Spec):
     """The density N of the white noise [rad/s/sqrt(Hz), or m/s2/sqrt(Hz)]."""
     bias_instability: float = element(namespaced=True, default=0.0, minimum=0, maximum=1e3)
     """The bias instability B of a data sheet: floor of the Allan deviation [rad/s, or m/s2]."""
-    correlation_time: float = element(namespaced=True, default=300.0, above=0, maximum=1e9)
+    correlation_time: float = element(
+        namespaced=True, default=300.0, exclusive_minimum=0, maximum=1e9
+    )
     """The correlation time T of the bias [s]."""
     random_walk: float = element(namespaced=True, default=0.0, minimum=0, maximum=1e3)
     """The random walk K of the rate or the acceleration [rad/s/sqrt(s), or m/s2/sqrt(s)]."""
@@ -69,7 +71,7 @@ class DriftSpec(Spec):
 class DriftState(Record):
     """The slow errors of three axes."""
 
-    random: np.random.Generator
+    rng: np.random.Generator
     """The generator of the errors."""
     constant: Array
     """The bias of this run, (3,)."""

@@ -42,7 +42,7 @@ DVL = np.dtype(
         ("flow", np.int64),  # the address of its velocity at the beams, in W, (4, 3) [m/s]
         ("bottom", np.int64),  # addresses of `TrackState.numbers`
         ("through", np.int64),
-        ("before", np.int64),  # of the time and the place of the original's last sample, (4,)
+        ("last_sample", np.int64),  # of the time and the place of the original's last sample, (4,)
         ("is_original", np.int64),  # whether it measures as the original
     ]
 )
@@ -84,7 +84,7 @@ def sample_dvl(parameters: int, values: int, time: float) -> None:
 @njit
 def measure_difference(dvl: Record, time: float, frame: Array, noise: Array, output: Array) -> None:
     """Write the mean velocity since the last sample, sensor frame, as the original sensor does."""
-    last_sample, velocity = view_doubles(dvl.before, 4), np.zeros(3)
+    last_sample, velocity = view_doubles(dvl.last_sample, 4), np.zeros(3)
     if time > last_sample[0]:  # not before the first: NaN
         world_velocity = (frame[:3] - last_sample[1:]) / (time - last_sample[0])
         velocity = rotate_back(frame[3:].reshape((3, 3)), world_velocity)

@@ -54,11 +54,13 @@ class DvlSensorSpec(SensorSpec):
     sensor stays fixed to its link."""
     std: float = element(default=0.0, minimum=0, maximum=10)
     """The noise of each component, standard deviation [m/s]."""
-    beam_angle: float = element(namespaced=True, default=30.0, above=0, maximum=60)
+    beam_angle: float = element(namespaced=True, default=30.0, exclusive_minimum=0, maximum=60)
     """The angle from the z axis of the sensor to each beam [deg]."""
     min_altitude: float = element(namespaced=True, default=0.5, minimum=0, maximum=MAX_DISTANCE)
     """The least distance to the bottom, along the z axis of the sensor [m]."""
-    max_altitude: float = element(namespaced=True, default=81.0, above=0, maximum=MAX_DISTANCE)
+    max_altitude: float = element(
+        namespaced=True, default=81.0, exclusive_minimum=0, maximum=MAX_DISTANCE
+    )
     """The greatest distance to the bottom, along the z axis of the sensor [m]."""
     beam_std: float = element(namespaced=True, default=0.0, minimum=0, maximum=10)
     """The noise along each beam on the bottom, standard deviation [m/s]."""
@@ -70,7 +72,9 @@ class DvlSensorSpec(SensorSpec):
     """The noise of each range, standard deviation [m]."""
     dropout: float = element(namespaced=True, default=0.0, minimum=0, maximum=1)
     """The probability that a beam receives no echo of a ping [1]."""
-    water_layer: float = element(namespaced=True, default=2.0, above=0, maximum=MAX_DISTANCE)
+    water_layer: float = element(
+        namespaced=True, default=2.0, exclusive_minimum=0, maximum=MAX_DISTANCE
+    )
     """The distance to the tracked layer of water, along the z axis of the sensor [m]."""
 
     def is_bottom(self, axial: Array) -> Flags:
@@ -104,7 +108,7 @@ class TrackState(Record):
 class DvlState(Record):
     """The state of a Doppler velocity log."""
 
-    random: np.random.Generator
+    rng: np.random.Generator
     """The generator of its noise."""
     scale: Array
     """The scale of each beam, drawn once, (4,) [1]."""
@@ -112,7 +116,7 @@ class DvlState(Record):
     """The velocity over the bottom."""
     water: TrackState
     """The velocity through the water."""
-    before: Array
+    last_sample: Array
     """The time of the original's last sample, NaN before the first [s], and its position in W
     [m]."""
 
@@ -149,7 +153,7 @@ class Dvl(CompiledSensor):
         """Return its parameters for compiled code, a record of `dvl_kernel.DVL`, (1,)."""
         spec, janus, state, row = self._spec, self._janus, self.state, np.zeros(1, kernel.DVL)
         row["mount"], row["base"] = self._mount.functions, self._base.functions
-        row["rays"], row["stream"] = self._world.rays.functions, stream_of(state.random)
+        row["rays"], row["stream"] = self._world.rays.functions, stream_of(state.rng)
         row["directions"], row["cosine"] = janus.directions, janus.cosine
         row["error_share"] = janus.error_share
         row["std"], row["beam_std"], row["range_std"] = spec.std, spec.beam_std, spec.range_std
@@ -158,7 +162,7 @@ class Dvl(CompiledSensor):
         row["min_altitude"], row["max_altitude"] = spec.min_altitude, spec.max_altitude
         row["surface"], row["is_original"] = self._world.surface_height, self._is_original
         row["is_own"], row["flow"] = address_of(self._is_own), address_of(self._flow)
-        row["scale"], row["before"] = address_of(state.scale), address_of(state.before)
+        row["scale"], row["last_sample"] = address_of(state.scale), address_of(state.last_sample)
         row["bottom"] = address_of(state.bottom.numbers)
         row["through"] = address_of(state.water.numbers)
         return row

@@ -64,7 +64,7 @@ class ImuSpec(SensorSpec):
 class ImuState(Record):
     """The state of an inertial measurement unit."""
 
-    random: np.random.Generator
+    rng: np.random.Generator
     """The generator of the noise of its attitude."""
     gyro: DriftState
     """The errors of its rates."""

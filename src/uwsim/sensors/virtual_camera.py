@@ -34,9 +34,9 @@ Quality = Literal["plain", "polished"]
 class CameraParametersSpec(Spec):
     """The pinhole of a camera from a calibration; overrides ``fovy``."""
 
-    fx: float = element(above=0, maximum=MAX_DISTANCE)
+    fx: float = element(exclusive_minimum=0, maximum=MAX_DISTANCE)
     """The focal length along the columns [px]."""
-    fy: float = element(above=0, maximum=MAX_DISTANCE)
+    fy: float = element(exclusive_minimum=0, maximum=MAX_DISTANCE)
     """The focal length along the rows [px]."""
     x0: float
     """The principal point from the centre of the first column [px], as in ROS and OpenCV; the
@@ -44,9 +44,9 @@ class CameraParametersSpec(Spec):
     y0: float
     """The principal point from the centre of the first row [px], as in ROS and OpenCV; the original
     counts it from the bottom edge."""
-    f: float = element(above=0, maximum=MAX_DISTANCE)
+    f: float = element(exclusive_minimum=0, maximum=MAX_DISTANCE)
     """The far plane [m]."""
-    n: float = element(above=0, maximum=MAX_DISTANCE)
+    n: float = element(exclusive_minimum=0, maximum=MAX_DISTANCE)
     """The near plane [m]."""
     k: float
     """The skew [px]."""
@@ -107,7 +107,7 @@ class VirtualCameraSpec(SensorSpec):
     """The distance to the first camera of a stereo pair [m]; Tx = -fx * baseline in CameraInfo."""
     frame_id: str = ""
     """The name of the frame in the headers of image and info."""
-    fovy: float = element(default=50.0, above=0, below=180)
+    fovy: float = element(default=50.0, exclusive_minimum=0, exclusive_maximum=180)
     """The vertical field of view [deg]; ignored if there are parameters."""
     parameters: CameraParametersSpec | None = None
     """The pinhole from a calibration."""
@@ -145,7 +145,7 @@ class CameraState(Record):
     """The noise of each channel, 0..1; scene updaters may set it."""
     n_images: int | None
     """The number of images due on its topics so far, read or not; None if it has no topic."""
-    random: np.random.Generator
+    rng: np.random.Generator
     """The generator of its noise."""
 
 
@@ -198,7 +198,7 @@ class VirtualCamera:
             self.world_from_camera,
             self._intrinsics,
             std=self.state.std,
-            rng=self.state.random,
+            rng=self.state.rng,
             grey=self.is_grey,
             is_polished=self.is_polished,
         )
@@ -210,7 +210,7 @@ class VirtualCamera:
     def skip(self) -> None:
         """Draw the random numbers of an image without subscribers, without rendering it."""
         if self.state.std > 0.0:
-            self.state.random.integers(2**63)
+            self.state.rng.integers(2**63)
 
     def depth(self, time: float) -> Array:
         """Return the distance along the optical axis of each pixel, (h, w) [m]; +inf: nothing."""

@@ -49,7 +49,7 @@ class VirtualRangeImageSpec(SensorSpec):
     of the vehicle. The camera stays fixed to its link."""
     frame_id: str = ""
     """The name of the frame in the headers of image and info."""
-    fovy: float = element(default=50.0, above=0, below=180)
+    fovy: float = element(default=50.0, exclusive_minimum=0, exclusive_maximum=180)
     """The vertical field of view [deg]; ignored if there are parameters."""
     parameters: CameraParametersSpec | None = None
     """The pinhole from a calibration."""

@@ -167,7 +167,7 @@ def _check_files(report: Verification, directory: Path, result: Result, run: Run
             text = stored_path.read_text(encoding="utf-8", errors="replace")
             expected_text = path.read_text(encoding="utf-8")
             if path.name == measures_file.FILE:
-                text, expected_text = map(measures_file.without_meanings, (text, expected_text))
+                text, expected_text = map(measures_file.remove_meanings, (text, expected_text))
             if difference := differences.text_difference(text, expected_text):
                 report.add(path.name, f"{difference} by units/")
 

@@ -195,7 +195,7 @@ def levels_without_motion(
             row,
             TrackLevel(
                 values=dict(zip(names, row.values, strict=False)),
-                began=(row.ended_at or 0.0) - row.duration,
+                start_time=(row.ended_at or 0.0) - row.duration,
                 duration=row.duration,
                 status=row.status,
             ),
@@ -231,17 +231,17 @@ def _level(row: StoredRow, track_level: TrackLevel) -> RecordedLevel:
         label=label,
         status=row.status,
         reason=row.missing.get("total", ""),
-        start_time=track_level.began,
-        end_time=track_level.began + track_level.duration,
+        start_time=track_level.start_time,
+        end_time=track_level.start_time + track_level.duration,
         swept_values=track_level.values,
         values={name: value for name, (value, _) in row.measures.items()},
         curves=tuple(
-            _curve(name, row.measures[name][1], samples, track_level.began)
+            _curve(name, row.measures[name][1], samples, track_level.start_time)
             for name, samples in row.logs.items()
             if samples
         ),
         details=tuple(
-            _detail(row, name, (column, place), track_level.began)
+            _detail(row, name, (column, place), track_level.start_time)
             for name, columns in row.log_headers.items()
             for place, column in enumerate(columns[1:], start=2)
             if row.logs.get(name)

@@ -114,7 +114,7 @@ def write_track(directory: Path, index: int, way: np.ndarray, fog: float = 0.0) 
     poses[:, 1, :2] = way + 0.3
     poses[:, 2, :2] = (0.5, 0.25)
     table = quantise(poses.reshape(frames, -1), steps_of(len(names), ()))
-    level = TrackLevel(values={"fog": fog}, began=1.0, duration=1.0, status="ok")
+    level = TrackLevel(values={"fog": fog}, start_time=1.0, duration=1.0, status="ok")
     path = directory / "units" / f"{index:05d}.motion"
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_bytes(track_bytes(names, (), table, [level], rate=10.0))

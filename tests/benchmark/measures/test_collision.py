@@ -92,7 +92,7 @@ def test_the_original_looks_at_one_thing_at_a_time() -> None:
 def test_what_was_never_on_has_no_score() -> None:
     collision = SPEC.bind(tank())
     assert collision.value is None
-    assert collision.why == "it was never on"
+    assert collision.missing_reason == "it was never on"
     assert set(collision.details.values()) == {None}
 
 

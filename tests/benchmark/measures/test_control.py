@@ -228,9 +228,9 @@ def test_without_commands_there_is_no_value_and_its_details_are_known_by_the_typ
     world = FakeWorld(timestep=DT)
     world.bus.publisher("u", TwistStamped)
     control = bound(world, topic="u", axes="vx")
-    assert (control.value, control.why) == (None, "it was never on")
+    assert (control.value, control.missing_reason) == (None, "it was never on")
     control.start()
-    assert (control.value, control.why) == (None, "no command on 'u'")
+    assert (control.value, control.missing_reason) == (None, "no command on 'u'")
     assert control.details == {
         "variation": None, "effort": None, "max": None,
         "vx.variation": None, "vx.effort": None, "vx.max": None, "n": 0.0,
@@ -246,7 +246,7 @@ def test_an_axis_that_commands_do_not_have_is_named() -> None:
     control = bound(world, topic="u", axes="u7")
     control.start()
     send(control, world, array(1.0))
-    assert control.why == "the commands on 'u' have no axis u7"
+    assert control.missing_reason == "the commands on 'u' have no axis u7"
     half = bound(world, topic="u", axes="u0 u7")
     half.start()
     send(half, world, array(1.0))
@@ -260,8 +260,8 @@ def test_a_topic_of_another_type_is_refused_as_soon_as_it_is_known() -> None:
     early.start()
     send(early, world, String(data="forward"))
     said = "'u' carries std_msgs/msg/String; expected one of Float64MultiArray, JointState, Twist"
-    assert early.why is not None
-    assert early.why.startswith(said)
+    assert early.missing_reason is not None
+    assert early.missing_reason.startswith(said)
     with pytest.raises(BadSetting, match="carries std_msgs/msg/String; expected one of Float64Mul"):
         bound(world, topic="u")
     with pytest.raises(BadSetting, match="expected one of Float32MultiArray, Float64, Float64Mul"):
@@ -299,7 +299,7 @@ def test_an_error_that_comes_in_messages_holds_and_its_time_counts_from_the_firs
     control = bound(world, error_topic="u", quantity="itae")
     control.start()
     go_on(control, world, 77)
-    assert (control.value, control.why) == (None, "no error on 'u'")
+    assert (control.value, control.missing_reason) == (None, "no error on 'u'")
     send(control, world, Float64(data=2.0), 101)
     send(control, world, Float64(data=-0.5), 100)
     assert control.details["iae"] == pytest.approx(2.0 * 1.01 + 0.5 * 0.99, abs=1e-9)
@@ -357,7 +357,10 @@ def test_a_quantity_that_is_not_there_says_why() -> None:
     control = bound(world, target="v", position=(0.0, 0.0, 0.0), quantity="overshoot")
     control.start()
     go_on(control, world, 10)
-    assert (control.value, control.why) == (None, "no step: the error was 0.001 at the start")
+    assert (control.value, control.missing_reason) == (
+        None,
+        "no step: the error was 0.001 at the start",
+    )
 
 
 def test_only_what_an_algorithm_says_is_fed_by_it() -> None:

@@ -120,7 +120,7 @@ def test_units_are_reported_for_what_is_no_energy() -> None:
 
 def test_before_it_was_on_there_is_nothing() -> None:
     energy, _ = bound(rov())
-    assert (energy.value, energy.why) == (None, "it was never on")
+    assert (energy.value, energy.missing_reason) == (None, "it was never on")
     assert set(energy.details.values()) == {None}
     assert energy.log_values == (None, None, None)
     energy.start()
@@ -134,7 +134,7 @@ def test_a_vehicle_without_forces_has_no_energy_and_a_reason() -> None:
     energy.start()
     go_on(energy, world, 10)
     assert energy.value is None
-    assert energy.why == "the vehicle 'ghost' has no <u:dynamics>: nothing drives it"
+    assert energy.missing_reason == "the vehicle 'ghost' has no <u:dynamics>: nothing drives it"
 
 
 def test_a_misspelt_vehicle_is_an_error_that_names_the_right_one() -> None:

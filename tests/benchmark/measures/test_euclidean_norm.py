@@ -106,10 +106,10 @@ def test_every_component_has_its_statistics() -> None:
 def test_no_estimate_is_no_value_and_a_reason_never_minus_one() -> None:
     world = FakeWorld()
     norm = norm_of(world, 0.0)
-    assert (norm.value, norm.why) == (None, "it was never on")
+    assert (norm.value, norm.missing_reason) == (None, "it was never on")
     norm.start()
     wait(world, norm, 10)
-    assert (norm.value, norm.why) == (None, "no estimate on 'estimate'")
+    assert (norm.value, norm.missing_reason) == (None, "no estimate on 'estimate'")
     assert norm.details["n"] == 0.0
     assert norm.details["mean"] is None
 
@@ -130,9 +130,9 @@ def test_an_estimate_of_the_wrong_length_is_not_scored_and_says_so() -> None:
     norm.start()
     say(world, norm, 1.0)
     assert norm.value is None
-    assert norm.why == "the estimate on 'estimate' has 1 numbers, expected 2"
+    assert norm.missing_reason == "the estimate on 'estimate' has 1 numbers, expected 2"
     say(world, norm, 1.0, 2.0)
-    assert (norm.value, norm.why) == (0.0, None)
+    assert (norm.value, norm.missing_reason) == (0.0, None)
 
 
 def test_an_estimate_that_is_not_finite_is_not_scored() -> None:
@@ -140,7 +140,7 @@ def test_an_estimate_that_is_not_finite_is_not_scored() -> None:
     norm = norm_of(world, 1.0)
     norm.start()
     say(world, norm, math.nan)
-    assert norm.why == "the estimate on 'estimate' is not finite"
+    assert norm.missing_reason == "the estimate on 'estimate' is not finite"
 
 
 @pytest.mark.parametrize("value", ["last", "mean"])
@@ -153,7 +153,7 @@ def test_an_estimate_older_than_a_second_is_not_scored(value: str) -> None:
     assert norm.value == 4.0
     wait(world, norm, 1)
     assert norm.value is None
-    assert norm.why == "no estimate on 'estimate' for 1.002 s from 0.002 s on"
+    assert norm.missing_reason == "no estimate on 'estimate' for 1.002 s from 0.002 s on"
     assert norm.longest_silence == pytest.approx(1.002)
 
 
@@ -173,7 +173,7 @@ def test_the_original_lets_the_last_norm_stand() -> None:
     say(world, norm, 4.0)
     assert norm.log_values == (4.0, -4.0)
     wait(world, norm, 5 * STEPS_PER_SECOND)
-    assert (norm.value, norm.why) == (4.0, None)
+    assert (norm.value, norm.missing_reason) == (4.0, None)
     assert norm.longest_silence == 0.0  # so that the level is no timeout
     assert norm.log_values == (4.0, 0.0)  # its components are those of no new estimate
 
@@ -312,7 +312,7 @@ def test_a_target_behind_the_camera_has_no_truth_and_that_is_reported() -> None:
     world.bus.services.serve("autoInit", GTpublish, lambda request: GTpublishResponse())
     norm.start()
     say(world, norm, *range(8))
-    assert (norm.value, norm.why) == (None, "no truth: the target is behind the camera")
+    assert (norm.value, norm.missing_reason) == (None, "no truth: the target is behind the camera")
     assert norm.notes == ("'autoInit' was not called: the target is behind the camera",)
 
 

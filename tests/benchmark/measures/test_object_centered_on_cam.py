@@ -28,12 +28,12 @@ def test_the_components_point_as_the_originals_do() -> None:
 def test_out_of_the_image_is_no_value_and_says_so(place: tuple[float, float, float]) -> None:
     body = FakeBody((0.0, 0.0, -1.0))
     centred = looking(body, "mean")
-    assert centred.why == "it was never on"
+    assert centred.missing_reason == "it was never on"
     centred.start()
-    assert (centred.value, centred.why) == (0.0, None)
+    assert (centred.value, centred.missing_reason) == (0.0, None)
     body.move(*place)
     centred.update()
-    assert (centred.value, centred.why) == (None, "the target is not in the image")
+    assert (centred.value, centred.missing_reason) == (None, "the target is not in the image")
     assert centred.details["visible"] == 0.5
     assert centred.log_values == (None, None, None)
     body.move(0.1, 0.0, -1.0)
@@ -56,11 +56,11 @@ def test_the_original_does_not_ask_whether_the_target_is_in_the_image(
     centred.start()
     assert centred.value == pytest.approx(float(np.hypot(*off)))
     assert centred.log_values[1:] == pytest.approx(off)
-    assert centred.why is None
+    assert centred.missing_reason is None
     assert looking(FakeBody(place)).value is None
 
 
 def test_in_the_cameras_own_plane_there_is_nothing_to_see_for_the_original_either() -> None:
     centred = looking(FakeBody((1.0, 0.0, 0.0)), "last", "unseen")
     centred.start()
-    assert (centred.value, centred.why) == (None, "the target is not in the image")
+    assert (centred.value, centred.missing_reason) == (None, "the target is not in the image")

@@ -212,4 +212,4 @@ def test_a_level_without_an_image_has_a_last_norm_and_no_mean() -> None:
     for value in ("last", "mean"):
         norm = Scene().level(lambda step: [Scene().truth(step)], steps=5, value=value)
         assert (norm.value is None) is (value == "mean")
-    assert norm.why == "its camera took no image while the measure was on"
+    assert norm.missing_reason == "its camera took no image while the measure was on"

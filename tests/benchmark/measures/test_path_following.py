@@ -192,15 +192,15 @@ def test_without_a_path_there_is_no_value_and_the_reason_says_so() -> None:
     world = FakeWorld({"v": FakeBody()})
     spec = PathFollowingSpec(name="p", target="v", topic="path")
     measure = spec.bind(world)
-    assert (measure.value, measure.why) == (None, "it was never on")
+    assert (measure.value, measure.missing_reason) == (None, "it was never on")
     measure.start()
-    assert (measure.value, measure.why) == (None, "no path on 'path'")
+    assert (measure.value, measure.missing_reason) == (None, "no path on 'path'")
     assert measure.details["n"] == 0.0
     assert measure.details["iae"] is None
     assert measure.log_values == (None,) * 5
     nowhere = PathFollowingSpec(name="p", target="v").bind(world)
     nowhere.start()
-    assert nowhere.why == "neither <topic> nor <u:path> gives a path"
+    assert nowhere.missing_reason == "neither <topic> nor <u:path> gives a path"
     assert not measure.fed_by_algorithm
 
 
@@ -258,7 +258,7 @@ def test_a_path_that_cannot_be_followed_is_passed_over(
 ) -> None:
     world = FakeWorld({"v": FakeBody((1.0, 2.0, 0.0))})
     measure = following(world, points)
-    assert (measure.value, measure.why, measure.notes) == (None, why, (why,))
+    assert (measure.value, measure.missing_reason, measure.notes) == (None, why, (why,))
     send(world, STRAIGHT)
     measure.update()
     assert measure.details["distance"] == 2.0
@@ -332,7 +332,7 @@ def test_a_path_of_one_point_is_a_place_and_for_the_original_no_path() -> None:
         world.advance()
         measure.update()
         assert measure.value == value
-    assert measure.why == "the path on 'path' has one point"
+    assert measure.missing_reason == "the path on 'path' has one point"
 
 
 @pytest.mark.parametrize("topic", [None, "path"])
@@ -359,4 +359,4 @@ def test_without_topic_and_path_there_is_no_value() -> None:
     measure = PathFollowingSpec(name="p", target="v").bind(FakeWorld({"v": FakeBody()}))
     measure.start()
     assert measure.value is None
-    assert measure.why == "neither <topic> nor <u:path> gives a path"
+    assert measure.missing_reason == "neither <topic> nor <u:path> gives a path"

@@ -50,7 +50,7 @@ def test_every_step_is_a_sample() -> None:
     error = PositionErrorSpec(name="e", target="v", position=(0.0, 0.0, 0.0), value="mean").bind(
         world
     )
-    assert (error.value, error.why) == (None, "it was never on")
+    assert (error.value, error.missing_reason) == (None, "it was never on")
     error.start()
     for place in (3.0, -6.0):
         body.move(place, 0.0, 0.0)
@@ -66,7 +66,7 @@ def test_with_a_topic_its_first_message_says_where_the_body_should_be() -> None:
         world
     )
     error.start()
-    assert (error.value, error.why) == (None, "no position on 'goal'")
+    assert (error.value, error.missing_reason) == (None, "no position on 'goal'")
     publish = world.bus.publisher("goal", PoseStamped)
     publish(stamped(2.0, 3.0, 9.0))
     publish(stamped(0.0, 0.0, 0.0))
@@ -132,7 +132,7 @@ def test_the_original_starts_at_100_and_is_minus_1_until_it_receives_the_target(
             error.update()
             seen.append(error.value)
         assert seen == values
-        assert (error.why is None) == (error.value is not None)
+        assert (error.missing_reason is None) == (error.value is not None)
 
 
 def test_the_originals_first_sample_is_taken_a_step_later() -> None:

@@ -75,7 +75,7 @@ def check_front(measure: Reconstruction3D) -> None:
 def test_points_near_a_face_by_hand() -> None:
     world = sea()
     measure = bound(world)
-    assert (measure.value, measure.why) == (None, "it was never on")
+    assert (measure.value, measure.missing_reason) == (None, "it was never on")
     measure.start()
     send(world, measure, cloud(FRONT))
     check_front(measure)
@@ -191,11 +191,11 @@ def test_without_an_inlier_there_is_no_value_and_the_reason_counts_the_rest() ->
     world = sea()
     measure = bound(world)
     measure.start()
-    assert (measure.value, measure.why) == (None, "no cloud on '/cloud'")
+    assert (measure.value, measure.missing_reason) == (None, "no cloud on '/cloud'")
     assert measure.details["coverage"] is None
     send(world, measure, cloud(np.array([[3.0, 0.0, 0.3], [3.0, 0.0, 0.0], [np.nan, 0.0, 0.0]])))
     assert measure.value is None
-    assert measure.why == (
+    assert measure.missing_reason == (
         "none of the points on '/cloud' belongs to the target: 1 are ground, 1 outliers, "
         "1 no places"
     )
@@ -209,7 +209,7 @@ def test_in_the_original_nothing_is_an_error_of_0_with_a_variance_of_0_by_minus_
     measure = bound(world)
     assert measure.value is None
     measure.start()
-    assert (measure.value, measure.why) == (0.0, None)
+    assert (measure.value, measure.missing_reason) == (0.0, None)
     variance = measure.details["error_variance"]
     assert variance == 0.0
     assert math.copysign(1.0, variance) == -1.0
@@ -254,7 +254,7 @@ def test_a_cloud_that_cannot_be_read_is_a_note_and_no_crash() -> None:
     cut.data = cut.data[:50]
     send(world, measure, blind, cut, blind)
     first = "a cloud on '/cloud' was not used: it has no field 'y'; its fields: 'x'"
-    assert (measure.value, measure.why) == (None, first)
+    assert (measure.value, measure.missing_reason) == (None, first)
     assert measure.notes == (
         first,
         "a cloud on '/cloud' was not used: it has 50 bytes, 1 x 4 points need 96",

@@ -39,13 +39,13 @@ def test_travel_during_a_pause_does_not_count() -> None:
 
 def test_a_distance_that_was_never_on_is_no_value() -> None:
     distance = Distance(FakeBody())
-    assert (distance.value, distance.why) == (None, "it was never on")
+    assert (distance.value, distance.missing_reason) == (None, "it was never on")
 
 
 def test_standing_still_is_a_distance_of_0() -> None:
     distance = Distance(FakeBody())
     distance.start()
-    assert (distance.value, distance.why) == (0.0, None)
+    assert (distance.value, distance.missing_reason) == (0.0, None)
 
 
 def test_a_misspelt_target_is_an_error_that_names_the_right_one() -> None:
@@ -58,7 +58,7 @@ def test_time_is_simulation_time_to_the_step() -> None:
     world = FakeWorld(timestep=0.002)
     world.advance(7)
     time = TimeSpec(name="t").bind(world)
-    assert (time.value, time.why) == (None, "it was never on")
+    assert (time.value, time.missing_reason) == (None, "it was never on")
     time.start()
     for _ in range(1500):
         world.advance()

@@ -406,11 +406,13 @@ def test_a_truth_of_all_images_leaves_nothing_to_remark(tmp_path: Path) -> None:
 
 def test_a_truth_of_another_length_is_named(tmp_path: Path) -> None:
     measure = scored(tmp_path, "time,u,v\n0,1,10\n0.25,6,60\n", components="u")
-    assert measure.why == "the estimate on 'estimate' has 2 numbers, expected 1"
+    assert measure.missing_reason == "the estimate on 'estimate' has 2 numbers, expected 1"
     measure.close()
     (tmp_path / "dive.bag").unlink()
     measure = scored(tmp_path, "time,u\n0,1\n0.25,6\n")
-    assert measure.why == "no truth: the truth on 'truth/corners' has 1 numbers, expected 2"
+    assert (
+        measure.missing_reason == "no truth: the truth on 'truth/corners' has 1 numbers, expected 2"
+    )
     measure.close()
 
 

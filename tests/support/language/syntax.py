@@ -188,9 +188,14 @@ class _Collector:
         self._module.texts.append(Text(node.lineno, self._scope, "".join(parts)))
 
     def _visit_annotated(self, node: ast.AnnAssign) -> None:
-        """Bind an annotated name, unless it is the name of an XML element in a file format."""
+        """Bind an annotated name, unless it is the name of an XML element or of a stored key.
+
+        The fields of a ``...Spec`` are elements of files, those of a ``Stored...`` keys of results.
+        """
+        is_spec = self._class.endswith("Spec") and self._scope == self._class
+        is_stored = self._class.startswith("Stored") and self._scope == self._class
         is_element = isinstance(node.value, ast.Call) and _last_name(node.value) == "element"
-        if not (isinstance(node.target, ast.Name) and is_element):
+        if not (isinstance(node.target, ast.Name) and (is_element or is_spec or is_stored)):
             self._visit(node.target)
         if node.value is not None:
             self._visit(node.value)

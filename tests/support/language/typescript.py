@@ -30,6 +30,7 @@ FIELD = re.compile(
 PARAMETER = re.compile(
     r"(?:^|,)\s*(?:(?:private|protected|public|readonly)\s+)*(?:\.\.\.)?([A-Za-z_$]\w*)\??\s*(?=[:,=]|$)"
 )
+INTERFACE = re.compile(r"\binterface\s+\w+[^{]*\{[^{}]*(?:\{[^{}]*\}[^{}]*)*\}", re.DOTALL)
 KEYWORDS = word_set(
     "catch constructor do else for function if new return super switch throw typeof while with"
 )
@@ -40,6 +41,7 @@ def read_typescript(source: str) -> list[Name]:
     source = COMMENT.sub(lambda match: "\n" * match[0].count("\n"), source)
     source = STRING.sub(lambda match: "''" + "\n" * match[0].count("\n"), source)
     names: dict[tuple[str, str], Name] = {}
+    keys = INTERFACE.sub(lambda match: "\n" * match[0].count("\n"), source)
 
     def bind(kind: str, name: str, position: int) -> None:
         line = source.count("\n", 0, position) + 1
@@ -64,6 +66,6 @@ def read_typescript(source: str) -> list[Name]:
             bind("variable", part.rpartition(":")[2].strip(" .\n\t"), match.start(1))
     for match in ARROW.finditer(source):
         bind_parameters(match[1] or match[2] or "", match.start())
-    for match in FIELD.finditer(source):
+    for match in FIELD.finditer(keys):  # members of interfaces are keys of messages and files
         bind("variable", match[1], match.start(1))
     return [name for name in names.values() if name.name.isidentifier()]

@@ -211,6 +211,8 @@ FIELD_TERMS: dict[str, str] = {
     "expected": "the value to compare with in a test (pytest)",
     "actual": "the value that is compared in a test (numpy.testing)",
     "stray": "stray light",
+    "namespaced": "an element or attribute of XML that is in a namespace",
+    "renderable": "an object that Rich can print (rich.console.RenderableType)",
 }
 """Words of the lists above that the field uses as nouns, with the reason."""
 

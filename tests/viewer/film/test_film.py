@@ -83,7 +83,7 @@ def test_the_further_columns_of_a_log_are_curves_with_their_units(trial: Recorde
         logs={"success": [[0.0, 0.0, 0.1, None], [0.5, 1.0, 0.3, 2.0]]},
         log_headers={"success": ("value", "height [m]", "phase [1]")},
     )
-    level = _level(row, replace(trial.track.levels[0], began=2.0))
+    level = _level(row, replace(trial.track.levels[0], start_time=2.0))
     assert [(one.measure, one.unit) for one in level.details] == [
         ("success.height", "m"),
         ("success.phase", "1"),

@@ -61,7 +61,7 @@ def read_tracks(result: Result, directory: Path) -> dict[Level, list[Track]]:
         for level in track.levels:
             if set(level.values) == set(names):
                 key = tuple(level.values[name] for name in names)
-                frames = _frames(track, level.began, level.duration)
+                frames = _frames(track, level.start_time, level.duration)
                 tracks.setdefault(key, []).extend(_tracks(track, frames))
     return dict(sorted(tracks.items()))
 

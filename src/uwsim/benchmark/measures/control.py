@@ -52,7 +52,7 @@ class ControlSpec(MeasureSpec):
     error_topic: str | None = element(default=None)
     """The topic with the error instead (std_msgs/Float64, Float32MultiArray or
     Float64MultiArray)."""
-    band: float = element(default=0.02, above=0.0, below=1.0)
+    band: float = element(default=0.02, exclusive_minimum=0.0, exclusive_maximum=1.0)
     """The half-width of the settling band, relative to the step [1]."""
     least_step: float = element(default=0.01, minimum=0.0)
     """The greatest first error that is no step [m, or the error topic's unit]."""
@@ -249,7 +249,7 @@ class Control(Measure):
         return self._quantity(_snake_case(self._spec.selected_quantity))[1]
 
     @property
-    def why(self) -> str | None:
+    def missing_reason(self) -> str | None:
         """The reason why there is no value."""
         if self.value is not None:
             return None

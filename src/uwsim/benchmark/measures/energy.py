@@ -25,7 +25,7 @@ JOULES = {"J": 1.0, "Wh": 3600.0}
 class BatterySpec(Spec):
     """A ``<battery>``: its capacity, full when the measure starts."""
 
-    capacity: float = element(text=True, above=0.0)
+    capacity: float = element(text=True, exclusive_minimum=0.0)
     """The energy that can be drawn, in ``unit``."""
     unit: Literal["J", "Wh"] = element(default="J", attribute=True)
     """The unit: joules or watt hours."""
@@ -124,11 +124,11 @@ class Energy(Measure):
         return self._spec.hotel_load * self._active_time + sum(self._energies)
 
     @property
-    def why(self) -> str | None:
+    def missing_reason(self) -> str | None:
         """The reason why there is no value."""
         if self._actuators is None:
             return f"the vehicle {self._spec.target!r} has no <u:dynamics>: nothing drives it"
-        return super().why
+        return super().missing_reason
 
     @property
     def details(self) -> dict[str, float | None]:

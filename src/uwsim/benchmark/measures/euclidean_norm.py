@@ -182,14 +182,14 @@ class EuclideanNorm(Measure):
         """The last norm, or the statistic given by ``u:value``."""
         if self._keeps_last_norm and self._wait_start is not None:
             self._read()
-        if self.why:
+        if self.missing_reason:
             return None
         if self._statistic == "last":
             return None if self._last_sample is None else self._last_sample[0]
         return self._frames.value(self._statistic)
 
     @property
-    def why(self) -> str | None:
+    def missing_reason(self) -> str | None:
         """The reason why there is no value."""
         if self._wait_start is None:
             return "it was never on"
@@ -221,7 +221,9 @@ class EuclideanNorm(Measure):
         """The reason why the answered share is None."""
         if self._frames.n:
             return {}
-        return {"answered": self.why or "its camera took no image while the measure was on"}
+        return {
+            "answered": self.missing_reason or "its camera took no image while the measure was on"
+        }
 
     @property
     def log_header(self) -> tuple[str, ...]:
@@ -251,7 +253,9 @@ class EuclideanNorm(Measure):
     def remarks(self) -> tuple[str, ...]:
         """The remarks on images without truth, and on estimates equal to that of ``publishOn``."""
         n_images = self._frames.n + len(self._waiting_truths) + sum(self._n_without_truth.values())
-        counts = self._n_without_truth if self.why is None else {}  # else the row has the reason
+        counts = (
+            self._n_without_truth if self.missing_reason is None else {}
+        )  # else the row has the reason
         remarks = tuple(
             f"{n} of {n_images} {self._instants} are not scored: {reason}"
             for reason, n in counts.items()

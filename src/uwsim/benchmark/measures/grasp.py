@@ -53,11 +53,11 @@ class GraspSpec(MeasureSpec):
     """The route of the frame in which slip is measured, between the fingers of the jaw."""
     ground: str = element(default="terrain", refers_to="contacts")
     """The name of the body below the object."""
-    lift: float = element(default=0.5, above=0.0)
+    lift: float = element(default=0.5, exclusive_minimum=0.0)
     """The height to which it is to be lifted [m]."""
-    hold: float = element(default=10.0, above=0.0)
+    hold: float = element(default=10.0, exclusive_minimum=0.0)
     """The time for which it is to be held at that height [s]."""
-    max_impulse: float = element(default=40.0, above=0.0)
+    max_impulse: float = element(default=40.0, exclusive_minimum=0.0)
     """The greatest impulse on ground or object within 50 ms that is no collision [N s]."""
     topic: str | None = None
     """The topic on which the algorithm publishes its phase (std_msgs/String)."""

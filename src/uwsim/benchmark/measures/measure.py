@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import ClassVar, Literal
 
+from ...base.deprecation import warn_old_name
 from ...schema import Spec, element
 from ...world import Body, World
 from ..triggers import NeverSpec, OnInitSpec, TriggerSpec
@@ -27,7 +28,7 @@ class MeasureSpec(Spec, abc.ABC):
     """The trigger that activates the measure."""
     stop_on: TriggerSpec = field(default_factory=NeverSpec)
     """The trigger that deactivates the measure."""
-    log: float | None = element(default=None, above=0.0)
+    log: float | None = element(default=None, exclusive_minimum=0.0)
     """The period of its log [s]; None: no log."""
     value: Literal["last", "mean", "rms", "max"] = element(
         default="last", attribute=True, namespaced=True
@@ -92,8 +93,15 @@ class Measure(abc.ABC):
     def value(self) -> float | None:
         """The value so far; None when there was nothing to measure."""
 
+    def __init_subclass__(cls) -> None:
+        """Accept the old name ``why`` of `missing_reason` in a plugin."""
+        super().__init_subclass__()
+        if "why" in vars(cls):
+            warn_old_name("why", "missing_reason")
+            cls.missing_reason = vars(cls)["why"]  # type: ignore[method-assign]
+
     @property
-    def why(self) -> str | None:
+    def missing_reason(self) -> str | None:
         """The reason why the value is None."""
         return None if self.value is not None else "it was never on"
 

@@ -100,7 +100,7 @@ class ObjectCenteredOnCam(Measure):
         return self._signal.value(self._statistic) if self._is_visible else None
 
     @property
-    def why(self) -> str | None:
+    def missing_reason(self) -> str | None:
         """The reason why there is no value."""
         if not self._n_steps:
             return "it was never on"

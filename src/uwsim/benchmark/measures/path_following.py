@@ -184,7 +184,7 @@ class PathFollowing(Measure):
         return self._iae if self._statistic == "last" else self._signal.value(self._statistic)
 
     @property
-    def why(self) -> str | None:
+    def missing_reason(self) -> str | None:
         """The reason why there is no value."""
         if self._signal.n:
             return None

@@ -115,7 +115,7 @@ class PositionError(Measure):
         return self._signal.value(self._statistic)
 
     @property
-    def why(self) -> str | None:
+    def missing_reason(self) -> str | None:
         """The reason why there is no value."""
         if self.value is not None:
             return None

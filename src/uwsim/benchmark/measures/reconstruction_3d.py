@@ -46,7 +46,7 @@ class Reconstruction3DSpec(MeasureSpec):
     """The topic of the clouds (sensor_msgs/PointCloud2)."""
     from_: str | None = element("from", default=None, original=REQUIRED_BY_DTD, refers_to="body")
     """The route of the body in whose frame the clouds are; without one W, not L."""
-    level_of_detail: float = element(default=0.003, above=0.0)
+    level_of_detail: float = element(default=0.003, exclusive_minimum=0.0)
     """The cell size of the coverage [m]."""
     detailed_results_to_globals: bool = element(default=False, attribute=True)
     """True if result.dat has the details instead of the value."""
@@ -170,7 +170,7 @@ class Reconstruction3D(Measure):
         return self._points.mean
 
     @property
-    def why(self) -> str | None:
+    def missing_reason(self) -> str | None:
         """The reason why there is no value."""
         if self.value is not None:
             return None

@@ -38,7 +38,7 @@ class ArmMoveUpdaterSpec(SceneUpdaterSpec):
     """The joint vectors, in the order of the vehicle's joints [rad or m]."""
     step: int = element(minimum=0, maximum=MAX_LEVELS)
     """The number of levels between two arm positions."""
-    interval: float = element(above=0.0)
+    interval: float = element(exclusive_minimum=0.0)
     """The length of a level [s]."""
     target: str = element(refers_to="vehicle")
     """The name of the vehicle."""

@@ -66,7 +66,7 @@ class BagFogUpdaterSpec(FogSweepSpec):
     """The topic of the images in the recording (sensor_msgs/Image or CompressedImage)."""
     info_topic: str
     """The topic of the camera's info in the recording (sensor_msgs/CameraInfo)."""
-    image_depth: float = element(above=0.0)
+    image_depth: float = element(exclusive_minimum=0.0)
     """The assumed distance of everything in the images [m]."""
     image_pub: str | None = element(default=None)
     """The topic on which images are published; None: as in the recording."""

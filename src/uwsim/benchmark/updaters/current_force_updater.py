@@ -79,7 +79,7 @@ class CurrentForceUpdaterSpec(SweepSpec):
     """The periods of the variation of its direction [s]."""
     random: float = element(minimum=0.0, maximum=10.0)
     """The half-width of the uniform noise, relative."""
-    step: float = element(above=0.0)
+    step: float = element(exclusive_minimum=0.0)
     """The increment from level to level [m/s]."""
     target: str = element(refers_to="vehicle")
     """The name of the vehicle whose pose is reset when a level begins."""

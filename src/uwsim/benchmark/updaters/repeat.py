@@ -23,7 +23,7 @@ class RepeatSpec(SceneUpdaterSpec):
 
     iterations: int = element(minimum=1, maximum=MAX_LEVELS)
     """The number of iterations."""
-    interval: float = element(above=0.0)
+    interval: float = element(exclusive_minimum=0.0)
     """The length of a level [s]."""
 
     def values(self) -> tuple[float, ...]:

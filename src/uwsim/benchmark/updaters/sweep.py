@@ -24,9 +24,9 @@ class SweepSpec(SceneUpdaterSpec):
     """The value of the first level."""
     final_value: float
     """The value that is not exceeded."""
-    step: float = element(above=0.0)
+    step: float = element(exclusive_minimum=0.0)
     """The increment from level to level."""
-    interval: float = element(above=0.0)
+    interval: float = element(exclusive_minimum=0.0)
     """The length of a level [s]."""
 
     def values(self) -> tuple[float, ...]:

@@ -70,7 +70,7 @@ class TrackLevel:
 
     values: Mapping[str, float]
     """The value of each swept parameter, outermost first."""
-    began: float
+    start_time: float
     """The simulation time at which the measurement began [s]."""
     duration: float
     """The duration of the measurement [s]."""
@@ -160,7 +160,7 @@ def track_bytes(
         "length": POSITION_STEP,
         "quaternion": QUATERNION_STEP,
         "signals": [asdict(signal) for signal in signals],
-        "levels": [{**asdict(level), "values": dict(level.values)} for level in levels],
+        "levels": [_level_entry(level) for level in levels],
     }
     if len(digs):
         head["sand"] = {"n": len(digs), "grain": GRAIN}
@@ -233,7 +233,7 @@ def _track(head: dict[str, Any], rest: bytes) -> MotionTrack:
         poses=poses,
         signals=signals,
         values=rows[:, NUMBERS_PER_BODY * len(bodies) :],
-        levels=tuple(_level(**entry) for entry in head["levels"]),
+        levels=tuple(_level(entry) for entry in head["levels"]),
         rate=rate,
         sand=_read_sand(head.get("sand", {"n": 0}), rest[size:]),
         markers=from_json(head.get("markers", {"shapes": (), "changes": ()})),
@@ -244,14 +244,25 @@ def _signal(name: object, unit: object = "1", step: object = 1e-4) -> Signal:
     return Signal(name=_text("name", name), unit=_text("unit", unit), step=_number("step", step))
 
 
-def _level(values: object, began: object, duration: object, status: object) -> TrackLevel:
+def _level_entry(level: TrackLevel) -> dict[str, object]:
+    """Return the entry of a level, with the keys of the file."""
+    return {
+        "values": dict(level.values),
+        "began": level.start_time,
+        "duration": level.duration,
+        "status": level.status,
+    }
+
+
+def _level(entry: Mapping[str, object]) -> TrackLevel:
+    values = entry["values"]
     if not isinstance(values, dict):
         raise ValueError(f"the values of a level are {str(values)[:60]}; expected an object")
     return TrackLevel(
         values={str(name): _number("values", value) for name, value in values.items()},
-        began=_number("began", began),
-        duration=_number("duration", duration),
-        status=_text("status", status),
+        start_time=_number("began", entry["began"]),
+        duration=_number("duration", entry["duration"]),
+        status=_text("status", entry["status"]),
     )
 
 

@@ -16,24 +16,24 @@ class StoredRecord:
     KEY: ClassVar[str]
     """The key of the record in ``result.json``."""
 
-    others: Mapping[str, object] = field(default_factory=dict)
+    other_values: Mapping[str, object] = field(default_factory=dict)
     """The values under keys that this version does not know."""
 
     def __post_init__(self) -> None:
         for name in (attribute.name for attribute in fields(self)):
-            path = self.KEY if name == "others" else f"{self.KEY}.{name}"
+            path = self.KEY if name == "other_values" else f"{self.KEY}.{name}"
             object.__setattr__(self, name, checked_values(getattr(self, name), path))
 
     @classmethod
     def from_dict(cls, record: Mapping[str, object]) -> Self:
         """Return the record of a JSON object whose shape was checked (`stored_shapes`)."""
-        known_names = {attribute.name for attribute in fields(cls)} - {"others"}
+        known_names = {attribute.name for attribute in fields(cls)} - {"other_values"}
         known_values = {name: value for name, value in record.items() if name in known_names}
         other_values = {name: value for name, value in record.items() if name not in known_names}
-        return cls(others=other_values, **known_values)
+        return cls(other_values=other_values, **known_values)
 
     def as_dict(self) -> dict[str, object]:
         """Return the input of `from_dict`: the keys that are present, in their order."""
-        names = (attribute.name for attribute in fields(self) if attribute.name != "others")
+        names = (attribute.name for attribute in fields(self) if attribute.name != "other_values")
         known_values = {name: value for name in names if (value := getattr(self, name)) is not None}
-        return {**known_values, **self.others}
+        return {**known_values, **self.other_values}

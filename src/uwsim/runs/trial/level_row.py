@@ -97,7 +97,7 @@ def cells_of(measures: Sequence[TriggeredMeasure], status: str, status_reason: s
             (None, status_reason) if is_blank else finite_value(triggered_measure.value)
         )
         if cells.values[name] is None:
-            cells.missing_reasons[name] = reason or measure.why or "nothing to measure"
+            cells.missing_reasons[name] = reason or measure.missing_reason or "nothing to measure"
         for detail, value in measure.details.items():
             unit = "1" if detail.split(".")[-1] == "n" else measure.unit
             unit = measure.detail_units.get(detail.partition(".")[0], unit)
@@ -105,7 +105,7 @@ def cells_of(measures: Sequence[TriggeredMeasure], status: str, status_reason: s
             number, reason = (None, None) if is_blank else finite_value(value)
             cells.details[f"{name}.{detail}"] = (number, unit)
             if number is None and triggered_measure.has_start_value:
-                reason = measure.why
+                reason = measure.missing_reason
             if reason is not None:
                 cells.missing_reasons[f"{name}.{detail}"] = reason
         if not is_blank:

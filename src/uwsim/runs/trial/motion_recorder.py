@@ -67,7 +67,7 @@ class MotionRecorder:
         self._measures = {}
         level = TrackLevel(
             values=dict(row.values),
-            began=round(row.ended_at - row.duration, 9),
+            start_time=round(row.ended_at - row.duration, 9),
             duration=round(row.duration, 9),
             status=row.status,
         )

@@ -91,7 +91,7 @@ class StatusMonitor:
         if self.lost is None:
             for measure in measures:
                 if measure.measure.longest_silence > MAX_SILENCE:
-                    reason = measure.measure.why
+                    reason = measure.measure.missing_reason
                     return "timeout", reason or f"no estimate for more than {MAX_SILENCE:g} s"
         if ending is not None:
             return "collision", ending

@@ -79,10 +79,10 @@ class BodyHydrodynamics(Spec):
     shape: Shape = "sphere"
     """The shape at the surface: volume as a function of depth and attitude. Its centre is the
     centre of buoyancy, with the link's axes; a cylinder's axis is z."""
-    size: Numbers = element(default=(), above=0.0)
+    size: Numbers = element(default=(), exclusive_minimum=0.0)
     """The size of the shape [m]: radius; half-axes; edges; radius and length. Without: the sphere
     of that volume. Only the submerged *fraction* is computed from the shape."""
-    mass: float | None = element(default=None, above=0.0)
+    mass: float | None = element(default=None, exclusive_minimum=0.0)
     """A mass that replaces the URDF's [kg]."""
     centre_of_mass: Triple | None = None
     """A centre of mass that replaces the URDF's, in the link's frame [m]."""
@@ -128,7 +128,7 @@ class ThrusterSpec(Spec):
     """The torque about the direction per thrust, positive right-handed [m]."""
     radius: float = element(default=0.05, minimum=MIN_RADIUS)
     """The radius of the propeller, for the loss of thrust at the surface and for its power [m]."""
-    efficiency: float | None = element(default=None, above=0.0, maximum=MAX_EFFICIENCY)
+    efficiency: float | None = element(default=None, exclusive_minimum=0.0, maximum=MAX_EFFICIENCY)
     """The efficiency from the battery to the ideal propeller of that radius
     (`uwsim.physics.actuation.power`); without it and without ``power``: 0.4 [1]."""
     advance: Numbers = ()
@@ -157,14 +157,14 @@ class FinSpec(Spec):
     """The axis of rotation along the span, right-handed, in the link's frame [1]."""
     chord: Triple = (1.0, 0.0, 0.0)
     """The direction of the leading edge at the angle 0, in the link's frame [1]."""
-    area: float = element(above=0.0, maximum=MAX_FIN_AREA)
+    area: float = element(exclusive_minimum=0.0, maximum=MAX_FIN_AREA)
     """The area of the planform [m2]."""
-    aspect_ratio: float | None = element(default=None, above=0.0)
+    aspect_ratio: float | None = element(default=None, exclusive_minimum=0.0)
     """The effective aspect ratio, span squared / area, for a missing slope or induced drag [1]."""
-    lift_slope: float | None = element(default=None, above=0.0, maximum=MAX_LIFT_SLOPE)
+    lift_slope: float | None = element(default=None, exclusive_minimum=0.0, maximum=MAX_LIFT_SLOPE)
     """The slope of the lift coefficient over the angle of attack, below the stall; without: 1 / (1
     / (1.8 pi) + 1 / (pi AR)) with the aspect ratio AR [1/rad]."""
-    stall: float = element(default=0.3, above=0.0, maximum=1.57)
+    stall: float = element(default=0.3, exclusive_minimum=0.0, maximum=1.57)
     """The angle of attack from which the flow separates [rad]."""
     drag: float = element(default=0.01, minimum=0.0)
     """The drag coefficient without lift [1]."""
@@ -178,7 +178,7 @@ class FinSpec(Spec):
     coefficient, up to 12, rising. A foil with angles from 0 on only is symmetric [rad, 1, 1]."""
     limits: TwoNumbers = (-0.35, 0.35)
     """The least and greatest angle; 0 0 for a fixed fin [rad]."""
-    rate: float | None = element(default=None, above=0.0)
+    rate: float | None = element(default=None, exclusive_minimum=0.0)
     """The greatest speed of the servo; without: any [rad/s]."""
     time_constant: float = element(default=0.0, minimum=0.0, maximum=MAX_TIME_CONSTANT)
     """The first-order lag of the servo [s]."""
@@ -205,7 +205,7 @@ class JointDrive(Spec):
 
     name: str = element(attribute=True)
     """The joint of the URDF."""
-    efficiency: float = element(default=0.6, above=0.0, maximum=1.0)
+    efficiency: float = element(default=0.6, exclusive_minimum=0.0, maximum=1.0)
     """The mechanical power per electrical power, without copper loss [1]."""
     copper_loss: float = element(default=0.0, minimum=0.0)
     """The power per effort squared, at rest too [W/(N m)2, W/N2]."""

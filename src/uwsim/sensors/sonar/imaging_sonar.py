@@ -41,7 +41,7 @@ class ImagingSonarSpec(SonarSpec):
 
     message_type: ClassVar[type] = ProjectedSonarImage
 
-    horizontal_aperture: float = element(default=90.0, above=0, maximum=360)
+    horizontal_aperture: float = element(default=90.0, exclusive_minimum=0, maximum=360)
     """The angle from the middle of the first beam to that of the last [deg]."""
     beams: int = element(default=512, minimum=2, maximum=4096)
     """The number of beams side by side."""
@@ -78,9 +78,9 @@ class ImagingSonarSpec(SonarSpec):
 class ImagingState(Record):
     """The state of an imaging sonar."""
 
-    random: np.random.Generator
+    rng: np.random.Generator
     """The generator of its speckle."""
-    last: npt.NDArray[np.float32]
+    last_ping: npt.NDArray[np.float32]
     """The amplitudes of the last ping, (bins, beams)."""
 
 
@@ -105,9 +105,9 @@ class ImagingSonar:
     def sample(self, time: float) -> ProjectedSonarImage:
         """Ping at ``time`` [s]."""
         pose, spec = self._mount.world_from_body, self._spec
-        self.state.last = self._echoes.ping(pose, int(self.state.random.integers(2**63)))
+        self.state.last_ping = self._echoes.ping(pose, int(self.state.rng.integers(2**63)))
         return sonar_image(
-            self.state.last,
+            self.state.last_ping,
             spec,
             directions=self._directions,
             ranges=self._ranges,
@@ -118,5 +118,5 @@ class ImagingSonar:
     def image(self, time: float) -> Image:
         """Return the last ping as a fan, ahead is up, stamped ``time`` [s]."""
         losses = self._echoes.losses(self._mount.world_from_body)
-        greys = self._levels.to_grey(self.state.last, losses)
+        greys = self._levels.to_grey(self.state.last_ping, losses)
         return image(self._fan.draw(greys), time=time, frame_id=self._spec.name)

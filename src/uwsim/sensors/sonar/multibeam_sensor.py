@@ -55,9 +55,9 @@ class FanSpec(SensorSpec):
     """The angle of the first beam; 0 is -z, positive towards +y [deg]."""
     final_angle: float
     """The angle of the last beam [deg]."""
-    angle_incr: float = element(above=0)
+    angle_incr: float = element(exclusive_minimum=0)
     """The angle between beams [deg]."""
-    range: float = element(above=0, maximum=MAX_DISTANCE)
+    range: float = element(exclusive_minimum=0, maximum=MAX_DISTANCE)
     """The longest measured distance; the value of a beam without a hit [m]."""
     beam_width: float = element(namespaced=True, default=0.0, minimum=0, maximum=30)
     """The width of each round beam between its points of half power [deg]; 0 is a ray."""

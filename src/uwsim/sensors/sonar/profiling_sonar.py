@@ -24,7 +24,7 @@ from .multibeam_sensor import FanSpec
 class ProfilingSonarSpec(FanSpec):
     """A ``<ProfilingSonar>``."""
 
-    fov: float = element(above=0)
+    fov: float = element(exclusive_minimum=0)
     """The field of view of each of the original's depth cameras [deg]; rays need none."""
 
     @property

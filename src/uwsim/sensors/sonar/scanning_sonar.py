@@ -84,7 +84,7 @@ class ScanningSonarSpec(SonarSpec):
 class ScanningState(Record):
     """The state of a scanning sonar."""
 
-    random: np.random.Generator
+    rng: np.random.Generator
     """The generator of its speckle."""
     scan: npt.NDArray[np.float32]
     """The last ping of each azimuth, (bins, n)."""
@@ -125,7 +125,7 @@ class ScanningSonar:
         azimuth = float(self._azimuths[place])
         sonar_from_head = Pose(np.zeros(3), rotation_z(azimuth))
         world_from_head = self._mount.world_from_body @ sonar_from_head
-        amplitude = self._echoes.ping(world_from_head, int(self.state.random.integers(2**63)))
+        amplitude = self._echoes.ping(world_from_head, int(self.state.rng.integers(2**63)))
         self.state.scan[:, place] = amplitude[:, 0]
         self.state.n_pings += 1
         return sonar_image(

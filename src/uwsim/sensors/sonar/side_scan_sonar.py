@@ -44,9 +44,9 @@ class SideScanSonarSpec(SonarSpec):
 
     message_type: ClassVar[type] = ProjectedSonarImage
 
-    vertical_aperture: float = element(default=50.0, above=0, maximum=160)
+    vertical_aperture: float = element(default=50.0, exclusive_minimum=0, maximum=160)
     """The height of its beams between the points of half power, one way [deg]."""
-    beam_width: float = element(default=0.5, above=0, maximum=30)
+    beam_width: float = element(default=0.5, exclusive_minimum=0, maximum=30)
     """The width of a beam between the points of half power, two-way [deg]."""
     rows: int = element(default=256, minimum=1, maximum=2048)
     """The number of rays of a beam one above the other. Small targets get their own rays; a part of
@@ -71,7 +71,7 @@ class SideScanSonarSpec(SonarSpec):
 class SideScanState(Record):
     """The state of a side-scan sonar."""
 
-    random: np.random.Generator
+    rng: np.random.Generator
     """The generator of its speckle."""
     waterfall: npt.NDArray[np.uint8]
     """The lines of its last pings, (lines, 2 * bins)."""
@@ -97,7 +97,7 @@ class SideScanSonar:
     def sample(self, time: float) -> ProjectedSonarImage:
         """Ping at ``time`` [s]; the first beam is that to port."""
         world_from_sonar = self._mount.world_from_body
-        keys = [int(key) for key in self.state.random.integers(2**63, size=2)]
+        keys = [int(key) for key in self.state.rng.integers(2**63, size=2)]
         beams = [
             self._echoes.ping(world_from_sonar @ sonar_from_head, key)
             for sonar_from_head, key in zip(self._heads, keys, strict=True)

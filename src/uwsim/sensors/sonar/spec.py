@@ -25,15 +25,15 @@ class SonarSpec(SensorSpec):
     look_at: LookAt = element(namespaced=True, default=None)
     """The viewing target at the start, instead of ``orientation``: a point in L [m], or a direction
     of the vehicle. The sonar stays fixed to its link."""
-    range: float = element(default=20.0, above=0, maximum=10000)
+    range: float = element(default=20.0, exclusive_minimum=0, maximum=10000)
     """The end of the last bin of range [m]."""
     min_range: float = element(default=0.5, minimum=0, maximum=10000)
     """The begin of the first bin of range [m]."""
     bins: int = element(default=500, minimum=1, maximum=10000)
     """The number of range bins, of equal size: the resolution, the length of the pulse."""
-    vertical_aperture: float = element(default=20.0, above=0, maximum=160)
+    vertical_aperture: float = element(default=20.0, exclusive_minimum=0, maximum=160)
     """The height of its beams between the points of half power, one way [deg]."""
-    beam_width: float = element(default=1.0, above=0, maximum=30)
+    beam_width: float = element(default=1.0, exclusive_minimum=0, maximum=30)
     """The width of a beam between the points of half power, two-way [deg]."""
     rows: int = element(default=32, minimum=1, maximum=2048)
     """The number of rays of a beam one above the other. Small targets get their own rays; a part of
@@ -50,7 +50,7 @@ class SonarSpec(SensorSpec):
     """True if echoes by way of the water's surface are included."""
     image_floor: float = element(default=-75.0, minimum=-300, maximum=300)
     """The target strength that is black in images [dB re 1 m2]."""
-    image_range: float = element(default=50.0, above=0, maximum=300)
+    image_range: float = element(default=50.0, exclusive_minimum=0, maximum=300)
     """The range from black to white in images [dB]."""
 
     @property
