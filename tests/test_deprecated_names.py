@@ -14,10 +14,12 @@ import uwsim
 from tests.results.test_result import make
 from tests.support.compared_results import entries, make_result
 from uwsim.analysis.comparison import Comparison, compare, shared_column
-from uwsim.base.deprecation import deprecated_name, renamed_parameter
+from uwsim.base.deprecation import deprecated_name, renamed_parameters
+from uwsim.benchmark.measures.distance import Distance
 from uwsim.messages import CameraInfo
 from uwsim.results.result import RefusedMessages
 from uwsim.runs.own_process.child import ChildNode
+from uwsim.schema import element
 
 PAGE = (Path(__file__).parent.parent / "docs" / "python.md").read_text()
 
@@ -37,7 +39,7 @@ class Vehicle:
     def site(self) -> int:
         return self.pose()
 
-    @renamed_parameter("of", "frame")
+    @renamed_parameters(of="frame")
     def distance(self, frame: str = "L") -> str:
         return frame
 
@@ -135,6 +137,24 @@ def test_the_old_name_of_the_trials_of_a_replay_works() -> None:
     replay = object.__new__(uwsim.Replay)
     replay.trials_without_motion = (2,)
     assert warned(lambda: replay.unseen, "unseen", "trials_without_motion") == (2,)
+
+
+def test_the_old_name_of_the_reason_of_a_measure_without_value_works() -> None:
+    def define() -> type[Distance]:
+        class Odometer(Distance):
+            why = "the odometer is broken"
+
+        return Odometer
+
+    assert warned(define, "why", "missing_reason").missing_reason == "the odometer is broken"
+
+
+@pytest.mark.parametrize(
+    ("old_name", "new_name"), [("above", "exclusive_minimum"), ("below", "exclusive_maximum")]
+)
+def test_the_old_names_of_the_limits_of_an_element_work(old_name: str, new_name: str) -> None:
+    field = warned(lambda: element(default=0.5, **{old_name: 1.0}), old_name, new_name)
+    assert field.metadata["xml"].limits == {new_name: 1.0}
 
 
 def test_old_names_of_a_comparison_work() -> None:

@@ -200,7 +200,6 @@ def test_the_violations_of_a_module_have_qualified_names() -> None:
         "variable: Visitor.seen",
         "variable: Visitor.found.each",
         "variable: Visitor.found.own",
-        "variable: CurrentSpec.at",
         "docstring: SIZE",
         "docstring: Visitor.found",
         "docstring: Visitor.seen",

@@ -385,7 +385,7 @@ def test_a_measure_that_raises_ends_the_run_with_its_line(folder: Path) -> None:
         ("details", "{1: 2.0}", "has the key 1; expected a name"),
         ("detail_units", "{'a': None}", "has NoneType for 'a', no text"),
         ("reasons", "{'fastest': 'asleep'}", "is about 'fastest', which is no detail without a"),
-        ("why", "404", "is int '404'; expected text or None"),
+        ("missing_reason", "404", "is int '404'; expected text or None"),
         ("notes", "'slow'", "is str 'slow'; expected a tuple of text"),
         ("ends_level", "7", "is int '7'; expected text or None"),
         ("longest_silence", "None", "is NoneType; expected a time [s]"),

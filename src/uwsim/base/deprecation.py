@@ -28,23 +28,24 @@ def deprecated_name(new_name: str) -> Callable[[F], F]:
     return decorate
 
 
-def renamed_parameter(old_name: str, new_name: str) -> Callable[[F], F]:
-    """Return the decorator of a function that accepts the old keyword of a parameter."""
+def renamed_parameters(**new_names: str) -> Callable[[F], F]:
+    """Return the decorator of a function that accepts old keywords: old name = new name."""
 
     def decorate(function: F) -> F:
         @functools.wraps(function)
-        def call_new_name(*args: Any, **kwargs: Any) -> Any:
-            if old_name in kwargs and new_name not in kwargs:
-                warn_old_name(old_name, new_name)
-                kwargs[new_name] = kwargs.pop(old_name)
+        def call_new_names(*args: Any, **kwargs: Any) -> Any:
+            for old_name in new_names.keys() & kwargs.keys():
+                if (new_name := new_names[old_name]) not in kwargs:
+                    warn_old_name(old_name, new_name)
+                    kwargs[new_name] = kwargs.pop(old_name)
             return function(*args, **kwargs)
 
-        return cast("F", call_new_name)
+        return cast("F", call_new_names)
 
     return decorate
 
 
-def warn_old_name(old_name: str, new_name: str) -> None:
-    """Warn the caller of the calling function of an old name."""
+def warn_old_name(old_name: str, new_name: str, *, stacklevel: int = 3) -> None:
+    """Warn the caller of the calling function, or one further up the stack, of an old name."""
     text = f"{old_name!r} is deprecated since uwsim 0.2.0; use {new_name!r}."
-    warnings.warn(text, DeprecationWarning, stacklevel=3)
+    warnings.warn(text, DeprecationWarning, stacklevel=stacklevel)

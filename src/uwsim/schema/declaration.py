@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import MISSING, dataclass
 from typing import Any, Literal, TypedDict, Unpack, get_args
 
-from ..base.deprecation import renamed_parameter
+from ..base.deprecation import renamed_parameters
 
 
 @dataclass(frozen=True)
@@ -67,8 +67,7 @@ class XmlOptions:
     limits: Limits = dataclasses.field(default_factory=Limits)
 
 
-@renamed_parameter("above", "exclusive_minimum")
-@renamed_parameter("below", "exclusive_maximum")
+@renamed_parameters(above="exclusive_minimum", below="exclusive_maximum")
 def element(
     name: str | None = None,
     *,

@@ -8,7 +8,7 @@ from functools import partial
 from types import MappingProxyType, TracebackType
 from typing import Any, Self
 
-from ..base.deprecation import deprecated_name, renamed_parameter
+from ..base.deprecation import deprecated_name, renamed_parameters
 from ..base.geometry import Array, Pose
 from ..base.record import assign
 from ..bus import Algorithm, Bus
@@ -170,7 +170,7 @@ class Simulation:
         while n_left > 0:
             n_left -= self._stepper.advance(n_left)
 
-    @renamed_parameter("look", "callback")
+    @renamed_parameters(look="callback")
     def watch(self, callback: Callable[[], None]) -> None:
         """Call ``callback`` at the end of every step."""
         self._watchers.append(callback)
@@ -217,7 +217,7 @@ class Simulation:
         """
         return self.bus.services.call(service, request)
 
-    @renamed_parameter("of", "frame")
+    @renamed_parameters(of="frame")
     def pose(self, name: str, frame: str = "L") -> Pose:
         """Return the pose of a body: a vehicle, a link ``vehicle/link``, or an object.
 
@@ -231,7 +231,7 @@ class Simulation:
         world_from_body = self.world.bodies.find(name).world_from_body
         return placing.world_from_frame(self.world, frame).inverse() @ world_from_body
 
-    @renamed_parameter("of", "frame")
+    @renamed_parameters(of="frame")
     def set_pose(self, name: str, pose: Pose, frame: str = "L") -> None:
         """Place a vehicle or an object, at rest; afterwards `pose` returns this pose.
 
@@ -277,7 +277,7 @@ class Simulation:
         )
         return replace(image, world_from_camera=view.world_from_camera, names=scenery.part_names)
 
-    @renamed_parameter("of", "frame")
+    @renamed_parameters(of="frame")
     def boxes(self, frame: str = "L") -> dict[str, OrientedBox]:
         """Return the boxes in 3-D of all links and objects by name, as images name them.
 

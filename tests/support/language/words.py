@@ -211,6 +211,7 @@ FIELD_TERMS: dict[str, str] = {
     "expected": "the value to compare with in a test (pytest)",
     "actual": "the value that is compared in a test (numpy.testing)",
     "stray": "stray light",
+    "first": "the first of two compared results, beside second (columns of comparison.csv)",
     "namespaced": "an element or attribute of XML that is in a namespace",
     "renderable": "an object that Rich can print (rich.console.RenderableType)",
 }

@@ -97,7 +97,7 @@ class Measure(abc.ABC):
         """Accept the old name ``why`` of `missing_reason` in a plugin."""
         super().__init_subclass__()
         if "why" in vars(cls):
-            warn_old_name("why", "missing_reason")
+            warn_old_name("why", "missing_reason", stacklevel=4)  # class body, ABCMeta
             cls.missing_reason = vars(cls)["why"]  # type: ignore[method-assign]
 
     @property
