@@ -1,6 +1,6 @@
 r"""An object of any shape that is detected by its outline and grasped at a given point.
 
-The object stands on the bottom. Its position and heading :math:`x = (north, east, \psi)` minimise
+The object rests on the bottom. Its position and heading :math:`x = (north, east, \psi)` minimise
 
 .. math:: \sum_k \frac{(h_k(x) - h_k)^2}{\sigma^2}
 
@@ -43,7 +43,7 @@ ROUND_HEADING_DEVIATION = 0.5
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class ConvexObject:
-    """The known model of an object that stands on the bottom; its frame has z up.
+    """The known model of an object that rests on the bottom; its frame has z up.
 
     Args:
         points: the corners of its convex hull, (n, 3) [m].
