@@ -1,9 +1,9 @@
-"""Starts of a kept model, and checkpoints: CPU time for every bundled scene.
+"""Measure starts of a cached model, and checkpoints, for every bundled scene.
 
-Run ``python benchmarks/checkpoints.py``. ``make`` is `Simulation(model)` of a `SceneModel` that has
-been started before, without images; ``first samples`` is what `start` adds: what sensors measure at
-step 0. ``copy`` is `State.copy`, ``save`` and ``restore`` are those of `Simulation`, after 0.2 s.
-Each figure is the least of many, as other programs only add to it. One JSON on stdout.
+Run ``python benchmarks/checkpoints.py``. ``make`` is `Simulation(model)` of a `SceneModel` with an
+earlier start, without images; ``first samples`` are the samples of sensors at step 0.
+``copy`` is `State.copy`, ``save`` and ``restore`` are those of `Simulation`, after 0.2 s. Each
+figure is the minimum of many, as other programs only add to it. The output is one JSON.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ import gc
 import time
 from collections.abc import Callable
 
-from measure import kept, main
+from measure import main, upper_target_figure
 
 import uwsim
 from uwsim.assets.bundled import bundled_files
@@ -20,70 +20,74 @@ from uwsim.model.scene_model import SceneModel
 from uwsim.simulation import Simulation
 
 START_MS, COPY_MS, SAVE_MS = 10.0, 0.05, 0.2
-"""Targets: of a start, of `State.copy` with one vehicle, of `save` of `SAVED`."""
-COPIED, SAVED = ("visibility-moving-scene", "currents-scene"), "cirs"
-"""Scenes with a target of their own."""
+"""The targets of a start, of `State.copy` with one vehicle, and of `save`."""
+COPY_TARGET_SCENES, SAVE_TARGET_SCENE = ("visibility-moving-scene", "currents-scene"), "cirs"
+"""The scenes with a target of `State.copy`, and of `save`."""
 STARTS, CALLS, BATCH = 25, 40, 25
-"""Starts; batches of calls, and the calls of each."""
-SECONDS = 0.2
-"""Simulated before the state is copied [s]."""
+"""The numbers of starts, of batches of calls, and of calls in a batch."""
+SIMULATED_TIME = 0.2
+"""The simulation time before the first copy [s]."""
 
 
-def starts(model: SceneModel) -> dict[str, object]:
-    """Start the model again and again: CPU time of its parts, and of all of a start [ms]."""
-    made, started, whole = [], [], []
+def measure_starts(model: SceneModel) -> dict[str, object]:
+    """Measure the CPU time of repeated starts, in parts and as a whole [ms]."""
+    make_times, sample_times, start_times = [], [], []
     for _ in range(STARTS):
-        gc.collect()  # the last simulation, which is no part of the start of the next
-        began = time.process_time()
+        gc.collect()  # frees the last simulation before the next start
+        start_time = time.process_time()
         simulation = Simulation(model, is_blind=True)
-        bound = time.process_time()
+        bind_time = time.process_time()
         simulation.advance(0.0)
-        ended = time.process_time()
+        end_time = time.process_time()
         simulation.close()
-        made.append(bound - began)
-        started.append(ended - bound)
-        whole.append(ended - began)
+        make_times.append(bind_time - start_time)
+        sample_times.append(end_time - bind_time)
+        start_times.append(end_time - start_time)
     return {
-        "make_ms": round(1e3 * min(made), 3),
-        "first_samples_ms": round(1e3 * min(started), 3),
-        "start_ms": kept(1e3 * min(whole), START_MS),
+        "make_ms": round(1e3 * min(make_times), 3),
+        "first_samples_ms": round(1e3 * min(sample_times), 3),
+        "start_ms": upper_target_figure(1e3 * min(start_times), START_MS),
     }
 
 
-def least(call: Callable[[], object]) -> float:
-    """Least CPU time of a call over some batches [ms]."""
-    found = []
+def least_cpu_time(call: Callable[[], object]) -> float:
+    """Return the minimum CPU time of a call over batches [ms]."""
+    cpu_times = []
     for _ in range(CALLS):
-        began = time.process_time()
+        start_time = time.process_time()
         for _ in range(BATCH):
             call()
-        found.append((time.process_time() - began) / BATCH)
-    return 1e3 * min(found)
+        cpu_times.append((time.process_time() - start_time) / BATCH)
+    return 1e3 * min(cpu_times)
 
 
-def checkpoints(simulation: Simulation, scene: str) -> dict[str, object]:
-    """Copy, save and restore the state of a simulation: CPU time of each [ms], bytes."""
-    saved = simulation.save()
-    copy, save = least(simulation.state.copy), least(simulation.save)
+def measure_checkpoints(simulation: Simulation, scene: str) -> dict[str, object]:
+    """Measure CPU time of copy, save and restore of a state [ms], and its bytes."""
+    state_bytes = simulation.save()
+    copy, save = least_cpu_time(simulation.state.copy), least_cpu_time(simulation.save)
     return {
-        "copy_ms": kept(copy, COPY_MS) if scene in COPIED else round(copy, 4),
-        "save_ms": kept(save, SAVE_MS) if scene == SAVED else round(save, 4),
-        "restore_ms": round(least(lambda: simulation.restore(saved)), 4),
-        "bytes": len(saved),
+        "copy_ms": upper_target_figure(copy, COPY_MS)
+        if scene in COPY_TARGET_SCENES
+        else round(copy, 4),
+        "save_ms": upper_target_figure(save, SAVE_MS)
+        if scene == SAVE_TARGET_SCENE
+        else round(save, 4),
+        "restore_ms": round(least_cpu_time(lambda: simulation.restore(state_bytes)), 4),
+        "bytes": len(state_bytes),
     }
 
 
 def measure() -> dict[str, object]:
     """Measure every bundled scene."""
-    found: dict[str, object] = {}
+    figures: dict[str, object] = {}
     for scene in bundled_files("scenes"):
         with uwsim.load(scene, is_blind=True) as simulation:
-            simulation.advance(SECONDS)
-            found[scene] = {
-                **starts(simulation.world.model),
-                **checkpoints(simulation, scene),
+            simulation.advance(SIMULATED_TIME)
+            figures[scene] = {
+                **measure_starts(simulation.world.model),
+                **measure_checkpoints(simulation, scene),
             }
-    return found
+    return figures
 
 
 if __name__ == "__main__":

@@ -1,4 +1,4 @@
-"""What floods of a web client take from a run.
+"""Measure the cost of floods by a web client to a run.
 
 Run ``python benchmarks/floods.py``. The scene of `currents` runs as fast as it can with its port
 open: with no client, and beside a program that floods it with 6 400 small frames a second, with
@@ -20,7 +20,7 @@ import sys
 import time
 from statistics import median
 
-from measure import kept, main, reached
+from measure import lower_target_figure, main, upper_target_figure
 
 import uwsim
 from uwsim.messages import Empty, EmptyResponse
@@ -74,8 +74,8 @@ with connect(uri, max_size=2**26, max_queue=None) as socket:
         if kind == "frames" and n % 64 == 0:
             time.sleep(max(0.0, began + n / 6400.0 - time.monotonic()))
 """
-"""The program that floods, on the last core; says when it begins. Frames come 64 at a time: a
-program that wakes for each of them takes a quarter of a core for that alone."""
+"""The program that floods, on the last core; it prints a line at its start. It sends 64 frames at a
+time: waking for each frame would use a quarter of a core."""
 KINDS = {
     "6400 frames a second": "frames",
     "calls of a service": "calls",
@@ -83,12 +83,12 @@ KINDS = {
     "15 MB frames by 20 connections": "large",
     "a process that computes": "busy",
 }
-QUIET = "quiet"
-WARM_UP, LASTS = 1.0, 4.0
-"""Of a run [s of wall time]."""
+QUIET_RUN = "quiet"
+WARM_UP, DURATION = 1.0, 4.0
+"""The warm-up and the duration of a run [s of wall time]."""
 ROUNDS = 5
 RATE_TARGET, GAP_TARGET = 0.98, 0.25
-"""Of the rate of the quiet run, and between two messages on ``/clock`` [s]."""
+"""The target share of the quiet run's rate, and of the gap of messages on ``/clock`` [s]."""
 
 
 class Pauses:
@@ -99,20 +99,20 @@ class Pauses:
         self.restart()
 
     def restart(self) -> None:
-        """Forget what was longest."""
-        self._last, self.longest = time.perf_counter(), 0.0
+        """Reset the longest pause."""
+        self._last_time, self.max_pause = time.perf_counter(), 0.0
 
     def step(self) -> None:
-        """Have the bridge do its work, and note when it has sent the time."""
+        """Step the bridge, and measure the pause when it sends the time."""
         is_due = self._bridge.clock_topic.is_due
         self._bridge.step()
         if is_due:
             now = time.perf_counter()
-            self._last, self.longest = now, max(self.longest, now - self._last)
+            self._last_time, self.max_pause = now, max(self.max_pause, now - self._last_time)
 
 
 def run(kind: str | None) -> dict[str, float]:
-    """Run the scene beside a flood: simulation time per wall time, CPU shares, longest pause."""
+    """Run the scene during a flood: simulation time per wall time, CPU shares, longest pause."""
     with uwsim.load(SCENE) as simulation:
         simulation.bus.services.serve("flood", Empty, lambda request: EmptyResponse())
         log = Log("web", lambda line: None)
@@ -121,69 +121,85 @@ def run(kind: str | None) -> dict[str, float]:
         simulation.watch(pauses.step)
         simulation.advance(0.1)
         program = None
-        cpu_before, began_all = children_cpu(), time.perf_counter()
+        cpu_before, flood_start_time = children_cpu(), time.perf_counter()
         if kind is not None:
             words = [sys.executable, "-c", FLOOD, kind, f"ws://127.0.0.1:{bridge.port}"]
             program = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
             assert program.stdout is not None
             program.stdout.readline()
-            began_all = time.perf_counter()
+            flood_start_time = time.perf_counter()
         advance_for(simulation, WARM_UP)
         pauses.restart()
-        cpu, began, time_before = time.process_time(), time.perf_counter(), simulation.time
-        advance_for(simulation, LASTS)
-        wall = time.perf_counter() - began
-        found = {
+        cpu_start, start_time, time_before = (
+            time.process_time(),
+            time.perf_counter(),
+            simulation.time,
+        )
+        advance_for(simulation, DURATION)
+        wall = time.perf_counter() - start_time
+        figures = {
             "rate": (simulation.time - time_before) / wall,
-            "cpu_share": (time.process_time() - cpu) / wall,
-            "longest_gap_s": pauses.longest,
+            "cpu_share": (time.process_time() - cpu_start) / wall,
+            "longest_gap_s": pauses.max_pause,
         }
         if program is not None:
             program.kill()
             program.communicate()
-            found["cpu_share_of_flood"] = (children_cpu() - cpu_before) / (
-                time.perf_counter() - began_all
+            figures["cpu_share_of_flood"] = (children_cpu() - cpu_before) / (
+                time.perf_counter() - flood_start_time
             )
         bridge.close()
-        return found
+        return figures
 
 
 def advance_for(simulation: uwsim.Simulation, wall: float) -> None:
-    """Let simulation time go by for some wall time [s]."""
+    """Advance the simulation for a wall time [s]."""
     end = time.perf_counter() + wall
     while time.perf_counter() < end:
         simulation.advance(0.02)
 
 
 def children_cpu() -> float:
-    """CPU time of the child processes that have ended [s]."""
-    used = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return used.ru_utime + used.ru_stime
+    """Return the CPU time of ended child processes [s]."""
+    usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return usage.ru_utime + usage.ru_stime
 
 
 def measure() -> dict[str, object]:
-    """Take turns, and compare the medians."""
-    runs: dict[str, list[dict[str, float]]] = {name: [] for name in (QUIET, *KINDS)}
+    """Alternate the runs, and compare the medians."""
+    runs: dict[str, list[dict[str, float]]] = {name: [] for name in (QUIET_RUN, *KINDS)}
     run(None)  # warms up
     for _ in range(ROUNDS):
         for name in runs:
             runs[name].append(run(KINDS.get(name)))
-    quiet = median(each["rate"] for each in runs[QUIET])
-    quiet_by_cpu = median(each["rate"] / each["cpu_share"] for each in runs[QUIET])
+    quiet_rate = median(figures_of_run["rate"] for figures_of_run in runs[QUIET_RUN])
+    quiet_rate_by_cpu = median(
+        figures_of_run["rate"] / figures_of_run["cpu_share"] for figures_of_run in runs[QUIET_RUN]
+    )
     figures: dict[str, object] = {}
-    for name, found in runs.items():
-        gap = max(each["longest_gap_s"] for each in found)
+    for name, figures_of_runs in runs.items():
+        gap = max(figures_of_run["longest_gap_s"] for figures_of_run in figures_of_runs)
         figures[name] = {
-            "times_real_time": round(median(each["rate"] for each in found), 2),
-            "rate_to_quiet": reached(median(each["rate"] for each in found) / quiet, RATE_TARGET),
-            "rate_by_cpu_to_quiet": round(
-                median(each["rate"] / each["cpu_share"] for each in found) / quiet_by_cpu, 3
+            "times_real_time": round(
+                median(figures_of_run["rate"] for figures_of_run in figures_of_runs), 2
             ),
-            "longest_gap_of_clock_s": kept(gap, GAP_TARGET),
+            "rate_to_quiet": lower_target_figure(
+                median(figures_of_run["rate"] for figures_of_run in figures_of_runs) / quiet_rate,
+                RATE_TARGET,
+            ),
+            "rate_by_cpu_to_quiet": round(
+                median(
+                    figures_of_run["rate"] / figures_of_run["cpu_share"]
+                    for figures_of_run in figures_of_runs
+                )
+                / quiet_rate_by_cpu,
+                3,
+            ),
+            "longest_gap_of_clock_s": upper_target_figure(gap, GAP_TARGET),
             **{
-                share: round(median(each[share] for each in found), 3)
+                share: round(median(figures_of_run[share] for figures_of_run in figures_of_runs), 3)
                 for share in ("cpu_share", "cpu_share_of_flood")
-                if share in found[0]
+                if share in figures_of_runs[0]
             },
         }
     return figures

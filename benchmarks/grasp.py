@@ -1,4 +1,4 @@
-"""An episode of `grasp`: how many times faster than real time, with its camera in the loop.
+"""Measure the real-time factor of an episode of `grasp`, with its camera in the loop.
 
 One seed at fog 0 without current, run in this process as a worker runs it. The software rasteriser
 has no threads of its own, so that the CPU time is that of one core. The episode lasts from the

@@ -1,13 +1,13 @@
-"""The live view under load: two viewers who want a camera's images, and a key that is pressed.
+"""Measure the live view under load: two viewers of a camera's images, and pressed keys.
 
-`currents-scene` (a simulated vehicle) says how well real time is kept, and how often rows come.
-`cirs` (a kinematic vehicle, which at rest does not move at all) says how long it takes from a key
-to the first change of the vehicle's pose. Both have a camera of 640x480 whose images are drawn for
+`currents-scene` (a simulated vehicle) gives the real-time factor and the rate of rows. `cirs` (a
+kinematic vehicle, which is at rest without commands) gives the delay from a key to the first
+change of the vehicle's pose. Both have a camera of 640x480 whose images are drawn for
 the viewers 10 times a second.
 
-Viewers are of two kinds. A *receiver* reads and decodes all that a page does, and draws nothing:
-what is measured is uwsim's own. A *page* is one in Chromium; without a GPU it draws on the same
-cores, which the simulation then has to share. On a page, the vehicle counts as moved at the first
+Viewers are of two kinds. A *receiver* reads and decodes all messages like a page, and draws
+nothing, which measures uwsim alone. A *page* runs in Chromium; without a GPU it draws on the cores
+of the simulation. On a page, the vehicle counts as moved at the first
 frame that begins after its new pose was drawn.
 
 `viewer` measures both; as a command this file measures receivers alone.
@@ -29,18 +29,18 @@ from typing import Any
 
 import cv2
 import numpy as np
-from measure import kept, main, reached
+from measure import lower_target_figure, main, upper_target_figure
 from websockets.exceptions import ConnectionClosed
 from websockets.sync.client import connect
 
 CAMERA = "bowtech1"
-PACED, PILOTED = "currents-scene", "cirs"
+REAL_TIME_SCENE, PILOTED_SCENE = "currents-scene", "cirs"
 SIZE = [f"vehicle[girona500].virtualCamera[{CAMERA}].{edge}" for edge in ("resw=640", "resh=480")]
 BODY = "girona500/base_link"
-WARM_UP, LASTS = 4.0, 15.0  # [s]
+WARM_UP, DURATION = 4.0, 15.0  # [s]
 N_KEYS = 30
-HELD, REST = 0.4, 1.0  # [s]
-MOVED = 1e-5  # [m]
+HOLD_TIME, REST_TIME = 0.4, 1.0  # [s]
+MIN_DISPLACEMENT = 1e-5  # [m]
 LIMIT = 120.0  # [s]
 KIND = {"head": 0, "row": 1, "image": 2}
 COUNT = """() => {
@@ -75,18 +75,18 @@ Figures = dict[str, object]
 
 
 class Receiver:
-    """Reads and decodes what a page does: rows and images."""
+    """A viewer that reads and decodes rows and images, like a page."""
 
     def __init__(self, url: str, stack: ExitStack) -> None:
         address = url.replace("http://", "ws://").replace("/?", "/socket?")
-        opened = connect(address, max_size=None, compression=None, open_timeout=LIMIT)
-        self.socket = stack.enter_context(opened)
+        connection = connect(address, max_size=None, compression=None, open_timeout=LIMIT)
+        self.socket = stack.enter_context(connection)
         self.rows: list[tuple[float, float, np.ndarray]] = []
-        """Wall time of arrival [s], simulation time [s], numbers."""
+        """The rows: wall time of arrival [s], simulation time [s], numbers."""
         self.n_images = 0
-        """Images that were decoded."""
-        self.first = 0
-        """Column of the vehicle's position in a row."""
+        """The number of decoded images."""
+        self.position_column = 0
+        """The column of the vehicle's position in a row."""
         self.socket.send(json.dumps({"type": "images", "cameras": [CAMERA], "rate": 10}))
         threading.Thread(target=self._read, daemon=True).start()
 
@@ -94,16 +94,16 @@ class Receiver:
         try:
             for data in self.socket:
                 if isinstance(data, bytes):
-                    self._take(data)
+                    self._decode(data)
         except ConnectionClosed:
             return
 
-    def _take(self, data: bytes) -> None:
+    def _decode(self, data: bytes) -> None:
         if data[0] == KIND["head"]:
             content = gzip.decompress(data[16:])
             (length,) = struct.unpack_from("<I", content)
             motion = json.loads(content[4 : 4 + length])["motion"]
-            self.first = 7 * motion["bodies"].index(BODY)
+            self.position_column = 7 * motion["bodies"].index(BODY)
         elif data[0] == KIND["row"]:
             (now,) = struct.unpack_from("<d", data, 8)
             numbers = np.frombuffer(data, "<f4", offset=16)
@@ -112,33 +112,38 @@ class Receiver:
             cv2.imdecode(np.frombuffer(data, np.uint8, offset=16), cv2.IMREAD_COLOR)
             self.n_images += 1
 
-    def place(self) -> np.ndarray:
-        """Where the vehicle was last, (3,) [m]."""
-        return self.rows[-1][2][self.first : self.first + 3]
+    def last_position(self) -> np.ndarray:
+        """Return the last position of the vehicle, (3,) [m]."""
+        return self.rows[-1][2][self.position_column : self.position_column + 3]
 
     def hold(self, *keys: str) -> None:
-        """Tell that these keys are held."""
-        said = {"type": "input", "keys": keys, "axes": [], "buttons": [], "sticks": []}
-        self.socket.send(json.dumps(said))
+        """Send the keys that are held."""
+        message = {"type": "input", "keys": keys, "axes": [], "buttons": [], "sticks": []}
+        self.socket.send(json.dumps(message))
 
-    def key_to_moved(self) -> float:
-        """Press a key at rest until the vehicle moves [s]."""
-        before, n = self.place(), len(self.rows)
-        began = time.perf_counter()
+    def measure_key_delay(self) -> float:
+        """Press a key at rest; return the delay until the vehicle moves [s]."""
+        start_position, n = self.last_position(), len(self.rows)
+        start_time = time.perf_counter()
         self.hold("w")
         while True:
-            for arrived, _, numbers in self.rows[n:]:
+            for arrival_time, _, numbers in self.rows[n:]:
                 n += 1
-                if np.abs(numbers[self.first : self.first + 3] - before).max() > MOVED:
-                    time.sleep(HELD)
+                if (
+                    np.abs(
+                        numbers[self.position_column : self.position_column + 3] - start_position
+                    ).max()
+                    > MIN_DISPLACEMENT
+                ):
+                    time.sleep(HOLD_TIME)
                     self.hold()
-                    return arrived - began
+                    return arrival_time - start_time
             time.sleep(0.0002)
 
 
 @contextmanager
-def running(scene: str, *settings: str) -> Iterator[tuple[subprocess.Popen[str], str]]:
-    """A scene that runs in real time, and the address of its page."""
+def run_scene(scene: str, *settings: str) -> Iterator[tuple[subprocess.Popen[str], str]]:
+    """Run a scene in real time; yield its process and the address of its page."""
     command = [sys.executable, "-m", "uwsim", "run", scene, "--view"]
     command += [word for setting in settings for word in ("--set", setting)]
     pipes: Any = {"stderr": subprocess.PIPE, "stdout": subprocess.DEVNULL, "text": True}
@@ -152,100 +157,109 @@ def running(scene: str, *settings: str) -> Iterator[tuple[subprocess.Popen[str],
 
 
 @contextmanager
-def receivers(url: str, n: int) -> Iterator[list[Receiver]]:
-    """Receivers who have got rows for a while."""
+def open_receivers(url: str, n: int) -> Iterator[list[Receiver]]:
+    """Open receivers; yield them after a warm-up with rows."""
     with ExitStack() as stack:
-        found = [Receiver(url, stack) for _ in range(n)]
-        while not all(each.rows for each in found):
+        receivers = [Receiver(url, stack) for _ in range(n)]
+        while not all(receiver.rows for receiver in receivers):
             time.sleep(0.01)
         time.sleep(WARM_UP)
-        yield found
+        yield receivers
 
 
-def with_receivers() -> Figures:
-    """Two receivers."""
+def measure_receivers() -> Figures:
+    """Measure two receivers."""
     name = "live, 2 receivers"
-    with running(PACED) as (process, url), receivers(url, 2) as looking:
-        one = looking[0]
-        first, n = one.rows[-1], one.n_images
-        size = resident(process.pid)
-        time.sleep(LASTS)
-        last, n = one.rows[-1], one.n_images - n
-        passed, rows = last[0] - first[0], [row for row in one.rows if first[0] < row[0] <= last[0]]
+    with run_scene(REAL_TIME_SCENE) as (process, url), open_receivers(url, 2) as receivers:
+        receiver = receivers[0]
+        first_row, n = receiver.rows[-1], receiver.n_images
+        size = resident_memory(process.pid)
+        time.sleep(DURATION)
+        last_row, n = receiver.rows[-1], receiver.n_images - n
+        wall_time, rows = (
+            last_row[0] - first_row[0],
+            [row for row in receiver.rows if first_row[0] < row[0] <= last_row[0]],
+        )
         figures = {
-            f"{name}: real-time factor": reached((last[1] - first[1]) / passed, 0.99),
-            f"{name}: rows a second": reached(len(rows) / passed, 30.0),
-            f"{name}: images a second": round(n / passed, 1),
-            "live, a stalled reader: MB": kept(stalled(url, process.pid, size), 1.0),
+            f"{name}: real-time factor": lower_target_figure(
+                (last_row[1] - first_row[1]) / wall_time, 0.99
+            ),
+            f"{name}: rows a second": lower_target_figure(len(rows) / wall_time, 30.0),
+            f"{name}: images a second": round(n / wall_time, 1),
+            "live, a stalled reader: MB": upper_target_figure(
+                stalled_reader_memory(url, process.pid, size), 1.0
+            ),
         }
-    with running(PILOTED, *SIZE) as (_, url), receivers(url, 2) as looking:
-        waited = []
+    with run_scene(PILOTED_SCENE, *SIZE) as (_, url), open_receivers(url, 2) as receivers:
+        key_delays = []
         for k in range(N_KEYS):
-            time.sleep(REST + 0.0137 * k)  # at any moment between two rows and commands
-            waited.append(looking[0].key_to_moved())
-    return {**figures, **delays(f"{name}: key to moved vehicle", waited)}
+            time.sleep(REST_TIME + 0.0137 * k)  # at any moment between two rows and commands
+            key_delays.append(receivers[0].measure_key_delay())
+    return {**figures, **delay_figures(f"{name}: key to moved vehicle", key_delays)}
 
 
-def stalled(url: str, process: int, before: float) -> float:
-    """Memory that a viewer costs who wants images and never reads [MB]."""
+def stalled_reader_memory(url: str, process: int, memory_before: float) -> float:
+    """Return the memory for a viewer of images that never reads [MB]."""
     address = url.replace("http://", "ws://").replace("/?", "/socket?")
     options: Any = {"max_size": None, "compression": None, "open_timeout": LIMIT, "max_queue": 1}
     with connect(address, ping_interval=None, **options) as socket:
         socket.send(json.dumps({"type": "images", "cameras": [CAMERA], "rate": 10}))
-        time.sleep(LASTS)
-        return max(0.0, resident(process) - before)
+        time.sleep(DURATION)
+        return max(0.0, resident_memory(process) - memory_before)
 
 
-def resident(process: int) -> float:
-    """Memory of a process [MB]."""
+def resident_memory(process: int) -> float:
+    """Return the resident memory of a process [MB]."""
     words = Path(f"/proc/{process}/status").read_text().split()
     return float(words[words.index("VmRSS:") + 1]) / 1e3
 
 
-def with_pages(browser: Any) -> Figures:
-    """One page of Chromium, and two."""
+def measure_pages(browser: Any) -> Figures:
+    """Measure one page of Chromium, and two."""
     name = "live, 2 Chromium pages"
-    with running(PACED) as (_, url):
-        tab, _ = opened(browser, url), opened(browser, url)
+    with run_scene(REAL_TIME_SCENE) as (_, url):
+        tab, _ = open_page(browser, url), open_page(browser, url)
         time.sleep(WARM_UP)
         now = "[performance.now() / 1000, window.uwsim.page.player.end]"
         tab.evaluate(COUNT)
-        first = tab.evaluate(now)
-        time.sleep(LASTS)
-        last, n = tab.evaluate(now), tab.evaluate("window.n")
-        passed = last[0] - first[0]
+        first_times = tab.evaluate(now)
+        time.sleep(DURATION)
+        last_times, n = tab.evaluate(now), tab.evaluate("window.n")
+        wall_time = last_times[0] - first_times[0]
         figures: Figures = {
-            f"{name}: real-time factor": reached((last[1] - first[1]) / passed, 0.99),
-            f"{name}: rows a second": reached(n / passed, 30.0),
+            f"{name}: real-time factor": lower_target_figure(
+                (last_times[1] - first_times[1]) / wall_time, 0.99
+            ),
+            f"{name}: rows a second": lower_target_figure(n / wall_time, 30.0),
         }
-        close(browser)
+        close_pages(browser)
     for n in (1, 2):
-        waited = keys_on_a_page(browser, n)
+        key_delays = measure_page_key_delays(browser, n)
         pages = "page" if n == 1 else "pages"
-        figures |= delays(f"live, {n} Chromium {pages}: key to moved vehicle", waited)
+        figures |= delay_figures(f"live, {n} Chromium {pages}: key to moved vehicle", key_delays)
     return figures
 
 
-def keys_on_a_page(browser: Any, n_pages: int) -> list[float]:
-    """Press keys on the first of some pages until it shows the vehicle elsewhere [s]."""
-    with running(PILOTED, *SIZE) as (_, url):
-        tab, *_ = [opened(browser, url) for _ in range(n_pages)]
+def measure_page_key_delays(browser: Any, n_pages: int) -> list[float]:
+    """Press keys on the first page; return the delays until it shows a moved vehicle [s]."""
+    with run_scene(PILOTED_SCENE, *SIZE) as (_, url):
+        tab, *_ = [open_page(browser, url) for _ in range(n_pages)]
         tab.wait_for_function("window.uwsim.page.link.pilot.isOn")
         time.sleep(WARM_UP)
-        tab.evaluate(WATCH, [BODY, MOVED])
+        tab.evaluate(WATCH, [BODY, MIN_DISPLACEMENT])
         for k in range(N_KEYS):
-            time.sleep(REST + 0.0137 * k)
+            time.sleep(REST_TIME + 0.0137 * k)
             tab.keyboard.down("w")
             tab.wait_for_function(f"window.found.length === {k + 1}")
-            time.sleep(HELD)
+            time.sleep(HOLD_TIME)
             tab.keyboard.up("w")
-        waited = [delay / 1000.0 for delay in tab.evaluate("window.found")]
-        close(browser)
-    return waited
+        key_delays = [delay / 1000.0 for delay in tab.evaluate("window.found")]
+        close_pages(browser)
+    return key_delays
 
 
-def opened(browser: Any, url: str) -> Any:
-    """A page of its own window."""
+def open_page(browser: Any, url: str) -> Any:
+    """Open a page in a new window."""
     view: Any = {"width": 1024, "height": 768}
     tab = browser.new_context(viewport=view, bypass_csp=True).new_page()
     tab.set_default_timeout(1000.0 * LIMIT)
@@ -254,17 +268,20 @@ def opened(browser: Any, url: str) -> Any:
     return tab
 
 
-def close(browser: Any) -> None:
+def close_pages(browser: Any) -> None:
     """Close all windows."""
     for context in browser.contexts:
         context.close()
 
 
-def delays(name: str, waited: Sequence[float]) -> Figures:
-    """Median and 95th percentile [ms]."""
-    half, most = (1000.0 * float(np.percentile(waited, share)) for share in (50, 95))
-    return {f"{name}, median: ms": round(half, 1), f"{name}, p95: ms": kept(most, 100.0)}
+def delay_figures(name: str, delays: Sequence[float]) -> Figures:
+    """Return median and 95th percentile of delays [ms]."""
+    median_ms, p95_ms = (1000.0 * float(np.percentile(delays, share)) for share in (50, 95))
+    return {
+        f"{name}, median: ms": round(median_ms, 1),
+        f"{name}, p95: ms": upper_target_figure(p95_ms, 100.0),
+    }
 
 
 if __name__ == "__main__":
-    main(with_receivers)
+    main(measure_receivers)

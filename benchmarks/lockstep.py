@@ -42,17 +42,17 @@ with open_connection(f"ws://127.0.0.1:{sys.argv[2]}") as socket:
     client.run()
 """
 """The same controller in a process without uwsim."""
-TARGET = 0.5
-"""Of a round trip [ms]."""
+TARGET_MS = 0.5
+"""The target of a round trip [ms]."""
 ROUNDS = 1000
 
 
 class Controller:
-    """Answers each odometry message, and reads images."""
+    """An algorithm that answers each odometry message, and reads images."""
 
     def start(self, node: Node) -> None:
         """Connect to the bus."""
-        self.say = node.publisher("twist", TwistStamped)
+        self.publish = node.publisher("twist", TwistStamped)
         node.subscribe("odometry", Odometry, self.on_odometry)
         node.subscribe("image", Image, lambda message: None)
 
@@ -60,22 +60,22 @@ class Controller:
         """Command against the error."""
         answer = TwistStamped(header=message.header)
         answer.twist.linear.x = -0.4 * message.pose.pose.position.x
-        self.say(answer)
+        self.publish(answer)
 
 
-def round_trips(bus: Bus, publish: Callable[[], None], rounds: int) -> list[float]:
+def measure_round_trips(bus: Bus, publish: Callable[[], None], rounds: int) -> list[float]:
     """Return the time of each publishing and delivering [ms]."""
     times = []
     for _ in range(rounds):
         bus.step += 5
-        began = time.perf_counter_ns()
+        start_time = time.perf_counter_ns()
         publish()
         bus.deliver()
-        times.append((time.perf_counter_ns() - began) / 1e6)
+        times.append((time.perf_counter_ns() - start_time) / 1e6)
     return times
 
 
-def summary(times: list[float], target: float | None = None) -> dict[str, object]:
+def summarize(times: list[float], target: float | None = None) -> dict[str, object]:
     """Return median and 95th percentile, and the share of the target."""
     figures: dict[str, object] = {
         "wall_ms": round(median(times), 4),
@@ -87,67 +87,74 @@ def summary(times: list[float], target: float | None = None) -> dict[str, object
     return figures
 
 
-def own_process(rounds: int = ROUNDS) -> dict[str, object]:
-    """Measure an algorithm in a process of its own."""
+def measure_own_process(rounds: int = ROUNDS) -> dict[str, object]:
+    """Measure an algorithm in its own process."""
     bus = Bus()
-    heard = bus.inbox("twist", TwistStamped)
-    began = time.perf_counter()
+    inbox = bus.inbox("twist", TwistStamped)
+    start_time = time.perf_counter()
     with OwnProcess() as process:
-        importable: type = importlib.import_module("lockstep").Controller  # not that of __main__
-        algorithm = ProcessAlgorithm(process, importable)
+        controller_class: type = importlib.import_module(
+            "lockstep"
+        ).Controller  # not the class of __main__
+        algorithm = ProcessAlgorithm(process, controller_class)
         node = InProcessNode(
             bus, name="controller", timestep=TIMESTEP, rng=stream(0, "c"), parameters={}
         )
         node.run(algorithm)
-        start = time.perf_counter() - began
-        say = bus.publisher("odometry", Odometry)
-        trips = round_trips(bus, lambda: say(Odometry()), rounds)
-        show = bus.publisher("image", Image)
+        start_duration = time.perf_counter() - start_time
+        publish_odometry = bus.publisher("odometry", Odometry)
+        trips = measure_round_trips(bus, lambda: publish_odometry(Odometry()), rounds)
+        publish_image = bus.publisher("image", Image)
         pixels = np.zeros(640 * 480 * 3, dtype=np.uint8)
-        picture = Image(height=480, width=640, encoding="rgb8", step=1920, data=pixels)
-        images = round_trips(bus, lambda: show(picture), rounds // 10)
-    assert len(heard.take()) == rounds
+        image = Image(height=480, width=640, encoding="rgb8", step=1920, data=pixels)
+        images = measure_round_trips(bus, lambda: publish_image(image), rounds // 10)
+    assert len(inbox.take()) == rounds
     return {
-        "odometry in, twist out": summary(trips, TARGET),
-        "image 640x480": summary(images),
-        "start_s": round(start, 3),
+        "odometry in, twist out": summarize(trips, TARGET_MS),
+        "image 640x480": summarize(images),
+        "start_s": round(start_duration, 3),
     }
 
 
-def web_client(rounds: int = ROUNDS) -> dict[str, object]:
-    """Measure a program outside, by WebSocket."""
+def measure_web_client(rounds: int = ROUNDS) -> dict[str, object]:
+    """Measure an external program over WebSocket."""
     bus = Bus()
-    heard = bus.inbox("twist", TwistStamped)
+    inbox = bus.inbox("twist", TwistStamped)
     bridge = WebBridge(bus, lambda: bus.step * TIMESTEP, WebOptions(port=0))
     bridge.admission = SingleProgram(
-        lambda by, what: None
-    )  # as in a run: its frames are read at once
+        lambda subject, message: None
+    )  # as in a run: frames are read at once
     client = subprocess.Popen([sys.executable, "-c", CLIENT, str(EXAMPLES), str(bridge.port)])
     try:
-        (outside,) = lockstep_clients([bridge], ["controller"], timestep=TIMESTEP, limit=60.0)
+        (lockstep_client,) = lockstep_clients(
+            [bridge], ["controller"], timestep=TIMESTEP, limit=60.0
+        )
         node = InProcessNode(
             bus, name="controller", timestep=TIMESTEP, rng=stream(0, "c"), parameters={}
         )
-        say = bus.publisher("odometry", Odometry)
-        node.run(outside)
+        publish_odometry = bus.publisher("odometry", Odometry)
+        node.run(lockstep_client)
 
         def publish() -> None:
-            say(Odometry())
+            publish_odometry(Odometry())
             bus.deliver()
             node.tick()
 
-        trips = round_trips(bus, publish, rounds)
+        trips = measure_round_trips(bus, publish, rounds)
     finally:
         bridge.close()
         client.kill()
         client.wait()
-    assert len(heard.take()) == rounds
-    return {"odometry in, twist out": summary(trips, TARGET)}
+    assert len(inbox.take()) == rounds
+    return {"odometry in, twist out": summarize(trips, TARGET_MS)}
 
 
 def measure() -> dict[str, object]:
     """Measure everything."""
-    return {"a process of its own": own_process(), "a program outside, WebSocket": web_client()}
+    return {
+        "a process of its own": measure_own_process(),
+        "a program outside, WebSocket": measure_web_client(),
+    }
 
 
 if __name__ == "__main__":

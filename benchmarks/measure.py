@@ -1,9 +1,9 @@
-"""What all benchmarks share: hardware, load, repeated timing, and JSON on standard output.
+"""The common parts of benchmarks: hardware, load, repeated timing, and JSON on standard output.
 
-A benchmark hands `main` a function without arguments that measures and returns its figures.
-`milliseconds` gives CPU time of the whole process, all threads: on a shared machine it moves far
-less than wall time, which stands beside it. Above a load of 1.5 nothing is measured, unless asked
-for with ``--anyway`` (or ``--force``), and the JSON says so.
+A benchmark calls `main` with a function that measures and returns its figures. `milliseconds`
+measures CPU time of all threads of the process, which varies far less than wall time on a shared
+machine. Above a load of 1.5 benchmarks measure only with ``--anyway`` (or ``--force``), and the
+JSON records that.
 """
 
 from __future__ import annotations
@@ -22,23 +22,23 @@ MAX_LOAD = 1.5
 
 
 def main(measure: Callable[[], Mapping[str, object]]) -> None:
-    """Measure and print, as a command line; exit status 2 when the machine is busy."""
+    """Measure and print, as a command; exit status 2 if the machine is busy."""
     parser = argparse.ArgumentParser(description="One JSON with figures, hardware and load.")
     parser.add_argument(
         "--anyway", "--force", action="store_true", help="measure although the machine is busy"
     )
-    parser.add_argument("--out", type=Path, help="write the JSON here too")
+    parser.add_argument("--out", type=Path, help="write the JSON to this file, too")
     arguments = parser.parse_args()
-    before = os.getloadavg()[0]
-    if before > MAX_LOAD and not arguments.anyway:
+    load_before = os.getloadavg()[0]
+    if load_before > MAX_LOAD and not arguments.anyway:
         print(
-            f"The load is {before:.2f}, above {MAX_LOAD}: figures would be worth nothing. "
-            "Wait, or measure all the same with --anyway.",
+            f"The load is {load_before:.2f}, above {MAX_LOAD}: figures would be meaningless. "
+            "Wait, or measure anyway with --anyway.",
             file=sys.stderr,
         )
         raise SystemExit(2)
     figures = measure()
-    load = {"before": before, "after": os.getloadavg()[0], "measured_anyway": arguments.anyway}
+    load = {"before": load_before, "after": os.getloadavg()[0], "measured_anyway": arguments.anyway}
     facts = {"benchmark": Path(sys.argv[0]).stem, "hardware": hardware(), "load": load}
     text = json.dumps({**facts, "figures": figures}, indent=2)
     print(text)
@@ -55,16 +55,16 @@ def milliseconds(
 ) -> dict[str, object]:
     """Time a call: median over batches of the CPU milliseconds of one call.
 
-    Called once before, to warm up. ``ratio`` is the median over the target: up to 1 is kept.
+    A first call warms up. ``ratio`` is the median over the target; up to 1 meets the target.
     """
     call()
     cpu, wall = [], []
     for _ in range(batches):
-        began_cpu, began_wall = time.process_time(), time.perf_counter()
+        cpu_start, wall_start = time.process_time(), time.perf_counter()
         for _ in range(calls):
             call()
-        cpu.append((time.process_time() - began_cpu) * 1e3 / calls)
-        wall.append((time.perf_counter() - began_wall) * 1e3 / calls)
+        cpu.append((time.process_time() - cpu_start) * 1e3 / calls)
+        wall.append((time.perf_counter() - wall_start) * 1e3 / calls)
     figures: dict[str, object] = {
         "cpu_ms": round(median(cpu), 4),
         "cpu_ms_best": round(min(cpu), 4),
@@ -77,19 +77,19 @@ def milliseconds(
     return figures
 
 
-def kept(value: float, target: float) -> Mapping[str, float | None]:
-    """A figure with its target; the ratio is kept up to 1."""
+def upper_target_figure(value: float, target: float) -> Mapping[str, float | None]:
+    """Return a figure with its upper target; a ratio up to 1 meets the target."""
     ratio = round(value / target, 3) if target else None
     return {"value": round(value, 3), "target": target, "ratio": ratio}
 
 
-def reached(value: float, target: float) -> Mapping[str, float]:
-    """A figure that is to be no less than its target; the ratio is reached from 1 on."""
+def lower_target_figure(value: float, target: float) -> Mapping[str, float]:
+    """Return a figure with its lower target; a ratio from 1 on meets the target."""
     return {"value": round(value, 3), "target": target, "ratio": round(value / target, 3)}
 
 
 def hardware() -> dict[str, object]:
-    """Where this was measured."""
+    """Return the CPU, its cores, and the versions of Python and system."""
     model = platform.processor() or platform.machine()
     information = Path("/proc/cpuinfo")
     if information.exists():

@@ -9,7 +9,7 @@ step.
 
 The public `Simulation` in scenes that grow: see `steps.py`.
 
-Accuracy: the fall of a thin tag against DOP853, and what energy a tumbling box gains.
+Accuracy: the fall of a thin tag against DOP853, and the gain of energy of a tumbling box.
 
 The soak (``--soak``, minutes): 64 simulations of 30 s with random thrust, joint targets, jaws and
 currents above a floor with a loose box at 2, 5 and 10 ms: no NaN, no warning of the engine, and a
@@ -47,18 +47,25 @@ N_SOAK, SOAK_SECONDS, MIN_PATH = 64, 30.0, 2.0  # [1], [s], [m]
 BOX = (0.15, 0.10, 0.075)  # half-edges [m]
 ARM = (("slew", (0, 0, 1), 0.05), ("shoulder", (0, 1, 0), 0.35), ("elbow", (0, 1, 0), 0.30),
        ("wrist", (0, 1, 0), 0.12), ("roll", (0, 0, 1), 0.10))  # fmt: skip
-NEUTRAL = {"added": 1.0, "drag": 1.0}
+NEUTRAL_FACTORS = {"added": 1.0, "drag": 1.0}
 
 
 def cylinder_water(link: str, radius: float, length: float, mass: float) -> BodyHydrodynamics:
-    """Strip theory for a cylinder along z."""
-    across = 1000.0 * np.pi * radius**2 * length
-    turn = across * length**2 / 12
+    """Return the hydrodynamics of a cylinder along z by strip theory."""
+    transverse_mass = 1000.0 * np.pi * radius**2 * length
+    rotational_inertia = transverse_mass * length**2 / 12
     drag = 0.5 * 1000.0 * 1.1 * 2 * radius * length
     return BodyHydrodynamics(
         link=link,
         reference=(0.0, 0.0, length / 2),
-        added_mass=(across, across, 0.1 * across, turn, turn, 0.001),
+        added_mass=(
+            transverse_mass,
+            transverse_mass,
+            0.1 * transverse_mass,
+            rotational_inertia,
+            rotational_inertia,
+            0.001,
+        ),
         quadratic_damping=(drag, drag, 0.2 * drag, 0.1 * drag, 0.1 * drag, 0.01),
         volume=0.5 * mass / 1000.0,
         centre_of_buoyancy=(0.0, 0.0, length / 2),
@@ -66,7 +73,9 @@ def cylinder_water(link: str, radius: float, length: float, mass: float) -> Body
     )
 
 
-def scene(box: str, *, timestep: float = 0.002, neutral_arm: bool = False) -> mujoco.MjModel:
+def compile_model(
+    box: str, *, timestep: float = 0.002, neutral_arm: bool = False
+) -> mujoco.MjModel:
     """Compile a vehicle with arm and, on the ``floor`` or in the ``grasp``, a box; or ``none``."""
     spec = mujoco.MjSpec()
     spec.option.timestep = timestep
@@ -121,14 +130,14 @@ def scene(box: str, *, timestep: float = 0.002, neutral_arm: bool = False) -> mu
             quadratic_damping=(2.0, 5.0, 2.0, 0.002, 0.002, 0.002), implicitness=1.0,
         )  # fmt: skip
     if box != "none":
-        grasped = (0.4, 0.0, -0.45 - sum(length for *_, length in ARM) - 0.2)
-        thing = spec.worldbody.add_body(
-            name="box", pos=grasped if box == "grasp" else (1.5, 0.3, -2.925), mass=14.2,
+        grasp_position = (0.4, 0.0, -0.45 - sum(length for *_, length in ARM) - 0.2)
+        body = spec.worldbody.add_body(
+            name="box", pos=grasp_position if box == "grasp" else (1.5, 0.3, -2.925), mass=14.2,
             ipos=[0, 0, 0], inertia=[0.08, 0.15, 0.19],
         )  # fmt: skip
-        thing.explicitinertial = True
-        thing.add_freejoint()
-        thing.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=list(BOX), condim=4,
+        body.explicitinertial = True
+        body.add_freejoint()
+        body.add_geom(type=mujoco.mjtGeom.mjGEOM_BOX, size=list(BOX), condim=4,
                        friction=[0.8, 0.01, 0.001])  # fmt: skip
         waters["box"] = BodyHydrodynamics(
             link="box", added_mass=(4.0, 6, 9, 0.05, 0.08, 0.05), volume=0.009,
@@ -147,8 +156,8 @@ def scene(box: str, *, timestep: float = 0.002, neutral_arm: bool = False) -> mu
     return spec.compile()
 
 
-def settled(box: str) -> tuple[mujoco.MjModel, Hydrodynamics, mujoco.MjData]:
-    model = scene(box)
+def settle_model(box: str) -> tuple[mujoco.MjModel, Hydrodynamics, mujoco.MjData]:
+    model = compile_model(box)
     water, data = install(model), mujoco.MjData(model)
     for jaw in ("left", "right"):
         data.ctrl[model.actuator(jaw).id] = 80.0 if box == "grasp" else 0.0
@@ -158,7 +167,7 @@ def settled(box: str) -> tuple[mujoco.MjModel, Hydrodynamics, mujoco.MjData]:
     return model, water, data
 
 
-def in_the_tank() -> tuple[mujoco.MjModel, Hydrodynamics, mujoco.MjData]:
+def settle_tank_model() -> tuple[mujoco.MjModel, Hydrodynamics, mujoco.MjData]:
     path = Path(str(files("uwsim"))) / "data" / "scenes" / "currents-scene.xml"
     scene = read_scene(path).nominal_scene
     tank, box = scene.objects
@@ -173,86 +182,86 @@ def in_the_tank() -> tuple[mujoco.MjModel, Hydrodynamics, mujoco.MjData]:
     return model, water, data
 
 
-def microseconds(model: mujoco.MjModel, data: mujoco.MjData) -> list[float]:
-    """CPU microseconds of a step, a batch each, always from the same state."""
+def measure_step_us(model: mujoco.MjModel, data: mujoco.MjData) -> list[float]:
+    """Measure CPU microseconds of a step by batch, always from the same state."""
     state = np.empty(mujoco.mj_stateSize(model, mujoco.mjtState.mjSTATE_INTEGRATION))
     mujoco.mj_getState(model, data, state, mujoco.mjtState.mjSTATE_INTEGRATION)
-    found = []
+    costs = []
     for _ in range(BATCHES):
-        spent = 0.0
+        cpu_time = 0.0
         for _ in range(STEPS // 200):
             mujoco.mj_setState(model, data, state, mujoco.mjtState.mjSTATE_INTEGRATION)
-            began = time.process_time()
+            start_time = time.process_time()
             mujoco.mj_step(model, data, 200)
-            spent += time.process_time() - began
-        found.append(spent * 1e6 / STEPS)
-    return found
+            cpu_time += time.process_time() - start_time
+        costs.append(cpu_time * 1e6 / STEPS)
+    return costs
 
 
-def speeds() -> dict[str, object]:
+def measure_speeds() -> dict[str, object]:
     figures: dict[str, object] = {}
     for box in ("none", "floor", "grasp", "tank"):
-        model, _, data = in_the_tank() if box == "tank" else settled(box)
+        model, _, data = settle_tank_model() if box == "tank" else settle_model(box)
         contacts = int(data.ncon)
-        wet = microseconds(model, data)
+        water_costs = measure_step_us(model, data)
         callback.remove()
-        dry = microseconds(model, data)
+        dry_costs = measure_step_us(model, data)
         callback.install()
         figures[f"box: {box}"] = {
             "dof": int(model.nv),
             "contacts": contacts,
-            "with_water_us": round(median(wet), 2),
-            "with_water_us_best": round(min(wet), 2),
-            "dry_us": round(median(dry), 2),
-            "dry_us_best": round(min(dry), 2),
-            "ratio": round(median(wet) / median(dry), 3),
-            "ratio_best": round(min(wet) / min(dry), 3),
+            "with_water_us": round(median(water_costs), 2),
+            "with_water_us_best": round(min(water_costs), 2),
+            "dry_us": round(median(dry_costs), 2),
+            "dry_us_best": round(min(dry_costs), 2),
+            "ratio": round(median(water_costs) / median(dry_costs), 3),
+            "ratio_best": round(min(water_costs) / min(dry_costs), 3),
             "target_ratio": RATIO,
-            "steps_per_s": round(1e6 / median(wet)),
-            "steps_per_s_best": round(1e6 / min(wet)),
+            "steps_per_s": round(1e6 / median(water_costs)),
+            "steps_per_s_best": round(1e6 / min(water_costs)),
             "target_steps_per_s": STEPS_PER_SECOND,
         }
     return figures
 
 
-def soak() -> dict[str, object]:
+def run_soak() -> dict[str, object]:
     figures: dict[str, object] = {}
     for timestep in (0.002, 0.005, 0.010):
-        model = scene("floor", timestep=timestep)
+        model = compile_model("floor", timestep=timestep)
         install(model)
         pool = batch.Batch(model, N_SOAK, 2)
-        random = np.random.Generator(np.random.Philox(7))
+        rng = np.random.Generator(np.random.Philox(7))
         hold = round(1.0 / timestep)
-        path = np.zeros(N_SOAK)
-        last = pool.qpos[:, :3].copy()
-        fastest = 0.0
+        path_lengths = np.zeros(N_SOAK)
+        last_positions = pool.qpos[:, :3].copy()
+        max_speed = 0.0
         n_servos = len(ARM)
         for _ in range(round(SOAK_SECONDS)):
-            pool.ctrl[:, :n_servos] = random.uniform(-1.2, 1.2, (N_SOAK, n_servos))
-            pool.ctrl[:, n_servos : n_servos + 2] = random.uniform(-80, 80, (N_SOAK, 2))
-            pool.ctrl[:, n_servos + 2 :] = random.uniform(-1.0, 1.0, (N_SOAK, 5))
+            pool.ctrl[:, :n_servos] = rng.uniform(-1.2, 1.2, (N_SOAK, n_servos))
+            pool.ctrl[:, n_servos : n_servos + 2] = rng.uniform(-80, 80, (N_SOAK, 2))
+            pool.ctrl[:, n_servos + 2 :] = rng.uniform(-1.0, 1.0, (N_SOAK, 5))
             water = pool.userdata[:, : WATER_COLUMNS * model.nbody]
             water = water.reshape(N_SOAK, model.nbody, WATER_COLUMNS)
-            water[:, :, 0:3] = random.uniform(-0.5, 0.5, (N_SOAK, 1, 3))
+            water[:, :, 0:3] = rng.uniform(-0.5, 0.5, (N_SOAK, 1, 3))
             for _ in range(10):
                 pool.step(nstep=hold // 10)
-                path += np.linalg.norm(pool.qpos[:, :3] - last, axis=1)
-                last = pool.qpos[:, :3].copy()
-                fastest = max(fastest, float(np.abs(pool.qvel).max()))
+                path_lengths += np.linalg.norm(pool.qpos[:, :3] - last_positions, axis=1)
+                last_positions = pool.qpos[:, :3].copy()
+                max_speed = max(max_speed, float(np.abs(pool.qvel).max()))
         figures[f"{timestep * 1e3:g} ms"] = {
             "simulations": N_SOAK,
             "seconds": SOAK_SECONDS,
             "not_finite": int((~np.isfinite(pool.state).all(axis=1)).sum()),
             "warnings": int(np.asarray(pool.warning).sum()),
-            "fastest_m_or_rad_per_s": round(fastest, 2),
-            "median_path_m": round(float(np.median(path)), 2),
-            "least_path_m": round(float(path.min()), 2),
+            "fastest_m_or_rad_per_s": round(max_speed, 2),
+            "median_path_m": round(float(np.median(path_lengths)), 2),
+            "least_path_m": round(float(path_lengths.min()), 2),
             "target_median_path_m": MIN_PATH,
         }
     return figures
 
 
-def alone(
+def compile_single_body(
     water: BodyHydrodynamics, mass: float, inertia: tuple[float, float, float], timestep: float
 ) -> tuple[Hydrodynamics, mujoco.MjData]:
     spec = mujoco.MjSpec()
@@ -266,51 +275,53 @@ def alone(
     return install(model), mujoco.MjData(model)
 
 
-def tag(timestep: float) -> dict[str, float]:
-    """A steel tag 10 x 10 x 0.2 cm, dropped tilted by 30 degrees: its fall in 3 s."""
+def drop_tag(timestep: float) -> dict[str, float]:
+    """Return the fall in 3 s of a steel tag, 10 x 10 x 0.2 cm, dropped at a tilt of 30 degrees."""
     water = BodyHydrodynamics(
         link="body", added_mass=(3e-4, 3e-4, 0.6329, 3.249e-4, 3.249e-4, 0.0), volume=2e-5,
         quadratic_damping=(0.105, 0.105, 5.25, 1.64e-4, 1.64e-4, 6.56e-6), implicitness=1.0,
     )  # fmt: skip
     inertia = (0.157 / 12 * 0.010004, 0.157 / 12 * 0.010004, 0.157 / 12 * 0.02)
-    hydrodynamics, data = alone(water, 0.157, inertia, timestep)
+    hydrodynamics, data = compile_single_body(water, 0.157, inertia, timestep)
     data.qpos[3:] = np.cos(np.pi / 12), 0.0, np.sin(np.pi / 12), 0.0
     hydrodynamics.step(data, round(3.0 / timestep))
     return {"fall_m": round(-float(data.qpos[2]), 4), "dop853_m": TAG_FALL}
 
 
-def tumbling(timestep: float) -> dict[str, float]:
-    """A neutral box without drag at 3.2 rad/s: what energy it gains in 10 s."""
-    added, inertia = np.array([4.0, 20, 30, 0.3, 0.02, 0.1]), (0.08, 0.15, 0.19)
-    water = BodyHydrodynamics(link="body", added_mass=tuple(added.tolist()), volume=0.0142)
-    hydrodynamics, data = alone(water, 14.2, inertia, timestep)
-    whole = added + np.array([14.2] * 3 + list(inertia))
-    data.qvel[:] = began = np.array([0.3, -0.2, 0.4, 2.0, 2.2, 1.1])
+def tumble_box(timestep: float) -> dict[str, float]:
+    """Return the gain of energy in 10 s of a neutral box without drag at 3.2 rad/s."""
+    added_mass, inertia = np.array([4.0, 20, 30, 0.3, 0.02, 0.1]), (0.08, 0.15, 0.19)
+    water = BodyHydrodynamics(link="body", added_mass=tuple(added_mass.tolist()), volume=0.0142)
+    hydrodynamics, data = compile_single_body(water, 14.2, inertia, timestep)
+    total_mass = added_mass + np.array([14.2] * 3 + list(inertia))
+    data.qvel[:] = start_twist = np.array([0.3, -0.2, 0.4, 2.0, 2.2, 1.1])
     hydrodynamics.step(data, round(10.0 / timestep))
     mujoco.mj_kinematics(hydrodynamics.model, data)
     twist = data.qvel.copy()
     twist[:3] = data.xmat[1].reshape(3, 3).T @ twist[:3]
-    gain = float((twist * twist) @ whole / ((began * began) @ whole)) - 1.0
+    gain = float((twist * twist) @ total_mass / ((start_twist * start_twist) @ total_mass)) - 1.0
     return {"energy_gain_percent": 100.0 * gain, "target_percent": 0.5}
 
 
-def accuracy() -> dict[str, object]:
+def measure_accuracy() -> dict[str, object]:
     return {
         f"{name} {timestep * 1e3:g} ms": case(timestep)
-        for name, case in (("tag", tag), ("tumbling box", tumbling))
+        for name, case in (("tag", drop_tag), ("tumbling box", tumble_box))
         for timestep in (0.002, 0.005, 0.010)
     }
 
 
-def figures() -> dict[str, object]:
-    found: dict[str, object] = {
-        "speed": speeds(), "simulation": steps.rows(), "accuracy": accuracy()
-    }  # fmt: skip
-    return found | {"soak": soak()} if SOAK else found
+def measure() -> dict[str, object]:
+    figures_by_part: dict[str, object] = {
+        "speed": measure_speeds(),
+        "simulation": steps.measure_scenes(),
+        "accuracy": measure_accuracy(),
+    }
+    return figures_by_part | {"soak": run_soak()} if SOAK else figures_by_part
 
 
 if __name__ == "__main__":
     SOAK = "--soak" in sys.argv
     if SOAK:
         sys.argv.remove("--soak")
-    main(figures)
+    main(measure)

@@ -33,29 +33,31 @@ from uwsim.sensors.sonar.ray_grid import RayGrid
 from uwsim.simulation import Simulation
 
 SCENES = ("shipwreck-scene", "shapes-scene", "survey-scene", "cirs", "dredging-scene")
-"""Relief with a wreck, solids, relief with objects, a tank, and sand without collision shapes."""
+"""The scenes: relief with a wreck, solids, relief with objects, a tank, and sand."""
 BOW, HULL = (0.75, 0.0, 0.4), (0.4, 0.0, 0.7)
-"""Where sensors are in the frame of the vehicle, whose z axis points down [m]."""
-REACH = 50.0
-"""How far all rays go [m]."""
+"""The positions of the sensors in the frame of the vehicle, whose z axis points down [m]."""
+MAX_RANGE = 50.0
+"""The maximum range of all rays [m]."""
 TILT = 0.3
-"""Of the sonar, downwards [rad]."""
+"""The tilt of the sonar, downwards [rad]."""
 TOLERANCE = 1e-3
-"""Distances that differ by more are not the same [m]."""
+"""The tolerance of equal distances [m]."""
 BATCHES = 9
 BATCH_S = 0.02
-"""CPU time of a batch, about; a batch is at least one call."""
+"""The approximate CPU time of a batch, which has at least one call [s]."""
 Caster = tuple[mujoco.MjModel, mujoco.MjData]
 
 
-def rays() -> Mapping[str, tuple[tuple[float, float, float], Array]]:
-    """Mount and directions of the rays of each sensor: x ahead, y to port, z up, (n, 3)."""
-    across = np.radians(np.linspace(-60.0, 60.0, 64))
-    beams = np.stack([0.0 * across, np.sin(across), -np.cos(across)], axis=1)
-    ahead = np.tile([1.0, 0.0, 0.0], (len(beams), 1))
-    pencils = np.ascontiguousarray(pencil_rays(beams, ahead, np.radians(1.0))[0].reshape(-1, 3))
+def sensor_rays() -> Mapping[str, tuple[tuple[float, float, float], Array]]:
+    """Return mount and directions of the rays of each sensor: x ahead, y to port, z up, (n, 3)."""
+    angles = np.radians(np.linspace(-60.0, 60.0, 64))
+    beams = np.stack([0.0 * angles, np.sin(angles), -np.cos(angles)], axis=1)
+    forward_axes = np.tile([1.0, 0.0, 0.0], (len(beams), 1))
+    pencils = np.ascontiguousarray(
+        pencil_rays(beams, forward_axes, np.radians(1.0))[0].reshape(-1, 3)
+    )
     spec = ImagingSonarSpec(
-        name="sonar", relative_to="base_link", beams=512, bins=500, rows=16, range=REACH
+        name="sonar", relative_to="base_link", beams=512, bins=500, rows=16, range=MAX_RANGE
     )
     grid = RayGrid(spec, spec.azimuths, float(spec.azimuths[1] - spec.azimuths[0]))
     c, s = np.cos(TILT), np.sin(TILT)
@@ -69,7 +71,7 @@ def rays() -> Mapping[str, tuple[tuple[float, float, float], Array]]:
 
 
 def sensor_pose(simulation: Simulation, mount: tuple[float, float, float]) -> Pose:
-    """Where the rays of a sensor begin: level, with the heading of the vehicle."""
+    """Return the pose of a sensor: level, with the heading of the vehicle."""
     frame = simulation.world.engine.poses.link_frame(0, "base_link")
     heading = np.arctan2(frame[1, 0], frame[0, 0])
     c, s = np.cos(heading), np.sin(heading)
@@ -78,20 +80,20 @@ def sensor_pose(simulation: Simulation, mount: tuple[float, float, float]) -> Po
 
 
 def triangles_by_body(scene: RayScene) -> list[Array]:
-    """The triangles of each body of a ray scene in W, (n, 3, 3) each [m]."""
-    trees, frames, found = scene._trees, scene.frames(), []
+    """Return the triangles of each body of a ray scene in W, (n, 3, 3) each [m]."""
+    trees, frames, triangles = scene._trees, scene.frames(), []
     for body, nodes in enumerate(np.split(trees.links, trees.roots[1:])):
         leaves = nodes.reshape(-1, 2)[nodes.reshape(-1, 2)[:, 1] > 0]
-        order = [np.arange(first, first + n) for first, n in leaves]
+        order = [np.arange(start_row, start_row + n) for start_row, n in leaves]
         rows = trees.triangles[np.concatenate(order)] if order else np.zeros((0, 9))
         corners = rows.reshape(-1, 3, 3) + np.array([[0.0], [1.0], [1.0]]) * rows[:, None, :3]
         frame = frames[body]
-        found.append(corners @ frame[:3, :3].T + frame[:3, 3])
-    return found
+        triangles.append(corners @ frame[:3, :3].T + frame[:3, 3])
+    return triangles
 
 
 def engine_caster(simulation: Simulation) -> Caster:
-    """The engine's model and state; of its own model, the running engine hides fixed shapes."""
+    """Return a model with all fixed shapes, which the running engine hides, and its state."""
     model = simulation.world.model.engine_model
     data = mujoco.MjData(model)
     data.qpos[:] = simulation.world.engine._data.qpos
@@ -101,7 +103,7 @@ def engine_caster(simulation: Simulation) -> Caster:
 
 
 def mesh_caster(bodies: list[Array]) -> Caster:
-    """A MuJoCo model of triangles in W, one mesh a body, that nothing can touch."""
+    """Return a MuJoCo model of triangles in W, one mesh a body, without contacts."""
     spec = mujoco.MjSpec()
     for number, corners in enumerate(bodies):
         points, faces = np.unique(corners.reshape(-1, 3), axis=0, return_inverse=True)
@@ -123,95 +125,120 @@ def mesh_caster(bodies: list[Array]) -> Caster:
 
 
 def mujoco_cast(caster: Caster, origin: Array, directions: Array) -> Callable[[], Array]:
-    """A function that casts rays (n, 3) in W with `mj_multiRay`; distances (n,) [m]."""
+    """Return a function that casts rays (n, 3) in W with `mj_multiRay`: distances (n,) [m]."""
     model, data = caster
     n = len(directions)
-    flat, shapes = directions.reshape(-1), np.empty(n, dtype=np.int32)
+    flat_directions, shapes = directions.reshape(-1), np.empty(n, dtype=np.int32)
     distance, normal = np.empty(n), np.empty(3 * n)
 
     def cast() -> Array:
         mujoco.mj_multiRay(
-            model, data, origin, flat, None, True, -1, shapes, distance, normal, n, REACH
+            model,
+            data,
+            origin,
+            flat_directions,
+            None,
+            True,
+            -1,
+            shapes,
+            distance,
+            normal,
+            n,
+            MAX_RANGE,
         )
-        return np.where((distance < 0.0) | (distance > REACH), np.inf, distance)
+        return np.where((distance < 0.0) | (distance > MAX_RANGE), np.inf, distance)
 
     return cast
 
 
-def alternating(calls: Mapping[str, Callable[[], object]]) -> dict[str, float]:
-    """CPU microseconds of a call of each, a batch of one after a batch of the other; medians."""
+def measure_alternately(calls: Mapping[str, Callable[[], object]]) -> dict[str, float]:
+    """Measure median CPU microseconds of each call, in alternating batches."""
     numbers = {}
     for name, call in calls.items():
         call()
-        began = time.process_time()
+        start_time = time.process_time()
         call()
-        numbers[name] = max(1, int(BATCH_S / max(time.process_time() - began, 2e-6)))
-    spent: dict[str, list[float]] = {name: [] for name in calls}
+        numbers[name] = max(1, int(BATCH_S / max(time.process_time() - start_time, 2e-6)))
+    call_times: dict[str, list[float]] = {name: [] for name in calls}
     for _ in range(BATCHES):
         for name, call in calls.items():
-            began = time.process_time()
+            start_time = time.process_time()
             for _ in range(numbers[name]):
                 call()
-            spent[name].append((time.process_time() - began) * 1e6 / numbers[name])
-    return {name: median(each) for name, each in spent.items()}
+            call_times[name].append((time.process_time() - start_time) * 1e6 / numbers[name])
+    return {name: median(times) for name, times in call_times.items()}
 
 
-def differences(own: Array, other: Array) -> dict[str, float]:
-    """How far distances (n,) [m] are those of `uwsim.rays`."""
-    both = np.isfinite(own) & np.isfinite(other)
-    apart = np.abs(own[both] - other[both])
-    moved, same = apart[apart > TOLERANCE], apart[apart <= TOLERANCE]
+def compare_distances(distances: Array, other_distances: Array) -> dict[str, float]:
+    """Compare distances (n,) [m] of another caster with those of `uwsim.rays`."""
+    are_finite = np.isfinite(distances) & np.isfinite(other_distances)
+    deviations = np.abs(distances[are_finite] - other_distances[are_finite])
+    large_deviations, small_deviations = (
+        deviations[deviations > TOLERANCE],
+        deviations[deviations <= TOLERANCE],
+    )
     counts = {
-        "missed": int((np.isfinite(own) & np.isinf(other)).sum()),
-        "extra": int((np.isinf(own) & np.isfinite(other)).sum()),
-        "moved": len(moved),
+        "missed": int((np.isfinite(distances) & np.isinf(other_distances)).sum()),
+        "extra": int((np.isinf(distances) & np.isfinite(other_distances)).sum()),
+        "moved": len(large_deviations),
     }
     return {
-        "differ": round(sum(counts.values()) / len(own), 5),
-        **{kind: round(count / len(own), 5) for kind, count in counts.items()},
-        "moved_by_m": round(float(np.median(moved)), 4) if len(moved) else 0.0,
-        "same_within_um": round(1e6 * float(same.max()), 3) if len(same) else 0.0,
+        "differ": round(sum(counts.values()) / len(distances), 5),
+        **{kind: round(count / len(distances), 5) for kind, count in counts.items()},
+        "moved_by_m": round(float(np.median(large_deviations)), 4)
+        if len(large_deviations)
+        else 0.0,
+        "same_within_um": round(1e6 * float(small_deviations.max()), 3)
+        if len(small_deviations)
+        else 0.0,
     }
 
 
-def row(name: str) -> dict[str, object]:
+def measure_scene(name: str) -> dict[str, object]:
     """Measure a scene."""
     with uwsim.load(name, is_blind=True) as simulation:
         cast = simulation.world.rays.cast
-        cast(sensor_pose(simulation, BOW), np.array([[1.0, 0.0, 0.0]]), REACH)  # places bodies
+        cast(sensor_pose(simulation, BOW), np.array([[1.0, 0.0, 0.0]]), MAX_RANGE)  # places bodies
         scene = simulation.world.rays._scene
         bodies = triangles_by_body(scene)
         casters = {"engine": engine_caster(simulation), "meshes": mesh_caster(bodies)}
-        surfaces = [[Surface(1, each)] for each in bodies]
-        built = alternating(
+        surfaces = [[Surface(1, part)] for part in bodies]
+        build_times = measure_alternately(
             {"uwsim": lambda: RayScene(surfaces), "meshes": lambda: mesh_caster(bodies)}
         )
         figures: dict[str, object] = {
             "triangles": sum(map(len, bodies)),
             "engine_shapes": int(casters["engine"][0].ngeom),
-            "build_ms": {kind: round(us / 1e3, 2) for kind, us in built.items()},
+            "build_ms": {kind: round(us / 1e3, 2) for kind, us in build_times.items()},
             "memory_kb": {
-                "uwsim": round(sum(each.nbytes for each in scene._trees) / 1e3),
+                "uwsim": round(sum(part.nbytes for part in scene._trees) / 1e3),
                 "meshes": round(mujoco.mj_sizeModel(casters["meshes"][0]) / 1e3),
             },
         }
-        for sensor, (mount, directions) in rays().items():
+        for sensor, (mount, directions) in sensor_rays().items():
             pose = sensor_pose(simulation, mount)
-            along = np.ascontiguousarray(directions @ pose.rotation.T)
-            others = {kind: mujoco_cast(c, pose.position, along) for kind, c in casters.items()}
-            own = partial(cast, pose, directions, REACH)
-            spent = alternating({"uwsim": own, **others})
+            world_directions = np.ascontiguousarray(directions @ pose.rotation.T)
+            mujoco_casts = {
+                kind: mujoco_cast(c, pose.position, world_directions) for kind, c in casters.items()
+            }
+            uwsim_cast = partial(cast, pose, directions, MAX_RANGE)
+            cast_times = measure_alternately({"uwsim": uwsim_cast, **mujoco_casts})
             figures[f"{sensor}, rays: {len(directions)}"] = {
-                "us": {kind: round(us, 2) for kind, us in spent.items()},
-                "ratio": {kind: round(spent[kind] / spent["uwsim"], 2) for kind in others},
-                **{kind: differences(own().distance, other()) for kind, other in others.items()},
+                "us": {kind: round(us, 2) for kind, us in cast_times.items()},
+                "ratio": {
+                    kind: round(cast_times[kind] / cast_times["uwsim"], 2) for kind in mujoco_casts
+                },
+                **{
+                    kind: compare_distances(uwsim_cast().distance, other())
+                    for kind, other in mujoco_casts.items()
+                },
             }
     return figures
 
 
 def measure() -> dict[str, object]:
     """Measure all scenes."""
-    return {name: row(name) for name in SCENES}
+    return {name: measure_scene(name) for name in SCENES}
 
 
 if __name__ == "__main__":

@@ -28,53 +28,59 @@ BOX = "objects/blackbox_uib_trimesh.osg"
 ARM = "robot/ARM5E/ARM5E_part"
 
 
-def pose(position: tuple[float, float, float], rpy: tuple[float, float, float]) -> np.ndarray:
+def pose_matrix(
+    position: tuple[float, float, float], rpy: tuple[float, float, float]
+) -> np.ndarray:
     return Pose.from_rpy(position, rpy).matrix
 
 
-def visibility_scene(renderer: Renderer) -> tuple[list[tuple[int, np.ndarray]], Pose, int]:
-    """Fill the renderer; returns the vehicle's handles with places, the camera, all triangles."""
+def fill_renderer(renderer: Renderer) -> tuple[list[tuple[int, np.ndarray]], Pose, int]:
+    """Fill the renderer; return handles and poses of the vehicle, the camera, and all triangles."""
     world = WORLD_FROM_LOCALIZED.matrix
-    vehicle = pose((2.0, 0.0, 2.515), (0.0, 0.0, 0.0))
-    part0 = vehicle @ pose((0.0, 0.0, 0.95), (0.0, 0.0, np.pi))
-    slew = part0 @ pose((0.0, 0.0, 0.13), (0.0, 0.0, 0.0))
-    shoulder = slew @ pose((0.08052, 0.0, 0.0), (np.pi / 2, 0.0, 0.0))
-    elbow = shoulder @ pose((0.438492379, 0.061470007, 0.0), (0.0, 0.0, 0.139277274 + 2.15294))
-    wrist = elbow @ pose((0.349117258, 0.058023573, 0.0), (np.pi / 2, 0.0, 1.972222055))
-    jaw1 = wrist @ pose((-0.04, 0.0, 0.045), (0.0, -0.8, 0.0))
-    jaw2 = wrist @ pose((0.04, 0.0, 0.045), (0.0, 0.8, 0.0))
-    upright = (0.0, -np.pi / 2, 0.0)
+    vehicle = pose_matrix((2.0, 0.0, 2.515), (0.0, 0.0, 0.0))
+    part0 = vehicle @ pose_matrix((0.0, 0.0, 0.95), (0.0, 0.0, np.pi))
+    slew = part0 @ pose_matrix((0.0, 0.0, 0.13), (0.0, 0.0, 0.0))
+    shoulder = slew @ pose_matrix((0.08052, 0.0, 0.0), (np.pi / 2, 0.0, 0.0))
+    elbow = shoulder @ pose_matrix(
+        (0.438492379, 0.061470007, 0.0), (0.0, 0.0, 0.139277274 + 2.15294)
+    )
+    wrist = elbow @ pose_matrix((0.349117258, 0.058023573, 0.0), (np.pi / 2, 0.0, 1.972222055))
+    jaw1 = wrist @ pose_matrix((-0.04, 0.0, 0.045), (0.0, -0.8, 0.0))
+    jaw2 = wrist @ pose_matrix((0.04, 0.0, 0.045), (0.0, 0.8, 0.0))
+    upright_rpy = (0.0, -np.pi / 2, 0.0)
     links = (
         ("robot/GIRONA500/g500_March11.osg", vehicle, (-0.2, 0.0, 0.75), (-np.pi / 2, 0.0, np.pi)),
         (f"{ARM}0.osg", part0, (0.0, 0.0, 0.0), (np.pi, 0.0, 0.0)),
         (f"{ARM}1.osg", slew, (0.0, 0.0, -0.13), (np.pi, 0.0, 0.0)),
         (f"{ARM}2.osg", shoulder, (0.0, 0.0, 0.0), (np.pi / 2, 0.0, -0.087262726)),
         (f"{ARM}3.osg", elbow, (0.0, 0.0, 0.0), (np.pi / 2, 0.0, 0.4014)),
-        (f"{ARM}4_base.osg", wrist, (0.0, 0.0, -0.028), upright),
-        (f"{ARM}4_jaw1.osg", jaw1, (0.0, 0.0, 0.0), upright),
-        (f"{ARM}4_jaw2.osg", jaw2, (0.0, 0.0, 0.0), upright),
+        (f"{ARM}4_base.osg", wrist, (0.0, 0.0, -0.028), upright_rpy),
+        (f"{ARM}4_jaw1.osg", jaw1, (0.0, 0.0, 0.0), upright_rpy),
+        (f"{ARM}4_jaw2.osg", jaw2, (0.0, 0.0, 0.0), upright_rpy),
     )
     n_triangles = 0
-    moving = []
+    vehicle_parts = []
     for number, (name, frame, position, rpy) in enumerate(links, start=3):
         model = load_model(name)
         n_triangles += model.n_triangles
-        place = world @ frame @ pose(position, rpy)
-        moving.append((renderer.add(model, number), place))
-        renderer.place(*moving[-1])
+        place = world @ frame @ pose_matrix(position, rpy)
+        vehicle_parts.append((renderer.add(model, number), place))
+        renderer.place(*vehicle_parts[-1])
     tank, box = load_model("terrain/CIRS/cirs_trident.osg"), load_model(BOX)
-    turned = Pose(np.zeros(3), rotation_from_xyz(3.1415, 0.0, -1.57)).matrix
-    renderer.place(renderer.add(tank, 1), world @ turned @ pose((1.5, 3.0, 0.0), (0.0, 0.0, 0.0)))
-    renderer.place(renderer.add(box, 2), world @ pose((2.0, 0.35, 4.735), (0.0, np.pi, 0.0)))
+    tank_rotation = Pose(np.zeros(3), rotation_from_xyz(3.1415, 0.0, -1.57)).matrix
+    renderer.place(
+        renderer.add(tank, 1), world @ tank_rotation @ pose_matrix((1.5, 3.0, 0.0), (0.0, 0.0, 0.0))
+    )
+    renderer.place(renderer.add(box, 2), world @ pose_matrix((2.0, 0.35, 4.735), (0.0, np.pi, 0.0)))
     camera = Pose.from_rpy((-0.2, 0.1, 0.0), (0.0, np.pi, np.pi / 2))
     world_from_part0 = world @ part0
     on_part0 = Pose(world_from_part0[:3, 3], world_from_part0[:3, :3])
     n_triangles += tank.n_triangles + box.n_triangles
-    return moving, on_part0 @ camera, n_triangles
+    return vehicle_parts, on_part0 @ camera, n_triangles
 
 
-def look_from(eye: tuple[float, float, float], target: tuple[float, float, float]) -> Pose:
-    """A camera in the tank, both points in L [m]; up is up."""
+def view_pose(eye: tuple[float, float, float], target: tuple[float, float, float]) -> Pose:
+    """Return the pose of an upright camera in the tank, from two points in L [m]."""
     points = WORLD_FROM_LOCALIZED.transform(np.array([eye, target]))
     back = (points[0] - points[1]) / np.linalg.norm(points[0] - points[1])
     right = np.cross([0.0, 0.0, 1.0], back)
@@ -83,65 +89,73 @@ def look_from(eye: tuple[float, float, float], target: tuple[float, float, float
 
 
 def measure() -> dict[str, object]:
-    """All figures."""
+    """Measure all images."""
     rng = np.random.Generator(np.random.Philox(0))
     add_noise(np.zeros((1, 1, 4), np.uint16), 0.01, rng)  # compiles it
     load_model(BOX)
-    began = time.perf_counter()
+    start_time = time.perf_counter()
     renderer = Renderer()
-    context_s = time.perf_counter() - began
-    moving, down, n_triangles = visibility_scene(renderer)
-    began = time.perf_counter()
-    small = Intrinsics.from_fovy(320, 240, np.radians(50.0))
-    large = Intrinsics.from_fovy(640, 480, np.radians(50.0))
-    renderer.draw(down, small, WATER, Light())
-    first_s = time.perf_counter() - began
-    aside = look_from((4.5, 2.5, 1.2), (1.9, 0.0, 3.3))
+    context_s = time.perf_counter() - start_time
+    vehicle_parts, down_view, n_triangles = fill_renderer(renderer)
+    start_time = time.perf_counter()
+    small_camera = Intrinsics.from_fovy(320, 240, np.radians(50.0))
+    large_camera = Intrinsics.from_fovy(640, 480, np.radians(50.0))
+    renderer.draw(down_view, small_camera, WATER, Light())
+    first_s = time.perf_counter() - start_time
+    side_view = view_pose((4.5, 2.5, 1.2), (1.9, 0.0, 3.3))
     rng = np.random.Generator(np.random.Philox(1))
     sway, n_drawn = 0.0, 0
 
-    def moved(eye: Pose) -> Pose:
+    def move_camera(eye: Pose) -> Pose:
         nonlocal n_drawn
         n_drawn += 1
         return Pose(eye.position + np.array([1e-9 * n_drawn, 0.0, 0.0]), eye.rotation)
 
-    def draw(camera: Intrinsics, targets: frozenset[str], eye: Pose = down, **how: object) -> None:
-        renderer.draw(moved(eye), camera, WATER, Light(), targets=targets, **how)
+    def draw(
+        camera: Intrinsics, targets: frozenset[str], eye: Pose = down_view, **options: object
+    ) -> None:
+        renderer.draw(move_camera(eye), camera, WATER, Light(), targets=targets, **options)
 
-    def noisy(camera: Intrinsics, targets: frozenset[str]) -> None:
+    def draw_with_noise(camera: Intrinsics, targets: frozenset[str]) -> None:
         image = renderer.draw(
-            moved(down), camera, WATER, Light(), targets=targets, colour="linear16"
+            move_camera(down_view), camera, WATER, Light(), targets=targets, colour="linear16"
         )
         add_noise(image.colour, 0.02, rng)
 
-    def swaying() -> None:
+    def draw_moving_vehicle() -> None:
         nonlocal sway
         sway += 0.01
-        for handle, place in moving:
-            renderer.place(handle, pose((0.1 * np.sin(sway), 0.0, 0.0), (0.0, 0.0, 0.0)) @ place)
-        draw(small, COLOUR)
+        for handle, place in vehicle_parts:
+            renderer.place(
+                handle, pose_matrix((0.1 * np.sin(sway), 0.0, 0.0), (0.0, 0.0, 0.0)) @ place
+            )
+        draw(small_camera, COLOUR)
 
-    image16 = renderer.draw(down, small, WATER, Light(), colour="linear16").colour
+    image16 = renderer.draw(down_view, small_camera, WATER, Light(), colour="linear16").colour
     image8 = add_noise(image16, 0.02, rng)
-    everything = frozenset(TARGETS)
+    all_targets = frozenset(TARGETS)
     figures: dict[str, object] = {
         "renderer": renderer.description,
         "triangles_in_scene": n_triangles,
         "context_s": round(context_s, 4),
         "first_image_s": round(first_s, 4),
-        "320x240 colour": milliseconds(lambda: draw(small, COLOUR), target=3.0),
-        "320x240 colour + range + ids": milliseconds(lambda: draw(small, everything), target=5.0),
-        "320x240 colour + noise": milliseconds(lambda: noisy(small, COLOUR)),
-        "320x240 colour, vehicle moving": milliseconds(swaying),
-        "320x240 colour, vehicle in view": milliseconds(lambda: draw(small, COLOUR, aside)),
-        "640x480 colour": milliseconds(lambda: draw(large, COLOUR), target=9.0, calls=15),
+        "320x240 colour": milliseconds(lambda: draw(small_camera, COLOUR), target=3.0),
+        "320x240 colour + range + ids": milliseconds(
+            lambda: draw(small_camera, all_targets), target=5.0
+        ),
+        "320x240 colour + noise": milliseconds(lambda: draw_with_noise(small_camera, COLOUR)),
+        "320x240 colour, vehicle moving": milliseconds(draw_moving_vehicle),
+        "320x240 colour, vehicle in view": milliseconds(
+            lambda: draw(small_camera, COLOUR, side_view)
+        ),
+        "640x480 colour": milliseconds(lambda: draw(large_camera, COLOUR), target=9.0, calls=15),
         "640x480 colour + range + ids": milliseconds(
-            lambda: draw(large, everything), target=15.0, calls=15
+            lambda: draw(large_camera, all_targets), target=15.0, calls=15
         ),
         "640x480 colour, vehicle in view": milliseconds(
-            lambda: draw(large, COLOUR, aside), calls=15
+            lambda: draw(large_camera, COLOUR, side_view), calls=15
         ),
-        "320x240 range": milliseconds(lambda: draw(small, frozenset({"range"}))),
+        "320x240 range": milliseconds(lambda: draw(small_camera, frozenset({"range"}))),
         "320x240 noise": milliseconds(lambda: add_noise(image16, 0.02, rng), target=0.4),
         "320x240 grey": milliseconds(lambda: grey_truncated(image8)),
     }

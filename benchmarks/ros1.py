@@ -1,4 +1,4 @@
-"""What ROS 1 costs: images to a subscriber of rospy, and the rhythm of a topic beside cameras.
+"""Measure ROS 1: images to a subscriber of rospy, and the jitter of a topic beside cameras.
 
 Run ``python benchmarks/ros1.py``; ``scripts/ros1_peers`` installs rospy. Images of 640x480 are
 published at 30 Hz by the wall clock; the target is 5 ms one way, without loss. Then ``uwsim run
@@ -27,11 +27,11 @@ from uwsim.messages import Image, image
 from uwsim.middleware.log import Log
 from uwsim.middleware.ros1 import Master, Ros1Bridge
 
-TARGET = 5.0
-"""Of an image, one way [ms]."""
+TARGET_MS = 5.0
+"""The target of an image, one way [ms]."""
 N_IMAGES, RATE = 150, 30.0
-JITTER_TARGET, FACTOR_TARGET = 3.0, 0.99
-"""Of a topic at 100 Hz [ms], and of simulation time per real time."""
+TARGET_JITTER_MS, TARGET_FACTOR = 3.0, 0.99
+"""The targets of the jitter at 100 Hz [ms], and of the real-time factor."""
 N_ODOMETRY = 1500
 PYTHON = "/usr/bin/python3"
 LISTENER = """
@@ -48,7 +48,7 @@ rospy.spin()
 print(json.dumps(times))
 """
 
-RHYTHM = """
+JITTER_LISTENER = """
 import json, sys, time, rospy
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Image
@@ -73,28 +73,28 @@ print(json.dumps([times, pictures[0]]))
 """
 
 
-def rhythm(*cameras: str) -> dict[str, object]:
-    """Have rospy note when odometry at 100 Hz comes while cameras are drawn."""
+def measure_jitter(*cameras: str) -> dict[str, object]:
+    """Measure the jitter of odometry at 100 Hz in rospy, with images of cameras."""
     import uwsim
 
     scene = (Path(uwsim.__file__).parent / "data" / "scenes" / "cirs.xml").read_text()
-    was = "<PATToROSOdom> <topic>/uwsim/girona500/odom</topic>"
-    assert was in scene
-    own = {k: v for k, v in os.environ.items() if not k.startswith("PYTHON")}
+    element = "<PATToROSOdom> <topic>/uwsim/girona500/odom</topic>"
+    assert element in scene
+    variables = {k: v for k, v in os.environ.items() if not k.startswith("PYTHON")}
     log = Log("ros1", lambda line: None)
     master = Master(log)
     environment = {"ROS_MASTER_URI": master.uri, "ROS_IP": "127.0.0.1"}
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "cirs.xml"
-        path.write_text(scene.replace(was, f"{was} <rate>100</rate>"))
+        path.write_text(scene.replace(element, f"{element} <rate>100</rate>"))
         run = subprocess.Popen(
             [sys.executable, "-m", "uwsim", "run", str(path), "--ros1"],
             env={**os.environ, **environment},
             stdout=subprocess.DEVNULL,
         )
         listener = subprocess.run(
-            [PYTHON, "-c", RHYTHM, str(N_ODOMETRY), *cameras],
-            env={**own, **environment},
+            [PYTHON, "-c", JITTER_LISTENER, str(N_ODOMETRY), *cameras],
+            env={**variables, **environment},
             stdout=subprocess.PIPE,
             text=True,
             timeout=300.0,
@@ -103,28 +103,30 @@ def rhythm(*cameras: str) -> dict[str, object]:
         run.wait(60.0)
     master.close()
     times, n_images = json.loads(listener.stdout)
-    arrived, stamps = np.array(times).T
-    late = (arrived - arrived[0]) - (stamps - stamps[0])
-    jitter = 1000.0 * float(np.percentile(np.abs(late - np.median(late)), 95))
+    arrival_times, stamps = np.array(times).T
+    delays = (arrival_times - arrival_times[0]) - (stamps - stamps[0])
+    jitter = 1000.0 * float(np.percentile(np.abs(delays - np.median(delays)), 95))
     return {
         "jitter_ms_95": round(jitter, 3),
-        "factor": round(float((stamps[-1] - stamps[0]) / (arrived[-1] - arrived[0])), 4),
+        "factor": round(
+            float((stamps[-1] - stamps[0]) / (arrival_times[-1] - arrival_times[0])), 4
+        ),
         "images": n_images,
-        "target_ms": JITTER_TARGET,
-        "target_factor": FACTOR_TARGET,
-        "ratio": round(jitter / JITTER_TARGET, 3),
+        "target_ms": TARGET_JITTER_MS,
+        "target_factor": TARGET_FACTOR,
+        "ratio": round(jitter / TARGET_JITTER_MS, 3),
     }
 
 
-def images(n: int = N_IMAGES) -> dict[str, object]:
-    """Publish images at 30 Hz and have rospy note when each is there."""
+def measure_images(n: int = N_IMAGES) -> dict[str, object]:
+    """Publish images at 30 Hz, and measure their arrival in rospy."""
     bus, log = Bus(), Log("ros1", lambda line: None)
     master = Master(log)
     bridge = Ros1Bridge(bus, lambda: 0.0, master=master.uri, log=log, parameters={})
     publish = bus.publisher("camera", Image)
     bridge.step()
-    own = {k: v for k, v in os.environ.items() if not k.startswith("PYTHON")}
-    environment = {**own, "ROS_MASTER_URI": master.uri, "ROS_IP": "127.0.0.1"}
+    variables = {k: v for k, v in os.environ.items() if not k.startswith("PYTHON")}
+    environment = {**variables, "ROS_MASTER_URI": master.uri, "ROS_IP": "127.0.0.1"}
     listener = subprocess.Popen(
         [PYTHON, "-c", LISTENER, str(n)], env=environment, stdout=subprocess.PIPE, text=True
     )
@@ -132,15 +134,15 @@ def images(n: int = N_IMAGES) -> dict[str, object]:
     while not bus.has_subscribers("camera"):
         bridge.step()
         time.sleep(0.01)
-    began = time.monotonic()
+    start_time = time.monotonic()
     for i in range(n):
-        time.sleep(max(0.0, began + i / RATE - time.monotonic()))
+        time.sleep(max(0.0, start_time + i / RATE - time.monotonic()))
         publish(image(pixels, time=time.time()))
         bus.deliver()
         bridge.step()
     try:
-        printed, _ = listener.communicate(timeout=10.0)
-        times = [1000.0 * each for each in json.loads(printed)]
+        output, _ = listener.communicate(timeout=10.0)
+        times = [1000.0 * delay for delay in json.loads(output)]
     except subprocess.TimeoutExpired:
         listener.kill()
         return {"lost": "some", "of": n}
@@ -152,8 +154,8 @@ def images(n: int = N_IMAGES) -> dict[str, object]:
         "wall_ms_95": round(sorted(times)[int(0.95 * len(times))], 3),
         "lost": n - len(times),
         "of": n,
-        "target_ms": TARGET,
-        "ratio": round(median(times) / TARGET, 3),
+        "target_ms": TARGET_MS,
+        "ratio": round(median(times) / TARGET_MS, 3),
     }
 
 
@@ -161,8 +163,8 @@ if __name__ == "__main__":
     cameras = ("/uwsim/camera1", "/uwsim/camera2")
     main(
         lambda: {
-            "640x480 image to rospy": images(),
-            "100 Hz to rospy": rhythm(),
-            "100 Hz to rospy beside two cameras": rhythm(*cameras),
+            "640x480 image to rospy": measure_images(),
+            "100 Hz to rospy": measure_jitter(),
+            "100 Hz to rospy beside two cameras": measure_jitter(*cameras),
         }
     )

@@ -14,7 +14,7 @@ TARGET = 1000.0 / 3.0  # CPU time of a second of simulation time [ms]
 
 
 def measure() -> dict[str, object]:
-    """A second of the scene, after half a second."""
+    """Measure a second of the scene, after half a second."""
     with uwsim.load("cirs") as simulation:
         for topic in list(simulation.bus.topics):
             simulation.bus.subscribe(topic, object, lambda message: None)

@@ -1,4 +1,4 @@
-"""What 500 trials in one process take of memory.
+"""Measure the memory of 500 trials in one process.
 
 Run ``python benchmarks/soak.py``. A level of 0.1 s of `visibility-moving`, whose scene varies with
 the seed, is run for the seeds 0 to 19, then for the seeds 0 to 499, in this process, as ``uwsim
@@ -41,14 +41,14 @@ BENCHMARK = """<benchmark xmlns:u="urn:uwsim:1" u:scene="visibility-moving-scene
   </sceneUpdater>
 </benchmark>
 """
-FIRST, ALL = 20, 500
-"""Trials after which the memory is read."""
+N_FIRST_TRIALS, N_TRIALS = 20, 500
+"""The numbers of trials before each reading of the memory."""
 MAX_GROWTH = 20.0
-"""Target [MB]."""
+"""The target of the growth [MB]."""
 
 
-def memory() -> float:
-    """Return the anonymous memory that this process holds [MB]."""
+def anonymous_memory() -> float:
+    """Return the anonymous memory of this process [MB]."""
     gc.collect()
     ctypes.CDLL(None).malloc_trim(0)
     lines = [line.split() for line in Path("/proc/self/status").read_text().splitlines()]
@@ -57,22 +57,22 @@ def memory() -> float:
 
 def measure() -> dict[str, object]:
     """Run the trials of both algorithms."""
-    found: dict[str, object] = {"trials": [FIRST, ALL]}
+    figures: dict[str, object] = {"trials": [N_FIRST_TRIALS, N_TRIALS]}
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "soak.xml"
         file.write_text(BENCHMARK)
         for algorithm in ("frozen", "esm"):
-            held = []
-            for n in (FIRST, ALL):
+            memory_mb = []
+            for n in (N_FIRST_TRIALS, N_TRIALS):
                 uwsim.bench(file, algorithm=algorithm, seeds=range(n))
-                held.append(memory())
-            growth = held[1] - held[0]
-            found[algorithm] = {
-                "held_mb": [round(each, 1) for each in held],
+                memory_mb.append(anonymous_memory())
+            growth = memory_mb[1] - memory_mb[0]
+            figures[algorithm] = {
+                "held_mb": [round(megabytes, 1) for megabytes in memory_mb],
                 "growth_mb": round(growth, 1),
                 "ratio": round(growth / MAX_GROWTH, 2),
             }
-    return found
+    return figures
 
 
 if __name__ == "__main__":

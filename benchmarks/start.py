@@ -17,7 +17,7 @@ from pathlib import Path
 from statistics import median
 
 from measure import main
-from steps import written
+from steps import write_scene
 
 CPU_S = 1.0
 MEMORY_MB = 190.0
@@ -61,7 +61,7 @@ twice.twice(numpy.ones(3))
 mark("a compiled function")
 print(json.dumps(found))
 """
-TWICE = """
+COMPILED_MODULE = """
 import numba
 import numpy as np
 from numba.core.caching import FunctionCache
@@ -83,39 +83,39 @@ def twice(x):
 Stages = dict[str, dict[str, float]]
 
 
-def stages(code: str, argument: Path) -> Stages:
-    """Median over fresh processes of what each stage costs; memory is that at its end."""
+def measure_stages(code: str, argument: Path) -> Stages:
+    """Measure the median cost of each stage over fresh processes, and the memory at its end."""
     command = [sys.executable, "-c", code, str(argument)]
     runs: list[Stages] = []
     for _ in range(RUNS + 1):
-        done = subprocess.run(command, stdout=subprocess.PIPE, check=True)
-        runs.append(json.loads(done.stdout))
+        process = subprocess.run(command, stdout=subprocess.PIPE, check=True)
+        runs.append(json.loads(process.stdout))
     return {
         stage: {name: round(median(run[stage][name] for run in runs[1:]), 3) for name in figures}
         for stage, figures in runs[0].items()
     }
 
 
-def total(found: Stages) -> dict[str, float]:
-    """CPU time of all stages, and the memory at the end of the last."""
-    last = list(found.values())[-1]
-    return {**last, "cpu_s": round(sum(stage["cpu_s"] for stage in found.values()), 3)}
+def total(stages: Stages) -> dict[str, float]:
+    """Return the CPU time of all stages, and the memory at the end of the last."""
+    last_stage = list(stages.values())[-1]
+    return {**last_stage, "cpu_s": round(sum(stage["cpu_s"] for stage in stages.values()), 3)}
 
 
 def measure() -> dict[str, object]:
-    """Measure both."""
+    """Measure the start and its floor."""
     with tempfile.TemporaryDirectory() as folder:
-        start = stages(START, written("flat floor", Path(folder)))
-        (Path(folder) / "twice.py").write_text(TWICE)
-        floor = stages(FLOOR, Path(folder))
-    whole = total(start)
+        start = measure_stages(START, write_scene("flat floor", Path(folder)))
+        (Path(folder) / "twice.py").write_text(COMPILED_MODULE)
+        floor = measure_stages(FLOOR, Path(folder))
+    total_figures = total(start)
     return {
         "start": {
-            **whole,
+            **total_figures,
             "target_cpu_s": CPU_S,
             "target_memory_mb": MEMORY_MB,
-            "cpu_ratio": round(whole["cpu_s"] / CPU_S, 3),
-            "memory_ratio": round(whole["memory_mb"] / MEMORY_MB, 3),
+            "cpu_ratio": round(total_figures["cpu_s"] / CPU_S, 3),
+            "memory_ratio": round(total_figures["memory_mb"] / MEMORY_MB, 3),
         },
         "floor": total(floor),
         "stages": start,

@@ -26,10 +26,10 @@ from uwsim.scene.reader import read_scene
 from uwsim.simulation import Simulation
 
 PERIOD = 0.01
-"""Between two commands of a vehicle [s]."""
+"""The period of the commands of a vehicle [s]."""
 BATCHES = 7
-CPU_S = 0.6
-"""Of a batch, about."""
+BATCH_CPU_S = 0.6
+"""The approximate CPU time of a batch [s]."""
 CUBE = (0.15, 0.10, 0.075)  # half edges [m]
 RELIEF = (44, 53)  # corners of the sea floor: 43 x 52 cells of two triangles are 4472
 VEHICLE = """
@@ -67,11 +67,11 @@ def box_file(folder: Path, name: str, half: tuple[float, float, float]) -> str:
 
 def relief_file(folder: Path) -> str:
     """Write a sea floor of dunes and stones as an OBJ file, 26 x 21.5 m, z up."""
-    random = np.random.Generator(np.random.Philox(11))
+    rng = np.random.Generator(np.random.Philox(11))
     rows, columns = RELIEF
     x, y = 0.5 * np.arange(columns) - 13.0, 0.5 * np.arange(rows) - 10.75
     heights = 0.25 * np.sin(0.7 * x)[None, :] * np.cos(0.5 * y)[:, None]
-    heights = np.round(heights + 0.06 * random.uniform(-1.0, 1.0, (rows, columns)), 5)
+    heights = np.round(heights + 0.06 * rng.uniform(-1.0, 1.0, (rows, columns)), 5)
     lines = [f"v {x[j]} {y[i]} {heights[i, j]}" for i in range(rows) for j in range(columns)]
     for i in range(rows - 1):
         for j in range(columns - 1):
@@ -82,25 +82,25 @@ def relief_file(folder: Path) -> str:
 
 
 def floor(folder: Path) -> str:
-    """A flat floor whose top is at z = -3."""
+    """Return a flat floor whose top is at z = -3."""
     file = box_file(folder, "floor.obj", (60.0, 60.0, 0.5))
     return OBJECT.format(name="floor", file=file, x=0, y=0, z=-3.5, mass=0, kind="box")
 
 
 def relief(folder: Path) -> str:
-    """The sea floor at z = -3, more or less."""
+    """Return the sea floor at about z = -3."""
     file = relief_file(folder)
     return OBJECT.format(name="terrain", file=file, x=0, y=0, z=-3, mass=0, kind="trimesh")
 
 
 def tank(folder: Path) -> str:
-    """The bundled CIRS tank, its floor at z = -3.5 or so."""
+    """Return the bundled CIRS tank, with its floor at about z = -3.5."""
     file = "terrain/CIRS/cirs_trident.osg"
     return OBJECT.format(name="terrain", file=file, x=0, y=0, z=-5, mass=0, kind="trimesh")
 
 
-def standing(folder: Path) -> str:
-    """The flat floor and 1000 boxes that stand on it."""
+def fixed_boxes(folder: Path) -> str:
+    """Return the flat floor and 1000 fixed boxes on it."""
     file = box_file(folder, "cube.obj", CUBE)
     places = [(0.8 * (k % 32) - 12.8, 0.8 * (k // 32) - 12.8) for k in range(1000)]
     boxes = [
@@ -110,8 +110,8 @@ def standing(folder: Path) -> str:
     return floor(folder) + "".join(boxes)
 
 
-def loose(folder: Path, n: int) -> str:
-    """The flat floor and n loose boxes that lie on it."""
+def loose_boxes(folder: Path, n: int) -> str:
+    """Return the flat floor and n loose boxes on it."""
     file = box_file(folder, "cube.obj", CUBE)
     side = int(np.ceil(np.sqrt(n)))
     places = [(0.6 * (k % side - side / 2), 0.6 * (k // side - side / 2)) for k in range(n)]
@@ -127,18 +127,18 @@ SCENES: dict[str, tuple[int, Callable[[Path], str], int]] = {
     "tank": (1, tank, 45_000),
     "relief": (1, relief, 45_000),
     "8 vehicles": (8, floor, 10_000),
-    "1000 static boxes": (1, standing, 40_000),
-    "100 loose boxes": (1, lambda folder: loose(folder, 100), 3_000),
-    "1000 loose boxes": (1, lambda folder: loose(folder, 1000), 140),
+    "1000 static boxes": (1, fixed_boxes, 40_000),
+    "100 loose boxes": (1, lambda folder: loose_boxes(folder, 100), 3_000),
+    "1000 loose boxes": (1, lambda folder: loose_boxes(folder, 1000), 140),
 }
-"""Vehicles, what lies under them, and the steps per second to reach."""
+"""The number of vehicles, the writer of the ground, and the target of steps per second."""
 BUILD_S = {"1000 loose boxes": 3.0}
-"""CPU time in which a scene is to be built [s]."""
+"""The targets of the CPU time to build a scene [s]."""
 
 
-def written(name: str, folder: Path) -> Path:
+def write_scene(name: str, folder: Path) -> Path:
     """Write a scene."""
-    n_vehicles, things, _ = SCENES[name]
+    n_vehicles, write_ground, _ = SCENES[name]
     vehicles = [
         VEHICLE.format(i=i, x=3.0 * (i % 4) - 4.5 * (n_vehicles > 1), y=3.0 * (i // 4), z=-1.2)
         for i in range(n_vehicles)
@@ -148,72 +148,72 @@ def written(name: str, folder: Path) -> Path:
     path.write_text(
         '<?xml version="1.0"?>\n<UWSimScene xmlns:u="urn:uwsim:1">'
         + "".join(vehicles)
-        + things(folder)
+        + write_ground(folder)
         + f"<rosInterfaces>{''.join(listeners)}</rosInterfaces></UWSimScene>\n"
     )
     return path
 
 
 def twist(surge: float) -> TwistStamped:
-    """A command."""
+    """Return a command of the surge [m/s]."""
     zero = Vector3(x=0.0, y=0.0, z=0.0)
     command = Twist(linear=Vector3(x=surge, y=0.0, z=0.0), angular=zero)
     return TwistStamped(header=Header(stamp=Time(sec=0, nanosec=0), frame_id=""), twist=command)
 
 
 def drive(simulation: Simulation, n_vehicles: int, periods: int) -> float:
-    """Step with commands on the bus; returns CPU seconds."""
-    began = time.process_time()
+    """Step with commands on the bus; return CPU seconds."""
+    start_time = time.process_time()
     for k in range(periods):
         for i in range(n_vehicles):
             simulation.publish(f"/v{i}", twist(0.1 if k % 200 < 100 else -0.1))
         simulation.advance(PERIOD)
-    return time.process_time() - began
+    return time.process_time() - start_time
 
 
-def bare(simulation: Simulation, cpu_s: float) -> float:
-    """CPU microseconds of MuJoCo's step of this model, always from the same state."""
+def measure_engine_us(simulation: Simulation, cpu_s: float) -> float:
+    """Measure CPU microseconds of MuJoCo's step of this model, always from the same state."""
     engine = simulation.world.engine
     model, data = engine._model, engine._data
     state = np.empty(mujoco.mj_stateSize(model, mujoco.mjtState.mjSTATE_INTEGRATION))
     mujoco.mj_getState(model, data, state, mujoco.mjtState.mjSTATE_INTEGRATION)
     callback.remove()
-    spent, n = 0.0, 0
-    while spent < cpu_s:
+    cpu_time, n = 0.0, 0
+    while cpu_time < cpu_s:
         mujoco.mj_setState(model, data, state, mujoco.mjtState.mjSTATE_INTEGRATION)
-        began = time.process_time()
+        start_time = time.process_time()
         mujoco.mj_step(model, data, 20)
-        spent += time.process_time() - began
+        cpu_time += time.process_time() - start_time
         n += 20
     callback.install()
     mujoco.mj_setState(model, data, state, mujoco.mjtState.mjSTATE_INTEGRATION)
-    return spent * 1e6 / n
+    return cpu_time * 1e6 / n
 
 
-def row(name: str) -> dict[str, object]:
+def measure_scene(name: str) -> dict[str, object]:
     """Measure a scene."""
     n_vehicles, _, target = SCENES[name]
     with tempfile.TemporaryDirectory() as folder:
-        path = written(name, Path(folder))
-        began = time.process_time()
+        path = write_scene(name, Path(folder))
+        start_time = time.process_time()
         scene = read_scene(path).nominal_scene
         simulation = uwsim.load(scene)
-        built = time.process_time() - began
+        build_time = time.process_time() - start_time
         drive(simulation, n_vehicles, 2)
-        spent, n = 0.0, 10
-        while spent < 0.2 * CPU_S:  # warm up, and find out how much a batch is
-            spent = drive(simulation, n_vehicles, n)
+        cpu_time, n = 0.0, 10
+        while cpu_time < 0.2 * BATCH_CPU_S:  # warms up, and determines the size of a batch
+            cpu_time = drive(simulation, n_vehicles, n)
             n *= 2
-        periods = max(2, round(n / 2 * CPU_S / spent))
-        found = [drive(simulation, n_vehicles, periods) for _ in range(BATCHES)]
-        step_us = median(found) * 1e6 / (periods * round(PERIOD / simulation.timestep))
+        periods = max(2, round(n / 2 * BATCH_CPU_S / cpu_time))
+        batch_times = [drive(simulation, n_vehicles, periods) for _ in range(BATCHES)]
+        step_us = median(batch_times) * 1e6 / (periods * round(PERIOD / simulation.timestep))
         contacts = int(simulation.world.engine._data.ncon)
-        engine_us = bare(simulation, CPU_S)
+        engine_us = measure_engine_us(simulation, BATCH_CPU_S)
         simulation.close()
     figures: dict[str, object] = {
         "dof": int(simulation.world.engine._model.nv),
         "contacts": contacts,
-        "built_s": round(built, 2),
+        "built_s": round(build_time, 2),
         "step_us": round(step_us, 2),
         "engine_us": round(engine_us, 2),
         "ratio": round(step_us / engine_us, 3),
@@ -223,12 +223,12 @@ def row(name: str) -> dict[str, object]:
     return figures | ({"target_built_s": BUILD_S[name]} if name in BUILD_S else {})
 
 
-def rows(names: list[str] | None = None) -> dict[str, object]:
+def measure_scenes(names: list[str] | None = None) -> dict[str, object]:
     """Measure scenes by name, or all."""
-    return {name: row(name) for name in names or SCENES}
+    return {name: measure_scene(name) for name in names or SCENES}
 
 
 if __name__ == "__main__":
-    CHOSEN = [argument for argument in sys.argv[1:] if argument in SCENES]
+    CHOSEN_SCENES = [argument for argument in sys.argv[1:] if argument in SCENES]
     sys.argv[1:] = [argument for argument in sys.argv[1:] if argument not in SCENES]
-    main(lambda: rows(CHOSEN))
+    main(lambda: measure_scenes(CHOSEN_SCENES))

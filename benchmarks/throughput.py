@@ -1,4 +1,4 @@
-"""What workers bring: 40 independent levels of `currents`, executed by one worker and by two.
+"""Measure the speed-up by workers: 40 independent levels of `currents`, by one worker and two.
 
 Each run is a fresh process started from the command line, start to report; caches are warm. One
 worker is measured twice: with its own thread alone for its images, as each of several workers
@@ -27,17 +27,17 @@ from uwsim.scene.reader import read_scene
 from uwsim.scene.spec import SceneSpec
 from uwsim.simulation import RendererPool, Simulation
 
-TIMES = 1.8
+TARGET_SPEEDUP = 1.8
 LEVELS = 40
-LENGTH = 10.0
-"""Of a level [s]; before it an independent level settles."""
+LEVEL_LENGTH = 10.0
+"""The length of a level [s]; an independent level settles before it."""
 CAMERA = "bowtech1"
 
 
 def write_benchmark(folder: Path, length: float) -> Path:
     """Write `currents` with 40 levels of another length."""
-    bundled = Path(str(resources.files("uwsim"))) / "data" / "benchmarks" / "currents.xml"
-    tree = etree.parse(bundled)
+    bundled_file = Path(str(resources.files("uwsim"))) / "data" / "benchmarks" / "currents.xml"
+    tree = etree.parse(bundled_file)
     [updater] = tree.findall("sceneUpdater/currentForceUpdater")
     for name, value in (("finalValue", 0.2), ("step", 0.2 / LEVELS), ("interval", length)):
         updater.find(name).text = repr(value)
@@ -46,9 +46,9 @@ def write_benchmark(folder: Path, length: float) -> Path:
     return path
 
 
-def wall_s(benchmark: Path, out: str, workers: int, threads: str | None) -> float:
-    """Run it from the command line; returns the wall time [s]."""
-    before = os.environ.pop("LP_NUM_THREADS", None)
+def measure_wall_time(benchmark: Path, out: str, workers: int, threads: str | None) -> float:
+    """Run the benchmark from the command line; return the wall time [s]."""
+    threads_before = os.environ.pop("LP_NUM_THREADS", None)
     if threads is not None:
         os.environ["LP_NUM_THREADS"] = threads
     try:
@@ -56,13 +56,13 @@ def wall_s(benchmark: Path, out: str, workers: int, threads: str | None) -> floa
         wall, _, _ = run([*command, "--overwrite"], str(benchmark.parent))
     finally:
         os.environ.pop("LP_NUM_THREADS", None)
-        if before is not None:
-            os.environ["LP_NUM_THREADS"] = before
+        if threads_before is not None:
+            os.environ["LP_NUM_THREADS"] = threads_before
     return wall
 
 
 def begin_and_end(scene: SceneSpec, pool: RendererPool | None) -> None:
-    """Do what every unit does once: make the scene live, draw with noise and without, close."""
+    """Do the work of a unit beside its steps: open the scene, draw two images, close."""
     simulation = Simulation(compile_scene(scene), pool=pool)
     simulation.advance(0.0)
     camera = simulation.world.sensors.camera(CAMERA)
@@ -75,26 +75,26 @@ def measure() -> dict[str, object]:
     """Measure everything; the keys name the unit."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        benchmark = write_benchmark(folder, LENGTH)
-        wall_s(write_benchmark(folder, 1.0), "warm", 2, None)
-        alone = wall_s(benchmark, "one-thread", 1, "0")
-        as_it_comes = wall_s(benchmark, "one", 1, None)
-        two = wall_s(benchmark, "two", 2, None)
+        benchmark = write_benchmark(folder, LEVEL_LENGTH)
+        measure_wall_time(write_benchmark(folder, 1.0), "warm", 2, None)
+        one_thread_s = measure_wall_time(benchmark, "one-thread", 1, "0")
+        one_worker_s = measure_wall_time(benchmark, "one", 1, None)
+        two_workers_s = measure_wall_time(benchmark, "two", 2, None)
         outs = ("one-thread", "one", "two")
         results = {(folder / out / "result.json").read_bytes() for out in outs}
     scene = read_scene(find("currents-scene.xml")).nominal_scene
     pool = RendererPool()
     return {
         "levels": LEVELS,
-        "1 worker, 1 thread: wall_s": round(alone, 2),
-        "1 worker, as it comes: wall_s": round(as_it_comes, 2),
-        "2 workers: wall_s": round(two, 2),
+        "1 worker, 1 thread: wall_s": round(one_thread_s, 2),
+        "1 worker, as it comes: wall_s": round(one_worker_s, 2),
+        "2 workers: wall_s": round(two_workers_s, 2),
         "2 workers over 1 with 1 thread: times": {
-            "value": round(alone / two, 3),
-            "target": TIMES,
-            "ratio": round(TIMES / (alone / two), 3),
+            "value": round(one_thread_s / two_workers_s, 3),
+            "target": TARGET_SPEEDUP,
+            "ratio": round(TARGET_SPEEDUP / (one_thread_s / two_workers_s), 3),
         },
-        "2 workers over 1 as it comes: times": round(as_it_comes / two, 3),
+        "2 workers over 1 as it comes: times": round(one_worker_s / two_workers_s, 3),
         "same bytes": len(results) == 1,
         "a unit beyond its steps": milliseconds(
             lambda: begin_and_end(scene, pool), calls=3, batches=5

@@ -1,4 +1,4 @@
-"""What an image costs the trackers: DESIGN 9's ESM case, and the patch of `visibility`.
+"""Measure the cost of an image in trackers: DESIGN 9's ESM case, and the patch of `visibility`.
 
 Run ``python benchmarks/tracking.py``. The case: one 100x100 patch in 320x240, up to 3 px of motion
 an image, noise of 4 grey levels, pyramid and loss test included, median of 500 images; the
@@ -39,26 +39,28 @@ def texture() -> tuple[np.ndarray, np.ndarray]:
 
 
 def moving_images(quad: np.ndarray, step: float, sigma: float, *, rgb: bool) -> list[np.ndarray]:
-    """Images of a plane that moves by exactly ``step`` px each, around the middle."""
+    """Return images of a plane that moves by exactly ``step`` px each, around the centre."""
     k, phase = texture()
     rng = np.random.Generator(np.random.Philox(1))
     v, u = np.mgrid[0:HEIGHT, 0:WIDTH] + 0.5
     points = np.stack([u.ravel(), v.ravel()], axis=1)
-    position, result = np.zeros(2), []
+    position, images = np.zeros(2), []
     for i in range(IMAGES + 1):
         inverse = homography_between(quad + position, quad)
-        plain = np.cos(warp(inverse, points) @ k + phase).sum(axis=1).reshape(HEIGHT, WIDTH)
-        plain = 128.0 + 30.0 * plain / math.sqrt(12.0)
+        clean_image = np.cos(warp(inverse, points) @ k + phase).sum(axis=1).reshape(HEIGHT, WIDTH)
+        clean_image = 128.0 + 30.0 * clean_image / math.sqrt(12.0)
         if rgb:
-            plain = np.repeat(plain[:, :, None], 3, axis=2)
-        noisy = np.rint(plain + sigma * rng.standard_normal(plain.shape))
-        result.append(np.clip(noisy, 0, 255).astype(np.uint8))
+            clean_image = np.repeat(clean_image[:, :, None], 3, axis=2)
+        noisy_image = np.rint(clean_image + sigma * rng.standard_normal(clean_image.shape))
+        images.append(np.clip(noisy_image, 0, 255).astype(np.uint8))
         heading = 0.1 * i
         position = position + step * np.array([math.cos(heading), math.sin(heading)])
-    return result
+    return images
 
 
-def cost(name: str, quad: np.ndarray, images: list[np.ndarray], target: float | None) -> object:
+def measure_tracker(
+    name: str, quad: np.ndarray, images: list[np.ndarray], target: float | None
+) -> object:
     node = ALGORITHMS[name]()
     assert isinstance(node, TrackerNode)
     tracker = node.make_tracker(to_grey(images[0]), quad)
@@ -67,14 +69,14 @@ def cost(name: str, quad: np.ndarray, images: list[np.ndarray], target: float | 
     tracker.step(to_grey(images[0]))  # compiles
     cpu, wall, iterations = [], [], []
     for image in images[1:]:
-        began_cpu, began_wall = time.process_time_ns(), time.perf_counter_ns()
+        cpu_start, wall_start = time.process_time_ns(), time.perf_counter_ns()
         estimate = tracker.step(to_grey(image))
-        why = loss.check(estimate, WIDTH, HEIGHT)
-        cpu.append((time.process_time_ns() - began_cpu) / 1e6)
-        wall.append((time.perf_counter_ns() - began_wall) / 1e6)
+        loss_reason = loss.check(estimate, WIDTH, HEIGHT)
+        cpu.append((time.process_time_ns() - cpu_start) / 1e6)
+        wall.append((time.perf_counter_ns() - wall_start) / 1e6)
         iterations.append(estimate.iterations)
-        if why:
-            return {"lost": why, "after": len(cpu)}
+        if loss_reason:
+            return {"lost": loss_reason, "after": len(cpu)}
     figures = {
         "cpu_ms": round(median(cpu), 3),
         "wall_ms": round(median(wall), 3),
@@ -88,16 +90,18 @@ def cost(name: str, quad: np.ndarray, images: list[np.ndarray], target: float | 
 
 
 def measure() -> dict[str, object]:
-    result: dict[str, object] = {}
+    figures: dict[str, object] = {}
     quad = rectangle(100.0, 100.0)
     images = moving_images(quad, 3.0, 4.0, rgb=False)
     for name in ("esm", "ssd-esm", "ic", "ecc", "orb"):
         target = 2.0 if name == "esm" else None
-        result[f"{name}, 100x100, 3 px an image, noise 4"] = cost(name, quad, images, target)
+        figures[f"{name}, 100x100, 3 px an image, noise 4"] = measure_tracker(
+            name, quad, images, target
+        )
     quad = rectangle(93.0, 28.0)
     images = moving_images(quad, 0.0, 5.1, rgb=True)
-    result["esm, 93x28, still, RGB, noise 5.1"] = cost("esm", quad, images, 1.0)
-    return result
+    figures["esm, 93x28, still, RGB, noise 5.1"] = measure_tracker("esm", quad, images, 1.0)
+    return figures
 
 
 if __name__ == "__main__":

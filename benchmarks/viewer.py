@@ -19,12 +19,12 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
-from live_view import with_pages, with_receivers
-from measure import kept, main
+from live_view import measure_pages, measure_receivers
+from measure import main, upper_target_figure
 
 LEVEL = "current=0.1"
-LASTS = 118.0  # [s]
-FILM = 60.0  # [s]
+LEVEL_DURATION = 118.0  # [s]
+FILM_DURATION = 60.0  # [s]
 FRAMES = 60
 DRAW = """async ([n, isShown]) => {
   const { page } = window.uwsim;
@@ -43,40 +43,46 @@ FLAGS = ["--use-gl=angle", "--use-angle=gl-egl", "--ignore-gpu-blocklist", "--di
 
 
 def measure() -> dict[str, object]:
-    """Run the level, and make of it all that can be made."""
+    """Run the level, and measure its replay, film, recording and live view."""
     with TemporaryDirectory() as folder:
         result = Path(folder) / "a.result"
-        run = cpu_of("bench", "currents", "--level", LEVEL, "--out", str(result))
+        run = run_command("bench", "currents", "--level", LEVEL, "--out", str(result))
         motion = sum(file.stat().st_size for file in result.glob("units/*.motion"))
         return {
             "run: cpu_s": round(run, 2),
-            "motion: kB a simulated minute": kept(motion / 1e3 / (LASTS / 60.0), 40.0),
-            **files(Path(folder), result),
-            **with_receivers(),
-            **in_chromium(Path(folder) / "0.html"),
+            "motion: kB a simulated minute": upper_target_figure(
+                motion / 1e3 / (LEVEL_DURATION / 60.0), 40.0
+            ),
+            **measure_files(Path(folder), result),
+            **measure_receivers(),
+            **measure_in_chromium(Path(folder) / "0.html"),
         }
 
 
-def files(folder: Path, result: Path) -> dict[str, object]:
-    """Replay (twice), MCAP and film: their sizes, and the CPU time of their processes."""
+def measure_files(folder: Path, result: Path) -> dict[str, object]:
+    """Measure size and CPU time of replay (twice), MCAP and film."""
     replays = [folder / "0.html", folder / "1.html"]
-    spent = [cpu_of("replay", str(result), "-o", str(file)) for file in replays]
+    cpu_times = [run_command("replay", str(result), "-o", str(file)) for file in replays]
     mcap, film = folder / "a.mcap", folder / "a.mp4"
-    cpu_of("replay", str(result), "--trial", "0", "-o", str(mcap))
-    filmed = cpu_of("replay", str(result), "--until", str(FILM), "-o", str(film))
+    run_command("replay", str(result), "--trial", "0", "-o", str(mcap))
+    film_cpu_time = run_command(
+        "replay", str(result), "--until", str(FILM_DURATION), "-o", str(film)
+    )
     contents = [file.read_bytes() for file in replays]
     return {
-        "replay: MB": kept(len(contents[0]) / 1e6, 2.0),
-        "replay: cpu_s": kept(min(spent), 5.0),
+        "replay: MB": upper_target_figure(len(contents[0]) / 1e6, 2.0),
+        "replay: cpu_s": upper_target_figure(min(cpu_times), 5.0),
         "replay: same bytes twice": contents[0] == contents[1],
-        "mcap: MB a simulated minute": kept(mcap.stat().st_size / 1e6 / (LASTS / 60.0), 1.0),
-        "film of 60 s, 960x720, 30 Hz: cpu_s": kept(filmed, 90.0),
-        "film of 60 s, 960x720, 30 Hz: MB": kept(film.stat().st_size / 1e6, 6.0),
+        "mcap: MB a simulated minute": upper_target_figure(
+            mcap.stat().st_size / 1e6 / (LEVEL_DURATION / 60.0), 1.0
+        ),
+        "film of 60 s, 960x720, 30 Hz: cpu_s": upper_target_figure(film_cpu_time, 90.0),
+        "film of 60 s, 960x720, 30 Hz: MB": upper_target_figure(film.stat().st_size / 1e6, 6.0),
     }
 
 
-def in_chromium(page: Path) -> dict[str, object]:
-    """The replay and the live view in Chromium, where it is."""
+def measure_in_chromium(page: Path) -> dict[str, object]:
+    """Measure the replay and the live view in Chromium, if it is installed."""
     chromium = shutil.which("chromium")
     if chromium is None or importlib.util.find_spec("playwright") is None:
         return {"page": "not measured: Chromium or playwright is not installed"}
@@ -84,59 +90,64 @@ def in_chromium(page: Path) -> dict[str, object]:
 
     with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=chromium, args=FLAGS, timeout=120_000)
-        found = {**drawn(browser, page), **with_pages(browser)}
+        figures = {**measure_page(browser, page), **measure_pages(browser)}
         browser.close()
-    return found
+    return figures
 
 
-def drawn(browser: Any, page: Path) -> dict[str, object]:
-    """The replay without a network: requests, and CPU time of a frame [ms]."""
+def measure_page(browser: Any, page: Path) -> dict[str, object]:
+    """Measure the replay without a network: requests, and CPU time of a frame [ms]."""
     view: Any = {"width": 1024, "height": 768}
     context = browser.new_context(viewport=view, offline=True, bypass_csp=True)
     tab = context.new_page()
     tab.set_default_timeout(200_000)
-    asked: list[str] = []
-    tab.on("request", lambda request: asked.append(request.url))
+    requests: list[str] = []
+    tab.on("request", lambda request: requests.append(request.url))
     tab.goto(page.as_uri())
     tab.wait_for_function("window.uwsim")
     tab.evaluate("window.uwsim.page.switches.pictures = false")
     tab.add_style_tag(content=SIZE)
-    found: dict[str, object] = {}
+    figures: dict[str, object] = {}
     for name, is_shown in (("drawn", False), ("drawn and shown", True)):
         tab.evaluate(DRAW, [10, is_shown])
-        before = cpu_of_children()
+        cpu_before = children_cpu_time()
         tab.evaluate(DRAW, [FRAMES, is_shown])
-        cpu_ms = 1000.0 * (cpu_of_children() - before) / FRAMES
-        found[f"frame of 640x480, {name}: cpu_ms"] = kept(cpu_ms, 40.0)
+        cpu_ms = 1000.0 * (children_cpu_time() - cpu_before) / FRAMES
+        figures[f"frame of 640x480, {name}: cpu_ms"] = upper_target_figure(cpu_ms, 40.0)
     context.close()
-    outside = [url for url in asked if not url.startswith(("file:", "data:", "blob:"))]
-    return {"page: requests to the network": kept(float(len(outside)), 0.0), **found}
+    network_requests = [url for url in requests if not url.startswith(("file:", "data:", "blob:"))]
+    return {
+        "page: requests to the network": upper_target_figure(float(len(network_requests)), 0.0),
+        **figures,
+    }
 
 
-def cpu_of(*arguments: str) -> float:
-    """CPU time of a command of `uwsim` and its processes [s]."""
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+def run_command(*arguments: str) -> float:
+    """Run a command of `uwsim`; return the CPU time of its processes [s]."""
+    usage_before = resource.getrusage(resource.RUSAGE_CHILDREN)
     command = [sys.executable, "-m", "uwsim", *arguments]
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
-    after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    usage_after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return (
+        usage_after.ru_utime + usage_after.ru_stime - usage_before.ru_utime - usage_before.ru_stime
+    )
 
 
-def cpu_of_children() -> float:
-    """CPU time so far of the processes that this one has begun, and of theirs [s]."""
+def children_cpu_time() -> float:
+    """Return the CPU time so far of all descendant processes [s]."""
     children: dict[int, list[tuple[int, int]]] = {}
     for entry in Path("/proc").glob("[0-9]*"):
         try:
             numbers = (entry / "stat").read_text().rsplit(")", 1)[1].split()
-        except OSError:  # it has ended meanwhile
+        except OSError:  # the process has ended meanwhile
             continue
-        spent = int(numbers[11]) + int(numbers[12])
-        children.setdefault(int(numbers[1]), []).append((int(entry.name), spent))
-    total, waiting = 0, [os.getpid()]
-    while waiting:
-        for process, spent in children.get(waiting.pop(), []):
-            total += spent
-            waiting.append(process)
+        cpu_ticks = int(numbers[11]) + int(numbers[12])
+        children.setdefault(int(numbers[1]), []).append((int(entry.name), cpu_ticks))
+    total, process_queue = 0, [os.getpid()]
+    while process_queue:
+        for process, cpu_ticks in children.get(process_queue.pop(), []):
+            total += cpu_ticks
+            process_queue.append(process)
     return total / os.sysconf("SC_CLK_TCK")
 
 

@@ -38,7 +38,7 @@ for _ in range(500):
 
 
 def run(command: list[str], folder: str) -> tuple[float, float, float]:
-    """Run a command to its end: wall time [s], CPU time [s], peak resident memory [MB]."""
+    """Run a command; return wall time [s], CPU time [s], peak resident memory [MB]."""
     begin = time.perf_counter()
     process = subprocess.Popen(command, cwd=folder, stdout=subprocess.DEVNULL)
     _, status, usage = os.wait4(process.pid, 0)
@@ -50,13 +50,13 @@ def run(command: list[str], folder: str) -> tuple[float, float, float]:
 
 
 def best_of(times: int, command: list[str], folder: str) -> tuple[float, float, float]:
-    """Run once to warm the caches, then ``times`` times; the quickest run counts."""
+    """Run once to fill the caches, then ``times`` times; return the fastest run."""
     run(command, folder)
     return min(run(command, folder) for _ in range(times))
 
 
-def held(value: float, target: float) -> dict[str, float]:
-    """A figure beside the promise it must not exceed: a ratio up to 1 is kept."""
+def upper_target_figure(value: float, target: float) -> dict[str, float]:
+    """Return a figure with its upper target; a ratio up to 1 meets the target."""
     return {"value": round(value, 3), "target": target, "ratio": round(value / target, 3)}
 
 
@@ -74,17 +74,19 @@ def measure() -> dict[str, object]:
         help_s, _, _ = best_of(5, [*UWSIM, "--help"], folder)
         _, _, two_cameras_mb = best_of(1, [sys.executable, "-c", TWO_CAMERAS], folder)
     return {
-        "visibility, start to report: wall_s": held(bench_s, simulated_s / TIMES_REAL_TIME),
+        "visibility, start to report: wall_s": upper_target_figure(
+            bench_s, simulated_s / TIMES_REAL_TIME
+        ),
         "visibility: times_real_time": round(simulated_s / bench_s, 2),
         "visibility: cpu_s": round(bench_cpu_s, 2),
         "visibility: simulated_s": simulated_s,
         "visibility: rows": len(result["rows"]),
         "visibility: frames": frames,
         "visibility: peak_memory_mb": round(bench_mb, 1),
-        "cold start to first image: wall_s": held(first_image_s, 1.5),
+        "cold start to first image: wall_s": upper_target_figure(first_image_s, 1.5),
         "cold start to first image: cpu_s": round(first_image_cpu_s, 2),
-        "help: wall_s": held(help_s, 0.3),
-        "two cameras: peak_memory_mb": held(two_cameras_mb, 500.0),
+        "help: wall_s": upper_target_figure(help_s, 0.3),
+        "two cameras: peak_memory_mb": upper_target_figure(two_cameras_mb, 500.0),
     }
 
 

@@ -17,7 +17,7 @@ NOT_THERE = "the site's tools are not installed: scripts/setup docs"
 pytest.importorskip("latex2mathml", reason=NOT_THERE)
 
 from formulas import with_mathml  # noqa: E402
-from links import broken_links, loaded_from_elsewhere  # noqa: E402
+from links import broken_links, network_sources  # noqa: E402
 
 
 @pytest.fixture(scope="module")
@@ -69,8 +69,8 @@ def test_a_broken_link_an_anchor_and_a_script_of_the_network_are_found(tmp_path:
     )
     assert broken_links(tmp_path) == [
         "a.html: b.html#no has no such anchor",
-        "a.html: c.html is not there",
+        "a.html: c.html does not exist",
     ]
-    assert loaded_from_elsewhere(tmp_path) == [
+    assert network_sources(tmp_path) == [
         "a.html: https://example.org/x.js is loaded from the network"
     ]

@@ -40,11 +40,11 @@ def page() -> str:
 
 
 def section(title: str, *arguments: str) -> str:
-    """Return one section: the title and what ``uwsim ARGUMENTS`` prints."""
-    printed = io.StringIO()
-    with unittest.mock.patch.dict(os.environ, COLUMNS="80"), contextlib.redirect_stdout(printed):
+    """Return a section: the title and the output of ``uwsim ARGUMENTS``."""
+    output = io.StringIO()
+    with unittest.mock.patch.dict(os.environ, COLUMNS="80"), contextlib.redirect_stdout(output):
         main(arguments)
-    return f"## {title}\n\n```text\n{printed.getvalue().strip()}\n```\n"
+    return f"## {title}\n\n```text\n{output.getvalue().strip()}\n```\n"
 
 
 if __name__ == "__main__":

@@ -1,7 +1,7 @@
 """``docs/*dialect.md`` and ``docs/grammar/*.rng``: the dialects, generated from the specs.
 
-All are made from the same table that reads the files (`uwsim.schema.fields_of`), so that none can
-say what the reader does not do.
+All are generated from the table that reads the files (`uwsim.schema.fields_of`), so that they agree
+with the reader.
 """
 
 from __future__ import annotations
@@ -58,17 +58,17 @@ def page() -> str:
     from uwsim.scene.unsupported import describe_limit
 
     parts = [HEAD]
-    done: set[type] = set()
+    described_specs: set[type] = set()
     for parent, name, cls in _specs("", ROOT, SceneSpec):
-        if cls not in done:
-            done.add(cls)
+        if cls not in described_specs:
+            described_specs.add(cls)
             limit = describe_limit(parent, qualified_name(name))
             parts.append(_section(name, cls, limit=limit, homes=_scene_homes()))
     return "\n".join([*parts, _plausibility_warnings(), _old_names()])
 
 
 def _plausibility_warnings() -> str:
-    """The plausibility warnings of `uwsim check`."""
+    """Return the section of plausibility warnings of `uwsim check`."""
     from uwsim.scene.accepted_warnings import PLAUSIBILITY_WARNINGS
 
     lines = [
@@ -81,12 +81,16 @@ def _plausibility_warnings() -> str:
         "| name | warns when |", "|---|---|",
     ]  # fmt: skip
     return "\n".join(
-        [*lines, *(f"| `{name}` | {when} |" for name, when in PLAUSIBILITY_WARNINGS.items()), ""]
+        [
+            *lines,
+            *(f"| `{name}` | {condition} |" for name, condition in PLAUSIBILITY_WARNINGS.items()),
+            "",
+        ]
     )
 
 
 def _old_names() -> str:
-    """Elements of files from 2011 to 2019."""
+    """Return the section of elements of files from 2011 to 2019."""
     from uwsim.scene.legacy import ANY_PARENT_RULES, RULES
 
     by_parent: dict[str, list[str]] = {}
@@ -99,8 +103,10 @@ def _old_names() -> str:
         "| in | old elements |", "|---|---|",
     ]  # fmt: skip
     for parent, elements in [*sorted(by_parent.items()), ("anything", list(ANY_PARENT_RULES))]:
-        where = parent if parent == "anything" else f"`{parent}`"
-        lines.append(f"| {where} | " + ", ".join(f"`{each}`" for each in sorted(elements)) + " |")
+        parent_text = parent if parent == "anything" else f"`{parent}`"
+        lines.append(
+            f"| {parent_text} | " + ", ".join(f"`{name}`" for name in sorted(elements)) + " |"
+        )
     return "\n".join(lines) + "\n"
 
 
@@ -134,7 +140,7 @@ def benchmark_page() -> str:
 
 
 def _scene_homes() -> dict[type, str]:
-    """Where the section of each spec of a scene is: that of the first name it has in files."""
+    """Return the link to the section of each spec of a scene, by its first name in files."""
     from uwsim.scene.reader import ROOT
     from uwsim.scene.spec import SceneSpec
 
@@ -145,7 +151,7 @@ def _scene_homes() -> dict[type, str]:
 
 
 def _specs(parent: str, name: str, cls: type) -> Iterator[tuple[str, str, type]]:
-    """Every spec below a spec with its parent and name, itself first, in the order of the files."""
+    """Yield all specs below a spec with parent and name, itself first, in the order of files."""
     yield parent, name, cls
     for field in fields_of(cls):
         if field.kind == "spec":
@@ -163,14 +169,14 @@ def _section(
     limit: str = "",
     homes: Mapping[type, str] = MappingProxyType({}),
 ) -> str:
-    """One element: description, example and table of its content.
+    """Return the section of an element: description, example and table of its content.
 
     Args:
-        name: of the element.
-        cls: its spec.
-        title: of a member of a family, whose file is about it alone.
-        limit: how far it is simulated; empty: wholly.
-        homes: where the sections of specs are; of others under their own name on this page.
+        name: the name of the element.
+        cls: the spec of the element.
+        title: the title of a member of a family, whose module describes it alone.
+        limit: the limit of its simulation; empty: none.
+        homes: links to sections of specs; others have sections on this page.
     """
     from uwsim.scene.unsupported import describe_limit
 
@@ -180,8 +186,8 @@ def _section(
     if limit:
         lines += [f"*{_markdown(limit)[0].upper()}{_markdown(limit)[1:]}.*", ""]
     block = re.search(r"\.\. code-block:: xml\n\n((?:    .*\n|\n)+)", module)
-    begins = rf"<{re.escape(name)}[ >/]|<(start|stop)On>.*<type>{name}<"
-    if block and re.search(begins, " ".join(block[1].split("\n")[: 1 if title is None else 2])):
+    first_line = rf"<{re.escape(name)}[ >/]|<(start|stop)On>.*<type>{name}<"
+    if block and re.search(first_line, " ".join(block[1].split("\n")[: 1 if title is None else 2])):
         lines += ["```xml", inspect.cleandoc(block[1]).rstrip(), "```", ""]
     if not fields_of(cls):
         return "\n".join(lines)
@@ -196,37 +202,41 @@ def _section(
 
 
 def _kind(field: Field, homes: Mapping[type, str]) -> str:
-    what = field.expected
+    content = field.expected
     if field.kind == "spec":
-        what = f"[`<{field.label}>`]({homes.get(field.type, f'#{_anchor(field.label)}')})"
+        content = f"[`<{field.label}>`]({homes.get(field.type, f'#{_anchor(field.label)}')})"
     elif field.kind == "choice":
         names = {prefixed_name(child): cls for child, cls in field.type.items()}
-        what = "any of " + ", ".join(
+        content = "any of " + ", ".join(
             f"[`{name}`]({homes.get(cls, f'#{_anchor(name)}')})" for name, cls in names.items()
         )
     elif field.kind == "triple":
         unit = f" [{field.unit}]" if field.unit else ""
-        what = " ".join(f"`<{part}>`" for part in field.xml.parts) + unit
+        content = " ".join(f"`<{part}>`" for part in field.xml.parts) + unit
         if field.words:
-            what += ", or one of " + ", ".join(f"`{word}`" for word in field.words)
+            content += ", or one of " + ", ".join(f"`{word}`" for word in field.words)
     elif field.kind == "manual":
-        what = _family(field)
+        content = _family(field)
     elif field.xml.item:
-        each = "a number" if field.kind == "list" else what
-        what = f"`<{field.xml.item}>`, any number: {each}"
-    return f"{what}, any number" if field.is_repeated and field.kind in ("spec", "list") else what
+        item = "a number" if field.kind == "list" else content
+        content = f"`<{field.xml.item}>`, any number: {item}"
+    return (
+        f"{content}, any number"
+        if field.is_repeated and field.kind in ("spec", "list")
+        else content
+    )
 
 
 def _family(field: Field) -> str:
-    """The sections of a benchmark's families of elements."""
+    """Return a link to the section of a benchmark's family of elements."""
     kind = field.type.__name__.removesuffix("Spec")
     title = {"SceneUpdater": "Scene updaters", "GroundTruth": "Ground truths"}.get(kind, f"{kind}s")
-    which = "any of" if field.is_repeated else "one of"
-    return f"{which} the [{title.lower()}](#{title.lower().replace(' ', '-')})"
+    quantifier = "any of" if field.is_repeated else "one of"
+    return f"{quantifier} the [{title.lower()}](#{title.lower().replace(' ', '-')})"
 
 
 def _anchor(name: str) -> str:
-    """Where a link to an element leads."""
+    """Return the anchor of an element."""
     return name.lower().replace(":", "")
 
 
@@ -248,7 +258,7 @@ def _markdown(text: str) -> str:
 
 
 def pages() -> Mapping[str, str]:
-    """Return what is generated: file below ``docs`` -> text."""
+    """Return the texts of the generated files below ``docs``."""
     return {
         "dialect.md": page(),
         "benchmark-dialect.md": benchmark_page(),
@@ -258,7 +268,7 @@ def pages() -> Mapping[str, str]:
 
 
 def main() -> None:
-    """Write the generated files below the folder given."""
+    """Write the generated files below a folder."""
     folder = Path(sys.argv[1])
     for name, text in pages().items():
         (folder / name).parent.mkdir(parents=True, exist_ok=True)

@@ -1,4 +1,4 @@
-"""The message classes of ``src/uwsim/messages``, made from definitions: a module for each package.
+"""Generate the message classes of ``src/uwsim/messages``: a module for each package.
 
 Types of ROS are defined by the texts that rosbags ships; those of a folder of ``messages`` by its
 ``.msg`` and ``.srv`` files. There the comment above the first line is the docstring of the class,
@@ -93,17 +93,17 @@ ROS: dict[str, dict[str, str]] = {
         "geometry_msgs/Accel": "Linear [m/s^2] and angular [rad/s^2] acceleration."
     },
 }
-"""Module -> types of ROS in it -> their docstrings; of its package, unless another is named."""
+"""The docstrings of the ROS types of each module; a type may name another package."""
 MODULES = {"marine_acoustic_msgs": "sonar", "underwater_sensor_msgs": "underwater"}
-"""Package -> its module, where that has another name."""
+"""The module of each package, where it has another name."""
 DEFAULTS = {"geometry_msgs/msg/Quaternion": {"w": "1.0"}}
-"""Type of ROS -> field -> its default in ROS 2's text, which rosbags does not keep."""
+"""The defaults of fields in ROS 2's texts, which rosbags does not store."""
 SERVICES = ("simulation_interfaces",)
-"""Packages whose services are generated, too; the others' are in ``services.py``."""
+"""The packages whose services are generated, too; the others' are in ``services.py``."""
 SCALARS = {"bool": ("bool", "False"), "string": ("str", '""'), "float": ("float", "0.0")}
-"""Type of a field, without its bits -> annotation and default; the others are whole numbers."""
+"""The annotation and default of each field type without its bits; others are integers."""
 DTYPES = {"bool": "bool_", "byte": "uint8", "char": "uint8"}
-"""Type of a field -> numpy's, where the two differ."""
+"""The numpy type of each field type, where the two differ."""
 WIDTH = 100
 LINE = re.compile(r"\S+\s+(?P<name>\w+)(?:\s+(?P<default>[^=\s#]+))?\s*(?:#\s*(?P<doc>.*))?")
 """A field in a text: type, name, perhaps a default and a comment."""
@@ -111,20 +111,20 @@ LINE = re.compile(r"\S+\s+(?P<name>\w+)(?:\s+(?P<default>[^=\s#]+))?\s*(?:#\s*(?
 
 @dataclass(frozen=True, kw_only=True)
 class Definition:
-    """A type as a class is made of it."""
+    """The definition of a type, from which a class is generated."""
 
     name: str
-    """Its name in ROS 2, as ``std_msgs/msg/Header``."""
+    """The name in ROS 2, as ``std_msgs/msg/Header``."""
     doc: str
     """The docstring of the class."""
     constants: Sequence[tuple[str, str, Any]]
-    """Name, type and value."""
+    """The constants: name, type and value."""
     fields: Sequence[tuple[str, Any]]
-    """Name, and rosbags' description of the type."""
+    """The fields: name, and rosbags' description of the type."""
     defaults: Mapping[str, str]
-    """Field -> its default, if that is not the one of its type."""
+    """The defaults of fields that differ from those of their types."""
     docs: Mapping[str, str]
-    """Field -> its docstring, if it has one."""
+    """The docstrings of fields."""
 
     @property
     def class_name(self) -> str:
@@ -137,20 +137,20 @@ def modules(folder: Path) -> dict[str, str]:
     """Return the text of every generated module of ``messages`` by its name.
 
     Raises:
-        ValueError: a text has no comment above its fields, or a field of a type that is not there.
+        ValueError: a text has no comment above its fields, or a field has an unknown type.
     """
-    own = {path.parts[-3] for path in folder.glob("*/msg/*.msg")}
+    folder_packages = {path.parts[-3] for path in folder.glob("*/msg/*.msg")}
     packages = {
         package: [
-            *(_of_ros(package, name, doc) for name, doc in ROS.get(package, {}).items()),
-            *_sorted(_of_folder(folder / package, package)),
+            *(_ros_definition(package, name, doc) for name, doc in ROS.get(package, {}).items()),
+            *_sort_by_dependency(_folder_definitions(folder / package, package)),
         ]
-        for package in (*ROS, *sorted(own - ROS.keys()))
+        for package in (*ROS, *sorted(folder_packages - ROS.keys()))
     }
     module_of = {
-        each.name: MODULES.get(package, package)
+        definition.name: MODULES.get(package, package)
         for package, types in packages.items()
-        for each in types
+        for definition in types
     }
     return {
         MODULES.get(package, package): _module(package, types, module_of)
@@ -158,28 +158,32 @@ def modules(folder: Path) -> dict[str, str]:
     }
 
 
-def _of_ros(package: str, name: str, doc: str) -> Definition:
-    full = f"{package}/{name}" if "/" not in name else name
-    full = full.replace("/", "/msg/")
-    constants, fields = get_typestore(Stores.ROS2_JAZZY).fielddefs[full]
-    defaults = DEFAULTS.get(full, {})
+def _ros_definition(package: str, name: str, doc: str) -> Definition:
+    full_name = f"{package}/{name}" if "/" not in name else name
+    full_name = full_name.replace("/", "/msg/")
+    constants, fields = get_typestore(Stores.ROS2_JAZZY).fielddefs[full_name]
+    defaults = DEFAULTS.get(full_name, {})
     return Definition(
-        name=full, doc=doc, constants=constants, fields=fields, defaults=defaults, docs={}
+        name=full_name, doc=doc, constants=constants, fields=fields, defaults=defaults, docs={}
     )
 
 
-def _of_folder(folder: Path, package: str) -> Iterator[Definition]:
+def _folder_definitions(folder: Path, package: str) -> Iterator[Definition]:
     for path in sorted(folder.glob("msg/*.msg")):
-        yield _of_text(f"{package}/msg/{path.stem}", path.read_text(encoding="utf-8"), path)
+        yield _parse_definition(
+            f"{package}/msg/{path.stem}", path.read_text(encoding="utf-8"), path
+        )
     for path in sorted(folder.glob("srv/*.srv")) if package in SERVICES else ():
         request, response = re.split(r"^---\n", path.read_text(encoding="utf-8"), flags=re.M)
         purpose = f"The request of ``{path.stem}``: "
-        yield _of_text(f"{package}/srv/{path.stem}_Request", request, path, purpose=purpose)
+        yield _parse_definition(
+            f"{package}/srv/{path.stem}_Request", request, path, purpose=purpose
+        )
         response = f"# The response of ``{path.stem}``.\n{response}"
-        yield _of_text(f"{package}/srv/{path.stem}_Response", response, path)
+        yield _parse_definition(f"{package}/srv/{path.stem}_Response", response, path)
 
 
-def _of_text(name: str, text: str, path: Path, *, purpose: str = "") -> Definition:
+def _parse_definition(name: str, text: str, path: Path, *, purpose: str = "") -> Definition:
     comment = re.match(r"(#.*\n)*", text)
     doc = re.sub(r"^# ?", "", comment[0] if comment else "", flags=re.M).strip()
     if not doc:
@@ -188,7 +192,7 @@ def _of_text(name: str, text: str, path: Path, *, purpose: str = "") -> Definiti
         doc = f"{purpose}{doc[0].lower()}{doc[1:]}"
     ((constants, fields),) = get_types_from_msg(text, name).values()
     names = {field for field, _ in fields}
-    lines = [found for found in map(LINE.fullmatch, text.splitlines()) if found]
+    lines = [match for match in map(LINE.fullmatch, text.splitlines()) if match]
     return Definition(
         name=name,
         doc=doc,
@@ -199,35 +203,38 @@ def _of_text(name: str, text: str, path: Path, *, purpose: str = "") -> Definiti
     )
 
 
-def _sorted(types: Iterable[Definition]) -> list[Definition]:
+def _sort_by_dependency(types: Iterable[Definition]) -> list[Definition]:
     """Sort the types of a package by name, those that others contain first."""
-    by_name = {each.name: each for each in types}
+    by_name = {definition.name: definition for definition in types}
     order = TopologicalSorter(
-        {name: sorted(_inner(each) & by_name.keys()) for name, each in by_name.items()}
+        {
+            name: sorted(_contained_types(definition) & by_name.keys())
+            for name, definition in by_name.items()
+        }
     )
     return [by_name[name] for name in order.static_order()]
 
 
-def _inner(definition: Definition) -> set[str]:
-    """The types in a type."""
-    found = set()
-    for _, (kind, inner) in definition.fields:
+def _contained_types(definition: Definition) -> set[str]:
+    """Return the names of the types in a type."""
+    type_names = set()
+    for _, (kind, element) in definition.fields:
         if kind in (Nodetype.ARRAY, Nodetype.SEQUENCE):
-            kind, inner = inner[0]
+            kind, element = element[0]
         if kind == Nodetype.NAME:
-            found.add(inner)
-    return found
+            type_names.add(element)
+    return type_names
 
 
 def _module(package: str, types: list[Definition], module_of: Mapping[str, str]) -> str:
     """Return the text of the module of a package."""
-    body = "".join(f"\n\n{_class(each)}" for each in types)
+    body = "".join(f"\n\n{_class(definition)}" for definition in types)
     arrays = sorted(set(re.findall(r"=(_[A-Z]\w+)\n? *\)", body)))
-    needed = {name for each in types for name in _inner(each)}
-    if lacking := sorted(needed - module_of.keys()):
-        raise ValueError(f"{package}: uwsim.messages has no {', '.join(lacking)}")
+    contained_types = {name for definition in types for name in _contained_types(definition)}
+    if unknown_types := sorted(contained_types - module_of.keys()):
+        raise ValueError(f"{package}: uwsim.messages has no {', '.join(unknown_types)}")
     imports: dict[str, list[str]] = {}
-    for name in sorted(needed - {each.name for each in types}):
+    for name in sorted(contained_types - {definition.name for definition in types}):
         imports.setdefault(module_of[name], []).append(name.rpartition("/")[2])
     parts = [
         f'"""Messages of {package}, generated by scripts/messages (see `uwsim.messages`)."""\n',
@@ -251,7 +258,7 @@ def _import_order(name: str) -> tuple[bool, str]:
 
 
 def _factory(name: str) -> str:
-    """Return what makes an array, anew for each message: ``_FLOAT64_9``, that of nine zeros."""
+    """Return the text of a factory of arrays: ``_FLOAT64_9`` for nine zeros."""
     dtype, _, length = name[1:].lower().rpartition("_")
     return f"{name}: Any = partial(np.zeros, {length}, np.{dtype})\n"
 
@@ -272,33 +279,33 @@ def _class(definition: Definition) -> str:
         if name in definition.docs:
             text += f'"""{definition.docs[name]}"""\n'
     text += f'__msgtype__: ClassVar[str] = "{definition.name}"\n'
-    indented = re.sub(r"^(?=.)", "    ", text, flags=re.M)
-    return f"@dataclass\nclass {definition.class_name}:\n{indented}"
+    indented_text = re.sub(r"^(?=.)", "    ", text, flags=re.M)
+    return f"@dataclass\nclass {definition.class_name}:\n{indented_text}"
 
 
 def _field(owner: str, kind: Any) -> tuple[str, str]:
     """Return the annotation and the default of a field."""
-    node, inner = kind
+    node, element = kind
     if node == Nodetype.NAME:
-        name = inner.rpartition("/")[2]
+        name = element.rpartition("/")[2]
         return name, f"field(default_factory={name})"
     if node == Nodetype.BASE:
-        return SCALARS.get(inner[0].rstrip("0123456789"), ("int", "0"))
-    ((node, inner), length) = inner
+        return SCALARS.get(element[0].rstrip("0123456789"), ("int", "0"))
+    ((node, element), length) = element
     if node == Nodetype.NAME and kind[0] == Nodetype.SEQUENCE:
-        return f"list[{inner.rpartition('/')[2]}]", "field(default_factory=list)"
-    if node == Nodetype.BASE and inner[0] == "string" and kind[0] == Nodetype.SEQUENCE:
+        return f"list[{element.rpartition('/')[2]}]", "field(default_factory=list)"
+    if node == Nodetype.BASE and element[0] == "string" and kind[0] == Nodetype.SEQUENCE:
         return "list[str]", "field(default_factory=list)"
-    if node == Nodetype.NAME or inner[0] == "string":
+    if node == Nodetype.NAME or element[0] == "string":
         raise ValueError(f"{owner}: an array of {length} texts or messages; expected a list")
-    dtype = DTYPES.get(inner[0], inner[0])
+    dtype = DTYPES.get(element[0], element[0])
     length = length if kind[0] == Nodetype.ARRAY else 0
     annotation = f"np.ndarray[tuple[int, ...], np.dtype[np.{dtype}]]"
     return annotation, f"field(default_factory=_{dtype.upper()}_{length})"
 
 
 def main() -> None:
-    """Write the modules of the folder given that are not as they should be."""
+    """Write the modules of a folder that are not up to date."""
     folder = Path(sys.argv[1])
     for module, text in modules(folder).items():
         path = folder / f"{module}.py"

@@ -1,9 +1,9 @@
 """RELAX NG grammars of the two dialects, generated from the specs.
 
-A spec is a ``<define>`` of what stands in its element, each part once and in any order. A family of
+A spec is a ``<define>`` of the content of its element, each part once and in any order. A family of
 a benchmark (measures, triggers, ground truths, scene updaters) is a ``<define>`` of its members to
-choose from; a scene updater may hold another. Values are compared with a pattern, not against the
-limits that the reader knows, and the parts of a plugin are not in it.
+choose from; a scene updater may hold another. Values are compared with a pattern, not with the
+limits of the reader, and elements of plugins are not included.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ from uwsim.schema import NAMESPACE, TOKENS, Field, fields_of
 RNG = "http://relaxng.org/ns/structure/1.0"
 TYPES = "http://www.w3.org/2001/XMLSchema-datatypes"
 
-SIGNED = "|".join(token.removeprefix("-") for token in TOKENS if not token.startswith("-"))
-NUMBER = rf"[+\-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+\-]?[0-9]+)?|-?({SIGNED})"
+SIGNED_TOKENS = "|".join(token.removeprefix("-") for token in TOKENS if not token.startswith("-"))
+NUMBER = rf"[+\-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+\-]?[0-9]+)?|-?({SIGNED_TOKENS})"
 SPACE = r"[ \t\n\r]*"
 SOME_TEXT = rf"{SPACE}[^ \t\n\r][\s\S]*"
 
@@ -45,143 +45,156 @@ def benchmark_grammar() -> str:
     from uwsim.benchmark.updaters import UPDATERS, SceneUpdaterSpec
 
     families: dict[type, tuple[Family, Members]] = {
-        MeasureSpec: (MEASURES, _by_element),
-        TriggerSpec: (TRIGGERS, _by_type),
-        GroundTruthSpec: (GROUND_TRUTHS, _by_type_attribute),
-        SceneUpdaterSpec: (UPDATERS, _by_element),
+        MeasureSpec: (MEASURES, _add_elements),
+        TriggerSpec: (TRIGGERS, _add_types),
+        GroundTruthSpec: (GROUND_TRUTHS, _add_type_attributes),
+        SceneUpdaterSpec: (UPDATERS, _add_elements),
     }
     return _grammar("benchmark", BenchmarkSpec, families)
 
 
 def _grammar(root: str, spec: type, families: Mapping[type, tuple[Family, Members]]) -> str:
-    """The grammar of a document whose root element is read by ``spec``."""
+    """Return the grammar of a document whose root element has the spec ``spec``."""
     tree = etree.Element(f"{{{RNG}}}grammar", {"datatypeLibrary": TYPES}, nsmap={None: RNG})  # type: ignore[dict-item]  # the stubs know no default namespace
-    _ref(_sub(_sub(tree, "start"), "element", name=root), spec)
+    _add_reference(_add_child(_add_child(tree, "start"), "element", name=root), spec)
     members = [cls for family, _ in families.values() for cls in family.values()]
-    for cls in _each_once([spec, *members]):
-        content = _sub(_sub(tree, "define", name=cls.__name__), "interleave")
-        _sub(content, "empty")
+    for cls in _all_specs([spec, *members]):
+        content = _add_child(_add_child(tree, "define", name=cls.__name__), "interleave")
+        _add_child(content, "empty")
         for field in fields_of(cls):
-            _field(content, field)
+            _add_field(content, field)
     for base, (family, add_members) in families.items():
-        add_members(_sub(_sub(tree, "define", name=base.__name__), "choice"), family)
+        add_members(_add_child(_add_child(tree, "define", name=base.__name__), "choice"), family)
     etree.indent(tree)
     return etree.tostring(tree, encoding="unicode") + "\n"
 
 
-def _each_once(specs: Iterable[type]) -> Iterator[type]:
-    """These specs and all nested ones, in the order of the files."""
-    waiting, done = list(specs), set[type]()
-    while waiting:
-        cls = waiting.pop(0)
-        if cls in done:
+def _all_specs(specs: Iterable[type]) -> Iterator[type]:
+    """Yield specs and all nested specs once, in the order of files."""
+    queue, visited_specs = list(specs), set[type]()
+    while queue:
+        cls = queue.pop(0)
+        if cls in visited_specs:
             continue
-        done.add(cls)
+        visited_specs.add(cls)
         yield cls
-        inside: list[type] = []
+        nested_specs: list[type] = []
         for field in fields_of(cls):
             if field.kind == "spec":
-                inside.append(field.type)
+                nested_specs.append(field.type)
             elif field.kind == "choice":
-                inside += field.type.values()
-        waiting = inside + waiting
+                nested_specs += field.type.values()
+        queue = nested_specs + queue
 
 
-def _by_element(choice: etree._Element, family: Family) -> None:
-    """Members that are elements: ``<distance>``."""
+def _add_elements(choice: etree._Element, family: Family) -> None:
+    """Add members that are elements: ``<distance>``."""
     for name, spec in family.items():
         tag = f"{{{NAMESPACE}}}{name[2:]}" if name.startswith("u:") else name
-        _ref(_sub(choice, "element", **_named(tag)), spec)
+        _add_reference(_add_child(choice, "element", **_name_attributes(tag)), spec)
 
 
-def _by_type(choice: etree._Element, family: Family) -> None:
-    """Alternatives distinguished by ``<type>``; an element that a type does not use is ignored."""
+def _add_types(choice: etree._Element, family: Family) -> None:
+    """Add alternatives distinguished by ``<type>``; unused elements of a type are ignored."""
     places = {field.tag: field for spec in family.values() for field in fields_of(spec)}
     for name, spec in family.items():
-        member = _sub(choice, "interleave")
-        _pattern(_sub(member, "element", name="type"), f"{SPACE}{name}{SPACE}")
-        _ref(member, spec)
+        member = _add_child(choice, "interleave")
+        _add_pattern(_add_child(member, "element", name="type"), f"{SPACE}{name}{SPACE}")
+        _add_reference(member, spec)
         for tag in sorted(places.keys() - {field.tag for field in fields_of(spec)}):
-            _field(member, dataclasses.replace(places[tag], default=None))
+            _add_field(member, dataclasses.replace(places[tag], default=None))
 
 
-def _by_type_attribute(choice: etree._Element, family: Family) -> None:
-    """Alternatives distinguished by ``type=``."""
+def _add_type_attributes(choice: etree._Element, family: Family) -> None:
+    """Add alternatives distinguished by ``type=``."""
     for name, spec in family.items():
-        member = _sub(choice, "group")
-        _pattern(_sub(member, "attribute", name="type"), f"{SPACE}{name}{SPACE}")
-        _ref(member, spec)
+        member = _add_child(choice, "group")
+        _add_pattern(_add_child(member, "attribute", name="type"), f"{SPACE}{name}{SPACE}")
+        _add_reference(member, spec)
 
 
-def _field(content: etree._Element, field: Field) -> None:
-    """The pattern of one field."""
+def _add_field(content: etree._Element, field: Field) -> None:
+    """Add the pattern of a field."""
     if field.xml.text:
-        _data(content, field)
+        _add_scalar(content, field)
         return
     is_needed = field.default is dataclasses.MISSING
-    if _stands_often(field):
-        content = _sub(content, "oneOrMore" if is_needed else "zeroOrMore")
+    if _is_element_repeated(field):
+        content = _add_child(content, "oneOrMore" if is_needed else "zeroOrMore")
     elif not is_needed:
-        content = _sub(content, "optional")
-    what = "attribute" if field.xml.attribute else "element"
-    own = [name for name in field.xml.original.aliases if name.startswith("{")]
-    node = _sub(content, what, **({} if own else _named(field.tag)))
-    if own:
-        names = _sub(node, "choice")
-        for name in (field.tag, *own):
-            entry = _named(name)
-            _sub(names, "name", ns=entry.get("ns", "")).text = entry["name"]
+        content = _add_child(content, "optional")
+    node_type = "attribute" if field.xml.attribute else "element"
+    namespaced_aliases = [name for name in field.xml.original.aliases if name.startswith("{")]
+    node = _add_child(
+        content, node_type, **({} if namespaced_aliases else _name_attributes(field.tag))
+    )
+    if namespaced_aliases:
+        names = _add_child(node, "choice")
+        for name in (field.tag, *namespaced_aliases):
+            entry = _name_attributes(name)
+            _add_child(names, "name", ns=entry.get("ns", "")).text = entry["name"]
     if field.kind == "spec":
-        _ref(node, field.type)
+        _add_reference(node, field.type)
     elif field.kind == "manual":
-        _ref(_sub(node, "zeroOrMore") if field.is_repeated else node, field.type)
+        _add_reference(_add_child(node, "zeroOrMore") if field.is_repeated else node, field.type)
     elif field.kind == "choice":
-        several = _sub(_sub(node, "zeroOrMore"), "choice")
+        choice = _add_child(_add_child(node, "zeroOrMore"), "choice")
         for child, spec in field.type.items():
-            _ref(_sub(several, "element", **_named(child, within=field)), spec)
+            _add_reference(
+                _add_child(choice, "element", **_name_attributes(child, parent=field)), spec
+            )
     elif field.kind == "triple":
         if field.words:
-            node = _sub(node, "choice")
+            node = _add_child(node, "choice")
             words = dataclasses.replace(field, kind="word", type=field.words)
-            _data(node, words, may_be_empty=False)
-        parts = _sub(node, "interleave")
+            _add_scalar(node, words, may_be_empty=False)
+        parts = _add_child(node, "interleave")
         for part in field.xml.parts:
-            _data(_sub(parts, "element", **_named(part, within=field)), field, may_be_empty=True)
+            _add_scalar(
+                _add_child(parts, "element", **_name_attributes(part, parent=field)),
+                field,
+                may_be_empty=True,
+            )
     elif field.xml.item:
-        _data(
-            _sub(_sub(node, "zeroOrMore"), "element", **_named(field.xml.item, within=field)), field
+        _add_scalar(
+            _add_child(
+                _add_child(node, "zeroOrMore"),
+                "element",
+                **_name_attributes(field.xml.item, parent=field),
+            ),
+            field,
         )
     else:
-        _data(node, field, may_be_empty=not is_needed)
+        _add_scalar(node, field, may_be_empty=not is_needed)
 
 
-def _stands_often(field: Field) -> bool:
-    """Whether the element itself may be repeated, not only its content."""
+def _is_element_repeated(field: Field) -> bool:
+    """Return True if the element itself may be repeated, not only its content."""
     is_one_box = field.kind in ("choice", "manual") or (
         field.kind != "list" and bool(field.xml.item)
     )
     return field.is_repeated and not is_one_box and not field.xml.attribute
 
 
-def _named(tag: str, *, within: Field | None = None) -> dict[str, str]:
-    """How the grammar names an element or attribute; it would inherit the namespace around it."""
+def _name_attributes(tag: str, *, parent: Field | None = None) -> dict[str, str]:
+    """Return name and namespace of an element or attribute, which else inherits its parent's."""
     if tag.startswith("{"):
         return {"name": tag.split("}")[1], "ns": NAMESPACE}
-    return {"name": tag, "ns": ""} if within and within.xml.namespaced else {"name": tag}
+    return {"name": tag, "ns": ""} if parent and parent.xml.namespaced else {"name": tag}
 
 
 def _literal(word: str) -> str:
-    """A word as a pattern of XML Schema, which has no escaped blanks."""
+    """Return a word as a pattern of XML Schema, which has no escaped blanks."""
     return re.escape(word).replace("\\ ", " ")
 
 
-def _data(node: etree._Element, field: Field, *, may_be_empty: bool = False) -> None:
-    """The pattern of a scalar."""
+def _add_scalar(node: etree._Element, field: Field, *, may_be_empty: bool = False) -> None:
+    """Add the pattern of a scalar."""
     if field.kind == "str":
         if may_be_empty:
-            _sub(node, "text")
+            _add_child(node, "text")
         else:
-            _pattern(node, SOME_TEXT)
+            _add_pattern(node, SOME_TEXT)
         return
     patterns = {
         "int": r"[+\-]?[0-9]+",
@@ -189,20 +202,20 @@ def _data(node: etree._Element, field: Field, *, may_be_empty: bool = False) -> 
         "bool": "true|false|0|1" if field.xml.attribute else "0|1",
         "word": "|".join(map(_literal, field.type)) if field.kind == "word" else "",
     }
-    inner = f"({patterns.get(field.kind, NUMBER)})" + ("?" if may_be_empty else "")
-    _pattern(node, f"{SPACE}{inner}{SPACE}")
+    pattern = f"({patterns.get(field.kind, NUMBER)})" + ("?" if may_be_empty else "")
+    _add_pattern(node, f"{SPACE}{pattern}{SPACE}")
 
 
-def _pattern(node: etree._Element, pattern: str) -> None:
-    """Text that matches a regular expression of XML Schema."""
-    data = _sub(node, "data", type="string")
-    _sub(data, "param", name="pattern").text = pattern
+def _add_pattern(node: etree._Element, pattern: str) -> None:
+    """Add text that matches a regular expression of XML Schema."""
+    data = _add_child(node, "data", type="string")
+    _add_child(data, "param", name="pattern").text = pattern
 
 
-def _ref(node: etree._Element, spec: type) -> None:
-    """The content of an element, from its ``spec``."""
-    _sub(node, "ref", name=spec.__name__)
+def _add_reference(node: etree._Element, spec: type) -> None:
+    """Add a reference to the content of an element with the spec ``spec``."""
+    _add_child(node, "ref", name=spec.__name__)
 
 
-def _sub(parent: etree._Element, tag: str, **attributes: str) -> etree._Element:
+def _add_child(parent: etree._Element, tag: str, **attributes: str) -> etree._Element:
     return etree.SubElement(parent, f"{{{RNG}}}{tag}", dict(attributes))

@@ -1,7 +1,7 @@
-"""The tables of ``docs/sensors.md``: simulated sensors, and those that are only read.
+"""Generate the tables of ``docs/sensors.md``: simulated sensors, and those that are only read.
 
-The page itself is written by hand; each table stands between ``<!-- table: NAME -->`` and
-``<!-- end of table -->`` and is made by `filled` from the specs that read scene files.
+The page itself is written by hand; each table is between ``<!-- table: NAME -->`` and
+``<!-- end of table -->`` and `fill_tables` generates it from the specs that read scene files.
 """
 
 from __future__ import annotations
@@ -19,54 +19,56 @@ from uwsim.sensors import SENSORS
 from uwsim.topics import INTERFACES
 
 TABLE = re.compile(r"(<!-- table: ([\w-]+) -->\n).*?(<!-- end of table -->)", re.DOTALL)
-COMMON = ("name", "relativeTo")
-"""Elements that every sensor has."""
+COMMON_ELEMENTS = ("name", "relativeTo")
+"""The elements of every sensor."""
 
 
-def filled(page: str) -> str:
-    """Return the page with all its tables made anew; raises KeyError for an unknown one."""
-    return TABLE.sub(lambda found: found[1] + TABLES[found[2]]() + found[3], page)
+def fill_tables(page: str) -> str:
+    """Return the page with new tables; raise KeyError for an unknown table."""
+    return TABLE.sub(lambda match: match[1] + TABLES[match[2]]() + match[3], page)
 
 
-def _sensors(*, simulated: bool) -> str:
-    """Sensors, with their elements besides name and link."""
+def _sensors(*, is_simulated: bool) -> str:
+    """Return the table of sensors, with their elements besides name and link."""
     rows = []
     for name, summary in sensors(bundled_tables()).items():
-        if simulated is (find_limit("sensors", name) == ""):
-            own = [
+        if is_simulated is (find_limit("sensors", name) == ""):
+            labels = [
                 field.label
                 for field in fields_of(SENSORS[qualified_name(name)])
-                if field.label not in COMMON
+                if field.label not in COMMON_ELEMENTS
             ]
-            rows.append((_linked(name), summary, ", ".join(f"`{each}`" for each in own)))
+            rows.append((_element_link(name), summary, ", ".join(f"`{label}`" for label in labels)))
     return _table(("element", "what it measures", "its elements"), rows)
 
 
-def _devices(*, simulated: bool) -> str:
+def _devices(*, is_simulated: bool) -> str:
     rows = [
-        (_linked(name), summary)
+        (_element_link(name), summary)
         for name, summary in devices(bundled_tables()).items()
-        if simulated is (find_limit("devices", name) == "")
+        if is_simulated is (find_limit("devices", name) == "")
     ]
     return _table(("element", "what it is"), rows)
 
 
-def _topics(*, simulated: bool) -> str:
-    """Interfaces that publish, with their default rates."""
+def _topics(*, is_simulated: bool) -> str:
+    """Return the table of interfaces that publish, with their default rates."""
     rows = []
     for tag, spec in INTERFACES.items():
         name = prefixed_name(tag)
         summary = (spec.__doc__ or "").strip().split("\n")[0]
         elements = {field.label: field for field in fields_of(spec)}
-        topics = ", ".join(f"`{each}`" for each in elements if each.lower().endswith("topic"))
-        publishes = not spec.subscribes and (topics or spec.message_types())
-        if publishes and simulated is (find_limit("interfaces", name) == ""):
+        topics = ", ".join(
+            f"`{element}`" for element in elements if element.lower().endswith("topic")
+        )
+        is_publisher = not spec.subscribes and (topics or spec.message_types())
+        if is_publisher and is_simulated is (find_limit("interfaces", name) == ""):
             rate = f"{elements['rate'].default:g} Hz" if "rate" in elements else "-"
-            rows.append((_linked(name), summary, topics or "-", rate))
+            rows.append((_element_link(name), summary, topics or "-", rate))
     return _table(("element of `<rosInterfaces>`", "what it does", "topics", "default rate"), rows)
 
 
-def _linked(name: str) -> str:
+def _element_link(name: str) -> str:
     return f"[`<{name}>`](dialect.md#{name.lower().replace(':', '')})"
 
 
@@ -78,19 +80,19 @@ def _table(head: tuple[str, ...], rows: Sequence[tuple[str, ...]]) -> str:
 
 
 TABLES: dict[str, Callable[[], str]] = {
-    "sensors": lambda: _sensors(simulated=True),
-    "sensors-read-only": lambda: _sensors(simulated=False),
-    "devices": lambda: _devices(simulated=True),
-    "devices-read-only": lambda: _devices(simulated=False),
-    "topics": lambda: _topics(simulated=True),
-    "topics-read-only": lambda: _topics(simulated=False),
+    "sensors": lambda: _sensors(is_simulated=True),
+    "sensors-read-only": lambda: _sensors(is_simulated=False),
+    "devices": lambda: _devices(is_simulated=True),
+    "devices-read-only": lambda: _devices(is_simulated=False),
+    "topics": lambda: _topics(is_simulated=True),
+    "topics-read-only": lambda: _topics(is_simulated=False),
 }
 
 
 def main() -> None:
-    """Fill the tables of the page given."""
+    """Fill the tables of a page."""
     page = Path(sys.argv[1])
-    page.write_text(filled(page.read_text()))
+    page.write_text(fill_tables(page.read_text()))
 
 
 if __name__ == "__main__":

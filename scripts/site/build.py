@@ -20,15 +20,15 @@ import tomllib
 from pathlib import Path
 
 from formulas import with_mathml
-from links import broken_links, loaded_from_elsewhere
+from links import broken_links, network_sources
 
-HERE = Path(__file__).resolve().parent
-ROOT = HERE.parent.parent
+SITE_FOLDER = Path(__file__).resolve().parent
+ROOT = SITE_FOLDER.parent.parent
 PACKAGE = ROOT / "src" / "uwsim"
 LINK = re.compile(r"(!?\[[^\]]*\])\(([^)#\s]+)(#[^)\s]*)?\)")
 """A link or an image of Markdown: its text, its target, its anchor."""
 SHIM = "https://unpkg.com/iframe-worker/shim"
-"""What Zensical loads so that the search works from disk; a copy of it is in this folder."""
+"""The script that Zensical loads for search from disk; this folder has a copy."""
 Navigation = dict[str, dict[str, list[str]]]
 """The pages of each group of each section, by the titles; pages without a group are in ``""``."""
 
@@ -36,14 +36,14 @@ Navigation = dict[str, dict[str, list[str]]]
 def main() -> None:
     """Build the site."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("out", type=Path, help="folder of the site; it is made anew")
+    parser.add_argument("out", type=Path, help="folder of the site, which is replaced")
     arguments = parser.parse_args()
     work = arguments.out.resolve().with_suffix(".work")
     shutil.rmtree(work, ignore_errors=True)
     pages = work / "pages"
     shutil.copytree(ROOT / "docs", pages)
     for name in ("style.css", "iframe-worker.js", "iframe-worker.LICENSE"):
-        shutil.copy(HERE / name, pages)
+        shutil.copy(SITE_FOLDER / name, pages)
     nav = copy_pages(pages)
     nav["Learn"]["Notebooks"] = notebook_pages(pages)
     nav["Reference"]["Python packages"] = reference_pages(pages)
@@ -56,20 +56,20 @@ def main() -> None:
 
 
 def copy_pages(pages: Path) -> Navigation:
-    """Rewrite the links of the copied pages; return the navigation that ``index.md`` gives.
+    """Rewrite the links of the copied pages; return the navigation of ``index.md``.
 
     A linked Markdown file from outside ``docs/`` becomes a page of its own; a link to any other
     file of the repository becomes its path.
     """
-    outside: dict[Path, str] = {}
+    extra_pages: dict[Path, str] = {}
     for page in sorted(pages.glob("*.md")):
-        page.write_text(rewritten(page.read_text(), ROOT / "docs", outside))
-    for path, name in list(outside.items()):
-        (pages / name).write_text(rewritten(path.read_text(), path.parent, outside))
+        page.write_text(rewrite_links(page.read_text(), ROOT / "docs", extra_pages))
+    for path, name in list(extra_pages.items()):
+        (pages / name).write_text(rewrite_links(path.read_text(), path.parent, extra_pages))
     index = (pages / "index.md").read_text()
     nav = navigation(index)
     targets = {target for _, target, _ in LINK.findall(index)}
-    nav["More"] = {"": [name for name in sorted(outside.values()) if name not in targets]}
+    nav["More"] = {"": [name for name in sorted(extra_pages.values()) if name not in targets]}
     return nav
 
 
@@ -97,8 +97,8 @@ def navigation(index: str) -> Navigation:
     return nav
 
 
-def rewritten(text: str, folder: Path, outside: dict[Path, str]) -> str:
-    """Return the page with links that work in the site; note in ``outside`` what it needs."""
+def rewrite_links(text: str, folder: Path, extra_pages: dict[Path, str]) -> str:
+    """Return the page with links that work in the site; add linked pages to ``extra_pages``."""
 
     def replace(match: re.Match[str]) -> str:
         label, target, anchor = match.groups()
@@ -109,8 +109,10 @@ def rewritten(text: str, folder: Path, outside: dict[Path, str]) -> str:
             name = path.relative_to(ROOT / "docs").as_posix()
         elif path.suffix == ".md":
             name = path.relative_to(ROOT).as_posix().replace("/", "-")
-            name = "repository.md" if name == "README.md" else name  # which would be index.html
-            outside.setdefault(path, name)
+            name = (
+                "repository.md" if name == "README.md" else name
+            )  # README.md would become index.html
+            extra_pages.setdefault(path, name)
         else:
             return f"{label.strip('![]')} (`{path.relative_to(ROOT)}`)"
         return f"{label}({name}{anchor or ''})"
@@ -119,7 +121,7 @@ def rewritten(text: str, folder: Path, outside: dict[Path, str]) -> str:
 
 
 def notebook_pages(pages: Path) -> list[str]:
-    """Execute each notebook and write what it shows as a page; an error in one is ours."""
+    """Execute each notebook, and write its output as a page."""
     sources = sorted((ROOT / "examples" / "notebooks").glob("*.py"))
     if not sources:
         return []
@@ -143,7 +145,7 @@ def notebook_pages(pages: Path) -> list[str]:
 
 
 def reference_pages(pages: Path) -> list[str]:
-    """Write a page for each package: what its ``__init__`` lists, else each of its modules."""
+    """Write a page for each package: the names of its ``__init__``, otherwise its modules."""
     (pages / "reference").mkdir()
     names = []
     for init in sorted(PACKAGE.rglob("__init__.py"), key=lambda path: path.parent):
@@ -151,11 +153,11 @@ def reference_pages(pages: Path) -> list[str]:
         modules = sorted(
             path.stem for path in init.parent.glob("*.py") if not path.stem.startswith("_")
         )
-        shown = [package]
+        shown_modules = [package]
         if package != "uwsim" and not lists_names(init):
-            shown += [f"{package}.{module}" for module in modules]
-        lines = [f"# {package}", "", f"::: {shown[0]}", ""]
-        for module in shown[1:]:
+            shown_modules += [f"{package}.{module}" for module in modules]
+        lines = [f"# {package}", "", f"::: {shown_modules[0]}", ""]
+        for module in shown_modules[1:]:
             lines += [f"## {module}", "", f"::: {module}", "    options:", "      heading_level: 3"]
             lines += [""]
         (pages / "reference" / f"{package}.md").write_text("\n".join(lines))
@@ -164,7 +166,7 @@ def reference_pages(pages: Path) -> list[str]:
 
 
 def lists_names(init: Path) -> bool:
-    """Whether the ``__init__`` of a package has an ``__all__`` with names in it."""
+    """Return True if the ``__init__`` of a package has an ``__all__`` with names."""
     for node in ast.parse(init.read_text()).body:
         if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "__all__":
             return bool(ast.literal_eval(node.value))
@@ -174,7 +176,9 @@ def lists_names(init: Path) -> bool:
 def configure(work: Path, nav: Navigation) -> None:
     """Write ``zensical.toml`` of this build: the common settings and the navigation."""
     text = (
-        (HERE / "zensical.toml").read_text().replace('paths = ["src"]', f'paths = ["{ROOT}/src"]')
+        (SITE_FOLDER / "zensical.toml")
+        .read_text()
+        .replace('paths = ["src"]', f'paths = ["{ROOT}/src"]')
     )
     entries = [
         f"  {{{json.dumps(title)} = {toml_array(groups)}}},"
@@ -200,25 +204,25 @@ def toml_array(groups: dict[str, list[str]]) -> str:
 
 
 def run_zensical(work: Path) -> None:
-    """Make HTML; a warning, such as an anchor that does not exist, is an error."""
+    """Generate HTML; a warning, such as a missing anchor, is an error."""
     run(str(Path(sys.executable).with_name("zensical")), "build", "--strict", folder=work)
 
 
 def run(*command: str, folder: Path = ROOT) -> None:
-    """Run a command; what it printed is shown where it fails."""
+    """Run a command; exit with its output if it fails."""
     environment = os.environ | {"NO_COLOR": "1"}
-    done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True)
-    if done.returncode:
-        raise SystemExit(f"{' '.join(command)} failed:\n{done.stdout}{done.stderr}")
+    process = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True)
+    if process.returncode:
+        raise SystemExit(f"{' '.join(command)} failed:\n{process.stdout}{process.stderr}")
 
 
 def finish(site: Path) -> None:
-    """Render the formulas, take the search's script from the site itself, and check the result."""
+    """Render the formulas, load the search's script from the site itself, and check the result."""
     for page in sorted(site.rglob("*.html")):
         up = "../" * len(page.relative_to(site).parts[1:])
         text = page.read_text().replace(SHIM, f"{up}iframe-worker.js")
         page.write_text(with_mathml(text))
-    errors = broken_links(site) + loaded_from_elsewhere(site)
+    errors = broken_links(site) + network_sources(site)
     if errors:
         raise SystemExit("\n".join(errors))
 

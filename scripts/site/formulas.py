@@ -1,4 +1,4 @@
-"""TeX formulas in HTML, as Python-Markdown's arithmatex leaves them, become MathML."""
+"""Convert TeX formulas in HTML, as Python-Markdown's arithmatex writes them, to MathML."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from latex2mathml.converter import convert
 FORMULA = re.compile(
     r'<(span|div) class="arithmatex">\\([(\[])(.*?)\\[)\]]</(?:span|div)>', re.DOTALL
 )
-"""The element, how the formula is delimited (a parenthesis: within a line), and the TeX."""
+"""The pattern of a formula: element, delimiter (a parenthesis: within a line), and TeX."""
 
 
 def with_mathml(page: str) -> str:
-    """Return the page with every formula as MathML, which browsers draw themselves."""
+    """Return the page with every formula as MathML, which browsers render."""
 
     def replace(match: re.Match[str]) -> str:
         element, delimiter, tex = match.groups()

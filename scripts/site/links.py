@@ -1,4 +1,4 @@
-"""Checks of a built site: links lead somewhere, and nothing is loaded from the network."""
+"""Check a built site: links have targets, and nothing is loaded from the network."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from lxml import html
 
 
 def broken_links(site: Path) -> list[str]:
-    """Return one line for each link within the site to a page or an anchor that is not there."""
+    """Return a line for each link within the site to a missing page or anchor."""
     errors = []
     for page in sorted(site.rglob("*.html")):
         if page.name == "404.html":
@@ -21,7 +21,7 @@ def broken_links(site: Path) -> list[str]:
                 continue
             path = (page.parent / unquote(parts.path)).resolve() if parts.path else page
             if not path.exists():
-                errors.append(f"{page.relative_to(site)}: {target} is not there")
+                errors.append(f"{page.relative_to(site)}: {target} does not exist")
             elif parts.fragment and unquote(parts.fragment) not in anchors(path):
                 errors.append(f"{page.relative_to(site)}: {target} has no such anchor")
     return errors
@@ -36,12 +36,12 @@ def anchors(page: Path) -> frozenset[str]:
     return frozenset(root.xpath("//@id")) | frozenset(root.xpath("//a/@name"))
 
 
-def loaded_from_elsewhere(site: Path) -> list[str]:
-    """Return one line for each script, style or image that a page loads from the network."""
-    loaded = "//script/@src | //link[@rel='stylesheet']/@href | //img/@src"
+def network_sources(site: Path) -> list[str]:
+    """Return a line for each script, style or image that a page loads from the network."""
+    xpath = "//script/@src | //link[@rel='stylesheet']/@href | //img/@src"
     return [
         f"{page.relative_to(site)}: {source} is loaded from the network"
         for page in sorted(site.rglob("*.html"))
-        for source in html.parse(page).getroot().xpath(loaded)
+        for source in html.parse(page).getroot().xpath(xpath)
         if urlsplit(source).netloc
     ]

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from scripts.reference.sensor_tables import filled
+from scripts.reference.sensor_tables import fill_tables
 from uwsim import messages
 from uwsim.checks import check_file
 from uwsim.devices import DEVICES
@@ -27,14 +27,14 @@ SCENE = """<UWSimScene xmlns:u="urn:uwsim:1">
 
 
 def test_the_tables_are_what_the_code_says() -> None:
-    assert filled(PAGE) == PAGE, "run scripts/docs"
+    assert fill_tables(PAGE) == PAGE, "run scripts/docs"
 
 
 def test_a_table_without_rows_is_a_word(monkeypatch: pytest.MonkeyPatch) -> None:
     empty = "<!-- table: sensors-read-only -->\n<!-- end of table -->"
-    assert filled(empty) == empty.replace("\n", "\nNone.\n")
+    assert fill_tables(empty) == empty.replace("\n", "\nNone.\n")
     monkeypatch.setitem(UNSIMULATED_ELEMENTS, ("vehicle", "dvlSensor"), "dvlSensor")
-    assert "| [`<dvlSensor>`]" in filled(empty)
+    assert "| [`<dvlSensor>`]" in fill_tables(empty)
 
 
 @pytest.mark.parametrize("name", [*SENSORS, *DEVICES])
