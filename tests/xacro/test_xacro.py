@@ -131,7 +131,7 @@ def test_what_it_expands_to(tmp_path: Path, body: str, expected: str | None) -> 
         ('<xacro:macro name="m" params="*b"><b/></xacro:macro><xacro:m/>', "lacks its block 'b'"),
         ('<xacro:macro name="m" params="1p"><b/></xacro:macro>', "is no parameter"),
         ('<xacro:if value="maybe"/>', "neither true nor false"),
-        ('<xacro:property name="x" value="${x}"/><b>${x}</b>', "defined by itself"),
+        ('<xacro:property name="x" value="${x}"/><b>${x}</b>', "refers to itself"),
         ("<b>$(env HOME)</b>", "not supported"),
         ("<b>$(arg n)</b>", "no such <xacro:arg>"),
         ('<xacro:include filename="nowhere.xacro"/>', "is not found"),

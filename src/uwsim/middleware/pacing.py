@@ -1,4 +1,4 @@
-"""The pace of simulation time relative to wall time."""
+"""The real-time factor of a simulation."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from collections.abc import Callable
 from ..errors import RunFailed
 
 SHORTEST_SLEEP_S = 0.001
-"""The shortest time that a step is held back [s]."""
+"""The shortest sleep at the end of a step [s]."""
 MIN_SPEED = 1e-6
-"""The minimum simulation time per real time, which bounds the wait between two steps."""
-MAX_LAG_S = 0.2
+"""The minimum real-time factor, which bounds the wait between two steps."""
+MAX_CATCH_UP_S = 0.2
 """The maximum lag that a simulation catches up [s]; the time of a longer lag is lost."""
 
 
@@ -24,8 +24,8 @@ class Pace:
 
     Args:
         clock: returns the simulation time [s].
-        speed: simulation time per real time, > 0.
-        max_lag: the lag of a step that ends the run [s]: a strict clock, for hardware in the loop;
+        speed: the real-time factor, > 0.
+        max_lag: the lag behind real time above which the run ends, for hardware in the loop [s];
             None: no limit.
         now: returns real time [s].
         sleep: waits for some time [s].
@@ -52,7 +52,7 @@ class Pace:
         """Wait until the step is due.
 
         Raises:
-            RunFailed: the clock is strict, and the step is later than its limit.
+            RunFailed: the simulation lags behind real time by more than ``max_lag``.
         """
         now = self._now()
         if self._wall_start is None:
@@ -66,6 +66,6 @@ class Pace:
             )
         if lead >= SHORTEST_SLEEP_S:
             self._sleep(lead)
-        elif lead < -MAX_LAG_S:
+        elif lead < -MAX_CATCH_UP_S:
             self._wall_start -= lead
             self.lost_time -= lead

@@ -1,8 +1,8 @@
-r"""Surfaces without mipmaps: those of which a pixel covers less than two texels.
+r"""Selection of flat pieces without mipmaps: a pixel covers at most `MAX_TEXELS` along its side.
 
 In a software rasteriser, blending the mipmaps of a texture takes most of the time of a large
-floor's pixels. It matters where a pixel covers many texels. For a flat piece of a model, the
-largest footprint of a pixel follows before it is drawn: on the plane
+floor. It has an effect only where a pixel covers many texels. For a flat piece of a model, the
+largest footprint of a pixel can be bounded before the piece is drawn: on the plane
 :math:`n \cdot X = d` of the camera's frame, at the planar depth :math:`t`,
 
 .. math:: \left| \frac{\partial X}{\partial u} \right|
@@ -35,14 +35,14 @@ def needs_no_mipmaps(
     world_from_camera: Pose,
     intrinsics: Intrinsics,
 ) -> npt.NDArray[np.bool_]:
-    """Return the pieces that need no mipmaps, (m,).
+    """Return a flag for each piece: True if it is flat, textured and needs no mipmaps, (m,).
 
     Args:
-        densities: texels along a metre at most, (m,) [1/m]; 0 without a texture.
-        normals: of flat pieces in W, (m, 3); 0 for those that are bent.
-        corners: of the boxes around them in W, (m, 8, 3) [m].
-        world_from_camera: pose of the camera; OpenGL axes.
-        intrinsics: the pinhole of the camera.
+        densities: the largest number of texels per metre, (m,) [1/m]; 0 without a texture.
+        normals: the normals of flat pieces in W, (m, 3); 0 for non-planar pieces.
+        corners: the corners of the boxes around the pieces in W, (m, 8, 3) [m].
+        world_from_camera: the pose of the camera; OpenGL axes.
+        intrinsics: the intrinsics of the camera.
     """
     focal = min(intrinsics.fx, intrinsics.fy)
     position = world_from_camera.position
@@ -64,7 +64,7 @@ def _compute_flags(
 ) -> None:
     """Compute `needs_no_mipmaps` into ``flags``; position and rotation are those of the camera.
 
-    Normals are in its frame; bent pieces have the normal 0, and thus no distance from their plane.
+    Normals are in its frame. Non-planar pieces have the normal 0, and thus no distance to a plane.
     """
     point = np.empty(3)
     for m in range(len(densities)):

@@ -71,12 +71,12 @@ class VehicleSpec(Spec):
         default=UNIT_SCALE, minimum=1e-6, maximum=1e6, original=CLAMPED_NUMBER
     )
     """The scale of the whole vehicle along x, y, z of its base: of its meshes, the distances of its
-    links, and its mounted parts; a simulated vehicle has none [1]."""
+    links, and its mounted parts; it must be 1 for a vehicle with dynamics [1]."""
     parts: tuple[object, ...] = element("", choice=PARTS, default=())
     """The sensors and devices, in the order of `PARTS`."""
     dynamics: str | None = element(namespaced=True, default=None)
-    """The name of the hydrodynamic model, for example g500_physical; without it only commands move
-    the vehicle."""
+    """The name of the hydrodynamic model, for example g500_physical; without it the vehicle is
+    kinematic: commands and the current move it."""
     hydrodynamics: tuple[tuple[str, str], ...] = field(default=(), metadata={"not_in_file": True})
     """The path and value of each number of that model that ``--set`` or ``u:vary`` sets."""
     velocity_loop: Literal["water", "ground"] = element(namespaced=True, default="water")
@@ -103,7 +103,7 @@ class VehicleSpec(Spec):
 
     @property
     def sensor_names(self) -> tuple[str, ...]:
-        """The names of the sensors, and of devices that measure."""
+        """The names of all parts that have one."""
         names = (getattr(part, "name", None) for _, part in self.all_parts())
         return tuple(name for name in names if name is not None)
 

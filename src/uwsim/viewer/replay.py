@@ -113,7 +113,7 @@ class Replay:
         """Write the page atomically; the same result gives the same bytes.
 
         Raises:
-            ResultError: the name does not end in .html.
+            ResultError: the suffix is neither .html nor .htm.
         """
         path = Path(path)
         if path.suffix.lower() not in SUFFIXES:
@@ -184,7 +184,7 @@ def _level(level: RecordedLevel, trial: RecordedTrial) -> Json:
 
 
 def _measures(levels: Sequence[RecordedLevel]) -> list[str]:
-    """Return the names of the curves: measures with a log, then the further columns of each log.
+    """Return the names of the curves: each measure, followed by the further columns of its log.
 
     A curve without a value in any level is left out.
     """
@@ -202,7 +202,7 @@ def _curves_with_values(levels: Sequence[RecordedLevel]) -> Iterator[Curve]:
 
 
 def _curve(name: str, levels: Sequence[RecordedLevel], blob: Blob) -> Json:
-    """Join the samples of a measure of all levels, with a gap where time passes between two."""
+    """Join the samples of a measure of all levels, with a gap where time passes between levels."""
     curves = [c for level in levels for c in (*level.curves, *level.details) if c.measure == name]
     times, values = [curves[0].times], [curves[0].values]
     for curve in curves[1:]:

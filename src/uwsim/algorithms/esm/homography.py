@@ -23,7 +23,7 @@ def exponential(x: Array) -> Array:
 
     The generators, each of trace 0, move a point (u, v) of the plane by: 0 right, 1 down, 2 shear
     along u, 3 shear along v, 4 stretch u and squeeze v, 5 scale, 6 and 7 perspective along u, v.
-    Scaling and squaring with a Taylor series of order 8: exact to 1e-15 for \|x\| < 1.
+    Scaling and squaring with a Taylor series of order 8: accurate to 1e-12 for \|x\| < 1.
     """
     a = np.empty((3, 3))
     a[0, 0], a[0, 1], a[0, 2] = x[4] + x[5] / 3.0, x[2], x[0]

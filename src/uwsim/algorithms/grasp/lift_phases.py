@@ -99,7 +99,7 @@ class RetreatPhase(Phase):
 
 
 class RetryPhase(Phase):
-    """The vehicle opens the jaw, rises and restarts, at most `Task.attempts` times."""
+    """The vehicle opens the jaw, rises and restarts; it aborts after `Task.attempts` failures."""
 
     name = "retry"
     limit = 10.0

@@ -149,7 +149,7 @@ class GraspBlindClose:
         node.create_timer(0.1, self._tick)
 
     def _tick(self) -> None:
-        """Descend for a fifth of the period, close the jaw, later rise for a fifth."""
+        """Descend for a fifth of the period, close the jaw, then rise for two fifths."""
         now = self._node.now
         fraction = math.modf(now / float(self.parameters["period"]))[0]
         speed = 0.12 if fraction < 0.2 else -0.12 if fraction > 0.6 else 0.0

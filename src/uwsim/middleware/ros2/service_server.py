@@ -1,8 +1,9 @@
-"""Services on DDS, as ROS 2 with Cyclone DDS calls them: 16 bytes before request and reply.
+"""Services over DDS in the wire format of rmw_cyclonedds: a header of 16 bytes before each sample.
 
-They are the client's number and that of its request. Other vendors send them outside the sample,
-where cyclonedds for Python does not read them: calls by nodes of Fast DDS arrive, but cannot be
-answered. Such a call is reported, once for each service.
+The header of a request or reply has the number of the client and that of its request. Other
+vendors send them in the inline QoS, which cyclonedds for Python does not expose. Requests of nodes
+with Fast DDS therefore arrive without a client, and are ignored. Such clients are reported when
+they connect.
 """
 
 from __future__ import annotations

@@ -93,10 +93,12 @@ class Scope:
         raise ExpressionError(f"no property is called {name!r}.{did_you_mean(name, names)}")
 
     def _evaluate(self, name: str) -> Value:
-        if name in self._active_names or len(self._active_names) >= MAX_DEPTH:
+        if len(self._active_names) >= MAX_DEPTH:
+            raise ExpressionError(f"the property {name!r} ends a chain of over {MAX_DEPTH} others")
+        if name in self._active_names:
             chain = " -> ".join([*self._active_names[-4:], name])
             raise ExpressionError(
-                f"the property {name!r} is defined by itself: {chain}; "
+                f"the property {name!r} refers to itself: {chain}; "
                 'lazy_eval="false" evaluates it where it is defined'
             )
         self._active_names.append(name)
@@ -144,5 +146,5 @@ class Scope:
 
 
 def literal_of(value: Value) -> Value:
-    """Convert a text to the number that it is; return other values unchanged."""
+    """Parse a text as a number, truth value or quoted string; return other values unchanged."""
     return parse_literal(value) if isinstance(value, str) else value

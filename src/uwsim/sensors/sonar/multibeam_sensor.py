@@ -9,9 +9,9 @@
     </multibeamSensor>
 
 A beam at the angle t points along (0, sin t, -cos t). Its range is exact for the triangles of the
-scene. With a beam width it is the mean over the surface that the beam covers, weighted by its
-pattern, as bottom detection by amplitude finds it. Where the beam covers two surfaces, one behind
-the other, it is that of the one with more of the beam.
+scene. With a beam width, the range is the mean over the insonified surface, weighted by the beam
+pattern, as in bottom detection by amplitude. If the beam covers two surfaces, one behind the other,
+the range is that of the surface that covers more of the beam.
 """
 
 from __future__ import annotations
@@ -145,16 +145,16 @@ class BeamFan:
 
 
 def find_surface_rays(distances: Array, weights: Array, width: float) -> npt.NDArray[np.bool_]:
-    """Return the rays of each beam that meet the surface with most of the beam, (n, k).
+    """Return the rays of each beam on the surface that covers most of the beam, (n, k).
 
-    Of a beam's distances in order, a gap of more than half their spread is between two surfaces: on
-    one surface, however it slopes, the rays lie closer. So does a curve of :math:`r w^2` at most,
-    what a beam across a flat surface differs by.
+    The sorted distances of a beam are split at their largest gap, if it is greater than half their
+    spread and than :math:`r w^2`, the range variation of a flat surface within the beam. On one
+    sloping surface, gaps are smaller. The part with more weight remains, and is split again.
 
     Args:
-        distances: of the rays of each beam; inf where nothing is met, (n, k) [m].
-        weights: of the rays, (k,).
-        width: of a beam [rad].
+        distances: the distances of the rays of each beam; inf without a hit, (n, k) [m].
+        weights: the weights of the rays, (k,).
+        width: the width of a beam [rad].
     """
     is_hit = np.isfinite(distances)
     for beam in np.flatnonzero(is_hit.sum(axis=1) > 1).tolist():

@@ -25,7 +25,7 @@ class LowerSurface:
 
 
 def surfaces_below_vehicle(world: LiveScene, vehicle: str) -> tuple[LowerSurface, ...]:
-    """Return the surfaces vertically below a vehicle's origin, the nearest first."""
+    """Return the visible surfaces below a vehicle's origin, without its own, nearest first."""
     index = world.vehicles.find(vehicle).index
     parts = world.scenery.parts
     visible_parts = [part for part in parts if part.vehicle != index and not part.is_hidden]
@@ -35,10 +35,10 @@ def surfaces_below_vehicle(world: LiveScene, vehicle: str) -> tuple[LowerSurface
 def surfaces_below(
     point: Array, scenery: Scenery, parts: Iterable[Part]
 ) -> tuple[LowerSurface, ...]:
-    """Return the highest surface of each of ``parts`` below a point of W, (3,) [m], highest first.
+    """Return the highest surface of each name of ``parts`` below a point of W, (3,) [m].
 
-    A triangle is met where the point lies inside its projection along z: with the corners' signed
-    areas :math:`a, b, c` (of the point with each two corners) all of one sign, at height
+    The highest comes first. The vertical through the point meets a triangle if the signed areas
+    :math:`a, b, c` of the point with each pair of corners have one sign, at the height
     :math:`(a z_0 + b z_1 + c z_2) / (a + b + c)`. Vertical triangles are not met.
     """
     heights: dict[str, float] = {}

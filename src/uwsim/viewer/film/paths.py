@@ -24,7 +24,7 @@ ORBIT_PERIOD = 40.0
 SMOOTHING_TIME = 1.5
 """The standard deviation of the Gaussian that smooths the path of the camera [s]."""
 DISTANCE = 3.0
-"""The distance of the chasing camera behind the vehicle, in halves of its diagonal [1]."""
+"""The distance of the chasing camera behind the vehicle, in half diagonals of the subject [1]."""
 HEIGHT = 1.1
 """The height of the chasing camera above the vehicle, in the same unit [1]."""
 
@@ -43,7 +43,7 @@ class VehiclePath:
     """The smoothed path of the first vehicle."""
 
     positions: Array
-    """The positions, (frames, 3) [m]; those of the scene's middle without a vehicle."""
+    """The positions, (frames, 3) [m]; the centre of the view without a vehicle."""
     headings: Array
     """The horizontal directions of the bow, (frames, 3)."""
 

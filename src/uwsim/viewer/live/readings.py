@@ -35,7 +35,7 @@ class Readings:
         self._sensors: list[tuple[str, Any]] = []
         if not world.vehicles:
             return
-        self._vehicle = world.vehicles.find(world.vehicles.names[vehicle])
+        self._vehicle = world.vehicles[vehicle]
         self._is_simulated = world.engine.is_simulated(self._vehicle.index)
         for element, part in world.model.scene.vehicles[vehicle].all_parts():
             if isinstance(part, ForceSensorSpec | BatterySpec):
