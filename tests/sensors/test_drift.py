@@ -113,4 +113,4 @@ def test_the_errors_follow_the_formulas_of_the_page() -> None:
         slow = 0.4**2 + spec.bias_std**2 + 0.03**2 * time
         assert variance == pytest.approx(0.1**2 / (lasted or 0.01) + slow)
         before = time
-    assert drift.state.random.standard_normal() == random.standard_normal()
+    assert drift.state.rng.standard_normal() == random.standard_normal()

@@ -128,7 +128,9 @@ def test_names_from_files_are_text_wherever_they_stand(tmp_path: Path) -> None:
     rows = [(*row[:-2], EVIL if row[-2] == "lost" else row[-2], row[-1]) for row in base.rows]
     evil = Result(
         inputs=Inputs(benchmark=(EVIL, EVIL), assets={EVIL: EVIL}),
-        run=RunInfo(algorithm=EVIL, mode=EVIL, parameters={EVIL: [EVIL]}, others={EVIL: EVIL}),
+        run=RunInfo(
+            algorithm=EVIL, mode=EVIL, parameters={EVIL: [EVIL]}, other_values={EVIL: EVIL}
+        ),
         columns=tuple(columns),
         rows=tuple(rows),
         missing_values=tuple(

@@ -83,10 +83,10 @@ def test_noise_is_added_after_the_mean_and_draws_as_many_numbers(tmp_path: Path)
             noise = camera.capture().astype(float) - clean
             spread.append(noise[(clean > 40) & (clean < 215)].std())
             twin = np.random.Generator(np.random.Philox())
-            twin.bit_generator.state = camera.state.random.bit_generator.state
+            twin.bit_generator.state = camera.state.rng.bit_generator.state
             camera.capture()
             twin.integers(2**63)
-            assert twin.integers(2**63) == camera.state.random.integers(2**63)
+            assert twin.integers(2**63) == camera.state.rng.integers(2**63)
     assert spread == pytest.approx([0.05 * 255.0] * 2, rel=0.05)
 
 
