@@ -5,7 +5,6 @@ from __future__ import annotations
 import pytest
 
 from tests.support.language.docstrings import docstring_fault
-from tests.support.language.exceptions import read_exceptions
 from tests.support.language.names import name_fault
 from tests.support.language.scan import (
     MAX_SHARE,
@@ -25,26 +24,12 @@ def report() -> Report:
     return scan()
 
 
-def test_every_violation_of_the_language_rules_is_an_exception(report: Report) -> None:
-    exceptions = set(read_exceptions())
-    new = [str(item) for item in report.violations if item.key not in exceptions]
-    assert not new, "\n" + "\n".join(new)
+def test_no_name_docstring_message_or_page_violates_the_language_rules(report: Report) -> None:
+    assert not report.violations, "\n" + "\n".join(map(str, report.violations))
 
 
-def test_every_exception_still_holds(report: Report) -> None:
-    """Run ``python -m tests.support.language --shrink`` to remove the corrected ones."""
-    keys = {violation.key for violation in report.violations}
-    assert [line for line in read_exceptions() if line not in keys] == []
-
-
-def test_the_exceptions_are_sorted_and_each_is_there_once() -> None:
-    lines = read_exceptions()
-    assert lines == sorted(set(lines))
-
-
-def test_few_sentences_of_all_pages_are_long_once_no_page_is_an_exception(report: Report) -> None:
-    if not any(": page: " in line for line in read_exceptions()):
-        assert report.total("long sentence") <= MAX_SHARE * report.total("sentence")
+def test_few_sentences_of_all_pages_are_long(report: Report) -> None:
+    assert report.total("long sentence") <= MAX_SHARE * report.total("sentence")
 
 
 @pytest.mark.parametrize(

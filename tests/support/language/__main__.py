@@ -5,24 +5,21 @@ from __future__ import annotations
 import sys
 from collections import Counter
 
-from .exceptions import read_exceptions, remove_corrected
 from .scan import Report, package_of, scan
 
 KINDS_OF_TEXT = ("docstring", "article", "message", "sentence", "page")
 COLUMNS = (*("function", "class", "constant", "variable"), *KINDS_OF_TEXT)
 """The kinds that the table shows."""
-USAGE = """usage: python -m tests.support.language [FOLDER... | --figures | --new | --shrink]
+USAGE = """usage: python -m tests.support.language [FOLDER... | --figures]
 
 FOLDER...   list the violations in these folders or files
 --figures   print how far the code is from the figures to reach
---new       list the violations that are not in tests/names_exceptions.txt
---shrink    remove corrected violations from tests/names_exceptions.txt
             without arguments: a table of counts for each package, and the figures
 """
 
 
 def print_figures(report: Report) -> None:
-    """Print how far the code is from the figures to ritem."""
+    """Print how far the code is from the figures to reach."""
     tests = scan(("tests",))
     print(f"language: {name_figures(report)}")
     print(f"language, tests: {name_figures(tests)}")
@@ -63,14 +60,6 @@ def main(arguments: list[str]) -> None:
     """Run the command."""
     if arguments == ["--figures"]:
         print_figures(scan())
-    elif arguments == ["--shrink"]:
-        print(f"{remove_corrected(scan())} lines removed")
-    elif arguments == ["--new"]:
-        exceptions = set(read_exceptions())
-        violations = scan().violations
-        for violation in violations:
-            if violation.key not in exceptions:
-                print(violation)
     elif any(argument.startswith("-") for argument in arguments):
         raise SystemExit(USAGE)
     elif arguments:

@@ -22,7 +22,7 @@ class Violation:
 
     @property
     def key(self) -> str:
-        """The line of the file of exceptions, which does not depend on the line number."""
+        """The path, kind and qualified name, which do not depend on the line number."""
         return f"{self.path}: {self.kind}: {self.name}"
 
     def __str__(self) -> str:
