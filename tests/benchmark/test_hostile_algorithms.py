@@ -157,9 +157,9 @@ def test_an_algorithm_that_dies_or_hangs_or_falsifies_does_so_to_itself_alone(
         for algorithm in (ExitsProcess, NeverReturns, Patches, PublishesWrongEstimate)
     ]
     dead, hanging, patched, honest = run_all(benches, ProcessExecutor(1, callback_limit=5.0))
-    died = "Dies was stopped at 0.4 s: its process ended (with exit status 0)"
+    died = "ExitsProcess was stopped at 0.4 s: its process ended (with exit status 0)"
     assert reasons(dead) == [died, died]
-    hung = "Hangs was stopped at 0.4 s: a callback took longer than --callback-limit"
+    hung = "NeverReturns was stopped at 0.4 s: a callback took longer than --callback-limit"
     assert reasons(hanging) == [hung, hung]
     assert patched.values("total") == (0.0, 0.0)  # in its own process nothing keeps it from that
     assert honest.values("total") == (1.0, 1.0)

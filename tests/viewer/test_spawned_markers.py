@@ -33,7 +33,7 @@ from uwsim.viewer.film.markers import clip_line
 from uwsim.viewer.recorded import RecordedTrial
 from uwsim.viewer.replay import Replay
 
-WORDS = f"{marking.__file__}:Marking"
+WORDS = f"{marking.__file__}:MarkingAlgorithm"
 TIMES = {
     SPAWN_TIME - 0.1: [],
     SPAWN_TIME + 0.1: [BOX],

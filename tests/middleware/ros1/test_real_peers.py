@@ -96,7 +96,7 @@ def test_a_program_of_the_originals_kind_moves_the_arm(sea: Sea) -> None:
 
 def test_a_program_closes_a_loop_over_odometry_and_pose(sea: Sea) -> None:
     goto = ("goto_position.py", "/uwsim/girona500/odom", "/g500/pose", "0.8", "0.4", "2.2")
-    assert sea.output(sea.peers.start(*goto)) == "there\n"
+    assert sea.output(sea.peers.start(*goto)) == "goal reached\n"
     place = sea.odometry().pose.pose.position
     assert math.dist((place.x, place.y, place.z), (0.8, 0.4, 2.2)) < 0.02
 

@@ -84,7 +84,7 @@ def test_without_the_wish_a_contact_costs_only_its_score(tmp_path: Path) -> None
 
 def measure(silence: float) -> SimpleNamespace:
     return SimpleNamespace(
-        measure=SimpleNamespace(longest_silence=silence, why="quiet", task_status=None)
+        measure=SimpleNamespace(longest_silence=silence, missing_reason="quiet", task_status=None)
     )
 
 
@@ -105,7 +105,7 @@ def test_the_first_status_that_applies_counts(
     status: str,
 ) -> None:  # fmt: skip
     inbox: Inbox[String] = Inbox()
-    node = SimpleNamespace(name="esm", error=error, how="raised")
+    node = SimpleNamespace(name="esm", error=error, failure_verb="raised")
     monitor = StatusMonitor(node, inbox)  # type: ignore[arg-type]
     if said:
         inbox.receive(String(data=said), 0)

@@ -255,6 +255,8 @@ def _level_entry(level: TrackLevel) -> dict[str, object]:
 
 
 def _level(entry: Mapping[str, object]) -> TrackLevel:
+    if entry.keys() != {"values", "began", "duration", "status"}:
+        raise ValueError(f"a level has the keys {', '.join(entry)[:60]}")
     values = entry["values"]
     if not isinstance(values, dict):
         raise ValueError(f"the values of a level are {str(values)[:60]}; expected an object")
