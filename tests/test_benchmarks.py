@@ -27,7 +27,7 @@ def test_a_benchmark_can_be_imported_and_has_something_to_run(benchmarks: None, 
 
 
 def test_the_tank_of_the_physics_has_contacts_and_moves_on(benchmarks: None) -> None:
-    _, water, data = importlib.import_module("physics").in_the_tank()
+    _, water, data = importlib.import_module("physics").settle_tank_model()
     assert data.ncon >= 4
     before = data.qpos.copy()
     water.step(data, 10)
@@ -38,15 +38,15 @@ def test_the_tank_of_the_physics_has_contacts_and_moves_on(benchmarks: None) -> 
 def test_rays_in_the_hull_meet_it_from_inside_in_a_mesh_of_mujoco_alone(benchmarks: None) -> None:
     module = importlib.import_module("rays")
     with uwsim.load("survey-scene", is_blind=True) as simulation:
-        cast, scene = simulation.world.rays.cast, simulation.world.rays._scene
+        cast, scene = simulation.world.rays.cast, simulation.world.rays._ray_scene
         found = {}
-        for sensor, (mount, directions) in module.rays().items():
+        for sensor, (mount, directions) in module.sensor_rays().items():
             pose = module.sensor_pose(simulation, mount)
-            own = cast(pose, directions, module.REACH).distance
+            own = cast(pose, directions, module.MAX_RANGE).distance
             meshes = module.mesh_caster(module.triangles_by_body(scene))
             other = module.mujoco_cast(meshes, pose.position, directions @ pose.rotation.T)()
             assert np.isfinite(own).any()
-            found[sensor] = module.differences(own, other)["differ"]
+            found[sensor] = module.compare_distances(own, other)["differ"]
         engine = module.engine_caster(simulation)
         assert engine[0].ngeom > 1000
         down = module.mujoco_cast(engine, pose.position, np.array([[0.0, 0.0, -1.0]]))()
@@ -60,7 +60,7 @@ def test_distances_differ_by_miss_by_extra_hit_and_by_place(benchmarks: None) ->
         np.array([1.0, 1.0, np.inf, 1.0, np.inf]),
         np.array([1.0, np.inf, 2.0, 1.5, np.inf]),
     )
-    assert importlib.import_module("rays").differences(own, other) == {
+    assert importlib.import_module("rays").compare_distances(own, other) == {
         "differ": 0.6,
         "missed": 0.2,
         "extra": 0.2,
