@@ -38,7 +38,7 @@ def test_the_tank_of_the_physics_has_contacts_and_moves_on(benchmarks: None) -> 
 def test_rays_in_the_hull_meet_it_from_inside_in_a_mesh_of_mujoco_alone(benchmarks: None) -> None:
     module = importlib.import_module("rays")
     with uwsim.load("survey-scene", is_blind=True) as simulation:
-        cast, scene = simulation.world.rays.cast, simulation.world.rays._ray_scene
+        cast, scene = simulation.world.rays.cast, simulation.world.rays._scene
         found = {}
         for sensor, (mount, directions) in module.sensor_rays().items():
             pose = module.sensor_pose(simulation, mount)
