@@ -1,4 +1,4 @@
-"""What lock-step costs: a round trip with an algorithm outside the simulation's process.
+"""The cost of lock-step: a round trip with an algorithm outside the simulation's process.
 
 Run ``python benchmarks/lockstep.py``. A controller gets an odometry message and answers with a
 twist, 1000 times: one simulated control period at 100 Hz. The target is 0.5 ms of wall time.

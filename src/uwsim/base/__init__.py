@@ -1,4 +1,4 @@
-"""What everything is built on: geometry, numbers, random streams, files, messages' fields.
+"""The foundation of all packages: geometry, numbers, random streams, files, messages' fields.
 
 Its modules import nothing of uwsim but `uwsim.errors` and each other.
 """

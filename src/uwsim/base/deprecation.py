@@ -1,7 +1,7 @@
 """Old names of the public interface, which still work; `docs/python.md`, "Stability", has the rule.
 
-Both functions make decorators. A decorated function gives a DeprecationWarning to the caller of an
-old name, which states the new one.
+`deprecated_name` and `renamed_parameters` make decorators. The caller of an old name gets a
+DeprecationWarning, which states the new one.
 """
 
 from __future__ import annotations
@@ -34,8 +34,8 @@ def renamed_parameters(**new_names: str) -> Callable[[F], F]:
     def decorate(function: F) -> F:
         @functools.wraps(function)
         def call_new_names(*args: Any, **kwargs: Any) -> Any:
-            for old_name in new_names.keys() & kwargs.keys():
-                if (new_name := new_names[old_name]) not in kwargs:
+            for old_name, new_name in new_names.items():
+                if old_name in kwargs and new_name not in kwargs:
                     warn_old_name(old_name, new_name)
                     kwargs[new_name] = kwargs.pop(old_name)
             return function(*args, **kwargs)

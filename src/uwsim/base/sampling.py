@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from .numerics.calls import address_of, call, evaluate, function_address
+from .numerics.calls import address_of, call, evaluate, function_address, prepare_nothing
 from .numerics.jit import njit
 from .numerics.linear import Array
 from .numerics.memory import Ints64, carray, pointer, read_double, view_doubles, view_int64s
@@ -122,10 +122,6 @@ def _needs_no_preparation(end: float) -> bool:
     return True
 
 
-def _prepare_nothing(time: float) -> None:
-    """Prepare nothing."""
-
-
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Sampler:
     """A function that takes the samples of a sensor in compiled code."""
@@ -136,7 +132,7 @@ class Sampler:
     """The array that the function reads at its address."""
     n_values: int
     """The number of numbers that the function writes."""
-    prepare: Callable[[float], None] = _prepare_nothing
+    prepare: Callable[[float], None] = prepare_nothing
     """A function that updates, in Python, the inputs of the sampler at a time [s]; it is called
     before each sample in Python."""
     is_alone: Callable[[float], bool] = _needs_no_preparation

@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..base.geometry import Array
-from ..base.numerics.calls import address_of, function_address
+from ..base.numerics.calls import address_of, function_address, prepare_nothing
 from ..base.numerics.jit import njit
 from ..base.numerics.memory import view_doubles
 
@@ -32,10 +32,6 @@ QUERY = np.dtype(
 Record = Any
 
 
-def _prepare_nothing(end_time: float) -> None:
-    """Prepare nothing."""
-
-
 @dataclass(frozen=True, kw_only=True, eq=False)
 class FlowFunction:
     """The function of a current."""
@@ -44,7 +40,7 @@ class FlowFunction:
     """A function of the module's level; see `uwsim.base.numerics.calls`."""
     parameters: npt.NDArray[Any]
     """The array that the function reads at its address."""
-    prepare: Callable[[float], None] = _prepare_nothing
+    prepare: Callable[[float], None] = prepare_nothing
     """The function that prepares random numbers up to a time [s]."""
     memory_owners: tuple[object, ...] = field(default=())
     """The objects whose addresses the parameters contain."""

@@ -34,7 +34,7 @@ from typing import ClassVar
 import numpy as np
 
 from ..base.geometry import Array
-from ..base.numerics.calls import FUNCTION, address_of, call, function_address
+from ..base.numerics.calls import FUNCTION, address_of, call, function_address, prepare_nothing
 from ..base.numerics.exact_sum import exact_sum
 from ..base.numerics.jit import njit
 from ..base.numerics.memory import carray, pointer, view_doubles
@@ -148,7 +148,7 @@ class Battery(Device):
             function=function_address(integrate_current),
             parameters=row,
             n_values=0,
-            prepare=(lambda _: None) if powers is None else powers.prepare,
+            prepare=prepare_nothing if powers is None else powers.prepare,
             is_alone=self._can_feed_until,
             memory_owners=(powers, numbers),
         )

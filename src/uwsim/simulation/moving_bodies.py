@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..base.geometry import Array, Pose
-from ..base.numerics.calls import address_of, function_address
+from ..base.numerics.calls import address_of, function_address, prepare_nothing
 from ..base.sampling import Sampler, gather_sampler, number_addresses
 from ..physics.engine import Engine
 from ..physics.kinematics import link_kernel
@@ -192,4 +192,4 @@ class CompiledVehicle:
         addresses = engine.link_motion.joint_addresses(
             self._index, self._joints, with_motion=engine.is_simulated(self._index)
         )
-        return gather_sampler(addresses, prepare=lambda _: None, is_alone=lambda _: True)
+        return gather_sampler(addresses, prepare=prepare_nothing, is_alone=lambda _: True)

@@ -30,8 +30,8 @@ FUNCTION = np.dtype([("function", np.int64), ("parameters", np.int64)])
 """The addresses of a function and of its parameters; the first is 0 if there is no function."""
 
 
-def _prepare_nothing(end: float) -> None:
-    """Prepare nothing."""
+def prepare_nothing(end: float) -> None:
+    """Prepare nothing, for functions whose inputs need no update."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -40,7 +40,7 @@ class CompiledFunction:
 
     addresses: tuple[int, int]
     """The numbers of `FUNCTION`."""
-    prepare: Callable[[float], None] = _prepare_nothing
+    prepare: Callable[[float], None] = prepare_nothing
     """A function that updates the inputs of the function up to a time [s]."""
     memory_owners: tuple[object, ...] = field(default=())
     """The objects to whose memory the addresses refer."""

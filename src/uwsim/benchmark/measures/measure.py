@@ -112,7 +112,7 @@ class Measure(abc.ABC):
 
     @property
     def reasons(self) -> Mapping[str, str]:
-        """The reasons why details are None, if they differ from `why`: suffix -> reason."""
+        """The reasons of missing details by column suffix, unless `missing_reason` applies."""
         return {}
 
     @property

@@ -71,7 +71,7 @@ class Starts:
         if vehicle.dynamics is not None and height > 0.0:
             return (
                 f"it begins {height:.3g} m above the water and falls; expected a position in it "
-                f"(up is {self._up()} in the file's frame)"
+                f"(up is {self._vertical_axis()} in the file's frame)"
             )
         return self._describe_depth(self._depths.body_depth(body, world_from_base), world_from_base)
 
@@ -105,7 +105,7 @@ class Starts:
         axes = [i for i in range(3) if abs(end[i] - start[i]) > 1e-6]
         return ", ".join(f"{'xyz'[i]} {end[i]:.3f}" for i in axes)
 
-    def _up(self) -> str:
+    def _vertical_axis(self) -> str:
         """Return the vertical axis of the file's frame, upwards."""
         up = self._scene.world_from_localized.rotation[2]
         axis = int(np.argmax(np.abs(up)))

@@ -85,7 +85,7 @@ def collision_shapes(
             _object_from_mesh(spec),
             physics.collision_shape_type,
             is_fixed=not physics.is_loose,
-            up=_up(spec, scene) if spec.is_ground else None,
+            up=_vertical_axis(spec, scene) if spec.is_ground else None,
             error=spec.contact_error,
         )
     for index in vehicles:
@@ -210,7 +210,7 @@ def contact_mesh(
         return None
     spec = scene.objects[index]
     model = _contact_model(spec, physics, object_models(scene, data_path))
-    up = _up(spec, scene) if spec.is_ground else None
+    up = _vertical_axis(spec, scene) if spec.is_ground else None
     return fixed_mesh_of(model, _object_from_mesh(spec), up=up, error=spec.contact_error)
 
 
@@ -222,7 +222,7 @@ def _object_from_mesh(spec: ObjectSpec) -> Array:
     return product(np.diag([*spec.scale_factor, 1.0]), spec.object_from_mesh.matrix)
 
 
-def _up(spec: ObjectSpec, scene: SceneSpec) -> Array:
+def _vertical_axis(spec: ObjectSpec, scene: SceneSpec) -> Array:
     """Return W's z in the axes of an object, (3,)."""
     world_from_object = scene.world_from_localized @ spec.localized_from_object
     up: Array = world_from_object.rotation[2]

@@ -1,4 +1,4 @@
-"""What a program that owns a simulation passes to it and reads from it.
+"""The inputs and outputs of a simulation for the program that owns it.
 
 `topics` publishes and reads messages; `arguments` checks what is passed; `boxes` has the boxes in
 3-D of links and objects; `placing` places vehicles and objects.

@@ -5,7 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from ...base.geometry import Pose
-from ...base.numerics.calls import FUNCTION, CompiledFunction, address_of, call, function_address
+from ...base.numerics.calls import (
+    FUNCTION,
+    CompiledFunction,
+    address_of,
+    call,
+    function_address,
+    prepare_nothing,
+)
 from ...base.numerics.memory import carray, pointer, view_doubles
 from ...currents.flow_function import QUERY, FlowFunction, query_of
 from .water_kernel import globalize
@@ -42,7 +49,7 @@ def point_function(
         row["flow"] = flow.addresses
     return CompiledFunction(
         addresses=(function_address(write_velocities), address_of(row)),
-        prepare=(lambda _: None) if flow is None else flow.prepare,
+        prepare=prepare_nothing if flow is None else flow.prepare,
         memory_owners=(row, flow, query, arrays),
     )
 
