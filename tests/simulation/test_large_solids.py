@@ -32,7 +32,7 @@ def file(tmp_path_factory: pytest.TempPathFactory) -> Path:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(sys, "path", [str(BENCHMARKS), *sys.path])
         solids = importlib.import_module("solids")
-    return Path(solids.write_scene(tmp_path_factory.mktemp("solids")))
+    return Path(solids.write_solid_scene(tmp_path_factory.mktemp("solids")))
 
 
 @pytest.fixture
