@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from uwsim.currents import DelayedCurrent, Place, UwsimSinusoidSpec
+from uwsim.currents import DelayedCurrent, SceneContext, UwsimSinusoidSpec
 from uwsim.currents.delayed import round_to_nanoseconds
 
 RANDOM = np.random.default_rng(4)
@@ -30,7 +30,7 @@ def test_a_time_is_rounded_as_python_rounds_it(times: np.ndarray) -> None:
 
 def test_it_flows_from_its_delay_on_at_its_own_time() -> None:
     swell = UwsimSinusoidSpec(speed=0.2, speed_variation=0.1, speed_period=3.0).bind(
-        Place(stream=lambda _: np.random.default_rng(0))
+        SceneContext(stream=lambda _: np.random.default_rng(0))
     )
     late, points = DelayedCurrent(swell, start=10.0, delay=2.0, offset=0.5), np.zeros((2, 3))
     assert not late.velocity(points, 11.999).any()

@@ -11,7 +11,7 @@ import pytest
 from scipy.io import netcdf_file
 
 from uwsim.base.rng import stream
-from uwsim.currents import Current, Field, FieldSpec, Place, read_grid
+from uwsim.currents import Current, Field, FieldSpec, SceneContext, read_grid
 from uwsim.currents.field import read_csv
 from uwsim.errors import AssetError
 
@@ -28,8 +28,8 @@ def law(t: float, x: float, y: float, z: float) -> np.ndarray:
     return LAW @ np.array([t, x, y, z, 1.0])
 
 
-def place() -> Place:
-    return Place(stream=lambda name: stream(0, name))
+def context() -> SceneContext:
+    return SceneContext(stream=lambda name: stream(0, name))
 
 
 def csv_file(folder: Path) -> Path:
@@ -57,7 +57,7 @@ def nc_file(folder: Path, order: tuple[str, ...] = ("time", "z", "y", "x")) -> P
 
 
 def bound(path: Path, **other: object) -> Field:
-    return FieldSpec(file=str(path), **other).bind(place())  # type: ignore[arg-type]
+    return FieldSpec(file=str(path), **other).bind(context())  # type: ignore[arg-type]
 
 
 def inside() -> tuple[np.ndarray, np.ndarray]:

@@ -8,18 +8,18 @@ import numpy as np
 import pytest
 
 from uwsim.base.rng import stream
-from uwsim.currents import Current, GaussMarkov, GaussMarkovSpec, Place
+from uwsim.currents import Current, GaussMarkov, GaussMarkovSpec, SceneContext
 
 ORIGIN = np.zeros((1, 3))
 
 
-def place(seed: int = 0) -> Place:
-    return Place(stream=lambda name: stream(seed, name))
+def context(seed: int = 0) -> SceneContext:
+    return SceneContext(stream=lambda name: stream(seed, name))
 
 
 def wandering(seed: int = 0, **other: object) -> GaussMarkov:
     values = {"deviation": (0.1, 0.1, 0.1), "mu": 0.5, "step": 0.1, **other}
-    return GaussMarkovSpec(**values).bind(place(seed))  # type: ignore[arg-type]
+    return GaussMarkovSpec(**values).bind(context(seed))  # type: ignore[arg-type]
 
 
 def samples(current: Current, n: int, step: float) -> np.ndarray:

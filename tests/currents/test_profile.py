@@ -14,8 +14,8 @@ from uwsim.currents import (
     LayerSpec,
     LayersSpec,
     LogProfileSpec,
-    Place,
     PowerProfileSpec,
+    SceneContext,
 )
 from uwsim.errors import BadSetting
 
@@ -31,9 +31,9 @@ LAYERS = LayersSpec(
 )
 
 
-def downward() -> Place:
+def downward() -> SceneContext:
     """Return a scene whose file has z down from the surface: north, east, down."""
-    return Place(
+    return SceneContext(
         stream=lambda name: stream(0, name),
         world_from_localized=Pose.from_xyz((0.0, 0.0, 0.0), (math.pi, 0.0, -math.pi / 2.0)),
     )
@@ -85,7 +85,7 @@ def test_above_the_surface_is_as_at_the_surface_and_the_ground_stands_still(
 
 @pytest.mark.parametrize("spec", [POWER, LOG, LAYERS], ids=["power", "log", "layers"])
 def test_depth_counts_from_the_surface_whichever_way_the_file_has_z(spec: CurrentSpec) -> None:
-    upward = Place(
+    upward = SceneContext(
         stream=lambda name: stream(0, name),
         world_from_localized=Pose.from_xyz((5.0, 1.0, 2.0), (0.0, 0.0, 0.3)),
         surface_height=7.0,

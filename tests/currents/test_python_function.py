@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from uwsim.base.rng import stream
-from uwsim.currents import Place, PythonFunction, PythonFunctionSpec
+from uwsim.currents import PythonFunction, PythonFunctionSpec, SceneContext
 from uwsim.errors import BadSetting
 
 CODE = """
@@ -55,7 +55,7 @@ def my_water(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 def bound(function: str) -> PythonFunction:
     spec = PythonFunctionSpec(function=f"my_water_of_the_tests:{function}")
-    return spec.bind(Place(stream=lambda name: stream(0, name)))
+    return spec.bind(SceneContext(stream=lambda name: stream(0, name)))
 
 
 def test_it_is_asked_for_every_point() -> None:
@@ -108,7 +108,7 @@ def test_a_function_that_is_not_there_is_an_error() -> None:
 )
 def test_a_module_that_is_not_there_is_an_error(name: str, said: str) -> None:
     with pytest.raises(BadSetting, match=said):
-        PythonFunctionSpec(function=name).bind(Place(stream=lambda _: stream(0, "")))
+        PythonFunctionSpec(function=name).bind(SceneContext(stream=lambda _: stream(0, "")))
     with pytest.raises(BadSetting, match=said):
         PythonFunctionSpec(function=name).look_up()
 
@@ -140,10 +140,12 @@ def test_a_module_that_breaks_is_an_error(code: str, said: str, tmp_path: Path) 
     (tmp_path / "my_broken_water_of_the_tests.py").write_text(code)
     spec = PythonFunctionSpec(function="my_broken_water_of_the_tests:f")
     with pytest.raises(BadSetting, match=said):
-        spec.bind(Place(stream=lambda name: stream(0, name)))
+        spec.bind(SceneContext(stream=lambda name: stream(0, name)))
 
 
 @pytest.mark.parametrize("function", [".x:f", "a..b:f", "a:", "a b:c", "a:b.c", "../x:f"])
 def test_what_names_no_function_is_reported_without_running_anything(function: str) -> None:
     with pytest.raises(BadSetting, match="expected 'module:function'"):
-        PythonFunctionSpec(function=function).files(Place(stream=lambda name: stream(0, name)))
+        PythonFunctionSpec(function=function).files(
+            SceneContext(stream=lambda name: stream(0, name))
+        )

@@ -17,7 +17,7 @@ from uwsim.currents import (
     Constant,
     ConstantSpec,
     GaussMarkovSpec,
-    Place,
+    SceneContext,
     TotalCurrent,
     UwsimSinusoidSpec,
     bind_currents,
@@ -39,8 +39,8 @@ def scene(folder: Path, inside: str) -> Path:
     return path
 
 
-def place(seed: int = 0) -> Place:
-    return Place(stream=lambda name: stream(seed, name))
+def context(seed: int = 0) -> SceneContext:
+    return SceneContext(stream=lambda name: stream(seed, name))
 
 
 def test_a_scene_may_hold_several_currents_in_any_order(tmp_path: Path) -> None:
@@ -63,25 +63,25 @@ def test_a_misspelt_current_is_an_error_that_names_the_right_one(tmp_path: Path)
 
 
 def test_a_scene_without_currents_has_still_water(tmp_path: Path) -> None:
-    total = bind_currents(read_scene(scene(tmp_path, "")).ocean_state.currents, place())
+    total = bind_currents(read_scene(scene(tmp_path, "")).ocean_state.currents, context())
     assert (total.velocity(POINTS, 3.0) == 0.0).all()
     assert (total.acceleration(POINTS, 3.0) == 0.0).all()
 
 
 def test_velocities_and_accelerations_of_several_add_up() -> None:
     specs = (ConstantSpec(velocity=(0.1, 0.0, 0.0)), ConstantSpec(velocity=(0.0, 0.2, 0.0)))
-    assert bind_currents(specs, place()).velocity(POINTS, 0.0).tolist() == [[0.1, 0.2, 0.0]] * 2
-    swelling = UwsimSinusoidSpec(speed=0.0, speed_variation=1.0, speed_period=4.0).bind(place())
+    assert bind_currents(specs, context()).velocity(POINTS, 0.0).tolist() == [[0.1, 0.2, 0.0]] * 2
+    swelling = UwsimSinusoidSpec(speed=0.0, speed_variation=1.0, speed_period=4.0).bind(context())
     both = TotalCurrent([swelling, swelling])
     assert both.acceleration(POINTS, 0.0) == pytest.approx(2 * swelling.acceleration(POINTS, 0.0))
 
 
 def test_two_currents_of_a_kind_do_not_share_their_chance() -> None:
     spec = GaussMarkovSpec(deviation=(0.1, 0.1, 0.1), mu=0.1)
-    one = bind_currents((spec,), place()).velocity(POINTS, 5.0)
-    two = bind_currents((spec, spec), place()).velocity(POINTS, 5.0)
+    one = bind_currents((spec,), context()).velocity(POINTS, 5.0)
+    two = bind_currents((spec, spec), context()).velocity(POINTS, 5.0)
     assert two != pytest.approx(2.0 * one)
-    assert bind_currents((spec, spec), place()).velocity(POINTS, 5.0).tolist() == two.tolist()
+    assert bind_currents((spec, spec), context()).velocity(POINTS, 5.0).tolist() == two.tolist()
 
 
 def test_every_current_is_a_flow_and_hands_out_its_own_array() -> None:

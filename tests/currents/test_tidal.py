@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from uwsim.base.rng import stream
-from uwsim.currents import ConstituentSpec, Current, Place, Tidal, TidalSpec
+from uwsim.currents import ConstituentSpec, Current, SceneContext, Tidal, TidalSpec
 
 HOUR = 3600.0
 DAY = 24.0 * HOUR
@@ -16,8 +16,8 @@ ORIGIN = np.zeros((1, 3))
 
 
 def tide(*constituents: ConstituentSpec, start: float = 0.0) -> Tidal:
-    place = Place(stream=lambda name: stream(0, name))
-    return TidalSpec(constituents=constituents, start=start).bind(place)
+    context = SceneContext(stream=lambda name: stream(0, name))
+    return TidalSpec(constituents=constituents, start=start).bind(context)
 
 
 def at(current: Tidal, time: float) -> np.ndarray:

@@ -22,7 +22,7 @@ from paper.station_keeping import (
 from uwsim.base.geometry import Array
 from uwsim.benchmark.reader import read_benchmark
 from uwsim.benchmark.updaters import levels
-from uwsim.currents import Place, UwsimSinusoidSpec
+from uwsim.currents import SceneContext, UwsimSinusoidSpec
 from uwsim.errors import ResultError
 from uwsim.results.inputs import Inputs
 from uwsim.results.log import Log, load_log
@@ -41,7 +41,7 @@ DATA = Path(__file__).parents[2] / "src" / "uwsim" / "data" / "benchmarks"
 def water(swing: SwingingCurrent, times: Array) -> Array:
     """The current that the benchmark lets flow, (n, 2) along and across [m/s]."""
     spec = UwsimSinusoidSpec(speed=swing.speed, phi_variation=swing.angle, phi_period=swing.period)
-    current = spec.bind(Place(stream=lambda name: np.random.default_rng(0)))
+    current = spec.bind(SceneContext(stream=lambda name: np.random.default_rng(0)))
     flow = np.array([current.velocity(np.zeros((1, 3)), float(t))[0] for t in times])
     return np.stack([flow[:, 1], -flow[:, 0]], axis=1)
 

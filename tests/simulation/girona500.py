@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from tests.support.opened import open_scene
-from uwsim.currents import ConstantSpec, Place
+from uwsim.currents import ConstantSpec, SceneContext
 from uwsim.messages import Twist, TwistStamped, Vector3, header
 from uwsim.scene.object import ObjectSpec
 from uwsim.scene.reader import read_scene
@@ -56,7 +56,7 @@ def heading_deg(simulation: Simulation) -> float:
 
 def set_current(simulation: Simulation, velocity: tuple[float, float, float]) -> None:
     simulation.world.water.set(
-        ConstantSpec(velocity=velocity).bind(Place(stream=simulation.world.stream))
+        ConstantSpec(velocity=velocity).bind(SceneContext(stream=simulation.world.stream))
     )
 
 

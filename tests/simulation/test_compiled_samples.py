@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from tests.simulation.girona500 import TWIST, make
-from uwsim.currents import ConstantSpec, GaussMarkovSpec, Place, PowerProfileSpec
+from uwsim.currents import ConstantSpec, GaussMarkovSpec, PowerProfileSpec, SceneContext
 from uwsim.devices.force_sensor import ForceSensorSpec
 from uwsim.scene.vehicle import VehicleSpec
 from uwsim.sensors import DvlSensorSpec, GpsSensorSpec, ImuSpec, PressureSensorSpec, RangeSensorSpec
@@ -48,8 +48,8 @@ def with_sensors(vehicle: VehicleSpec) -> VehicleSpec:
 def opened(current: object) -> Simulation:
     simulation = make(TOPICS, change=with_sensors)
     if current is not None:
-        place = Place(stream=simulation.world.stream)
-        simulation.world.water.set(current.bind(place))  # type: ignore[attr-defined]
+        context = SceneContext(stream=simulation.world.stream)
+        simulation.world.water.set(current.bind(context))  # type: ignore[attr-defined]
     return simulation
 
 

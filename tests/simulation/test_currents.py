@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from tests.support.opened import open_scene
-from uwsim.currents import ConstantSpec, Place
+from uwsim.currents import ConstantSpec, SceneContext
 from uwsim.errors import UnknownName
 from uwsim.scene.reader import read_scene
 from uwsim.simulation import Simulation
@@ -26,7 +26,9 @@ def place_in_l(simulation: Simulation) -> list[float]:
 
 
 def test_a_current_carries_a_kinematic_vehicle_along(simulation: Simulation) -> None:
-    current = ConstantSpec(velocity=(0.2, -0.1, 0.0)).bind(Place(stream=simulation.world.stream))
+    current = ConstantSpec(velocity=(0.2, -0.1, 0.0)).bind(
+        SceneContext(stream=simulation.world.stream)
+    )
     simulation.world.water.set(current)
     for _ in range(500):
         simulation.advance()
@@ -38,7 +40,7 @@ def test_a_current_carries_a_kinematic_vehicle_along(simulation: Simulation) -> 
 
 def test_a_vehicle_is_put_back_where_its_file_has_it(simulation: Simulation) -> None:
     simulation.world.water.set(
-        ConstantSpec(velocity=(1.0, 0.0, 0.0)).bind(Place(stream=simulation.world.stream))
+        ConstantSpec(velocity=(1.0, 0.0, 0.0)).bind(SceneContext(stream=simulation.world.stream))
     )
     for _ in range(10):
         simulation.advance()

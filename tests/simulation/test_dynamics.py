@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from tests.support.opened import open_scene
-from uwsim.currents import ConstantSpec, Place, UwsimSinusoidSpec
+from uwsim.currents import ConstantSpec, SceneContext, UwsimSinusoidSpec
 from uwsim.errors import BadSetting, RunFailed
 from uwsim.messages import Twist, TwistStamped, Vector3, header
 from uwsim.scene.hydrodynamics.vehicle_file import read_vehicle
@@ -47,8 +47,8 @@ def heading_deg(simulation: Simulation) -> float:
 
 
 def set_current(simulation: Simulation, velocity: tuple[float, float, float]) -> None:
-    place = Place(stream=simulation.world.stream)
-    simulation.world.water.set(ConstantSpec(velocity=velocity).bind(place))
+    context = SceneContext(stream=simulation.world.stream)
+    simulation.world.water.set(ConstantSpec(velocity=velocity).bind(context))
 
 
 def command(simulation: Simulation, surge: float, sway: float) -> None:
@@ -220,8 +220,8 @@ def test_water_that_never_moves_leaves_the_same_bytes_asked_or_not() -> None:
     ends = []
     for is_asked in (False, True):
         simulation = make()
-        place = Place(stream=simulation.world.stream)
-        none = UwsimSinusoidSpec(speed=0.0, theta=1.0).bind(place)
+        context = SceneContext(stream=simulation.world.stream)
+        none = UwsimSinusoidSpec(speed=0.0, theta=1.0).bind(context)
         simulation.world.water.set(Asked() if is_asked else none)
         assert simulation.world.water.is_still != is_asked
         wanted = Twist(linear=Vector3(x=0.3, y=0.1, z=0.0), angular=Vector3(x=0.0, y=0.0, z=0.2))

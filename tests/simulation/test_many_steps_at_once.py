@@ -13,7 +13,13 @@ import pytest
 from tests.simulation.girona500 import SCENE, TWIST, make
 from tests.support.opened import open_scene
 from uwsim.bus import Node
-from uwsim.currents import ConstantSpec, Place, PowerProfileSpec, TotalCurrent, UwsimSinusoidSpec
+from uwsim.currents import (
+    ConstantSpec,
+    PowerProfileSpec,
+    SceneContext,
+    TotalCurrent,
+    UwsimSinusoidSpec,
+)
 from uwsim.devices.fault import FaultSpec
 from uwsim.errors import RunFailed
 from uwsim.messages import Odometry, Twist, TwistStamped, Vector3, header
@@ -44,16 +50,16 @@ class Pilot:
 
 
 def swell(simulation: Simulation) -> None:
-    simulation.world.water.set(SWELL.bind(Place(stream=simulation.world.stream)))
+    simulation.world.water.set(SWELL.bind(SceneContext(stream=simulation.world.stream)))
 
 
 def sheared(simulation: Simulation) -> None:
-    place = Place(
+    context = SceneContext(
         stream=simulation.world.stream,
         world_from_localized=simulation.world.model.scene.world_from_localized,
     )
-    profile = PowerProfileSpec(velocity=(0.4, 0.1, 0.0), depth=20.0).bind(place)
-    simulation.world.water.set(TotalCurrent([profile, SWELL.bind(place)]))
+    profile = PowerProfileSpec(velocity=(0.4, 0.1, 0.0), depth=20.0).bind(context)
+    simulation.world.water.set(TotalCurrent([profile, SWELL.bind(context)]))
 
 
 def with_pilot(simulation: Simulation) -> None:
@@ -135,7 +141,7 @@ def test_a_current_of_uwsim_that_a_program_sets_ends_no_run(
 ) -> None:
     simulation = make()
     profile = PowerProfileSpec(velocity=(0.4, 0.0, 0.0), depth=20.0)
-    simulation.set_current(profile.bind(Place(stream=simulation.world.stream)))
+    simulation.set_current(profile.bind(SceneContext(stream=simulation.world.stream)))
     taken = count_runs(simulation, monkeypatch)
     simulation.advance(0.1)
     assert taken == [50]
@@ -237,7 +243,9 @@ def test_water_that_comes_to_rest_is_still() -> None:
     for at_once in (True, False):
         simulation = make()
         simulation.world.water.set(
-            ConstantSpec(velocity=(0.4, 0.0, 0.0)).bind(Place(stream=simulation.world.stream))
+            ConstantSpec(velocity=(0.4, 0.0, 0.0)).bind(
+                SceneContext(stream=simulation.world.stream)
+            )
         )
         simulation.advance(0.1)
         simulation.world.water.set(None)

@@ -1,8 +1,9 @@
-r"""Ambient noise of the sea: turbulence, ships, wind and heat, after Wenz in Coates's formulas.
+r"""Ambient noise of the sea from turbulence, ships, wind and thermal agitation of the water.
 
-R. F. W. Coates, *Underwater acoustic systems*, 1990; as in M. Stojanovic, *On the relationship
-between capacity and distance in an underwater acoustic communication channel*, 2007. With f in kHz,
-shipping s from 0 to 1 and the wind speed w in m/s, in dB re 1 uPa^2/Hz,
+The formulas of R. F. W. Coates, *Underwater acoustic systems*, 1990, for the curves of Wenz, as in
+M. Stojanovic, *On the relationship between capacity and distance in an underwater acoustic
+communication channel*, 2007. With the frequency f in kHz, the shipping activity s from 0 to 1 and
+the wind speed w in m/s, the spectral levels of the four sources, in dB re 1 uPa^2/Hz, are
 
 .. math::
 
@@ -11,7 +12,7 @@ shipping s from 0 to 1 and the wind speed w in m/s, in dB re 1 uPa^2/Hz,
     N_w &= 50 + 7.5 \sqrt{w} + 20 \log f - 40 \log(f + 0.4) \\
     N_{th} &= -15 + 20 \log f
 
-and their powers add up. Not modelled: rain, animals, the vehicle's own thrusters.
+and the powers of the sources add up. Not modelled: rain, animals, the vehicle's own thrusters.
 """
 
 from __future__ import annotations
@@ -24,9 +25,9 @@ def ambient_noise(frequency: float, *, shipping: float, wind_speed: float) -> fl
     """Return the spectral level of the noise, in dB re 1 uPa^2/Hz.
 
     Args:
-        frequency: [Hz].
-        shipping: from 0, few ships, to 1 [1].
-        wind_speed: at the surface [m/s].
+        frequency: the frequency [Hz].
+        shipping: the shipping activity, from 0 (few ships) to 1 (heavy traffic) [1].
+        wind_speed: the wind speed at the surface [m/s].
     """
     f = frequency / 1000.0
     log_f = math.log10(f)
@@ -36,5 +37,5 @@ def ambient_noise(frequency: float, *, shipping: float, wind_speed: float) -> fl
 
 
 def power_sum(levels: Iterable[float]) -> float:
-    """Return the level of the sum of several sources [dB]."""
+    """Return the level of the summed power of incoherent sources from their levels [dB]."""
     return 10.0 * math.log10(math.fsum(10.0 ** (level / 10.0) for level in levels))

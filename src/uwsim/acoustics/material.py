@@ -1,24 +1,26 @@
 r"""Acoustic backscatter of surfaces by material and angle of incidence.
 
-The backscattering cross section of a square metre, seen at the angle :math:`\theta` to its normal,
+The backscattering cross section of a square metre at the angle of incidence :math:`\theta`,
+measured from the surface normal,
 
 .. math::
 
     \sigma(\theta) = \frac{R^2}{8 \pi s^2 \cos^4\theta} \exp\left(-\frac{\tan^2\theta}{2 s^2}\right)
                      + 10^{\mu / 10} \cos^2\theta ,
 
-is that of facets with Gaussian slopes (of root mean square :math:`s`) which reflect as mirrors of
-coefficient :math:`R`, and of Lambert's law with the strength :math:`\mu` [dB]: a glint and a
-diffuse part, as in the generic seafloor acoustic backscatter model (G. Lamarche, X. Lurton et al.,
-*Quantitative characterisation of seafloor substrate and bedforms using advanced processing of
-multibeam backscatter*, Continental Shelf Research 31, 2011). A large sphere of radius a sends back
-:math:`R^2 a^2 / 4` (while :math:`s` is small), and a large plate at the distance h as much as its
-mirror image at 2 h does (whatever :math:`s` is).
+is the sum of a specular and a diffuse term. The first describes specular reflection from facets
+with the reflection coefficient :math:`R` and Gaussian slopes of the root mean square :math:`s`; the
+second is Lambert's law with the backscattering strength :math:`\mu` [dB]. The generic seafloor
+acoustic backscatter model has the same two terms (G. Lamarche, X. Lurton et al., *Quantitative
+characterisation of seafloor substrate and bedforms using advanced processing of multibeam
+backscatter*, Continental Shelf Research 31, 2011). In this model the cross section of a large
+sphere of radius a is :math:`R^2 a^2 / 4` (for small :math:`s`), and the echo of a large plate at
+the distance h equals that of its image source at the distance 2 h (for any :math:`s`).
 
-Reflection coefficients of bottoms are those of the densities and speeds of sound of APL-UW (*High-
+The reflection coefficients of bottoms follow from the densities and sound speeds of APL-UW (*High-
 frequency ocean environmental acoustic models handbook*, TR 9407, 1994, table 2); strengths and
-slopes are typical values. Not modelled: dependence on frequency, sound that enters the
-bottom, resonance of thin walls.
+slopes are typical values. Not modelled: dependence on frequency, penetration of the bottom,
+resonance of thin walls.
 """
 
 from __future__ import annotations
@@ -39,9 +41,9 @@ class Material:
     reflection: float
     """The amplitude reflection coefficient at normal incidence, R [1]."""
     slope: float
-    """The root mean square slope of its facets, s [1]."""
+    """The root mean square slope of the surface's facets, s [1]."""
     strength: float
-    """Lambert's backscattering strength of a square metre, mu [dB]."""
+    """The backscattering strength of the diffuse (Lambert) term for a square metre, mu [dB]."""
 
 
 MATERIALS: dict[MaterialName, Material] = {

@@ -1,8 +1,9 @@
 """Speed of sound in sea water, after Mackenzie.
 
 K. V. Mackenzie, *Nine-term equation for sound speed in the oceans*, J. Acoust. Soc. Am. 70(3),
-1981: for 2 to 30 degrees Celsius, salinities of 25 to 40 and depths to 8000 m, there to 0.07 m/s.
-In fresh water of 15 degrees Celsius it gives 0.8 m/s less than Bilaniuk and Wong (1993) measured.
+1981. Its error is 0.07 m/s between 2 and 30 degrees Celsius, salinities of 25 and 40 and depths of
+0 and 8000 m. In fresh water of 15 degrees Celsius the result is 0.8 m/s below the measurement of
+Bilaniuk and Wong (1993).
 """
 
 from __future__ import annotations
@@ -12,9 +13,9 @@ def sound_speed(*, temperature: float, salinity: float, depth: float) -> float:
     """Return the speed of sound [m/s].
 
     Args:
-        temperature: of the water [degrees Celsius].
-        salinity: on the practical scale [g/kg].
-        depth: below the surface [m].
+        temperature: the temperature of the water [degrees Celsius].
+        salinity: the practical salinity [g/kg].
+        depth: the depth below the surface [m].
     """
     t, s, d = temperature, salinity - 35.0, depth
     return (

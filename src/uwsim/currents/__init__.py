@@ -1,9 +1,12 @@
-"""Currents, one file each; velocities of several currents add up."""
+"""Water currents, one module for each kind. The velocities of several currents add up.
+
+L is the localized world frame of the scene, W the world frame (z up).
+"""
 
 from __future__ import annotations
 
 from .constant import Constant, ConstantSpec
-from .current import MAX_SPEED, Current, CurrentSpec, Place
+from .current import MAX_SPEED, Current, CurrentSpec, SceneContext
 from .delayed import DelayedCurrent
 from .field import Field, FieldSpec, Grid, read_grid
 from .gauss_markov import GaussMarkov, GaussMarkovSpec
@@ -33,7 +36,7 @@ CURRENTS: dict[str, type[CurrentSpec]] = {
     "tidal": TidalSpec,
     "uwsimSinusoid": UwsimSinusoidSpec,
 }
-"""The spec of each element of ``<u:currents>``."""
+"""The spec class of each child element of ``<u:currents>``."""
 
 __all__ = [
     "CURRENTS",
@@ -55,11 +58,11 @@ __all__ = [
     "LayersSpec",
     "LogProfile",
     "LogProfileSpec",
-    "Place",
     "PowerProfile",
     "PowerProfileSpec",
     "PythonFunction",
     "PythonFunctionSpec",
+    "SceneContext",
     "TargetCurrent",
     "Tidal",
     "TidalSpec",

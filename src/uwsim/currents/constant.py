@@ -16,7 +16,7 @@ from ..base.geometry import Triple
 from ..base.numerics.memory import carray, pointer, view_doubles
 from ..schema import element
 from .compiled import CompiledCurrent
-from .current import MAX_SPEED, CurrentSpec, Place
+from .current import MAX_SPEED, CurrentSpec, SceneContext
 from .flow_function import QUERY, FlowFunction, write_everywhere
 
 
@@ -27,35 +27,35 @@ class ConstantSpec(CurrentSpec):
     velocity: Triple = element(namespaced=True, minimum=-MAX_SPEED, maximum=MAX_SPEED)
     """The velocity of the water, in L [m/s]."""
 
-    def bind(self, place: Place) -> Constant:
-        """Make the current; it needs nothing of the scene."""
+    def bind(self, context: SceneContext) -> Constant:
+        """Create the current; ``context`` is not used."""
         return Constant(self.velocity)
 
 
 @dataclass(frozen=True)
 class Constant(CompiledCurrent):
-    """A uniform, steady velocity; no boundary layer, no turbulence."""
+    """A uniform, steady current. Not modelled: boundary layers, turbulence."""
 
     components: Triple
     """The velocity of the water, in L [m/s]."""
 
     @cached_property
-    def _flow(self) -> FlowFunction:  # type: ignore[override]  # mypy takes it for read-only
+    def _flow(self) -> FlowFunction:  # type: ignore[override]  # read-only to mypy
         parameters = np.array(self.components, dtype=np.float64)
         return FlowFunction(function=flow_constant, parameters=parameters)
 
     def __getstate__(self) -> dict[str, object]:
-        """Return its fields alone, for the bytes of a state."""
+        """Return the fields without the cached function, whose addresses must not be pickled."""
         return {"components": self.components}
 
     @property
     def is_uniform(self) -> bool:
-        """True if the velocity is the same everywhere, as here."""
+        """True if the velocity is the same at every point; it always is."""
         return True
 
     @property
     def is_steady(self) -> bool:
-        """True if the velocity is constant in time, as here."""
+        """True if the velocity is constant in time; it always is."""
         return True
 
     @property
@@ -64,7 +64,7 @@ class Constant(CompiledCurrent):
         return not any(self.components)
 
 
-def flow_constant(parameters: int, values: int, time: float) -> None:
+def flow_constant(parameters_address: int, query_address: int, time: float) -> None:
     """Evaluate a query of a constant current; see `uwsim.currents.flow_function`."""
-    query = carray(pointer(values), (1,), QUERY)[0]
-    write_everywhere(query, view_doubles(parameters, 3), np.zeros(3))
+    query = carray(pointer(query_address), (1,), QUERY)[0]
+    write_everywhere(query, view_doubles(parameters_address, 3), np.zeros(3))

@@ -1,4 +1,7 @@
-"""The interface of currents: a velocity of the water at a point and a time."""
+"""The interface of currents: the velocity of the water at a point and a time.
+
+L is the localized world frame of the scene, W the world frame (z up).
+"""
 
 from __future__ import annotations
 
@@ -16,24 +19,24 @@ from ..world import Flow
 from .flow_function import FlowFunction
 
 MAX_SPEED = 100.0
-"""The largest speed in a file or of a function [m/s]. Turbidity currents and tsunamis reach some
-30 m/s; a greater speed is most probably an error of units."""
+"""The largest speed that a file may contain or a function may return [m/s]. Turbidity currents and
+tsunamis reach about 30 m/s; a greater speed is most probably an error of units."""
 HALF_SPAN = 1e-3
-"""The half span of the central difference that gives the acceleration [s]."""
+"""The half of the time span of the central difference that approximates the acceleration [s]."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class Place:
+class SceneContext:
     """The properties of a scene that a current may need."""
 
     stream: Callable[[str], np.random.Generator]
-    """The random generator of a name."""
+    """The function that returns the random generator of a named stream."""
     find: Callable[[str], Path] = Path
-    """The function that finds a file which the scene names."""
+    """The function that returns the path of a file from its name in the scene."""
     world_from_localized: Pose = field(default_factory=Pose.identity)
-    """W from L."""
+    """The pose of L in W."""
     runs_code: bool = True
-    """True if Python code that the scene names may run; without it, that water is still."""
+    """True if Python functions named in the scene may run; if False, their currents are zero."""
     surface_height: float = 0.0
     """The height of the still water in W [m]."""
 
@@ -49,23 +52,24 @@ class CurrentSpec(Spec, abc.ABC):
     """The spec of a current."""
 
     @abc.abstractmethod
-    def bind(self, place: Place) -> Current:
-        """Make the current; raise UwsimError if an input is missing."""
+    def bind(self, context: SceneContext) -> Current:
+        """Create the current; raise UwsimError if an input is missing."""
 
     @property
     def code(self) -> str:
-        """The user's Python code that it runs, ``module:function``; empty if none."""
+        """The user's Python function that the current calls, ``module:function``, or empty."""
         return ""
 
-    def files(self, place: Place) -> Mapping[str, Path]:
-        """Return the files that it reads or runs, by their names in the scene file."""
+    def files(self, context: SceneContext) -> Mapping[str, Path]:
+        """Return the files that the current reads or runs, by their names in the scene file."""
         return {}
 
 
 class Current(abc.ABC):
-    """A current: a `uwsim.world.Flow`.
+    """A current, which implements `uwsim.world.Flow`.
 
-    It is a function of position and time alone, so the order of evaluations has no effect.
+    The velocity is a function of position, time and vehicle only, so the order of evaluations has
+    no effect.
     """
 
     @property
@@ -84,10 +88,10 @@ class Current(abc.ABC):
         return self.is_still
 
     def flow_function(self, vehicles: Sequence[str]) -> FlowFunction | None:
-        """Return its function for compiled code; None if Python must evaluate it in every step.
+        """Return the compiled function of the current; None if only Python can evaluate it.
 
         Args:
-            vehicles: the names of the vehicles, by their numbers in queries.
+            vehicles: the names of the vehicles, in the order of their numbers in a query.
         """
         return None
 
@@ -98,16 +102,17 @@ class Current(abc.ABC):
         Args:
             points: the points in L, (n, 3) [m].
             time: the simulation time [s].
-            vehicles: the vehicle at each point, n names, ``""`` for none; or empty.
+            vehicles: the name of the vehicle at each point, ``""`` for none; or an empty sequence
+                if there is no vehicle at any point.
 
         Returns:
             The velocities, (n, 3) [m/s]; a new array.
         """
 
     def acceleration(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
-        """Return the local rate of change of the velocity, in L, (n, 3) [m/s2].
+        """Return the partial derivative of the velocity by time, in L, (n, 3) [m/s2].
 
-        By default it is a central difference over 2 ms.
+        The default implementation is a central difference over 2 ms.
         """
         start_time = max(0.0, time - HALF_SPAN)
         end_velocity = self.velocity(points, time + HALF_SPAN, vehicles)
@@ -118,15 +123,15 @@ class Current(abc.ABC):
     def motion(
         self, points: Array, time: float, vehicles: Sequence[str] = ()
     ) -> tuple[Array, Array]:
-        """Return velocity and acceleration, which physics needs at every step."""
+        """Return `velocity` and `acceleration` together."""
         return self.velocity(points, time, vehicles), self.acceleration(points, time, vehicles)
 
 
 def flow_function_of(flow: Flow, vehicles: Sequence[str]) -> FlowFunction | None:
-    """Return `Current.flow_function` of a flow; None of one that is no `Current`."""
+    """Return `Current.flow_function` of a flow; None if the flow is not a `Current`."""
     return flow.flow_function(vehicles) if isinstance(flow, Current) else None
 
 
 def is_steady(flow: Flow) -> bool:
-    """Return whether a flow is constant in time; False for one that is no `Current`."""
+    """Return whether a flow is known to be constant in time; False if it is not a `Current`."""
     return isinstance(flow, Current) and flow.is_steady

@@ -1,4 +1,4 @@
-"""A current that starts at a given time, at which its own time begins."""
+"""A current that starts during a run, with a time of its own that begins at the start."""
 
 from __future__ import annotations
 
@@ -17,10 +17,17 @@ from .flow_function import QUERY, FlowFunction, write_everywhere
 
 
 class DelayedCurrent(Current):
-    """A current that is zero before ``start_time + delay``, and another current from then on.
+    """Another current from the time ``start + delay`` on, and still water before it.
 
-    The time since ``start`` is rounded to nanoseconds, so that a level gives the same numbers
-    whether it is run alone or late in a sweep.
+    The other current is evaluated at the time since ``start``, plus ``offset``. The time since
+    ``start`` is rounded to nanoseconds, so that a level of a benchmark gives the same numbers alone
+    and late in a sweep.
+
+    Args:
+        current: the other current.
+        start: the simulation time from which the delay and the current's time count [s].
+        delay: the time from ``start`` to the first motion of the water [s].
+        offset: the time of the other current at ``start`` [s].
     """
 
     def __init__(self, current: Flow, *, start: float, delay: float, offset: float = 0.0) -> None:
@@ -38,7 +45,7 @@ class DelayedCurrent(Current):
         return self._current.is_still
 
     def flow_function(self, vehicles: Sequence[str]) -> FlowFunction | None:
-        """Return its function; None if the other current has none."""
+        """Return the compiled function; None if the other current has none."""
         flow = flow_function_of(self._current, vehicles)
         if flow is None:
             return None
@@ -62,7 +69,7 @@ class DelayedCurrent(Current):
         return self._current.velocity(points, current_time, vehicles)
 
     def acceleration(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
-        """Return the acceleration, in L, (n, 3) [m/s2], without the jump at the beginning."""
+        """Return the acceleration, in L, (n, 3) [m/s2], without the jump at the start."""
         current_time = self._current_time(time)
         if current_time is None:
             return np.zeros((len(points), 3))
@@ -71,7 +78,7 @@ class DelayedCurrent(Current):
     def motion(
         self, points: Array, time: float, vehicles: Sequence[str] = ()
     ) -> tuple[Array, Array]:
-        """Return velocity and acceleration."""
+        """Return `velocity` and `acceleration` together."""
         current_time = self._current_time(time)
         if current_time is None:
             return np.zeros((len(points), 3)), np.zeros((len(points), 3))
@@ -86,28 +93,33 @@ class DelayedCurrent(Current):
 DELAYED_CURRENT = np.dtype(
     [("flow", FUNCTION), ("start_time", np.float64), ("delay", np.float64), ("offset", np.float64)]
 )
-"""A current that starts at a given time, for compiled code."""
+"""The parameters of `flow_delayed`: the other current; the times are in seconds."""
 
 
-def flow_delayed(parameters: int, values: int, time: float) -> None:
+def flow_delayed(parameters_address: int, query_address: int, time: float) -> None:
     """Evaluate a query of a delayed current; see `uwsim.currents.flow_function`."""
-    current = carray(pointer(parameters), (1,), DELAYED_CURRENT)[0]
+    current = carray(pointer(parameters_address), (1,), DELAYED_CURRENT)[0]
     elapsed_time = round_to_nanoseconds(time - current.start_time)
     if elapsed_time < current.delay:
-        write_everywhere(carray(pointer(values), (1,), QUERY)[0], np.zeros(3), np.zeros(3))
+        write_everywhere(carray(pointer(query_address), (1,), QUERY)[0], np.zeros(3), np.zeros(3))
     else:
-        call(current.flow.function, current.flow.parameters, values, elapsed_time + current.offset)
+        call(
+            current.flow.function,
+            current.flow.parameters,
+            query_address,
+            elapsed_time + current.offset,
+        )
 
 
 @njit
 def round_to_nanoseconds(time: float) -> float:
-    """Round a time [s] to nanoseconds, bit for bit as Python's ``round(time, 9)``."""
-    if abs(time) >= 2.0**23:  # floats are further apart
+    """Round a time [s] to nanoseconds; the result equals Python's ``round(time, 9)`` exactly."""
+    if abs(time) >= 2.0**23:  # neighbouring floats differ by more than a nanosecond
         return time
     nanoseconds = time * 1e9
     floor = math.floor(nanoseconds)
     fraction = nanoseconds - floor
-    if fraction == 0.5:  # the product may have been rounded to the middle: what it lost decides
+    if fraction == 0.5:  # the product may have been rounded to the half: its error decides
         error = rounding_error(time, 1e9, nanoseconds)
         is_up = error > 0.0 or (error == 0.0 and floor % 2 == 1)
     else:
@@ -117,7 +129,7 @@ def round_to_nanoseconds(time: float) -> float:
 
 @njit
 def rounding_error(a: float, b: float, product: float) -> float:
-    """Return ``a * b`` less its rounded product, exactly (Dekker 1971)."""
+    """Return the exact ``a * b`` minus its rounded product (Dekker 1971)."""
     split = 134217729.0  # 2**27 + 1
     high_a, high_b = split * a, split * b
     high_a, high_b = high_a - (high_a - a), high_b - (high_b - b)

@@ -1,4 +1,4 @@
-r"""field: velocities from a file, over x, y, z and time.
+r"""field: a current read from a file, as velocities over x, y, z and time.
 
 .. code-block:: xml
 
@@ -6,9 +6,10 @@ r"""field: velocities from a file, over x, y, z and time.
 
 A ``.csv`` file has a line of names, ``x,y,z,t,u,v,w``, and a line of numbers for every node of a
 full grid, in any order. A ``.nc`` file is classic NetCDF (version 3) with coordinate variables
-``x``, ``y``, ``z`` and ``t`` (or ``time``), and ``u``, ``v``, ``w`` over them. Metres, seconds and
-m/s, in L, or the ``units`` of a NetCDF file (`units`). ``w`` and any of the coordinates are
-optional. Without them, the water does not move along z, or does not change along that coordinate.
+``x``, ``y``, ``z`` and ``t`` (or ``time``), and ``u``, ``v``, ``w`` over them. Positions are in
+metres, times in seconds and velocities in m/s, all in L (the localized world frame); a NetCDF file
+may state other ``units`` (`uwsim.currents.units`). ``w`` and all coordinates are optional: without
+``w``, the water does not move along z; without a coordinate, the velocity does not depend on it.
 """
 
 from __future__ import annotations
@@ -34,7 +35,7 @@ from ..base.numerics.memory import carray, pointer, view_doubles
 from ..errors import AssetError
 from ..schema import MAX_NUMBER, element, parse_number
 from .compiled import CompiledCurrent
-from .current import MAX_SPEED, CurrentSpec, Place
+from .current import MAX_SPEED, CurrentSpec, SceneContext
 from .flow_function import QUERY, FlowFunction, Record, fill
 from .units import unit
 
@@ -42,7 +43,7 @@ Ints = npt.NDArray[np.int64]
 AXES = ("t", "x", "y", "z")
 COMPONENTS = ("u", "v", "w")
 MAX_FILE_BYTES = {".csv": 64 * 2**20, ".nc": 256 * 2**20, ".cdf": 256 * 2**20}
-"""The largest size of a file [bytes]; a table takes five times as much memory."""
+"""The largest size of a file by its suffix [bytes]; reading a table needs five times the memory."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,44 +51,44 @@ class FieldSpec(CurrentSpec):
     """A ``<u:field>``: velocities on a grid over x, y, z and time, linear between its nodes."""
 
     file: str = element(namespaced=True)
-    """The file, ``.csv`` or ``.nc``."""
+    """The name of the file, ``.csv`` or ``.nc``."""
     start: float = element(namespaced=True, default=0.0)
-    """The time in the file at which the simulation begins [s]; for times since a date, after the
-    first time."""
+    """The time in the file at which the simulation begins [s]. If the file counts time from a date,
+    this time counts from the first time in the file."""
     outside: Literal["edge", "still"] = element(namespaced=True, default="edge")
-    """The velocity outside the grid: that of its ``edge``, or ``still`` water. Before the first and
-    after the last time, the velocity is that of the end."""
+    """The velocity outside the grid: the velocity at the nearest ``edge``, or ``still`` water.
+    Before the first and after the last time, the velocity is that of the first or last time."""
 
-    def bind(self, place: Place) -> Field:
+    def bind(self, context: SceneContext) -> Field:
         """Read the file.
 
         Raises:
             AssetError: the file is unusable.
         """
-        grid = read_grid(place.find(self.file), name=self.file)
+        grid = read_grid(context.find(self.file), name=self.file)
         return Field(grid, start=self.start, outer_water=self.outside)
 
-    def files(self, place: Place) -> dict[str, Path]:
+    def files(self, context: SceneContext) -> dict[str, Path]:
         """Return the file."""
-        return {self.file: place.find(self.file)}
+        return {self.file: context.find(self.file)}
 
 
 @dataclass(frozen=True)
 class Grid:
-    """Velocities at the nodes of a grid with straight, possibly uneven, axes."""
+    """Velocities at the nodes of a rectilinear grid, whose nodes may be unevenly spaced."""
 
     axes: tuple[Array, Array, Array, Array]
-    """The values of t, x, y, z, each increasing; a single 0 if nothing changes along it [s, m]."""
+    """The increasing values of t [s], x, y and z [m] in L; (0,) for an absent coordinate."""
     velocities: Array
-    """The velocities in L, (t, x, y, z, 3) [m/s]."""
+    """The velocities at the nodes in L, (n_t, n_x, n_y, n_z, 3) [m/s]."""
 
 
 def read_grid(path: Path, *, name: str = "") -> Grid:
-    """Read a ``.csv`` or ``.nc`` file.
+    """Read a grid from a ``.csv`` or ``.nc`` file.
 
     Args:
         path: the path of the file.
-        name: its name in the scene; by default the name of the file.
+        name: the name of the file in the scene; by default the last part of its path.
 
     Raises:
         AssetError: the file is unusable.
@@ -109,7 +110,7 @@ def read_grid(path: Path, *, name: str = "") -> Grid:
 
 
 def read_csv(path: Path, data: bytes) -> Grid:
-    """Read a table with a line for every node."""
+    """Read a grid from the bytes of a table with one line for each node."""
     text = io.TextIOWrapper(io.BytesIO(data), "utf-8-sig", errors="replace", newline="")
     cells = array.array("d")
     with text as file:
@@ -145,7 +146,7 @@ def read_csv(path: Path, data: bytes) -> Grid:
 
 
 def read_netcdf(path: Path, data: bytes) -> Grid:
-    """Read a classic NetCDF file."""
+    """Read a grid from the bytes of a classic NetCDF file."""
     from scipy.io import netcdf_file
 
     if data[:4] == b"\x89HDF":
@@ -190,7 +191,7 @@ def read_netcdf(path: Path, data: bytes) -> Grid:
 def _convert(
     path: Path, arrays: dict[str, tuple[tuple[str, ...], Array]], units: Mapping[str, str]
 ) -> None:
-    """Convert to metres, seconds and m/s, and reverse every descending axis."""
+    """Convert all arrays to metres, seconds and m/s, and reverse every descending axis."""
     for name, (dimensions, values) in arrays.items():
         try:
             factor, counts_from_date = unit(name, units[name])
@@ -229,7 +230,7 @@ def _axis(path: Path, name: str, dimensions: tuple[str, ...], values: Array) -> 
 def _component(
     path: Path, name: str, dimensions: tuple[str, ...], values: Array, axes: Mapping[str, Array]
 ) -> Array:
-    """Return the values over t, x, y, z; axes without change have length 1."""
+    """Return a velocity component over (t, x, y, z); absent coordinates have length 1."""
     unknown_dimensions = [dimension for dimension in dimensions if dimension not in axes]
     if unknown_dimensions or len(set(dimensions)) < len(dimensions):
         raise AssetError(
@@ -267,7 +268,7 @@ def _check_names(path: Path, names: list[str]) -> None:
 
 
 def _nodes(path: Path, axes: tuple[Array, ...], indices: tuple[Ints, ...]) -> Ints:
-    """Return the number of each line's node; every node of the grid must have one line."""
+    """Return the flat node index of each line; every node of the grid must have one line."""
     shape = tuple(len(values) for values in axes)
     n_lines, n_nodes = len(indices[0]), math.prod(shape)
     expected = f"expected a full grid of {' x '.join(map(str, shape))} nodes over {', '.join(AXES)}"
@@ -278,11 +279,13 @@ def _nodes(path: Path, axes: tuple[Array, ...], indices: tuple[Ints, ...]) -> In
     for is_invalid, problem in ((counts > 1, "occurs twice"), (counts == 0, "is missing")):
         if is_invalid.any():
             node_index = np.unravel_index(int(np.argmax(is_invalid)), shape)
-            place = ", ".join(
+            location = ", ".join(
                 f"{name} {axis[i]:g}" for name, axis, i in zip(AXES, axes, node_index, strict=True)
             )
             n_invalid = np.count_nonzero(is_invalid)
-            raise AssetError(f"{path}: the node {place} {problem} ({n_invalid} such); {expected}.")
+            raise AssetError(
+                f"{path}: the node {location} {problem} ({n_invalid} such); {expected}."
+            )
     return node
 
 
@@ -303,35 +306,38 @@ def _number(name: str, cell: str, location: str) -> float:
 FIELD = np.dtype(
     [
         ("start", np.float64),  # time in the file when the simulation begins [s]
-        ("is_still_outside", np.int64),
-        ("axes", np.int64, 4),  # the addresses of the values of t, x, y, z, and how many
-        ("lengths", np.int64, 4),
-        ("velocities", np.int64),  # of the velocities in L, (t, nodes, 3) [m/s]
+        ("is_still_outside", np.int64),  # 1 if the water outside the grid is still
+        ("axes", np.int64, 4),  # the addresses of the values of t, x, y, z
+        ("lengths", np.int64, 4),  # the number of values of t, x, y, z
+        ("velocities", np.int64),  # the address of the velocities in L, (t, nodes, 3) [m/s]
         ("n_nodes", np.int64),
         ("corners", np.int64),  # the address of records of `CORNER`
         ("n_corners", np.int64),
     ]
 )
-"""A field, for compiled code."""
+"""The parameters of `flow_field`."""
 CORNER = np.dtype([("is_upper", np.int64, 3), ("offset", np.int64)])
-"""A corner of a cell: its node along x, y, z, and its number less that of the lowest."""
+"""A corner of a grid cell: 1 along each of x, y, z where it is the upper node, and its flat node
+index minus that of the cell's lowest corner."""
 
 
 class Field(CompiledCurrent):
-    """The velocities of a grid, with linear interpolation along each of t, x, y, z.
+    """A current interpolated linearly along t, x, y and z between the nodes of a grid.
 
-    Linear interpolation keeps neither mass nor the curl exactly: a field that conserves volume at
-    its nodes does so between them only on average. Not modelled: geographic coordinates, land,
-    eddies smaller than a cell.
+    Linear interpolation preserves neither divergence nor curl exactly: a velocity field without
+    divergence at the nodes is free of it between them only on average. Not modelled: geographic
+    coordinates, land, eddies smaller than a cell.
     """
 
     def __init__(self, grid: Grid, *, start: float = 0.0, outer_water: str = "edge") -> None:
         n_x, n_y, n_z = grid.velocities.shape[1:4]
         axes = [np.ascontiguousarray(axis, dtype=np.float64) for axis in grid.axes]
         velocities = np.ascontiguousarray(grid.velocities, dtype=np.float64)
-        is_wide = [n > 1 for n in (n_x, n_y, n_z)]
+        has_cells = [n > 1 for n in (n_x, n_y, n_z)]
         cell_corners = [
-            corner for corner in itertools.product((0, 1), repeat=3) if _has_corner(corner, is_wide)
+            corner
+            for corner in itertools.product((0, 1), repeat=3)
+            if _has_corner(corner, has_cells)
         ]
         corners = np.zeros(len(cell_corners), CORNER)
         corners["is_upper"] = cell_corners
@@ -346,20 +352,25 @@ class Field(CompiledCurrent):
         )
 
 
-def _has_corner(corner: tuple[int, ...], is_wide_axis: list[bool]) -> bool:
-    """Return whether a corner exists; an axis with one node has the lower corner only."""
-    return all(is_wide or node == 0 for node, is_wide in zip(corner, is_wide_axis, strict=True))
+def _has_corner(corner: tuple[int, ...], has_cells: list[bool]) -> bool:
+    """Return whether a corner exists; an axis with a single node has only the lower corner."""
+    return all(has_cell or node == 0 for node, has_cell in zip(corner, has_cells, strict=True))
 
 
 @njit
 def axis_of(current: Record, k: int) -> Array:
-    """Return the values of t, x, y or z."""
+    """Return the values of coordinate k of t, x, y, z."""
     return view_doubles(current.axes[k], current.lengths[k])
 
 
 @njit
 def time_interval(current: Record, time: float) -> tuple[int, float, float]:
-    """Return the index of the last time, the fraction to the next, and the interval [s]."""
+    """Locate a simulation time [s] between the times of a field.
+
+    Returns:
+        The index of the preceding time, the fraction of the interval that has passed [1], and the
+        length of the interval [s]; both are 0 outside the times of the field.
+    """
     times, now = axis_of(current, 0), current.start + time
     last_index = len(times) - 1
     if now < times[0] or last_index == 0:
@@ -373,12 +384,15 @@ def time_interval(current: Record, time: float) -> tuple[int, float, float]:
 
 @njit
 def find_cell(current: Record, point: Array, shares: Array) -> tuple[int, bool]:
-    """Find the cell of a point; return its lowest node, and whether it is in the grid.
+    """Find the grid cell of a point.
 
     Args:
-        current: the field.
+        current: a record of `FIELD`.
         point: the point in L, (3,) [m].
-        shares: receives the weights of the lower and the upper node, (3, 2).
+        shares: receives the weights of the lower and the upper node along x, y, z, (3, 2).
+
+    Returns:
+        The flat index of the cell's lowest node, and whether the point is inside the grid.
     """
     node, is_inside = 0, True
     for k in range(3):
@@ -396,10 +410,10 @@ def find_cell(current: Record, point: Array, shares: Array) -> tuple[int, bool]:
     return node, is_inside
 
 
-def flow_field(parameters: int, values: int, time: float) -> None:
+def flow_field(parameters_address: int, query_address: int, time: float) -> None:
     """Evaluate a query of a field; see `uwsim.currents.flow_function`."""
-    current = carray(pointer(parameters), (1,), FIELD)[0]
-    query = carray(pointer(values), (1,), QUERY)[0]
+    current = carray(pointer(parameters_address), (1,), FIELD)[0]
+    query = carray(pointer(query_address), (1,), QUERY)[0]
     corners = carray(pointer(current.corners), (current.n_corners,), CORNER)
     i, fraction, span = time_interval(current, time)
     size = 3 * current.n_nodes

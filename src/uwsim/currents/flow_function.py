@@ -1,7 +1,7 @@
-"""The function of a current, for compiled code.
+"""The compiled function of a current, and the query that it evaluates.
 
-It is a function of `uwsim.base.numerics.calls`. Its parameters are a record of the current, and its
-values a record of `QUERY`.
+The function has the form of `uwsim.base.numerics.calls`: it receives the address of a record with
+the current's parameters, the address of a record of `QUERY`, and the time [s].
 """
 
 from __future__ import annotations
@@ -22,37 +22,44 @@ QUERY = np.dtype(
     [
         ("n", np.int64),  # the number of points
         ("points", np.int64),  # the address of the points in L, (n, 3) [m]
-        ("vehicles", np.int64),  # the address of the vehicle at each, (n,); 0: none
-        ("velocity", np.int64),  # the address of the result, (n, 3) [m/s]
-        ("acceleration", np.int64),  # the address of the result [m/s2]; 0: not needed
+        ("vehicles", np.int64),  # the address of the vehicle's number at each point, (n,); 0: none
+        ("velocity", np.int64),  # the address of the velocities in L, (n, 3) [m/s]
+        ("acceleration", np.int64),  # the address of the accelerations [m/s2]; 0: not needed
     ]
 )
-"""A query of the motion of the water at some points, and the addresses of its results."""
+"""A query of the motion of the water at n points: the inputs, and the addresses of the results."""
 
 Record = Any
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class FlowFunction:
-    """The function of a current."""
+    """The compiled function of a current, with its parameters."""
 
     function: Callable[[int, int, float], None]
-    """A function of the module's level; see `uwsim.base.numerics.calls`."""
+    """The Python function to compile, of module level; see `uwsim.base.numerics.calls`."""
     parameters: npt.NDArray[Any]
-    """The array that the function reads at its address."""
+    """The array whose address the function receives."""
     prepare: Callable[[float], None] = prepare_nothing
-    """The function that prepares random numbers up to a time [s]."""
+    """The function that draws the random numbers needed up to a time [s]."""
     memory_owners: tuple[object, ...] = field(default=())
-    """The objects whose addresses the parameters contain."""
+    """The objects whose addresses the parameters contain, kept alive here."""
 
     @property
     def addresses(self) -> tuple[int, int]:
-        """The numbers of `calls.FUNCTION`; the function is compiled when they are first needed."""
+        """The two addresses of `calls.FUNCTION`; the first access compiles the function."""
         return function_address(self.function), address_of(self.parameters)
 
 
 def query_of(vehicles: npt.NDArray[np.int64]) -> tuple[npt.NDArray[Any], ...]:
-    """Return a record of `QUERY` with a point for each vehicle, (1,), and its arrays."""
+    """Return a record of `QUERY`, (1,), and the arrays it refers to, with a point for each vehicle.
+
+    Args:
+        vehicles: the number of the vehicle at each point, (n,).
+
+    Returns:
+        The record; then the vehicles, points, velocities and accelerations.
+    """
     points, velocity, acceleration = np.zeros((3, len(vehicles), 3))
     query = np.zeros(1, QUERY)
     query["n"], query["vehicles"] = len(vehicles), address_of(vehicles)
@@ -63,7 +70,7 @@ def query_of(vehicles: npt.NDArray[np.int64]) -> tuple[npt.NDArray[Any], ...]:
 
 @njit
 def write_everywhere(query: Record, velocity: Array, acceleration: Array) -> None:
-    """Write one velocity and one acceleration, (3,), for all points."""
+    """Write a velocity [m/s] and an acceleration [m/s2], (3,) each, for all points of a query."""
     fill(query.velocity, query.n, velocity)
     if query.acceleration != 0:
         fill(query.acceleration, query.n, acceleration)
@@ -78,7 +85,7 @@ def write_no_acceleration(query: Record) -> None:
 
 @njit
 def fill(address: int, n: int, vector: Array) -> None:
-    """Write a vector (3,) for each of n points at an address."""
+    """Write a vector (3,) n times at an address."""
     vectors = view_doubles(address, 3 * n)
     for i in range(n):
         for k in range(3):

@@ -22,7 +22,7 @@ from ..base.numerics.jit import njit
 from ..base.numerics.memory import carray, pointer, view_doubles
 from ..schema import element
 from .compiled import CompiledCurrent
-from .current import MAX_SPEED, CurrentSpec, Place
+from .current import MAX_SPEED, CurrentSpec, SceneContext
 from .flow_function import QUERY, FlowFunction, write_everywhere
 from .random_table import ROWS, RandomTable
 
@@ -42,42 +42,45 @@ class GaussMarkovSpec(CurrentSpec):
     step: float = element(namespaced=True, default=0.05, minimum=0.001)
     """The time between random numbers, with linear interpolation between them [s]."""
 
-    def bind(self, place: Place) -> GaussMarkov:
-        """Make the current with the random stream ``current``."""
-        return GaussMarkov(self, place.stream("current"))
+    def bind(self, context: SceneContext) -> GaussMarkov:
+        """Create the current with the random stream ``current``."""
+        return GaussMarkov(self, context.stream("current"))
 
 
 GAUSS_MARKOV = np.dtype(
     [
-        ("mean", np.float64, 3),
-        ("deviation", np.float64, 3),
-        ("step", np.float64),
+        ("mean", np.float64, 3),  # in L [m/s]
+        ("deviation", np.float64, 3),  # in L [m/s]
+        ("step", np.float64),  # [s]
         ("states", np.int64),  # the address of a record of `random_table.ROWS`
     ]
 )
-"""A Gauss-Markov process, for compiled code."""
+"""The parameters of `flow_gauss_markov`."""
 
 
 class GaussMarkov(CompiledCurrent):
-    r"""A first-order Gauss-Markov process, the same everywhere.
+    r"""A uniform current whose velocity is a first-order Gauss-Markov process.
 
     .. math:: \dot x + \mu x = w, \quad v = \bar v + x
 
-    along each axis (Fossen, Handbook of Marine Craft Hydrodynamics and Motion Control, section
-    10.7), with white noise w of such a strength that the standard deviation of x is
-    ``deviation``. It is solved exactly at the times :math:`k h`,
+    along each axis of L (Fossen, Handbook of Marine Craft Hydrodynamics and Motion Control, section
+    10.7), with the mean velocity :math:`\bar v` and white noise w of such a strength that the
+    standard deviation :math:`\sigma` of x is ``deviation``. The exact solution at the times
+    :math:`k h`, with the step h, is
 
     .. math:: x_{k+1} = e^{-\mu h} x_k + \sigma \sqrt{1 - e^{-2 \mu h}}\; n_k,
         \quad n_k \sim N(0, 1)
 
-    and begins in its stationary state, so neither deviation nor correlation depends on h. Between
-    two times it runs straight, which takes a share of about :math:`\mu h / 3` of the variance.
-    (Adding ``amplitude * uniform`` at every step, as some simulators do, makes both depend on it.)
+    and :math:`x_0` has the stationary distribution, so neither standard deviation nor correlation
+    depends on h. (They do where ``amplitude * uniform`` is added at every step, as some simulators
+    do.) Between two of these times x is interpolated linearly, which reduces its variance by a
+    share of about :math:`\mu h / 3`.
 
-    The process has no derivative: the slope of the pieces grows as :math:`1/\sqrt{h}` and says
-    nothing of the water. So it exerts no inertial force, drag alone.
+    The process has no derivative: the slope of the linear interpolation grows as
+    :math:`1/\sqrt{h}` and has no physical meaning. The acceleration is therefore zero: the current
+    exerts drag but no inertial force.
 
-    Not modelled: any change with place; correlation between axes; limits to the speed.
+    Not modelled: variation in space; correlation between axes; limits to the speed.
     """
 
     def __init__(self, spec: GaussMarkovSpec, rng: np.random.Generator) -> None:
@@ -99,13 +102,20 @@ class GaussMarkov(CompiledCurrent):
 
     @property
     def is_uniform(self) -> bool:
-        """True if the velocity is the same everywhere, as here."""
+        """True if the velocity is the same at every point; it always is."""
         return True
 
 
 @njit
 def _next_states(decay: float, gain: float, noise: Array, last_states: Array) -> Array:
-    """Return the next states of unit variance, (n, 3), from normal numbers and the last states."""
+    """Return the next states of unit variance, (n, 3).
+
+    Args:
+        decay: the factor of the previous state [1].
+        gain: the factor of the noise [1].
+        noise: numbers of the standard normal distribution, (n, 3).
+        last_states: the states before, (k, 3); empty at the start.
+    """
     states = noise.copy()
     for i in range(len(noise)):
         if i > 0 or len(last_states) > 0:
@@ -115,12 +125,12 @@ def _next_states(decay: float, gain: float, noise: Array, last_states: Array) ->
     return states
 
 
-def flow_gauss_markov(parameters: int, values: int, time: float) -> None:
+def flow_gauss_markov(parameters_address: int, query_address: int, time: float) -> None:
     """Evaluate a query of a Gauss-Markov process; see `uwsim.currents.flow_function`.
 
-    Its acceleration is zero: it has no derivative, and that of its pieces is not one.
+    The acceleration is zero; see `GaussMarkov`.
     """
-    current = carray(pointer(parameters), (1,), GAUSS_MARKOV)[0]
+    current = carray(pointer(parameters_address), (1,), GAUSS_MARKOV)[0]
     table = carray(pointer(current.states), (1,), ROWS)[0]
     states = view_doubles(table.rows, 3 * table.n)
     position = max(0.0, time) / current.step
@@ -130,4 +140,4 @@ def flow_gauss_markov(parameters: int, values: int, time: float) -> None:
     for i in range(3):
         start, end = states[3 * k + i], states[3 * k + 3 + i]
         velocity[i] = current.mean[i] + current.deviation[i] * (start + (end - start) * fraction)
-    write_everywhere(carray(pointer(values), (1,), QUERY)[0], velocity, np.zeros(3))
+    write_everywhere(carray(pointer(query_address), (1,), QUERY)[0], velocity, np.zeros(3))

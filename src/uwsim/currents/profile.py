@@ -1,4 +1,4 @@
-r"""powerProfile, logProfile, layers: currents that depend on depth.
+r"""powerProfile, logProfile, layers: steady currents that depend on depth.
 
 .. code-block:: xml
 
@@ -18,8 +18,9 @@ r"""powerProfile, logProfile, layers: currents that depend on depth.
       </u:layer>
     </u:layers>
 
-Depths are below the still surface, for any direction of the file's z axis. All are steady. The
-depth of the water is that of the file, not of the terrain.
+Depths are below the still surface, along the vertical of the world frame W; velocities are in the
+localized world frame L. The depth of the ground is the number in the file; the terrain of the scene
+has no influence on it.
 """
 
 from __future__ import annotations
@@ -38,7 +39,7 @@ from ..base.numerics.memory import carray, pointer, view_doubles
 from ..errors import BadSetting
 from ..schema import Spec, element
 from .compiled import CompiledCurrent
-from .current import MAX_SPEED, CurrentSpec, Place
+from .current import MAX_SPEED, CurrentSpec, SceneContext
 from .flow_function import QUERY, FlowFunction, Record, write_no_acceleration
 
 KARMAN = 0.41
@@ -47,7 +48,7 @@ KARMAN = 0.41
 
 @dataclass(frozen=True, kw_only=True)
 class PowerProfileSpec(CurrentSpec):
-    """A ``<u:powerProfile>``: speed grows with a power of the height above ground."""
+    """A ``<u:powerProfile>``: the speed grows with a power of the height above ground."""
 
     velocity: Triple = element(namespaced=True, minimum=-MAX_SPEED, maximum=MAX_SPEED)
     """The velocity of the water at the surface, in L [m/s]."""
@@ -56,14 +57,14 @@ class PowerProfileSpec(CurrentSpec):
     exponent: float = element(namespaced=True, default=1.0 / 7.0, exclusive_minimum=0)
     """The exponent of the power law [1]."""
 
-    def bind(self, place: Place) -> PowerProfile:
-        """Make the current with the surface and the vertical of the scene."""
-        return PowerProfile(self, place)
+    def bind(self, context: SceneContext) -> PowerProfile:
+        """Create the current with the surface height and the vertical of the scene."""
+        return PowerProfile(self, context)
 
 
 @dataclass(frozen=True, kw_only=True)
 class LogProfileSpec(CurrentSpec):
-    """A ``<u:logProfile>``: speed grows with the logarithm of the height above ground."""
+    """A ``<u:logProfile>``: the speed grows with the logarithm of the height above ground."""
 
     velocity: Triple = element(namespaced=True, minimum=-MAX_SPEED, maximum=MAX_SPEED)
     """The velocity of the water at the surface, in L [m/s]."""
@@ -72,8 +73,8 @@ class LogProfileSpec(CurrentSpec):
     roughness: float = element(namespaced=True, default=0.001, exclusive_minimum=0)
     """The roughness length z0 of the bottom: mud 0.0002, gravel 0.005 [m]."""
 
-    def bind(self, place: Place) -> LogProfile:
-        """Make the current with the surface and the vertical of the scene.
+    def bind(self, context: SceneContext) -> LogProfile:
+        """Create the current with the surface height and the vertical of the scene.
 
         Raises:
             BadSetting: the depth is not greater than the roughness.
@@ -83,7 +84,7 @@ class LogProfileSpec(CurrentSpec):
                 f"<u:logProfile> has depth {self.depth:g} m and roughness {self.roughness:g} m; "
                 "expected a depth above the roughness."
             )
-        return LogProfile(self, place)
+        return LogProfile(self, context)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -103,8 +104,8 @@ class LayersSpec(CurrentSpec):
     layers: tuple[LayerSpec, ...] = element("layer", namespaced=True)
     """The layers, from the top down."""
 
-    def bind(self, place: Place) -> Layers:
-        """Make the current with the surface and the vertical of the scene.
+    def bind(self, context: SceneContext) -> Layers:
+        """Create the current with the surface height and the vertical of the scene.
 
         Raises:
             BadSetting: a layer is not below the layer before it.
@@ -116,49 +117,53 @@ class LayersSpec(CurrentSpec):
                     f"A <u:layer> of depth {lower_depth:g} m follows one of {upper_depth:g} m; "
                     "expected them from the top down, each depth once."
                 )
-        return Layers(self, place)
+        return Layers(self, context)
 
 
-DOWN = np.dtype([("surface", np.float64), ("upward", np.float64, 3), ("origin", np.float64)])
-"""The height of the still water in W [m], the z axis of W in L, and the height of L's origin
-[m]."""
+DEPTH_AXIS = np.dtype([("surface", np.float64), ("upward", np.float64, 3), ("origin", np.float64)])
+"""The height of the still water in W [m], the z axis of W in L, and the height of L's origin in W
+[m]; see `depth_of`."""
 GROUND_PROFILE = np.dtype(
     [
-        ("down", DOWN),
-        ("velocity", np.float64, 3),  # at the surface, in L [m/s]
-        ("depth", np.float64),  # of the ground [m]
-        ("exponent", np.float64),  # of the power law
-        ("roughness", np.float64),  # of the logarithmic law [m]
-        ("log_depth", np.float64),  # the logarithm of depth over roughness
+        ("depth_axis", DEPTH_AXIS),
+        ("velocity", np.float64, 3),  # the velocity at the surface, in L [m/s]
+        ("depth", np.float64),  # the depth of the ground [m]
+        ("exponent", np.float64),  # the exponent of the power law [1]
+        ("roughness", np.float64),  # the roughness length of the logarithmic law [m]
+        ("log_depth", np.float64),  # the logarithm of depth over roughness [1]
     ],
     align=True,
 )
-"""A profile over ground, for compiled code."""
-LAYERS = np.dtype([("down", DOWN), ("layers", np.int64), ("n_layers", np.int64)], align=True)
-"""Layers, for compiled code: the address of depths [m] and velocities in L [m/s], (n, 4)."""
+"""The parameters of `flow_power` and `flow_log`."""
+LAYERS = np.dtype(
+    [("depth_axis", DEPTH_AXIS), ("layers", np.int64), ("n_layers", np.int64)], align=True
+)
+"""The parameters of `flow_layers`; ``layers`` is the address of the depth [m] and velocity in L
+[m/s] of each layer, (n, 4)."""
 
 
 class Profile(CompiledCurrent):
-    """A steady current that depends on depth alone."""
+    """A steady current that depends only on depth."""
 
     @property
     def is_steady(self) -> bool:
-        """True if the velocity is constant in time, as here."""
+        """True if the velocity is constant in time; it always is."""
         return True
 
 
 class PowerProfile(Profile):
     r"""A current whose speed follows the power law over the height above ground.
 
-    .. math:: v(d) = v_0 \left(\frac{h - d}{h}\right)^{1/7}
+    .. math:: v(d) = v_0 \left(\frac{h - d}{h}\right)^{p}
 
-    at depth d in water of depth h: the velocity of the surface above it, none below the ground
-    (Soulsby, Dynamics of Marine Sands, 1997, has 1/7 for tidal flow). Not modelled: turning with
-    depth, time.
+    at the depth d in water of depth h, with the velocity :math:`v_0` at the surface and the
+    exponent p, 1/7 by default (Soulsby, Dynamics of Marine Sands, 1997, for tidal flow). Above the
+    surface the velocity is :math:`v_0`, below the ground it is 0. Not modelled: a direction that
+    turns with depth, variation in time.
     """
 
-    def __init__(self, spec: PowerProfileSpec, place: Place) -> None:
-        row = _ground_profile(place, spec.velocity, spec.depth)
+    def __init__(self, spec: PowerProfileSpec, context: SceneContext) -> None:
+        row = _ground_profile(context, spec.velocity, spec.depth)
         row["exponent"] = spec.exponent
         self._flow = FlowFunction(function=flow_power, parameters=row)
 
@@ -169,75 +174,83 @@ class LogProfile(Profile):
     .. math:: v(d) = v_0 \frac{\ln((h - d)/z_0)}{\ln(h/z_0)} \quad
         \left(u = \frac{u_*}{0.41} \ln \frac{h - d}{z_0}\right)
 
-    at depth d in water of depth h: the velocity of the surface above it, none from z0 down
-    (Soulsby, Dynamics of Marine Sands, 1997). It holds near the ground and is commonly used up to
-    the surface. Not modelled: turning with depth, stratification, time.
+    at the depth d in water of depth h, with the velocity :math:`v_0` at the surface and the
+    roughness length :math:`z_0` (Soulsby, Dynamics of Marine Sands, 1997). Above the surface the
+    velocity is :math:`v_0`, at heights below :math:`z_0` it is 0. The law holds near the ground and
+    is commonly used up to the surface. Not modelled: a direction that turns with depth,
+    stratification, variation in time.
     """
 
-    def __init__(self, spec: LogProfileSpec, place: Place) -> None:
-        row = _ground_profile(place, spec.velocity, spec.depth)
+    def __init__(self, spec: LogProfileSpec, context: SceneContext) -> None:
+        row = _ground_profile(context, spec.velocity, spec.depth)
         row["roughness"] = spec.roughness
         row["log_depth"] = math.log(spec.depth / spec.roughness)
         self._flow = FlowFunction(function=flow_log, parameters=row)
 
 
 class Layers(Profile):
-    """Velocities at given depths, linear between them, constant above the first and below the last.
+    """A current interpolated linearly between given depths, constant above and below them.
 
-    Not modelled: mixing, internal waves, time.
+    Not modelled: mixing, internal waves, variation in time.
     """
 
-    def __init__(self, spec: LayersSpec, place: Place) -> None:
+    def __init__(self, spec: LayersSpec, context: SceneContext) -> None:
         layers = np.array([(layer.depth, *layer.velocity) for layer in spec.layers])  # (k, 4)
         row = np.zeros(1, LAYERS)
-        row["down"] = _down(place)
+        row["depth_axis"] = _depth_axis(context)
         row["layers"], row["n_layers"] = address_of(layers), len(layers)
         self._flow = FlowFunction(function=flow_layers, parameters=row, memory_owners=(layers,))
 
 
-def _down(place: Place) -> npt.NDArray[np.void]:
-    """Return the record of `DOWN` of a scene, (1,)."""
-    row, pose = np.zeros(1, DOWN), place.world_from_localized
+def _depth_axis(context: SceneContext) -> npt.NDArray[np.void]:
+    """Return the record of `DEPTH_AXIS` of a scene, (1,)."""
+    row, pose = np.zeros(1, DEPTH_AXIS), context.world_from_localized
     row["surface"], row["upward"], row["origin"] = (
-        place.surface_height,
+        context.surface_height,
         pose.rotation[2],
         pose.position[2],
     )
     return row
 
 
-def _ground_profile(place: Place, velocity: Triple, depth: float) -> npt.NDArray[np.void]:
+def _ground_profile(context: SceneContext, velocity: Triple, depth: float) -> npt.NDArray[np.void]:
     row = np.zeros(1, GROUND_PROFILE)
-    row["down"], row["velocity"], row["depth"] = _down(place), velocity, depth
+    row["depth_axis"], row["velocity"], row["depth"] = _depth_axis(context), velocity, depth
     return row
 
 
 @njit
-def depth_of(down: Record, points: Array, i: int) -> float:
-    """Return the depth of point i of (3 n,) below the still surface [m]; negative above it."""
-    up = down.upward
+def depth_of(depth_axis: Record, points: Array, i: int) -> float:
+    """Return the depth of point i below the still surface [m]; negative above it.
+
+    Args:
+        depth_axis: a record of `DEPTH_AXIS`.
+        points: the coordinates of n points in L, one after the other, (3 n,) [m].
+        i: the index of the point.
+    """
+    up = depth_axis.upward
     height = 0.0 + points[3 * i] * up[0] + points[3 * i + 1] * up[1] + points[3 * i + 2] * up[2]
-    depth: float = down.surface - (height + down.origin)
+    depth: float = depth_axis.surface - (height + depth_axis.origin)
     return depth
 
 
 @njit
 def clamp(value: float, minimum: float, maximum: float) -> float:
-    """Return the nearest number within limits; NaN for NaN."""
+    """Limit a number to a range; NaN remains NaN."""
     return minimum if value < minimum else maximum if value > maximum else value
 
 
-def flow_power(parameters: int, values: int, time: float) -> None:
+def flow_power(parameters_address: int, query_address: int, time: float) -> None:
     """Evaluate a query of a power profile; see `uwsim.currents.flow_function`."""
-    current = carray(pointer(parameters), (1,), GROUND_PROFILE)[0]
-    query = carray(pointer(values), (1,), QUERY)[0]
+    current = carray(pointer(parameters_address), (1,), GROUND_PROFILE)[0]
+    query = carray(pointer(query_address), (1,), QUERY)[0]
     points, velocities = (
         view_doubles(query.points, 3 * query.n),
         view_doubles(query.velocity, 3 * query.n),
     )
     depth, share = math.nan, 0.0
     for i in range(query.n):
-        point_depth = depth_of(current.down, points, i)
+        point_depth = depth_of(current.depth_axis, points, i)
         if point_depth != depth:  # neighbouring points often have the same depth
             depth = point_depth
             share = math.pow(clamp(1.0 - depth / current.depth, 0.0, 1.0), current.exponent)
@@ -246,17 +259,17 @@ def flow_power(parameters: int, values: int, time: float) -> None:
     write_no_acceleration(query)
 
 
-def flow_log(parameters: int, values: int, time: float) -> None:
+def flow_log(parameters_address: int, query_address: int, time: float) -> None:
     """Evaluate a query of a logarithmic profile; see `uwsim.currents.flow_function`."""
-    current = carray(pointer(parameters), (1,), GROUND_PROFILE)[0]
-    query = carray(pointer(values), (1,), QUERY)[0]
+    current = carray(pointer(parameters_address), (1,), GROUND_PROFILE)[0]
+    query = carray(pointer(query_address), (1,), QUERY)[0]
     points, velocities = (
         view_doubles(query.points, 3 * query.n),
         view_doubles(query.velocity, 3 * query.n),
     )
     depth, share = math.nan, 0.0
     for i in range(query.n):
-        point_depth = depth_of(current.down, points, i)
+        point_depth = depth_of(current.depth_axis, points, i)
         if point_depth != depth:
             depth = point_depth
             height = clamp(current.depth - depth, current.roughness, current.depth)
@@ -266,17 +279,17 @@ def flow_log(parameters: int, values: int, time: float) -> None:
     write_no_acceleration(query)
 
 
-def flow_layers(parameters: int, values: int, time: float) -> None:
+def flow_layers(parameters_address: int, query_address: int, time: float) -> None:
     """Evaluate a query of layers; see `uwsim.currents.flow_function`."""
-    current = carray(pointer(parameters), (1,), LAYERS)[0]
-    query = carray(pointer(values), (1,), QUERY)[0]
+    current = carray(pointer(parameters_address), (1,), LAYERS)[0]
+    query = carray(pointer(query_address), (1,), QUERY)[0]
     points, velocities = (
         view_doubles(query.points, 3 * query.n),
         view_doubles(query.velocity, 3 * query.n),
     )
     layers = view_doubles(current.layers, 4 * current.n_layers).reshape((current.n_layers, 4))
     for i in range(query.n):
-        depth = depth_of(current.down, points, i)
+        depth = depth_of(current.depth_axis, points, i)
         lower = 0  # the first layer below the point
         while lower < len(layers) and layers[lower, 0] <= depth:
             lower += 1

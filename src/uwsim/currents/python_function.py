@@ -27,7 +27,7 @@ from ..base.files.python_sources import find_sources
 from ..base.geometry import Array
 from ..errors import BadSetting, did_you_mean, short_repr
 from ..schema import element
-from .current import MAX_SPEED, Current, CurrentSpec, Place
+from .current import MAX_SPEED, Current, CurrentSpec, SceneContext
 
 Function = Callable[[Array, float, str], Sequence[float]]
 
@@ -37,17 +37,17 @@ class PythonFunctionSpec(CurrentSpec):
     """A ``<u:pythonFunction>``: the velocity that a user-supplied function returns."""
 
     function: str = element(namespaced=True)
-    """``module:function``."""
+    """The function, as ``module:function``."""
 
-    def bind(self, place: Place) -> PythonFunction:
+    def bind(self, context: SceneContext) -> PythonFunction:
         """Import the module, which runs its code.
 
-        If no code may run, only find the module; the water is then still.
+        If `SceneContext.runs_code` is False, only locate the module; the current is then zero.
 
         Raises:
             BadSetting: there is no such module, or no such function in it.
         """
-        if not place.runs_code:
+        if not context.runs_code:
             self.look_up()
             return PythonFunction(self.function, still_water)
         module_name, name = self._names()
@@ -69,10 +69,10 @@ class PythonFunctionSpec(CurrentSpec):
         return PythonFunction(self.function, function)
 
     def look_up(self) -> str:
-        """Locate the module without running it.
+        """Return the file of the module without running it.
 
         Raises:
-            BadSetting: it is not on Python's path.
+            BadSetting: the module is not on Python's path.
         """
         try:
             return find_module_file(self._names()[0])
@@ -81,11 +81,11 @@ class PythonFunctionSpec(CurrentSpec):
 
     @property
     def code(self) -> str:
-        """The module and function that it calls."""
+        """The function that the current calls, as ``module:function``."""
         return self.function
 
-    def files(self, place: Place) -> dict[str, Path]:
-        """Return the files of the module and of its imports, once it is imported."""
+    def files(self, context: SceneContext) -> dict[str, Path]:
+        """Return the files of the module and its imports; empty before the module is imported."""
         module = self._names()[0]
         return find_sources(module) if module in sys.modules else {}
 
@@ -96,7 +96,7 @@ class PythonFunctionSpec(CurrentSpec):
         )
 
     def _names(self) -> tuple[str, str]:
-        """Return module and function."""
+        """Return the names of the module and of the function."""
         module, _, name = self.function.partition(":")
         if not name.isidentifier() or not all(part.isidentifier() for part in module.split(".")):
             raise BadSetting(f"<u:function> is {self.function!r}; expected 'module:function'.")
@@ -104,18 +104,19 @@ class PythonFunctionSpec(CurrentSpec):
 
 
 def still_water(point: Array, time: float, vehicle: str) -> tuple[float, float, float]:
-    """Return the velocity of still water, in place of a function that may not run."""
+    """Return zero velocity; replaces a user-supplied function that may not run."""
     return 0.0, 0.0, 0.0
 
 
 class PythonFunction(Current):
-    """The current of a user's ``function(point, time, vehicle)``, a velocity in L [m/s].
+    """The current of a user-supplied ``function(point, time, vehicle)``.
 
-    ``point`` is in L, (3,) [m], a copy; ``time`` is simulation time [s]; ``vehicle`` is the
-    name of the vehicle whose part is there, ``""`` for a loose object. The function is called at
-    every step for every body that the water acts on: once for the velocity, twice for the
-    acceleration and six times for shear, so its cost slows the simulation. A result is repeatable
-    only if it depends on its arguments alone.
+    ``point`` is a copy of the point in L, (3,) [m]; ``time`` is the simulation time [s];
+    ``vehicle`` is the name of the vehicle to which the body at the point belongs, ``""`` for a
+    loose object. The function returns the velocity in L [m/s]. It is called in every step for every
+    body that the water acts on: once for the velocity, twice for the acceleration and six times for
+    the shear. A slow function therefore slows the simulation. A run is repeatable only if the
+    function depends on its arguments alone.
     """
 
     def __init__(self, name: str, function: Function) -> None:
@@ -125,8 +126,8 @@ class PythonFunction(Current):
         """Return the velocity of the water, in L, (n, 3) [m/s].
 
         Raises:
-            BadSetting: the function raised an exception, or did not return three numbers up to
-                `MAX_SPEED`.
+            BadSetting: the function raised an exception, or did not return three numbers from
+                -`MAX_SPEED` to `MAX_SPEED`.
         """
         names = vehicles if len(vehicles) else [""] * len(points)
         velocities = np.empty((len(points), 3))

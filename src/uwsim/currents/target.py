@@ -1,4 +1,4 @@
-"""A current that acts on one vehicle alone, as in the original's benchmarks."""
+"""A current that acts on a single vehicle, as the currents of UWSim's benchmarks do."""
 
 from __future__ import annotations
 
@@ -16,28 +16,33 @@ from .flow_function import QUERY, FlowFunction, Record
 
 
 class TargetCurrent(Current):
-    """A current for its target; still water for all other bodies."""
+    """A current that acts on one vehicle; the water is still for all other bodies.
+
+    Args:
+        current: the current.
+        target: the name of the vehicle.
+    """
 
     def __init__(self, current: Flow, target: str) -> None:
         self._current, self._target = current, target
 
     @property
     def is_uniform(self) -> bool:
-        """True if the other current is uniform."""
+        """True if the current is uniform."""
         return self._current.is_uniform
 
     @property
     def is_steady(self) -> bool:
-        """True if the other current is constant in time."""
+        """True if the current is constant in time."""
         return is_steady(self._current)
 
     @property
     def is_still(self) -> bool:
-        """True if the other current is still."""
+        """True if the current is always zero."""
         return self._current.is_still
 
     def flow_function(self, vehicles: Sequence[str]) -> FlowFunction | None:
-        """Return its function; None if the other current has none."""
+        """Return the compiled function; None if the current has none."""
         flow = flow_function_of(self._current, vehicles)
         if flow is None:
             return None
@@ -62,12 +67,12 @@ class TargetCurrent(Current):
     def motion(
         self, points: Array, time: float, vehicles: Sequence[str] = ()
     ) -> tuple[Array, Array]:
-        """Return velocity and acceleration."""
+        """Return `velocity` and `acceleration` together."""
         velocity, acceleration = self._current.motion(points, time, vehicles)
         return self._clear_others(velocity, vehicles), self._clear_others(acceleration, vehicles)
 
     def _clear_others(self, vectors: Array, vehicles: Sequence[str]) -> Array:
-        """Set the vectors (n, 3) of other vehicles to 0."""
+        """Set the vectors (n, 3) at points of other vehicles to 0, in place."""
         if not vehicles:
             return np.zeros_like(vectors)
         is_other = [name != self._target for name in vehicles]
@@ -77,14 +82,14 @@ class TargetCurrent(Current):
 
 
 TARGET = np.dtype([("flow", FUNCTION), ("target", np.int64)])
-"""A current, and the number of the only vehicle that it acts on, for compiled code."""
+"""The parameters of `flow_target`: a current, and the number of the vehicle that it acts on."""
 
 
-def flow_target(parameters: int, values: int, time: float) -> None:
-    """Evaluate a query of the current of a target; see `uwsim.currents.flow_function`."""
-    current = carray(pointer(parameters), (1,), TARGET)[0]
-    query = carray(pointer(values), (1,), QUERY)[0]
-    call(current.flow.function, current.flow.parameters, values, time)
+def flow_target(parameters_address: int, query_address: int, time: float) -> None:
+    """Evaluate a query of a target's current; see `uwsim.currents.flow_function`."""
+    current = carray(pointer(parameters_address), (1,), TARGET)[0]
+    query = carray(pointer(query_address), (1,), QUERY)[0]
+    call(current.flow.function, current.flow.parameters, query_address, time)
     clear_others(query, query.velocity, current.target)
     if query.acceleration != 0:
         clear_others(query, query.acceleration, current.target)
@@ -92,7 +97,7 @@ def flow_target(parameters: int, values: int, time: float) -> None:
 
 @njit
 def clear_others(query: Record, address: int, target: int) -> None:
-    """Set to 0 the vectors (n, 3) at an address that are not the target's."""
+    """Set the vectors (n, 3) at an address to 0 at points of other vehicles than the target."""
     vectors = view_doubles(address, 3 * query.n)
     for i in range(query.n):
         if query.vehicles == 0 or view_int64s(query.vehicles, query.n)[i] != target:

@@ -1,4 +1,4 @@
-r"""tidal: a current of tidal constituents.
+r"""tidal: a current that is the sum of tidal constituents.
 
 .. code-block:: xml
 
@@ -25,28 +25,30 @@ from ..base.numerics.calls import address_of
 from ..base.numerics.memory import carray, pointer
 from ..schema import Spec, element
 from .compiled import CompiledCurrent
-from .current import MAX_SPEED, CurrentSpec, Place
+from .current import MAX_SPEED, CurrentSpec, SceneContext
 from .flow_function import QUERY, FlowFunction, write_everywhere
 
 DEGREES_PER_HOUR = {"M2": 28.9841042, "S2": 30.0, "K1": 15.0410686, "O1": 13.9430356}
-"""The angular speed of each constituent (Doodson) [degrees/h]: periods of 12.4206, 12, 23.9345 and
-25.8193 h."""
+"""The angular rate of each constituent (Doodson) [degrees/h], with periods of 12.4206, 12, 23.9345
+and 25.8193 h."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class ConstituentSpec(Spec):
-    """A ``<u:constituent>``: the ellipse that one constituent of the tide draws."""
+    """A ``<u:constituent>``: the ellipse of the velocity of one tidal constituent."""
 
     name: Literal["M2", "S2", "K1", "O1"] = element(namespaced=True)
-    """The name: principal lunar, principal solar, lunisolar diurnal or lunar diurnal."""
+    """The constituent: M2 (principal lunar), S2 (principal solar), K1 (lunisolar diurnal) or O1
+    (lunar diurnal)."""
     semi_major: float = element(namespaced=True, minimum=0, maximum=MAX_SPEED)
-    """The highest speed [m/s]."""
+    """The semi-major axis of the ellipse: the highest speed [m/s]."""
     semi_minor: float = element(namespaced=True, default=0.0, minimum=-MAX_SPEED, maximum=MAX_SPEED)
-    """The lowest speed [m/s]; below 0 the velocity turns from y of L to x, else from x to y."""
+    """The semi-minor axis of the ellipse: the lowest speed [m/s]. With a negative value the
+    velocity turns from y of L towards x, else from x towards y."""
     inclination: float = element(namespaced=True, default=0.0)
-    """The inclination of the semi-major axis, from x of L towards y [rad]."""
+    """The angle from the x axis of L to the semi-major axis, positive towards y [rad]."""
     phase: float = element(namespaced=True, default=0.0)
-    """The phase lag of the highest speed behind time 0 [rad]."""
+    """The phase lag of the highest speed behind time 0 of the tide [rad]."""
 
     @property
     def angular_rate(self) -> float:
@@ -61,45 +63,47 @@ class ConstituentSpec(Spec):
 
 @dataclass(frozen=True, kw_only=True)
 class TidalSpec(CurrentSpec):
-    """A ``<u:tidal>``: the sum of the ellipses of some constituents of the tide."""
+    """A ``<u:tidal>``: the sum of the velocities of tidal constituents."""
 
     start: float = element(namespaced=True, default=0.0)
     """The time of the tide at which the simulation begins [s]."""
     constituents: tuple[ConstituentSpec, ...] = element("constituent", namespaced=True)
-    """The constituents of the tide."""
+    """The tidal constituents."""
 
-    def bind(self, place: Place) -> Tidal:
-        """Needs nothing of the scene."""
+    def bind(self, context: SceneContext) -> Tidal:
+        """Create the current; ``context`` is not used."""
         return Tidal(self)
 
 
 TERM = np.dtype(
     [
-        ("rate", np.float64),  # [rad/s]
-        ("lag", np.float64),  # [rad]
-        ("major", np.float64),  # [m/s]
-        ("minor", np.float64),
-        ("cosine", np.float64),  # of the inclination
-        ("sine", np.float64),
+        ("rate", np.float64),  # the angular rate [rad/s]
+        ("lag", np.float64),  # the phase lag [rad]
+        ("major", np.float64),  # the semi-major axis [m/s]
+        ("minor", np.float64),  # the semi-minor axis [m/s]
+        ("cosine", np.float64),  # the cosine of the inclination
+        ("sine", np.float64),  # the sine of the inclination
     ]
 )
-"""The ellipse of one constituent, for compiled code."""
+"""The ellipse of one tidal constituent."""
 TIDAL = np.dtype([("start", np.float64), ("terms", np.int64), ("n_terms", np.int64)])
-"""A tidal current, for compiled code: its start [s], and the address of records of `TERM`."""
+"""The parameters of `flow_tidal`: the start [s], the address of records of `TERM`, their number."""
 
 
 class Tidal(CompiledCurrent):
-    r"""The sum of tidal ellipses, the same everywhere.
+    r"""A uniform current that is the sum of tidal ellipses.
 
     .. math:: v = \sum_i R(\alpha_i)
         (a_i \cos(\omega_i t - g_i),\ b_i \sin(\omega_i t - g_i),\ 0)
 
-    in L, with semi-axes a and b, inclination :math:`\alpha`, lag g (the usual ellipse parameters;
-    Foreman, Manual for Tidal Currents Analysis and Prediction, 1978). M2 and S2 together swell and
-    fade in 14.77 days: spring and neap.
+    in the localized world frame L, with the rotation R about its z axis, the semi-axes a and b, the
+    inclination :math:`\alpha`, the angular rate :math:`\omega` and the phase lag g (the usual
+    parameters of a tidal ellipse; Foreman, Manual for Tidal Currents Analysis and Prediction,
+    1978). M2 and S2 together give the spring-neap cycle of 14.77 days.
 
-    Not modelled: place and depth, other constituents, nodal corrections, the height of the tide,
-    and lags of Greenwich: time 0 is the file's own. L's x-y plane is taken as horizontal.
+    Not modelled: variation in space and with depth, other constituents, nodal corrections, the
+    height of the tide. Phase lags refer to time 0 of the tide, not to Greenwich. The x-y plane of L
+    is assumed to be horizontal.
     """
 
     def __init__(self, spec: TidalSpec) -> None:
@@ -117,13 +121,13 @@ class Tidal(CompiledCurrent):
 
     @property
     def is_uniform(self) -> bool:
-        """True if the velocity is the same everywhere, as here."""
+        """True if the velocity is the same at every point; it always is."""
         return True
 
 
-def flow_tidal(parameters: int, values: int, time: float) -> None:
+def flow_tidal(parameters_address: int, query_address: int, time: float) -> None:
     """Evaluate a query of a tidal current; see `uwsim.currents.flow_function`."""
-    current = carray(pointer(parameters), (1,), TIDAL)[0]
+    current = carray(pointer(parameters_address), (1,), TIDAL)[0]
     terms = carray(pointer(current.terms), (current.n_terms,), TERM)
     velocity, acceleration = np.zeros(3), np.zeros(3)
     for i in range(current.n_terms):
@@ -136,4 +140,4 @@ def flow_tidal(parameters: int, values: int, time: float) -> None:
         major_part, minor_part = -term.rate * term.major * sine, term.rate * term.minor * cosine
         acceleration[0] += major_part * term.cosine - minor_part * term.sine
         acceleration[1] += major_part * term.sine + minor_part * term.cosine
-    write_everywhere(carray(pointer(values), (1,), QUERY)[0], velocity, acceleration)
+    write_everywhere(carray(pointer(query_address), (1,), QUERY)[0], velocity, acceleration)

@@ -11,12 +11,12 @@ from ..base.geometry import Array
 from ..base.numerics.calls import FUNCTION, address_of, call
 from ..base.numerics.memory import carray, pointer, view_doubles
 from ..world import Flow
-from .current import Current, CurrentSpec, Place, flow_function_of, is_steady
+from .current import Current, CurrentSpec, SceneContext, flow_function_of, is_steady
 from .flow_function import QUERY, FlowFunction
 
 
 class TotalCurrent(Current):
-    """The sum of several currents; of none, still water."""
+    """The sum of several currents; still water without any."""
 
     def __init__(self, currents: Sequence[Flow]) -> None:
         self._currents = tuple(current for current in currents if not current.is_still)
@@ -37,7 +37,7 @@ class TotalCurrent(Current):
         return not self._currents
 
     def flow_function(self, vehicles: Sequence[str]) -> FlowFunction | None:
-        """Return its function; None if one of the currents has none."""
+        """Return the compiled function; None if one of the currents has none."""
         functions = [flow_function_of(current, vehicles) for current in self._currents]
         flows = [flow for flow in functions if flow is not None]
         if len(flows) < len(functions):
@@ -72,7 +72,7 @@ class TotalCurrent(Current):
 
 
 def _sum(parts: list[Array], n: int) -> Array:
-    """Return the sum of vectors at n points, (n, 3); the arguments may change."""
+    """Return the sum of arrays of n vectors, (n, 3); overwrites the first array."""
     if not parts:
         return np.zeros((n, 3))
     for part in parts[1:]:
@@ -81,14 +81,14 @@ def _sum(parts: list[Array], n: int) -> Array:
 
 
 TOTAL = np.dtype([("parts", np.int64), ("n", np.int64)])
-"""The address and the number of records of `calls.FUNCTION`, for compiled code."""
+"""The parameters of `flow_total`: the address of records of `calls.FUNCTION`, and their number."""
 
 
-def flow_total(parameters: int, values: int, time: float) -> None:
+def flow_total(parameters_address: int, query_address: int, time: float) -> None:
     """Evaluate a query of a sum of currents; see `uwsim.currents.flow_function`."""
-    current = carray(pointer(parameters), (1,), TOTAL)[0]
+    current = carray(pointer(parameters_address), (1,), TOTAL)[0]
     parts = carray(pointer(current.parts), (current.n,), FUNCTION)
-    query = carray(pointer(values), (1,), QUERY)[0]
+    query = carray(pointer(query_address), (1,), QUERY)[0]
     addresses = query.velocity, query.acceleration
     size = 3 * query.n
     part_vectors = np.empty(2 * size)  # the velocities and accelerations of one current
@@ -96,7 +96,7 @@ def flow_total(parameters: int, values: int, time: float) -> None:
         if i > 0:
             query.velocity = part_vectors.ctypes.data
             query.acceleration = part_vectors.ctypes.data + 8 * size if addresses[1] != 0 else 0
-        call(parts[i].function, parts[i].parameters, values, time)
+        call(parts[i].function, parts[i].parameters, query_address, time)
         for k in range(2 if i > 0 else 0):
             if addresses[k] != 0:
                 total = view_doubles(addresses[k], size)
@@ -105,10 +105,10 @@ def flow_total(parameters: int, values: int, time: float) -> None:
     query.velocity, query.acceleration = addresses
 
 
-def bind_currents(specs: Sequence[CurrentSpec], place: Place) -> TotalCurrent:
-    """Bind the currents of a scene; number i has its own random streams, ``scene/i/...``."""
-    return TotalCurrent([spec.bind(_numbered_place(place, i)) for i, spec in enumerate(specs)])
+def bind_currents(specs: Sequence[CurrentSpec], context: SceneContext) -> TotalCurrent:
+    """Bind the currents of a scene; current i has its own random streams, ``scene/i/...``."""
+    return TotalCurrent([spec.bind(_numbered_context(context, i)) for i, spec in enumerate(specs)])
 
 
-def _numbered_place(place: Place, i: int) -> Place:
-    return replace(place, stream=lambda name: place.stream(f"scene/{i}/{name}"))
+def _numbered_context(context: SceneContext, i: int) -> SceneContext:
+    return replace(context, stream=lambda name: context.stream(f"scene/{i}/{name}"))

@@ -1,7 +1,7 @@
-"""Conversion of a NetCDF file's ``units`` to metres, seconds and metres per second.
+"""Conversion factors of the ``units`` of NetCDF variables to metres, seconds and m/s.
 
-Names and spellings are those of UDUNITS, which the CF conventions (1.11, chapter 3.1) require.
-``hours since 2000-01-01`` is a time of that unit, counted from a date.
+The names of units follow UDUNITS, which the CF conventions (1.11, chapter 3.1) require. A unit such
+as ``hours since 2000-01-01`` is a time in hours, counted from a date.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ LENGTHS: Mapping[str, float] = {
     )
     for name in names.split()
 }
-"""[m]"""
+"""The length of each unit [m]."""
 TIMES: Mapping[str, float] = {
     name: factor
     for names, factor in (
@@ -32,7 +32,7 @@ TIMES: Mapping[str, float] = {
     )
     for name in names.split()
 }
-"""[s]"""
+"""The duration of each unit [s]."""
 EXPECTED = {
     "length": "m, km or cm",
     "time": "s, min, h or days, with or without 'since' a date",
@@ -41,14 +41,14 @@ EXPECTED = {
 
 
 def unit(name: str, text: str) -> tuple[float, bool]:
-    """Return a unit's factor to SI units, and whether it is a time since a date.
+    """Return the factor from a unit to SI units, and whether it is a time since a date.
 
     Args:
         name: the name of the variable: ``t``, ``x``, ``y``, ``z``, ``u``, ``v`` or ``w``.
-        text: the attribute ``units``; empty for SI units.
+        text: the attribute ``units`` of the variable; empty for SI units.
 
     Raises:
-        ValueError: the unit is unknown; the text lists the expected units.
+        ValueError: the unit is unknown; the message lists the expected units.
     """
     words = text.strip().lower()
     kind = "time" if name == "t" else "speed" if name in ("u", "v", "w") else "length"

@@ -1,4 +1,6 @@
-r"""uwsimSinusoid: the current of UWSim's benchmarks, with sinusoidal speed and direction.
+r"""uwsimSinusoid: a uniform current whose speed and direction vary as sines of time.
+
+This is the current of the benchmarks of UWSim, the C++ simulator whose files `uwsim` reads.
 
 .. code-block:: xml
 
@@ -23,21 +25,21 @@ from ..base.numerics.jit import njit
 from ..base.numerics.memory import carray, pointer, view_doubles
 from ..schema import element
 from .compiled import CompiledCurrent
-from .current import MAX_SPEED, CurrentSpec, Place
+from .current import MAX_SPEED, CurrentSpec, SceneContext
 from .flow_function import QUERY, FlowFunction, Record, write_everywhere
 from .random_table import ROWS, RandomTable
 
 MIN_PERIOD = 0.01
 """The shortest period [s]."""
 RATE = 60.0
-"""The rate of new random factors, which are constant between draws [Hz]."""
+"""The rate at which random factors are drawn; they are constant between draws [Hz]."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class UwsimSinusoidSpec(CurrentSpec):
     """A ``<u:uwsimSinusoid>``: the current of UWSim's benchmarks.
 
-    A level of a ``<currentForceUpdater>`` is one.
+    Each level of a ``<currentForceUpdater>`` is a current of this kind.
     """
 
     speed: float = element(namespaced=True, minimum=-MAX_SPEED, maximum=MAX_SPEED)
@@ -49,41 +51,41 @@ class UwsimSinusoidSpec(CurrentSpec):
     speed_period: float = element(namespaced=True, default=1.0, minimum=MIN_PERIOD)
     """The period of the variation of speed [s]."""
     theta: float = element(namespaced=True, default=math.pi / 2.0)
-    """The polar angle from z of L [rad]."""
+    """The polar angle of the velocity from the z axis of L [rad]."""
     theta_variation: float = element(namespaced=True, default=0.0)
     """The amplitude of the variation of theta [rad]."""
     theta_period: float = element(namespaced=True, default=1.0, minimum=MIN_PERIOD)
     """The period of the variation of theta [s]."""
     phi: float = element(namespaced=True, default=0.0)
-    """The azimuth from y of L towards -x of L [rad]."""
+    """The azimuth of the velocity from the y axis of L towards -x of L [rad]."""
     phi_variation: float = element(namespaced=True, default=0.0)
     """The amplitude of the variation of phi [rad]."""
     phi_period: float = element(namespaced=True, default=1.0, minimum=MIN_PERIOD)
     """The period of the variation of phi [s]."""
     random: float = element(namespaced=True, default=0.0, minimum=0, maximum=10)
-    """The half-width of the uniform noise of speed and both angles, relative [1]."""
+    """The half-width of the relative, uniform noise of the speed and of both angles [1]."""
 
-    def bind(self, place: Place) -> UwsimSinusoid:
-        """Make the current with the random stream ``current``."""
-        return UwsimSinusoid(self, place.stream("current"))
+    def bind(self, context: SceneContext) -> UwsimSinusoid:
+        """Create the current with the random stream ``current``."""
+        return UwsimSinusoid(self, context.stream("current"))
 
 
 SINE = np.dtype([("mean", np.float64), ("variation", np.float64), ("rate", np.float64)])
-"""A sine of time about a mean; its rate is in rad/s."""
+"""A sine of time about a mean: the mean, the amplitude, and the angular rate [rad/s]."""
 SINUSOID = np.dtype(
     [
-        ("speed", SINE),
-        ("theta", SINE),
-        ("phi", SINE),
-        ("random", np.float64),
+        ("speed", SINE),  # [m/s]
+        ("theta", SINE),  # [rad]
+        ("phi", SINE),  # [rad]
+        ("random", np.float64),  # the half-width of the relative noise [1]
         ("draws", np.int64),  # the address of a record of `random_table.ROWS`
     ]
 )
-"""UWSim's current, for compiled code."""
+"""The parameters of `flow_sinusoid`."""
 
 
 class UwsimSinusoid(CompiledCurrent):
-    r"""The original's function of time, the same everywhere.
+    r"""A uniform current whose speed F and direction are sines of time, with uniform noise.
 
     .. math::
 
@@ -92,12 +94,13 @@ class UwsimSinusoid(CompiledCurrent):
         \phi   &= (\phi_0 + \phi_v \sin(2\pi t/T_\phi)) (1 + e\,r_3) \\
         v      &= F\,(-\sin\theta \sin\phi,\ \sin\theta \cos\phi,\ \cos\theta)
 
-    in L, with r uniform in -1..1, drawn anew every 1/60 s and held, and e = ``rng``. With
-    theta = pi/2 the water flows along y of L, and turns towards -x as phi grows.
-    Source: UWSim's benchmark module. It writes 3.14 for pi, takes t from the wall clock, and
-    draws at every frame; here t is simulation time.
+    in L, with random numbers r uniform in -1..1, drawn every 1/60 s and constant between draws, and
+    the relative noise e = ``random``. With theta = pi/2 and phi = 0 the water flows along y of L;
+    as phi grows, the velocity turns towards -x. Source: the benchmark module of UWSim (C++), which
+    takes 3.14 for pi and t from the wall clock, and draws in every rendered frame; here t is the
+    simulation time.
 
-    Not modelled: any change with place. The acceleration leaves out the jumps of the noise.
+    Not modelled: variation in space. The acceleration does not include the jumps of the noise.
     """
 
     def __init__(self, spec: UwsimSinusoidSpec, rng: np.random.Generator) -> None:
@@ -119,12 +122,12 @@ class UwsimSinusoid(CompiledCurrent):
 
     @property
     def is_uniform(self) -> bool:
-        """True if the velocity is the same everywhere, as here."""
+        """True if the velocity is the same at every point; it always is."""
         return True
 
     @property
     def is_still(self) -> bool:
-        """True if its speed is zero at all times."""
+        """True if the speed is zero at all times."""
         return self._is_still
 
 
@@ -136,7 +139,7 @@ def draw_of(time: float) -> int:
 
 @njit
 def evaluate_sine(sine: Record, factor: float, time: float) -> tuple[float, float]:
-    """Return the value of a sine at a time, and its derivative."""
+    """Return the value of a `SINE` at a time [s], and its derivative by time, times a factor."""
     angle = sine.rate * time
     return (
         factor * (sine.mean + sine.variation * math.sin(angle)),
@@ -144,9 +147,9 @@ def evaluate_sine(sine: Record, factor: float, time: float) -> tuple[float, floa
     )
 
 
-def flow_sinusoid(parameters: int, values: int, time: float) -> None:
+def flow_sinusoid(parameters_address: int, query_address: int, time: float) -> None:
     """Evaluate a query of UWSim's current; see `uwsim.currents.flow_function`."""
-    current = carray(pointer(parameters), (1,), SINUSOID)[0]
+    current = carray(pointer(parameters_address), (1,), SINUSOID)[0]
     a, b, c, e = 1.0, 1.0, 1.0, current.random
     if e != 0.0:
         table, row = carray(pointer(current.draws), (1,), ROWS)[0], 3 * draw_of(time)
@@ -174,4 +177,4 @@ def flow_sinusoid(parameters: int, values: int, time: float) -> None:
     acceleration[0] = level_rate * x - level_speed * y * phi_rate
     acceleration[1] = level_rate * y + level_speed * x * phi_rate
     acceleration[2] = speed_rate * cosine - speed * sine * theta_rate
-    write_everywhere(carray(pointer(values), (1,), QUERY)[0], velocity, acceleration)
+    write_everywhere(carray(pointer(query_address), (1,), QUERY)[0], velocity, acceleration)

@@ -1,4 +1,4 @@
-"""Forces on bodies that are not the hull's own hydrodynamics, one file each."""
+"""Forces on bodies other than gravity, contacts and hydrodynamics, one module for each kind."""
 
 from __future__ import annotations
 
@@ -8,6 +8,6 @@ from .force import Force, ForceSpec
 FORCES: dict[str, type[ForceSpec]] = {
     "dockingMagnet": DockingMagnetSpec,
 }
-"""The specs by the element of ``<u:forces>``, without its prefix, in alphabetical order."""
+"""The spec class of each child element of ``<u:forces>``, by the element's name without prefix."""
 
 __all__ = ["FORCES", "DockingMagnetSpec", "Force", "ForceSpec"]

@@ -1,4 +1,4 @@
-r"""dockingMagnet: the attraction of two magnets, each on a body.
+r"""dockingMagnet: the force and torque between two magnets, each fixed to a body.
 
 .. code-block:: xml
 
@@ -25,9 +25,10 @@ from ..world import Attachment, ForceWorld
 from .force import Force, ForceSpec
 
 MAGNETIC_CONSTANT = 1e-7
-"""The vacuum permeability by 4 pi [N/A2]; water has the same to 1e-5."""
+"""The vacuum permeability divided by 4 pi [N/A2]; the permeability of water differs by 1e-5 of it.
+"""
 MAX_MOMENT = 1e5
-"""The greatest magnetic moment: that of 0.1 m3 of neodymium [A m2]."""
+"""The largest component of a magnetic moment, as of a neodymium magnet of 0.1 m3 [A m2]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,27 +36,27 @@ class MagnetSpec(Spec):
     """A magnet of a ``<u:dockingMagnet>``."""
 
     body: str = element(refers_to="body")
-    """A vehicle (its base), a link ``vehicle/link``, or an object."""
+    """The body that carries the magnet: a vehicle (its base), ``vehicle/link``, or an object."""
     position: Triple = element(default=ZERO, minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE)
-    """The middle of the magnet in the frame of the body [m]."""
+    """The centre of the magnet in the frame of the body [m]."""
     moment: Triple = element(minimum=-MAX_MOMENT, maximum=MAX_MOMENT)
     """The magnetic moment, from the south to the north pole, in the axes of the body [A m2]."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class DockingMagnetSpec(ForceSpec):
-    """A ``<u:dockingMagnet>``: two magnets, which pull and turn each pose_2."""
+    """A ``<u:dockingMagnet>``: two magnets that exert forces and torques on each other."""
 
     first: MagnetSpec
-    """One magnet."""
+    """The first magnet."""
     second: MagnetSpec
-    """The other magnet."""
+    """The second magnet."""
     closest: float = element(exclusive_minimum=0.0, maximum=100.0)
-    """The distance of the middles of the magnets when they touch; nearer, the force grows no more
-    [m]."""
+    """The distance between the centres of the magnets when they touch [m]. At smaller distances the
+    force does not grow."""
 
     def bind(self, world: ForceWorld) -> DockingMagnet:
-        """Find both bodies; raises UnknownName if one is missing."""
+        """Resolve the names of both bodies; raise UnknownName if one is missing."""
         return DockingMagnet(
             world.attach(self.first.body, self.first.position),
             world.attach(self.second.body, self.second.position),
@@ -65,10 +66,11 @@ class DockingMagnetSpec(ForceSpec):
 
 
 class DockingMagnet(Force):
-    r"""Two magnetic dipoles.
+    r"""The force and the torques between two magnetic dipoles.
 
-    With the moments :math:`m_1, m_2`, the distance r of the magnets and its direction u from the
-    first to the second, the force on the second and the torques are
+    With the moments :math:`m_1, m_2`, the distance r between the magnets, and the unit vector u
+    from the first magnet to the second, the force F on the second magnet and the torque
+    :math:`\tau_i` on each magnet in the field :math:`B_j` of the other are
 
     .. math:: F &= \frac{3 \mu_0}{4 \pi r^4} \left( (m_1 u) m_2 + (m_2 u) m_1 + (m_1 m_2) u
         - 5 (m_1 u)(m_2 u) u \right) \\
@@ -76,13 +78,14 @@ class DockingMagnet(Force):
 
     (Yung, Landecker, Villani, An Analytic Solution for the Force Between Two Magnetic Dipoles,
     Magnetic and Electrical Separation 9, 1998; Jackson, Classical Electrodynamics, 3rd ed., 5.56).
-    The force on the first is -F. These torques and the couple of both forces add up to 0.
+    The force on the first magnet is -F. These torques and the couple of both forces add up to 0.
 
-    It is exact for uniformly magnetised balls, down to their contact (Edwards, Riffe, Ji, Booth,
-    Interactions between uniformly magnetized spheres, American Journal of Physics 85, 2017). For
-    other magnets of a size d it is accurate at distances of several d. Below ``r_min``,
-    force and torque are those at that distance. Each torque compensates half of the shorter lever,
-    so that the sum remains 0. At a distance of 0, where there is no direction, the wrenches are 0.
+    The law is exact for uniformly magnetised spheres, down to their contact (Edwards, Riffe, Ji,
+    Booth, Interactions between uniformly magnetized spheres, American Journal of Physics 85, 2017).
+    For other magnets of size d it is accurate at distances of several d. At distances below
+    ``r_min``, forces and torques have their values at ``r_min``. The lever arm of the forces is
+    shorter there; half of the missing couple is added to each torque, so the sum of all moments
+    remains 0. At a distance of 0, where u is undefined, the wrenches are 0.
 
     Not modelled: soft iron and other magnets nearby, the shape of magnets at contact, moments that
     change with temperature or an opposing field, electromagnets that are switched, eddy currents in
@@ -97,7 +100,7 @@ class DockingMagnet(Force):
         self._r_min = r_min
 
     def wrenches(self, time: float) -> tuple[tuple[Attachment, Array], tuple[Attachment, Array]]:
-        """Return the wrenches on both bodies, each about its magnet, in W."""
+        """Return the wrenches on both bodies in W, each about the centre of its magnet."""
         pose_1, pose_2 = self._magnet_1.world_from_body, self._magnet_2.world_from_body
         on_first, on_second = dipole_wrenches(
             rotate(pose_1.rotation, self._moments[0]),
@@ -109,13 +112,15 @@ class DockingMagnet(Force):
 
 
 def dipole_wrenches(m_1: Array, m_2: Array, r_12: Array, r_min: float) -> tuple[Array, Array]:
-    """Compute the wrenches on two dipoles, each about its own position, (6,) [N, N m].
+    """Compute the wrench on each of two dipoles about its own position, (6,) [N, N m].
+
+    All vectors are in the same axes.
 
     Args:
-        m_1: the moment of the first dipole, (3,) [A m2].
-        m_2: the moment of the second dipole, in the same axes.
-        r_12: the vector from the first to the second, (3,) [m].
-        r_min: the distance below which the law of this distance holds [m].
+        m_1: the magnetic moment of the first dipole, (3,) [A m2].
+        m_2: the magnetic moment of the second dipole, (3,) [A m2].
+        r_12: the vector from the first dipole to the second, (3,) [m].
+        r_min: the distance below which forces and torques do not grow [m].
     """
     distance = math.sqrt(dot(r_12, r_12))
     if distance == 0.0:

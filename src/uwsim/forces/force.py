@@ -1,5 +1,7 @@
 r"""The interface of forces: wrenches on bodies, computed at the beginning of each step.
 
+The order of the computations in a step:
+
 .. code-block:: text
 
     apply_commands -> step_devices -> advect_kinematic -> forces -> step_physics -> animate -> ...
@@ -21,24 +23,25 @@ from ..world import Attachment, ForceWorld
 class ForceSpec(Spec, abc.ABC):
     """The spec of a force.
 
-    Fields that name a body are declared with ``element(refers_to="body")``: ``uwsim check`` checks
-    them.
+    Declare a field that names a body with ``element(refers_to="body")``: ``uwsim check`` then
+    reports unknown names.
     """
 
     name: str
-    """The name of the force, which messages about it contain."""
+    """The name of the force, for messages."""
 
     @abc.abstractmethod
     def bind(self, world: ForceWorld) -> Force:
-        """Find the bodies that it acts on; raises UnknownName if one is missing."""
+        """Resolve the names of the bodies it acts on; raise UnknownName if one is missing."""
 
 
 class Force(abc.ABC):
     """A bound force.
 
-    It is computed at the beginning of each step and acts in that step: poses, velocities and the
-    water are those of the beginning, and the wrenches are constant in W until its end. Its error is
-    of first order in the step, and a damping c on a mass m needs a step below 2 m/c.
+    The wrenches are computed at the beginning of each step from the poses, velocities and water
+    motion at that time, and are constant in the world frame W until the end of the step. The error
+    is of first order in the step; a damping coefficient c on a mass m is stable in steps below
+    2 m/c.
     """
 
     state: Record = NoState()
@@ -46,9 +49,10 @@ class Force(abc.ABC):
 
     @abc.abstractmethod
     def wrenches(self, time: float) -> Iterable[tuple[Attachment, Array]]:
-        """Return the bodies and the wrenches on them in the step that begins at ``time`` [s].
+        """Return the wrenches of the step that begins at ``time`` [s], each with its attachment.
 
         Each wrench is (6,): the force [N], then the torque [N m] about the origin of the
-        attachment, both in the axes of W. Several wrenches on one body are added. The reaction on
-        another body is one more entry; on a body that forces do not move a wrench has no effect.
+        attachment, both in the axes of W. Several wrenches on one body are added. Return the
+        reaction on another body as a separate entry. A wrench on a body without dynamics has no
+        effect.
         """

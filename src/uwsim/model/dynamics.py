@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Literal, cast
 
 from ..base.rng import stream
-from ..currents import Place, PythonFunctionSpec
+from ..currents import PythonFunctionSpec, SceneContext
 from ..devices.fault import FaultSpec
 from ..devices.fault_fields import numeric_fields
 from ..errors import BadSetting, Diagnostic, SceneError, UnknownName, UwsimError, did_you_mean
@@ -323,17 +323,17 @@ class NameResolution:
                     )
 
     def _check_currents(self, is_thorough: bool) -> None:
-        place = Place(
+        context = SceneContext(
             stream=lambda name: stream(0, name),
             find=lambda name: find_file(name, self._scene.path, self._data_path),
         )
         for current in self._scene.ocean_state.currents:
             try:
-                current.files(place)
+                current.files(context)
                 if is_thorough and isinstance(current, PythonFunctionSpec):
                     current.look_up()
                 elif is_thorough:
-                    current.bind(place)
+                    current.bind(context)
             except UwsimError as error:
                 self._report(str(error), current)
 

@@ -24,8 +24,8 @@ from uwsim.currents import (
     LayerSpec,
     LayersSpec,
     LogProfileSpec,
-    Place,
     PowerProfileSpec,
+    SceneContext,
     TargetCurrent,
     TidalSpec,
     TotalCurrent,
@@ -41,7 +41,7 @@ TILTED = replace(
     SCENE,
     sim_params=replace(SCENE.sim_params, offsetp=(1.0, 2.0, 0.5), offsetr=(3.0, 0.1, -1.2)),
 )
-PLACE = Place(
+CONTEXT = SceneContext(
     stream=lambda name: stream(3, name),
     world_from_localized=TILTED.world_from_localized,
     surface_height=0.3,
@@ -58,35 +58,35 @@ def a_field(outside: str = "edge") -> Field:
 
 
 def a_profile() -> Current:
-    return PowerProfileSpec(velocity=VELOCITY, depth=7.0).bind(PLACE)
+    return PowerProfileSpec(velocity=VELOCITY, depth=7.0).bind(CONTEXT)
 
 
 def a_walk() -> Current:
-    return GaussMarkovSpec(mean=VELOCITY, deviation=(0.1, 0.2, 0.3), mu=0.1).bind(PLACE)
+    return GaussMarkovSpec(mean=VELOCITY, deviation=(0.1, 0.2, 0.3), mu=0.1).bind(CONTEXT)
 
 
 def a_swell() -> Current:
     return UwsimSinusoidSpec(
         speed=0.3, speed_variation=0.1, speed_period=2.0, phi=0.7, theta=1.1, random=0.1
-    ).bind(PLACE)
+    ).bind(CONTEXT)
 
 
 CURRENTS: dict[str, Callable[[], Current]] = {
     "constant": lambda: Constant(VELOCITY),
     "tidal": lambda: TidalSpec(
         start=900.0, constituents=(ConstituentSpec(name="M2", semi_major=0.4, inclination=0.7),)
-    ).bind(PLACE),
+    ).bind(CONTEXT),
     "gaussMarkov": a_walk,
     "uwsimSinusoid": a_swell,
     "powerProfile": a_profile,
-    "logProfile": lambda: LogProfileSpec(velocity=VELOCITY, depth=7.0).bind(PLACE),
+    "logProfile": lambda: LogProfileSpec(velocity=VELOCITY, depth=7.0).bind(CONTEXT),
     "layers": lambda: LayersSpec(
         layers=(
             LayerSpec(depth=0.2, velocity=VELOCITY),
             LayerSpec(depth=2.0, velocity=(0.0, 0.3, 0.0)),
             LayerSpec(depth=2.5, velocity=(-0.1, 0.0, 0.2)),
         )
-    ).bind(PLACE),
+    ).bind(CONTEXT),
     "field": a_field,
     "field that is still outside": lambda: a_field("still"),
     "sum": lambda: TotalCurrent([a_profile(), a_walk(), a_field()]),
@@ -122,7 +122,7 @@ class InPython(Current):
 
 
 def water(current: Current) -> WaterMotion:
-    motion = WaterMotion(TILTED, PLACE)
+    motion = WaterMotion(TILTED, CONTEXT)
     motion.set(current)
     return motion
 

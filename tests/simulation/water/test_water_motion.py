@@ -13,7 +13,7 @@ import pytest
 
 from tests.simulation.water.water_rows import rows_of
 from tests.support.opened import open_scene
-from uwsim.currents import Constant, Place, TargetCurrent, TotalCurrent, UwsimSinusoidSpec
+from uwsim.currents import Constant, SceneContext, TargetCurrent, TotalCurrent, UwsimSinusoidSpec
 from uwsim.currents.current import Current
 from uwsim.scene.hydrodynamics import BodyHydrodynamics
 from uwsim.scene.hydrodynamics.vehicle_file import read_vehicle
@@ -42,7 +42,7 @@ SHEAR = [[0.0, 0.3, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 0.0]]
 
 def test_an_eddy_accelerates_towards_its_middle_and_turns() -> None:
     scene = read_scene(SCENE).nominal_scene
-    motion = WaterMotion(scene, Place(stream=lambda _: np.random.default_rng()))
+    motion = WaterMotion(scene, SceneContext(stream=lambda _: np.random.default_rng()))
     motion.set(Linear(EDDY))
     at = scene.world_from_localized.transform(np.array([[10.0, 0.0, 0.0]]))
     velocity, acceleration, rotation = motion.motion_at(at, 0.0, ("",))
@@ -110,11 +110,11 @@ def test_a_hull_below_its_origin_feels_the_water_where_it_is() -> None:
 @pytest.mark.parametrize("vehicles", [(), ("",), ("a", "", "b", "b", "a", "")])
 def test_uniform_water_of_several_steps_is_that_of_each_step(vehicles: tuple[str, ...]) -> None:
     scene = read_scene(SCENE).nominal_scene
-    place = Place(stream=lambda _: np.random.Generator(np.random.Philox(4)))
+    context = SceneContext(stream=lambda _: np.random.Generator(np.random.Philox(4)))
     swelling = UwsimSinusoidSpec(
         speed=0.3, speed_variation=0.1, speed_period=2.0, phi=0.7, theta=1.1, random=0.1
-    ).bind(place)
-    motion = WaterMotion(scene, place)
+    ).bind(context)
+    motion = WaterMotion(scene, context)
     motion.set(TotalCurrent([Constant((0.1, -0.2, 0.03)), TargetCurrent(swelling, "b")]))
     steps, timestep = range(249, 252), 0.002
     times = [step * timestep - 0.5 * timestep for step in steps]
@@ -155,7 +155,7 @@ def test_uniform_water_of_python_is_asked_for_once_a_vehicle(kind: type[Asked], 
     """At each time; if it is steady, once for all times of a run."""
     Asked.asked.clear()
     motion = WaterMotion(
-        read_scene(SCENE).nominal_scene, Place(stream=lambda _: np.random.default_rng())
+        read_scene(SCENE).nominal_scene, SceneContext(stream=lambda _: np.random.default_rng())
     )
     motion.set(kind((0.1, 0.0, 0.0)))
     vehicles, points, rows = ("a", "a", "", "a", ""), np.zeros((5, 3)), []
@@ -169,7 +169,7 @@ def test_uniform_water_of_python_is_asked_for_once_a_vehicle(kind: type[Asked], 
 
 def test_another_current_or_other_bodies_are_not_taken_for_those_before() -> None:
     motion = WaterMotion(
-        read_scene(SCENE).nominal_scene, Place(stream=lambda _: np.random.default_rng())
+        read_scene(SCENE).nominal_scene, SceneContext(stream=lambda _: np.random.default_rng())
     )
     rows = []
     for x, vehicles in ((0.1, ("a",)), (0.2, ("a",)), (0.2, ("a", "b")), (0.1, ("a", "b"))):

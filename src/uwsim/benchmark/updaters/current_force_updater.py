@@ -20,7 +20,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from ...currents import MAX_SPEED, DelayedCurrent, Place, TargetCurrent
+from ...currents import MAX_SPEED, DelayedCurrent, SceneContext, TargetCurrent
 from ...currents.uwsim_sinusoid import MIN_PERIOD, UwsimSinusoidSpec
 from ...errors import BadSetting, UnknownName
 from ...messages import Empty, Vector3, Wrench, WrenchStamped, header
@@ -159,7 +159,7 @@ class CurrentForceUpdater(SceneUpdater):
 
     def _set_current(self, value: float, *, delay: float) -> None:
         stage, spec = self._stage, self._spec
-        sinusoid = spec.current(value).bind(Place(stream=stage.stream))
+        sinusoid = spec.current(value).bind(SceneContext(stream=stage.stream))
         offset = spec.time_offset
         current = DelayedCurrent(sinusoid, start=stage.time, delay=delay, offset=offset)
         if not spec.publish_as_force:

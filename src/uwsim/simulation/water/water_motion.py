@@ -15,7 +15,7 @@ from ...base.numerics.calls import CompiledFunction
 from ...base.numerics.jit import njit
 from ...base.numerics.linear import product
 from ...base.record import Record
-from ...currents import Place, TotalCurrent, bind_currents
+from ...currents import SceneContext, TotalCurrent, bind_currents
 from ...currents.current import flow_function_of, is_steady
 from ...currents.flow_function import FlowFunction
 from ...model.robots import find_file
@@ -46,14 +46,14 @@ class WaterMotion:
 
     Args:
         scene: spec of the scene.
-        place: the parts of the scene that currents may read.
+        context: the properties of the scene that currents may read.
     """
 
-    def __init__(self, scene: SceneSpec, place: Place) -> None:
+    def __init__(self, scene: SceneSpec, context: SceneContext) -> None:
         specs = scene.ocean_state.currents
         self._world_from_localized = scene.world_from_localized
         self._localized_from_world = scene.world_from_localized.inverse()
-        self._scene_current = bind_currents(specs, place)
+        self._scene_current = bind_currents(specs, context)
         self._last_added_flow: Flow | None = None
         self._sum: Flow = self._scene_current
         self.state = WaterState()
@@ -69,7 +69,7 @@ class WaterMotion:
         self.files: dict[str, Path] = {}
         """The files that the currents read, by name."""
         for spec in specs:
-            self.files |= spec.files(place)
+            self.files |= spec.files(context)
 
     def set(self, current: Flow | None) -> None:
         """Add a flow to the currents of the scene; None removes it."""
@@ -288,11 +288,11 @@ def water_motion(
         runs_code: run Python code that the scene names.
     """
     scene = model.scene
-    place = Place(
+    context = SceneContext(
         stream=stream,
         find=lambda name: find_file(name, scene.path, model.data_path),
         world_from_localized=scene.world_from_localized,
         runs_code=runs_code,
         surface_height=scene.ocean_state.ocean_surface_height,
     )
-    return WaterMotion(scene, place)
+    return WaterMotion(scene, context)
