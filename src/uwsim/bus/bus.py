@@ -1,9 +1,9 @@
-"""Topics inside the process, with their services.
+"""The bus: the topics and services between the parts of one process.
 
-A publisher must not change a message afterwards: its arrays become read-only. It is delivered, in
-the order of publishing, at the end of the step of the simulation (`Bus.deliver`). Messages that a
-callback publishes are delivered in the same step: computing takes no simulation time. The
-parameter ``latency_s`` of an algorithm delays its messages. Services respond at once.
+A publisher must not change a message afterwards: the arrays of the message become read-only.
+Messages are delivered in the order of publishing at the end of the simulation step (`Bus.deliver`).
+Messages that a callback publishes are delivered in the same step: computing takes no simulation
+time. The parameter ``latency_s`` of an algorithm delays its messages. Services respond at once.
 """
 
 from __future__ import annotations
@@ -25,6 +25,7 @@ from .topic import Remark, Topic, TopicEndpoints
 
 M = TypeVar("M")
 MAX_MESSAGES_PER_STEP = 100_000
+"""The greatest number of messages delivered in one step; more come from an endless loop."""
 
 
 def print_remark(topic: str, text: str) -> None:
@@ -34,25 +35,25 @@ def print_remark(topic: str, text: str) -> None:
 
 @dataclass(slots=True)
 class BusState(Record):
-    """The messages that are not delivered yet, with their steps."""
+    """The current step, the messages that are not delivered yet and the latched messages."""
 
     step: int = 0
     """The current step; set by the owner of the clock."""
     due_now: deque[tuple[str, object]] = field(default_factory=deque)
-    """The topic and message of each message that is delivered next."""
+    """The topic and content of each message that the next `Bus.deliver` delivers."""
     due_later: list[tuple[int, int, str, object]] = field(default_factory=list)
-    """The step, number, topic and message of each message of a later step."""
+    """The step of delivery, serial number, topic and content of each delayed message."""
     n_delayed: int = 0
-    """The number of messages for a later step so far."""
+    """The number of delayed messages published so far: the last serial number."""
     latched_messages: dict[str, object] = field(default_factory=dict)
-    """The newest message of each topic with a latched inbox."""
+    """The newest message of each topic that has a latched inbox, by the topic's name."""
 
 
 class Bus:
     """The topics and services by name; messages are delivered only by `deliver`.
 
-    Names are compared without a leading slash, so ``/uwsim/camera1`` and ``uwsim/camera1`` are the
-    same, as for a ROS node in the root namespace.
+    Names are compared without a leading slash: ``/uwsim/camera1`` and ``uwsim/camera1`` name the
+    same topic, as for a ROS node in the root namespace.
     """
 
     def __init__(self) -> None:
@@ -61,11 +62,11 @@ class Bus:
         self._observers: list[Callable[[str, type], None]] = []
         self._revision = 0
         self.state = BusState()
-        """The messages that are not delivered yet, with their steps."""
+        """The current step, the messages that are not delivered yet and the latched messages."""
         self.services = Services()
         """The services, which respond at once."""
         self.keeps_unread_messages = True
-        """The publishers publish on topics without a subscriber, for `unread_message`."""
+        """True if messages are made for topics without a subscriber, too, for `unread_message`."""
 
     @property
     def step(self) -> int:
@@ -87,20 +88,22 @@ class Bus:
         owner: object = None,
         is_counted: bool = True,
     ) -> Callable[[], None]:
-        """Call ``callback`` with every message on ``topic``; return a function that ends this.
+        """Call ``callback`` with every message on ``topic``; return a function that unsubscribes.
 
         Args:
-            topic: the name.
+            topic: the name of the topic.
             type: the class of the messages; ``object`` accepts the type of the other endpoints.
-            callback: the function that is called.
+            callback: the function that is called with each message.
             check: a function that is called when a message is published. It raises BadMessage to
                 the publisher if the subscriber cannot use the message.
-            remark: a function that is called when a message is published. It returns a `Remark` on
-                a message that is ignored or changed, which the publisher gets once.
-            owner: the subscriber, for `endpoints`.
-            is_counted: False for a subscription that changes nothing: no image is rendered for it.
-                It receives delivered messages; on a topic without a subscriber it receives them
-                when they are published, and must not keep them.
+            remark: a function that is called when a message is published. If the subscriber will
+                ignore or change the message, it returns a `Remark`; the publisher receives each
+                remark once.
+            owner: the object that subscribes, so that `endpoints` can leave it out.
+            is_counted: False for a subscription that does not count as a subscriber, so that no
+                image is rendered for it. It receives the messages that are delivered to others; on
+                a topic without a subscriber it receives them when they are published, and must not
+                keep them.
         """
         entry = self._open_topic(topic, type)
         if not is_counted:
@@ -114,7 +117,7 @@ class Bus:
         if remark is not None:
             entry.remarks.append(remark)
 
-        def stop() -> None:
+        def unsubscribe() -> None:
             if callback in entry.callbacks:
                 del entry.subscribers[entry.callbacks.index(callback)]
                 entry.callbacks.remove(callback)
@@ -124,12 +127,12 @@ class Bus:
                 if remark is not None:
                     entry.remarks.remove(remark)
 
-        return stop
+        return unsubscribe
 
     def observe(self, on_topic: Callable[[str, type], None]) -> Callable[[], None]:
-        """Call ``on_topic(topic, type)`` for every topic, present and new, without leading slash.
+        """Call ``on_topic(topic, type)`` for every existing topic now, and for each new one later.
 
-        Returns a function that ends this.
+        The names have no leading slash. Returns a function that ends the observation.
         """
         self._observers.append(on_topic)
         for name in sorted(self._topics):
@@ -147,9 +150,9 @@ class Bus:
     ) -> Inbox[M]:
         """Return an inbox that collects the messages of ``topic`` from now on.
 
-        A ``latched`` inbox begins with the newest message, as a subscriber of a latched topic of
-        ROS. The bus stores this message from the first latched inbox on. An inbox holds at most
-        ``max_messages`` messages that were not taken.
+        A ``latched`` inbox begins with the newest message, as a subscriber of a latched topic in
+        ROS does. The bus stores this message from the first latched inbox on. An inbox holds at
+        most ``max_messages`` messages that were not taken.
         """
         inbox: Inbox[M] = Inbox(max_messages)
         if latched:
@@ -163,12 +166,15 @@ class Bus:
                 entry.subscribers.append(None)
             if (latched_message := self.state.latched_messages.get(name)) is not None:
                 inbox.receive(cast("M", latched_message), self.step)
-        stop = self.subscribe(topic, type, lambda message: inbox.receive(message, self.step))
-        inbox.set_stop(stop)
+        unsubscribe = self.subscribe(topic, type, lambda message: inbox.receive(message, self.step))
+        inbox.set_stop(unsubscribe)
         return inbox
 
     def endpoints(self, topic: str, *, ignored_owner: object = None) -> TopicEndpoints | None:
-        """Return the endpoints of a topic without one owner and observers; None without a type."""
+        """Return whether a topic has publishers and subscribers; None if it has no type yet.
+
+        The endpoints of ``ignored_owner`` and of observers are not counted.
+        """
         entry = self._topics.get(strip_slash(topic))
         return None if entry is None else entry.endpoints(ignored_owner)
 
@@ -181,10 +187,10 @@ class Bus:
         owner: object = None,
         report: Callable[[str, str], None] = print_remark,
     ) -> Callable[[M], None]:
-        """Return ``publish(message)`` for ``topic``, delayed by ``delay_steps``.
+        """Return ``publish(message)`` for ``topic``, which delivers ``delay_steps`` later.
 
-        ``owner`` is the publisher, for `endpoints`. ``report(topic, text)`` receives the remarks
-        of subscribers on a message.
+        ``owner`` is the object that publishes, so that `endpoints` can leave it out.
+        ``report(topic, text)`` receives the remarks of subscribers on a message.
         """
         if type is object:
             raise BadSetting(f"Topic {topic!r} is published without a message type.")
@@ -230,7 +236,7 @@ class Bus:
         return strip_slash(topic) in self._hidden_topics
 
     def unread_message(self, topic: str) -> object | None:
-        """Return the newest message that was published without a subscriber; None before."""
+        """Return the newest message published without a subscriber; None if there is none."""
         entry = self._topics.get(strip_slash(topic))
         if entry is None:
             return None
@@ -239,7 +245,7 @@ class Bus:
         return None if message is None else freeze(message)
 
     def defer_unread_message(self, topic: str, make: Callable[[], object | None]) -> None:
-        """Create the newest message of a topic only when `unread_message` requests it.
+        """Call ``make`` for the newest message of a topic only when `unread_message` requests it.
 
         The publisher of the topic then publishes only if the topic has a callback.
         """
@@ -266,24 +272,24 @@ class Bus:
         return bool(entry and entry.checks)
 
     def describe_missing_subscriber(self, topic: str) -> str | None:
-        """State that a topic has no subscriber, with the nearest that has; None if it has one."""
-        names_read = [name for name, entry in self._topics.items() if entry.callbacks]
+        """Return a text that suggests a topic with a subscriber; None if ``topic`` has one."""
+        subscribed_names = [name for name, entry in self._topics.items() if entry.callbacks]
         return (
             None
-            if strip_slash(topic) in names_read
-            else f"it has no subscriber.{did_you_mean(topic, names_read)}"
+            if strip_slash(topic) in subscribed_names
+            else f"it has no subscriber.{did_you_mean(topic, subscribed_names)}"
         )
 
     def describe_missing_publisher(self, topic: str) -> str | None:
-        """State that a topic has no publisher, with the nearest that has; None if it has one."""
-        names_published = [name for name, entry in self._topics.items() if entry.publishers]
-        if strip_slash(topic) in names_published:
+        """Return a text that suggests a topic with a publisher; None if ``topic`` has one."""
+        published_names = [name for name, entry in self._topics.items() if entry.publishers]
+        if strip_slash(topic) in published_names:
             return None
-        suggestion = did_you_mean(topic, names_published)
+        suggestion = did_you_mean(topic, published_names)
         subscribed_topic = self._topics.get(strip_slash(topic))
         names_of_type = [
             name
-            for name in names_published
+            for name in published_names
             if subscribed_topic and self._topics[name].type is subscribed_topic.type
         ]
         if not suggestion and names_of_type:
@@ -295,8 +301,9 @@ class Bus:
         if not self.state.due_now and not self.state.due_later:
             return
         if self.state.due_later:
-            due = sorted(post for post in self.state.due_later if post[0] <= self.step)
-            self.state.due_later = [post for post in self.state.due_later if post[0] > self.step]
+            entries = self.state.due_later
+            due = sorted(entry for entry in entries if entry[0] <= self.step)
+            self.state.due_later = [entry for entry in entries if entry[0] > self.step]
             self.state.due_now.extend((topic, message) for _, _, topic, message in due)
         for _ in range(MAX_MESSAGES_PER_STEP):
             if not self.state.due_now:
@@ -321,7 +328,7 @@ class Bus:
         if self.state.due_now:
             return self.step
         due_later = self.state.due_later
-        return min([post[0] for post in due_later]) if due_later else math.inf
+        return min([entry[0] for entry in due_later]) if due_later else math.inf
 
     @property
     def topics(self) -> dict[str, str]:
@@ -345,7 +352,7 @@ class Bus:
 
 
 def _other_type_text(expected: type, other: type) -> str:
-    """Return ``not std_msgs/msg/Bool``, or that it is another class of the same name."""
+    """Return ``not std_msgs/msg/Bool``, or name the modules of two classes of the same name."""
     if type_name(expected) == type_name(other):
         return f"the class of {expected.__module__}, not that of {other.__module__}"
     return f"not {type_name(other)}"

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 
 def has_exact_type(message: object, expected: type) -> bool:
-    """Return whether a message is of exactly this class, not of a derived one."""
+    """Return whether a message is of exactly the expected class, not of a derived class."""
     return type(message) is expected
 
 
 def strip_slash(name: str) -> str:
-    """Return a name without spaces and leading slash, as names are compared."""
+    """Return a name without surrounding spaces and leading slash, as names are compared."""
     return name.strip().lstrip("/")
 
 

@@ -12,7 +12,7 @@ M = TypeVar("M")
 
 @runtime_checkable
 class Node(Protocol):
-    """The interface of an algorithm under test: topics, services, timers, parameters."""
+    """The interface that an algorithm under test uses: topics, services, timers, parameters."""
 
     @property
     def now(self) -> float:

@@ -1,4 +1,4 @@
-"""Services inside the process: their offers, and calls that are answered at once."""
+"""Services inside the process; a call returns the response at once."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class Services:
             tuple[Callable[[str], bool], Callable[[str, Any], object]]
         ] = []
         self.revision = 0
-        """The number of changes of services."""
+        """The number of times that a service was offered or withdrawn."""
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -35,13 +35,14 @@ class Services:
         self.revision += 1
 
     def offer(self, name: str, type: type[M], handler: Callable[[M], object]) -> Callable[[], None]:
-        """Offer a service together with others: a call reaches all, the newest responds.
+        """Add a handler to a service that may have several; the newest one's response is returned.
 
-        Returns a function that ends this offer; the end of the last one withdraws the service.
+        A call reaches all handlers. Returns a function that removes this handler; the service is
+        withdrawn when its last handler is removed.
         """
         handlers = self._offers.setdefault(strip_slash(name), [])
         handlers.append(handler)
-        self.serve(name, type, lambda request: [answer(request) for answer in list(handlers)][-1])
+        self.serve(name, type, lambda request: [handle(request) for handle in list(handlers)][-1])
 
         def withdraw_offer() -> None:
             if handler in handlers:
@@ -59,11 +60,13 @@ class Services:
     def add_external_services(
         self, is_offered: Callable[[str], bool], call: Callable[[str, Any], object]
     ) -> Callable[[], None]:
-        """Add services outside of the process, for names that are not offered inside.
+        """Add services outside the process, for names that are not offered inside.
 
         Args:
-            is_offered: returns whether a service, named without a leading slash, is offered there.
-            call: calls a service with a request, and returns its response.
+            is_offered: a function that returns whether a service is offered outside; its name has
+                no leading slash.
+            call: a function that calls a service, by its name, with a request and returns the
+                response.
 
         Returns:
             A function that removes these services.
@@ -78,14 +81,16 @@ class Services:
         return stop
 
     def request_type(self, name: str) -> type | None:
-        """Return the class of a service's requests; None if it is not offered in the process."""
+        """Return the class of a service's requests; None if it is not offered inside."""
         entry = self._services.get(strip_slash(name))
         return entry[0] if entry else None
 
     def is_offered(self, name: str) -> bool:
-        """Return whether a service is offered, inside or outside of the process."""
+        """Return whether a service is offered, inside or outside the process."""
         key = strip_slash(name)
-        return key in self._services or any(offers(key) for offers, _ in self._external_services)
+        return key in self._services or any(
+            is_offered(key) for is_offered, _ in self._external_services
+        )
 
     def call(self, name: str, request: object) -> object:
         """Call a service now.
@@ -106,7 +111,7 @@ class Services:
         return handler(request)
 
     def _call_external(self, name: str, request: object) -> object:
-        for offers, call in self._external_services:
-            if offers(strip_slash(name)):
+        for is_offered, call in self._external_services:
+            if is_offered(strip_slash(name)):
                 return call(strip_slash(name), request)
         raise UnknownName("service", name, self._services)

@@ -7,10 +7,10 @@ from dataclasses import dataclass, field
 from typing import Any
 
 OBSERVER = object()
-"""The owner of subscribers that only observe, such as a recorder; they are no endpoints."""
+"""The owner of subscribers that only observe, such as a recorder; `endpoints` ignores them."""
 
 Remark = tuple[str, str]
-"""The value found in a message, and the value expected with the consequence."""
+"""Two texts: the value found in a message; the value expected, with the consequence."""
 
 
 @dataclass
@@ -22,33 +22,36 @@ class Topic:
     callbacks: list[Callable[[Any], None]] = field(default_factory=list)
     """The functions that are called with each message."""
     subscribers: list[object] = field(default_factory=list)
-    """The owner of each callback; None if it has none."""
+    """The owner of each callback; None for a callback without an owner."""
     uncounted_callbacks: list[Callable[[Any], None]] = field(default_factory=list)
     """The callbacks of subscriptions that are not counted as subscribers."""
     checks: list[Callable[[Any], None]] = field(default_factory=list)
     """The functions that check a message when it is published."""
     remarks: list[Callable[[Any], Remark | None]] = field(default_factory=list)
     """The functions that may return a remark on a message when it is published."""
-    expectations_reported: set[str] = field(default_factory=set)
-    """The expected values in the remarks so far."""
+    reported_expectations: set[str] = field(default_factory=set)
+    """The second texts of the remarks so far; each is reported once."""
     publishers: list[object] = field(default_factory=list)
-    """The owners of publishers, each once; None if one has none."""
+    """The owners of publishers, each once; None for publishers without an owner."""
     is_latched: bool = False
-    """The newest message is stored for later inboxes."""
+    """True if the newest message is stored for later inboxes."""
     unread_message: Any = None
     """The newest message that was published without a subscriber."""
     make_unread_message: Callable[[], Any] | None = None
-    """A function that creates this message on request, in place of ``unread_message``."""
+    """A function that creates the newest message on request, in place of ``unread_message``."""
 
     def format_new_remark(self, remark: Remark | None) -> str | None:
         """Return a remark as text if its expected value was not reported before; else None."""
-        if remark is None or remark[1] in self.expectations_reported:
+        if remark is None or remark[1] in self.reported_expectations:
             return None
-        self.expectations_reported.add(remark[1])
+        self.reported_expectations.add(remark[1])
         return "; expected ".join(remark)
 
     def endpoints(self, ignored_owner: object) -> TopicEndpoints | None:
-        """Return the endpoints without one owner and observers; None without a type."""
+        """Return whether the topic has publishers and subscribers; None if it has no type yet.
+
+        The endpoints of ``ignored_owner`` and of observers are not counted.
+        """
         if self.type is None:
             return None
         return TopicEndpoints(
@@ -65,11 +68,11 @@ class Topic:
 
 @dataclass(frozen=True)
 class TopicEndpoints:
-    """The message type of a topic, and the presence of publishers and subscribers."""
+    """The message type of a topic, and whether it has publishers and subscribers."""
 
     type: type
     """The class of the messages."""
     is_published: bool
-    """The topic has a publisher."""
+    """True if the topic has a publisher."""
     is_read: bool
-    """The topic has a subscriber."""
+    """True if the topic has a subscriber."""

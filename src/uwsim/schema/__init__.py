@@ -1,21 +1,21 @@
-r"""Reading and writing dataclasses as XML: safe parsing, all errors of a file at once.
+r"""Reading and writing of dataclasses as XML, with all errors of a file reported at once.
 
 .. code-block:: xml
 
     <rangeSensor> <name>sonar</name> <relativeTo>part0</relativeTo> <range>10</range> </rangeSensor>
 
-A frozen dataclass is the grammar. Each field is an element (``relative_to`` is ``<relativeTo>``
-unless `element` gives another name); its annotation gives the type, its documentation string the
-meaning and, in brackets, the unit:
+A frozen dataclass, called a spec, is the grammar of an element. Each field is a child element
+(``relative_to`` is ``<relativeTo>`` unless `element` gives another name); its annotation gives the
+type, its documentation string the meaning and, in brackets, the unit:
 
 =========================  ====================================================================
 annotation                 in the file
 =========================  ====================================================================
 ``str``                    text, trimmed
 ``float``                  a number up to 1e9, or ``M_PI``, ``-M_PI_2`` ...; never NaN
-``int``                    a whole number; ``320.5`` is read as 320 with a warning, as atoi did
+``int``                    a whole number; ``320.5`` is read as 320 with a warning, as by ``atoi``
 ``bool``                   0 or 1 (attributes: true or false); else the default, with a warning
-``Literal["a", "b"]``      one of these words
+``Literal["a", "b"]``      one of the words
 ``tuple[float, x3]``       three elements, ``parts="xyz"`` (or ``rpy``, ``rgb``)
 a dataclass                an element that is filled from its own fields
 `Numbers`                  numbers in one text, separated by blanks; `TwoNumbers`: two
@@ -24,7 +24,8 @@ a dataclass                an element that is filled from its own fields
 ``T | None``               may be absent
 =========================  ====================================================================
 
-Elements may be in any order. Names without a namespace are those of the original; extensions are in
+Elements may be in any order. Elements without a namespace are those of UWSim (C++), which this
+package calls the original; the elements of this simulator, its extensions, are in the namespace
 ``urn:uwsim:1``. DTDs are not loaded, entities not expanded, the network not used. In strict mode
 `Diagnostics` also reports elements that are not in the order of the fields.
 """

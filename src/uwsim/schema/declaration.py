@@ -12,16 +12,16 @@ from ..base.deprecation import renamed_parameters
 
 @dataclass(frozen=True)
 class Original:
-    """The way in which the original reads an element, where it differs from the name and type."""
+    """The way UWSim (C++), the original, reads an element, if name and type do not imply it."""
 
     aliases: tuple[str, ...] = ()
-    """The old names, read with a warning."""
+    """The old names of the element, which are read with a warning."""
     is_required: bool = False
     """True if the original's DTD requires the element although it has a default."""
     allows_trailing_text: bool = False
-    """True if text after a number is a warning, not an error (the original uses atof)."""
+    """True if text after a number is a warning, not an error (the original uses ``atof``)."""
     invalid_flag_value: bool | None = None
-    """The value for a flag that is neither 0 nor 1; the default when None."""
+    """The value of a flag whose text is neither 0 nor 1; None: the default of the field."""
     is_clamped: bool = False
     """True if a number beyond the limits is clamped with a warning. The original has no limits."""
     is_window_setting: bool = False
@@ -29,9 +29,9 @@ class Original:
 
 
 CLAMPED_NUMBER = Original(is_clamped=True)
-"""An element whose number is clamped to its limits: a mass, a size."""
+"""The option of an element whose number is clamped to its limits: a mass, a size."""
 REQUIRED_BY_DTD = Original(is_required=True)
-"""An element that the original's DTD requires although it has a default."""
+"""The option of an element that the original's DTD requires although it has a default."""
 
 
 class Limits(TypedDict, total=False):
@@ -53,7 +53,7 @@ ReferenceKind = Literal["actuators", "body", "camera", "contacts", "vehicle"]
 
 @dataclass(frozen=True)
 class XmlOptions:
-    """The options of a field, from the arguments of `element`."""
+    """The options of a field: the arguments of `element`, which describes them."""
 
     name: str | None = None
     attribute: bool = False
@@ -85,16 +85,16 @@ def element(
     """Make a dataclass field whose XML form differs from what its name and type imply.
 
     Args:
-        name: the name of the element or attribute; the field's in camelCase when absent.
+        name: the name of the element or attribute; None: the name of the field in camelCase.
         default: the value when the element is absent or, for the original's elements, empty.
         attribute: the field is an attribute of the element that the spec is read from.
         text: the field is the text of the element that the spec is read from.
         namespaced: the element is an extension, ``u:name``.
         parts: the names of a triple's elements, one letter each.
         item: the name of the items of an element that is a list.
-        choice: name -> spec of the children that the element may contain, in any number; with the
-            name "" the element that the spec is read from contains them, each as a field.
-        original: the way in which the original reads the element.
+        choice: the spec of each child that the element may contain, in any number, by the child's
+            name. If ``name`` is empty, the children are in the element that the spec is read from.
+        original: how the original reads the element.
         refers_to: the kind of part of a scene that the field names, such as ``body``
             (`uwsim.benchmark.unknown_names.RESOLVERS`).
         limits: the limits of a number, as in `Limits`.

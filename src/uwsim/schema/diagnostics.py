@@ -14,43 +14,43 @@ from ..errors import Diagnostic, FileError, did_you_mean
 from .source_line import Spec, line_of
 
 MAX_DIAGNOSTICS = 100
-"""The greatest number of errors, and of warnings, that are listed."""
+"""The greatest number of errors that are listed, and that of warnings."""
 
 
 class Diagnostics:
-    """The errors and warnings of a file; beyond `MAX_DIAGNOSTICS` of each, only their count."""
+    """The errors and warnings of a file; beyond `MAX_DIAGNOSTICS` they are only counted."""
 
     def __init__(self, file: Path | str, *, is_strict: bool = False) -> None:
         self.file = str(file)
         self.is_strict = is_strict
         self.allows_trailing_text = False
-        """True if text after a number is a warning, as where the original uses atof."""
+        """True if text after a number is a warning: the original uses ``atof`` there."""
         self._reason = ""
         self._entries: list[Diagnostic] = []
         self._n_unlisted = {"error": 0, "warning": 0}
 
-    def error(self, place: object, message: str) -> None:
+    def error(self, location: object, message: str) -> None:
         """Add an error at an element, a spec or a line number; see `errors_as_warnings`."""
         if self._reason:
-            self._append(place, f"{message.removesuffix('.')}; {self._reason}", "warning")
+            self._append(location, f"{message.removesuffix('.')}; {self._reason}", "warning")
         else:
-            self._append(place, message, "error")
+            self._append(location, message, "error")
 
     @contextmanager
     def errors_as_warnings(self, reason: str) -> Iterator[None]:
-        """Turn the errors in this block into warnings with the reason, unless strict."""
+        """Turn the errors added in this block into warnings with ``reason``, unless strict."""
         previous_reason, self._reason = self._reason, "" if self.is_strict else reason
         try:
             yield
         finally:
             self._reason = previous_reason
 
-    def warning(self, place: object, message: str) -> None:
+    def warning(self, location: object, message: str) -> None:
         """Add a warning at an element, a spec or a line number; the file stays valid."""
-        self._append(place, message, "warning")
+        self._append(location, message, "warning")
 
     def extend(self, diagnostics: Iterable[Diagnostic]) -> None:
-        """Add errors and warnings one by one, so that `suggest` counts those before it."""
+        """Add errors and warnings one by one: a generator of them may call `suggest` meanwhile."""
         for diagnostic in diagnostics:
             self._add(diagnostic)
 
@@ -61,7 +61,7 @@ class Diagnostics:
         self.error(node, f"{message}.{self.suggest(name, valid_names)}")
 
     def suggest(self, name: str, valid_names: Iterable[str], severity: str = "error") -> str:
-        """Return " Did you mean x?"; empty for long names and beyond the listed diagnostics."""
+        """Return " Did you mean x?"; "" for long names, and when no more diagnostics are listed."""
         if len(name) > 80 or not self._can_list(severity):
             return ""
         return did_you_mean(name, itertools.islice(valid_names, 1000)).replace("'", "")
@@ -88,8 +88,11 @@ class Diagnostics:
     def _can_list(self, severity: str) -> bool:
         return sum(entry.severity == severity for entry in self._entries) < MAX_DIAGNOSTICS
 
-    def _append(self, place: object, message: str, severity: str) -> None:
-        line = line_of(place) if isinstance(place, Spec) else getattr(place, "sourceline", place)
+    def _append(self, location: object, message: str, severity: str) -> None:
+        if isinstance(location, Spec):
+            line: object = line_of(location)
+        else:
+            line = getattr(location, "sourceline", location)
         line = line if isinstance(line, int) else None
         self._add(_diagnostic(self.file, line, message, severity))
 
@@ -108,7 +111,7 @@ def diagnostic_at(
     file: str | None = None,
     severity: Literal["error", "warning"] = "error",
 ) -> Diagnostic:
-    """Make an error or a warning at the first ``element`` in a spec, else at the spec.
+    """Make an error or a warning at the line of the first ``element`` in a spec, else of the spec.
 
     Args:
         spec: the spec that has the error.

@@ -1,4 +1,4 @@
-"""Parsing of XML files: no DTD, no entities, no network, bounded size, depth and counts."""
+"""Parsing of XML files without DTD, entities and network, and with limits of size and depth."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from .diagnostics import Diagnostics
 from .names import NAMESPACE, format_tag
 
 MAX_BYTES = 16 * 2**20
-"""The size of the largest file that is read."""
+"""The size of the largest file that is read [bytes]."""
 MAX_DEPTH = 256
-"""The deepest nesting that is read; the parser's own limit."""
+"""The deepest nesting of elements that is read: the limit of the parser, libxml2."""
 MAX_NODES = 50_000
-"""The greatest number of elements, attributes or character references that are read."""
+"""The greatest number of elements: a file may have twice as many of each of ``<``, ``=``, ``&``."""
 
 _VERSION = re.compile(rb"""^(\s*<\?xml\s+version\s*=\s*["'])(?!1\.)\d+\.\d+(?=["'])""")
-"""A version of XML that does not exist, as in robots of PyBullet; their readers ignore it."""
+"""A version of XML that does not exist; some robot files of PyBullet have one, which is ignored."""
 _DECLARATION = re.compile(rb"<!(ENTITY|ATTLIST|ELEMENT|NOTATION)\b")
 _ENCODING = re.compile(rb"""^\s*<\?xml[^>]*?encoding\s*=\s*["']([A-Za-z0-9._-]+)["']""")
 _ENCODINGS = re.compile(r"utf-?8|us-ascii|ascii|iso-?8859-\d+|latin-?1|windows-125\d", re.I)
@@ -32,7 +32,7 @@ CHARACTER_MESSAGES = {
     "EntityRef: expecting ';'": "a bare '&'; write &amp;",
     "StartTag: invalid element name": "a '<' that begins no element; for 'less than' write &lt;",
 }
-"""Messages of the parser about characters with a meaning in XML, and their replacements."""
+"""Messages about characters with a meaning in XML: parts of the parser's message, by ours."""
 _LATIN_1 = re.compile(r"latin-?1", re.I)
 
 
@@ -45,12 +45,12 @@ class Expansion:
     declared_arguments: tuple[str, ...] = ()
     """The names of the arguments that the file and its included files declare, sorted."""
     warnings: tuple[Diagnostic, ...] = ()
-    """Warnings about files that were found at other paths than their names state."""
+    """The warnings about included files that were found at another path than the one written."""
 
 
 @dataclass(frozen=True, eq=False)
 class Document:
-    """A well-formed file."""
+    """A well-formed XML file."""
 
     path: Path
     """The file as the user named it."""
@@ -63,10 +63,10 @@ class Document:
 
 
 def parse(path: Path, *, error: type[FileError] = FileError) -> Document:
-    """Read a file as XML: no DTD, no entities, no network, bounded size, depth and counts.
+    """Parse an XML file without DTD, entities and network, and with limits of size and depth.
 
     Raises:
-        FileError: (or the ``error`` asked for) it cannot be read or is not well-formed.
+        FileError: (or the class ``error``) the file cannot be read or is not well-formed.
     """
     diagnostics = Diagnostics(path)
     data = _read_valid_bytes(path, diagnostics)
@@ -84,7 +84,7 @@ def parse(path: Path, *, error: type[FileError] = FileError) -> Document:
     try:
         root = etree.fromstring(data, parser)
     except etree.XMLSyntaxError as problem:
-        messages: dict[int, str] = {}  # of several in a line the others follow from the first
+        messages: dict[int, str] = {}  # by line: the first error causes the others of its line
         for entry in parser.error_log:
             messages.setdefault(entry.line, _syntax_message(entry, data))
         for line, message in list(messages.items())[:10]:

@@ -1,4 +1,4 @@
-"""The grammar of a spec: the table of its fields, made from their declarations."""
+"""The grammar of a spec: a table of its fields, made from the declarations in the dataclass."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from .names import NAMESPACE, prefixed_name
 MAX_DISTANCE = 1e6
 """The greatest length that a scene needs [m]."""
 MAX_NUMBER = 1e9
-"""The greatest number of any quantity, in any unit; larger ones are mistakes of units."""
+"""The greatest magnitude of a number, in any unit; a larger one is in the wrong unit."""
 
 QUANTITIES = ("float", "int", "triple", "numbers")
 """The kinds of a `Field` that can have limits and a unit."""
@@ -52,12 +52,13 @@ class Field:
     tag: str
     """The qualified name in the file."""
     kind: str
-    """The kind: str, float, int, bool, word, triple, numbers, list, spec, choice, or manual (read
-    by the caller)."""
+    """The kind of content: str, float, int, bool, word, triple, numbers, list, spec, choice, or
+    manual (read by the caller)."""
     type: Any
-    """The scalar's type, the spec, the words of a Literal, or the count of numbers (0: any)."""
+    """The details of the kind: the type of a scalar or spec, the words of a Literal, the count of
+    numbers (0: any), or the table of a choice."""
     is_repeated: bool
-    """True if the field is a tuple of these."""
+    """True if the field is a tuple with any number of values of this kind."""
     is_optional: bool
     """True if None is allowed."""
     xml: XmlOptions
@@ -67,9 +68,10 @@ class Field:
     owner: type
     """The spec that the field belongs to."""
     words: tuple[str, ...] = ()
-    """The words that a triple may have instead of its elements."""
+    """The words that may replace the elements of a triple."""
     is_member: bool = False
-    """True if the field is a member of an unnamed choice, the values of its type."""
+    """True if the field is one child of an unnamed choice: those values of the choice that are of
+    its ``type``."""
 
     @property
     def label(self) -> str:
@@ -86,7 +88,7 @@ class Field:
 
     @property
     def doc(self) -> str:
-        """The documentation string; for a member, the first line of its spec or its module."""
+        """The documentation string; for a member, the first line of its spec or spec's module."""
         if self.is_member:
             _, colon, meaning = (self.type.__doc__ or "").split("\n")[0].partition(": ")
             module = sys.modules[self.type.__module__].__doc__ or ""
@@ -133,7 +135,7 @@ def camel_case(name: str) -> str:
 
 
 def fields_of(cls: type) -> tuple[Field, ...]:
-    """Return the fields of a spec in their order, which is the order of the original grammar."""
+    """Return the fields of a spec in their order, which is that of elements in the original."""
     return _fields_of(cls)
 
 
@@ -204,7 +206,7 @@ def _kind(hint: Any, xml: XmlOptions) -> tuple[str, Any]:
         return "numbers", 0 if hint == Numbers else 2
     if hint == tuple[float, float, float]:
         return "triple", float
-    if _is_variadic(hint) and xml.item:  # a repeated list: tuple[tuple[float, ...], ...]
+    if _is_variadic(hint) and xml.item:  # a list that is repeated: tuple[tuple[float, ...], ...]
         return "list", typing.get_args(hint)[0]
     if hint in (str, float, int, bool):
         return hint.__name__, hint

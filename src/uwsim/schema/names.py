@@ -1,11 +1,11 @@
-"""Names of elements and values in messages."""
+"""Texts for names of elements and for values in messages."""
 
 from __future__ import annotations
 
 from lxml import etree
 
 NAMESPACE = "urn:uwsim:1"
-"""The namespace of extensions of both dialects; its prefix is ``u``."""
+"""The namespace of extensions in scene and benchmark files; its prefix is ``u``."""
 
 
 def prefixed_name(tag: str) -> str:
@@ -36,7 +36,7 @@ NAMESPACE_ADVICE = {
     "http://wiki.ros.org/xacro": "; expand the file with xacro first",
     "http://www.w3.org/2001/XInclude": "; nothing is included: write it here",
 }
-"""The advice about other namespaces that occur in such files."""
+"""The advice about other namespaces that users' files contain, by namespace."""
 
 
 def advice(tag: str) -> str:

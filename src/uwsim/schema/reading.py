@@ -18,7 +18,7 @@ from .values import BLANKS, NO_VALUE, NoValue, parse_scalar
 
 T = TypeVar("T")
 WINDOW_REASON = "it affects the original's window only; the default applies"
-"""The reason why an error in an element of the window is a warning."""
+"""The reason why an error in an element about the window is only a warning."""
 
 
 def read(
@@ -28,13 +28,14 @@ def read(
     *,
     known_fields: Mapping[str, object] | None = None,
 ) -> T | None:
-    """Fill a spec from an element; add every error to ``diagnostics``.
+    """Read a spec from an element; add every error to ``diagnostics``.
 
     Args:
-        cls: a dataclass.
+        cls: the class of the spec.
         node: the element.
-        diagnostics: receives the errors.
-        known_fields: fields that the caller has read already; their elements are skipped.
+        diagnostics: the object that collects the errors.
+        known_fields: the values of fields that the caller has read already, by field name; the
+            elements of these fields are skipped.
 
     Returns:
         The spec, with defaults where optional values were invalid; None when it cannot be made.
@@ -69,7 +70,7 @@ def read_choice(
     *,
     read_one: Callable[[type[T], etree._Element, Diagnostics], T | None] = read,
 ) -> tuple[T, ...]:
-    """Read the children of an element, each with the spec that the table has for its name."""
+    """Read the children of an element with ``read_one``, each as the spec that its name has."""
     read_specs = []
     order = {tag: index for index, tag in enumerate(table)}
     last_entry: tuple[int, str] = (-1, "")
@@ -110,7 +111,7 @@ def read_text(node: etree._Element, diagnostics: Diagnostics) -> str:
 def _tag_entries(
     cls: Hashable,
 ) -> tuple[dict[str, tuple[int, Field]], dict[str, tuple[int, Field]]]:
-    """Return the index and field of each element of a spec by its name, and by its old names."""
+    """Return the index and field of each child element, by its name and by its old names."""
     assert isinstance(cls, type)
     table = fields_of(cls)
     entries = {
@@ -123,7 +124,7 @@ def _tag_entries(
 def _children(
     cls: type, node: etree._Element, diagnostics: Diagnostics
 ) -> dict[str, list[etree._Element]]:
-    """Return the child elements by field; add errors for unknown, repeated and misplaced ones."""
+    """Return the child elements by tag; add errors for unknown, repeated and misplaced ones."""
     if any(field.xml.text for field in fields_of(cls)):
         return {}
     entries, old_entries = _tag_entries(cls)
@@ -137,7 +138,7 @@ def _children(
             _report_unknown_element(child, node, entries, diagnostics)
             continue
         index, field = entry
-        if tag not in entries and not tag.startswith("{"):  # one of ours stays valid
+        if tag not in entries and not tag.startswith("{"):  # old names of extensions stay valid
             diagnostics.warning(child, f"{describe(child)} is an old name of <{field.label}>")
         if diagnostics.is_strict and index < last_entry[0] and not field.xml.namespaced:
             _report_misplaced(child, last_entry[1], diagnostics)

@@ -13,16 +13,16 @@ class SourceLine:
     """The line of a file in which an element begins."""
 
     file: str
-    """The file."""
+    """The name of the file."""
     line: int
-    """The line of the element, from 1."""
+    """The number of the line, from 1."""
     elements: Mapping[str, int] = field(default_factory=dict)
-    """The line of the first child element of each qualified name."""
+    """The line of the first child element of each name, by qualified name."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Spec:
-    """The base class of specs that are read; `replace` keeps the line, comparisons ignore it."""
+    """The base class of specs; comparisons ignore its line, ``dataclasses.replace`` keeps it."""
 
     source_line: SourceLine | None = field(
         default=None, compare=False, repr=False, metadata={"not_in_file": True}
@@ -31,7 +31,7 @@ class Spec:
 
 
 def line_of(spec: object, element: str = "") -> int | None:
-    """Return the line of the first ``element`` in a spec, else of the spec; None if it has none."""
+    """Return the line of the first ``element`` in a spec, else of the spec; None if unknown."""
     source = spec.source_line if isinstance(spec, Spec) else None
     return None if source is None else source.elements.get(element, source.line)
 

@@ -1,4 +1,4 @@
-"""Parsing of scalars: numbers, flags and words."""
+"""Parsing of the text of elements and attributes: numbers, flags and words."""
 
 from __future__ import annotations
 
@@ -26,6 +26,7 @@ TOKENS = {
 MAX_NUMBERS = 36
 """The greatest count of numbers in one element: a full matrix of six rows."""
 BLANKS = " \t\n\r"
+"""The blank characters of XML, which are removed around a text."""
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)
 _COMMA = re.compile(r"[+-]?\d*,\d+", re.ASCII)
 _SEPARATORS = re.compile(r"[\s_-]+")
@@ -37,12 +38,21 @@ class NoValue:
 
 
 NO_VALUE = NoValue()
+"""The result of parsing a text that is invalid; an error is reported for it."""
 
 
 def parse_scalar(
     field: Field, text: str, node: etree._Element, diagnostics: Diagnostics, label: str
 ) -> Any:
-    """Parse a scalar; add an error and return NO_VALUE if it is invalid."""
+    """Parse a text for a field; add an error and return NO_VALUE if it is invalid.
+
+    Args:
+        field: the field.
+        text: the text, trimmed.
+        node: the element with the text, for the line of messages.
+        diagnostics: the object that collects the errors.
+        label: the name of the element or attribute in messages.
+    """
     value: Any = NO_VALUE
     if field.kind == "numbers":
         return parse_numbers(field, text, node, diagnostics, label)
@@ -100,7 +110,10 @@ def parse_scalar(
 def _parse_word(
     field: Field, text: str, node: etree._Element, diagnostics: Diagnostics, label: str
 ) -> Any:
-    """Parse one of a few words; the original's also in another spelling, as ``CompoundBox``."""
+    """Parse one of the words of a field.
+
+    In an element of the original, case, blanks, ``-`` and ``_`` are ignored, with a warning.
+    """
     if text in field.type:
         return text
     if field.xml.namespaced:
@@ -120,12 +133,15 @@ def _normalize_word(word: str) -> str:
 def _clamp(
     field: Field, value: float, node: etree._Element, diagnostics: Diagnostics, label: str
 ) -> float:
-    """Clamp a number to the limits of its field, except one of the wrong sign or no pixels."""
+    """Clamp a number to the limits of its field, with a warning.
+
+    A size with the wrong sign, and a count that is too small, are errors: they are returned as is.
+    """
     minimum = field.xml.limits.get("minimum", -MAX_NUMBER)
     maximum = field.xml.limits.get("maximum", MAX_NUMBER)
     clamped_value = min(max(value, minimum), maximum)
-    has_no_size = value < minimum and (value < 0.0 < minimum or field.kind == "int")
-    if clamped_value == value or has_no_size:
+    is_error = value < minimum and (value < 0.0 < minimum or field.kind == "int")
+    if clamped_value == value or is_error:
         return value
     is_allowed = field.allows(value)
     reason = f"no quantity is beyond {MAX_NUMBER:g}" if is_allowed else f"expected {field.expected}"

@@ -13,14 +13,14 @@ from .names import NAMESPACE
 
 
 def write(spec: object, tag: str) -> etree._Element:
-    """Write a spec as an element; leave out what equals its default (``read`` restores it)."""
+    """Write a spec as an element without the fields that equal their default."""
     node = etree.Element(tag, nsmap={"u": NAMESPACE} if uses_extensions(spec) else None)
     _fill(node, spec)
     return node
 
 
 def uses_extensions(spec: object) -> bool:
-    """Return whether a spec, at any depth, has a non-default field of the namespace ``u``."""
+    """Return whether a spec, at any depth, has an extension that differs from its default."""
     if isinstance(spec, tuple):
         return any(uses_extensions(item) for item in spec)
     if not dataclasses.is_dataclass(spec) or isinstance(spec, type):
