@@ -1,9 +1,10 @@
 """Generate the message classes of ``src/uwsim/messages``: a module for each package.
 
-Types of ROS are defined by the texts that rosbags ships; those of a folder of ``messages`` by its
-``.msg`` and ``.srv`` files. There the comment above the first line is the docstring of the class,
-and one behind a field is that of the field. Defaults are ROS's: 0, False, an empty text or list,
-arrays of zeros, and what a text gives, as ``uint8 result 1``.
+The types of ROS are defined by the texts that rosbags ships, those of other packages by the
+``.msg`` and ``.srv`` files in a folder of ``messages``. In such a file, the comment above the first
+field is the docstring of the class, and a comment behind a field is the field's docstring. The
+defaults are those of ROS: 0, False, an empty text or list, arrays of zeros, or the value in the
+file, as in ``uint8 result 1``.
 """
 
 from __future__ import annotations
@@ -21,36 +22,36 @@ from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 
 ROS: dict[str, dict[str, str]] = {
     "std_msgs": {
-        "builtin_interfaces/Time": "A moment, from the beginning of the simulation.",
+        "builtin_interfaces/Time": "A time since the start of the simulation.",
         "Header": "The time and the frame of a message.",
-        "Bool": "True or False.",
+        "Bool": "A truth value.",
         "Float64": "A number.",
-        "String": "Text.",
+        "String": "A text.",
         "MultiArrayDimension": "One dimension of an array.",
         "MultiArrayLayout": "The layout of an array.",
-        "Float32MultiArray": "Numbers of 32 bits.",
-        "Float64MultiArray": "Numbers of 64 bits.",
-        "UInt8MultiArray": "Bytes.",
+        "Float32MultiArray": "An array of 32-bit floating-point numbers.",
+        "Float64MultiArray": "An array of 64-bit floating-point numbers.",
+        "UInt8MultiArray": "An array of bytes.",
         "ColorRGBA": "A colour and its opacity [0..1].",
-        "builtin_interfaces/Duration": "A span of time.",
+        "builtin_interfaces/Duration": "A length of time.",
     },
     "geometry_msgs": {
         "Point": "A position [m].",
-        "Vector3": "A direction with a length.",
+        "Vector3": "A vector; the message that contains it gives the unit and the frame.",
         "Quaternion": "A rotation; the identity by default (w is 1).",
         "Pose": "A position and an orientation.",
-        "PoseStamped": "A pose, with its time and frame.",
+        "PoseStamped": "A pose with its time and frame.",
         "PoseWithCovariance": "A pose and its 6x6 covariance, by rows.",
         "Twist": "Linear [m/s] and angular [rad/s] velocity.",
-        "TwistStamped": "A twist, with its time and frame.",
+        "TwistStamped": "A twist with its time and frame.",
         "TwistWithCovariance": "A twist and its 6x6 covariance, by rows.",
         "Wrench": "Force [N] and torque [N m].",
-        "WrenchStamped": "A wrench, with its time and frame.",
-        "Transform": "A transform between two frames: the origin [m] and the rotation.",
-        "TransformStamped": "A transform from a child frame to the header's frame, with its time.",
+        "WrenchStamped": "A wrench with its time and frame.",
+        "Transform": "The pose of one frame in another: the translation [m] and the rotation.",
+        "TransformStamped": "The pose of a child frame in the frame of the header, with its time.",
     },
     "sensor_msgs": {
-        "Image": "Pixels, row 0 at the top.",
+        "Image": "An image as the bytes of its pixels, row 0 at the top.",
         "RegionOfInterest": "A part of an image [px].",
         "CameraInfo": (
             "The calibration of a camera: distortion d, intrinsics k, rectification r, projection "
@@ -58,13 +59,12 @@ ROS: dict[str, dict[str, str]] = {
         ),
         "JointState": "Names, positions [rad or m], velocities and efforts of joints.",
         "BatteryState": (
-            "Voltage [V], current [A], below 0 while it is drained, charge [A h] and share left "
-            "[0..1]."
+            "Voltage [V], current [A] (negative: discharging), charge [A h] and share left [0..1]."
         ),
         "Range": "The distance to the nearest object in a cone [m].",
-        "LaserScan": "Distances along rays of a plane, at equal angles [m, rad].",
-        "PointField": "The offset and type of a field of each point.",
-        "PointCloud2": "Points as bytes.",
+        "LaserScan": "Distances [m] along rays in a plane, at equal steps of angle [rad].",
+        "PointField": "The name, offset and type of a field of each point.",
+        "PointCloud2": "Points as bytes, which `fields` describes.",
         "CompressedImage": "An image as the bytes of a PNG or JPEG file.",
         "Imu": (
             "Attitude, angular velocity [rad/s], specific force [m/s2]; 3x3 covariances by rows."
@@ -77,17 +77,17 @@ ROS: dict[str, dict[str, str]] = {
     },
     "nav_msgs": {
         "Odometry": "Pose and velocity of a vehicle.",
-        "Path": "A sequence of poses.",
+        "Path": "A sequence of poses, the path of a vehicle.",
     },
     "tf2_msgs": {"TFMessage": "Transforms between frames."},
     "visualization_msgs": {
         "MeshFile": "The content of a mesh file.",
-        "UVCoordinate": "A position in a texture.",
+        "UVCoordinate": "A position in a texture [0..1].",
         "Marker": (
-            "A shape to show: `ns` and `id` identify it; type, pose, scale [m] and colour define "
+            "A shape in viewers: `ns` and `id` identify it; type, pose, scale [m], colour define "
             "it."
         ),
-        "MarkerArray": "Several shapes.",
+        "MarkerArray": "Several markers.",
     },
     "simulation_interfaces": {
         "geometry_msgs/Accel": "Linear [m/s^2] and angular [rad/s^2] acceleration."

@@ -1,11 +1,12 @@
 """ROS message and service types of the bus.
 
-Messages are dataclasses of ROS 2 (Jazzy), one module a ROS package. Each field has the default that
-ROS gives it: 0, False, an empty text or list, arrays of zeros in their length, and for a quaternion
-that of no rotation, w = 1, so that ``Twist()`` is one that is all zero. ``scripts/messages`` writes
-their modules: types of ROS from the definitions that rosbags ships, those of other packages from
-the ``.msg`` texts in their folders. Services of UWSim are in ``services.py``; a test compares them
-with their ``.srv`` texts. Headers are ROS 2's; the ROS 1 adapter adds ``seq``.
+The messages are those of ROS 2 (Jazzy), as dataclasses, in one module for each ROS package. Each
+field has the default of ROS: 0, False, an empty text or list, zeros in an array of fixed length;
+a quaternion is the identity (w = 1). So every number in ``Twist()`` is 0. ``scripts/messages``
+generates the modules: the types of ROS from the definitions that rosbags ships, those of other
+packages from the ``.msg`` and ``.srv`` files in the package's folder. The services of UWSim are in
+``services.py``; a test compares them with their ``.srv`` files. Headers are those of ROS 2; the
+adapter for ROS 1 adds ``seq``.
 """
 
 from __future__ import annotations

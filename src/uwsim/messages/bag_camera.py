@@ -1,7 +1,7 @@
 """The images and camera info of one camera in a ROS 1 or ROS 2 bag.
 
-Read from ``.bag`` files, rosbag2 folders, and single ``.mcap`` and ``.db3`` files, by rosbags. The
-bag is read while it is replayed: one image at a time is in memory.
+The bag is a ``.bag`` file, a rosbag2 folder, or a single ``.mcap`` or ``.db3`` file. The package
+rosbags reads it while it is replayed: one image at a time is in memory.
 """
 
 from __future__ import annotations
@@ -24,9 +24,11 @@ IMAGE = "sensor_msgs/msg/Image"
 COMPRESSED_IMAGE = "sensor_msgs/msg/CompressedImage"
 CAMERA_INFO = "sensor_msgs/msg/CameraInfo"
 GREY_ENCODINGS = ("mono8", "8UC1")
+"""The encodings with one byte per pixel."""
 BYTES_PER_PIXEL = {"rgb8": 3, "bgr8": 3, "8UC3": 3, "rgba8": 4, "bgra8": 4}
-"""The bytes a pixel by encoding; ``8UC3`` is blue first, as OpenCV writes it."""
+"""The number of bytes per pixel of colour encodings; ``8UC3`` begins with blue, as in OpenCV."""
 RED_FIRST_ENCODINGS = ("rgb8", "rgba8")
+"""The colour encodings that begin with red; the others begin with blue."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -34,11 +36,11 @@ class DecodedImage:
     """A decoded image."""
 
     pixels: npt.NDArray[np.uint8]
-    """(h, w, 3), red first; or (h, w) grey; row 0 is the top."""
+    """The pixels, (h, w, 3) red, green, blue, or (h, w) grey; row 0 is the top."""
     is_blue_first: bool
-    """True if the recording has blue as its first channel."""
+    """True if blue is the first channel in the recording."""
     frame_id: str
-    """The frame in its header."""
+    """The ``frame_id`` in the header of the image."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,19 +48,19 @@ class RecordedFrame:
     """An image in a recording, not decoded yet."""
 
     time: int
-    """The time of recording, from the first image on [ns]."""
+    """The time of recording since that of the first image [ns]."""
     info: Any
-    """The newest CameraInfo at that time; the first, if there is none yet."""
+    """The newest CameraInfo recorded before the image; if there is none, the first CameraInfo."""
     label: str
-    """The name of the image in messages."""
+    """The name of the image in error messages."""
     read: Callable[[], Any]
-    """The function that returns the Image or CompressedImage as rosbags reads it."""
+    """A function that returns the Image or CompressedImage, of the classes of rosbags."""
 
     def decode(self) -> DecodedImage:
         """Decode the image.
 
         Raises:
-            AssetError: its encoding is not supported, or its size does not match.
+            AssetError: the encoding is not supported, or the size does not match the data.
         """
         message = self.read()
         is_compressed = message.__msgtype__ == COMPRESSED_IMAGE
@@ -102,16 +104,16 @@ class RecordedFrame:
 
 
 class Recording:
-    """A camera in a bag.
+    """The recording of one camera in a bag.
 
     Args:
         path: a ``.bag``, ``.mcap`` or ``.db3`` file, or a rosbag2 folder.
-        image_topic: Image or CompressedImage.
-        info_topic: CameraInfo.
+        image_topic: the topic of the Image or CompressedImage messages.
+        info_topic: the topic of the CameraInfo messages.
 
     Raises:
-        AssetError: it cannot be read, a topic has another type, or there is nothing to replay.
-        UnknownName: a topic is not in it.
+        AssetError: the bag cannot be read, a topic has another type, or there is nothing to replay.
+        UnknownName: a topic is not in the bag.
     """
 
     def __init__(self, path: Path, image_topic: str, info_topic: str) -> None:
@@ -148,12 +150,12 @@ class Recording:
         self.first_frame = first_frame
         """The first image."""
         self.gap = gap
-        """The time from the first image to the next [ns]."""
+        """The time from the first image to the next one with another time [ns]."""
         self.length = max(self._reader.end_time - self._start, gap)
         """The time from the first image to the last message of any topic [ns]."""
 
     def frames(self) -> Iterator[RecordedFrame]:
-        """Yield the images once, in the order recorded."""
+        """Yield the images in the order in which they were recorded."""
         start: int | None = None
         info, count = self._first_info, 0
         for connection, time, data in self._messages([*self._images, *self._infos]):
@@ -216,10 +218,10 @@ class Recording:
 
 
 def _check_folder(bag: Path) -> None:
-    """Check that a rosbag2 folder contains files of its own only.
+    """Check that all files of a rosbag2 folder are regular files inside the folder.
 
     Raises:
-        AssetError: a link leads out of it, or an entry is not a regular file.
+        AssetError: a link leads out of the folder, or an entry is not a regular file.
     """
     for file in sorted(bag.iterdir()):
         if not is_inside(file, [bag]):
@@ -229,7 +231,13 @@ def _check_folder(bag: Path) -> None:
 
 
 def camera_info(info: Any, *, stamp: Time, frame_id: str) -> CameraInfo:
-    """Convert a recorded CameraInfo, stamped ``stamp``; its d, k, r, p are capitals in ROS 1."""
+    """Convert a recorded CameraInfo; ROS 1 names its fields d, k, r, p in capitals.
+
+    Args:
+        info: the CameraInfo, of a class of rosbags.
+        stamp: the time stamp of the result.
+        frame_id: the ``frame_id`` of the result.
+    """
     d, k, r, p = (
         np.asarray(getattr(info, name if hasattr(info, name) else name.upper()), float)
         for name in "dkrp"

@@ -14,6 +14,7 @@ from .sensor_msgs import Image
 from .std_msgs import Float32MultiArray, Header, MultiArrayLayout, Time
 
 NANOSECONDS = 1_000_000_000
+"""The number of nanoseconds in a second."""
 
 
 def time_from_seconds(time: float) -> Time:
@@ -86,7 +87,7 @@ def floats(values: Sequence[float] | npt.NDArray[np.float64]) -> Float32MultiArr
 
 
 def transform(parent: str, child: str, parent_from_child: Pose, time: float) -> TransformStamped:
-    """Build a transform at ``time`` [s]; names without a leading slash, as tf2 requires."""
+    """Build a transform at ``time`` [s]; leading slashes of names are removed, as tf2 requires."""
     w, x, y, z = parent_from_child.quaternion.tolist()
     px, py, pz = parent_from_child.position.tolist()
     return TransformStamped(

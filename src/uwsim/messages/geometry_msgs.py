@@ -25,7 +25,7 @@ class Point:
 
 @dataclass
 class Vector3:
-    """A direction with a length."""
+    """A vector; the message that contains it gives the unit and the frame."""
 
     x: float = 0.0
     y: float = 0.0
@@ -55,7 +55,7 @@ class Pose:
 
 @dataclass
 class PoseStamped:
-    """A pose, with its time and frame."""
+    """A pose with its time and frame."""
 
     header: Header = field(default_factory=Header)
     pose: Pose = field(default_factory=Pose)
@@ -84,7 +84,7 @@ class Twist:
 
 @dataclass
 class TwistStamped:
-    """A twist, with its time and frame."""
+    """A twist with its time and frame."""
 
     header: Header = field(default_factory=Header)
     twist: Twist = field(default_factory=Twist)
@@ -113,7 +113,7 @@ class Wrench:
 
 @dataclass
 class WrenchStamped:
-    """A wrench, with its time and frame."""
+    """A wrench with its time and frame."""
 
     header: Header = field(default_factory=Header)
     wrench: Wrench = field(default_factory=Wrench)
@@ -122,7 +122,7 @@ class WrenchStamped:
 
 @dataclass
 class Transform:
-    """A transform between two frames: the origin [m] and the rotation."""
+    """The pose of one frame in another: the translation [m] and the rotation."""
 
     translation: Vector3 = field(default_factory=Vector3)
     rotation: Quaternion = field(default_factory=Quaternion)
@@ -131,7 +131,7 @@ class Transform:
 
 @dataclass
 class TransformStamped:
-    """A transform from a child frame to the header's frame, with its time."""
+    """The pose of a child frame in the frame of the header, with its time."""
 
     header: Header = field(default_factory=Header)
     child_frame_id: str = ""

@@ -22,7 +22,7 @@ class Odometry:
 
 @dataclass
 class Path:
-    """A sequence of poses."""
+    """A sequence of poses, the path of a vehicle."""
 
     header: Header = field(default_factory=Header)
     poses: list[PoseStamped] = field(default_factory=list)

@@ -1,8 +1,8 @@
-"""Conversion of sensor_msgs/PointCloud2 of any layout to and from arrays.
+"""Conversion of sensor_msgs/PointCloud2 of any layout to arrays, and of arrays to PointCloud2.
 
-A cloud is ``height`` rows of ``width`` points; a row takes ``row_step`` bytes, a point
-``point_step``, and its fields have any offset in it: padding, colours and other fields are
-skipped. x, y, z may each be float32 or float64, in either byte order.
+A cloud is ``height`` rows of ``width`` points. A row takes ``row_step`` bytes, a point takes
+``point_step`` bytes, and each field of a point has an offset in these: padding and other fields
+are skipped. x, y, z may each be float32 or float64, in either byte order.
 """
 
 from __future__ import annotations
@@ -15,16 +15,16 @@ from .build import header
 from .sensor_msgs import PointCloud2, PointField
 
 FLOAT_TYPES = {7: "f4", 8: "f8"}
-"""The type of a PointField, FLOAT32 or FLOAT64 -> its name in NumPy, without the byte order."""
+"""The names in NumPy, without byte order, of the PointField types FLOAT32 and FLOAT64."""
 OTHER_TYPES = {1: "int8", 2: "uint8", 3: "int16", 4: "uint16", 5: "int32", 6: "uint32"}
-"""The other types of a PointField -> their names in errors."""
+"""The names of the other PointField types in error messages."""
 
 
 def points(cloud: PointCloud2) -> npt.NDArray[np.float64]:
     """Return x, y, z of every point, row by row, (n, 3) [m]; NaN is kept.
 
     Raises:
-        BadSetting: it has no x, y, z, one of them is not a float, or bytes are missing.
+        BadSetting: the cloud has no x, y, z, one of them is not a float, or bytes are missing.
     """
     try:
         return _points(cloud)
@@ -54,7 +54,7 @@ def _points(cloud: PointCloud2) -> npt.NDArray[np.float64]:
 
 
 def _find_coordinate(cloud: PointCloud2, axis: str, step: int) -> tuple[int, str]:
-    """Return the offset of a coordinate in a point [byte], and its type in NumPy."""
+    """Return the offset of a coordinate in a point [byte], and the name of its type in NumPy."""
     coordinate = next((field for field in cloud.fields if field.name == axis), None)
     if coordinate is None:
         names = ", ".join(repr(field.name[:20]) for field in list(cloud.fields)[:8]) or "none"
@@ -73,7 +73,7 @@ def point_colours(cloud: PointCloud2) -> npt.NDArray[np.uint8]:
     """Return red, green, blue of every point from its field ``rgb`` or ``rgba``, (n, 3).
 
     Raises:
-        BadSetting: it has no such field, or bytes are missing.
+        BadSetting: the cloud has no such field, or bytes are missing.
     """
     colours = next((field for field in cloud.fields if field.name in ("rgb", "rgba")), None)
     if colours is None:
@@ -96,16 +96,16 @@ def point_colours(cloud: PointCloud2) -> npt.NDArray[np.uint8]:
 
 
 def point_cloud(
-    places: npt.NDArray[np.float64], *, time: float = 0.0, frame_id: str = ""
+    positions: npt.NDArray[np.float64], *, time: float = 0.0, frame_id: str = ""
 ) -> PointCloud2:
-    """Build a cloud of points [m], as float32 x, y, z.
+    """Build a point cloud with float32 x, y, z.
 
     Args:
-        places: the points, (n, 3); or (h, w, 3), one a pixel, row 0 at the top.
-        time: of the cloud [s].
-        frame_id: the frame of the points.
+        positions: the points [m], (n, 3); or (h, w, 3), one for each pixel, row 0 at the top.
+        time: the time stamp of the cloud [s].
+        frame_id: the name of the frame of the points.
     """
-    height, width = (1, len(places)) if places.ndim == 2 else places.shape[:2]
+    height, width = (1, len(positions)) if positions.ndim == 2 else positions.shape[:2]
     return PointCloud2(
         header=header(time, frame_id),
         height=height,
@@ -114,6 +114,6 @@ def point_cloud(
         is_bigendian=False,
         point_step=12,
         row_step=12 * width,
-        data=np.frombuffer(np.ascontiguousarray(places, dtype="<f4").tobytes(), dtype=np.uint8),
-        is_dense=bool(np.isfinite(places).all()),
+        data=np.frombuffer(np.ascontiguousarray(positions, dtype="<f4").tobytes(), dtype=np.uint8),
+        is_dense=bool(np.isfinite(positions).all()),
     )

@@ -20,7 +20,7 @@ _UINT8_0: Any = partial(np.zeros, 0, np.uint8)
 
 @dataclass
 class Image:
-    """Pixels, row 0 at the top."""
+    """An image as the bytes of its pixels, row 0 at the top."""
 
     header: Header = field(default_factory=Header)
     height: int = 0
@@ -76,7 +76,7 @@ class JointState:
 
 @dataclass
 class BatteryState:
-    """Voltage [V], current [A], below 0 while it is drained, charge [A h] and share left [0..1]."""
+    """Voltage [V], current [A] (negative: discharging), charge [A h] and share left [0..1]."""
 
     POWER_SUPPLY_STATUS_UNKNOWN: ClassVar[int] = 0
     POWER_SUPPLY_STATUS_CHARGING: ClassVar[int] = 1
@@ -142,7 +142,7 @@ class Range:
 
 @dataclass
 class LaserScan:
-    """Distances along rays of a plane, at equal angles [m, rad]."""
+    """Distances [m] along rays in a plane, at equal steps of angle [rad]."""
 
     header: Header = field(default_factory=Header)
     angle_min: float = 0.0
@@ -161,7 +161,7 @@ class LaserScan:
 
 @dataclass
 class PointField:
-    """The offset and type of a field of each point."""
+    """The name, offset and type of a field of each point."""
 
     INT8: ClassVar[int] = 1
     UINT8: ClassVar[int] = 2
@@ -180,7 +180,7 @@ class PointField:
 
 @dataclass
 class PointCloud2:
-    """Points as bytes."""
+    """Points as bytes, which `fields` describes."""
 
     header: Header = field(default_factory=Header)
     height: int = 0

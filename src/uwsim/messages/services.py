@@ -1,6 +1,6 @@
-"""Service types, each a request and a response.
+"""The service types of UWSim, each with a class for the request and one for the response.
 
-A folder for each package has their texts; a test compares the two.
+The ``.srv`` files in the folders of the packages define them; a test compares both.
 """
 
 from __future__ import annotations
@@ -19,8 +19,11 @@ class Service:
     """A service type: its ROS name and the classes of its request and response."""
 
     name: str
+    """The name in ROS 2, such as ``std_srvs/srv/Empty``."""
     request: type
+    """The class of requests."""
     response: type
+    """The class of responses."""
 
 
 @dataclass(frozen=True)
@@ -42,7 +45,7 @@ class GTpublish:
     """The request of ``underwater_sensor_msgs/srv/GTpublish``: ground truth for an algorithm."""
 
     groundTruth: npt.NDArray[np.float32]  # noqa: N815 - the field's name in ROS
-    """The values; for corners x, y of NW, NE, SE, SW [px], (8,)."""
+    """The values; for the corners of a patch, x and y of its NW, NE, SE, SW corner [px], (8,)."""
     __msgtype__: ClassVar[str] = "underwater_sensor_msgs/srv/GTpublish_Request"
 
 
@@ -58,7 +61,7 @@ class SpawnMarker:
     """The request of ``underwater_sensor_msgs/srv/SpawnMarker``: a marker to add or delete."""
 
     marker: Marker
-    """The marker; its pose is in L, whatever frame its header names."""
+    """The marker; its pose is in L, the frame of the scene, whatever frame its header names."""
     __msgtype__: ClassVar[str] = "underwater_sensor_msgs/srv/SpawnMarker_Request"
 
 
@@ -80,4 +83,4 @@ SPAWN_MARKER = Service("underwater_sensor_msgs/srv/SpawnMarker", SpawnMarker, Sp
 SERVICES: dict[str, Service] = {
     kind.name: kind for kind in (EMPTY_SERVICE, GT_PUBLISH, SPAWN_MARKER)
 }
-"""The service types by their names in ROS 2; ``srv/`` has the text of each."""
+"""The service types by their names in ROS 2."""

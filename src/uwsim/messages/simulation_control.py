@@ -1,7 +1,7 @@
-"""Services of simulation_interfaces, by which ROS 2 programs control simulators.
+"""Services of simulation_interfaces, with which ROS 2 programs control simulators.
 
-Their classes are generated from the texts in ``simulation_interfaces/``; names, order and codes are
-those of the ROS 2 package.
+Their classes are generated from the ``.msg`` and ``.srv`` files in ``simulation_interfaces/``; the
+names and order of fields and the codes are those of the ROS 2 package.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ MESSAGES: tuple[type, ...] = tuple(
     if getattr(kind, "__module__", "") == simulation_interfaces.__name__
     and "/msg/" in kind.__msgtype__
 )
-"""The message types."""
+"""The message types of the package."""
 SIMULATION_SERVICES: dict[str, Service] = {
     f"{PACKAGE}/srv/{name}": Service(
         f"{PACKAGE}/srv/{name}",
@@ -39,4 +39,4 @@ SIMULATION_SERVICES: dict[str, Service] = {
         "DeleteEntity",
     )
 }
-"""The service types by their names in ROS 2."""
+"""The service types of the package, by their names in ROS 2."""

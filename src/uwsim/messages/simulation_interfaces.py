@@ -25,7 +25,7 @@ class Accel:
 
 @dataclass
 class Bounds:
-    """A region; without points there is none."""
+    """The bounds of a region; without points there are no bounds."""
 
     type: int = 0
     points: list[Vector3] = field(default_factory=list)

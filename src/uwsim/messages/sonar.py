@@ -17,7 +17,7 @@ _UINT8_0: Any = partial(np.zeros, 0, np.uint8)
 
 @dataclass
 class PingInfo:
-    """The parameters of a ping: frequency [Hz], sound speed [m/s], widths of the beams [rad]."""
+    """The parameters of a ping: frequency [Hz], sound speed [m/s], beam widths [rad]."""
 
     frequency: float = 0.0
     sound_speed: float = 0.0
@@ -32,7 +32,7 @@ class PingInfo:
 
 @dataclass
 class SonarImageData:
-    """The values of a sonar image as bytes: ranges one after the other, each with all beams."""
+    """The values of a sonar image as bytes: all beams of the first range bin, then of the next."""
 
     DTYPE_UINT8: ClassVar[int] = 0
     DTYPE_INT8: ClassVar[int] = 1
@@ -53,7 +53,7 @@ class SonarImageData:
 
 @dataclass
 class ProjectedSonarImage:
-    """A ping of an imaging sonar: z ahead, x up, beams in the y-z plane, bins of range [m]."""
+    """A ping of an imaging sonar: beams in the y-z plane, z ahead, x up; ranges of the bins [m]."""
 
     header: Header = field(default_factory=Header)
     ping_info: PingInfo = field(default_factory=PingInfo)

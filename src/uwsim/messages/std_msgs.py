@@ -15,7 +15,7 @@ _UINT8_0: Any = partial(np.zeros, 0, np.uint8)
 
 @dataclass
 class Time:
-    """A moment, from the beginning of the simulation."""
+    """A time since the start of the simulation."""
 
     sec: int = 0
     nanosec: int = 0
@@ -33,7 +33,7 @@ class Header:
 
 @dataclass
 class Bool:
-    """True or False."""
+    """A truth value."""
 
     data: bool = False
     __msgtype__: ClassVar[str] = "std_msgs/msg/Bool"
@@ -49,7 +49,7 @@ class Float64:
 
 @dataclass
 class String:
-    """Text."""
+    """A text."""
 
     data: str = ""
     __msgtype__: ClassVar[str] = "std_msgs/msg/String"
@@ -76,7 +76,7 @@ class MultiArrayLayout:
 
 @dataclass
 class Float32MultiArray:
-    """Numbers of 32 bits."""
+    """An array of 32-bit floating-point numbers."""
 
     layout: MultiArrayLayout = field(default_factory=MultiArrayLayout)
     data: np.ndarray[tuple[int, ...], np.dtype[np.float32]] = field(default_factory=_FLOAT32_0)
@@ -85,7 +85,7 @@ class Float32MultiArray:
 
 @dataclass
 class Float64MultiArray:
-    """Numbers of 64 bits."""
+    """An array of 64-bit floating-point numbers."""
 
     layout: MultiArrayLayout = field(default_factory=MultiArrayLayout)
     data: np.ndarray[tuple[int, ...], np.dtype[np.float64]] = field(default_factory=_FLOAT64_0)
@@ -94,7 +94,7 @@ class Float64MultiArray:
 
 @dataclass
 class UInt8MultiArray:
-    """Bytes."""
+    """An array of bytes."""
 
     layout: MultiArrayLayout = field(default_factory=MultiArrayLayout)
     data: np.ndarray[tuple[int, ...], np.dtype[np.uint8]] = field(default_factory=_UINT8_0)
@@ -114,7 +114,7 @@ class ColorRGBA:
 
 @dataclass
 class Duration:
-    """A span of time."""
+    """A length of time."""
 
     sec: int = 0
     nanosec: int = 0

@@ -12,8 +12,8 @@ from .std_msgs import Duration, Header
 class DVL:
     """Velocities [m/s] and distances [m] of a DVL, as in RDI's format PD6.
 
-    The first letter is w for the water, b for the bottom; the second the axes: i of the
-    instrument, s of the ship, e of the Earth, d for distances.
+    The first letter of a field is the reference: w for water, b for bottom. The second letter
+    is the axes of a velocity, i for instrument, s for ship, e for Earth, or d for distances.
     """
 
     header: Header = field(default_factory=Header)
@@ -66,7 +66,7 @@ class DVL:
 
 @dataclass
 class LedLight:
-    """The duration for which a signal lamp shines from now on."""
+    """The duration for which a signal lamp shines from the arrival of the message on."""
 
     duration: Duration = field(default_factory=Duration)
     __msgtype__: ClassVar[str] = "underwater_sensor_msgs/msg/LedLight"
@@ -74,7 +74,7 @@ class LedLight:
 
 @dataclass
 class Pressure:
-    """One number: a depth [m] or a pressure [Pa], as the sensor is configured."""
+    """The depth [m] or the pressure [Pa], as the sensor is configured."""
 
     header: Header = field(default_factory=Header)
     pressure: float = 0.0

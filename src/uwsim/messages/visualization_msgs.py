@@ -26,7 +26,7 @@ class MeshFile:
 
 @dataclass
 class UVCoordinate:
-    """A position in a texture."""
+    """A position in a texture [0..1]."""
 
     u: float = 0.0
     v: float = 0.0
@@ -35,7 +35,7 @@ class UVCoordinate:
 
 @dataclass
 class Marker:
-    """A shape to show: `ns` and `id` identify it; type, pose, scale [m] and colour define it."""
+    """A shape in viewers: `ns` and `id` identify it; type, pose, scale [m], colour define it."""
 
     ARROW: ClassVar[int] = 0
     CUBE: ClassVar[int] = 1
@@ -78,7 +78,7 @@ class Marker:
 
 @dataclass
 class MarkerArray:
-    """Several shapes."""
+    """Several markers."""
 
     markers: list[Marker] = field(default_factory=list)
     __msgtype__: ClassVar[str] = "visualization_msgs/msg/MarkerArray"
