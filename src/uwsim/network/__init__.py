@@ -1,4 +1,4 @@
-"""A network of packets inside the process: acoustic modems and links described by delays."""
+"""A network simulator: packets between acoustic modems, or over links with a given delay."""
 
 from .channel import AbsorptionModel, Channel, DelayChannel, Path, Sea, WaterChannel
 from .energy import EnergyModel

@@ -1,4 +1,4 @@
-"""Channels with propagation delays: constant and per metre, or of sound in water."""
+"""Channels, which delay packets: by a constant and a delay per metre, or as sound in water."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ class Path:
     distance: float
     """The length of the line [m]."""
     depth: float
-    """The depth of its midpoint below the surface, 0 above it [m]."""
+    """The depth of the line's midpoint below the surface [m]; 0 if it is above the surface."""
 
 
 class Channel(Protocol):
-    """The medium of packets."""
+    """The medium through which packets travel."""
 
     def delay(self, path: Path) -> float:
         """Return the propagation delay of a packet [s]."""
@@ -29,7 +29,7 @@ class Channel(Protocol):
 
 @dataclass(frozen=True, kw_only=True)
 class DelayChannel:
-    """A channel described by two numbers: ``minimum + per_metre * distance``."""
+    """A channel with the delay ``minimum + per_metre * distance``."""
 
     minimum: float = 0.0
     """The delay at distance zero [s]."""
@@ -64,7 +64,7 @@ class WaterChannel:
     noise_level: float = 0.0
     """The spectral level of noise besides that of the sea, in dB re 1 uPa^2/Hz."""
     sea: Sea | None = None
-    """The conditions of the sea; None: it causes no noise."""
+    """The conditions of the sea; None: the sea causes no noise."""
     absorption: AbsorptionModel = "francoisGarrison"
     """The absorption model."""
 
@@ -76,6 +76,6 @@ class WaterChannel:
         return power_sum((self.noise_level, sea))
 
     def delay(self, path: Path) -> float:
-        """Return the travel time of sound, at the sound speed of the path's midpoint [s]."""
+        """Return the propagation delay [s], with the sound speed at the path's midpoint."""
         speed = sound_speed(temperature=self.temperature, salinity=self.salinity, depth=path.depth)
         return path.distance / speed

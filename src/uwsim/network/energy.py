@@ -9,26 +9,26 @@ from .events import NANOSECONDS
 
 @dataclass(frozen=True, kw_only=True)
 class EnergyModel:
-    """The initial energy and the powers of a device."""
+    """The energy that a device has at the start, and the power that it consumes."""
 
     initial_energy: float
     """The energy at the start [J]."""
     turn_on_energy: float = 0.0
-    """The energy to switch it on, once [J]."""
+    """The energy that switching on the device takes, once [J]."""
     sending_power: float = 0.0
-    """The power while it sends [W]."""
+    """The power consumed while the device sends [W]."""
     receiving_power: float = 0.0
-    """The power while it receives [W]."""
+    """The power consumed while the device receives [W]."""
     idle_power: float = 0.0
-    """The power during the rest of the time [W]."""
+    """The power consumed during the rest of the time [W]."""
 
     def remaining_energy(self, now: int, *, time_sending: int, time_receiving: int) -> float:
         """Return the remaining energy [J], at least 0.
 
         Args:
-            now: time since the start [ns].
-            time_sending: time spent sending [ns].
-            time_receiving: time spent receiving [ns].
+            now: the time since the start [ns].
+            time_sending: the time spent sending [ns].
+            time_receiving: the time spent receiving [ns].
         """
         time_idle = max(now - time_sending - time_receiving, 0)
         used_energy = (

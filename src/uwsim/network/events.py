@@ -1,4 +1,4 @@
-"""A queue of events in the order of time, then rank, then insertion."""
+"""A queue of events, in the order of their times, then of their ranks, then of insertion."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from typing import Generic, TypeVar
 from ..base.record import Record
 
 NANOSECONDS = 1_000_000_000
+"""The number of nanoseconds in a second."""
 
 T = TypeVar("T")
 
@@ -28,20 +29,20 @@ class _Entry(Generic[T]):
 
 @dataclass(slots=True)
 class EventsState(Record, Generic[T]):
-    """The events of a queue."""
+    """The state of a queue of events."""
 
     heap: list[_Entry[T]] = field(default_factory=list)
-    """The events, as a heap."""
+    """The future events, as a heap (`heapq`)."""
     n_added: int = 0
-    """The number of events added so far."""
+    """The number of events added so far; it numbers them."""
 
 
 class EventQueue(Generic[T]):
-    """Events with integer times [ns]."""
+    """A queue of events with integer times [ns]."""
 
     def __init__(self) -> None:
         self.state: EventsState[T] = EventsState()
-        """The events."""
+        """The state of the queue."""
 
     def add(self, time: int, event: T, *, rank: int = 0) -> None:
         """Add an event at ``time`` [ns]; at equal times the lowest rank comes first."""
@@ -52,7 +53,7 @@ class EventQueue(Generic[T]):
         return len(self.state.heap)
 
     def take(self, latest_time: int) -> tuple[int, T] | None:
-        """Take out the next event and its time, if that is not after ``latest_time`` [ns]."""
+        """Remove and return the next event with its time, if not after ``latest_time`` [ns]."""
         if not self.state.heap or self.state.heap[0].time > latest_time:
             return None
         entry = heapq.heappop(self.state.heap)

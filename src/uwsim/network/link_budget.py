@@ -7,10 +7,12 @@ r"""Link budget by the sonar equation: the signal-to-noise ratio of a link.
     E_b / N_0 &= SNR \cdot B / R \\
     P_b &= \tfrac{1}{2} \operatorname{erfc} \sqrt{E_b / N_0}
 
-with the distance r from 1 m on, the spreading k (1 cylindrical, 1.5 practical, 2 spherical), the
-absorption :math:`\alpha` of Thorp or of Francois and Garrison at the carrier, the level NL of the
-noise in 1 Hz, the bandwidth B and the bit rate R; the last line is coherent BPSK in white Gaussian
-noise (Proakis, *Digital communications*). Not modelled: multipath, fading, Doppler shift, coding.
+with the constant loss L [dB], the distance r [m] (at least 1 m), the spreading factor k (1
+cylindrical, 1.5 practical, 2 spherical), the absorption :math:`\alpha` [dB/m] of Thorp or of
+Francois and Garrison at the carrier frequency, the source level SL, the noise level NL in 1 Hz, the
+bandwidth B [Hz] and the bit rate R [bit/s]. The last line is the bit error rate :math:`P_b` of
+coherent BPSK in white Gaussian noise (Proakis, *Digital communications*). Not modelled: multipath,
+fading, Doppler shift, coding.
 """
 
 from __future__ import annotations
@@ -24,7 +26,7 @@ from .channel import AbsorptionModel, Path, WaterChannel
 
 @dataclass(frozen=True, kw_only=True)
 class LinkBudget:
-    """The sound levels of a link."""
+    """The quantities of the sonar equation for a link between two modems."""
 
     source_level: float
     """The source level of the sender [dB re 1 uPa at 1 m]."""
@@ -35,9 +37,9 @@ class LinkBudget:
     noise_level: float
     """The spectral level of the noise, in dB re 1 uPa^2/Hz."""
     spreading: float = 2.0
-    """The spreading, from 1 (cylindrical) to 2 (spherical) [1]."""
+    """The spreading factor, from 1 (cylindrical) to 2 (spherical) [1]."""
     constant_loss: float = 0.0
-    """The loss on every path, at any distance [dB]."""
+    """The part of the transmission loss that does not depend on the distance [dB]."""
     absorption: AbsorptionModel = "francoisGarrison"
     """The absorption model."""
     temperature: float = 10.0
@@ -54,7 +56,7 @@ class LinkBudget:
         spreading: float,
         constant_loss: float,
     ) -> LinkBudget:
-        """Return the link budget of a sender in a channel; units are those of the fields."""
+        """Return the link budget of a sender in a channel; the fields describe the arguments."""
         return LinkBudget(
             source_level=source_level,
             frequency=frequency,
@@ -79,7 +81,7 @@ class LinkBudget:
         return self.source_level - self.transmission_loss(path) - noise
 
     def bit_error_rate(self, path: Path, bit_rate: float) -> float:
-        """Return the bit error rate at ``bit_rate`` [bit/s], a probability."""
+        """Return the bit error rate at ``bit_rate`` [bit/s], from 0 to 0.5."""
         ratio = 10.0 ** (self.snr(path) / 10.0) * self.bandwidth / bit_rate
         return bpsk_error_rate(ratio)
 
@@ -92,5 +94,5 @@ class LinkBudget:
 
 
 def bpsk_error_rate(ratio: float) -> float:
-    """Return the bit error rate of BPSK at an energy ``ratio`` Eb/N0 [1], a probability."""
+    """Return the bit error rate of coherent BPSK at the ``ratio`` Eb/N0 [1], from 0 to 0.5."""
     return 0.5 * math.erfc(math.sqrt(ratio))

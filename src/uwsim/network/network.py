@@ -1,15 +1,16 @@
 """The network of devices: packets are queued, sent, in transit, received or lost.
 
-A packet occupies its channel at a receiver from the arrival of its first bit to that of its last,
-each over the distance at the moment when that bit is sent. Devices do not move in between. Times
+A packet arrives at a receiver from its first bit to its last bit. The delay of a bit is that of the
+distance between both devices when the bit is sent; motion during its travel is not modelled. Times
 are whole nanoseconds. A packet is lost at a receiver
 
-- if another one arrives at any moment of its arrival (a collision, both are lost),
-- if the receiver sends at any moment of its arrival on the channel it listens to (half duplex),
+- if another packet arrives meanwhile (a collision: both are lost),
+- if the receiver meanwhile sends on the channel it listens to (half duplex),
+- if the receiver's energy is used up,
 - at random, with the probability of the sender's error model.
 
-Every random number is the first of a stream of its own, named after the devices and the number of
-the packet. Another device therefore does not change the numbers of the others.
+Every random number is the first draw of its own random stream, named after the devices and the
+number of the packet. An additional device therefore does not change the random numbers of others.
 """
 
 from __future__ import annotations
@@ -52,9 +53,9 @@ class NetworkState(Record):
     modems: list[ModemState]
     """The state of each device."""
     events: EventsState[_Event | _Arrival]
-    """The future events."""
+    """The future events of the network."""
     receptions: dict[int, Reception] = field(default_factory=dict)
-    """The receptions of packets in transit, by number; one for each receiving device."""
+    """The receptions of packets in transit, by number: one for each packet and receiver."""
     n_receptions: int = 0
     """The number of receptions so far."""
     now: int = 0
@@ -62,12 +63,12 @@ class NetworkState(Record):
 
 
 class Network:
-    """Devices and the packets between them.
+    """The devices, and the packets between them.
 
     Args:
-        stream: the random generator of a name.
-        surface: height of the water surface in W [m].
-        channels: the channels that devices send on, by name.
+        stream: a function that returns the random generator of a name.
+        surface: the height of the water surface in the world W [m].
+        channels: the channels on which devices send, by name.
     """
 
     def __init__(
@@ -78,7 +79,7 @@ class Network:
         channels: Mapping[str, Channel] = MappingProxyType({}),
     ) -> None:
         self.channels = channels
-        """The channels that devices send on, by name."""
+        """The channels on which devices send, by name."""
         self.trace: Callable[[str], None] | None = None
         """The function that receives a line of text for each outcome of a packet."""
         self._stream, self._surface = stream, surface
@@ -98,7 +99,7 @@ class Network:
         return not self._events
 
     def join(self, modem: Modem) -> Callable[[bytes, int], None]:
-        """Add a device; returns ``send(data, destination)``."""
+        """Add a device; return ``send(data, destination)``, which queues a packet to an address."""
         number = len(self._modems)
         self._modems.append(modem)
         self.state.modems.append(modem.state)
@@ -162,7 +163,7 @@ class Network:
             self._events.add(max(state.queue[0].ready_time, self.now), _Event("try", number))
 
     def _try_to_send(self, number: int) -> None:
-        """Send the first packet of the queue, or schedule another try by the protocol."""
+        """Send the first packet of the queue, or schedule another try as the protocol requires."""
         modem = self._modems[number]
         queued_packet, settings = modem.state.queue[0], modem.settings
         if modem.is_dead(self.now):
@@ -222,7 +223,7 @@ class Network:
         return self.state.n_receptions
 
     def _finish_sending(self, number: int) -> None:
-        """End the sending of a packet; its last bit travels the present distance."""
+        """End the sending of a packet; the present distance delays the last bit."""
         modem = self._modems[number]
         for reception_number in modem.state.outgoing_receptions:
             reception = self.state.receptions[reception_number]
@@ -237,7 +238,7 @@ class Network:
         modem.state.n_queued_bytes -= modem.state.queue.popleft().packet.queue_size
 
     def _begin_reception(self, number: int) -> None:
-        """Begin to receive a packet; it is lost with all packets that overlap it."""
+        """Begin to receive a packet; packets that arrive at the same time are all lost."""
         reception = self.state.receptions[number]
         modem = self._modems[reception.receiver]
         if modem.is_dead(self.now):
@@ -250,7 +251,7 @@ class Network:
         modem.state.incoming_receptions.append(number)
 
     def _end_reception(self, number: int) -> None:
-        """Deliver a packet that has arrived, unless it is lost."""
+        """End the reception of a packet; schedule its delivery unless it is lost."""
         reception = self.state.receptions.pop(number)
         modem, packet = self._modems[reception.receiver], reception.packet
         modem.state.incoming_receptions.remove(number)
@@ -272,7 +273,7 @@ class Network:
             self._events.add(delivery, _Arrival("deliver", number))
 
     def _count(self, modem: Modem, outcome: Outcome, sender: int, packet: Packet) -> None:
-        """Count an outcome of a packet at a device, and trace it."""
+        """Count an outcome of a packet at a device, and write it to the trace."""
         name = f"n_{outcome}"
         setattr(modem.counts, name, getattr(modem.counts, name) + 1)
         if self.trace is not None:

@@ -19,7 +19,7 @@ Outcome = Literal[
 ]
 """The outcome of a packet; `Counts` has a field for each."""
 BROADCAST_ADDRESS = -1
-"""The address of all devices within range."""
+"""The destination of a packet to all devices within range."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,13 +31,13 @@ class Packet:
     source: int
     """The address of the sender."""
     destination: int
-    """The address of its destination, or `BROADCAST_ADDRESS`."""
+    """The address of the receiving device, or `BROADCAST_ADDRESS`."""
     data: bytes
     """The content of the packet."""
 
     @property
     def queue_size(self) -> int:
-        """The space that it takes in a queue, at least 1 [byte]."""
+        """The space that the packet takes in a queue, at least 1 [byte]."""
         return max(len(self.data), 1)
 
 
@@ -48,23 +48,23 @@ class Reception(Item):
     packet: Packet
     """The packet that arrives."""
     sender: int
-    """The number of the device that sent it."""
+    """The index of the sending device in the network."""
     receiver: int
-    """The number of the receiving device."""
+    """The index of the receiving device in the network."""
     arrival: int
-    """The time at which its first bit arrives [ns]."""
+    """The time at which the first bit arrives [ns]."""
     error_probability: float
-    """The probability of damage by noise [1]."""
+    """The probability that noise damages the packet, from 0 to 1."""
     loss_reason: Outcome | None = None
-    """The reason of its loss; None while it is not lost."""
+    """The reason why the packet is lost at the receiver; None while it is not lost."""
 
 
 @dataclass(slots=True)
 class Counts(Record):
-    """The number of packets of a device by outcome."""
+    """The number of packets of each outcome, at one device."""
 
     n_queued: int = 0
-    """The packets that were to be sent."""
+    """The packets that were requested to be sent."""
     n_sent: int = 0
     """The packets that were sent."""
     n_received: int = 0
