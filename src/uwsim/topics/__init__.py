@@ -1,4 +1,4 @@
-"""Topics of a scene: the elements of ``<rosInterfaces>``, one file each.
+"""Interfaces of a scene: the elements of ``<rosInterfaces>``, which publish or subscribe to topics.
 
 .. code-block:: xml
 
@@ -10,28 +10,35 @@
       </VirtualCameraToROSImage>
     </rosInterfaces>
 
-The bus has these topics with and without ROS. An interface without ``bind`` is read and not
-simulated.
+The topics are on the bus of the process, with and without ROS. An interface whose spec has no
+``bind`` is read but has no effect. L is the localized world: the frame of the scene file, which the
+scene's offset relates to the world frame W. The original is UWSim (C++).
 
 =====================  ===========================  =============================================
-interface              message                      effect
+interface              message                      effect on a vehicle without ``u:dynamics``
 =====================  ===========================  =============================================
-ROSPoseToPAT           geometry_msgs/Pose           the pose of the vehicle in L is set
-ROSTwistToPAT          geometry_msgs/TwistStamped   one step of the twist (in the base frame)
-ROSOdomToPAT           nav_msgs/Odometry            a pose that is not all zero as ROSPoseToPAT,
-                                                    else its twist as ROSTwistToPAT
-ROSJointStateToArm     sensor_msgs/JointState       positions, else one step of the velocities
-u:ROSCmdVelToPAT       geometry_msgs/Twist          as ROSTwistToPAT: x forward, y left, z up
-u:ROSThrustersToPAT    std_msgs/Float64MultiArray   commands of the thrusters, simulated only
-u:ROSFinsToPAT         std_msgs/Float64MultiArray   angles of the fins [rad], simulated only
-u:ROSWrenchToPAT       geometry_msgs/WrenchStamped  force and torque, simulated only
+ROSPoseToPAT           geometry_msgs/Pose           its pose in L is set
+ROSTwistToPAT          geometry_msgs/TwistStamped   it moves by the twist, in its base frame
+ROSOdomToPAT           nav_msgs/Odometry            as ROSPoseToPAT, or as ROSTwistToPAT if
+                                                    position and orientation are all zero
+ROSJointStateToArm     sensor_msgs/JointState       positions are set, or joints move by velocities
+u:ROSCmdVelToPAT       geometry_msgs/Twist          as ROSTwistToPAT, with x forward, y left, z up
 =====================  ===========================  =============================================
 
-Commands are applied at the start of the next step, in the order of their arrival. Poses and
-positions between two velocities do not affect the interval between these, as in the original. A
-message never sets the pose of a simulated vehicle (``u:dynamics``): a pose is the setpoint of its
-autopilot. A twist, a wrench or thruster commands hold until the next command of any kind, and so do
-the commands of its joints' servos.
+=====================  ===========================  =============================================
+interface              message                      effect on a vehicle with ``u:dynamics``
+=====================  ===========================  =============================================
+the five above                                      a setpoint of its autopilot or servos
+u:ROSThrustersToPAT    std_msgs/Float64MultiArray   one command from -1 to 1 for each thruster
+u:ROSFinsToPAT         std_msgs/Float64MultiArray   one angle for each fin [rad]
+u:ROSWrenchToPAT       geometry_msgs/WrenchStamped  force and torque of all thrusters together
+=====================  ===========================  =============================================
+
+Commands are applied at the start of the next step, in the order of their arrival. A vehicle without
+``u:dynamics`` moves for the interval since its previous velocity command; commands of poses and
+positions in between do not affect this interval, as in the original. A vehicle with ``u:dynamics``
+holds a twist, a wrench or thruster commands until the next command of any kind; the servos of its
+joints hold theirs likewise.
 """
 
 from __future__ import annotations

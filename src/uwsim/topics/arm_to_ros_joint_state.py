@@ -1,7 +1,7 @@
 """ArmToROSJointState: the joints of a vehicle on a topic.
 
-As in the original the velocities of a vehicle that is not simulated are missing and its efforts
-are zero.
+As in the original, the message of a vehicle without ``u:dynamics`` has no velocities, and its
+efforts are zero.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ class ArmToROSJointStateSpec(VehiclePublisherSpec):
     messages: ClassVar[Mapping[str, type]] = {"topic": JointState}
 
     def bind(self, world: TopicWorld) -> SampledTopic:
-        """Start to publish; raises UnknownName if there is no such vehicle."""
+        """Start to publish; raise UnknownName if there is no such vehicle."""
         vehicle = world.vehicle(self.vehicle_name)
         make_message = partial(joint_state, tuple(vehicle.joint_names))
         publish = world.bus.publisher(self.topic, JointState)
@@ -37,12 +37,13 @@ class ArmToROSJointStateSpec(VehiclePublisherSpec):
 
 
 def joint_state(names: Sequence[str], time: float, values: Array) -> JointState:
-    """Return the joint vector and, of a simulated vehicle, its velocities and efforts.
+    """Create the message of a sample of n joints.
 
     Args:
         names: the names of the joints.
         time: the time of the sample [s].
-        values: the values of `CompiledVehicle.joint_sampler`.
+        values: the sample of `CompiledVehicle.joint_sampler`: n positions [rad or m], and for a
+            vehicle with ``u:dynamics`` n velocities and two parts of n efforts.
     """
     n = len(names)
     position, velocity, effort = values[:n].copy(), values[n : 2 * n].copy(), np.zeros(n)

@@ -1,4 +1,7 @@
-"""Poses of communication devices: the link's pose on a topic, the device's frame on ``/tf``."""
+"""Communication devices: the pose of the device's link on a topic, the device's frame on ``/tf``.
+
+The pose is that of the visual of the link to which the device is attached, in the world frame W.
+"""
 
 from __future__ import annotations
 
@@ -16,10 +19,10 @@ from .sensor_topic import SensorTopicSpec
 
 @dataclass(frozen=True, kw_only=True)
 class CommsDeviceROSSpec(SensorTopicSpec):
-    """An interface of a communication device."""
+    """An interface that publishes a communication device."""
 
     def bind(self, world: TopicWorld) -> CommsDevicePublisher:
-        """Start to publish; raises UnknownName if there is no such device."""
+        """Start to publish; raise UnknownName if there is no such device."""
         device = world.sensors.sensor(self.name, self.sources)
         if not isinstance(device, CommsDevice):
             raise UnknownName("communication device", self.name, ())
@@ -30,20 +33,20 @@ class CommsDeviceROSSpec(SensorTopicSpec):
 
 @dataclass(frozen=True, kw_only=True)
 class CustomCommsDeviceROSSpec(CommsDeviceROSSpec):
-    """A publisher of a communication device: its link as geometry_msgs/Pose, its frame on /tf."""
+    """A publisher of a communication device: its link's pose as geometry_msgs/Pose, and /tf."""
 
     sources: ClassVar[tuple[str, ...]] = ("CustomCommsDevice",)
 
 
 @dataclass(frozen=True, kw_only=True)
 class AcousticCommsDeviceROSSpec(CommsDeviceROSSpec):
-    """A publisher of an acoustic modem: its link as geometry_msgs/Pose, its frame on /tf."""
+    """A publisher of an acoustic modem: its link's pose as geometry_msgs/Pose, and /tf."""
 
     sources: ClassVar[tuple[str, ...]] = ("AcousticCommsDevice",)
 
 
 class CommsDevicePublisher(Interface):
-    """A publisher of the pose of a device."""
+    """A publisher of the pose of a device's link and of the device's frame."""
 
     def __init__(self, topic: str, device: CommsDevice, world: TopicWorld) -> None:
         self._device, self._world = device, world
@@ -51,7 +54,7 @@ class CommsDevicePublisher(Interface):
         self._publish_frame = world.bus.publisher(TF, TFMessage)
 
     def publish(self) -> None:
-        """Publish the present pose."""
+        """Publish both at the present time."""
         device, time = self._device, self._world.time
         self._publish(device.sample(time))
         pose = device.parent_from_device

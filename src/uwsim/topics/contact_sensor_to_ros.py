@@ -1,4 +1,4 @@
-"""contactSensorToROS: the contact of a vehicle or object on a topic."""
+"""contactSensorToROS: whether a vehicle or object is in contact, on a topic."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class ContactSensorToROSSpec(InterfaceSpec):
     """The rate of publication [Hz]."""
 
     def bind(self, world: TopicWorld) -> ContactPublisher:
-        """Start to publish; raises UnknownName if no body of that name has a shape."""
+        """Start to publish; raise UnknownName if no body of that name has a collision shape."""
         if not world.contacts.is_possible(self.name):
             raise UnknownName("vehicle or object with a shape", self.name, ())
         publisher = ContactPublisher(self.name, self.topic, world)
@@ -44,5 +44,5 @@ class ContactPublisher(Interface):
         self._publish = world.bus.publisher(topic, Bool)
 
     def publish(self) -> None:
-        """Publish the present state; the message has no time."""
+        """Publish whether the body is in contact now; the message has no time stamp."""
         self._publish(Bool(data=bool(self._world.contacts.find(self._name))))

@@ -1,6 +1,7 @@
-"""Interfaces that publish depth: range images as in REP 118, and point clouds.
+"""Interfaces that publish the depth of a camera: depth images as in REP 118, and point clouds.
 
-Colour cameras are possible, too; their depth is exact and does not depend on the water.
+Depth is the distance along the optical axis. The camera may also be a colour camera: the depth is
+then free of noise and does not depend on the water.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from ..messages import CameraInfo, Image, PointCloud2, depth_image, point_cloud
 from .interface import Interface, InterfaceSpec, TopicWorld, rate_element, sample_rate
 
 CAMERAS = ("virtualRangeImage", "virtualCamera")
-"""The elements whose depth may be published."""
+"""The elements of the cameras whose depth may be published."""
 
 
 @runtime_checkable
@@ -27,7 +28,7 @@ class DepthCamera(Protocol):
 
     @property
     def frame_id(self) -> str:
-        """The frame in the headers of its messages."""
+        """The ``frame_id`` in the headers of its messages."""
 
     @property
     def intrinsics(self) -> Intrinsics:
@@ -37,7 +38,7 @@ class DepthCamera(Protocol):
         """Measure depth along the optical axis at ``time`` [s], (h, w) [m]; +inf: no surface."""
 
     def info(self, time: float) -> CameraInfo:
-        """Create the camera's CameraInfo, stamped ``time`` [s]."""
+        """Create the camera's CameraInfo message, stamped ``time`` [s]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,7 +58,7 @@ class RangeImageSensorToROSImageSpec(InterfaceSpec):
     """The rate of publication [Hz]."""
 
     def bind(self, world: TopicWorld) -> DepthImagePublisher:
-        """Start to publish; raises UnknownName if there is no such camera."""
+        """Start to publish; raise UnknownName if there is no such camera."""
         return publish_depth(
             world, self.camera_name, (self.image_topic, self.info_topic), self.rate
         )
@@ -98,7 +99,7 @@ class RangeCameraToPCLSpec(InterfaceSpec):
     """The rate of publication [Hz]."""
 
     def bind(self, world: TopicWorld) -> PointCloudPublisher:
-        """Start to publish; raises UnknownName if there is no such camera."""
+        """Start to publish; raise UnknownName if there is no such camera."""
         camera = _find_camera(world, self.camera_name)
         publisher = PointCloudPublisher(camera, self.camera_name, self.topic, world)
         is_read = partial(world.bus.has_subscribers, self.topic)
@@ -109,7 +110,8 @@ class RangeCameraToPCLSpec(InterfaceSpec):
 class PointCloudPublisher(Interface):
     """A publisher of the depth of a camera as points in its optical frame, one for each pixel.
 
-    The frame has the name of the camera, as on ``/tf``. A pixel that shows no surface is NaN.
+    The frame has the name of the camera, as on ``/tf``. The point of a pixel without a surface is
+    NaN.
     """
 
     def __init__(self, camera: DepthCamera, frame_id: str, topic: str, world: TopicWorld) -> None:
@@ -125,7 +127,12 @@ class PointCloudPublisher(Interface):
 
 
 def optical_points(depth: Array, intrinsics: Intrinsics) -> Array:
-    """Return the point of each pixel, (h, w, 3) [m]: x right, y down, z ahead; NaN: no surface."""
+    """Return the point of each pixel in the optical frame, (h, w, 3) [m]; NaN: no surface.
+
+    Args:
+        depth: the depth of each pixel, (h, w) [m]; not finite where there is no surface.
+        intrinsics: the intrinsics of the camera.
+    """
     measured_depth = np.where(np.isfinite(depth), depth, np.nan)
     points: Array = intrinsics.rays() * [1.0, -1.0, -1.0] * measured_depth[..., None]
     return points
@@ -134,7 +141,13 @@ def optical_points(depth: Array, intrinsics: Intrinsics) -> Array:
 def publish_depth(
     world: TopicWorld, camera: str, topics: tuple[str, str], rate: float
 ) -> DepthImagePublisher:
-    """Publish the depth of a camera at a rate, on topics for images and for CameraInfo.
+    """Publish the depth of a camera on two topics.
+
+    Args:
+        world: the world with the camera.
+        camera: the name of the camera.
+        topics: the topic of the images and the topic of CameraInfo messages.
+        rate: the rate of publication [Hz].
 
     Raises:
         UnknownName: there is no such camera.

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from ..base.geometry import Pose
 
 TF = "/tf"
-"""The topic of all transforms."""
+"""The topic of transforms."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -16,10 +16,11 @@ class Frame:
     """A named frame and its pose in another frame."""
 
     parent: str
-    """The name of the other frame; empty: L, whatever its name in the interface."""
+    """The name of the other frame; empty for L, the frame of the scene, which each interface names
+    itself (``rootName``)."""
     child: str
     """The name of the frame."""
     parent_from_child: Callable[[], Pose]
-    """A function that returns the present pose."""
+    """A function that returns the present pose of the frame in the other frame."""
     is_fixed: bool = False
     """True if the pose is constant."""

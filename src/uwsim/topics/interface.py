@@ -1,4 +1,4 @@
-"""The base of the elements of ``<rosInterfaces>``, and the protocol of the world for them."""
+"""The base classes of the elements of ``<rosInterfaces>``, and the protocols that they use."""
 
 from __future__ import annotations
 
@@ -30,37 +30,37 @@ MIN_RATE = 0.001
 
 
 class BodyContacts(Protocol):
-    """The contacts between bodies, for interfaces."""
+    """The contacts between bodies."""
 
     def is_possible(self, name: str) -> bool:
         """Return whether a vehicle or object has that name and a collision shape."""
 
     def find(self, name: str) -> Sequence[Contact]:
-        """Find the present contacts of a vehicle or object; UnknownName if there is none."""
+        """Find the present contacts of a vehicle or object; raise UnknownName without such."""
 
 
 class TopicSensors(Protocol):
     """The sensors and devices that interfaces publish."""
 
     def camera(self, name: str) -> VirtualCamera:
-        """Find a virtual camera; UnknownName if there is none."""
+        """Find a virtual camera; raise UnknownName if there is none of that name."""
 
     def sensor(self, name: str, elements: tuple[str, ...]) -> Sensor:
-        """Find a sensor or device of one of these elements that publishes; UnknownName if none."""
+        """Find a sensor or device that publishes, of one of these elements; else UnknownName."""
 
     def publisher(self, sensor: str, topic: str, type_: type) -> Callable[[Any], None]:
-        """Return a function that publishes messages of a sensor on a topic, with its faults."""
+        """Return a function that applies a sensor's faults to a message and publishes it."""
 
     def has_faults(self, sensor: str) -> bool:
         """Return whether faults change the messages of a sensor before they are published."""
 
 
 class Segmenter(Protocol):
-    """Images of the bodies that pixels show."""
+    """The renderer of images whose pixels are numbers of bodies."""
 
     @property
     def part_names(self) -> Mapping[int, str]:
-        """The names of bodies by their number in images: ``vehicle/link`` or an object."""
+        """The name of each body by its number: ``vehicle/link``, or the name of an object."""
 
     def segmentation(
         self, world_from_camera: Pose, intrinsics: Intrinsics
@@ -69,11 +69,11 @@ class Segmenter(Protocol):
 
 
 class TopicWorld(TimedWorld, Protocol):
-    """The world for an interface: vehicles, sensors, frames, timers and commands."""
+    """The world as interfaces use it: vehicles, sensors, frames, timers and commands."""
 
     @property
     def world_from_localized(self) -> Pose:
-        """The pose of L in W: the scene's offset."""
+        """The pose of the localized world L in the world W: the scene's offset."""
 
     @property
     def compatibility(self) -> frozenset[str]:
@@ -81,13 +81,13 @@ class TopicWorld(TimedWorld, Protocol):
 
     @property
     def is_blind(self) -> bool:
-        """True if images are black and nothing is drawn."""
+        """True if nothing is rendered and images are black."""
 
     def body(self, name: str) -> Body:
-        """Find a vehicle, link or object by its route ``a/b``; UnknownName if none."""
+        """Find a vehicle, a link (``vehicle/link``) or an object; raise UnknownName without it."""
 
     def vehicle(self, name: str) -> Vehicle:
-        """Find a vehicle; UnknownName if there is none."""
+        """Find a vehicle; raise UnknownName if there is none of that name."""
 
     @property
     def sensors(self) -> TopicSensors:
@@ -99,10 +99,10 @@ class TopicWorld(TimedWorld, Protocol):
 
     @property
     def segmenter(self) -> Segmenter:
-        """The segmentation of images into bodies."""
+        """The renderer of images whose pixels are numbers of bodies."""
 
     def frames(self, *, with_objects: bool) -> Sequence[Frame]:
-        """List the frames of vehicles, their links and sensors, and those of objects."""
+        """List the frames of vehicles, their links and sensors, and ``with_objects`` of objects."""
 
     def marker_frames(self) -> Sequence[Frame]:
         """List the frames of the markers that exist now."""
@@ -115,10 +115,10 @@ class TopicWorld(TimedWorld, Protocol):
         is_needed: Callable[[], bool] | None = None,
         sampling: Sampling | None = None,
     ) -> Callable[[], None]:
-        """Call ``call`` at the samples of ``rate`` [Hz] from now on; return a function to stop.
+        """Call ``call`` at ``rate`` [Hz] from now on; return a function that ends this.
 
-        With ``is_needed`` it is called only if that returns True; ``sampling`` takes a sample
-        before, needed or not.
+        If ``is_needed`` returns False, ``call`` is left out. ``sampling`` takes a sample before
+        each call, also before one that is left out.
         """
 
     def defer_to_next_step(self, apply: Callable[[M], None]) -> Callable[[M], None]:
@@ -126,29 +126,29 @@ class TopicWorld(TimedWorld, Protocol):
 
 
 def rate_element() -> Any:
-    """Declare the field of a rate."""
+    """Declare the field of an interface's ``<rate>`` [Hz]."""
     original = Original(allows_trailing_text=True)
     return element(default=10.0, minimum=MIN_RATE, maximum=MAX_RATE, original=original)
 
 
 def sample_rate(rate: float, world: TopicWorld) -> float:
-    """Return the rate at which samples are taken [Hz]."""
+    """Return the rate at which samples are taken [Hz]; the quirk ``whole-rates`` rounds it down."""
     return max(1.0, math.floor(rate)) if "whole-rates" in world.compatibility else rate
 
 
 class Interface:
-    """A bound interface: it publishes or subscribes from its binding on."""
+    """An interface that is connected to a world and its bus: it publishes or subscribes."""
 
     state: Record = NoState()
-    """The record of all that changes with time; `Simulation.save` stores it."""
+    """The state of the interface, all of it that changes with time; `Simulation.save` stores it."""
 
 
 @runtime_checkable
 class SimulatedInterface(Protocol):
-    """The spec of a simulated interface; one without ``bind`` is read and has no effect."""
+    """The spec of an interface that has an effect; one without ``bind`` is only read."""
 
     def bind(self, world: TopicWorld) -> Interface:
-        """Resolve the vehicle or sensor and start; raises UnknownName if there is none."""
+        """Find the vehicle or sensor, and start; raise UnknownName if there is no such one."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -156,20 +156,20 @@ class InterfaceSpec(Spec):
     """An element of ``<rosInterfaces>``."""
 
     subscribes: ClassVar[bool] = False
-    """True if it subscribes to its topics; otherwise it publishes on them."""
+    """True if the interface subscribes to its topics; otherwise it publishes on them."""
     sources: ClassVar[tuple[str, ...]] = ()
-    """The elements of which it may name one; empty: it names none."""
+    """The kinds of elements that the interface may name, such as ``imu``; empty: it names none."""
     messages: ClassVar[Mapping[str, type]] = {}
-    """The types of its messages, by the field that names the topic."""
+    """The message type of each topic, by the name of the field that names the topic."""
 
     @classmethod
     def message_types(cls) -> Mapping[str, type]:
-        """Return the types of its messages, by the field that names the topic."""
+        """Return the message type of each topic, by the name of the field that names the topic."""
         return cls.messages
 
     @classmethod
     def is_simulated(cls) -> bool:
-        """Return whether the interface is simulated."""
+        """Return whether the interface has an effect in the simulation."""
         return issubclass(cls, SimulatedInterface)
 
 
@@ -194,32 +194,34 @@ class VehiclePublisherSpec(VehicleTopicSpec):
 
 
 def is_sample_needed(bus: Bus, topic: str) -> bool:
-    """Return whether a topic has a subscriber, or its present message may be requested later."""
+    """Return whether a topic has a subscriber, or `Bus.unread_message` may request its message."""
     return bus.keeps_unread_messages or bus.has_subscribers(topic)
 
 
 class SampledTopic(Interface):
-    """A publisher of the samples that compiled code takes.
+    """A publisher of samples that compiled code takes.
 
-    A message is created if the topic has a subscriber, or of the newest sample on request.
+    The message of a sample is created only if the topic has a subscriber, or on request.
 
     Args:
         topic: the name of the topic.
-        sampler: the sampler of the values.
-        make: creates a message of the time and the values of a sample; None for none.
-        publish: publishes a message.
+        sampler: the compiled function that takes a sample.
+        make_message: a function that creates the message of a sample from its time [s] and its
+            values; it returns None if there is none.
+        publish: a function that publishes a message.
     """
 
     def __init__(
         self,
         topic: str,
         sampler: Sampler,
-        make: Callable[[float, Array], object],
+        make_message: Callable[[float, Array], object],
         publish: Callable[[Any], None],
     ) -> None:
-        self._topic, self._sampler, self._make, self._publish = topic, sampler, make, publish
+        self._topic, self._sampler, self._publish = topic, sampler, publish
+        self._make_message = make_message
         self.state: Sample = Sample.create(sampler)
-        """The last sample."""
+        """The newest sample."""
 
     def begin(
         self, rate: float, world: TopicWorld, *, is_faulty: bool = False, is_pure: bool = False
@@ -228,9 +230,10 @@ class SampledTopic(Interface):
 
         Args:
             rate: the rate of the samples [Hz].
-            world: the world that takes them.
-            is_faulty: faults change each message before it is published.
-            is_pure: a sample changes nothing, so none is taken without a subscriber.
+            world: the world that takes the samples.
+            is_faulty: True if faults change each message before it is published.
+            is_pure: True if taking a sample changes no state; then none is taken without a
+                subscriber.
         """
         bus, topic = world.bus, self._topic
         sampling = Sampling(
@@ -244,10 +247,10 @@ class SampledTopic(Interface):
         )
 
     def newest_message(self) -> object | None:
-        """Create the message of the newest sample; None before the first."""
+        """Create the message of the newest sample; None before the first sample."""
         numbers = self.state.numbers
         time = float(numbers[0])
-        return None if math.isnan(time) else self._make(time, numbers[1:])
+        return None if math.isnan(time) else self._make_message(time, numbers[1:])
 
     def publish(self) -> None:
         """Publish the newest sample."""

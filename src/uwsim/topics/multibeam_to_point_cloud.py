@@ -7,8 +7,8 @@ r"""u:multibeamToPointCloud2: the hits of a multibeam or profiling sonar as a po
     </u:multibeamToPointCloud2>
 
 A beam at the angle :math:`a` with the range :math:`r` is the point :math:`(r \cos a, r \sin a, 0)`
-of the sensor's frame, as of its LaserScan; a beam without a hit within the range is left out.
-Each message is a separate sample: its noise is not that of the LaserScan of the same time.
+in the frame of the sensor's LaserScan; a beam without a hit within the maximum range is left out.
+Each message is a separate sample: its noise differs from that of the LaserScan of the same time.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ class MultibeamToPointCloud2Spec(SensorTopicSpec):
         return {"topic": PointCloud2}
 
     def bind(self, world: TopicWorld) -> Interface:
-        """Start to publish; raises UnknownName if there is no such sensor."""
+        """Start to publish; raise UnknownName if there is no such sensor."""
         sensor = world.sensors.sensor(self.name, self.sources)
         publish = world.sensors.publisher(self.name, self.topic, PointCloud2)
         publisher = SensorPublisher(sensor, partial(_publish_cloud, publish), lambda: world.time)
@@ -51,7 +51,7 @@ def _publish_cloud(publish: Callable[[object], None], scan: object) -> None:
 
 
 def scan_point_cloud(scan: LaserScan) -> PointCloud2:
-    """Return the hits of a scan as points of its frame [m]."""
+    """Return the hits of a scan as points in the frame of the scan [m]."""
     ranges = scan.ranges.astype(np.float64)
     angles = scan.angle_min + scan.angle_increment * np.arange(len(ranges))
     is_hit = scan.ranges < np.float32(scan.range_max)

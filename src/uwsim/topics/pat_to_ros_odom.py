@@ -1,7 +1,7 @@
 """PATToROSOdom: the odometry of a vehicle on a topic.
 
-As in the original the frames have no name, the covariances are zero, and the twist of a vehicle
-that is not simulated is zero.
+As in the original, the names of the frames are empty, the covariances are zero, and the twist of a
+vehicle without ``u:dynamics`` is zero.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from typing import ClassVar
 import numpy as np
 
 from ..base.geometry import Array, quaternion_from_rotation
-from ..base.geometry import Pose as PoseOfBody
+from ..base.geometry import Pose as BodyPose
 from ..base.numerics.linear import rotate_back
 from ..messages import (
     Odometry,
@@ -32,12 +32,12 @@ from .interface import SampledTopic, TopicWorld, VehiclePublisherSpec
 
 @dataclass(frozen=True, kw_only=True)
 class PATToROSOdomSpec(VehiclePublisherSpec):
-    """A publisher of the pose of a vehicle as nav_msgs/Odometry."""
+    """A publisher of the pose and twist of a vehicle as nav_msgs/Odometry."""
 
     messages: ClassVar[Mapping[str, type]] = {"topic": Odometry}
 
     def bind(self, world: TopicWorld) -> SampledTopic:
-        """Start to publish; raises UnknownName if there is no such vehicle."""
+        """Start to publish; raise UnknownName if there is no such vehicle."""
         vehicle = world.vehicle(self.vehicle_name)
         localized_from_world = world.world_from_localized.inverse()
         make_message = partial(odometry, localized_from_world, vehicle.autopilot is not None)
@@ -50,22 +50,24 @@ class PATToROSOdomSpec(VehiclePublisherSpec):
 
 
 def odometry(
-    localized_from_world: PoseOfBody, is_simulated: bool, time: float, values: Array
+    localized_from_world: BodyPose, has_dynamics: bool, time: float, values: Array
 ) -> Odometry:
-    """Return the base in L and, of a simulated vehicle, its twist over ground, base axes.
+    """Create the message of a sample: the pose of the base in L, its twist over ground.
+
+    The twist has the axes of the base; it is zero for a vehicle without ``u:dynamics``.
 
     Args:
-        localized_from_world: the pose of W in L.
-        is_simulated: the vehicle is simulated.
+        localized_from_world: the pose of the world W in the localized world L.
+        has_dynamics: True if the vehicle has ``u:dynamics``.
         time: the time of the sample [s].
-        values: the values of `CompiledVehicle.base_sampler`, (18,).
+        values: the sample of `CompiledVehicle.base_sampler`, (18,).
     """
-    world_from_base = PoseOfBody(values[:3].copy(), values[3:12].reshape(3, 3).copy())
+    world_from_base = BodyPose(values[:3].copy(), values[3:12].reshape(3, 3).copy())
     pose = localized_from_world @ world_from_base
     w, x, y, z = quaternion_from_rotation(pose.rotation).tolist()
     px, py, pz = pose.position.tolist()
     linear, angular = np.zeros(3), np.zeros(3)
-    if is_simulated:
+    if has_dynamics:
         linear, angular = rotate_back(world_from_base.rotation, values[12:15]), values[15:]
     return Odometry(
         header=header(time),

@@ -1,8 +1,9 @@
-"""ROSJointStateToArm: commands for the joints of a vehicle; servos apply them if it is simulated.
+"""ROSJointStateToArm: commands for the joints of a vehicle.
 
-Positions are applied, else velocities, else efforts. The joints of a vehicle that is not simulated
-are set, clamped to their limits, or moved by one step of the velocities. Not modelled: the refusal
-of a command because of a collision of the arm.
+The first nonempty field of positions, velocities and efforts is applied. In a vehicle with
+``u:dynamics`` these are setpoints of servos. In another vehicle joints are set to the positions,
+clamped to their limits, or moved by the velocities for the interval since the previous velocities;
+efforts are ignored. Not modelled: the refusal of a command because of a collision of the arm.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ from .interface import Interface, TopicWorld, VehicleTopicSpec
 from .ros_twist_to_pat import Gap, GapState
 
 MAX_VALUE = sys.float_info.max
-"""The greatest command; the limits of joints and servos are those of the robot file."""
+"""The greatest value accepted: any finite one, as the robot file limits joints and servos."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,7 +36,7 @@ class ROSJointStateToArmSpec(VehicleTopicSpec):
     messages: ClassVar[Mapping[str, type]] = {"topic": JointState}
 
     def bind(self, world: TopicWorld) -> JointCommand:
-        """Start to subscribe; raises UnknownName if there is no such vehicle."""
+        """Start to subscribe; raise UnknownName if there is no such vehicle."""
         command = JointCommand(world.vehicle(self.vehicle_name), Gap(world))
         world.bus.subscribe(
             self.topic,
@@ -54,7 +55,7 @@ def used_field(message: JointState) -> str:
 
 
 class JointCommand(Interface):
-    """A command for the joints of a vehicle."""
+    """The application of commands to the joints of a vehicle."""
 
     def __init__(self, vehicle: Vehicle, gap: Gap) -> None:
         self._vehicle, self._gap = vehicle, gap
@@ -64,7 +65,7 @@ class JointCommand(Interface):
         self.state: GapState = gap.state
 
     def apply_command(self, message: JointState) -> None:
-        """Apply positions, else velocities, else efforts."""
+        """Apply the first nonempty field of positions, velocities, efforts."""
         servos = self._vehicle.servos
         if servos is not None:
             self._command_servos(servos, message)
@@ -87,10 +88,11 @@ class JointCommand(Interface):
             servos.push(*self._select_joints(message, message.effort))
 
     def _select_joints(self, message: JointState, commands: Array) -> tuple[JointIndices, Array]:
-        """Return joint indices and values, (n,) each; by name, or without names in order.
+        """Return the indices of the joints that a message commands and their values, (n,) each.
 
-        Unknown joints and values that are not finite are left out; of a joint that is named twice
-        the last value is used.
+        Joints are found by name; without names, values are in the order of the joint vector.
+        Unknown joints and values that are not finite are left out. If a joint is named twice, the
+        last value is used.
         """
         if message.name != self._message_names:
             self._message_names = list(message.name)

@@ -1,4 +1,4 @@
-"""ROSOdomToPAT: commands for a vehicle by odometry: its pose or, if that is all zero, its twist."""
+"""ROSOdomToPAT: commands for a vehicle as odometry: the pose or, if it is all zero, the twist."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ class ROSOdomToPATSpec(VehicleTopicSpec):
     messages: ClassVar[Mapping[str, type]] = {"topic": Odometry}
 
     def bind(self, world: TopicWorld) -> OdometryCommand:
-        """Start to subscribe; raises UnknownName if there is no such vehicle."""
+        """Start to subscribe; raise UnknownName if there is no such vehicle."""
         vehicle = world.vehicle(self.vehicle_name)
         command = OdometryCommand(
             PoseCommand(vehicle, world.world_from_localized), TwistCommand(vehicle, Gap(world))
@@ -57,14 +57,14 @@ def check_odometry(odometry: Odometry) -> Remark | None:
 
 
 class OdometryCommand(Interface):
-    """A command that sets the pose of a vehicle or moves it by a twist."""
+    """The application of odometry: a vehicle's pose, or a motion by a twist."""
 
     def __init__(self, pose: PoseCommand, twist: TwistCommand) -> None:
         self._pose, self._twist = pose, twist
         self.state: GapState = twist.state
 
     def apply_command(self, odometry: Odometry) -> None:
-        """Apply a pose in L, or a twist in the base's axes."""
+        """Apply the pose, in L, or the twist, in the axes of the base."""
         if has_pose(odometry):
             self._pose.apply_command(odometry.pose.pose)
         else:

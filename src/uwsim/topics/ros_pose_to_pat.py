@@ -1,4 +1,8 @@
-"""ROSPoseToPAT: commands for the pose of a vehicle; a simulated one moves there."""
+"""ROSPoseToPAT: commands for the pose of a vehicle.
+
+The pose is in L, the frame of the scene. A vehicle with ``u:dynamics`` travels there: the pose is
+the setpoint of its autopilot. Another vehicle is placed there at once.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +22,7 @@ from ..vehicle import Vehicle, go_or_place
 from .interface import Interface, TopicWorld, VehicleTopicSpec
 
 MAX_VALUE = sys.float_info.max
-"""The greatest element of a quaternion, whose length does not matter."""
+"""The greatest element of a quaternion: any finite one, as quaternions are normalized."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -30,7 +34,7 @@ class ROSPoseToPATSpec(VehicleTopicSpec):
     messages: ClassVar[Mapping[str, type]] = {"topic": PoseMessage}
 
     def bind(self, world: TopicWorld) -> PoseCommand:
-        """Start to subscribe; raises UnknownName if there is no such vehicle."""
+        """Start to subscribe; raise UnknownName if there is no such vehicle."""
         command = PoseCommand(world.vehicle(self.vehicle_name), world.world_from_localized)
         world.bus.subscribe(
             self.topic,
@@ -42,13 +46,13 @@ class ROSPoseToPATSpec(VehicleTopicSpec):
 
 
 class PoseCommand(Interface):
-    """A command for the pose of a vehicle, or the goal of its autopilot."""
+    """The application of poses to a vehicle or its autopilot."""
 
     def __init__(self, vehicle: Vehicle, world_from_localized: Pose) -> None:
         self._vehicle, self._world_from_localized = vehicle, world_from_localized
 
     def apply_command(self, pose: PoseMessage) -> None:
-        """Apply a pose in L; an invalid quaternion counts as no rotation."""
+        """Apply a pose, in L; an invalid quaternion counts as no rotation."""
         localized_from_base = pose_in_localized(pose)
         if localized_from_base is not None:
             go_or_place(self._vehicle, self._world_from_localized @ localized_from_base)
@@ -59,7 +63,7 @@ def check_pose(message: object, prefix: str = "") -> Remark | None:
 
     Args:
         message: the message with the pose.
-        prefix: the path to the pose in it, with a dot at its end.
+        prefix: the path to the pose in the message, with a dot at its end: ``pose.pose.``.
     """
     positions = [f"{prefix}position.{axis}" for axis in "xyz"]
     remark = find_invalid_number(message, positions, MAX_COMMAND)

@@ -1,4 +1,4 @@
-"""ROSTwistToPAT, u:ROSCmdVelToPAT: twists for a vehicle; a simulated one holds the last twist.
+"""ROSTwistToPAT, u:ROSCmdVelToPAT: velocity commands (twists) for a vehicle.
 
 .. code-block:: xml
 
@@ -6,14 +6,13 @@
       <topic>/cmd_vel</topic> <vehicleName>girona500</vehicleName>
     </u:ROSCmdVelToPAT>
 
-A velocity moves a vehicle that is not simulated for the interval since the previous velocity of its
-interface (0 for the first, or after more than 1 s). The interval is in simulation time; the
-original uses wall time.
+A vehicle with ``u:dynamics`` holds the last twist, also when the program stops sending. Another
+vehicle moves by the twist for the interval since the previous twist of the interface (0 for the
+first, or after more than 1 s). The interval is in simulation time; the original uses wall time.
 
 ``cmd_vel``, as common teleoperation programs send it, is a Twist in the axes of REP 103: x forward,
 y to the left, z up. A vehicle whose z axis points down at the start, as those of UWSim do, has
-forward, right and down as its axes: y and z of both vectors change sign. Not modelled: a stop of
-the vehicle when the program stops sending; a simulated one holds the last twist.
+forward, right and down as its axes: y and z of both vectors change sign.
 """
 
 from __future__ import annotations
@@ -34,16 +33,16 @@ from ..vehicle import Vehicle
 from .interface import Interface, TopicWorld, VehicleTopicSpec
 
 TWIST = tuple(f"twist.{part}.{axis}" for part in ("linear", "angular") for axis in "xyz")
-"""The fields of a TwistStamped."""
+"""The paths of the numbers in a TwistStamped."""
 CMD_VEL = tuple(f"{part}.{axis}" for part in ("linear", "angular") for axis in "xyz")
-"""The fields of a Twist."""
+"""The paths of the numbers in a Twist."""
 MAX_GAP = 1.0
-"""The longest interval between two velocities after which the second moves the vehicle [s]."""
+"""The longest interval for which a twist moves a vehicle without ``u:dynamics`` [s]."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class ROSTwistToPATSpec(VehicleTopicSpec):
-    """A subscription that moves a vehicle by geometry_msgs/TwistStamped in its own axes.
+    """A subscription that moves a vehicle by geometry_msgs/TwistStamped in the vehicle's axes.
 
     It moves for the interval since the previous message; after more than 1 s it does not move.
     """
@@ -53,7 +52,7 @@ class ROSTwistToPATSpec(VehicleTopicSpec):
     messages: ClassVar[Mapping[str, type]] = {"topic": TwistStamped}
 
     def bind(self, world: TopicWorld) -> TwistCommand:
-        """Start to subscribe; raises UnknownName if there is no such vehicle."""
+        """Start to subscribe; raise UnknownName if there is no such vehicle."""
         command = TwistCommand(world.vehicle(self.vehicle_name), Gap(world))
         apply_command = world.defer_to_next_step(command.apply_command)
         world.bus.subscribe(
@@ -66,15 +65,15 @@ class ROSTwistToPATSpec(VehicleTopicSpec):
 
 
 class TwistCommand(Interface):
-    """A command that moves a vehicle by one step of a twist, or that its autopilot holds."""
+    """The application of twists in base axes to a vehicle or its autopilot."""
 
     def __init__(self, vehicle: Vehicle, gap: Gap) -> None:
         self._vehicle, self._gap = vehicle, gap
         self.state: GapState = gap.state
 
     def apply_command(self, twist: Twist) -> None:
-        """Apply a twist in the base's axes; one that is not finite is ignored."""
-        time = self._gap.measure()
+        """Apply a twist, in the axes of the base; one that is not finite is ignored."""
+        interval = self._gap.measure()
         v, w = twist.linear, twist.angular
         numbers = [float(x) for x in (v.x, v.y, v.z, w.x, w.y, w.z)]
         if not all(map(math.isfinite, numbers)):
@@ -82,8 +81,8 @@ class TwistCommand(Interface):
         if (autopilot := self._vehicle.autopilot) is not None:
             autopilot.command(numbers[:3], numbers[3:])
             return
-        step = np.clip(numbers, -MAX_COMMAND, MAX_COMMAND) * time  # (6,) [m, rad]
-        before_from_after = Pose(step[:3], rotation_from_xyz(*step[3:].tolist()))
+        motion = np.clip(numbers, -MAX_COMMAND, MAX_COMMAND) * interval  # (6,) [m, rad]
+        before_from_after = Pose(motion[:3], rotation_from_xyz(*motion[3:].tolist()))
         self._vehicle.place(self._vehicle.world_from_base @ before_from_after)
 
 
@@ -99,7 +98,7 @@ class ROSCmdVelToPATSpec(VehicleTopicSpec):
     messages: ClassVar[Mapping[str, type]] = {"topic": Twist}
 
     def bind(self, world: TopicWorld) -> CmdVelCommand:
-        """Start to subscribe; raises UnknownName if there is no such vehicle."""
+        """Start to subscribe; raise UnknownName if there is no such vehicle."""
         vehicle = world.vehicle(self.vehicle_name)
         z_points_up = vehicle.world_from_base.rotation[2, 2] > 0.0
         command = CmdVelCommand(TwistCommand(vehicle, Gap(world)), 1.0 if z_points_up else -1.0)
@@ -113,14 +112,19 @@ class ROSCmdVelToPATSpec(VehicleTopicSpec):
 
 
 class CmdVelCommand(Interface):
-    """A command that moves a vehicle by twists in the axes of REP 103."""
+    """The application of twists in the axes of REP 103.
+
+    Args:
+        twist: the application of twists in base axes.
+        sign: -1 if the base's y and z axes point to the right and down, else 1.
+    """
 
     def __init__(self, twist: TwistCommand, sign: float) -> None:
         self._twist, self._sign = twist, sign
         self.state: GapState = twist.state
 
     def apply_command(self, twist: Twist) -> None:
-        """Apply a twist: forward, left, up."""
+        """Apply a twist with the axes forward, left, up."""
         v, w, sign = twist.linear, twist.angular, self._sign
         self._twist.apply_command(
             Twist(
@@ -132,22 +136,22 @@ class CmdVelCommand(Interface):
 
 @dataclass(slots=True)
 class GapState(Record):
-    """The time of the last velocity."""
+    """The step of the last velocity command."""
 
     last_step: int | None = None
-    """The step at which it arrived."""
+    """The step at which the command was applied; None before the first command."""
 
 
 class Gap:
-    """The interval between two velocities."""
+    """The interval between two velocity commands."""
 
     def __init__(self, world: TopicWorld) -> None:
         self._world = world
         self.state = GapState()
-        """The time of the last velocity."""
+        """The step of the last velocity command."""
 
     def measure(self) -> float:
-        """Return the time since the last call [s]; 0 for the first or after `MAX_GAP`."""
+        """Return the time since the last call [s]; 0 for the first call or beyond `MAX_GAP`."""
         now, last_step = self._world.step, self.state.last_step
         self.state.last_step = now
         gap = 0.0 if last_step is None else (now - last_step) * self._world.timestep

@@ -41,12 +41,12 @@ class SegmentationToROSSpec(InterfaceSpec):
     image_topic: str
     """The topic of the images: 16UC1, the number of the body in each pixel, 0 for none."""
     legend_topic: str
-    """The topic of the legend: a JSON object with the name of the body of each number."""
+    """The topic of the legend: a JSON object with the name of each body by its number."""
     rate: float = rate_element()
     """The rate of publication [Hz]."""
 
     def bind(self, world: TopicWorld) -> SegmentationPublisher:
-        """Start to publish; raises UnknownName if there is no such camera."""
+        """Start to publish; raise UnknownName if there is no such camera."""
         publisher = SegmentationPublisher(self, world)
         world.create_timer(sample_rate(self.rate, world), publisher.publish)
         return publisher
@@ -58,7 +58,7 @@ class Pinhole(Protocol):
 
     @property
     def frame_id(self) -> str:
-        """The frame in the headers of its messages."""
+        """The ``frame_id`` in the headers of its messages."""
 
     @property
     def intrinsics(self) -> Intrinsics:
@@ -66,11 +66,11 @@ class Pinhole(Protocol):
 
     @property
     def world_from_camera(self) -> Pose:
-        """The present pose of the camera; OpenGL axes."""
+        """The present pose of the camera in W, with OpenGL axes: x right, y up, z backward."""
 
 
 class SegmentationPublisher(Interface):
-    """A publisher of the segmentation of a camera; nothing is drawn without a subscriber."""
+    """A publisher of the segmentation of a camera; nothing is rendered without a subscriber."""
 
     def __init__(self, spec: SegmentationToROSSpec, world: TopicWorld) -> None:
         camera = world.sensors.sensor(spec.camera_name, CAMERAS)

@@ -1,12 +1,12 @@
-"""Interfaces that publish a sensor at a rate.
+"""Interfaces that publish the samples of a sensor or device at a rate.
 
 .. code-block:: xml
 
     <u:sensorToROS> <name>imu</name> <topic>/g500/imu</topic> <rate>10</rate> </u:sensorToROS>
 
-The messages are the samples of the sensor or device. ``u:sensorToROS`` names one of any kind; the
-other elements, which are older, name those of some kinds. An interface is simulated if one of the
-elements that it may name is simulated (has a ``bind``).
+``u:sensorToROS`` may name a sensor or device of any kind; the other elements, which are those of
+the original, may name only some kinds. An interface has an effect if one of the kinds that it may
+name is simulated.
 """
 
 from __future__ import annotations
@@ -46,18 +46,18 @@ class SensorTopicSpec(InterfaceSpec):
 
     @classmethod
     def is_simulated(cls) -> bool:
-        """Return whether one of the sources is simulated."""
+        """Return whether one of the kinds of sensors that it may name is simulated."""
         return bool(cls.message_types())
 
     @classmethod
     def message_types(cls) -> Mapping[str, type]:
-        """Return the message type of its sources."""
+        """Return the message type of the first of ``sources`` that has one; empty if none has."""
         classes = _spec_classes()
         types = [find_message_type(classes[source]) for source in cls.sources]
         return next(({"topic": type_} for type_ in types if type_ is not None), {})
 
     def bind(self, world: TopicWorld) -> Interface:
-        """Start to publish; raises UnknownName if there is no such sensor."""
+        """Start to publish; raise UnknownName if there is no such sensor."""
         sensor = world.sensors.sensor(self.name, self.sources)
         spec_class = self._spec_class(sensor, world)
         publish = world.sensors.publisher(self.name, self.topic, spec_class.message_type)
@@ -89,8 +89,8 @@ def _spec_classes() -> dict[str, type[Any]]:
 class SensorToROSSpec(SensorTopicSpec):
     """A publisher of any sensor or device that measures, with its own message type.
 
-    A colour camera has two topics, of images and of CameraInfo: `VirtualCameraToROSImage` is its
-    element.
+    Not for colour cameras, which need two topics, for images and for CameraInfo
+    (``virtualCameraToROSImage``).
     """
 
     sources: ClassVar[tuple[str, ...]] = tuple(
@@ -101,7 +101,7 @@ class SensorToROSSpec(SensorTopicSpec):
 
     @classmethod
     def message_types(cls) -> Mapping[str, type]:
-        """Return the field of the topic; its message type is that of the named sensor."""
+        """Return the name of the field of the topic; the named sensor has the message type."""
         return {"topic": object}
 
 
@@ -157,7 +157,7 @@ class DVLSensorToROSSpec(SensorTopicSpec):
 
 @dataclass(frozen=True, kw_only=True)
 class MultibeamSensorToLaserScanSpec(SensorTopicSpec):
-    """A publisher of a multibeam as sensor_msgs/LaserScan."""
+    """A publisher of a multibeam sonar as sensor_msgs/LaserScan."""
 
     sources: ClassVar[tuple[str, ...]] = ("multibeamSensor",)
 

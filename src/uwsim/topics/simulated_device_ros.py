@@ -1,4 +1,4 @@
-"""SimulatedDeviceROS: the wrapper around interfaces of devices in some older files."""
+"""SimulatedDeviceROS: an element around the interface of a device, as some older files have it."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ class SimulatedDeviceROSSpec(InterfaceSpec):
     """The interface of an echo device."""
 
     def bind(self, world: TopicWorld) -> Interface:
-        """Bind the wrapped interface; raises UnknownName if there is no such device."""
+        """Bind the wrapped interface; raise UnknownName if there is no such device."""
         return Interface() if self.echo_ros is None else self.echo_ros.bind(world)
 
 
 def unwrap_interfaces(interfaces: Iterable[InterfaceSpec]) -> Iterator[InterfaceSpec]:
-    """Yield all interfaces, with the content of a wrapper in its place."""
+    """Yield all interfaces; a wrapper is replaced by the interface that it contains."""
     for interface in interfaces:
         if not isinstance(interface, SimulatedDeviceROSSpec):
             yield interface

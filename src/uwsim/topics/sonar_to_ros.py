@@ -1,4 +1,4 @@
-"""Sonars on topics: echoes for programs, and images for people."""
+"""u:sonarToROS: a sonar on two topics, the echoes as numbers and as an image to look at."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class SonarToROSSpec(InterfaceSpec):
     """The rate of pings [Hz]."""
 
     def bind(self, world: TopicWorld) -> SonarPublisher:
-        """Start to ping; raises UnknownName if there is no such sonar."""
+        """Start to ping; raise UnknownName if there is no such sonar."""
         sonar = cast("Sonar", world.sensors.sensor(self.name, self.sources))
         publisher = SonarPublisher(self, sonar, world)
         world.create_timer(sample_rate(self.rate, world), publisher.publish)
@@ -43,7 +43,7 @@ class Sonar(Sensor, Protocol):
 
 
 class SonarPublisher(Interface):
-    """A publisher of the echoes of a sonar, and of an image of them if it has a subscriber."""
+    """A publisher of the echoes of a sonar, and of their image if its topic has a subscriber."""
 
     def __init__(self, spec: SonarToROSSpec, sonar: Sonar, world: TopicWorld) -> None:
         self._sonar, self._world, self._image_topic = sonar, world, spec.image_topic
@@ -51,7 +51,7 @@ class SonarPublisher(Interface):
         self._publish_image = world.sensors.publisher(spec.name, spec.image_topic, Image)
 
     def publish(self) -> None:
-        """Ping, with or without a subscriber: speckle, scan and waterfall advance."""
+        """Ping, also without a subscriber: speckle, scan and waterfall advance with each ping."""
         time = self._world.time
         self._publish(self._sonar.sample(time))
         if self._world.bus.has_subscribers(self._image_topic):

@@ -1,8 +1,8 @@
-"""Commands for thrusters, fins and the wrench of simulated vehicles; extensions of the dialect.
+"""u:ROSThrustersToPAT, u:ROSFinsToPAT, u:ROSWrenchToPAT: commands for vehicles with ``u:dynamics``.
 
-A command holds until the next of any kind; the autopilot is inactive meanwhile. Values that are not
-finite are ignored, those beyond 1e6 are clamped, both with a warning. A wrong number of thruster
-commands raises an error in the publisher.
+A command to thrusters or a wrench is held until the next command of any kind; the autopilot is
+inactive meanwhile. A message with a value that is not finite is ignored, values beyond 1e6 are
+clamped, both with a warning. A wrong number of values raises an error in the publisher.
 """
 
 from __future__ import annotations
@@ -23,12 +23,12 @@ from ..vehicle import Autopilot, Vehicle
 from .interface import Interface, TopicWorld, VehicleTopicSpec
 
 WRENCH = tuple(f"wrench.{part}.{axis}" for part in ("force", "torque") for axis in "xyz")
-"""The fields of a WrenchStamped."""
+"""The paths of the numbers in a WrenchStamped."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class AutopilotTopicSpec(VehicleTopicSpec):
-    """An interface of a vehicle that must be simulated."""
+    """An interface of a vehicle that must have ``u:dynamics``."""
 
     subscribes: ClassVar[bool] = True
 
@@ -38,7 +38,7 @@ class AutopilotTopicSpec(VehicleTopicSpec):
     """The name of the vehicle; it has ``u:dynamics``."""
 
     def find_autopilot(self, world: TopicWorld) -> Autopilot:
-        """Find the autopilot of the vehicle; raises UnknownName if it is not simulated."""
+        """Find the autopilot of the vehicle; raise UnknownName if it has no ``u:dynamics``."""
         autopilot = world.vehicle(self.vehicle_name).autopilot
         if autopilot is None:
             raise UnknownName("simulated vehicle", self.vehicle_name, ())
@@ -47,16 +47,17 @@ class AutopilotTopicSpec(VehicleTopicSpec):
 
 @dataclass(frozen=True, kw_only=True)
 class ROSThrustersToPATSpec(AutopilotTopicSpec):
-    """A subscription to thruster commands of a simulated vehicle as std_msgs/Float64MultiArray.
+    """A subscription to thruster commands for a vehicle as std_msgs/Float64MultiArray.
 
-    One value from -1 to 1 for each thruster, in the order of the vehicle's hydrodynamics file; it
-    holds until the next command of any kind. The autopilot is inactive meanwhile.
+    One value from -1 to 1 for each thruster, in the order of the vehicle's hydrodynamics file. The
+    vehicle has ``u:dynamics``; it holds a command until the next command of any kind. The autopilot
+    is inactive meanwhile.
     """
 
     messages: ClassVar[Mapping[str, type]] = {"topic": Float64MultiArray}
 
     def bind(self, world: TopicWorld) -> ThrusterCommand:
-        """Start to subscribe; raises UnknownName if no such vehicle is simulated."""
+        """Start to subscribe; raise UnknownName if no such vehicle has ``u:dynamics``."""
         autopilot, vehicle = self.find_autopilot(world), world.vehicle(self.vehicle_name)
         command = ThrusterCommand(autopilot, vehicle.name, vehicle.thrusters)
         world.bus.subscribe(
@@ -70,7 +71,7 @@ class ROSThrustersToPATSpec(AutopilotTopicSpec):
 
 
 class ThrusterCommand(Interface):
-    """A command for all thrusters of a vehicle."""
+    """The application of commands to all thrusters of a vehicle."""
 
     def __init__(self, autopilot: Autopilot, vehicle: str, thrusters: tuple[str, ...]) -> None:
         self._autopilot, self._vehicle, self._thrusters = autopilot, vehicle, thrusters
@@ -85,23 +86,24 @@ class ThrusterCommand(Interface):
             )
 
     def apply_command(self, message: Float64MultiArray) -> None:
-        """Apply one value for each thruster."""
+        """Apply one value from -1 to 1 for each thruster; ignore values that are not finite."""
         if all(map(math.isfinite, message.data.tolist())):
             self._autopilot.set_thrusters(message.data)
 
 
 @dataclass(frozen=True, kw_only=True)
 class ROSFinsToPATSpec(AutopilotTopicSpec):
-    """A subscription to fin angles of a simulated vehicle as std_msgs/Float64MultiArray.
+    """A subscription to fin angles for a vehicle as std_msgs/Float64MultiArray.
 
-    One angle for each fin [rad], in the order of the vehicle's hydrodynamics file; it holds until
-    the next. Thrusters and autopilot keep their commands.
+    One angle for each fin [rad], in the order of the vehicle's hydrodynamics file. The vehicle has
+    ``u:dynamics``; it holds the angles until the next command to the fins. Thrusters and autopilot
+    keep their commands.
     """
 
     messages: ClassVar[Mapping[str, type]] = {"topic": Float64MultiArray}
 
     def bind(self, world: TopicWorld) -> FinCommand:
-        """Start to subscribe; raises UnknownName if no such vehicle is simulated."""
+        """Start to subscribe; raise UnknownName if no such vehicle has ``u:dynamics``."""
         self.find_autopilot(world)
         vehicle = world.vehicle(self.vehicle_name)
         command = FinCommand(vehicle)
@@ -116,7 +118,7 @@ class ROSFinsToPATSpec(AutopilotTopicSpec):
 
 
 class FinCommand(Interface):
-    """A command for all fins of a vehicle."""
+    """The application of commands to all fins of a vehicle."""
 
     def __init__(self, vehicle: Vehicle) -> None:
         self._vehicle = vehicle
@@ -131,23 +133,24 @@ class FinCommand(Interface):
             )
 
     def apply_command(self, message: Float64MultiArray) -> None:
-        """Apply one angle for each fin."""
+        """Apply one angle for each fin [rad]; ignore values that are not finite."""
         if all(map(math.isfinite, message.data.tolist())):
             self._vehicle.turn_fins(message.data)
 
 
 @dataclass(frozen=True, kw_only=True)
 class ROSWrenchToPATSpec(AutopilotTopicSpec):
-    """A subscription to wrenches for a simulated vehicle as geometry_msgs/WrenchStamped.
+    """A subscription to wrenches for a vehicle as geometry_msgs/WrenchStamped.
 
-    Force and torque at the origin of its base, in its axes, saturated by the thrusters; it holds
-    until the next command of any kind. The autopilot is inactive meanwhile.
+    Force and torque at the origin of the vehicle's base, in the axes of the base, which the
+    thrusters produce as far as they can. The vehicle has ``u:dynamics``; it holds a wrench until
+    the next command of any kind. The autopilot is inactive meanwhile.
     """
 
     messages: ClassVar[Mapping[str, type]] = {"topic": WrenchStamped}
 
     def bind(self, world: TopicWorld) -> WrenchCommand:
-        """Start to subscribe; raises UnknownName if no such vehicle is simulated."""
+        """Start to subscribe; raise UnknownName if no such vehicle has ``u:dynamics``."""
         command = WrenchCommand(self.find_autopilot(world))
         world.bus.subscribe(
             self.topic,
@@ -159,13 +162,13 @@ class ROSWrenchToPATSpec(AutopilotTopicSpec):
 
 
 class WrenchCommand(Interface):
-    """A command for the wrench of a vehicle's thrusters."""
+    """The application of commands for the wrench of all thrusters of a vehicle."""
 
     def __init__(self, autopilot: Autopilot) -> None:
         self._autopilot = autopilot
 
     def apply_command(self, message: WrenchStamped) -> None:
-        """Apply a wrench in the base's axes."""
+        """Apply a wrench, in the axes of the base [N, N m]; ignore one that is not finite."""
         f, t = message.wrench.force, message.wrench.torque
         force, torque = np.array([f.x, f.y, f.z]), np.array([t.x, t.y, t.z])
         if np.isfinite(force).all() and np.isfinite(torque).all():

@@ -1,7 +1,8 @@
-"""Interfaces whose messages a viewer shows: images and point clouds.
+"""Interfaces whose messages a viewer shows: images in the window, and point clouds in the scene.
 
-A viewer or a program reads the content from `HudImage.pixels` and `CloudsState.clouds` of
-``simulation.world.interfaces``. An invalid message does not change it; `problem` states the error.
+A viewer or a program reads `HudImage.pixels` and `CloudsState.clouds` from the interfaces in
+``simulation.world.interfaces``. An invalid message leaves them unchanged; ``problem`` in the state
+of the interface is then the error.
 """
 
 from __future__ import annotations
@@ -21,12 +22,12 @@ from ..schema import element
 from .interface import Interface, InterfaceSpec, TopicWorld
 
 MAX_POINTS = 10_000_000
-"""The greatest number of points of an interface; the oldest clouds are removed first."""
+"""The greatest number of points that an interface holds; the oldest clouds are removed first."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class ROSImageToHUDSpec(InterfaceSpec):
-    """A subscription to images that the viewer shows."""
+    """A subscription to images that the viewer shows in its window."""
 
     subscribes: ClassVar[bool] = True
     messages: ClassVar[Mapping[str, type]] = {"image_topic": Image}
@@ -36,11 +37,11 @@ class ROSImageToHUDSpec(InterfaceSpec):
     height: int = element(minimum=1)
     """The number of rows of the images [px]."""
     posx: int = 0
-    """The distance from the left edge of the window [px]."""
+    """The distance of the image from the left edge of the window [px]."""
     posy: int = 0
-    """The distance from the bottom edge of the window [px]."""
+    """The distance of the image from the bottom edge of the window [px]."""
     scale: float = 1.0
-    """The size on the screen, relative to the image [1]."""
+    """The size on the screen, relative to the size of the image [1]."""
     black_white: bool = False
     """True if the images have one channel."""
     image_topic: str
@@ -75,7 +76,7 @@ class HudImage(Interface):
 
     @property
     def pixels(self) -> npt.NDArray[np.uint8] | None:
-        """The image, row 0 at the top, (h, w, 3), or (h, w) if grey; None before the first."""
+        """The newest valid image, row 0 at the top, (h, w, 3), or (h, w) if grey; None before."""
         message = self.state.message
         return None if message is None else pixels_of(message)
 
@@ -99,12 +100,12 @@ class HudImage(Interface):
 
 @dataclass(frozen=True, eq=False)
 class ShownCloud:
-    """A cloud of points, placed where its frame was when it arrived."""
+    """A point cloud at the pose that its frame had when the message arrived."""
 
     points: npt.NDArray[np.float32]
-    """The points in L, (n, 3) [m]."""
+    """The points in L, the frame of the scene, (n, 3) [m]."""
     colours: npt.NDArray[np.uint8]
-    """The red, green, blue of each point, (n, 3)."""
+    """The red, green and blue of each point, (n, 3), from 0 to 255."""
 
 
 @dataclass(slots=True)
@@ -137,14 +138,18 @@ class ROSPointCloudLoaderSpec(InterfaceSpec):
 
 
 class PointClouds(Interface):
-    """The clouds of a topic, with four fields in their own colours, else coloured by height."""
+    """The point clouds of a topic.
+
+    A message with four fields has the colours of the points. Otherwise z of a point in the frame of
+    the message determines its colour.
+    """
 
     def __init__(self, world: TopicWorld, *, replaces_previous: bool) -> None:
         self._world, self._replaces_previous = world, replaces_previous
         self.state: CloudsState = CloudsState()
 
     def receive(self, message: PointCloud2) -> None:
-        """Place a cloud at the present pose of its frame, where it stays."""
+        """Add a cloud at the present pose of its frame; it does not move with the frame later."""
         try:
             cloud = self._place_cloud(message)
         except (BadSetting, UnknownName) as error:
@@ -169,11 +174,11 @@ class PointClouds(Interface):
 
 
 def jet(heights: npt.NDArray[np.float64]) -> npt.NDArray[np.uint8]:
-    r"""Return colours of heights from blue (lowest) over green to red, (n, 3).
+    r"""Return the colour of each height z [m]: from blue (lowest) over green to red, (n, 3) uint8.
 
-    With :math:`s = 2 (z - z_{min}) / (z_{max} - z_{min}) - 1` red, green and blue are
-    :math:`b(s - 0.5)`, :math:`b(s)` and :math:`b(s + 0.5)`; b is a trapezium, 1 from -0.25 to 0.25
-    and 0 beyond 0.75.
+    With :math:`s = 2 (z - z_{min}) / (z_{max} - z_{min}) - 1`, red, green and blue are
+    :math:`b(s - 0.5)`, :math:`b(s)` and :math:`b(s + 0.5)`. The function :math:`b` is a trapezium:
+    1 from -0.25 to 0.25, and 0 beyond 0.75 on either side.
     """
     if len(heights) == 0:
         return np.empty((0, 3), dtype=np.uint8)

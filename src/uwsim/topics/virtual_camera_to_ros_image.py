@@ -34,10 +34,10 @@ class VirtualCameraToROSImageSpec(InterfaceSpec):
     rate: float = rate_element()
     """The rate of publication [Hz]."""
     depth: bool = False
-    """True if depth is published instead of colour (range cameras only)."""
+    """True if depth images are published instead of colour images."""
 
     def bind(self, world: TopicWorld) -> ImagePublisher | DepthImagePublisher:
-        """Resolve the camera; raises UnknownName if there is no such colour camera."""
+        """Find the camera; raise UnknownName if there is no such camera."""
         if self.depth:
             topics = self.image_topic, self.info_topic
             return publish_depth(world, self.camera_name, topics, self.rate)
@@ -49,7 +49,7 @@ class PublisherState(Record):
     """The state of a publisher of images."""
 
     timer: TimerState
-    """The steps at which a sample is due."""
+    """The state of the timer of the samples."""
     n_frames: int = 0
     """The number of published images."""
     last_pixels: npt.NDArray[np.uint8] | None = None
@@ -59,16 +59,16 @@ class PublisherState(Record):
 class ImagePublisher(Interface):
     """A publisher of the images of a camera.
 
-    A sample without a subscriber is not rendered, but advances the camera's random stream: the
-    images do not depend on the subscribers. In a blind world the images are black, for algorithms
-    that do not use them.
+    An image without a subscriber is not rendered, but the camera's random stream advances: the
+    images do not depend on when there are subscribers. In a world that is blind, for algorithms
+    that use no images, the images are black.
     """
 
     def __init__(
         self, spec: VirtualCameraToROSImageSpec, camera: VirtualCamera, world: TopicWorld
     ) -> None:
         self.camera = camera
-        """The camera of these images."""
+        """The camera whose images are published."""
         camera.state.n_images = camera.n_images or 0
         self.image_topic = spec.image_topic
         """The topic of the images."""
@@ -80,8 +80,8 @@ class ImagePublisher(Interface):
         self._publish_info = world.bus.publisher(spec.info_topic, CameraInfo)
         self._digest = hashlib.sha256()
         self.request_image: Callable[[ImagePublisher, float], bool] | None = None
-        """A function that requests the image of a time [s] from another process; that calls
-        `deliver`. It returns False if it does not."""
+        """A function that requests an image, of a publisher and a time [s], from another process.
+        It returns False if it cannot; otherwise it calls `deliver` when the image arrives."""
         self.timer = SampleTimer(0, sample_rate(spec.rate, world), world.timestep, self.publish)
         """The timer that publishes at the steps at which a sample is due."""
         self.state: PublisherState = PublisherState(self.timer.state)
@@ -98,7 +98,7 @@ class ImagePublisher(Interface):
 
     @property
     def sha256(self) -> str:
-        """The hash of all pixels published so far, in order."""
+        """The SHA-256 hash of the pixels of all images published so far, in order."""
         return self._digest.hexdigest()
 
     def publish(self) -> None:

@@ -1,18 +1,19 @@
-"""The frames of a scene on ``/tf``.
+"""WorldToROSTF: the frames of a scene on ``/tf``.
 
 ======================  =======================  ===================================================
 parent                  child                    transform
 ======================  =======================  ===================================================
-``rootName``            vehicle                  the base in L
-vehicle                 vehicle/root link        identity; the original always has base_link
-vehicle/link            vehicle/link             every joint of the robot, fixed ones too
-vehicle/link            sensor                   the sensor's pose in its link, in ROS's axes
-``rootName``            object                   the mesh frame in L, with ``enableObjects`` 1
-``rootName``            marker ``<id>+<ns>``     its pose in L, with ``enableObjects`` 1
+``rootName``            vehicle                  the pose of the vehicle's base in L
+vehicle                 vehicle/root link        identity; the original always names it base_link
+vehicle/link            vehicle/link             the pose of a link in its parent, for every joint
+vehicle/link            sensor                   the pose of the sensor in its link
+``rootName``            object                   the pose of the mesh in L (``enableObjects`` 1)
+``rootName``            marker ``<id>+<ns>``     the marker's pose in L (``enableObjects`` 1)
 ======================  =======================  ===================================================
 
-ROS's axes: the optical axis of a camera is +z of its frame, with x to the right of the image and y
-down; the zero of a scan is along +x and its angles turn about z.
+L is the localized world, the frame of the scene. The frames of sensors have the axes of ROS: the
+optical axis of a camera is +z, with x to the right of the image and y down; the zero angle of a
+scan is along +x, and its angles turn about +z.
 """
 
 from __future__ import annotations
@@ -36,7 +37,7 @@ class WorldToROSTFSpec(InterfaceSpec):
     topic: ClassVar[str] = TF
 
     root_name: str
-    """The name of L's frame."""
+    """The name of the frame L on ``/tf``."""
     enable_objects: bool = False
     """True if objects are published too."""
     rate: float = rate_element()
