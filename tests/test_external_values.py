@@ -76,7 +76,7 @@ def test_numbers_of_a_viewer_beyond_all_bounds_do_nothing() -> None:
     assert _width_of({"type": "images", "width": HUGE}) == _width_of({"type": "images"})
     clock = Clock(1.0)
     assert not clock.apply_control({"action": "speed", "speed": HUGE})
-    assert clock.speed == 1.0
+    assert clock.real_time_factor == 1.0
     view = {"pose": [HUGE, 0, 0, 1, 0, 0, 0], "width": 320, "height": 240}
     with pytest.raises(BadSetting, match="finite"):
         _parse_view({"type": "view", **view})

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from uwsim.viewer.pack import KINDS, Ref
+from uwsim.viewer.pack import ELEMENT_TYPES, Ref
 
 
 def unpack(pack: bytes) -> tuple[dict[str, Any], bytes]:
@@ -24,7 +24,7 @@ def unpack(pack: bytes) -> tuple[dict[str, Any], bytes]:
 def read_array(ref: Ref | list[Any], data: bytes) -> npt.NDArray[Any]:
     """Return the flat array of a reference."""
     offset, count, kind = ref
-    dtype = {kind: dtype for dtype, kind in KINDS.items()}[kind]
+    dtype = {kind: dtype for dtype, kind in ELEMENT_TYPES.items()}[kind]
     return np.frombuffer(data, dtype, count, offset)
 
 

@@ -18,7 +18,7 @@ from uwsim.results.motion import TrackLevel
 from uwsim.viewer.document import FOLDER, document
 from uwsim.viewer.pack import Blob
 from uwsim.viewer.recorded import RecordedLevel, _level
-from uwsim.viewer.replay import Replay, _curve, _measures
+from uwsim.viewer.replay import Replay, _curve, _curve_names
 
 
 @pytest.fixture(scope="module")
@@ -78,7 +78,7 @@ def test_curves_have_the_further_columns_of_a_log_with_names_of_phases_and_range
     }
     blob = Blob()
     levels = [level(0.0, row), level(5.0, row)]
-    curves = {name: _curve(name, levels, blob) for name in _measures(levels)}
+    curves = {name: _curve(name, levels, blob) for name in _curve_names(levels)}
     assert list(curves) == ["held", "held.height", "held.load", "held.phase", "depth"]
     assert curves["held.phase"]["names"] == ["look", "take"]
     assert [name for name, each in curves.items() if each["is_share"]] == ["held"]

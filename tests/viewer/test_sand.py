@@ -81,7 +81,7 @@ def test_a_live_view_sends_a_heap_when_it_has_changed(tmp_path: Path) -> None:
         now[0] += 0.1
         return now[0]
 
-    session = LiveSession(desk, speed=0.0, wall=wall)  # type: ignore[arg-type]
+    session = LiveSession(desk, real_time_factor=0.0, wall=wall)  # type: ignore[arg-type]
     spec = scene(tmp_path, 1.0)
     with open_scene(spec, is_blind=True) as simulation:
         session.open(simulation, "scene")

@@ -1,1 +1,1 @@
-"""The page in which a run is seen: its data, replays, live views and films."""
+"""The viewer: replays, live views and films of runs, and recordings for other viewers."""

@@ -12,7 +12,8 @@ from .pack import as_text
 FOLDER = Path(__file__).parent / "page"
 """The folder with the parts of the page; ``scripts/page`` builds ``page.js`` from ``source``."""
 NO_CONNECTION, SOCKET = "'none'", "'self' ws: wss:"
-"""The content security policies of connections: of a replay, and of a live view."""
+"""The values of ``connect-src`` in the page's content security policy: of a replay, of a live
+view."""
 
 
 def document(title: str, pack: bytes | None) -> str:

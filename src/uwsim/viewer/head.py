@@ -1,62 +1,70 @@
-"""The *head*, which describes a scene at step 0 to the page, and the format of its motion.
+"""The *head*: the JSON description of a scene at step 0 for the page of replays and live views.
 
-Replays and live views have the same format. A *replay* is one HTML file with a pack in it as text;
-a *live* view receives the same packs over a WebSocket. All numbers are little-endian, lengths in
-metres, angles in radians, quaternions w x y z, matrices row by row, positions in W (z up). Cameras,
-lamps and projectors have OpenGL axes: x right, y up, the view along -z.
+All formats that the page reads are defined below. A *replay* is one HTML file that contains a pack
+as text; a *live* view receives packs over a WebSocket. All numbers are little-endian; lengths are
+in metres, angles in radians, quaternions w x y z, matrices in row-major order, and positions in the
+world frame W (z up). Cameras, lamps and projectors have OpenGL axes: x right, y up, the view
+along -z.
 
-**Text** of a pack: four bytes, big-endian, are a number of five digits to the base 85, the highest
-first; n < 4 bytes at the end are n + 1 digits. The digits are ``0-9A-Za-z!#$%/()*+-;,=.?@^_`{|}~``.
+**Text** of a pack: each four bytes, read as a big-endian number, are five digits to the base 85,
+the highest first; n < 4 bytes at the end are n + 1 digits. The digits are
+``0-9A-Za-z!#$%/()*+-;,=.?@^_`{|}~``.
 
-**A pack** is gzip (mtime 0) of a uint32 n, n bytes of JSON padded with blanks to a multiple of
-8 bytes (with the 4 before it), and the bytes that the JSON refers to: ``[offset, count, kind]``,
-offset in bytes from the end of the JSON and a multiple of 4, count of numbers, kind one of
-``f4 u4 u2 i2 i1 u1``.
+**A pack** is compressed by gzip (mtime 0). It contains a uint32 n, n bytes of JSON, and the arrays
+that the JSON refers to. Blanks pad the JSON so that the arrays begin at a multiple of 8 bytes. A
+reference (``ref``) is ``[offset, count, type]``: the offset in bytes from the end of the JSON, a
+multiple of 4; the number of elements; and their type, one of ``f4 u4 u2 i2 i1 u1``.
 
 **The head** (JSON of a pack)::
 
     uwsim_head  1
     title       "currents, PI, seed 7"
-    live        true if rows come over a WebSocket
+    live        true if rows of motion arrive over a WebSocket
     meshes      [{positions: ref, normals: ref, uvs: ref or null, tints: ref, triangles: ref,
                   pieces}]    normals are i2 / 32767, tints (colours 0..1) u2 / 65535;
-                  pieces: [first index, count, centre 3, radius, low 3, high 3, normal 3, density],
-                  `uwsim.rendering.merged.Piece`
+                  pieces: [first index, count, centre 3, radius, lower corner 3, upper corner 3,
+                  normal 3, density] (`uwsim.rendering.merged.Piece`)
     textures    [{type: "image/webp", bytes: ref, width, height, repeats}]
     bodies      [{name, vehicle: name or null, pose: [x y z w x y z],
                   visuals: [{part: number of the model in the scene, mesh, matrix: 16 (body from
                   mesh), texture or null, opacity, two_sided,
-                  hidden (a ghost, which cameras do not draw)}]}]
+                  hidden: true if cameras do not draw it}]}]
     cameras     [{name, body, pose: 7 (body from camera), width, height, fx, fy, cx, cy, skew,
                   near, far, grey}]
     lamps       [{name, body, pose, half_angle, softness, colour, intensity, shadow, on}]
-    projector   null or {body, pose, fovy, laser, pattern: number of a texture, alpha: ref u1}
+    projector   null or {body, pose, fovy, laser, pattern: index of a texture}
     sensors     [{name, kind: "range" | "fan" | "sonar", body, pose, reach, from, to}]
-                  a beam along x; a fan in the y z plane from -z towards y, angles from, to; a
-                  sonar's in its x y plane from x towards y
+                  reach: maximum range [m]; from, to: angles of the first and last beam. A range
+                  sensor has one beam along x; the beams of a fan are in its y z plane, angles
+                  from -z towards y; those of a sonar in its x y plane, angles from x towards y
     frames      [{name, body or null (W), pose}]
     vehicles    [{name, body (its base), thrusters: [names], joints: [names]}]
-    sand        [{body, mesh, columns: [along x, along y], corner: 3, cell, reach, bite}]   heaps:
-                  vertex i * (along y) + j of the mesh is the top of column i, j; `reach` and `bite`
-                  as of a tool (below)
-    view        {pose, fovy, at: 3}   the first view and its centre: that of
-                  ``uwsim render --view orbit``
-    file_view   null or the same: the ``<camera>`` of the scene file
+    sand        [{body, mesh, columns: [n along x, n along y], corner: 3, cell, reach, bite}]
+                  heaps of sand: vertex i * (n along y) + j of the mesh is the top of column i, j;
+                  cell: distance between columns; reach, bite: radius of the dredge, and height
+                  that it removes at a time (below)
+    view        {pose, fovy, at: 3}   the initial view: pose of its camera, and the point around
+                  which it turns; as ``uwsim render --view orbit``
+    file_view   null, or the view of the ``<camera>`` of the scene file in the same format
     water       {fog, fog_colour, colour, attenuation, surface_height, clip, light_rate,
-                 follows_light, sun, shadows}    clip: the fog of the original, by clip-space z;
-                 follows_light: true if the light rate scales water and fog
-    suns        {name: {direction, colour}}; ambient, specular: constants of the law
-    localized   pose of the frame L in W
-    estimates   [{camera, truth: signals, estimate: signals}] quadrangles in images [px]
+                 follows_light, sun, shadows}    clip: true if fog depends on clip-space z, as in
+                 UWSim, not on the distance; follows_light: true if the light rate scales the
+                 colours of water and fog
+    suns        {name: {direction, colour}}
+    ambient, specular    constants of the lighting (`uwsim.rendering.water`)
+    localized   pose in W of the localized frame L, the frame of the scene file
     trials      replays only: [{title, motion: ref u1 or null, levels, curves, poses}]
-                  poses: {body: pose} of bodies that this seed places elsewhere at step 0
+                  poses: {body: pose} of the bodies whose initial pose is not that of ``bodies``,
+                  because the seed varies the scene
 
-    levels      [{label, status, why, start, end, values: {fog: ...}}]  [s of simulation time]
+    levels      [{label, status, why, start, end, values: {fog: ...}}]
+                  start, end: simulation times [s]; why: the reason of a status other than ok, or
+                  null; values: the swept parameters
     curves      [{name, unit, times: ref u4 [0.1 ms], values: ref f4,
-                  names: [of the values 1, 2, ...; or none], is_share: true if its range is 0..1}]
-                  NaN: nothing was measured
+                  names: names of the values 1, 2, ... (phases), or none,
+                  is_share: true if its range is 0..1}]    NaN: nothing was measured
 
-``pose`` of a body is its pose at step 0; a body that is not in a track stays there.
+``pose`` of a body is its pose in W at step 0; a body that is not in a motion track does not move.
 
 **Motion of a trial** (``units/NNNNN.motion``, `uwsim.results.motion`): gzip (mtime 0) of a line of
 JSON that ends with a line feed, then bytes::
@@ -65,32 +73,35 @@ JSON that ends with a line feed, then bytes::
      "bodies": ["girona500/base_link", "blackbox"], "length": 1e-4, "quaternion": 1e-4,
      "signals": [{"name": "fog", "unit": "1/m", "step": 1e-4}, ...]}
 
-Row i is at ``start + i / rate`` [s]. Columns: for each body x y z w x y z, then a column for each
-signal, as int32 multiples of ``length``, ``quaternion`` and ``step``; each column as differences
-from the row before (the first from 0), columns one after the other: m columns of n int32. Their
-bytes are shuffled: all lowest bytes first, all highest last, 4 m n bytes. Quaternions keep their
-sign from row to row. int32 minimum is "no value" (NaN) in a signal, and is a term of the
-differences, too (sums wrap round).
+The table has n rows and m columns. Row i is at ``start + i / rate`` [s]. The columns are x y z
+w x y z of each body, then one column for each signal, as int32 multiples of ``length``,
+``quaternion`` and ``step``. Each column is stored as differences from the row before (the first
+from 0), one column after the other. The 4 m n bytes are sorted: first the lowest byte of every
+number, last the highest. Quaternions keep their sign from row to row. The smallest int32 means no
+value (NaN) in a signal; the differences include it like any number (sums wrap around).
 
 If sand was removed, the version is 2, ``"sand": {"n": 412, "grain": 1e-6}`` is in the line, and a
-second table of n rows follows, packed in the same way: frame, number of the heap, x y z from its
-corner in grains. From that frame on each column whose top is nearer than ``reach`` to the place is
-``bite`` lower, down to the corner; a place of int32 minima restores all sand of the heap.
+second table of n rows follows in the same encoding. Its columns are the frame, the index of the
+heap, and the position x y z of the dredge from the heap's corner in multiples of ``grain`` [m].
+From that frame on, each column of the heap whose top is nearer than ``reach`` to the position is
+lower by ``bite``, but not below the corner. A position of smallest int32 restores the whole heap.
 
 If programs spawned markers, the version is 2, too, and ``"markers"`` is in the line, in the format
 of `uwsim.results.motion.marker_log`.
 
-Names of bodies: ``vehicle/link``, of links that fixed joints connect the one nearest to the root
-(`uwsim.simulation.tracked_bodies`); the object's name for objects; all are unique, as the second
-of a name has the suffix ``#2``. Names of signals, all optional::
+The name of a body is ``vehicle/link``; links that are connected by fixed joints are one body, named
+after the link nearest to the root (`uwsim.simulation.tracked_bodies`). The body of an object has
+the object's name. The second body of one name has the suffix ``#2``. Names of signals, all
+optional::
 
     fog, light_rate            the present values [1/m], [1]
-    lamp/NAME                  its brightness, 0 off to 1: the intensity of the head
+    lamp/NAME                  its brightness, 0..1 of the lamp's intensity in the head
     thrust/VEHICLE/NAME        command of a thruster, -1..1 of its largest [1], or [N] with unit
     water/VEHICLE/x|y|z        velocity of the water at the vehicle, in W [m/s]
-    contacts/k/x|y|z           points of contact, in W; NaN: there are fewer
-    truth/CAMERA/k/u|v         corners in a camera's image, from the centre of the first pixel [px]
-    estimate/CAMERA/k/u|v      the same of the algorithm
+    contacts/k/x|y|z           point of contact k, in W [m]; NaN: there are fewer contacts
+    truth/CAMERA/k/u|v         true position of corner k in a camera's image, from the centre of the
+                               first pixel [px]
+    estimate/CAMERA/k/u|v      the algorithm's estimate of that position [px]
     range/NAME                 reading of a range sensor [m]
 
 **Live**, server to page: binary messages begin with 16 bytes: uint8 kind, uint8 index, uint16 0,
@@ -100,24 +111,25 @@ uint32 step, float64 time [s]::
     kind 1   a row: float32 of every column (7 a body, then the signals, NaN: no value)
     kind 2   a JPEG image of the camera number ``index``
     kind 3   a JPEG of the free view, for pages without WebGL
-    kind 4   float32 heights of the columns of the heap number ``index`` above its corner
+    kind 4   float32 heights [m] of the columns of the heap number ``index`` above its corner
 
 and text messages, JSON::
 
     {"type": "state", "paused": false, "speed": 1.0, "pilot": false, "resets": false,
      "mapping": {"w": "+surge", ...}, "reserved": ["w", ...], "sticks": ["yaw", "heave", "", ""],
      "names": {"joint1": "Slew", ...}, "vehicle": 0, "why": ""}
-                        the piloted vehicle, keys and axes of the sticks (left x, y, right x, y)
-                        that have an effect, names of the joints and thrusters, and the reason
-                        why no vehicle can be steered
-    {"type": "levels", "levels": [...]}                        as above, all so far
+                        speed: real-time factor, 0: no limit; vehicle: index of the piloted one;
+                        mapping, sticks: keys, and on-screen sticks (left x, y, right x, y), that
+                        have an effect, with their axes; reserved: all keys of the pilot; names of
+                        the joints and thrusters; why: the reason why no vehicle can be steered
+    {"type": "levels", "levels": [...]}                        all levels so far, as above
     {"type": "samples", "samples": [[name, unit, time, value or null], ...]}    for the curves
     {"type": "readings", "time": 1.2, "readings": [[name, unit, value or null], ...]}
-                        of the piloted vehicle: joint/NAME, contact force, force/NAME,
-                        battery/NAME, real-time factor
+                        the readings of the piloted vehicle: joint/NAME, contact force,
+                        force/NAME, battery/NAME, real-time factor
     {"type": "topics", "topics": [[name, type], ...]}          all topics
     {"type": "topic", "name": "imu", "time": 1.2, "fields": [[path, number, text or null], ...],
-     "is_cut": false}   numbers and texts of the newest message of a topic
+     "is_cut": false}   numbers and texts of the newest message; true: only the first fields
     {"type": "markers", "markers": [{"name", "at": 3, "colour": "#rrggbb", "lines": [[3, ...]]}]}
                                        all spawned markers, as lines in W
     {"type": "end", "why": "..."}
@@ -167,9 +179,9 @@ from .pack import Blob
 
 Json = dict[str, Any]
 VERSION = 1
-"""The version of the format."""
+"""The version of the format of the head."""
 SIZE = (960, 720)
-"""The size of the first view [px]; only the ratio matters."""
+"""The width and height of the initial view [px]; only the ratio matters."""
 
 
 def scene_head(simulation: Simulation, title: str, blob: Blob, *, is_live: bool = False) -> Json:
@@ -178,8 +190,8 @@ def scene_head(simulation: Simulation, title: str, blob: Blob, *, is_live: bool 
     Args:
         simulation: the simulation, at step 0.
         title: the title of the page.
-        blob: the storage of the numbers.
-        is_live: True if rows come over a WebSocket.
+        blob: the binary part of the pack, to which arrays are appended.
+        is_live: True if rows of motion arrive over a WebSocket.
     """
     world = simulation.world
     models = Models(blob)
@@ -229,7 +241,7 @@ def scene_head(simulation: Simulation, title: str, blob: Blob, *, is_live: bool 
 
 
 def body_poses(simulation: Simulation) -> dict[str, list[float]]:
-    """Return the present poses of all bodies of the head: name -> x y z w x y z."""
+    """Return the present poses in W of all bodies of the head, x y z w x y z by name."""
     bodies = _Bodies(simulation.world)
     for part in simulation.world.scenery.parts:
         bodies.part_body(part)
@@ -250,26 +262,26 @@ class _Bodies:
         self.labels = vehicle_labels(world)
         """The unique names of the vehicles."""
         self.rows: list[Json] = []
-        """The bodies so far, as in the head."""
+        """The entries of the bodies so far, as in the head."""
         self._poses: dict[str, Pose] = {}
         self._n_parts = 0
 
     def link(self, index: int, link: str) -> str:
-        """Return the body of a link, which is among the bodies from now on."""
+        """Return the name of the body to which a link belongs; add the body if it is new."""
         leader = self._leaders[index][link]
         pose = self._world.engine.poses.link(index, leader)
         return self._body(self._link_names[index, leader], pose, self.labels[index])
 
     def named_link(self, vehicle: str, link: str) -> str:
-        """Return the name of a link of the first vehicle of that name."""
+        """Return the name of the body of a link, of the first vehicle with that name."""
         return self.link(self._world.vehicles.names.index(vehicle), link)
 
     def pose(self, name: str) -> Pose:
-        """Return where a body is, by the name that `link` returned."""
+        """Return the pose of a body in W, by the name that `link` returned."""
         return self._poses[name]
 
     def part_body(self, part: Part) -> str:
-        """Return the body of a part of the scene, which is among the bodies from now on."""
+        """Return the name of the body of a part of the scene; add the body if it is new."""
         if part.vehicle is not None:
             return self.link(part.vehicle, part.link)
         assert part.object is not None
@@ -277,7 +289,7 @@ class _Bodies:
         return self._body(self._object_names[part.object], pose, None)
 
     def add(self, part: Part, models: Models) -> None:
-        """Add a part of the scene."""
+        """Add the visuals of a part of the scene to its body."""
         name = self.part_body(part)
         body_from_mesh = product(
             self._poses[name].inverse().matrix, self._world.scenery.world_from_mesh(part)
@@ -308,7 +320,7 @@ class _Bodies:
 
 
 def _sand(name: str, heap: Heap, bodies: _Bodies, models: Models) -> Json:
-    """Add a heap to the bodies and meshes; return its shape and that of its tool."""
+    """Add a heap to the bodies and meshes, and return its entry in the head."""
     visuals = models.visuals(heap.model())
     bodies.add_fixed(name, visuals)
     return {
@@ -323,7 +335,7 @@ def _sand(name: str, heap: Heap, bodies: _Bodies, models: Models) -> Json:
 
 
 def _cameras(world: LiveScene, bodies: _Bodies) -> Iterator[Json]:
-    links = {  # of several with one name the last is found
+    links = {  # of several cameras with one name, the last is used
         spec.name: f"{vehicle}/{spec.relative_to}"
         for vehicle, spec in _mounted_parts(world)
         if isinstance(spec, VirtualCameraSpec)
@@ -412,7 +424,7 @@ def _vehicles(world: LiveScene, bodies: _Bodies) -> Iterator[Json]:
 
 
 def _orbit(simulation: Simulation) -> Json:
-    """Return the view around vehicles and nearby objects, the same as that of `uwsim render`."""
+    """Return the view of vehicles and nearby objects, the same as in `uwsim render`."""
     eye, middle = orbit_view(simulation, SIZE).world_from_camera, find_focus(simulation).middle
     return _view(eye, FIELD_OF_VIEW, dot(eye.position - middle, eye.rotation[:, 2]))
 
@@ -427,13 +439,19 @@ def _file_view(simulation: Simulation) -> Json | None:
 
 
 def _view(world_from_camera: Pose, fovy: float, distance: float) -> Json:
-    """Return a view whose centre is ``distance`` [m] ahead of the eye."""
+    """Return a view whose centre is ``distance`` [m] ahead of the camera."""
     centre = world_from_camera.position - distance * world_from_camera.rotation[:, 2]
     return {"pose": _row_of(world_from_camera), "fovy": fovy, "at": centre.tolist()}
 
 
 def _mount_fields(bodies: _Bodies, name: str, world_from_part: Pose) -> Json:
-    """Return the name of the body, and the pose of a part on it."""
+    """Return the fields ``body`` and ``pose``: the body of a link, and a part's pose on it.
+
+    Args:
+        bodies: the bodies of the head.
+        name: the link, ``vehicle/link``.
+        world_from_part: the pose of the part.
+    """
     vehicle, _, link = name.partition("/")
     body = bodies.named_link(vehicle, link)
     return {"body": body, "pose": _row_of(bodies.pose(body).inverse() @ world_from_part)}

@@ -16,29 +16,29 @@ from .pack import Blob
 WEBP_QUALITY = 95
 """The quality of lossy WebP textures, 0..100."""
 MAX_LOSS = 12.0
-"""The greatest loss of 99 % of a texture's values [grey levels]; beyond it, WebP is lossless."""
+"""The greatest 99th percentile of the error of a lossy texture [grey levels]; see `_texture`."""
 MAX_EXACT_BYTES = 70_000
-"""The greatest size of a lossless texture [bytes]; larger ones stay lossy."""
+"""The greatest size of a lossless texture [bytes]; a larger one stays lossy."""
 
 
 class Models:
     """The meshes and textures of a scene, each once.
 
     Args:
-        blob: the storage of their numbers.
+        blob: the binary part of the pack, to which their arrays are appended.
     """
 
     def __init__(self, blob: Blob) -> None:
         self._blob = blob
         self.meshes: list[dict[str, Any]] = []
-        """The meshes so far, as in the head."""
+        """The entries of the meshes so far, as in the head."""
         self.textures: list[dict[str, Any]] = []
-        """The textures so far, as in the head."""
+        """The entries of the textures so far, as in the head."""
         self._visuals: dict[int, tuple[Model, list[dict[str, Any]]]] = {}
-        self._images: dict[str, int] = {}
+        self._texture_indices: dict[str, int] = {}
 
     def visuals(self, model: Model) -> list[dict[str, Any]]:
-        """Return the parts of a model: indices of mesh and texture, and the other fields."""
+        """Return the visuals of a model, as in the head: one for each of its merged meshes."""
         if id(model) not in self._visuals:
             visuals = [
                 {
@@ -73,8 +73,9 @@ class Models:
         return len(self.meshes) - 1
 
     def _texture(self, texture: Texture) -> int:
-        if texture.name in self._images:
-            return self._images[texture.name]
+        """Return the index of a texture; store it lossless if lossy WebP is not good enough."""
+        if texture.name in self._texture_indices:
+            return self._texture_indices[texture.name]
         data = _encode_webp(texture.pixels, quality=WEBP_QUALITY, method=4)
         if _loss(texture.pixels, data) > MAX_LOSS:
             exact_data = _encode_webp(texture.pixels, lossless=True, quality=60, method=4)
@@ -83,7 +84,7 @@ class Models:
 
     def _add(self, name: str, pixels: npt.NDArray[np.uint8], data: bytes, *, repeats: bool) -> int:
         height, width = pixels.shape[:2]
-        self._images[name] = len(self.textures)
+        self._texture_indices[name] = len(self.textures)
         self.textures.append(
             {
                 "type": "image/webp",
@@ -93,7 +94,7 @@ class Models:
                 "repeats": repeats,
             }
         )
-        return self._images[name]
+        return self._texture_indices[name]
 
 
 def _encode_webp(pixels: npt.NDArray[np.uint8], **options: Any) -> bytes:
@@ -103,7 +104,7 @@ def _encode_webp(pixels: npt.NDArray[np.uint8], **options: Any) -> bytes:
 
 
 def _loss(pixels: npt.NDArray[np.uint8], data: bytes) -> float:
-    """Return the loss that 99 of 100 values of an image do not exceed [grey levels]."""
+    """Return the 99th percentile of the error of a WebP image's values [grey levels]."""
     pixels_again = np.asarray(Image.open(io.BytesIO(data)).convert("RGB"), dtype=np.int16)
     return float(np.percentile(np.abs(pixels_again - pixels), 99.0))
 

@@ -1,4 +1,4 @@
-"""Packs: JSON with the numbers that it refers to, as the page reads them (`head`)."""
+"""Packs: compressed JSON with the binary arrays that it refers to; `head` defines the format."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ import numpy as np
 import numpy.typing as npt
 
 Ref = tuple[int, int, str]
-"""The reference to an array: offset [byte], count of numbers, kind."""
+"""The reference to an array: offset of its first byte, number of elements, element type."""
 Json = Mapping[str, Any]
 
-KINDS = {
-    np.dtype(name): kind
-    for name, kind in (
+ELEMENT_TYPES = {
+    np.dtype(name): element_type
+    for name, element_type in (
         ("<f4", "f4"),
         ("<u4", "u4"),
         ("<u2", "u2"),
@@ -27,20 +27,21 @@ KINDS = {
         ("u1", "u1"),
     )
 }
-
+"""The name of an element type in a reference, by its numpy type."""
+# the digits of base 85 that are markup in HTML, and the characters that replace them
 _TO_TEXT = bytes.maketrans(b"<>&", b",./")
 
 
 class Blob:
-    """The numbers of a pack, one array after the other."""
+    """The binary part of a pack: its arrays, one after the other."""
 
     def __init__(self) -> None:
         self._parts: list[bytes] = []
         self._length = 0
 
     def add(self, array: npt.NDArray[Any]) -> Ref:
-        """Append an array, flat, and return its reference."""
-        ref = self._length, array.size, KINDS[array.dtype]
+        """Append an array, in row-major order, and return its reference."""
+        ref = self._length, array.size, ELEMENT_TYPES[array.dtype]
         data = np.ascontiguousarray(array).tobytes()
         data += bytes(-len(data) % 4)
         self._parts.append(data)
@@ -58,7 +59,7 @@ class Blob:
 
 
 def make_pack(head: Json, blob: Blob) -> bytes:
-    """Return a pack; the same bytes for the same content."""
+    """Return the bytes of a pack; equal content gives equal bytes."""
     text = json.dumps(head, separators=(",", ":"), allow_nan=False).encode()
     text += b" " * (-(len(text) + 4) % 8)
     content = struct.pack("<I", len(text)) + text + blob.data
@@ -66,5 +67,5 @@ def make_pack(head: Json, blob: Blob) -> bytes:
 
 
 def as_text(pack: bytes) -> str:
-    """Return bytes as text for HTML, 5 characters for 4 bytes: base 85 without markup (`head`)."""
+    """Return a pack as text for HTML: base 85 without markup, 5 characters for 4 bytes (`head`)."""
     return base64.b85encode(pack).translate(_TO_TEXT).decode("ascii")

@@ -31,7 +31,8 @@ from ..verify.recorded_plan import (
 from ..world import TIMESTEP
 
 PHASE_COLUMN, TIME_PREFIX = "phase", "time."
-"""The column of a log with the number of a phase, and the prefix of the details with its time."""
+"""The heading of a log's column of phase numbers, and the prefix of the names of details with the
+time in a phase."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -39,7 +40,8 @@ class Curve:
     """The samples of a measure in one level."""
 
     measure: str
-    """The name of the measure, with that of a further column of its log, as ``success.height``."""
+    """The name of the measure; for a further column of its log ``MEASURE.COLUMN``, as
+    ``success.height``."""
     unit: str
     """The unit of the value; empty where the log states none."""
     times: Array
@@ -51,7 +53,7 @@ class Curve:
 
     @property
     def is_share(self) -> bool:
-        """The kind of the values: True if they have the unit 1 and are between 0 and 1."""
+        """The kind of the values: True if their unit is 1 and all are from 0 to 1."""
         values = self.values[np.isfinite(self.values)]
         has_unit = self.unit == "1" and not self.names
         return has_unit and bool(((values >= 0.0) & (values <= 1.0)).all())
@@ -78,7 +80,7 @@ class RecordedLevel:
     swept_values: Mapping[str, float] = field(default_factory=dict)
     """The value of each swept parameter, outermost first."""
     details: tuple[Curve, ...] = ()
-    """The curves of the further columns of their logs."""
+    """The curves of the further columns of the measures' logs."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -88,13 +90,13 @@ class RecordedTrial:
     directory: Path
     """The result directory."""
     index: int
-    """The number of the trial."""
+    """The number of the trial, from 0."""
     title: str
     """The title, as ``currents, pi, seed 7``."""
     seed: int
-    """The seed of its random streams."""
+    """The seed of the trial's random streams."""
     scene: SceneSpec
-    """The scene with ``--set``, before the variation by the seed."""
+    """The scene with the settings of ``--set``, before the seed varies it."""
     timestep: float
     """The timestep of the run [s]."""
     compatibility: frozenset[str]
@@ -119,7 +121,7 @@ class RecordedTrial:
 
         Raises:
             ResultError: there is no such trial, it is not finished, or its motion is missing.
-            AssetNotFound: its scene is not found.
+            AssetNotFound: the scene of the trial is not found.
         """
         sources = overrides or FileOverrides()
         result = load(directory)
@@ -147,12 +149,13 @@ class RecordedTrial:
 
 
 def trials_of_first_seed(directory: Path) -> tuple[int, ...]:
-    """Return the numbers of the recorded trials whose seed is that of the first.
+    """Return the numbers of the recorded trials that have the seed of the first one.
 
-    If a benchmark's levels are independent, each is a trial, and these are all levels.
+    If the levels of a benchmark are independent, each level is a trial: these trials are then all
+    levels of one seed.
 
     Raises:
-        ResultError: there is no motion.
+        ResultError: no trial has recorded motion.
     """
     numbers = journal.recorded_trials(directory)
     if not numbers:
@@ -241,31 +244,31 @@ def _level(row: StoredRow, track_level: TrackLevel) -> RecordedLevel:
             if samples
         ),
         details=tuple(
-            _detail(row, name, (column, place), track_level.start_time)
-            for name, columns in row.log_headers.items()
-            for place, column in enumerate(columns[1:], start=2)
+            _detail(row, name, column, heading, track_level.start_time)
+            for name, headings in row.log_headers.items()
+            for column, heading in enumerate(headings[1:], start=2)
             if row.logs.get(name)
         ),
     )
 
 
-def _detail(row: StoredRow, measure: str, column: tuple[str, int], start_time: float) -> Curve:
-    """Return the curve of a further column: its heading, as ``height [m]``, and its index."""
-    name, _, unit = column[0].partition(" [")
-    curve = _curve(f"{measure}.{name}", unit.rstrip("]"), row.logs[measure], start_time, column[1])
+def _detail(row: StoredRow, measure: str, column: int, heading: str, start_time: float) -> Curve:
+    """Return the curve of a further column of a log; a heading is as ``height [m]``."""
+    name, _, unit = heading.partition(" [")
+    curve = _curve(f"{measure}.{name}", unit.rstrip("]"), row.logs[measure], start_time, column)
     return replace(curve, names=_phases(row, measure)) if name == PHASE_COLUMN else curve
 
 
 def _phases(row: StoredRow, measure: str) -> tuple[str, ...]:
-    """Return the names of a measure's phases, in order: it has the time in each of them."""
+    """Return the names of a measure's phases in order: the row has the time in each phase."""
     start = f"{measure}.{TIME_PREFIX}"
     return tuple(name.removeprefix(start) for name in row.details if name.startswith(start))
 
 
 def _curve(
-    name: str, unit: str, samples: Sequence[Sequence[Any]], start_time: float, place: int = 1
+    name: str, unit: str, samples: Sequence[Sequence[Any]], start_time: float, column: int = 1
 ) -> Curve:
     """Return the curve of one column of the samples; column 0 is the time in the level [s]."""
-    pairs = [(sample[0], sample[place]) for sample in samples]
+    pairs = [(sample[0], sample[column]) for sample in samples]
     values = np.array([[np.nan if v is None else v for v in pair] for pair in pairs])
     return Curve(measure=name, unit=unit, times=start_time + values[:, 0], values=values[:, 1])

@@ -1,8 +1,12 @@
 """A recorded trial as an MCAP file of ROS 2 messages, with shapes for 3-D panels.
 
-``/tf`` has every body of the motion track in ``world`` (W, z up), 30 times a second; ``/scene`` the
-shapes, once: markers that are locked to these frames; ``/robot_description`` the first vehicle's
-URDF file, once; ``/measures/NAME`` the samples of each log; ``/level`` the label of each level.
+The topics of the file:
+
+* ``/tf``: the pose of every body of the motion track in the frame ``world`` (W, z up), at 30 Hz
+* ``/scene``: the shapes of all bodies as markers that are locked to these frames, once
+* ``/robot_description``: the URDF file of the first vehicle, once
+* ``/measures/NAME``: the samples of the measure's log
+* ``/level``: the label of each level at its beginning
 """
 
 from __future__ import annotations
@@ -30,7 +34,7 @@ from .shapes import SCENE_TOPIC, shape_markers
 
 SUFFIX = ".mcap"
 WORLD = "world"
-"""The frame of W."""
+"""The name of the world frame W."""
 Message = tuple[float, str, Any]
 """A message: time [s], topic, content."""
 
@@ -46,7 +50,7 @@ def check_recording_path(path: Path, *, overwrite: bool) -> None:
 def write_recording(
     trial: RecordedTrial, path: Path, on_frame: Callable[[], object] = lambda: None
 ) -> int:
-    """Write a trial as an MCAP file, with the same bytes for the same trial.
+    """Write a trial as an MCAP file; equal trials give equal bytes.
 
     Args:
         trial: the trial.
@@ -123,7 +127,7 @@ def _other_messages(trial: RecordedTrial, simulation: Simulation) -> Iterator[Me
 
 
 def _shapes(simulation: Simulation) -> MarkerArray:
-    """Return the shapes in the frames of their bodies; fixed ones in W."""
+    """Return the shapes of moving bodies in the bodies' frames, and other shapes in W."""
     bodies = TrackedBodies(simulation.world)
     rows = bodies.rows()
 

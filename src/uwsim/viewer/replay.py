@@ -29,7 +29,7 @@ NO_MOTION = "no motion"
 CURVE_GAP = 1e-3
 """The time between the last sample of a level and the gap in its curve [s]."""
 TICKS_PER_SECOND = 1e4
-"""The ticks of the times of curves in a second."""
+"""The number of ticks in a second, the unit of the times of curves [Hz]."""
 NOTEBOOK_HEIGHT = 720
 """The height of the page in a notebook [px]."""
 
@@ -42,8 +42,8 @@ class Replay:
 
     Args:
         directory: the result directory.
-        trials: their numbers; by default all finished trials. The levels of those without recorded
-            motion are listed with the status `NO_MOTION`.
+        trials: the numbers of the trials; by default all finished trials. The levels of trials
+            without recorded motion are listed with the status `NO_MOTION`.
         overrides: the present paths of the scene's files, if they have moved.
 
     Raises:
@@ -130,7 +130,7 @@ class Replay:
 
 
 def _moved_poses(trial: RecordedTrial, initial_poses: Mapping[str, list[float]]) -> Json:
-    """Return the bodies that a trial's seed places elsewhere, with their poses."""
+    """Return the poses in W of the bodies whose initial pose the trial's seed has changed."""
     with open_scene(trial) as simulation:
         poses = body_poses(simulation)
     return {name: pose for name, pose in poses.items() if pose != initial_poses.get(name)}
@@ -142,12 +142,12 @@ def _trial(trial: RecordedTrial, blob: Blob) -> Json:
         "title": trial.title,
         "motion": blob.add_bytes(motion),
         "levels": [_level(level, trial) for level in trial.levels],
-        "curves": [_curve(name, trial.levels, blob) for name in _measures(trial.levels)],
+        "curves": [_curve(name, trial.levels, blob) for name in _curve_names(trial.levels)],
     }
 
 
 def _trial_without_motion(directory: Path, index: int, names: Sequence[str], blob: Blob) -> Json:
-    """Describe a trial without recorded motion; ``names`` are those of the swept parameters."""
+    """Describe a trial without recorded motion; ``names`` are the swept parameters."""
     levels = levels_without_motion(directory, index, names)
     path = journal.track_path(directory, index)
     rows = [
@@ -161,7 +161,7 @@ def _trial_without_motion(directory: Path, index: int, names: Sequence[str], blo
         }
         for number, level in enumerate(levels, start=1)
     ]
-    curves = [_curve(name, levels, blob) for name in _measures(levels)]
+    curves = [_curve(name, levels, blob) for name in _curve_names(levels)]
     return {
         "title": f"trial {index}",
         "motion": None,
@@ -183,7 +183,7 @@ def _level(level: RecordedLevel, trial: RecordedTrial) -> Json:
     }
 
 
-def _measures(levels: Sequence[RecordedLevel]) -> list[str]:
+def _curve_names(levels: Sequence[RecordedLevel]) -> list[str]:
     """Return the names of the curves: each measure, followed by the further columns of its log.
 
     A curve without a value in any level is left out.
@@ -192,7 +192,7 @@ def _measures(levels: Sequence[RecordedLevel]) -> list[str]:
 
 
 def _curves_with_values(levels: Sequence[RecordedLevel]) -> Iterator[Curve]:
-    """Yield the curves with a value, those of a measure before the columns of its log."""
+    """Yield the curves with a value, a measure's own curve before the other columns of its log."""
     for measure in dict.fromkeys(c.measure for level in levels for c in level.curves):
         for level in levels:
             for curve in (*level.curves, *level.details):

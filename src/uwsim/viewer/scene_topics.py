@@ -1,10 +1,10 @@
-"""Topics that describe the scene of a run, besides those of the scene file.
+"""Topics that describe the scene of a run, in addition to the topics of the scene file.
 
 ======================  ==========================================================================
 ``/robot_description``  the first vehicle's URDF file, latched
-``/scene``              the shapes, as markers locked to frames, latched
-``/tf_static``          fixed frames: `MAP_FRAME` (W, z up) to the scene's own frame, fixed joints,
-                        sensors on links, objects that nothing moves; latched
+``/scene``              the shapes, as markers that are locked to frames, latched
+``/tf_static``          fixed transforms: from `MAP_FRAME` (W, z up) to the scene's localized frame
+                        L, of fixed joints, of sensors on links, of fixed objects; latched
 ``/tf``                 moving frames, `TF_RATE` times a second
 ======================  ==========================================================================
 
@@ -32,20 +32,20 @@ if TYPE_CHECKING:
     from ..middleware.recording import Recorder
 
 MAP_FRAME = "map"
-"""The frame of W, named as in REP 105: z up."""
+"""The name of the world frame W (z up), as in REP 105."""
 ROOT_FRAME = "world"
-"""The frame of L, where the scene names none."""
+"""The name of the localized frame L, if the scene gives none."""
 TF_RATE = 30.0
-"""The messages on ``/tf`` for each second of simulation time [Hz]."""
+"""The rate of messages on ``/tf``, in simulation time [Hz]."""
 
 
 class SceneTopics:
-    """The publisher of these topics; it is made before the simulation is connected.
+    """The publisher of the topics above; create it before the simulation is connected to ROS.
 
     Args:
         simulation: the simulation of the scene.
-        is_on_bus: True publishes them on the bus, for external programs; not ``/tf``, if the scene
-            itself subscribes to it.
+        is_on_bus: True publishes the topics on the bus, for external programs; ``/tf`` only if the
+            scene itself does not subscribe to it. False: they are only recorded.
     """
 
     def __init__(self, simulation: Simulation, *, is_on_bus: bool) -> None:
@@ -82,13 +82,13 @@ class SceneTopics:
             world.schedule.create_timer(TF_RATE, self._tick)
 
     def record(self, recorder: Recorder) -> None:
-        """Record the topics, too, from now on."""
+        """Record the topics, too, from the next step on."""
         self._recorder = recorder
         for topic, message in self._latched_messages:
             recorder.keep(topic, message)
 
     def _tick(self) -> None:
-        """Publish the present poses of the moving frames, if ``/tf`` has a subscriber."""
+        """Publish or record the present poses of the moving frames."""
         if self._is_on_bus:
             if self._publish_tf is not None and self._simulation.bus.has_subscribers(TF):
                 self._publish_tf(self._transforms(self._moving_frames))
@@ -116,7 +116,7 @@ class SceneTopics:
         yield f"/{SCENE_TOPIC}", shape_markers(self._simulation, self._frame_of)
 
     def _frame_of(self, part: Part) -> tuple[str, Array]:
-        """Return the frame that a part moves with, and ``frame_from_world``."""
+        """Return the name of the frame of a part's body, and ``frame_from_world``, (4, 4)."""
         world = self._simulation.world
         poses, scene = world.engine.poses, world.model.scene
         if part.vehicle is not None:

@@ -1,4 +1,4 @@
-"""A server of one page for browsers on this computer."""
+"""An HTTP server of one page for browsers on this computer."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from ..errors import BadSetting
 
 LOOPBACK = "127.0.0.1"
 POLL_PERIOD = 0.5
-"""The period of the check whether the server runs [s]."""
+"""The period of the check whether the server is running [s]."""
 
 
 class ServedPage:

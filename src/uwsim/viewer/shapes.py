@@ -1,4 +1,4 @@
-"""The shapes of a scene as markers of ROS, for 3-D panels."""
+"""The shapes of a scene as ROS markers (``visualization_msgs/Marker``), for RViz and Foxglove."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from ..model.parts import Part
 from ..simulation import Simulation
 
 SCENE_TOPIC = "scene"
-"""The topic of the shapes."""
+"""The name of the topic with the shapes."""
 
 
 def shape_markers(
@@ -24,8 +24,8 @@ def shape_markers(
 
     Args:
         simulation: the simulation of the scene.
-        frame_of: the function that returns the name of the frame that a part moves with, and the
-            present ``frame_from_world`` (4, 4).
+        frame_of: the function that returns the name of the frame of a part's body, and the present
+            ``frame_from_world``, (4, 4).
     """
     scenery = simulation.world.scenery
     markers: list[Marker] = []
@@ -49,7 +49,7 @@ def shape_markers(
 
 
 def _points(mesh: Mesh, frame_from_mesh: Array) -> list[Point]:
-    """Return the corners of all triangles in the frame, to 0.1 mm."""
+    """Return the corners of all triangles of a mesh in the marker's frame, to 0.1 mm."""
     vertices = mesh.vertices.astype(np.float64) @ frame_from_mesh[:3, :3].T + frame_from_mesh[:3, 3]
     corners = np.round(vertices, 4)[mesh.triangles.ravel()]
     return [Point(x=x, y=y, z=z) for x, y, z in corners.tolist()]

@@ -1,7 +1,7 @@
-"""Recordings of a benchmark: the messages of each trial in a file of its own.
+"""Recordings of a benchmark: the messages of each trial in a separate file.
 
-Times are those of the trial's simulation, from 0 s. If there are several trials, a file's name
-has the trial's number in the result (``units/00003.motion``: ``dive-00003.mcap``).
+The times in a file are simulation times of its trial, from 0 s. If there are several trials, the
+name of a file ends in the number of its trial in the result: ``dive-00003.mcap``.
 """
 
 from __future__ import annotations
@@ -22,18 +22,18 @@ from .scene_topics import SceneTopics
 
 @dataclass(frozen=True, kw_only=True)
 class TrialRecording:
-    """The recording of the trials of one run; it changes no byte of the result.
+    """The settings of the recordings of one run's trials; they change no byte of the result.
 
-    Images and point clouds are recorded if the algorithm or a measure subscribes to them: none is
-    rendered for the recording.
+    Images and point clouds are recorded only if the algorithm or a measure subscribes to them:
+    nothing is rendered for the recording alone.
     """
 
     path: Path
-    """The file, or the beginning of the names of several files."""
+    """The path of the file; for several trials, `path_of` derives each file's path from it."""
     images: ImageStorage
-    """The storage of images."""
+    """The format in which images are stored."""
     is_single: bool
-    """The number of trials: True if there is only one, whose file is `path` itself."""
+    """True if there is only one trial, whose file is `path` itself."""
 
     def path_of(self, trial: Trial) -> Path:
         """Return the file of a trial."""
@@ -64,12 +64,12 @@ class TrialRecording:
 def trial_recordings(
     plans: Sequence[Plan], path: Path, images: ImageStorage, folders: Sequence[str]
 ) -> list[TrialRecording]:
-    """Return the recordings of plans that are run together, one for each.
+    """Return the recordings of plans that are run together, one for each plan.
 
     Args:
         plans: the plans, one for each algorithm.
-        path: the user's file.
-        images: the storage of images.
+        path: the path that the user gave.
+        images: the format in which images are stored.
         folders: the names of the algorithms' folders; empty for one algorithm.
     """
     return [
@@ -94,9 +94,9 @@ def check_recordings(
 
     Args:
         plans: the plans, one for each algorithm.
-        recordings: their recordings.
+        recordings: the recording of each plan.
         out: the result directory.
-        resume: True if a run is resumed: its trials may have their recordings.
+        resume: True if a run is resumed: recordings of its trials may exist.
         overwrite: True if earlier recordings are replaced.
 
     Raises:

@@ -87,7 +87,7 @@ def test_a_pilots_benchmark_of_a_vehicle_with_z_up_is_sent_again_with_the_same_b
     benchmark.write_text(text)
     levels, out = ["current=0.1"], tmp_path / "flown"
     server = LiveServer(lambda: "")
-    session = LiveSession(server, speed=0.0, mapping=PilotMapping())
+    session = LiveSession(server, real_time_factor=0.0, mapping=PilotMapping())
     up = tuple(float(axis == "heave") for axis in AXES)
     session.pilot = lambda: up  # type: ignore[method-assign]
     try:

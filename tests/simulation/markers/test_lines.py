@@ -68,7 +68,7 @@ def test_what_a_program_spawns_is_sent_once_and_again_when_it_is_gone() -> None:
     def markers() -> list[dict[str, Any]]:
         return [json.loads(content) for content in desk.on("markers")]
 
-    session = LiveSession(desk, speed=0.0, wall=wall)  # type: ignore[arg-type]
+    session = LiveSession(desk, real_time_factor=0.0, wall=wall)  # type: ignore[arg-type]
     with uwsim.load("remus-scene") as simulation:
         session.open(simulation, "scene")
         simulation.call(SERVICE, SpawnMarker(marker=marker(type=Marker.CUBE)))

@@ -259,7 +259,7 @@ def test_a_bench_with_a_viewer_has_the_bytes_of_one_without(
 ) -> None:
     benchmark = write_benchmark(tmp_path, "0.2")
     run(benchmark, tmp_path / "without")
-    session = LiveSession(server, speed=0.0)
+    session = LiveSession(server, real_time_factor=0.0)
     with socket_of(server) as socket:
         socket.send(json.dumps({"type": "images", "cameras": ["bowtech1"]}))
         topics = ["cornersTopic", "autoInit", "uwsim/camera1", "no such topic"]
@@ -288,7 +288,7 @@ def test_a_bench_with_a_viewer_has_the_bytes_of_one_without(
 
 def test_a_row_follows_soon_after_an_input_and_as_often_as_ever_if_inputs_keep_coming() -> None:
     desk, now = Desk(), [0.0]
-    session = LiveSession(desk, speed=0.0, mapping=PilotMapping(), wall=lambda: now[0])  # type: ignore[arg-type]
+    session = LiveSession(desk, real_time_factor=0.0, mapping=PilotMapping(), wall=lambda: now[0])  # type: ignore[arg-type]
     rows: list[int] = []  # at these milliseconds
 
     def pass_by(milliseconds: int) -> None:
@@ -327,7 +327,7 @@ def test_a_row_follows_soon_after_an_input_and_as_often_as_ever_if_inputs_keep_c
 )
 def test_a_reset_puts_everything_back_where_it_began_and_time_goes_on(scene: str) -> None:
     desk = Desk()
-    session = LiveSession(desk, speed=0.0, mapping=PilotMapping(), allows_reset=True)  # type: ignore[arg-type]
+    session = LiveSession(desk, real_time_factor=0.0, mapping=PilotMapping(), allows_reset=True)  # type: ignore[arg-type]
     with uwsim.load(scene) as simulation:
         PilotInputs(simulation, session.pilot)
         simulation.attach(Pilot(), parameters={**pilot_topics(simulation), "start": ""})
@@ -352,7 +352,7 @@ def test_a_reset_puts_everything_back_where_it_began_and_time_goes_on(scene: str
 
 def test_nobody_resets_a_benchmark() -> None:
     desk = Desk()
-    session = LiveSession(desk, speed=0.0)  # type: ignore[arg-type]
+    session = LiveSession(desk, real_time_factor=0.0)  # type: ignore[arg-type]
     with uwsim.load("cirs") as simulation:
         session.open(simulation, "scene")
         world_from_elsewhere = Pose.from_rpy((1.0, 2.0, -3.0), (0.0, 0.0, 0.0))
@@ -381,7 +381,7 @@ def test_a_pilots_run_is_stored_and_sent_again_with_the_same_bytes(
     text = write_benchmark(tmp_path, "0.2").read_text()
     benchmark = tmp_path / "pilot.xml"
     benchmark.write_text(text.replace("visibility-scene.xml", "currents-scene.xml"))
-    session = LiveSession(server, speed=0.0, mapping=PilotMapping())
+    session = LiveSession(server, real_time_factor=0.0, mapping=PilotMapping())
     session.pilot = Scribble()  # type: ignore[method-assign]
     settings, levels = ["algorithm.speed=0.8"], ["fog=0.4"]
     flown = bench_of(

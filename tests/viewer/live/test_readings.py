@@ -143,7 +143,7 @@ def test_the_list_of_topics_is_sent_when_it_has_changed() -> None:
 def test_pages_get_readings_and_the_topics_they_want() -> None:
     desk = Desk(wanted=frozenset({"?topic/dataNavigator"}))
     wall = [0.0]
-    session = LiveSession(desk, speed=0.0, wall=lambda: wall[0])  # type: ignore[arg-type]
+    session = LiveSession(desk, real_time_factor=0.0, wall=lambda: wall[0])  # type: ignore[arg-type]
     with uwsim.load("currents-scene") as simulation:
         session.open(simulation, "scene")
         for _ in range(5):

@@ -52,7 +52,7 @@ def test_images_are_as_wide_as_the_widest_viewer_shows_them(
         now[0] += 0.01  # one step in a few sends an image
         return now[0]
 
-    session = LiveSession(desk, speed=0.0, wall=wall)  # type: ignore[arg-type]
+    session = LiveSession(desk, real_time_factor=0.0, wall=wall)  # type: ignore[arg-type]
     with uwsim.load("currents-scene") as simulation:
         if is_read:
             simulation.bus.inbox("/uwsim/camera1", uwsim.messages.Image)

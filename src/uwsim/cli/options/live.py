@@ -95,7 +95,7 @@ class LiveOptions:
         server = LiveServer(lambda: document(title, None), self.port or 0)
         session = LiveSession(
             server,
-            speed=speed,
+            real_time_factor=speed,
             mapping=mapping,
             waits_for_page=waits,
             allows_reset=resets,

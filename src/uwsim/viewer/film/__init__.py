@@ -1,1 +1,1 @@
-"""Films of recorded trials: a view from outside, a camera's image, curves and a clock."""
+"""Films of recorded trials: an outside view, the image of a camera, curves and a clock."""

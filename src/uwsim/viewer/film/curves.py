@@ -1,4 +1,4 @@
-"""The curves of a level under a film, with a cursor at the present time."""
+"""The panel with the curves of a level in a film, with a cursor at the displayed time."""
 
 from __future__ import annotations
 
@@ -16,13 +16,16 @@ MAX_CURVES = 4
 MAX_MEASURE_CURVES = 6
 """The greatest number of curves of a single measure, with the further columns of its log."""
 CELL_GAP = 16
-"""The space between two curves [px]."""
+"""The space between the cells of two curves [px]."""
 
 
 def select_curves(level: RecordedLevel, names: tuple[str, ...]) -> list[Curve]:
-    """Return the curves of a level that are drawn: those named, or the first ones.
+    """Return the curves of a level that are drawn.
 
-    If only one measure has a log, the further columns of the log are drawn with it.
+    Args:
+        level: the level.
+        names: the names of the curves; empty: the first measures that have a log. If only one
+            measure has a log, all columns of its log.
     """
     if names:
         by_name = {curve.measure: curve for curve in _drop_empty((*level.curves, *level.details))}
@@ -39,26 +42,31 @@ def _drop_empty(curves: tuple[Curve, ...]) -> list[Curve]:
 
 @dataclass(frozen=True, kw_only=True)
 class _Cell:
-    """The place of one curve in the panel [px]."""
+    """The area of one curve in the panel."""
 
     curve: Curve
     name: str
+    """The displayed name of the curve."""
     colour: tuple[int, int, int]
     x: int
+    """The left column in the panel [px]."""
     y: int
+    """The top row in the panel [px]."""
     width: int
+    """The width [px]."""
     height: int
+    """The height, with the name above the curve [px]."""
 
 
 class CurvePanel:
     """The curves of one level in a grid, each with its own scale.
 
-    Names and curves are drawn once; an image of the film adds the cursor and the values.
+    Names and curves are drawn once; each image of the film adds the cursor and the values.
 
     Args:
         level: the level.
         names: the measures whose curves are drawn; empty: the first ones.
-        box: the x, y, width and height in the frame [px].
+        box: the left column, top row, width and height in the film's image [px].
         letter_height: the height of the letters [px].
     """
 
@@ -70,22 +78,24 @@ class CurvePanel:
         letter_height: int,
     ) -> None:
         self._level, self._box, self._letter_height = level, box, letter_height
-        self._head = round(1.5 * letter_height)
+        self._name_height = round(1.5 * letter_height)
         self._cells = self._arrange(select_curves(level, names))
         _, _, width, height = box
-        self._ground: Pixels = np.full((height, width, 3), PANEL, np.uint8)
+        self._background: Pixels = np.full((height, width, 3), PANEL, np.uint8)
         lines = [(self._line(cell), cell.colour) for cell in self._cells]
-        blend(self._ground, draw_lines((width, height), lines), 0, 0)
+        blend(self._background, draw_lines((width, height), lines), 0, 0)
         for cell in self._cells:
-            write_text(self._ground, cell.name, (cell.x, cell.y), letter_height, cell.colour)
+            write_text(self._background, cell.name, (cell.x, cell.y), letter_height, cell.colour)
 
     def draw(self, frame: Pixels, time: float) -> None:
-        """Draw the panel into a frame, with the cursor at a time [s] and the values there."""
+        """Draw the panel into a frame, with the cursor and the values at a simulation time [s]."""
         x, y, width, height = self._box
-        frame[y : y + height, x : x + width] = self._ground
+        frame[y : y + height, x : x + width] = self._background
         for cell in self._cells:
             cursor = x + cell.x + self._cursor_x(time, cell.width)
-            frame[y + cell.y + self._head : y + cell.y + cell.height, cursor : cursor + 2] = INK
+            frame[
+                y + cell.y + self._name_height : y + cell.y + cell.height, cursor : cursor + 2
+            ] = INK
             unit = "" if cell.curve.unit == "1" else cell.curve.unit
             value = f"{format_value(value_at(cell.curve, time))} {unit}".strip()
             corner = x + cell.x + cell.width, y + cell.y
@@ -117,24 +127,27 @@ class CurvePanel:
         return round(min(max(share, 0.0), 1.0) * (width - 2))
 
     def _line(self, cell: _Cell) -> Array:
-        """Return the curve in pixels of the panel, (n, 2)."""
+        """Return the points of a curve's line in the panel, (n, 2) [px]."""
         level, curve = self._level, cell.curve
         low, high = scale_limits(curve.values)
-        plot_height = max(1, cell.height - self._head - 3)
+        plot_height = max(1, cell.height - self._name_height - 3)
         share = (curve.times - level.start_time) / max(level.end_time - level.start_time, 1e-9)
         x = cell.x + share * (cell.width - 2)
-        y = cell.y + self._head + (1.0 - (curve.values - low) / (high - low)) * plot_height
+        y = cell.y + self._name_height + (1.0 - (curve.values - low) / (high - low)) * plot_height
         return np.column_stack([x, y])
 
 
 def short_name(name: str, curves: Sequence[Curve]) -> str:
-    """Return the name of a curve, without the name of the measure if all are of that measure."""
+    """Return the displayed name of a curve; without its measure if all are of one measure."""
     measures = {curve.measure.partition(".")[0] for curve in curves}
     return name.partition(".")[2] or name if len(measures) == 1 else name
 
 
 def scale_limits(values: Array) -> tuple[float, float]:
-    """Return the limits of the scale of a curve: 0 is in it if the curve comes near."""
+    """Return the lower and upper limit of a curve's scale.
+
+    The scale includes 0 if all values have one sign and some are less than half of the largest.
+    """
     low, high = float(np.nanmin(values)), float(np.nanmax(values))
     if low > 0.0 and low < 0.5 * high:
         low = 0.0
@@ -146,11 +159,11 @@ def scale_limits(values: Array) -> tuple[float, float]:
 
 
 def value_at(curve: Curve, time: float) -> float:
-    """Return the newest sample of a curve at a time [s]; NaN before the first."""
-    number = int(np.searchsorted(curve.times, time + 1e-9, side="right")) - 1
-    return float(curve.values[number]) if number >= 0 else float("nan")
+    """Return the value of the last sample of a curve until a time [s]; NaN before the first."""
+    index = int(np.searchsorted(curve.times, time + 1e-9, side="right")) - 1
+    return float(curve.values[index]) if index >= 0 else float("nan")
 
 
 def format_value(value: float) -> str:
-    """Return a value with three digits; a dash for NaN."""
+    """Return the text of a value with three significant digits; a dash for NaN."""
     return "-" if not np.isfinite(value) else f"{value:.3g}"

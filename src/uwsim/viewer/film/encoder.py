@@ -28,11 +28,11 @@ CODECS = {
         *("-deadline", "realtime", "-cpu-used", "8", "-row-mt", "0"),
     ),
 }
-"""The options of ffmpeg for each suffix."""
+"""The options of ffmpeg by suffix of the film's file."""
 WEBP = ".webp"
 SUFFIXES = (*CODECS, WEBP)
 MAX_WEBP_FRAMES = 1200
-"""The greatest number of frames of a WebP, which are all in memory."""
+"""The greatest number of images of a WebP film; all of them are held in memory."""
 WEBP_QUALITY = 60
 """The quality of WebP images, 0..100."""
 
@@ -42,18 +42,18 @@ class Chapter:
     """A chapter of a film."""
 
     title: str
-    """The title that players show."""
+    """The title that video players show."""
     start: float
-    """The start in the film [s]."""
+    """The time of its start in the film [s]."""
     end: float
-    """The end in the film [s]."""
+    """The time of its end in the film [s]."""
 
 
 class Encoder(Protocol):
     """An encoder of the images of a film, one after the other."""
 
     def add(self, frame: bytes) -> None:
-        """Append an image, packed by `packing_of` its path."""
+        """Append an image, packed by the function that `packing_of` returns for the film's path."""
 
     def close(self, *, is_to_keep: bool) -> None:
         """Write the file with the images so far, or discard it."""
@@ -84,40 +84,40 @@ def check_film_path(path: Path, *, overwrite: bool, other_suffixes: Sequence[str
 
 
 Packing = Callable[[Pixels], bytes]
-"""The function that packs an image (h, w, 3) for an encoder."""
+"""A function that returns an image, (h, w, 3), as the bytes that an encoder expects."""
 
 
 def packing_of(path: Path) -> Packing:
-    """Return the packing of images for the encoder of a path, by its suffix."""
+    """Return the function that packs images for the encoder of a path, by the path's suffix."""
     return as_rgb if path.suffix.lower() == WEBP else as_yuv
 
 
 def as_rgb(frame: Pixels) -> bytes:
-    """Pack an image (h, w, 3) without change."""
+    """Return the bytes of an image, (h, w, 3), without change."""
     return frame.tobytes()
 
 
 def as_yuv(frame: Pixels) -> bytes:
-    """Pack an image (h, w, 3), both even, as planes of Y, U and V (BT.601, 4:2:0)."""
+    """Return an image, (h, w, 3) with even h and w, as planes of Y, U and V (BT.601, 4:2:0)."""
     return cv2.cvtColor(frame, cv2.COLOR_RGB2YUV_I420).tobytes()
 
 
 def encoder_of(
     path: Path, size: tuple[int, int], rate: float, chapters: Sequence[Chapter]
 ) -> Encoder:
-    """Return the encoder for a path, by its suffix."""
+    """Return the encoder for the path of a film, by the path's suffix."""
     if path.suffix.lower() == WEBP:
         return WebpEncoder(path, size, rate)
     return FfmpegEncoder(path, size, rate, chapters)
 
 
 class FfmpegEncoder:
-    """A film by ffmpeg; MP4 (H.264) or WebM (VP9), with chapters.
+    """An encoder by ffmpeg, for MP4 (H.264) or WebM (VP9) with chapters.
 
     Args:
         path: the path of the film, which `close` writes.
         size: the width and height, both even [px].
-        rate: the images in a second [Hz].
+        rate: the rate of images in the film [Hz].
         chapters: the chapters in order.
     """
 
@@ -186,7 +186,7 @@ class FfmpegEncoder:
             self._folder.cleanup()
 
     def _cut_chapters(self) -> None:
-        """Write the film again, without encoding, with the chapters that it contains."""
+        """Write the film again, without encoding, with the chapters that were reached."""
         end = self._n_frames / self._rate
         chapters = [replace(c, end=min(c.end, end)) for c in self._chapters if c.start < end]
         metadata = self._draft.with_name("reached")
@@ -210,12 +210,12 @@ class FfmpegEncoder:
 
 
 class WebpEncoder:
-    """An animated WebP that repeats.
+    """An encoder of an animated WebP that repeats.
 
     Args:
         path: the path of the file, which `close` writes.
         size: the width and height [px].
-        rate: the images in a second [Hz].
+        rate: the rate of images in the film [Hz].
     """
 
     def __init__(self, path: Path, size: tuple[int, int], rate: float) -> None:

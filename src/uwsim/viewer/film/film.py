@@ -1,4 +1,4 @@
-"""The film of a recorded trial, image by image, from its recorded motion."""
+"""The film of a recorded trial: its images are drawn from the recorded motion."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ from .trial_scene import TrialScene, open_scene
 MARGIN = 12
 """The space between panels and the edge [px]."""
 STRIP_SHARE = 0.28
-"""The height of the strip with the curves and the inset, as a fraction of the film's."""
+"""The height of the strip with the curves and the inset, as a fraction of the film's height."""
 BAR_SHARE = 1 / 180
-"""The height of the progress bar, as a fraction of the film's."""
+"""The height of the progress bar, as a fraction of the film's height."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -38,27 +38,27 @@ class FilmSpec:
     size: tuple[int, int] = (960, 720)
     """The width and height [px]; even."""
     rate: float = 30.0
-    """The images in a second [Hz]."""
+    """The rate of images in the film [Hz]."""
     speed: float = 1.0
-    """The simulation time in a second of the film [s]."""
+    """The playback speed: simulation time per time of the film [1]."""
     view: ViewKind = "orbit"
     """The kind of the view."""
     camera: str | None = None
     """The camera of the inset, or of the view ``camera``; None: the first of the scene."""
     inset: bool = True
-    """The use of the inset: True shows a camera's image in a corner."""
+    """True if an inset shows the image of a camera."""
     curves: tuple[str, ...] = ()
-    """The measures whose curves are drawn; empty: the first ones."""
+    """The names of the curves that are drawn; empty: those of the first measures."""
     has_curves: bool = True
-    """The use of the curves: False draws none."""
+    """True if curves are drawn."""
     start: float | None = None
-    """The simulation time of the first image; None: the beginning [s]."""
+    """The simulation time of the first image [s]; None: the beginning of the trial."""
     end: float | None = None
-    """The simulation time of the last image; None: the end [s]."""
+    """The simulation time of the last image [s]; None: the end of the trial."""
     samples: int = 1
-    """The samples of a pixel of the outside view in each direction: 2 makes smooth edges."""
+    """The samples of a pixel of the outside view along each axis; 2 gives smooth edges."""
     fog: bool = False
-    """The water's fog in the view from outside; cameras always have it."""
+    """True if the outside view has the water's fog; images of cameras always have it."""
 
 
 class Film:
@@ -93,7 +93,7 @@ class Film:
         self._view_size = spec.size[0], self._strip_top - self._head_height
         self._path = CameraPath(self._scene, spec.view, self._view_size, self.start)
         self._panels: dict[int, CurvePanel] = {}
-        self._inset: tuple[float, Pixels] | None = None
+        self._inset: tuple[float, Pixels] | None = None  # simulation time [s], and image
 
     def time_of(self, frame: int) -> float:
         """Return the simulation time of an image [s]."""
@@ -163,7 +163,7 @@ class Film:
         return draw_markers(output.colour.view(np.uint8), markers, pose, lens, self._letter_height)
 
     def _camera_image(self, name: str, size: tuple[int, int], time: float) -> Pixels:
-        """Return a camera's image, without noise, with the corners of truth and estimate."""
+        """Return a camera's image without noise, with the true and the estimated quadrangle."""
         scene = self._scene.simulation.world
         camera = scene.sensors.camera(name)
         lens = fit_lens(camera.intrinsics, size)
@@ -184,16 +184,17 @@ class Film:
     def _draw_inset(self, frame: Pixels, time: float) -> None:
         """Draw a camera's image at the right of the strip; it changes ten times a second.
 
-        Its time is the last tenth of a second, independent of the images before, so that several
-        processes draw the same bytes.
+        It shows the time rounded down to a tenth of a second, not the time of an image that was
+        drawn before: so the bytes do not depend on the number of drawing processes.
         """
         assert self._camera is not None
         assert self._inset_size is not None
         width, height = self._inset_size
-        due = max(self.start, math.floor(time * 10.0 + 1e-6) / 10.0)
-        if self._inset is None or self._inset[0] != due:
-            self._scene.show_time(due)
-            self._inset = due, self._camera_image(self._camera, self._inset_size, due)
+        inset_time = max(self.start, math.floor(time * 10.0 + 1e-6) / 10.0)
+        if self._inset is None or self._inset[0] != inset_time:
+            self._scene.show_time(inset_time)
+            image = self._camera_image(self._camera, self._inset_size, inset_time)
+            self._inset = inset_time, image
         x, y = self.spec.size[0] - width - MARGIN, self._strip_top + MARGIN
         overlay.paste(frame, self._inset[1], x, y)
         name = self._camera
@@ -216,7 +217,7 @@ class Film:
 
     @property
     def _strip_top(self) -> int:
-        """The first row below the view [px]."""
+        """The first row of the strip, below the view [px]."""
         height = self.spec.size[1]
         levels = self._shown_levels()
         names = self.spec.curves
@@ -277,8 +278,8 @@ class Reel:
         spec: the settings of the film.
 
     Raises:
-        BadSetting: as of `Film`.
-        UnknownName: as of `Film`.
+        BadSetting: the settings are invalid for a trial (`Film`).
+        UnknownName: there is no such camera or curve (`Film`).
     """
 
     def __init__(self, trials: Sequence[RecordedTrial], spec: FilmSpec) -> None:
@@ -332,7 +333,7 @@ def span_of(trial: RecordedTrial, spec: FilmSpec) -> tuple[float, float]:
 
 
 def n_frames_of(trial: RecordedTrial, spec: FilmSpec) -> int:
-    """Return the number of images of a trial's film; raise BadSetting as `span_of`."""
+    """Return the number of images of a trial's film; raise BadSetting if the span is empty."""
     start, end = span_of(trial, spec)
     return max(1, math.ceil((end - start) * spec.rate / spec.speed - 1e-6))
 
@@ -371,7 +372,7 @@ def chapters_of(trials: Sequence[RecordedTrial], spec: FilmSpec) -> list[Chapter
 
 
 class FrameSource(Protocol):
-    """A source of images: `Film`, `Reel`, `processes.DrawingProcesses`."""
+    """A source of the images of a film: `Film`, `Reel` or `processes.DrawingProcesses`."""
 
     @property
     def spec(self) -> FilmSpec:
@@ -387,7 +388,7 @@ class FrameSource(Protocol):
 def save_film(film: FrameSource, path: Path, on_frame: Callable[[], object] = lambda: None) -> None:
     """Draw a film and write it.
 
-    After an interruption the file has the images before it; after an error there is no file.
+    After an interruption the file has the images drawn before; after an error there is no file.
 
     Args:
         film: the film.
@@ -409,13 +410,13 @@ def save_film(film: FrameSource, path: Path, on_frame: Callable[[], object] = la
 
 
 def fit_lens(lens: Intrinsics, size: tuple[int, int]) -> Intrinsics:
-    """Return a camera's intrinsics, scaled to the greatest image of its shape in a size."""
+    """Return a camera's intrinsics, scaled to the largest image of its aspect ratio in a size."""
     scale = min(size[0] / lens.width, size[1] / lens.height)
     return lens.with_size(max(1, round(scale * lens.width)), max(1, round(scale * lens.height)))
 
 
 def centre_image(image: Pixels, size: tuple[int, int]) -> Pixels:
-    """Place an image in the middle of a black one."""
+    """Return an image in the middle of a black one of a given size."""
     frame = np.zeros((size[1], size[0], 3), np.uint8)
     x, y = (size[0] - image.shape[1]) // 2, (size[1] - image.shape[0]) // 2
     frame[y : y + image.shape[0], x : x + image.shape[1]] = image

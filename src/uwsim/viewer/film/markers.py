@@ -1,4 +1,4 @@
-"""Spawned markers over the images of a film, as lines and names."""
+"""Drawing of spawned markers over the images of a film, as lines and names."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from .overlay import Pixels
 NEAR_DISTANCE = 0.02
 """The distance from the camera at which lines are cut [m]."""
 MAX_PIXEL = 20_000.0
-"""The greatest coordinate of a pixel; those farther away are moved there [px]."""
+"""The greatest absolute image coordinate; larger ones are clipped [px]."""
 
 
 def draw_markers(
@@ -37,9 +37,9 @@ def draw_markers(
     """
     if not markers:
         return frame
-    picture = Image.fromarray(frame)
-    pen = ImageDraw.Draw(picture)
-    words: list[tuple[str, Array, str]] = []
+    image = Image.fromarray(frame)
+    pen = ImageDraw.Draw(image)
+    labels: list[tuple[str, Array, str]] = []  # name, image coordinates [px], colour
     for name, marker in markers.items():
         position, quaternion = np.array(marker.pose[:3]), np.array(marker.pose[3:])
         world_from_marker = Pose.from_quaternion(position, quaternion)
@@ -49,18 +49,23 @@ def draw_markers(
                 ends = np.clip(lens.project(np.stack([begin, end])), -MAX_PIXEL, MAX_PIXEL)
                 pen.line([tuple(point) for point in ends.tolist()], fill=marker.colour, width=2)
         if not marker.lines and camera_from_marker.position[2] < -NEAR_DISTANCE:
-            words.append((name, lens.project(camera_from_marker.position[None])[0], marker.colour))
-    for name, place, colour in words:
-        u, v = (float(value) for value in np.clip(place, -MAX_PIXEL, MAX_PIXEL))
+            pixel = lens.project(camera_from_marker.position[None])[0]
+            labels.append((name, pixel, marker.colour))
+    for name, pixel, colour in labels:
+        u, v = (float(value) for value in np.clip(pixel, -MAX_PIXEL, MAX_PIXEL))
         pen.ellipse((u - 3, v - 3, u + 3, v + 3), fill=colour)
         corner = u + 5.0, v - 5.0 - letter_height
         font = overlay.font(letter_height)
         pen.text(corner, name, fill=colour, font=font, stroke_width=1, stroke_fill="#0c141e")
-    return np.asarray(picture).copy()
+    return np.asarray(image).copy()
 
 
 def clip_line(points: Array) -> list[tuple[Array, Array]]:
-    """Return the parts of a line (n, 3) in the camera's frame that are ahead of the camera."""
+    """Return the segments of a line ahead of the camera, cut at `NEAR_DISTANCE`.
+
+    Args:
+        points: the points of the line in the camera's frame (OpenGL axes), (n, 3) [m].
+    """
     parts = []
     for begin, end in itertools.pairwise(points):
         depths = -begin[2] - NEAR_DISTANCE, -end[2] - NEAR_DISTANCE

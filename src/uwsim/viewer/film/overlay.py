@@ -1,4 +1,4 @@
-"""Text and drawings over a film: title, level, clock, curves, and a camera's image."""
+"""Text and drawings over the images of a film: titles, curves, insets, quadrangles."""
 
 from __future__ import annotations
 
@@ -12,14 +12,22 @@ from PIL import Image, ImageDraw, ImageFont
 from ...base.geometry import Array
 
 Pixels = npt.NDArray[np.uint8]
+"""An image: red, green and blue, (h, w, 3), or with opacity, (h, w, 4)."""
 INK = (240, 244, 248)
+"""The colour of text and cursors."""
 GREY = (170, 182, 194)
+"""The colour of less important text."""
 PANEL = (12, 20, 30)
+"""The colour of the background of text and curves."""
 
 TRUTH = (70, 220, 120)
+"""The colour of the true quadrangle in a camera's image."""
 ESTIMATE = (255, 190, 40)
+"""The colour of the estimated quadrangle in a camera's image."""
 STATUS = {"ok": (110, 220, 140)}
+"""The colour of a level's status, by status; `FAILURE` for all others."""
 FAILURE = (255, 120, 100)
+"""The colour of the status of a failed level."""
 COLOURS = (
     *((90, 190, 255), (255, 180, 80), (150, 230, 120), (240, 130, 200)),
     *((190, 160, 255), (255, 235, 120)),
@@ -29,13 +37,13 @@ COLOURS = (
 
 @functools.cache
 def font(size: int) -> ImageFont.ImageFont | ImageFont.FreeTypeFont:
-    """Return Pillow's own font, at a size [px]."""
+    """Return the default font of Pillow at a size [px]."""
     return ImageFont.load_default(size)
 
 
 @functools.lru_cache(maxsize=512)
 def lettering(text: str, size: int, colour: tuple[int, int, int]) -> tuple[Pixels, Array]:
-    """Return a line of text as colours (h, w, 3) and opacity (h, w, 1), 0..1."""
+    """Return a line of text as an image, (h, w, 3), and its opacity, (h, w, 1), 0..1."""
     left, _, right, bottom = font(size).getbbox(text)
     height = round(1.35 * size)
     mask = Image.new("L", (max(1, round(right - left)), max(height, round(bottom))))
@@ -53,9 +61,15 @@ def write_text(
     *,
     right: bool = False,
 ) -> int:
-    """Write a line of text from its upper left or right corner; return its width.
+    """Write a line of text into a frame, which cuts it off at its edge; return its width [px].
 
-    The text is cut off at the edge of the frame.
+    Args:
+        frame: the image, (h, w, 3).
+        text: the text.
+        corner: the column and row of the upper left corner of the text [px].
+        size: the height of the letters [px].
+        colour: the red, green and blue value.
+        right: True if ``corner`` is the upper right corner.
     """
     if not text:
         return 0
@@ -70,14 +84,14 @@ def write_text(
 
 
 def paste(frame: Pixels, image: Pixels, x: int, y: int) -> None:
-    """Copy an image into a frame, with a thin edge."""
+    """Copy an image, with a border, into a frame at column x and row y [px]."""
     height, width = image.shape[:2]
     frame[max(0, y - 1) : y + height + 1, max(0, x - 1) : x + width + 1] = GREY
     frame[y : y + height, x : x + width] = image
 
 
 def draw_quadrangle(image: Pixels, corners: Array, colour: tuple[int, int, int]) -> Pixels:
-    """Draw the outline of four corners (4, 2) [px] into an image; clip far coordinates."""
+    """Return an image with a quadrangle, whose corners are (4, 2) [px]; they are clipped."""
     picture = Image.fromarray(image)
     points = [(float(u), float(v)) for u, v in np.clip(corners, -4096, 4096)]
     ImageDraw.Draw(picture).line([*points, points[0]], fill=colour, width=2)
@@ -91,7 +105,7 @@ def draw_lines(
 
     Args:
         size: the width and height [px].
-        curves: the points (n, 2) [px] of each, with NaN at interruptions, and its colour.
+        curves: for each line its points, (n, 2) [px], with NaN at gaps, and its colour.
     """
     canvas = Image.new("RGBA", (2 * size[0], 2 * size[1]))
     pen = ImageDraw.Draw(canvas)
@@ -102,7 +116,7 @@ def draw_lines(
 
 
 def line_pieces(points: Array) -> list[Array]:
-    """Return the pieces of a line (n, 2) between NaN, of two or more points."""
+    """Return the pieces of a line, (n, 2), between NaN; each has two or more points."""
     gaps = np.flatnonzero(~np.isfinite(points).all(axis=1))
     parts = np.split(points, gaps)
     pieces = [piece[np.isfinite(piece).all(axis=1)] for piece in parts]
@@ -110,8 +124,8 @@ def line_pieces(points: Array) -> list[Array]:
 
 
 def blend(frame: Pixels, drawing: Pixels, x: int, y: int) -> None:
-    """Blend a drawing (h, w, 4) with premultiplied colours over a frame."""
+    """Blend a drawing, (h, w, 4), with premultiplied colours over a frame at (x, y) [px]."""
     height, width = drawing.shape[:2]
     region = frame[y : y + height, x : x + width]
-    ground = (255 - drawing[..., 3:].astype(np.uint16)) * region
-    region[:] = np.minimum(drawing[..., :3] + (ground + 127) // 255, 255).astype(np.uint8)
+    background = (255 - drawing[..., 3:].astype(np.uint16)) * region
+    region[:] = np.minimum(drawing[..., :3] + (background + 127) // 255, 255).astype(np.uint8)

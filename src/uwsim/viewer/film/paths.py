@@ -18,15 +18,15 @@ from .trial_scene import TrialScene, frame_at
 ViewKind = Literal["orbit", "chase", "fixed", "camera"]
 VIEWS: tuple[ViewKind, ...] = get_args(ViewKind)
 ORBIT_ANGLE = math.radians(25.0)
-"""The angle of the orbit to each side [rad]."""
+"""The greatest angle of the orbit from its middle, to each side [rad]."""
 ORBIT_PERIOD = 40.0
 """The period of the orbit, there and back [s of the film]."""
 SMOOTHING_TIME = 1.5
 """The standard deviation of the Gaussian that smooths the path of the camera [s]."""
-DISTANCE = 3.0
-"""The distance of the chasing camera behind the vehicle, in half diagonals of the subject [1]."""
-HEIGHT = 1.1
-"""The height of the chasing camera above the vehicle, in the same unit [1]."""
+CHASE_DISTANCE = 3.0
+"""The distance of the chase camera behind the vehicle, as a multiple of the subject's radius."""
+CHASE_HEIGHT = 1.1
+"""The height of the chase camera above the vehicle, as a multiple of the subject's radius."""
 
 
 def view_kind(text: str) -> ViewKind:
@@ -40,22 +40,22 @@ def view_kind(text: str) -> ViewKind:
 
 @dataclass(frozen=True, eq=False)
 class VehiclePath:
-    """The smoothed path of the first vehicle."""
+    """The smoothed path of the first vehicle in W; without a vehicle, the centre of the view."""
 
     positions: Array
-    """The positions, (frames, 3) [m]; the centre of the view without a vehicle."""
-    headings: Array
-    """The horizontal directions of the bow, (frames, 3)."""
+    """The position in each frame of the track, (n, 3) [m]."""
+    bow_directions: Array
+    """The horizontal unit vector towards the bow in each frame of the track, (n, 3)."""
 
 
 class CameraPath:
-    """The camera's pose over time.
+    """The pose of the outside camera over time.
 
     Args:
-        scene: the scene, as it is at the first frame of the film.
-        kind: of the view, not ``camera``.
-        size: width and height of the image [px].
-        start: time of the first frame [s].
+        scene: the scene in its state at the first image of the film.
+        kind: the kind of the view; not ``camera``.
+        size: the width and height of the image [px].
+        start: the simulation time of the first image [s].
     """
 
     def __init__(self, scene: TrialScene, kind: ViewKind, size: Size, start: float) -> None:
@@ -65,49 +65,61 @@ class CameraPath:
         """The intrinsics of the camera."""
         self._initial_pose = view.world_from_camera
         focus = find_focus(scene.simulation)
-        self._radius = 0.5 * float(np.linalg.norm(np.ptp(focus.corners, axis=0)))
+        self._radius = 0.5 * float(np.linalg.norm(np.ptp(focus.corners, axis=0)))  # of the subject
         self._vehicle_path = smooth_vehicle_path(scene, focus.middle, focus.bow_direction)
-        self._middle = focus.middle
+        self._centre = focus.middle
         self._start_position = self._vehicle_path.positions[frame_at(scene.track, start)[0]]
 
     def pose(self, time: float) -> Pose:
-        """Return the camera's pose in W at a time [s]; OpenGL axes."""
+        """Return the camera's pose in W at a simulation time [s]; OpenGL axes."""
         if self._kind == "fixed":
             return self._initial_pose
         frame, _ = frame_at(self._scene.track, time)
-        position, heading = self._vehicle_path.positions[frame], self._vehicle_path.headings[frame]
+        path = self._vehicle_path
+        position, bow_direction = path.positions[frame], path.bow_directions[frame]
         if self._kind == "chase":
-            scale = min(self._radius, 2.0)
-            eye = position - DISTANCE * scale * heading + np.array([0.0, 0.0, HEIGHT * scale])
-            view = position + 0.5 * scale * heading - eye
-            return Pose(eye, camera_axes(view / np.linalg.norm(view), np.array([0.0, 0.0, 1.0])))
+            scale, up = min(self._radius, 2.0), np.array([0.0, 0.0, 1.0])
+            eye = position - CHASE_DISTANCE * scale * bow_direction + CHASE_HEIGHT * scale * up
+            view = position + 0.5 * scale * bow_direction - eye
+            return Pose(eye, camera_axes(view / np.linalg.norm(view), up))
         angle = ORBIT_ANGLE * math.sin(2.0 * math.pi * (time - self._start) / ORBIT_PERIOD)
         rotation = rotation_z(angle)
-        middle = self._middle + position - self._start_position
-        offset = product(rotation, self._initial_pose.position - self._middle)
-        return Pose(middle + offset, product(rotation, self._initial_pose.rotation))
+        centre = self._centre + position - self._start_position
+        offset = product(rotation, self._initial_pose.position - self._centre)
+        return Pose(centre + offset, product(rotation, self._initial_pose.rotation))
 
 
-def smooth_vehicle_path(scene: TrialScene, middle: Array, heading: Array) -> VehiclePath:
-    """Smooth the path of the first vehicle; without one, the view's centre is fixed."""
+def smooth_vehicle_path(scene: TrialScene, centre: Array, bow_direction: Array) -> VehiclePath:
+    """Return the smoothed path of the first vehicle.
+
+    Args:
+        scene: the scene and its motion.
+        centre: the position in all frames if there is no vehicle, in W, (3,) [m].
+        bow_direction: the direction in all frames if there is no vehicle, in W, (3,).
+    """
     world, track = scene.simulation.world, scene.track
     roots = [
         f"{world.model.scene.vehicles[i].name}/{robot.root}"
         for i, robot in world.model.robots.items()
     ]
     if not roots or roots[0] not in track.bodies:
-        n = track.n_frames
-        return VehiclePath(np.repeat(middle[None], n, axis=0), np.repeat(heading[None], n, axis=0))
+        positions, directions = (
+            np.repeat(vector[None], track.n_frames, axis=0) for vector in (centre, bow_direction)
+        )
+        return VehiclePath(positions, directions)
     rows = track.poses[:, track.bodies.index(roots[0])]
     w, x, y, z = rows[:, 3:].T
     bow = np.stack([1 - 2 * (y * y + z * z), 2 * (x * y + w * z), np.zeros(len(rows))], axis=1)
-    headings = smooth(bow, track.rate)
-    headings /= np.maximum(np.linalg.norm(headings, axis=1, keepdims=True), 1e-9)
-    return VehiclePath(smooth(rows[:, :3], track.rate), headings)
+    directions = smooth(bow, track.rate)
+    directions /= np.maximum(np.linalg.norm(directions, axis=1, keepdims=True), 1e-9)
+    return VehiclePath(smooth(rows[:, :3], track.rate), directions)
 
 
 def smooth(values: Array, rate: float) -> Array:
-    """Smooth values (n, m) taken at a rate [Hz] by a Gaussian; ends are continued."""
+    """Smooth m signals, (n, m), sampled at a rate [Hz], by a Gaussian (`SMOOTHING_TIME`).
+
+    The first and the last sample are repeated beyond the ends.
+    """
     reach = math.ceil(3.0 * SMOOTHING_TIME * rate)
     offsets = np.arange(-reach, reach + 1) / (SMOOTHING_TIME * rate)
     weights = np.exp(-0.5 * offsets * offsets)

@@ -23,32 +23,35 @@ from .encoder import Chapter, Packing
 from .film import FilmSpec, Reel, chapters_of, n_frames_of
 
 MAX_PROCESSES = 16
-"""The greatest number of processes that draw one film: they feed one encoder."""
+"""The greatest number of processes that draw one film; more would wait for the encoder."""
 MIN_IMAGES = 60
-"""The number of images that outweigh the start of a process."""
+"""The least number of images for which one more process is started."""
 BLOCK_SIZE = 6
-"""The consecutive images of one process, which share the image of the inset."""
+"""The number of consecutive images that one process draws; they share images of the inset."""
 QUEUE_SIZE = BLOCK_SIZE + 2
-"""The images that wait in a process; fewer than a block would stop it."""
+"""The greatest number of images that wait in a process until they are sent.
+
+With fewer than a block, a process would pause until all blocks before are encoded.
+"""
 ERROR_PREFIX = b"uwsim: failed\0"
 """The prefix of a message with an error instead of an image."""
 EXIT_TIMEOUT = 10.0
-"""The time until a process that has ended is waited for [s]."""
+"""The greatest time to wait for the exit status of a process that has ended [s]."""
 
 
 def count_processes(n_frames: int) -> int:
-    """Return the number of processes for a film: one a core, 1 for a short film."""
+    """Return the number of processes for a film: one per core, but 1 for a short film."""
     return max(1, min(len(os.sched_getaffinity(0)), n_frames // MIN_IMAGES, MAX_PROCESSES))
 
 
 class DrawingProcesses:
-    """Processes that draw the images of a film, process k of n the blocks k, k + n, k + 2 n, ...
+    """Processes that draw the images of a film: process k of n draws blocks k, k + n, k + 2 n, ...
 
     They are started with ``spawn``, so the main module of a program that uses them is guarded by
     ``if __name__ == "__main__"``.
 
     Args:
-        trials: the trials of a `Reel`.
+        trials: the trials of the film (`Reel`).
         spec: the settings of the film.
         n: the number of processes.
     """
@@ -58,7 +61,7 @@ class DrawingProcesses:
         """The settings of the film."""
         self._n = n
         self._pipes: list[Connection] = []
-        self._parents: list[Connection] = []
+        self._parent_ends: list[Connection] = []  # each child ends when its pipe's end is closed
         self._processes: list[SpawnProcess] = []
 
     def _start(self, pack: Packing) -> None:
@@ -72,7 +75,7 @@ class DrawingProcesses:
                     target=draw_blocks, args=(job, k, self._n, child_pipe, child_end)
                 )
                 self._pipes.append(pipe)
-                self._parents.append(parent)
+                self._parent_ends.append(parent)
                 start_ignoring_interrupts(process)
                 self._processes.append(process)
                 for end in (child_pipe, child_end):
@@ -87,7 +90,7 @@ class DrawingProcesses:
 
         Raises:
             RunFailed: a process has ended.
-            UwsimError: a process cannot draw an image.
+            UwsimError: an image cannot be drawn.
         """
         self._start(pack)
         for number in range(sum(n_frames_of(trial, self.spec) for trial in self._trials)):
@@ -104,7 +107,7 @@ class DrawingProcesses:
 
     def close(self) -> None:
         """End the processes."""
-        for end in (*self._pipes, *self._parents):
+        for end in (*self._pipes, *self._parent_ends):
             end.close()
         for process in self._processes:
             process.kill()
@@ -119,7 +122,15 @@ def draw_blocks(
     pipe: Connection,
     parent: Connection,
 ) -> None:
-    """Draw every n-th block from ``offset`` on, and send each image; end with the parent."""
+    """Draw every n-th block of a film, and send its images; end when the parent process ends.
+
+    Args:
+        job: the trials, the settings of the film, and the function that packs images.
+        offset: the index of the first block.
+        n: the number of processes.
+        pipe: the pipe to which the images are sent.
+        parent: a pipe that is closed when the parent process ends.
+    """
     exit_with_parent(parent)
     trials, spec, pack = job
     frames: queue.Queue[bytes | None] = queue.Queue(QUEUE_SIZE)

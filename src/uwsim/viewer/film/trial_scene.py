@@ -1,4 +1,4 @@
-"""The scene of a recorded trial, in the recorded state of any time."""
+"""The scene of a recorded trial, which can be set to its recorded state at any time."""
 
 from __future__ import annotations
 
@@ -21,7 +21,8 @@ class TrialScene:
 
     Args:
         trial: the trial.
-        simulation: its scene, if it is open; it is not closed here. None: it is opened here.
+        simulation: the simulation of the trial's scene, if it is open; the caller closes it. None:
+            `TrialScene` opens and closes one.
     """
 
     def __init__(self, trial: RecordedTrial, simulation: Simulation | None = None) -> None:
@@ -30,20 +31,20 @@ class TrialScene:
         self.track = trial.track
         """The recorded motion."""
         self._bodies = TrackedBodies(self.simulation.world)
-        columns = {name: row for row, name in enumerate(self.track.bodies)}
-        self._rows = [columns.get(name) for name in self._bodies.names]
+        indices = {name: index for index, name in enumerate(self.track.bodies)}
+        self._track_indices = [indices.get(name) for name in self._bodies.names]
         self._initial_rows = self._bodies.rows()
         self._owns_simulation = simulation is None
 
     def show_time(self, time: float) -> None:
-        """Show the scene at a simulation time [s], also between two frames."""
-        frame, share = frame_at(self.track, time)
+        """Set the scene to its state at a simulation time [s]; poses are interpolated."""
+        frame, fraction = frame_at(self.track, time)
         next_frame = min(frame + 1, self.track.n_frames - 1)
-        poses = interpolate_poses(self.track.poses[frame], self.track.poses[next_frame], share)
+        poses = interpolate_poses(self.track.poses[frame], self.track.poses[next_frame], fraction)
         rows = self._initial_rows.copy()
-        for row, number in enumerate(self._rows):
-            if number is not None:
-                rows[row] = poses[number]
+        for row, index in enumerate(self._track_indices):
+            if index is not None:
+                rows[row] = poses[index]
         self._bodies.show(rows)
         world = self.simulation.world
         fog, light = self.signal("fog", frame), self.signal("light_rate", frame)
@@ -59,7 +60,7 @@ class TrialScene:
             heap.restore(self.track.sand.spots(number, frame))
 
     def signal(self, name: str, frame: int) -> float | None:
-        """Return a signal in a frame; None where there is none."""
+        """Return the value of a signal in a frame of the track; None if there is no value."""
         values = self.track.signal(name)
         return None if values is None or math.isnan(values[frame]) else float(values[frame])
 
@@ -68,7 +69,7 @@ class TrialScene:
         return markers_at(self.track.markers, frame_at(self.track, time)[0])
 
     def corners(self, kind: str, camera: str, time: float) -> Array | None:
-        """Return four corners in a camera's image at a time, (4, 2) [px]; None: there are none.
+        """Return the image coordinates of a target's four corners, (4, 2) [px]; None without them.
 
         Args:
             kind: ``truth`` or ``estimate``.
@@ -102,13 +103,13 @@ def open_scene(trial: RecordedTrial) -> Simulation:
 
 def frame_at(track: MotionTrack, time: float) -> tuple[int, float]:
     """Return the frame at or before a time [s], and the fraction of the way to the next, 0..1."""
-    place = min(max(time * track.rate, 0.0), track.n_frames - 1.0)
-    frame = min(int(place + 1e-6), track.n_frames - 1)
-    return frame, min(max(place - frame, 0.0), 1.0)
+    frame_number = min(max(time * track.rate, 0.0), track.n_frames - 1.0)  # between two frames
+    frame = min(int(frame_number + 1e-6), track.n_frames - 1)
+    return frame, min(max(frame_number - frame, 0.0), 1.0)
 
 
-def interpolate_poses(start: Array, end: Array, share: float) -> Array:
-    """Interpolate poses (n, 7) between two frames; quaternions by their normalised mean."""
-    rows: Array = (1.0 - share) * start + share * end
+def interpolate_poses(start: Array, end: Array, fraction: float) -> Array:
+    """Interpolate linearly between poses, (n, 7), of two frames; quaternions are normalised."""
+    rows: Array = (1.0 - fraction) * start + fraction * end
     rows[:, 3:] /= np.maximum(np.linalg.norm(rows[:, 3:], axis=1, keepdims=True), 1e-9)
     return rows

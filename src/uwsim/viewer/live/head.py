@@ -1,4 +1,4 @@
-"""The first message of a live view: the scene, and the columns of the rows."""
+"""The first message of a live view: the scene, and the columns of the rows of motion."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from ..pack import Blob, make_pack
 
 
 def head_of(simulation: Simulation, title: str, state: TrackedState) -> bytes:
-    """Return the pack of a live view (`uwsim.viewer.head`).
+    """Return the pack with the head of a live view (`uwsim.viewer.head`).
 
     Args:
         simulation: the simulation, at step 0.
         title: the title of the page.
-        state: the source of the rows that follow.
+        state: the poses and signals of which the rows consist.
     """
     blob = Blob()
     head = scene_head(simulation, title, blob, is_live=True)

@@ -1,11 +1,13 @@
-"""The mapping of keys, gamepad and sticks of the page to axes: by default, and by a user's file.
+"""The mapping of keys, gamepad and on-screen sticks to the axes of a pilot.
+
+The axes are `uwsim.algorithms.pilot.AXES`. A user's mapping file replaces parts of the default:
 
 .. code-block:: toml
 
     dead_zone = 0.08
-    axes = ["yaw", "-heave", "sway", "-surge"]      # of the gamepad, in its order
+    axes = ["yaw", "-heave", "sway", "-surge"]      # for the gamepad's axes 0 to 3
     buttons = ["", "", "", "", "", "", "-jaw", "+jaw"]
-    sticks = ["yaw", "heave", "sway", "surge"]      # those on the screen
+    sticks = ["yaw", "heave", "sway", "surge"]      # on the screen: left x, y, right x, y
 
     [keys]
     w = "+surge"
@@ -30,26 +32,33 @@ KEYS = {
     **{"h": "-joint2", "u": "+joint3", "j": "-joint3", "i": "+joint4", "k": "-joint4"},
     **{"o": "+jaw", "l": "-jaw", "m": "+lamps", "n": "-lamps"},
 }
-"""The axis and direction of each key; the page itself uses none of these keys."""
+"""The signed axis of each key; on the page, these letters have other functions only with Shift."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class PilotMapping:
-    """The axes of each key, button and stick, separated by blanks if there are several."""
+    """The targets of each key, gamepad axis, button and stick.
+
+    A target is an axis of the pilot with a sign, as ``-heave``. Several targets are separated by
+    blanks; an empty text means that the input has no effect.
+    """
 
     keys: Mapping[str, str] = field(default_factory=lambda: KEYS)
-    """The axes, with their signs, of each key, as the browser names it in lower case."""
+    """The targets of each key; a key has the browser's name in lower case."""
     axes: tuple[str, ...] = ("yaw", "-heave", "sway", "-surge")
-    """The targets of the axes of the gamepad."""
+    """The targets of the gamepad's axes, in the gamepad's order."""
     buttons: tuple[str, ...] = ("", "", "", "", "", "", "-jaw", "+jaw")
-    """The targets of the buttons of the gamepad."""
+    """The targets of the gamepad's buttons, in the gamepad's order."""
     sticks: tuple[str, ...] = ("yaw", "heave", "sway", "surge")
     """The targets of the sticks on the screen: left x, left y, right x, right y."""
     dead_zone: float = 0.08
-    """The dead zone of gamepad and sticks [1]."""
+    """The absolute value up to which an input of gamepad or sticks counts as 0 [1]."""
 
     def values(self, message: Mapping[str, Any]) -> tuple[float, ...]:
-        """Return the value of each axis, -1..1, for a message of the page; 0 for invalid input."""
+        """Return the value of each of the pilot's axes, -1..1, for an input message of the page.
+
+        Invalid inputs count as 0.
+        """
         total = dict.fromkeys(AXES, 0.0)
         keys = message.get("keys")
         for key in keys[:32] if isinstance(keys, list) else ():
@@ -66,10 +75,10 @@ class PilotMapping:
 
 
 def read_mapping(path: Path) -> PilotMapping:
-    """Read a mapping file; the default mapping replaces what it lacks.
+    """Read a mapping file; settings that it lacks have their default.
 
     Raises:
-        BadSetting: it cannot be read, or names an axis that does not exist.
+        BadSetting: the file cannot be read, or names an axis that does not exist.
     """
     try:
         table = tomllib.loads(path.read_text(encoding="utf-8"))
@@ -117,14 +126,21 @@ def _add(total: dict[str, float], targets: str, value: float) -> None:
 
 
 def _number(value: object) -> float:
-    """Return a number of a page, -1..1; 0 if it is not a number."""
+    """Return a number from a page, clipped to -1..1; 0 if the value is not a number."""
     if isinstance(value, bool) or not isinstance(value, int | float) or value != value:
         return 0.0
     return float(min(1, max(-1, value)))
 
 
 def sum_inputs(inputs: Mapping[int, Sequence[float]]) -> tuple[float, ...] | None:
-    """Return the sum of all pilots' inputs, -1..1 each; None without a pilot."""
+    """Return the sum of the inputs of all viewers for each axis, clipped to -1..1.
+
+    Args:
+        inputs: the values of the pilot's axes, by the viewer's number.
+
+    Returns:
+        None if there are no inputs.
+    """
     if not inputs:
         return None
     sums = [sum(column) for column in zip(*inputs.values(), strict=True)]

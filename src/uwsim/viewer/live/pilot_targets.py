@@ -1,4 +1,4 @@
-"""The vehicle and axes that viewers pilot, and the reason if there are none."""
+"""The vehicle and the axes that viewers can pilot, or the reason why they cannot."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from ...simulation.live_scene import LiveScene
 from .mapping import PilotMapping
 
 STEERING = ("twist_topic", "odom_topic", "thrusters_topic")
-"""The parameters of `uwsim.algorithms.pilot.Pilot` that steer the vehicle."""
+"""The parameters of `uwsim.algorithms.pilot.Pilot` with the topics that steer a vehicle."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -24,22 +24,27 @@ class PilotTargets:
     reason: str
     """The reason why no vehicle can be steered; empty if one can be."""
     names: Mapping[str, str]
-    """The names of the joints and thrusters in the vehicle's files, by their axes."""
+    """The names of joints and thrusters in the vehicle's files, by the pilot's axis."""
 
     def keys(self, mapping: PilotMapping) -> dict[str, str]:
-        """Return the keys that have an effect, with their axes."""
-        return {key: targets for key, targets in mapping.keys.items() if self._moves(targets)}
+        """Return the keys that have an effect, with their targets (`PilotMapping`)."""
+        return {key: targets for key, targets in mapping.keys.items() if self._have_effect(targets)}
 
     def sticks(self, mapping: PilotMapping) -> list[str]:
-        """Return the targets of the sticks: left x, left y, right x, right y; or empty."""
-        return [targets if self._moves(targets) else "" for targets in mapping.sticks]
+        """Return the targets of the sticks: left x, left y, right x, right y; empty: no effect."""
+        return [targets if self._have_effect(targets) else "" for targets in mapping.sticks]
 
-    def _moves(self, targets: str) -> bool:
+    def _have_effect(self, targets: str) -> bool:
         return any(target.lstrip("+-") in self.axes for target in targets.split())
 
 
 def find_pilot_targets(world: LiveScene, parameters: Mapping[str, float | str]) -> PilotTargets:
-    """Return the targets of a pilot with these parameters in a scene."""
+    """Return what a pilot can move in a scene.
+
+    Args:
+        world: the scene.
+        parameters: the parameters of the pilot (`uwsim.algorithms.pilot.Pilot`).
+    """
     settings = {name: str(value) for name, value in parameters.items()}
     topics = {settings[name] for name in STEERING if settings.get(name)}
     axes: set[str] = set()

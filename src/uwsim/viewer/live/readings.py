@@ -1,4 +1,4 @@
-"""The state of a vehicle besides its pose, in numbers: joints, forces, battery, pace."""
+"""Readings of a vehicle for the page: joints, forces, battery; and the real-time factor."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from ...simulation import Simulation
 WINDOW = 2.0
 """The wall time over which the real-time factor is computed [s]."""
 Reading = tuple[str, str, float | None]
-"""A reading: name, unit, and value; None without a value."""
+"""A reading: its name, unit, and value; None: there is no value."""
 
 
 class Readings:
-    """The readings of a vehicle besides its motion; they change nothing in the simulation.
+    """The readings of a vehicle; to read them changes nothing in the simulation.
 
     Args:
         simulation: the simulation.
@@ -36,12 +36,12 @@ class Readings:
         if not world.vehicles:
             return
         self._vehicle = world.vehicles[vehicle]
-        self._is_simulated = world.engine.is_simulated(self._vehicle.index)
+        self._has_dynamics = world.engine.is_simulated(self._vehicle.index)
         for element, part in world.model.scene.vehicles[vehicle].all_parts():
             if isinstance(part, ForceSensorSpec | BatterySpec):
                 with suppress(UnknownName):  # a sensor on a link that does not exist is left out
                     self._sensors.append((part.name, world.sensors.sensor(part.name, (element,))))
-        self._turns = tuple(
+        self._are_revolute = tuple(
             j.kind != "prismatic" for j in world.model.robots[vehicle].movable_joints
         )
 
@@ -54,10 +54,12 @@ class Readings:
         vehicle, world = self._vehicle, self._simulation.world
         if vehicle is None:
             return
-        joints = zip(vehicle.joint_names, vehicle.joints.tolist(), self._turns, strict=True)
-        for name, value, turns in joints:
-            yield f"joint/{name}", "deg" if turns else "m", math.degrees(value) if turns else value
-        if self._is_simulated:
+        positions = vehicle.joints.tolist()
+        joints = zip(vehicle.joint_names, positions, self._are_revolute, strict=True)
+        for name, position, is_revolute in joints:
+            value = math.degrees(position) if is_revolute else position
+            yield f"joint/{name}", "deg" if is_revolute else "m", value
+        if self._has_dynamics:
             forces = world.contacts.forces(vehicle.name).values()
             yield "contact force", "N", math.fsum(math.hypot(*f.tolist()) for f in forces)
         for name, sensor in self._sensors:
@@ -69,7 +71,7 @@ class Readings:
                 yield f"battery/{name}", "%", 100.0 * message.percentage
 
     def _real_time_factor(self, wall: float, *, is_paused: bool) -> float | None:
-        """Return the ratio of simulation to wall time of the last seconds; None while paused."""
+        """Return simulation time per wall time in the last `WINDOW` [1]; None while paused."""
         history, now = self._history, self._simulation.time
         if is_paused:
             history.clear()

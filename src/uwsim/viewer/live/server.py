@@ -1,8 +1,8 @@
-"""The server of a live view: one port for the page and its socket, in a separate thread.
+"""The server of a live view: one port for the page and its WebSocket, in a separate thread.
 
-The simulation publishes copies; each viewer receives the newest of each kind, and a slow viewer
-misses older ones. The server listens on this computer only. A request needs the token of the
-printed address; the socket also needs the origin of the page.
+The simulation publishes copies of its state on channels. Each viewer receives the newest content of
+each channel; a slow viewer misses older content. The server listens on the loopback interface only.
+A request needs the token of the printed address; the WebSocket also needs the origin of the page.
 """
 
 from __future__ import annotations
@@ -33,20 +33,21 @@ HOST = "127.0.0.1"
 MAX_MESSAGE = 4096
 """The greatest size of a viewer's message [byte]."""
 MAX_MESSAGES = 120
-"""The greatest number of a viewer's messages in a second."""
+"""The greatest number of messages of a viewer in a second."""
 SHARE, BURST = 0.05, 0.1
-"""The share of the wall time in which a viewer is read, and the time at once [s]."""
+"""The greatest share of the wall time in which messages of a viewer are read [1], and the greatest
+time at once after a pause [s]."""
 MAX_VIEWERS = 16
 MAX_REQUESTED = 16
-"""The greatest number of cameras, and of topics, that a viewer receives."""
+"""The greatest number of cameras, and also of topics, that a viewer receives."""
 MAX_WAITING = 256
 """The greatest number of messages that wait for the simulation."""
 WRITE_BUFFER = 64 * 1024
 """The size of the write buffer of a viewer [byte]."""
 CLOSE_TIMEOUT = 1.0
-"""The greatest time for the answer of a viewer that is disconnected [s]."""
+"""The greatest time to wait for a viewer's answer when it is disconnected [s]."""
 START_TIMEOUT = 60.0
-"""The greatest time until the port is open [s]."""
+"""The greatest time to wait until the port is open [s]."""
 
 Message = dict[str, Any]
 
@@ -60,18 +61,18 @@ class Viewer:
     socket: ServerConnection
     """The connection."""
     wake: asyncio.Event = field(default_factory=asyncio.Event)
-    """The event that something new has arrived."""
+    """The event that is set when a channel has new content."""
     sent_versions: dict[str, int] = field(default_factory=dict)
-    """The version of each channel that was sent last."""
+    """The version that was sent last, by channel."""
     channels: frozenset[str] = frozenset()
     """The optional channels that the viewer requests."""
 
 
 class LiveServer:
-    """The server of a page and of all that is published to its viewers.
+    """The server of a page and of the content that is published to its viewers.
 
-    A *channel* is a name with its newest content, text or bytes. Channels that begin with ``?`` are
-    sent only to viewers that request them.
+    A *channel* has a name, and its newest content as text or bytes. Channels whose names begin with
+    ``?`` are optional: they are sent only to viewers that request them.
 
     Args:
         page: the function that returns the HTML.
@@ -130,12 +131,12 @@ class LiveServer:
         self._call(self._wake)
 
     def remove_channels(self, channels: Callable[[str], bool]) -> None:
-        """Remove the channels for which the function returns True."""
+        """Remove the channels for whose name the function returns True."""
         with self._lock:
             self._channels = {n: c for n, c in self._channels.items() if not channels(n)}
 
     def take_messages(self) -> list[tuple[int, Message]]:
-        """Take out the messages of viewers, oldest first, each with the viewer's number."""
+        """Remove and return the messages of viewers, oldest first, with the viewers' numbers."""
         with self._lock:
             messages = list(self._messages)
             self._messages.clear()
@@ -193,7 +194,7 @@ class LiveServer:
         await server.wait_closed()
 
     def _handle_request(self, connection: ServerConnection, request: Request) -> Response | None:
-        """Answer a request for the page; None opens a socket."""
+        """Return the response to a request for the page; None accepts a WebSocket."""
         try:
             return self._check_request(request)
         except (ValueError, LookupError):  # an invalid address, two headers of one name
@@ -236,7 +237,7 @@ class LiveServer:
                 self._messages.append((viewer.number, {"type": "left"}))
 
     async def _send(self, viewer: Viewer) -> None:
-        """Send what is new; for a slow viewer, newer content replaces older content."""
+        """Send new content to a viewer; if it is slow, newer content replaces older content."""
         try:
             while True:
                 await viewer.wake.wait()
@@ -251,7 +252,7 @@ class LiveServer:
             return
 
     def _new_versions(self, viewer: Viewer) -> list[tuple[str, int]]:
-        """Return the channels with new content for a viewer, and its version; the oldest first."""
+        """Return the channels with new content for a viewer, with their versions, oldest first."""
         with self._lock:
             versions = [
                 (version, channel)
@@ -289,7 +290,12 @@ def _port_of(server: Server) -> int:
 
 
 def _requested_channels(message: Message, channels: frozenset[str]) -> frozenset[str]:
-    """Return the optional channels that a viewer requests after a message."""
+    """Return the optional channels that a viewer requests, after it has sent a message.
+
+    Args:
+        message: the message.
+        channels: the optional channels that it has requested before.
+    """
     for kind, key, prefix in (("images", "cameras", "?image/"), ("topics", "names", "?topic/")):
         names = message.get(key)
         if message["type"] == kind and isinstance(names, list):

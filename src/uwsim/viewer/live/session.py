@@ -1,7 +1,7 @@
-"""The live views of one simulation after another, their pace, and their pilots.
+"""A live session: the views of consecutive simulations, their pace, and their pilots.
 
-Only a pilot's inputs and resets change a simulation; the inputs go over the bus as those of any
-program.
+Viewers change a simulation only by a pilot's inputs and by resets. The inputs are published on the
+bus, like the commands of any program.
 """
 
 from __future__ import annotations
@@ -29,12 +29,12 @@ REPORT_DELAY = 1.0
 
 
 class LiveSession:
-    """The viewers of simulations, one after the other (`uwsim.runs.trial.trial_observer`).
+    """The live views of consecutive simulations (`uwsim.runs.trial.trial_observer`).
 
     Args:
         server: the server of the pages.
-        speed: the simulation time in a second of the wall clock; 0: no limit.
-        mapping: the mapping of keys and sticks; None: there is no pilot.
+        real_time_factor: the simulation time per wall time [1]; 0: no limit.
+        mapping: the mapping of keys and sticks; None: viewers cannot pilot.
         waits_for_page: True if a simulation begins only when there is a viewer.
         allows_reset: True if viewers may reset vehicles and objects; not in a scored run.
         wall: the function that returns the wall time [s].
@@ -45,7 +45,7 @@ class LiveSession:
         self,
         server: LiveServer,
         *,
-        speed: float = 1.0,
+        real_time_factor: float = 1.0,
         mapping: PilotMapping | None = None,
         waits_for_page: bool = False,
         allows_reset: bool = False,
@@ -53,7 +53,7 @@ class LiveSession:
         report: Callable[[str], None] | None = None,
     ) -> None:
         self._server, self._wall, self._report = server, wall, report
-        self._clock = Clock(speed, wall)
+        self._clock = Clock(real_time_factor, wall)
         self._requests = ViewerRequests(server, self._clock, mapping)
         self._mapping = mapping
         self._waits_for_page, self._allows_reset = waits_for_page, allows_reset
@@ -77,7 +77,8 @@ class LiveSession:
         Args:
             simulation: the simulation.
             title: the title of the page.
-            parameters: the pilot's; None: all keys and sticks are shown, or there is no pilot.
+            parameters: the parameters of the pilot; None: the page shows all keys and sticks, or
+                there is no pilot.
         """
         self._update_pilot_fields(simulation, parameters)
         self._server.remove_channels(lambda channel: channel != "state")
@@ -100,7 +101,7 @@ class LiveSession:
     def _update_pilot_fields(
         self, simulation: Simulation, parameters: Mapping[str, float | str] | None
     ) -> None:
-        """Update the fields that pages show of the pilot; warn if no vehicle can be steered."""
+        """Update the pilot's fields of the message "state"; warn if no vehicle can be steered."""
         mapping = self._mapping
         if mapping is None or parameters is None:
             return
@@ -116,7 +117,7 @@ class LiveSession:
         }
 
     def _wait_for_page(self) -> None:
-        """Wait until there is a viewer; a page that reloads is back before the report."""
+        """Wait until there is a viewer; a page that reloads returns before the report."""
         report_time = self._wall() + REPORT_DELAY
         while not self._server.n_viewers:
             time.sleep(MAX_SLEEP)
@@ -149,7 +150,7 @@ class LiveSession:
         self._server.publish("end", json.dumps({"type": "end", "why": reason}))
 
     def _on_step(self, simulation: Simulation, view: LiveView) -> None:
-        """Publish what is due, and wait while the view is paused or ahead of its time."""
+        """Publish what is due, and wait while the view is paused or ahead of its pace."""
         if self.view is not view:
             return
         self._handle_requests(view)
@@ -172,7 +173,7 @@ class LiveSession:
         state = {
             "type": "state",
             "paused": self._clock.is_paused,
-            "speed": self._clock.speed,
+            "speed": self._clock.real_time_factor,
             "pilot": self._mapping is not None,
             "resets": self._allows_reset,
             **self._pilot_fields,

@@ -1,7 +1,7 @@
 """The topics that pages request: the numbers and texts of their newest messages.
 
-The subscriptions do not count as such (`uwsim.bus.Bus.subscribe`): nothing is published, rendered
-or changed for them. A topic without another subscriber may therefore have no messages.
+The bus does not count these subscriptions (`uwsim.bus.Bus.subscribe`): nothing is published,
+rendered or changed because of them. A topic without another subscriber may have no messages.
 """
 
 from __future__ import annotations
@@ -19,13 +19,13 @@ import numpy as np
 from ...bus import Bus
 
 MIN_PERIOD = 0.1
-"""The shortest wall time between two messages of a topic that are read [s]."""
+"""The shortest wall time between two messages of a topic that are sent to pages [s]."""
 MAX_FIELDS = 40
 """The greatest number of fields of a message that are shown."""
 MAX_ENTRIES = 8
-"""The greatest number of entries of an array."""
-MAX_LETTERS = 200
-"""The greatest number of letters of a text."""
+"""The greatest number of entries of an array that are shown."""
+MAX_CHARACTERS = 200
+"""The greatest number of characters of a text that are shown."""
 CHANNEL = "?topic/"
 """The prefix of the channel of a topic."""
 Value = float | str | None
@@ -42,8 +42,8 @@ class TopicMonitor:
 
     def __init__(self, bus: Bus, time: Callable[[], float], wall: Callable[[], float]) -> None:
         self._bus, self._time, self._wall = bus, time, wall
-        self._stops: dict[str, Callable[[], None]] = {}
-        self._due: dict[str, float] = {}
+        self._unsubscribe: dict[str, Callable[[], None]] = {}  # by topic
+        self._due: dict[str, float] = {}  # wall time of the next message, by topic [s]
         self._new_messages: dict[str, str] = {}
         self._last_list: dict[str, str] = {}
 
@@ -56,23 +56,29 @@ class TopicMonitor:
         return json.dumps({"type": "topics", "topics": list(topics.items())})
 
     def new_messages(self, channels: Set[str]) -> dict[str, str]:
-        """Return the new messages on the channels since the last call, channel -> message."""
+        """Return the newest message of each channel since the last call, by channel.
+
+        Args:
+            channels: the channels that pages request; only their topics are subscribed to.
+        """
         names = {name.removeprefix(CHANNEL) for name in channels if name.startswith(CHANNEL)}
-        for name in self._stops.keys() - names:
-            self._stops.pop(name)()
-        for name in names - self._stops.keys():
+        for name in self._unsubscribe.keys() - names:
+            self._unsubscribe.pop(name)()
+        for name in names - self._unsubscribe.keys():
             if name in self._bus.topics:
                 handler = partial(self._on_message, name)
-                self._stops[name] = self._bus.subscribe(name, object, handler, is_counted=False)
+                self._unsubscribe[name] = self._bus.subscribe(
+                    name, object, handler, is_counted=False
+                )
                 self._due[name] = 0.0
-        news, self._new_messages = self._new_messages, {}
-        return {f"{CHANNEL}{name}": text for name, text in news.items() if name in names}
+        messages, self._new_messages = self._new_messages, {}
+        return {f"{CHANNEL}{name}": text for name, text in messages.items() if name in names}
 
     def close(self) -> None:
         """End all subscriptions."""
-        for stop in self._stops.values():
-            stop()
-        self._stops.clear()
+        for unsubscribe in self._unsubscribe.values():
+            unsubscribe()
+        self._unsubscribe.clear()
 
     def _on_message(self, name: str, message: object) -> None:
         wall = self._wall()
@@ -81,15 +87,15 @@ class TopicMonitor:
         self._due[name] = wall + MIN_PERIOD
         fields = list(islice(fields_of(message), MAX_FIELDS + 1))
         head = {"type": "topic", "name": name, "time": self._time()}
-        cut = {"fields": fields[:MAX_FIELDS], "is_cut": len(fields) > MAX_FIELDS}
-        self._new_messages[name] = json.dumps(head | cut)
+        content = {"fields": fields[:MAX_FIELDS], "is_cut": len(fields) > MAX_FIELDS}
+        self._new_messages[name] = json.dumps(head | content)
 
 
 def fields_of(message: object, path: str = "") -> Iterator[tuple[str, Value]]:
     """Yield the numbers and texts in a message, with their paths as ``pose.position.x``.
 
-    An array has its first entries, and its length as ``NAME.length`` if it has more. Values that
-    are not finite are None. Headers and covariances are left out.
+    Of an array, the first `MAX_ENTRIES` entries are yielded, and if it has more, its length as
+    ``NAME.length``. Numbers that are not finite are None. Headers and covariances are left out.
     """
     if dataclasses.is_dataclass(message):
         for field in dataclasses.fields(message):
@@ -98,7 +104,7 @@ def fields_of(message: object, path: str = "") -> Iterator[tuple[str, Value]]:
             field_path = f"{path}.{field.name}" if path else field.name
             yield from fields_of(getattr(message, field.name), field_path)
     elif isinstance(message, str):
-        yield path, message[:MAX_LETTERS]
+        yield path, message[:MAX_CHARACTERS]
     elif isinstance(message, bool | np.bool_ | int | float | np.number):
         yield path, _number(message)
     elif isinstance(message, list | tuple | np.ndarray):

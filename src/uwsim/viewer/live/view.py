@@ -1,6 +1,6 @@
-"""A live view of one simulation: it reads the state between steps, and sends copies.
+"""A live view of one simulation: it reads the state between steps, and publishes copies.
 
-The view depends on the wall clock; the simulation does not: the view does not change it, except by
+The view depends on the wall clock, the simulation does not. The view changes the simulation only by
 a reset that a viewer requests.
 """
 
@@ -36,22 +36,23 @@ from .topic_monitor import TopicMonitor
 from .viewer_requests import MAX_SIDE, ViewerRequests
 
 RATE = 30.0
-"""The rows in a second of the wall clock [Hz]."""
+"""The rate of rows of poses and signals, in wall time [Hz]."""
 INPUT_DELAY = 0.01
-"""The delay of a row after a change of an input, when its vehicle begins to move [s]."""
+"""The wall time from a change of a pilot's input to a row that shows its effect [s]."""
 RESET_FIELDS = ("engine", "scenery", "devices", "vehicles")
 """The fields of the state that a reset restores."""
 IMAGE_RATE = 10.0
-"""The images in a second of the wall clock [Hz]."""
+"""The rate of camera images and views, in wall time [Hz]."""
 READING_RATE = 5.0
-"""The sets of readings, and messages of each topic, in a second of the wall clock [Hz]."""
+"""The rate of readings, and the greatest rate of messages of a topic, in wall time [Hz]."""
 SAMPLE_RATE = 2.0
-"""The batches of samples in a second of the wall clock [Hz]."""
+"""The rate of batches of samples of measures, in wall time [Hz]."""
 N_BATCHES = 600
 """The number of batches of samples that are stored for later viewers."""
 JPEG_QUALITY = 85
 """The quality of JPEG images, 0..100."""
 HEADER = struct.Struct("<BBHId")
+"""The header of binary messages: kind, index, 0, step, simulation time [s]."""
 ROW, IMAGE, VIEW, SAND = 1, 2, 3, 4
 """The kinds of binary messages (`uwsim.viewer.head`)."""
 
@@ -87,10 +88,10 @@ class LiveView:
         self._n_sent: dict[str, int] = {}
         self._levels: list[dict[str, Any]] = []
         self._markers: dict[str, Marker] = {}  # sent last
-        self._sand = [heap.version for heap in simulation.world.scenery.heaps]  # sent last
+        self._sand_versions = [heap.version for heap in simulation.world.scenery.heaps]  # sent last
         self._n_batches = 0
         self._due = {"row": 0.0, "images": 0.0, "samples": 0.0, "readings": 0.0}
-        self._early_row = math.inf  # the wall time of a row after an input [s]
+        self._early_row_time = math.inf  # the wall time of a row after an input [s]
         self._initial_state = copy_fields(simulation.state, RESET_FIELDS if allows_reset else ())
         self._readings = Readings(simulation, vehicle)
         self._topics = TopicMonitor(simulation.bus, lambda: simulation.time, wall)
@@ -125,7 +126,7 @@ class LiveView:
 
     def request_row(self, delay: float = INPUT_DELAY) -> None:
         """Send a row after ``delay`` [s of wall time], as an input has changed."""
-        self._early_row = min(self._early_row, self._wall() + delay)
+        self._early_row_time = min(self._early_row_time, self._wall() + delay)
 
     def close(self) -> None:
         """End all subscriptions; the simulation is closed next."""
@@ -134,8 +135,8 @@ class LiveView:
     def publish_due(self, *, is_paused: bool = False) -> None:
         """Publish what is due at this wall time."""
         now = self._wall()
-        if now >= self._early_row:
-            self._early_row, self._due["row"] = math.inf, now
+        if now >= self._early_row_time:
+            self._early_row_time, self._due["row"] = math.inf, now
         if self._is_due("row", now, RATE):
             row = self._state.row().astype("<f4").tobytes()
             self._server.publish("row", self._header(ROW, 0) + row)
@@ -149,13 +150,14 @@ class LiveView:
             self._send_images()
             self._send_views()
             # if rendering is slow, the simulation proceeds between two images
-            rest = self._wall() + 0.5 / IMAGE_RATE
-            self._due["images"] = max(self._due["images"], rest)
+            earliest_time = self._wall() + 0.5 / IMAGE_RATE
+            self._due["images"] = max(self._due["images"], earliest_time)
 
-    def _is_due(self, stream: str, now: float, rate: float) -> bool:
-        if now < self._due[stream]:
+    def _is_due(self, content: str, now: float, rate: float) -> bool:
+        """Return whether a kind of content is due at a wall time; schedule the next at a rate."""
+        if now < self._due[content]:
             return False
-        self._due[stream] = max(self._due[stream] + 1.0 / rate, now)
+        self._due[content] = max(self._due[content] + 1.0 / rate, now)
         return True
 
     def _header(self, kind: int, index: int) -> bytes:
@@ -203,13 +205,13 @@ class LiveView:
 
     def _send_sand(self) -> None:
         for number, heap in enumerate(self._simulation.world.scenery.heaps):
-            if heap.version != self._sand[number]:
-                self._sand[number] = heap.version
+            if heap.version != self._sand_versions[number]:
+                self._sand_versions[number] = heap.version
                 content = self._header(SAND, number) + heap.heights.astype("<f4").tobytes()
                 self._server.publish(f"sand/{number}", content)
 
     def _send_images(self) -> None:
-        """Send the published camera images; render those of cameras without a subscriber."""
+        """Send the requested camera images; render those of cameras without a subscriber."""
         channels = self._server.channels()
         world = self._simulation.world
         for index, name in enumerate(world.sensors.cameras):
@@ -218,7 +220,7 @@ class LiveView:
                 self._server.publish(channel, self._header(IMAGE, index) + encode_jpeg(image))
 
     def _image(self, camera: str, width: int = MAX_SIDE) -> npt.NDArray[np.uint8]:
-        """Return the image of a camera, at most ``width`` wide."""
+        """Return the image of a camera, at most ``width`` [px] wide."""
         world = self._simulation.world
         view = world.sensors.camera(camera)
         lens = view.intrinsics
@@ -240,7 +242,7 @@ class LiveView:
         return grey_truncated(pixels) if view.is_grey else pixels
 
     def _send_views(self) -> None:
-        """Draw the newest view that a page without WebGL requests."""
+        """Draw and send the newest view that a page without WebGL requests."""
         request = self._requests.view
         if request is None:
             return
@@ -271,10 +273,10 @@ def encode_jpeg(image: npt.NDArray[np.uint8]) -> bytes:
 
 
 def _parse_view(message: Message) -> tuple[Pose, tuple[int, int], float]:
-    """Read pose, size and vertical field of a view; raise BadSetting if they are invalid."""
+    """Return pose in W, width and height [px], vertical field of view [rad]; raise BadSetting."""
     pose, size = message.get("pose"), (message.get("width"), message.get("height"))
-    field = message.get("fovy", FIELD_OF_VIEW)
-    values = [*pose, *size, field] if isinstance(pose, list) and len(pose) == 7 else []
+    fovy = message.get("fovy", FIELD_OF_VIEW)
+    values = [*pose, *size, fovy] if isinstance(pose, list) and len(pose) == 7 else []
     numbers = [number for value in values if (number := read_number(value)) is not None]
     if len(numbers) != 10:
         raise BadSetting("The view has no pose of seven finite numbers, width, height and fovy.")
@@ -282,6 +284,6 @@ def _parse_view(message: Message) -> tuple[Pose, tuple[int, int], float]:
     width, height, fovy = numbers[7:]
     is_valid = 16 <= width <= MAX_SIDE and 16 <= height <= MAX_SIDE and 0.01 <= fovy <= 3.1
     if not is_valid or np.linalg.norm(rows[3:]) < 1e-3:
-        raise BadSetting("The size, the field or the orientation of the view is out of range.")
+        raise BadSetting("The size, field of view or orientation of the view is out of range.")
     world_from_camera = Pose(rows[:3], rotation_from_quaternion(rows[3:]))
     return world_from_camera, (int(width), int(height)), fovy

@@ -1,4 +1,4 @@
-"""The requests of viewers: inputs of pilots, views and images, and the pace."""
+"""The requests of viewers: inputs of pilots, views, images, the pace and resets."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from .mapping import PilotMapping, sum_inputs
 from .server import LiveServer, Message
 
 MAX_SIDE = 1280
-"""The greatest side of a view that is drawn for a page without WebGL [px]."""
+"""The greatest side of a view for a page without WebGL, and width of a camera image [px]."""
 
 
 class Changes(Flag):
-    """The changes by the messages of viewers."""
+    """The kinds of changes that messages of viewers cause."""
 
     NONE = 0
     PACE = auto()
@@ -27,23 +27,23 @@ class Changes(Flag):
 
 
 class ViewerRequests:
-    """The requests of all viewers, which stay from one simulation to the next.
+    """The requests of all viewers, which remain valid in the next simulation.
 
     Args:
-        server: the source of their messages.
-        clock: the clock that they control.
-        mapping: the mapping of keys and sticks; None: there is no pilot.
+        server: the server that receives the viewers' messages.
+        clock: the clock whose pace the viewers control.
+        mapping: the mapping of keys and sticks; None: viewers cannot pilot.
     """
 
     def __init__(self, server: LiveServer, clock: Clock, mapping: PilotMapping | None) -> None:
         self._server, self._clock, self._mapping = server, clock, mapping
         self._views: dict[int, Message] = {}
-        self._widths: dict[int, int] = {}  # of the images of each viewer [px]
-        self._inputs: dict[int, tuple[float, ...]] = {}  # of each viewer
+        self._widths: dict[int, int] = {}  # requested widths of images, by viewer [px]
+        self._inputs: dict[int, tuple[float, ...]] = {}  # values of the pilot's axes, by viewer
 
     @property
     def inputs(self) -> tuple[float, ...] | None:
-        """The sum of all pilots' inputs, -1..1; None before the first input."""
+        """The sum of all viewers' inputs for each axis, -1..1; None before the first input."""
         return sum_inputs(self._inputs)
 
     @property
@@ -53,11 +53,11 @@ class ViewerRequests:
 
     @property
     def width(self) -> int:
-        """The width of the images for the widest viewer [px]."""
+        """The width of camera images: the greatest one that a viewer requests [px]."""
         return max(self._widths.values(), default=MAX_SIDE)
 
     def receive(self) -> Changes:
-        """Read the messages of viewers since the last call; return what changed."""
+        """Apply the messages of viewers since the last call; return what they changed."""
         changes = Changes.NONE
         for viewer, message in self._server.take_messages():
             try:
@@ -94,6 +94,6 @@ class ViewerRequests:
 
 
 def _width_of(message: Message) -> int:
-    """Return the width of the images that a viewer requests [px]; the greatest by default."""
+    """Return the width of images that a message requests [px]; by default the greatest."""
     width = read_number(message.get("width"))
     return MAX_SIDE if width is None else round(min(max(width, 16.0), MAX_SIDE))
