@@ -49,7 +49,7 @@ def test_a_sharp_point_lies_in_the_bracket_of_every_seed(point: float) -> None:
     assert all(low < point <= high <= low + 0.0101 for low, high in brackets(result))
     assert len(runs.made) <= 9 + 10 * (WHERE.max_cuts() + 1)
     assert all(0.0 <= level <= 1.3 and round(level, 3) == level for _, level in runs.made)
-    assert result.fold is None
+    assert result.reversal is None
 
 
 def test_each_seed_has_a_point_of_its_own() -> None:
@@ -85,15 +85,15 @@ def test_seeds_that_never_break_stand_beside_those_that_do() -> None:
 
 def test_a_criterion_that_goes_back_is_warned_of_and_its_first_point_found() -> None:
     result = found(lambda seed, level: 0.4 < level < 0.9 or level > 1.2)
-    assert result.fold is not None
-    assert (result.fold.break_level, result.fold.hold_level) == (0.488, 1.137)
-    assert (result.fold.n, result.fold.n_broken, result.fold.n_held) == (10, 10, 10)
+    assert result.reversal is not None
+    assert (result.reversal.break_level, result.reversal.hold_level) == (0.488, 1.137)
+    assert (result.reversal.n, result.reversal.n_broken, result.reversal.n_held) == (10, 10, 10)
     assert all(low <= 0.4 < high for low, high in brackets(result))
 
 
-def test_one_stray_run_is_no_fold() -> None:
+def test_one_stray_run_is_no_reversal() -> None:
     result = found(lambda seed, level: level > 0.8 or (seed == 0 and level == 0.325))
-    assert result.fold is None
+    assert result.reversal is None
     assert all(low <= 0.8 < high for low, high in brackets(result))
 
 

@@ -1,4 +1,8 @@
-"""The envelope of a benchmark: the level at which it breaks, with confidence limits."""
+"""The envelope of a benchmark: the level at which runs break, with confidence limits.
+
+A run *breaks* if a criterion holds for it, for instance a tracking error above a limit; else the
+run *holds*. The search raises (or lowers) one swept parameter until runs break.
+"""
 
 from __future__ import annotations
 

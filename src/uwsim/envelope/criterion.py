@@ -1,13 +1,14 @@
-"""The criterion of a broken run: an expression over its measures and its status.
+"""The criterion by which a run counts as broken: an expression of its measures and its status.
 
 .. code-block:: text
 
     corners > 5         corners > 5 || centroid > 3         status == lost         total > 2*corners
 
-The language is that of scores; any value but 0 is broken. A run whose status is not ``ok`` counts
-as broken, too, as a lost track has no error. The exception is an expression with the status
-itself, a number with the names ``ok`` (0), ``lost``, ``timeout``, ``collision`` and ``error``. A
-run without a value for a measure of the expression is broken, with that reason.
+The expression has the syntax of scores; a run is broken if its value is not 0. A run whose status
+is not ``ok`` is also broken, as a lost track has no error to compare. An expression that contains
+``status`` decides this itself: the status is a number, compared with the names ``ok`` (0),
+``lost``, ``timeout``, ``collision`` and ``error``. A run without a value for a measure of the
+expression is broken with the reason ``no value``.
 """
 
 from __future__ import annotations
@@ -31,20 +32,20 @@ STATUSES = {
     "dropped": 8.0,
     "simulation error": 9.0,
 }
-"""The number of each status of a row."""
+"""The number that stands in an expression for each status of a row."""
 NAMES = {"ok": 0.0, "lost": 1.0, "timeout": 2.0, "collision": 3.0, "error": 4.0}
-"""The numbers of statuses by their names in an expression."""
+"""The names of statuses that an expression may contain, with their numbers."""
 STATUS, TOTAL = "status", "total"
 
 
 @dataclass(frozen=True, kw_only=True)
 class Judgement:
-    """The evaluation of a run by a criterion."""
+    """The result of a criterion for a run."""
 
     is_broken: bool
-    """The judgement itself: true for a broken run."""
+    """True if the run is broken."""
     reason: str
-    """The reason: the criterion, a status, ``no value``; empty for a run that holds."""
+    """The reason of a broken run: the criterion, a status or ``no value``; empty if it holds."""
 
 
 @dataclass(frozen=True)
@@ -52,9 +53,9 @@ class Criterion:
     """A parsed criterion."""
 
     expression: expressions.Expression
-    """The expression in the language of scores."""
+    """The parsed expression."""
     measures: tuple[str, ...]
-    """The measures in it, in the order of appearance."""
+    """The names of the measures in the expression, in the order of appearance."""
     uses_status: bool
     """True if the expression uses the status."""
 
@@ -79,7 +80,10 @@ class Criterion:
 
 
 def parse_criterion(text: str, measures: Collection[str]) -> Criterion:
-    """Parse a criterion over measures of these names; a measure called ``lost`` is that measure.
+    """Parse a criterion over measures of these names.
+
+    A name of a measure takes precedence over a name of a status: ``lost`` is the measure if there
+    is one of that name.
 
     Raises:
         ScoreError: the text cannot be parsed, or uses no measure or status.

@@ -1,4 +1,4 @@
-"""The directory of an envelope: its files, its lock and its checks before writing."""
+"""The output directory of an envelope: its file names, its lock, and the checks before writing."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ FILE_NAMES = re.compile(
   | pictures/\d+-[^/]+\.png(\.part)?
     """
 )
-"""The files of an envelope."""
+"""The pattern of the names of files in the directory of an envelope."""
 FOLDERS = ("units", "pictures")
 
 
 def check_directory(directory: Path, *, resume: bool, overwrite: bool) -> None:
-    """Refuse a directory that may not be written into; raise BadSetting."""
+    """Raise BadSetting if the options do not allow writing into the directory."""
     if resume and overwrite:
         raise BadSetting("--resume and --overwrite exclude each other.")
     if resume:
@@ -33,7 +33,7 @@ def check_directory(directory: Path, *, resume: bool, overwrite: bool) -> None:
 
 @contextmanager
 def prepare_directory(directory: Path, *, resume: bool, overwrite: bool) -> Iterator[None]:
-    """Lock the directory and remove an earlier envelope unless its runs are reused."""
+    """Lock the directory, and remove an earlier envelope unless its runs are reused."""
     with lock_directory(directory):
         check_directory(directory, resume=resume, overwrite=overwrite)
         if not resume:

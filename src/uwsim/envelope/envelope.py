@@ -1,7 +1,7 @@
 """The result of a search for the breaking point, and its file ``envelope.json``.
 
-``envelope.json`` is a pure function of inputs, seeds and versions: the same search gives the same
-bytes, however often it was interrupted, and with every executor.
+The bytes of ``envelope.json`` depend only on inputs, seeds and versions: interruptions of the
+search and the executor have no effect on them.
 """
 
 from __future__ import annotations
@@ -30,22 +30,22 @@ METHOD = (
 
 @dataclass(frozen=True, kw_only=True)
 class SearchSettings:
-    """The parameters of a search."""
+    """The settings of a search, as the envelope stores them."""
 
     parameter: str
-    """The swept parameter that grew."""
+    """The name of the swept parameter that the search varies."""
     unit: str
     """The unit of the parameter; ``1`` for none."""
     criterion: str
-    """The criterion."""
+    """The text of the criterion of a broken run."""
     fixed: Mapping[str, float]
-    """The values of the other swept parameters."""
+    """The values of the other swept parameters, which the search does not vary."""
     bounds: Range
-    """The searched range."""
+    """The searched range of the parameter, with its tolerance."""
     seeds: tuple[int, ...]
-    """The seeds, one a repeat."""
+    """The seeds, one for each repeat."""
     confidence: float
-    """The confidence level of the limits."""
+    """The confidence level of the limits, from 0 to 1."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,19 +53,19 @@ class Envelope:
     """The result of a search for the breaking point."""
 
     settings: SearchSettings
-    """The parameters of the search."""
+    """The settings of the search."""
     search: Search
     """The breaking point of each seed."""
     evaluations: tuple[Evaluation, ...]
-    """Every run, by level and seed."""
+    """The evaluations of all runs, ordered by level, then by seed."""
     inputs: Inputs
-    """Names and hashes of the files read."""
+    """The names and hashes of the files read."""
     run: RunInfo
     """The configuration of the runs."""
 
     @property
     def median(self) -> Median:
-        """The breaking point and its limits, along the range from near to far."""
+        """The median breaking point over the seeds, with its confidence limits."""
         bounds = self.settings.bounds
         sign = 1.0 if bounds.stop >= bounds.start else -1.0
         brackets = [
@@ -89,17 +89,17 @@ class Envelope:
 
     @property
     def n_unbroken(self) -> int:
-        """The number of seeds that do not break at the far end."""
+        """The number of seeds whose run at the far end of the range holds."""
         return sum(threshold.break_level is None for threshold in self.search.thresholds)
 
     @property
     def n_broken_at_once(self) -> int:
-        """The number of seeds that are broken at the near end."""
+        """The number of seeds whose run at the near end of the range is broken."""
         return sum(threshold.hold_level is None for threshold in self.search.thresholds)
 
     @property
     def verdict(self) -> str:
-        """``breaks``, ``does not break``, ``broken from the start`` or ``undecided``."""
+        """The verdict ``breaks``, ``does not break``, ``broken from the start`` or ``undecided``."""
         n = len(self.search.thresholds)
         if self.median.value is not None:
             return "breaks"
@@ -109,7 +109,7 @@ class Envelope:
 
     @property
     def sentence(self) -> str:
-        """The result in one line: a number with its unit and its bound."""
+        """The result in one line: the breaking point with its unit and confidence limits."""
         settings, median = self.settings, self.median
         name, unit = settings.parameter, "" if settings.unit == "1" else f" {settings.unit}"
         start, stop = (
@@ -129,14 +129,15 @@ class Envelope:
 
     @property
     def warnings(self) -> tuple[str, ...]:
-        """Caveats of the result."""
+        """The caveats of the result, as messages."""
         messages = []
-        settings, fold = self.settings, self.search.fold
-        if fold is not None:
+        settings, reversal = self.settings, self.search.reversal
+        if reversal is not None:
+            n, hold_level = reversal.n, self._number(reversal.hold_level)
             messages.append(
-                f"not monotone: at {settings.parameter} {self._number(fold.break_level)} "
-                f"{fold.n_broken} of {fold.n} seeds break, at {self._number(fold.hold_level)} "
-                f"{fold.n_held} of {fold.n} hold again; the first breaking point was searched"
+                f"not monotone: at {settings.parameter} {self._number(reversal.break_level)} "
+                f"{reversal.n_broken} of {n} seeds break, at {hold_level} "
+                f"{reversal.n_held} of {n} hold again; the first breaking point was searched"
             )
         counts = reasons(e.judgement for e in self.evaluations)
         if n_failures := counts.get("simulation error", 0):
@@ -195,7 +196,7 @@ class Envelope:
         return path
 
     def _number(self, value: float) -> str:
-        """Return a level with the digits that the tolerance justifies."""
+        """Return a level as text with the decimals that the tolerance justifies."""
         return f"{value:.{self._decimals}f}"
 
     @property
@@ -213,7 +214,7 @@ class Envelope:
         return f" ({settings.confidence * 100:.3g} %: {low} .. {high})"
 
     def _widen(self, limit: float, rounding: Callable[[float], int]) -> str:
-        """Return a confidence limit, rounded outwards."""
+        """Return a confidence limit as text; ``rounding`` must round away from the median."""
         if not math.isfinite(limit):
             return "outside the range"
         scale = 10.0**self._decimals

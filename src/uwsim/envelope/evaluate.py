@@ -1,8 +1,8 @@
-"""The execution of single levels with single seeds, each once: stored runs are reused.
+"""The execution of the runs of a search, each a single level with a single seed.
 
-Each is a trial of the independent mode: the algorithm settles at the updaters' initial values,
-then the level is ramped in. The images and the noise of a level depend on the seed and on the
-level's values, never on earlier runs.
+A run is executed only once; stored runs are reused. Each run is a trial of the independent mode:
+the algorithm settles at the initial values of the scene updaters, then the level is ramped in. The
+images and the noise of a run depend on the seed and on the values of the level, not on other runs.
 """
 
 from __future__ import annotations
@@ -21,54 +21,59 @@ from ..runs.sealing import seal_runs
 from .criterion import Criterion, Judgement
 from .search import Search, SeedSearch, Strategy
 
-STRIDE = 10_000
-"""The count of trial files that a seed reserves."""
+TRIALS_PER_SEED = 10_000
+"""The number of indices of trial files that are reserved for each seed."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Evaluation:
-    """One run."""
+    """A run of the search and its judgement."""
 
     seed: int
-    """The seed of every random stream."""
+    """The seed of all random streams of the run."""
     level: float
     """The value of the parameter that the search varies."""
     judgement: Judgement
-    """The judgement of the run, with its reason."""
+    """The result of the criterion for the run."""
     row: StoredRow
-    """The stored row."""
+    """The stored row of the run."""
 
 
 def plan_for(plan: Plan) -> Plan:
-    """Return the plan of single levels, independent of seeds and search."""
+    """Return the plan of the runs of a search, without the seeds and levels of a benchmark."""
     return replace(plan, mode="independent", seed=0, repeats=1, level_choices=())
 
 
 class Evaluations:
-    """The runs of the search, read from disk or executed.
+    """The evaluations of the runs of a search, read from disk or executed.
 
     Args:
-        run: the run that stores them; its plan is one of `plan_for`.
+        run: the benchmark run that stores the trials, with a plan of `plan_for`.
         level: the values of all swept parameters, outermost first; the search varies one.
-        parameter: the swept parameter of the search.
+        parameter: the name of the swept parameter that the search varies.
         criterion: the criterion of a broken run.
     """
 
     def __init__(self, run: Run, *, level: Level, parameter: str, criterion: Criterion) -> None:
         self.main_run = run
-        """The run that stores them."""
+        """The benchmark run that stores the trials."""
         self._level, self._criterion = level, criterion
         self.parameter = parameter
-        """The swept parameter of the search."""
+        """The name of the swept parameter that the search varies."""
         self._trials: dict[tuple[int, tuple[float, ...]], Trial] = {}
         self._used_indices: set[int] = set()  # indices of trial files
         self.results: dict[tuple[int, float], Evaluation] = {}
-        """The evaluation of every requested run, by seed and value."""
+        """The evaluation of each requested run, by seed and level."""
         for path in sorted((run.out / journal.FOLDER).glob("*.jsonl")):
             self._register(int(path.stem), journal.head_of(path))
 
     def run(self, strategy: Strategy, executor: Executor, on_run: OnLevel = lambda: None) -> Search:
-        """Execute a strategy to its end, with the runs that are not on disk.
+        """Carry out a strategy, and execute the runs that are not on disk.
+
+        Args:
+            strategy: the generator of the levels to run.
+            executor: the executor of the runs.
+            on_run: called after each executed run.
 
         Raises:
             ResultError: a stored trial belongs to another run.
@@ -83,7 +88,7 @@ class Evaluations:
         return queue.search
 
     def is_broken(self, seed: int, value: float) -> bool | None:
-        """Return whether a run is broken; None if it was not executed yet."""
+        """Return whether the run of a seed at a level is broken; None if it is not executed yet."""
         if (seed, value) not in self.results:
             trial = self.trial(seed, value)
             content = self.main_run.read_trial(trial)
@@ -96,13 +101,14 @@ class Evaluations:
         return self.results[seed, value].judgement.is_broken
 
     def trial(self, seed: int, value: float) -> Trial:
-        """Return the trial of a run, whose number follows from its seed and its level."""
+        """Return the stored trial of a seed at a level, or a new one with the next free index."""
         level = Level(
             tuple((name, value if name == self.parameter else v) for name, v in self._level.values)
         )
         key = (seed, tuple(v for _, v in level.values))
         if key not in self._trials:
-            index = next(i for i in itertools.count(seed * STRIDE) if i not in self._used_indices)
+            indices = itertools.count(seed * TRIALS_PER_SEED)
+            index = next(i for i in indices if i not in self._used_indices)
             self._add(Trial(index=index, repeat=0, seed=seed, levels=(level,), is_alone=True))
         return self._trials[key]
 
@@ -120,7 +126,7 @@ class Evaluations:
 
 
 class _JobQueue(JobQueue):
-    """The runs that a strategy requests; each finished one may lead to others."""
+    """The queue of the runs that a strategy requests; each finished run may lead to others."""
 
     def __init__(self, runs: Evaluations, strategy: Strategy, on_run: OnLevel) -> None:
         super().__init__([], on_run)
@@ -129,11 +135,11 @@ class _JobQueue(JobQueue):
         self._results: dict[int, Any] = {}
         self._waiting_tasks: dict[tuple[int, float], list[int]] = {}
         self.search: Search | None = None
-        """The result of the strategy; None until it ends."""
+        """The result of the strategy; None until the strategy ends."""
         self._start_tasks(next(strategy))
 
     def report_finish(self, job: Job) -> None:
-        """Resume the task that waits for the run."""
+        """Resume the tasks that wait for a finished run."""
         super().report_finish(job)
         values = dict(job.trial.levels[0].values)
         key = (job.trial.seed, values[self._runs.parameter])
@@ -150,11 +156,16 @@ class _JobQueue(JobQueue):
         self._end_when_finished()
 
     def _advance(self, i: int, answer: bool | None) -> None:
-        """Advance a task until it needs a run that is not executed."""
+        """Advance task i until it needs a run that is not executed yet.
+
+        Args:
+            i: the index of the task.
+            answer: whether the run that it waits for is broken; None to start the task.
+        """
         task = self._tasks[i]
         try:
             while True:
-                # None begins a generator
+                # None starts the generator
                 level = task.requests.send(answer)  # type: ignore[arg-type]
                 answer = self._runs.is_broken(task.seed, level)
                 if answer is None:

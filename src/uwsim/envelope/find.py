@@ -1,4 +1,4 @@
-"""The search for an envelope and the collection of its runs."""
+"""The function that searches for the breaking point and returns the envelope."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .search_request import SearchRequest
 
 
 def max_runs(settings: SearchSettings) -> int:
-    """Return the greatest number of runs of a search."""
+    """Return an upper bound of the number of runs of a search."""
     return 9 + len(settings.seeds) * (settings.bounds.max_cuts() + 1)
 
 
@@ -23,11 +23,11 @@ def find(
     """Search for the breaking point of every seed.
 
     Args:
-        run: the run; its plan is one of `plan_for`.
+        run: the benchmark run that stores the trials, with a plan of `plan_for`.
         request: the request of the search.
-        settings: the same, with the seeds.
+        settings: the settings of the search, with the seeds.
         executor: the executor of the runs that are not on disk.
-        on_run: called for each of these.
+        on_run: called after each executed run.
     """
     runs = Evaluations(
         run, level=request.level, parameter=request.parameter, criterion=request.criterion

@@ -1,4 +1,4 @@
-"""The plot of an envelope: every run, each seed's breaking point, and the result."""
+"""The plot of an envelope: all runs, the breaking point of each seed, and the result."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ SIZE = (5.4, 4.2)  # [inch]
 
 
 def draw(envelope: Envelope, directory: Path) -> Path:
-    """Draw ``envelope.png``."""
+    """Draw the envelope into ``envelope.png``; return the path."""
     settings = envelope.settings
     path = directory / FILE
     with styled_figure() as figure:
@@ -47,7 +47,7 @@ def draw(envelope: Envelope, directory: Path) -> Path:
 
 
 def _draw_measure(axes: Axes, envelope: Envelope) -> None:
-    """Draw the criterion's first measure over the level; runs without a value are at the top."""
+    """Draw the first measure of the criterion over the level; runs without a value at the top."""
     rows = [e.row for e in envelope.evaluations]
     names = list(rows[0].measures) if rows else []
     criterion = parse_criterion(envelope.settings.criterion, names)
@@ -61,9 +61,9 @@ def _draw_measure(axes: Axes, envelope: Envelope) -> None:
         evaluations = [e for e in envelope.evaluations if e.judgement.is_broken == is_broken]
         points = [(e.level, v) for e in evaluations if (v := _value(e, name)) is not None]
         _dots(axes, [x for x, _ in points], [y for _, y in points], marker, colour, word)
-        lost = [e.level for e in evaluations if _value(e, name) is None]
+        levels = [e.level for e in evaluations if _value(e, name) is None]
         top = axes.get_xaxis_transform()
-        _dots(axes, lost, [0.95] * len(lost), "x", colour, f"{word}, no value", transform=top)
+        _dots(axes, levels, [0.95] * len(levels), "x", colour, f"{word}, no value", transform=top)
     limit = _limit(envelope.settings.criterion, name, names)
     if limit is not None:
         axes.axhline(limit, color=GREY, linewidth=0.8, linestyle=":")
@@ -92,7 +92,7 @@ def _dots(
 
 
 def _draw_seeds(axes: Axes, envelope: Envelope) -> None:
-    """Draw each seed's runs on a line of its own, and its breaking point."""
+    """Draw the runs and the breaking point of each seed on a separate line."""
     lines = {seed: i for i, seed in enumerate(envelope.settings.seeds)}
     for is_broken, colour, marker in ((False, INTACT_COLOUR, "o"), (True, BROKEN_COLOUR, "X")):
         runs = [e for e in envelope.evaluations if e.judgement.is_broken == is_broken]
@@ -119,9 +119,9 @@ def _draw_result(axes: Axes, envelope: Envelope) -> None:
         axes.axvspan(max(median.low, ends[0]), min(median.high, ends[1]), color="#e9e9e9", zorder=0)
     if median.value is not None:
         axes.axvline(median.value, color=INK, linewidth=1.0)
-    fold = envelope.search.fold
-    if fold is not None:
-        axes.axvline(fold.hold_level, color=BROKEN_COLOUR, linewidth=0.8, linestyle="--")
+    reversal = envelope.search.reversal
+    if reversal is not None:
+        axes.axvline(reversal.hold_level, color=BROKEN_COLOUR, linewidth=0.8, linestyle="--")
 
 
 def _value(evaluation: Evaluation, name: str) -> float | None:
@@ -131,7 +131,7 @@ def _value(evaluation: Evaluation, name: str) -> float | None:
 
 
 def _limit(criterion: str, name: str, names: list[str]) -> float | None:
-    """The number in ``name > number``; None where the criterion is anything else."""
+    """Return the number in a criterion ``name > number``; None for any other criterion."""
     steps = parse_criterion(criterion, names).expression.steps
     if len(steps) == 3 and steps[0].name == name and steps[1].constant is not None:
         return steps[1].constant

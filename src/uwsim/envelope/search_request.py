@@ -1,4 +1,4 @@
-"""The request of ``uwsim envelope``: swept parameter, range, criterion and tolerance."""
+"""The validated request of ``uwsim envelope``: swept parameter, range, tolerance and criterion."""
 
 from __future__ import annotations
 
@@ -14,26 +14,26 @@ if TYPE_CHECKING:
     from . import Criterion, Range, SearchSettings
 
 MAX_CUTS = 30
-"""The greatest power of 2 by which a tolerance divides the range."""
+"""The largest number of halvings of the range that a tolerance may require."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class SearchRequest:
-    """The request of a search."""
+    """The validated request of a search."""
 
     parameter: str
-    """The swept parameter that grows."""
+    """The name of the swept parameter that the search varies."""
     spec: SceneUpdaterSpec
-    """The updater of the parameter."""
+    """The spec of the scene updater that sets the parameter."""
     criterion: Criterion
     """The criterion of a broken run."""
     bounds: Range
-    """The searched range and its tolerance."""
+    """The searched range of the parameter, with its tolerance."""
     level: Level
-    """The values of all swept parameters outside the search."""
+    """The values of all swept parameters; the search replaces the value of its parameter."""
 
     def settings(self, seeds: tuple[int, ...], confidence: float) -> SearchSettings:
-        """Return the parameters of the search as the envelope stores them."""
+        """Return the settings of the search as the envelope stores them."""
         from . import SearchSettings
 
         return SearchSettings(
@@ -55,15 +55,15 @@ def search_request(
     fixed_values: list[tuple[str, float]],
     errors: ErrorCollector,
 ) -> SearchRequest | None:
-    """Return the request; None with collected errors if it is invalid.
+    """Validate a request; return None, with the errors collected, if it is invalid.
 
     Args:
-        plan: the benchmark to run.
-        parameter: the swept parameter that grows.
-        criterion_text: the criterion.
-        ends: near end, far end and tolerance; None where not set.
-        fixed_values: the values of other swept parameters.
-        errors: the collection of errors.
+        plan: the plan of the benchmark.
+        parameter: the name of the swept parameter that the search varies.
+        criterion_text: the text of the criterion.
+        ends: the near end and the far end of the range, and the tolerance; None for a default.
+        fixed_values: the names and values of other swept parameters.
+        errors: receives the errors.
     """
     from . import parse_criterion
 
@@ -87,10 +87,11 @@ def search_request(
 
 
 def updater_of(plan: Plan, parameter: str) -> SceneUpdaterSpec:
-    """Return the updater of the searched parameter.
+    """Return the spec of the scene updater that sets the searched parameter.
 
     Raises:
-        BadSetting: the benchmark does not sweep it, or it has no values between two levels.
+        BadSetting: the benchmark does not sweep the parameter, or the parameter has no values
+            between two levels.
     """
     from ..benchmark.updaters import chain, swept_parameters
 
@@ -113,10 +114,11 @@ def range_of(
     stop: float | None,
     tolerance: float | None,
 ) -> Range:
-    """Return the range.
+    """Return the searched range; the first and last level are the default ends.
 
     Raises:
-        BadSetting: it is empty, too fine, or has values that the updater does not allow.
+        BadSetting: the range is empty, the tolerance is too fine, or the scene updater does not
+            allow an end.
     """
     from ..schema import MAX_NUMBER
     from . import Range
@@ -144,7 +146,7 @@ def range_of(
 
 
 def violated_limit(spec: SceneUpdaterSpec, value: float) -> str | None:
-    """Return the allowed values of the updater if a value is outside them, else None."""
+    """Return a description of the allowed values if a value is not allowed, else None."""
     from ..schema import fields_of
 
     field = {field.name: field for field in fields_of(type(spec))}.get("initial_value")
@@ -155,17 +157,18 @@ def violated_limit(spec: SceneUpdaterSpec, value: float) -> str | None:
 
 
 def round_down(width: float) -> float:
-    """Return the greatest 1, 2 or 5 times a power of ten that is not larger."""
+    """Return the greatest number of the form 1, 2 or 5 times a power of ten up to ``width``."""
     power = 10.0 ** math.floor(math.log10(width))
     digit = next(d for d in (5.0, 2.0, 1.0) if d * power <= width * (1 + 1e-9))
     return float(f"{digit * power:.1g}")
 
 
 def fixed_levels(plan: Plan, parameter: str, fixed_values: list[tuple[str, float]]) -> Level:
-    """Return the value of every swept parameter except the searched one.
+    """Return the values of all swept parameters, with the chosen values of the fixed ones.
 
     Raises:
-        BadSetting: a parameter is not in the sweep, or has several values and none is chosen.
+        BadSetting: a parameter is not in the sweep, is chosen twice, is the searched one, or has
+            several levels and no chosen value.
     """
     from ..benchmark.updaters import Level, chain, swept_parameters
 

@@ -1,4 +1,4 @@
-"""Exact ray casting against the triangles of a scene."""
+"""Exact ray casting against the triangles of a scene, for sonars and other range sensors."""
 
 from .cover import Balls
 from .kernel import Hits

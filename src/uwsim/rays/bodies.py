@@ -1,8 +1,11 @@
-"""The poses of the bodies of a scene, and the search for bodies near rays, compiled.
+"""The poses of the bodies of a scene, and the compiled search for bodies near rays.
 
-A tree of boxes in W contains the balls of the bodies. A box has a margin. A body that moves within
-it changes nothing. If a body leaves its box, that box and those around it are computed again, no
-others. The frames of a body are computed when rays come near it, and remain valid until it moves.
+Each body has a bounding ball. A tree of boxes in the world frame W contains the balls. Each box has
+a margin: while a body stays within the margin of its box, the tree is not changed. When it leaves
+the box, only that box and the boxes around it are computed again. The transforms of a body are
+computed when rays come near it, and remain valid until it moves.
+
+A body either follows a body of the physics engine, or has a pose that `RayScene.place` sets.
 """
 
 from __future__ import annotations
@@ -20,57 +23,59 @@ from .tree import build_nodes
 from .triangle import IntArray, Point, transform_point
 
 BOX_MARGIN = 0.05
-"""The margin of a box on each side, as a share of the radius of its body."""
+"""The margin of a box on each side, as a share of the radius of the body's ball."""
 RADIUS_FACTOR = 1.0 + 1e-6
-"""The factor of a radius that compensates rounding."""
+"""The factor by which a radius is enlarged to compensate rounding."""
 MAX_INSERTION_SORT = 24
 """The largest number of bodies that are sorted by insertion."""
 
 
 class Bodies(NamedTuple):
-    """The bodies of a scene."""
+    """The b bodies of a scene, and the tree of boxes around them with k nodes."""
 
     balls: Array
-    """The centre and radius of a ball around each, in its frame, (b, 4) [m]."""
+    """The centre and radius of the bounding ball of each body, in the body's frame, (b, 4) [m]."""
     engine_body: IntArray
-    """The engine's body that each is on; below 0 its pose is set, (b,)."""
+    """The index of the engine's body that each body follows; below 0 if its pose is set, (b,)."""
     world_from_body: Array
-    """The frame at the last update; NaN before it for a body of the engine, (b, 4, 4) [m]."""
+    """The transforms at the last update; NaN before it if a body follows the engine, (b, 4, 4)."""
     body_from_world: Array
-    """The inverse frame, (b, 4, 4) [m]."""
+    """The inverse transforms, (b, 4, 4)."""
     centres: Array
-    """The centre of each ball in W when its box was computed, then its radius, (b, 4) [m]."""
+    """The centre in W and radius of each ball when its box was computed, (b, 4) [m]."""
     boxes: Array
-    """The boxes of both children of each node of the tree, (k, 12) [m]."""
+    """The lower and upper corner in W of the box of each node's two children, (k, 12) [m]."""
     links: IntArray
-    """The node of each child, or its first index in the order; its number of bodies, (k, 4)."""
+    """For each child: its node and 0; or, of a leaf, its start in `order` and its number of bodies,
+    (k, 4)."""
     order: IntArray
-    """The number of the body at each index of the leaves, (b,)."""
+    """The indices of the bodies in the order of the leaves, (b,)."""
     parents: IntArray
-    """The parent of each node, times two, plus one for its second child; -1 at the root, (k,)."""
+    """The parent of each node: 2 p + side, with the parent's node p and the side 0 or 1 of the
+    child; -1 for the root, (k,)."""
     leaves: IntArray
-    """The leaf of each body in the same form, (b,)."""
+    """The leaf of each body: 2 p + side, as in `parents`, (b,)."""
 
 
 class EngineFrames(NamedTuple):
-    """The present frames of the engine's bodies."""
+    """The present frames of the m bodies of the physics engine."""
 
     origins: Array
     """The origins in W, (m, 3) [m]."""
     axes: Array
-    """The axes in W, (m, 3, 3)."""
+    """The rotation matrices ``world_from_body``, (m, 3, 3)."""
 
 
 NO_ENGINE_FRAMES = EngineFrames(np.zeros((0, 3)), np.zeros((0, 3, 3)))
-"""The frames of a scene without bodies of an engine."""
+"""The frames for a scene without a physics engine."""
 
 
 def make_bodies(balls: Array, engine_body: IntArray, engine_frames: EngineFrames) -> Bodies:
-    """Return bodies at their present poses; the identity for those whose pose is set.
+    """Return bodies at their present poses; a pose that is not of the engine is the identity.
 
     Args:
-        balls: centre and radius of a ball around each, in its frame, (b, 4) [m].
-        engine_body: the engine's body that each is on, or below 0, (b,).
+        balls: the centre and radius of each body's bounding ball, in its frame, (b, 4) [m].
+        engine_body: the index of the engine's body that each body follows, or below 0, (b,).
         engine_frames: the frames of the engine's bodies.
     """
     n = len(balls)
@@ -105,14 +110,14 @@ def _find_centres(
 def _ball(
     ball: Array, engine_body: int, frame: Array, engine_frames: EngineFrames
 ) -> tuple[float, float, float, float]:
-    """Return centre and radius of a ball in W [m]."""
+    """Return the centre in W and the radius of a body's ball [m]."""
     if engine_body < 0:
         x, y, z = transform_point(frame, ball[0], ball[1], ball[2], 1.0)
         stretch = 0.0
         for row in range(3):
             for column in range(3):
                 stretch += frame[row, column] ** 2
-        return x, y, z, ball[3] * math.sqrt(stretch)  # at least the greatest factor
+        return x, y, z, ball[3] * math.sqrt(stretch)  # an upper bound of the greatest scale factor
     o, a = engine_frames.origins[engine_body], engine_frames.axes[engine_body]
     return (
         o[0] + a[0, 0] * ball[0] + a[0, 1] * ball[1] + a[0, 2] * ball[2],
@@ -124,7 +129,7 @@ def _ball(
 
 @njit
 def update_boxes(bodies: Bodies, engine_frames: EngineFrames) -> None:
-    """Compute the box of each body that has left it."""
+    """Compute the boxes of the bodies that have left their boxes."""
     for body in range(len(bodies.balls)):
         x, y, z, radius = _ball(
             bodies.balls[body],
@@ -143,7 +148,12 @@ def update_boxes(bodies: Bodies, engine_frames: EngineFrames) -> None:
 
 @njit
 def _update_box(bodies: Bodies, child: int) -> None:
-    """Compute the box of a leaf, and those around it as long as they change."""
+    """Compute the box of a leaf, then the boxes around it as long as they change.
+
+    Args:
+        bodies: the bodies, whose boxes are changed.
+        child: the leaf, as in `Bodies.leaves`.
+    """
     node, side = child // 2, child % 2
     start, count = bodies.links[node, 2 * side], bodies.links[node, 2 * side + 1]
     x0 = y0 = z0 = np.inf
@@ -175,7 +185,7 @@ def _set_box(boxes: Array, node: int, column: int, low: Point, high: Point) -> b
 
 @njit
 def update_frames(bodies: Bodies, engine_frames: EngineFrames, body: int) -> None:
-    """Compute the frames of a body of the engine, if it has moved."""
+    """Compute the transforms of a body that follows the engine, if it has moved."""
     engine_body = bodies.engine_body[body]
     if engine_body < 0:
         return
@@ -201,7 +211,7 @@ def update_frames(bodies: Bodies, engine_frames: EngineFrames, body: int) -> Non
 
 @njit
 def update_all_frames(bodies: Bodies, engine_frames: EngineFrames) -> None:
-    """Compute the frames of all bodies that have moved."""
+    """Compute the transforms of all bodies that have moved."""
     for body in range(len(bodies.balls)):
         update_frames(bodies, engine_frames, body)
 
@@ -216,19 +226,19 @@ def find_near_bodies(
     stack: IntArray,
     near_bodies: IntArray,
 ) -> int:
-    """Find the bodies that some rays may hit, by their numbers.
+    """Find the bodies that some rays may hit, sorted by index.
 
     Args:
         bodies: the bodies of the scene.
         engine_frames: the frames of the engine's bodies.
         origin: the origin of the rays in W [m].
-        beam: bounds of the inverse directions in W, and a cone around the rays.
+        beam: the bounds of the inverse directions in W, and a cone around the rays.
         reach: the length of the rays [m].
         stack: a workspace for nodes, (k,).
-        near_bodies: receives the result, (b,).
+        near_bodies: receives the indices of the bodies, (b,).
 
     Returns:
-        The number of bodies.
+        The number of bodies found.
     """
     bounds, cone = beam
     n, n_waiting, node = 0, 0, 0
@@ -262,19 +272,19 @@ def find_near_bodies(
 
 
 class Cone(NamedTuple):
-    """A cone around rays."""
+    """A cone around rays from one point."""
 
     axis: Point
-    """The axis; zero for rays in all directions."""
+    """The unit vector along the axis in W; about zero if the rays have no common direction."""
     half_angle: float
-    """The half angle [rad]."""
+    """The angle between the axis and the surface of the cone [rad]."""
 
 
 @njit
 def is_missed(
     bodies: Bodies, engine_frames: EngineFrames, body: int, origin: Point, cone: Cone, reach: float
 ) -> bool:
-    """Return whether no ray of a cone comes near a body within ``reach`` [m]."""
+    """Return whether no ray of a cone can hit the ball of a body within ``reach`` [m]."""
     x, y, z, radius = _ball(
         bodies.balls[body], bodies.engine_body[body], bodies.world_from_body[body], engine_frames
     )

@@ -1,4 +1,4 @@
-"""Balls that cover a set of triangles: one, or a row of them along a long thin set."""
+"""Balls that cover a set of triangles: a single ball, or a row of balls along a slender set."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy.typing as npt
 from ..base.geometry import Array
 
 MIN_SLENDERNESS = 3.0
-"""The ratio of length to thickness above which a set has a row of balls."""
+"""The ratio of length to radius above which a set of triangles has a row of balls."""
 MAX_BALLS_IN_ROW = 64
 """The largest number of balls along one set of triangles."""
 
@@ -28,10 +28,11 @@ class Balls(NamedTuple):
 
 
 def covering_balls(corners: Array) -> Array:
-    """Return balls that together cover triangles: centre and radius, (n, 4) [m].
+    """Return the centres and radii of balls that together cover triangles, (n, 4) [m].
 
-    The axis joins the point that is farthest from the middle to the point farthest from that. A
-    set longer than `MIN_SLENDERNESS` times its thickness has a row of balls along its axis.
+    The axis joins the corner farthest from the middle of the bounding box to the corner farthest
+    from that corner. A set longer than `MIN_SLENDERNESS` times its radius about the axis has a row
+    of balls along the axis.
 
     Args:
         corners: the corners of the triangles, (m, 3, 3) or (m, 3) [m].
@@ -48,12 +49,12 @@ def covering_balls(corners: Array) -> Array:
         axis = (end - begin) / length
         axial_positions = ((points - begin) * axis).sum(axis=1)
         off_axis = points - begin - axial_positions[:, None] * axis
-        thickness = math.sqrt(float((off_axis**2).sum(axis=1).max()))
-        if length > MIN_SLENDERNESS * thickness:
-            n = math.ceil(length / max(2.0 * thickness, length / MAX_BALLS_IN_ROW))
-            places = (np.arange(n) + 0.5) * (length / n)
+        axis_radius = math.sqrt(float((off_axis**2).sum(axis=1).max()))
+        if length > MIN_SLENDERNESS * axis_radius:
+            n = math.ceil(length / max(2.0 * axis_radius, length / MAX_BALLS_IN_ROW))
+            centre_positions = (np.arange(n) + 0.5) * (length / n)  # along the axis
             balls = np.empty((n, 4))
-            balls[:, :3] = begin + places[:, None] * axis
-            balls[:, 3] = math.hypot(thickness, 0.5 * length / n) * (1.0 + 1e-9)
+            balls[:, :3] = begin + centre_positions[:, None] * axis
+            balls[:, 3] = math.hypot(axis_radius, 0.5 * length / n) * (1.0 + 1e-9)
             return balls
     return np.array([[*middle, radius * (1.0 + 1e-9)]])

@@ -1,6 +1,7 @@
-"""Ray casting against triangles, compiled: the exact first hit of each ray from one point.
+"""Compiled ray casting against triangles: the exact first hit of each ray from a common origin.
 
-Neighbouring rays traverse the tree together (`packet`); divergent rays traverse it alone.
+Neighbouring rays traverse the trees of triangles together (`packet`); divergent rays traverse them
+one by one.
 """
 
 from __future__ import annotations
@@ -37,9 +38,9 @@ from .packet import (
 from .triangle import IntArray, Trees, distance_to_triangle, transform_point
 
 MIN_GROUP_COSINE = 0.97
-"""The smallest cosine of angles between rays of a group; 14 degrees."""
+"""The least cosine of the angle between the first and any other ray of a group; 14 degrees."""
 STACK_SIZE = 128
-"""The largest number of nodes that wait for the nearer child."""
+"""The largest number of nodes that wait while the nearer child is traversed."""
 
 
 class Hits(NamedTuple):
@@ -50,7 +51,7 @@ class Hits(NamedTuple):
     normal: Array
     """The unit normal in W, towards the origin of the ray; zero without a hit, (n, 3)."""
     surface: IntArray
-    """The number of the surface; -1 without a hit, (n,)."""
+    """The number of the surface that is hit; -1 without a hit, (n,)."""
 
 
 @njit
@@ -66,13 +67,13 @@ def cast_rays(
     """Find the first hits of rays.
 
     Args:
-        trees: the trees of the bodies.
+        trees: the triangles of the bodies.
         bodies: the poses of the bodies.
         engine_frames: the frames of the engine's bodies.
         origin: the origin of the rays in W, (3,) [m].
         directions: unit vectors in W, (n, 3).
-        limits: the distance from which each ray can hit, (n,), and the length of all [m].
-        hits: receives the results.
+        limits: the distance at which each ray begins, (n,), and the length of all rays [m].
+        hits: receives the first hits.
     """
     starts, reach = limits
     n = len(directions)
@@ -135,7 +136,7 @@ def cast_rays(
 
 @njit
 def _bounds(directions: Array, start: int, end: int) -> Bounds:
-    """Return bounds of the inverse directions of some rays."""
+    """Return bounds of the inverse directions of the rays from ``start`` to ``end``."""
     x0 = y0 = z0 = np.inf
     x1 = y1 = z1 = -np.inf
     for i in range(start, end):
@@ -147,7 +148,7 @@ def _bounds(directions: Array, start: int, end: int) -> Bounds:
 
 @njit
 def _group_sizes(directions: Array) -> IntArray:
-    """Return the number of rays that traverse together in each group; 1 if they diverge."""
+    """Return the number of rays that traverse together in each group; 1 if the rays diverge."""
     steps = np.empty((len(directions) + GROUP_SIZE - 1) // GROUP_SIZE, dtype=np.int32)
     for group in range(len(steps)):
         start = group * GROUP_SIZE
@@ -163,7 +164,7 @@ def _group_sizes(directions: Array) -> IntArray:
 
 @njit
 def _cone_around(directions: Array, start: int, end: int) -> Cone:
-    """Return a cone around some rays."""
+    """Return a cone around the rays from ``start`` to ``end``."""
     x = y = z = 0.0
     for i in range(start, end):
         x, y, z = x + directions[i, 0], y + directions[i, 1], z + directions[i, 2]
@@ -180,7 +181,13 @@ def _cone_around(directions: Array, start: int, end: int) -> Cone:
 
 @njit
 def _set_normal(normal: Array, t: Array, f: Array) -> None:
-    """Write the unit normal of a triangle in W, by the transpose of ``body_from_world``."""
+    """Write the unit normal of a triangle in W.
+
+    Args:
+        normal: receives the normal, (3,).
+        t: the triangle, as in `Trees.triangles`, (9,).
+        f: ``body_from_world``, whose transpose transforms normals, (4, 4).
+    """
     nx, ny, nz = t[4] * t[8] - t[5] * t[7], t[5] * t[6] - t[3] * t[8], t[3] * t[7] - t[4] * t[6]
     for axis in range(3):
         normal[axis] = f[0, axis] * nx + f[1, axis] * ny + f[2, axis] * nz
@@ -191,7 +198,7 @@ def _set_normal(normal: Array, t: Array, f: Array) -> None:
 
 @njit
 def _turn_against_ray(normal: Array, direction: Array) -> None:
-    """Turn a normal against the ray."""
+    """Reverse a normal that points along the ray."""
     projection = normal[0] * direction[0] + normal[1] * direction[1] + normal[2] * direction[2]
     if projection > 0.0:
         for axis in range(3):

@@ -1,9 +1,10 @@
-"""The traversal of a tree by several rays from one point, compiled.
+"""The compiled traversal of a tree of triangles by a group of rays from a common origin.
 
-The bounds of their directions decide whether any of them can enter a box (`box_entry`). A triangle
-is tested for all rays with the terms that depend on their common origin alone (A. Kensler, P.
-Shirley, *Optimizing ray-triangle intersection via automated search*, IEEE Symposium on Interactive
-Ray Tracing, 2006). The distance to the nearest triangle is then computed as for a single ray.
+The bounds of the directions decide whether any ray of the group can enter a box (`box_entry`). The
+terms of the intersection with a triangle that depend only on the common origin are computed once
+for all rays (A. Kensler, P. Shirley, *Optimizing ray-triangle intersection via automated search*,
+IEEE Symposium on Interactive Ray Tracing, 2006). The distance to the nearest triangle is then
+computed as for a single ray.
 """
 
 from __future__ import annotations
@@ -19,8 +20,10 @@ GROUP_SIZE = 16
 Bounds = tuple[Point, Point]
 """The lower and upper bounds of the inverse components of directions; see `bounds_of`."""
 DX, DY, DZ, BEGIN, NEAR, HIT = (GROUP_SIZE * k for k in range(6))
-"""The indices of directions, limits and triangles of the rays in an array of lanes."""
+"""The offsets in an array of lanes, each for `GROUP_SIZE` rays: the direction in the frame of the
+body, the distances [m] from which and up to which a ray can hit, and its nearest triangle or -1."""
 N_LANES = 6 * GROUP_SIZE
+"""The length of an array of lanes."""
 
 
 @njit
@@ -31,13 +34,13 @@ def fill_lanes(
     rays: tuple[int, int],
     limits: tuple[Array, Array],
 ) -> Bounds:
-    """Fill the lanes with some rays; return the bounds of their inverse directions.
+    """Fill the lanes with a group of rays; return the bounds of their inverse directions.
 
     Args:
-        lanes: receives directions and limits, without a triangle.
+        lanes: receives the directions and limits, and no triangles.
         frame: ``body_from_world``, (4, 4).
         directions: the directions of all rays in W, (n, 3).
-        rays: the start and the stop of the rays, `GROUP_SIZE` at most.
+        rays: the start and the end of the group among the rays, at most `GROUP_SIZE` apart.
         limits: the distances from which and up to which each ray can hit, (n,) each [m].
     """
     starts, ends = limits
@@ -58,16 +61,22 @@ def fill_lanes(
 
 @njit
 def bounds_of(low: Point, high: Point) -> Bounds:
-    """Return bounds of inverse directions between bounds; their signs may differ."""
+    """Return the bounds of the inverses of directions between ``low`` and ``high``.
+
+    Where the bounds of a component have different signs, so have those of its inverse, and the
+    inverses lie outside them; `box_entry` treats this case.
+    """
     x, y, z = _inverses(low[0], high[0]), _inverses(low[1], high[1]), _inverses(low[2], high[2])
     return (x[0], y[0], z[0]), (x[1], y[1], z[1])
 
 
 @njit
 def _inverses(low: float, high: float) -> tuple[float, float]:
-    """Return bounds of inverse components between bounds; their signs may differ."""
-    of_low, of_high = inverse(low), inverse(high)
-    return (of_low, of_high) if of_low < of_high else (of_high, of_low)
+    """Return the inverses of two bounds of a component, in rising order."""
+    inverse_low, inverse_high = inverse(low), inverse(high)
+    if inverse_low < inverse_high:
+        return inverse_low, inverse_high
+    return inverse_high, inverse_low
 
 
 @njit
@@ -80,16 +89,17 @@ def find_nearest(
     stack: IntArray,
     entries: Array,
 ) -> None:
-    """Set the nearest triangle of a body on each ray.
+    """Find the nearest triangle of a body on each ray of a group.
 
     Args:
-        trees: the trees of the bodies.
-        root: the root of this body.
-        beam: the origin of the rays; bounds of their inverse directions.
-        lanes: the lanes of the rays.
+        trees: the triangles of the bodies.
+        root: the root of the body's tree.
+        beam: the origin of the rays in the body's frame [m], and the bounds of their inverse
+            directions.
+        lanes: the lanes of the rays, which receive the triangles and distances.
         n: the number of rays.
         stack: a workspace for nodes.
-        entries: a workspace for the distances at which rays enter them.
+        entries: a workspace for the distances at which rays enter these nodes.
     """
     origin, bounds = beam
     n_waiting, node = 0, root
@@ -133,7 +143,7 @@ def find_nearest(
 
 @njit
 def _max_distance(lanes: Array, n: int) -> float:
-    """Return the largest distance at which a triangle can still be the nearest of a ray [m]."""
+    """Return the largest distance at which a triangle can still be the first hit of a ray [m]."""
     max_distance: float = lanes[NEAR]
     for k in range(1, n):
         max_distance = max(max_distance, lanes[NEAR + k])
@@ -142,12 +152,20 @@ def _max_distance(lanes: Array, n: int) -> float:
 
 @njit
 def box_entry(box: Array, column: int, origin: Point, bounds: Bounds, reach: float) -> float:
-    """Return a lower bound of the distance to a box; infinite if it exceeds ``reach`` [m]."""
+    """Return a lower bound of the distance of rays to a box; infinite if above ``reach`` [m].
+
+    Args:
+        box: the boxes of both children of a node, (12,) [m].
+        column: the first column of the box, 0 or 6.
+        origin: the origin of the rays in the frame of the box [m].
+        bounds: the bounds of the inverse directions.
+        reach: the length of the rays [m].
+    """
     low, high = bounds
     enter, leave = 0.0, reach
     for axis in range(3):
         near, far = box[column + axis] - origin[axis], box[column + 3 + axis] - origin[axis]
-        if low[axis] < 0.0 < high[axis]:  # to both sides: a box beside the origin is reached late
+        if low[axis] < 0.0 < high[axis]:  # rays to both sides: the steepest enters first
             if near > 0.0:
                 enter = max(enter, near * high[axis])
             elif far < 0.0:

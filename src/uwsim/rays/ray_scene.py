@@ -1,4 +1,4 @@
-"""The triangles of a scene for ray casting: moving bodies, each with a bounding volume tree."""
+"""A scene for ray casting: moving bodies, each with a bounding volume tree of triangles."""
 
 from __future__ import annotations
 
@@ -22,21 +22,21 @@ from .triangle import Trees
 
 @dataclass(frozen=True, eq=False)
 class Surface:
-    """Triangles with one surface number."""
+    """A set of triangles that rays report with one number."""
 
     number: int
-    """The value of `Hits.surface` of rays that hit them."""
+    """The value of `Hits.surface` for rays that hit the triangles."""
     triangles: Array
     """The triangles in the frame of their body, counter-clockwise from outside, (n, 3, 3) [m]."""
     is_two_sided: bool = False
-    """True if rays also hit them from behind."""
+    """True if rays also hit the triangles from behind."""
 
 
 class RayScene:
-    """A scene for ray casting. A triangle is hit on its outside, as a camera sees it.
+    """A scene for ray casting, in which rays hit triangles from outside.
 
     Args:
-        bodies: the surfaces of each body, in the body's frame. All poses begin as the identity.
+        bodies: the surfaces of each body, in the body's frame. All initial poses are the identity.
     """
 
     def __init__(self, bodies: Sequence[Sequence[Surface]]) -> None:
@@ -74,13 +74,13 @@ class RayScene:
     def with_engine(
         self, engine_body: npt.NDArray[np.int32], origins: Array, axes: Array
     ) -> RayScene:
-        """Return a scene of the same bodies that shares their triangles and has an engine's poses.
+        """Return a scene that shares the triangles of this scene and follows a physics engine.
 
         Args:
-            engine_body: the engine's body that each body is on, (b,). Below 0, the pose is set and
-                begins as the identity.
-            origins: the origins of the engine's bodies, read at each cast, (m, 3) [m].
-            axes: the axes of the engine's bodies, read at each cast, (m, 3, 3).
+            engine_body: the index of the engine's body that each body follows, (b,). Below 0, the
+                pose is set by `place`, and initially the identity.
+            origins: the origins of the engine's bodies in W, read at each cast, (m, 3) [m].
+            axes: the rotation matrices ``world_from_body``, read at each cast, (m, 3, 3).
         """
         scene = copy.copy(self)
         scene._engine_frames = EngineFrames(origins, axes)
@@ -91,7 +91,7 @@ class RayScene:
     def _write_records(self) -> None:
         """Write the addresses of the arrays into records."""
         self.record = scene_record(self._trees, self._bodies, self._engine_frames)
-        """The arrays for compiled code, a record of `scene_record.SCENE`, (1,)."""
+        """The addresses of the arrays for compiled code, a record of `scene_record.SCENE`, (1,)."""
         self.__dict__.pop("functions", None)
 
     @cached_property
@@ -101,26 +101,26 @@ class RayScene:
 
     @property
     def is_compiled(self) -> bool:
-        """True if compiled code reads the present poses, as it always does."""
+        """True if compiled code reads the present poses; it always does."""
         return True
 
     def prepare(self) -> None:
-        """Do nothing: the inputs of compiled code are up to date."""
+        """Do nothing, as the inputs of compiled code are always up to date."""
 
     def place(self, body: int, world_from_body: npt.NDArray[np.float64]) -> None:
-        """Set the pose of a body without an engine; the matrix (4, 4) may scale [m]."""
+        """Set the transform (4, 4) of a body that does not follow the engine; it may scale."""
         frame = self._bodies.world_from_body[body]
         if not np.array_equal(frame, world_from_body):
             self._bodies.body_from_world[body] = inverse(world_from_body)
             frame[:] = world_from_body
 
     def frames(self) -> Array:
-        """Return the present ``world_from_body`` of each body, read-only, (b, 4, 4) [m]."""
+        """Return the present ``world_from_body`` of each body, not to be changed, (b, 4, 4)."""
         update_all_frames(self._bodies, self._engine_frames)
         return self._bodies.world_from_body
 
     def balls(self) -> Balls:
-        """Return balls that cover each surface at its present pose."""
+        """Return balls that cover the surfaces at their present poses."""
         frames = self.frames()[self._cover_bodies]
         centre = (frames[:, :3, :3] * self._cover_balls[:, None, :3]).sum(axis=2) + frames[:, :3, 3]
         scale = np.sqrt((frames[:, :3, :3] ** 2).sum(axis=1).max(axis=1))  # of the longest column
@@ -137,9 +137,9 @@ class RayScene:
 
         Args:
             world_from_sensor: the pose of the sensor.
-            directions: unit vectors in its frame, (n, 3).
+            directions: unit vectors in the frame of the sensor, (n, 3).
             reach: the length of the rays [m].
-            starts: the distance from which each ray can hit, (n,) [m]; None: 0.
+            starts: the distance at which each ray begins, (n,) [m]; by default 0.
         """
         return cast(self.functions, world_from_sensor, directions, reach, starts)
 
@@ -151,7 +151,7 @@ def cast(
     reach: float,
     starts: Array | None,
 ) -> Hits:
-    """Cast rays by the first of some records of `scene_record.RAYS`; see `RayScene.cast`."""
+    """Cast rays with a record of `scene_record.RAYS`, (1,); see `RayScene.cast`."""
     n = len(directions)
     hits = Hits(np.empty(n), np.empty((n, 3)), np.empty(n, dtype=np.int32))
     world_directions = product(directions, world_from_sensor.rotation.T)
@@ -163,7 +163,7 @@ def cast(
 
 
 def _surface_covers(body: int, surfaces: Sequence[Surface]) -> list[tuple[Array, int, int]]:
-    """Return balls around each surface of a body, with the numbers of body and surface."""
+    """Return, for each surface of a body, the covering balls, the body and the surface number."""
     covers = []
     for number in sorted({surface.number for surface in surfaces}):
         parts = [
@@ -174,7 +174,7 @@ def _surface_covers(body: int, surfaces: Sequence[Surface]) -> list[tuple[Array,
 
 
 def _make_tree(surfaces: Sequence[Surface]) -> Trees:
-    """Return the tree of one body."""
+    """Return the tree of a single body."""
     corners = np.concatenate([np.zeros((0, 3, 3)), *(surface.triangles for surface in surfaces)])
     kinds = [(surface.number, surface.is_two_sided) for surface in surfaces]
     sizes = [len(surface.triangles) for surface in surfaces]
@@ -192,7 +192,7 @@ def _make_tree(surfaces: Sequence[Surface]) -> Trees:
 
 
 def _ball(corners: Array) -> Array:
-    """Return centre and radius of a ball around points (n, 3) [m], (4,)."""
+    """Return the centre and radius of a ball around points (n, 3) [m], (4,)."""
     if not len(corners):
         return np.array([0.0, 0.0, 0.0, 0.0])
     centre = 0.5 * (corners.min(axis=0) + corners.max(axis=0))

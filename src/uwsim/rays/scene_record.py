@@ -1,7 +1,7 @@
-"""Records of scenes for ray casting, which compiled code reads by their addresses.
+"""Records with the addresses of scenes for ray casting, for compiled code.
 
-A sensor has a record of `RAYS` with the address of the function that casts rays. That function is
-therefore compiled once, not into each sensor.
+The compiled code of a sensor reads a record of `RAYS` with the address of the function that casts
+rays. That function is therefore compiled once, not into each sensor.
 """
 
 from __future__ import annotations
@@ -20,11 +20,11 @@ from .kernel import Hits, cast_rays
 from .triangle import Trees
 
 RAYS = np.dtype([("cast", np.int64), ("scenes", np.int64), ("n_scenes", np.int64)])
-"""The addresses of the function that casts rays and of some records of `SCENE`."""
+"""The addresses of the function that casts rays and of records of `SCENE`, and their number."""
 
 _ARRAYS = {
-    "tree_boxes": ("n_nodes", 12),
-    "tree_links": ("n_nodes", 4),
+    "tree_boxes": ("n_tree_nodes", 12),
+    "tree_links": ("n_tree_nodes", 4),
     "triangles": ("n_triangles", 9),
     "surfaces": ("n_triangles", 2),
     "roots": ("n_bodies", 1),
@@ -34,39 +34,39 @@ _ARRAYS = {
     "world_from_body": ("n_bodies", 16),
     "body_from_world": ("n_bodies", 16),
     "centres": ("n_bodies", 4),
-    "boxes": ("n_forks", 12),
-    "links": ("n_forks", 4),
+    "boxes": ("n_body_nodes", 12),
+    "links": ("n_body_nodes", 4),
     "order": ("n_bodies", 1),
-    "parents": ("n_forks", 1),
+    "parents": ("n_body_nodes", 1),
     "leaves": ("n_bodies", 1),
-    "origins": ("n_engine", 3),
-    "axes": ("n_engine", 9),
+    "origins": ("n_engine_bodies", 3),
+    "axes": ("n_engine_bodies", 9),
 }
-"""The field with the number of rows of each array, and the length of a row."""
+"""The name of the field with the number of rows of each array, and the length of a row."""
 _COUNTS = tuple(dict.fromkeys(count for count, _ in _ARRAYS.values()))
 SCENE = np.dtype([(name, np.int64) for name in (*_ARRAYS, *_COUNTS)])
-"""The addresses of the arrays of `Trees`, `Bodies` and `EngineFrames`, and their lengths."""
+"""The addresses and numbers of rows of the arrays of `Trees`, `Bodies` and `EngineFrames`."""
 
 REQUEST = np.dtype(
     [
         ("origin", np.float64, 3),  # the origin of the rays in W [m]
         ("reach", np.float64),  # the length of the rays [m]
         ("n", np.int64),  # the number of rays
-        ("directions", np.int64),  # addresses of arrays; see `kernel.cast_rays`
-        ("starts", np.int64),
-        ("distance", np.int64),
+        ("directions", np.int64),  # the address of the directions; see `kernel.cast_rays`
+        ("starts", np.int64),  # the address of the distances at which rays begin
+        ("distance", np.int64),  # the addresses of the arrays of `Hits`
         ("normal", np.int64),
         ("surface", np.int64),
         ("n_scenes", np.int64),
     ]
 )
-"""The rays to cast, and the addresses for their hits."""
+"""The rays to cast, and the addresses of the arrays that receive their hits."""
 
 Record = Any
 
 
 def scene_record(trees: Trees, bodies: Bodies, engine_frames: EngineFrames) -> npt.NDArray[np.void]:
-    """Return the record of `SCENE` of a scene, (1,); its arrays must stay alive."""
+    """Return the record of `SCENE` of a scene, (1,); the arrays must outlive it."""
     arrays: tuple[npt.NDArray[Any], ...] = (*trees, *bodies, *engine_frames)
     record = np.zeros(1, SCENE)
     for (name, (count, width)), array in zip(_ARRAYS.items(), arrays, strict=True):
@@ -77,7 +77,7 @@ def scene_record(trees: Trees, bodies: Bodies, engine_frames: EngineFrames) -> n
 
 
 def rays_record(scenes: npt.NDArray[np.void]) -> npt.NDArray[np.void]:
-    """Return the record of `RAYS` of some records of `SCENE`, (1,), which must stay alive."""
+    """Return a record of `RAYS`, (1,), for records of `SCENE`, which must outlive it."""
     record = np.zeros(1, RAYS)
     record["cast"] = function_address(cast_request)
     record["scenes"], record["n_scenes"] = address_of(scenes), len(scenes)
@@ -88,15 +88,15 @@ def rays_record(scenes: npt.NDArray[np.void]) -> npt.NDArray[np.void]:
 def cast_from(
     rays: Record, origin: Array, directions: Array, starts: Array, reach: float, hits: Hits
 ) -> None:
-    """Find the first hits of rays in any of some scenes.
+    """Find the first hits of rays in one or several scenes.
 
     Args:
         rays: a record of `RAYS`.
         origin: the origin of the rays in W, (3,) [m].
         directions: unit vectors in W, (n, 3).
-        starts: the distance from which each ray can hit, (n,) [m].
+        starts: the distance at which each ray begins, (n,) [m].
         reach: the length of the rays [m].
-        hits: receives the results.
+        hits: receives the first hits.
     """
     requests = np.zeros(1, REQUEST)
     request = requests[0]
@@ -113,13 +113,13 @@ def cast_from(
 def cast_all(
     rays: Record, origin: Array, directions: Array, starts: Array, reach: float, hits: Hits
 ) -> None:
-    """Call `cast_from`, from Python, with the first of some records of `RAYS`."""
+    """Call `cast_from` from Python with a record of `RAYS`, (1,)."""
     cast_from(rays[0], origin, directions, starts, reach, hits)
 
 
-def cast_request(parameters: int, values: int, time: float) -> None:
-    """Cast the rays of a `REQUEST` in scenes; see `uwsim.base.numerics.calls`."""
-    request = carray(pointer(values), (1,), REQUEST)[0]
+def cast_request(scenes_address: int, request_address: int, time: float) -> None:
+    """Cast the rays of a `REQUEST` in records of `SCENE`; see `uwsim.base.numerics.calls`."""
+    request = carray(pointer(request_address), (1,), REQUEST)[0]
     n = request.n
     directions = carray(pointer(request.directions), (n, 3), np.float64)
     starts = carray(pointer(request.starts), (n,), np.float64)
@@ -129,7 +129,7 @@ def cast_request(parameters: int, values: int, time: float) -> None:
         carray(pointer(request.surface), (n,), np.int32),
     )
     origin, reach = request.origin, request.reach
-    scenes = carray(pointer(parameters), (request.n_scenes,), SCENE)
+    scenes = carray(pointer(scenes_address), (request.n_scenes,), SCENE)
     cast_in(scenes[0], origin, directions, starts, reach, hits)
     if request.n_scenes == 1:
         return
@@ -147,7 +147,7 @@ def cast_in(
     scene: Record, origin: Array, directions: Array, starts: Array, reach: float, hits: Hits
 ) -> None:
     """Cast rays in one scene; see `kernel.cast_rays`."""
-    b, k, forks = scene.n_bodies, scene.n_nodes, scene.n_forks
+    b, k, n_body_nodes = scene.n_bodies, scene.n_tree_nodes, scene.n_body_nodes
     trees = Trees(
         carray(pointer(scene.tree_boxes), (k, 12), np.float64),
         carray(pointer(scene.tree_links), (k, 4), np.int32),
@@ -162,14 +162,14 @@ def cast_in(
         carray(pointer(scene.world_from_body), (b, 4, 4), np.float64),
         carray(pointer(scene.body_from_world), (b, 4, 4), np.float64),
         carray(pointer(scene.centres), (b, 4), np.float64),
-        carray(pointer(scene.boxes), (forks, 12), np.float64),
-        carray(pointer(scene.links), (forks, 4), np.int32),
+        carray(pointer(scene.boxes), (n_body_nodes, 12), np.float64),
+        carray(pointer(scene.links), (n_body_nodes, 4), np.int32),
         carray(pointer(scene.order), (b,), np.int32),
-        carray(pointer(scene.parents), (forks,), np.int32),
+        carray(pointer(scene.parents), (n_body_nodes,), np.int32),
         carray(pointer(scene.leaves), (b,), np.int32),
     )
     engine_frames = EngineFrames(
-        carray(pointer(scene.origins), (scene.n_engine, 3), np.float64),
-        carray(pointer(scene.axes), (scene.n_engine, 3, 3), np.float64),
+        carray(pointer(scene.origins), (scene.n_engine_bodies, 3), np.float64),
+        carray(pointer(scene.axes), (scene.n_engine_bodies, 3, 3), np.float64),
     )
     cast_rays(trees, bodies, engine_frames, origin, directions, (starts, reach), hits)

@@ -1,6 +1,6 @@
-"""A bounding volume tree over triangles, for finding the first hit of a ray.
+"""The construction of a bounding volume tree over triangles, with which rays find their first hit.
 
-Boxes are halved where the surface area heuristic expects the fewest tests (J. Goldsmith, J. Salmon,
+A node is split where the surface area heuristic expects the fewest tests (J. Goldsmith, J. Salmon,
 *Automatic creation of object hierarchies for ray tracing*, IEEE CG&A 7(5), 1987), with the centres
 of the triangles in `N_BINS` bins (I. Wald, *On fast construction of SAH-based bounding volume
 hierarchies*, IEEE Symposium on Interactive Ray Tracing, 2007).
@@ -18,22 +18,25 @@ from ..base.numerics.jit import njit
 
 IntArray = npt.NDArray[np.int32]
 N_BINS = 16
+"""The number of bins along the split axis."""
 MAX_IN_LEAF = 4
 """The largest number of triangles in a leaf."""
 MAX_BINNED_DEPTH = 64
-"""The depth below which nodes are halved by number, which limits the depth to 96 nodes."""
+"""The depth below which the triangles of a node are halved by number. This limits the depth of the
+tree to 96 nodes."""
 
 
 class Tree(NamedTuple):
-    """The inner nodes from the root, each with the boxes of its two children."""
+    """A binary tree of k inner nodes over n triangles; node 0 is the root."""
 
     boxes: Array
-    """The lower and upper corner of the first child, then of the second, (k, 12) [m]; infinite
-    without a child, so that no ray hits it."""
+    """The lower and upper corner of the box of each node's first child, then of its second child,
+    (k, 12) [m]; infinite without a child, so that no ray hits it."""
     links: IntArray
-    """The node of each child, or the first triangle of a leaf; its number of triangles, (k, 4)."""
+    """For each child: its node and 0; or, of a leaf, its start in `order` and its number of
+    triangles, (k, 4)."""
     order: IntArray
-    """The number of the triangle at each index of the leaves, (n,)."""
+    """The indices of the triangles in the order of the leaves, (n,)."""
 
 
 def build_tree(triangles: Array) -> Tree:
@@ -43,7 +46,7 @@ def build_tree(triangles: Array) -> Tree:
 
 
 def build_nodes(low: Array, high: Array) -> Tree:
-    """Build the tree of boxes with a lower and an upper corner, (n, 3) each [m]."""
+    """Build the tree of boxes from their lower and upper corners, (n, 3) each [m]."""
     n = len(low)
     order = np.arange(n, dtype=np.int32)
     boxes = np.full((max(n, 1), 12), np.inf)
@@ -65,7 +68,17 @@ def _build(
     bins: Array,
     costs: Array,
 ) -> int:
-    """Fill a tree; return its number of nodes."""
+    """Fill the arrays of a tree, and return its number of nodes.
+
+    Args:
+        low: the lower corners of the boxes of the triangles, (n, 3) [m].
+        high: the upper corners, (n, 3) [m].
+        order: the indices of the triangles, which are sorted, (n,).
+        boxes: receives the boxes, as in `Tree`.
+        links: receives the links, as in `Tree`.
+        bins: a workspace, (`N_BINS`, 7).
+        costs: a workspace, (`N_BINS`,).
+    """
     stack = np.empty((len(boxes), 4), dtype=np.int32)  # node, depth, start, stop
     stack[0, 0], stack[0, 1], stack[0, 2], stack[0, 3] = 0, 0, 0, len(order)
     n_nodes, n_stacked = 1, 1
@@ -103,7 +116,7 @@ def _set_bounds(
     begin: int,
     end: int,
 ) -> None:
-    """Set the box around some triangles."""
+    """Set the box around the triangles from ``begin`` to ``end``."""
     for axis in range(3):
         minimum, maximum = np.inf, -np.inf
         for k in range(begin, end):
@@ -116,7 +129,7 @@ def _set_bounds(
 def _split(
     order: IntArray, low: Array, high: Array, start: int, end: int, bins: Array, costs: Array
 ) -> int:
-    """Sort the triangles of the first child before those of the second; return its start."""
+    """Sort the triangles of the first child before those of the second; return where it begins."""
     axis, origin, width = _longest_axis(order, low, high, start, end)
     half = start + (end - start) // 2
     if width <= 0.0:
@@ -138,7 +151,10 @@ def _split(
 def _longest_axis(
     order: IntArray, low: Array, high: Array, start: int, end: int
 ) -> tuple[int, float, float]:
-    """Return the axis of the greatest spread of doubled centres, its minimum and its width [m]."""
+    """Return the axis along which the boxes' centres spread most, and their minimum and spread.
+
+    Minimum and spread are those of doubled centres (the sum of both corners) [m].
+    """
     longest_axis, origin, width = 0, 0.0, -1.0
     for axis in range(3):
         minimum, maximum = np.inf, -np.inf
@@ -167,23 +183,23 @@ def _fill_bins(
     origin: float,
     width: float,
 ) -> None:
-    """Count the triangles of each bin, and bound them: lower corner, upper corner, number."""
-    for place in range(N_BINS):
+    """Write the lower corner, the upper corner and the number of the triangles in each bin."""
+    for index in range(N_BINS):
         for k in range(3):
-            bins[place, k], bins[place, 3 + k] = np.inf, -np.inf
-        bins[place, 6] = 0.0
+            bins[index, k], bins[index, 3 + k] = np.inf, -np.inf
+        bins[index, 6] = 0.0
     for i in range(start, end):
         triangle = order[i]
-        place = _bin_of(low[triangle, axis] + high[triangle, axis], origin, width)
+        index = _bin_of(low[triangle, axis] + high[triangle, axis], origin, width)
         for k in range(3):
-            bins[place, k] = min(bins[place, k], low[triangle, k])
-            bins[place, 3 + k] = max(bins[place, 3 + k], high[triangle, k])
-        bins[place, 6] += 1.0
+            bins[index, k] = min(bins[index, k], low[triangle, k])
+            bins[index, 3 + k] = max(bins[index, 3 + k], high[triangle, k])
+        bins[index, 6] += 1.0
 
 
 @njit
 def _cheapest_cut(bins: Array, costs: Array) -> int:
-    """Return the first bin of the second child, by the least sum of number times area."""
+    """Return the first bin of the second child for the least sum of triangles times box area."""
     for cut in range(N_BINS):
         costs[cut] = 0.0
     for is_first in range(2):
@@ -191,14 +207,14 @@ def _cheapest_cut(bins: Array, costs: Array) -> int:
         x1 = y1 = z1 = -np.inf
         number = 0.0
         for step in range(N_BINS - 1):
-            place = step if is_first else N_BINS - 1 - step
-            x0, x1 = min(x0, bins[place, 0]), max(x1, bins[place, 3])
-            y0, y1 = min(y0, bins[place, 1]), max(y1, bins[place, 4])
-            z0, z1 = min(z0, bins[place, 2]), max(z1, bins[place, 5])
-            number += bins[place, 6]
+            index = step if is_first else N_BINS - 1 - step
+            x0, x1 = min(x0, bins[index, 0]), max(x1, bins[index, 3])
+            y0, y1 = min(y0, bins[index, 1]), max(y1, bins[index, 4])
+            z0, z1 = min(z0, bins[index, 2]), max(z1, bins[index, 5])
+            number += bins[index, 6]
             if number > 0.0:
                 x, y, z = x1 - x0, y1 - y0, z1 - z0
-                costs[place + 1 if is_first else place] += number * (x * y + y * z + z * x)
+                costs[index + 1 if is_first else index] += number * (x * y + y * z + z * x)
     cheapest_cut = 1
     for cut in range(2, N_BINS):
         if costs[cut] < costs[cheapest_cut]:

@@ -1,8 +1,8 @@
-"""Triangles of bodies, and their intersection with rays, compiled.
+"""The triangles of bodies, and their compiled intersection with rays.
 
-The intersection is that of T. Moller, B. Trumbore, *Fast, minimum storage ray-triangle
-intersection*, Journal of Graphics Tools 2(1), 1997. Edges belong to both of their triangles, with a
-tolerance (`EDGE_TOLERANCE`). No ray passes between two triangles of one mesh.
+The algorithm is described by T. Moller, B. Trumbore, *Fast, minimum storage ray-triangle
+intersection*, Journal of Graphics Tools 2(1), 1997. An edge belongs to both triangles that share
+it, with a tolerance (`EDGE_TOLERANCE`), so that no ray passes between two triangles of a mesh.
 """
 
 from __future__ import annotations
@@ -18,28 +18,29 @@ from ..base.numerics.jit import njit
 IntArray = npt.NDArray[np.int32]
 Point = tuple[float, float, float]
 Ray = tuple[float, float, float, float]
-"""The direction, and the distance from which it can hit [m]."""
+"""The direction of a ray (3 components), and the distance at which the ray begins [m]."""
 EDGE_TOLERANCE = 1e-9
-"""The distance outside a triangle at which a ray still hits it, as a share of its sides."""
+"""The distance outside a triangle at which a ray still hits it, as a share of its side lengths."""
 MIN_COMPONENT = 1e-300
 """The replacement of a zero component of a direction."""
 
 
 class Trees(NamedTuple):
-    """The trees of all bodies, one after the other, each in the frame of its body."""
+    """The bounding volume trees of b bodies, one after the other, each in the body's frame."""
 
     boxes: Array
-    """The boxes of both children of a node, (k, 12) [m]."""
+    """The lower and upper corner of the box of each node's two children, (k, 12) [m]."""
     links: IntArray
-    """The start and the number of triangles of both children of a node, (k, 4)."""
+    """For each child: its node and 0; or, of a leaf, its first triangle and its number of
+    triangles, (k, 4)."""
     triangles: Array
-    """The corner and two edges of each triangle, in the order of the leaves, (n, 9) [m]."""
+    """A corner and two edges of each triangle, in the order of the leaves, (n, 9) [m]."""
     surfaces: IntArray
-    """The number of the surface, and 1 if it is two-sided, (n, 2)."""
+    """The surface number of each triangle, and 1 if the surface is two-sided, (n, 2)."""
     roots: IntArray
-    """The first node of each body, (b,)."""
+    """The root node of each body's tree, (b,)."""
     balls: Array
-    """The centre and radius of a ball around each body, in its frame, (b, 4) [m]."""
+    """The centre and radius of each body's bounding ball, in the body's frame, (b, 4) [m]."""
 
 
 @njit
@@ -54,13 +55,19 @@ def transform_point(f: Array, x: float, y: float, z: float, w: float) -> Point:
 
 @njit
 def inverse(component: float) -> float:
-    """Return the inverse of a component of a direction; a very large number for zero."""
+    """Return the inverse of a component of a direction, or a very large number for zero."""
     return 1.0 / (component if abs(component) > MIN_COMPONENT else MIN_COMPONENT)
 
 
 @njit
 def distance_to_triangle(t: Array, origin: Point, ray: Ray) -> float:
-    """Return the distance along a ray to a triangle; infinite without a hit [m]."""
+    """Return the distance along a ray to a triangle; infinite without a hit [m].
+
+    Args:
+        t: the triangle, as in `Trees.triangles`, (9,) [m].
+        origin: the origin of the ray in the frame of the body [m].
+        ray: the direction in the frame of the body, and the distance at which the ray begins [m].
+    """
     dx, dy, dz, begin = ray
     px, py, pz = dy * t[8] - dz * t[7], dz * t[6] - dx * t[8], dx * t[7] - dy * t[6]
     determinant = t[3] * px + t[4] * py + t[5] * pz
