@@ -151,7 +151,7 @@ def _execute_request(
     from .results.directory import check as check_directory
     from .results.directory import prepare_directory
     from .runs.execute import Callbacks, execute, plan_all, prepare_execution
-    from .runs.executors.background import BackgroundProcess, Jobs
+    from .runs.executors.background import BackgroundProcess, JobRunner
     from .runs.executors.choose import CALLBACK_LIMIT
 
     with tempfile.TemporaryDirectory(prefix="uwsim-") as scratch:
@@ -162,11 +162,11 @@ def _execute_request(
             check_directory(directory, resume=False, overwrite=False)
         errors.raise_errors()
         execution = prepare_execution(plans, executor, directory, workers=str(workers))
-        open_jobs = partial(BackgroundProcess if workers else Jobs, load_reporter)
+        open_runner = partial(BackgroundProcess if workers else JobRunner, load_reporter)
         (result,) = execute(
             execution,
             prepare_directory(directory, resume=False, overwrite=False),
-            None if out is None else open_jobs,
+            None if out is None else open_runner,
             Callbacks(progress=partial(_count_levels, on_progress)),
         )
     return result

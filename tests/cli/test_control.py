@@ -14,7 +14,7 @@ from tests.support.short_trial import with_algorithm
 from uwsim.cli import main
 from uwsim.runs import execute
 from uwsim.runs.control import control_of, image_topic
-from uwsim.runs.executors.background import BackgroundProcess, Job
+from uwsim.runs.executors.background import BackgroundJob, BackgroundProcess
 from uwsim.runs.run import Run
 
 SCENES = Path(str(resources.files("uwsim"))) / "data" / "scenes"
@@ -65,7 +65,7 @@ def test_the_background_process_runs_the_control_of_trials_of_workers_alone(
     asked: list[type] = []
     submit = BackgroundProcess.submit
 
-    def record(self: BackgroundProcess, job: Job) -> None:
+    def record(self: BackgroundProcess, job: BackgroundJob) -> None:
         asked.append(type(job) if isinstance(job, Run) else Path)
         submit(self, job)
 

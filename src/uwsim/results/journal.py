@@ -1,8 +1,8 @@
-"""Journals: a file for each trial, with a line for each finished row.
+"""Journals: files with the finished rows of a trial, a line for each row.
 
-A line is written whole and flushed before the next level begins, so a killed run loses at most the
-level it was in. The first line identifies the trial, the last one marks its end. A line that was
-cut off does not count.
+A line is written and flushed before the next level begins, so a killed run loses at most the level
+that it was running. The first line, the *head*, identifies the trial; the last line marks its end.
+An incomplete last line is ignored.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ REFUSED_KEY = "refused"
 KINDS = {"unit": HEAD, "row": ROW, "end": END}
 """The shape of the value for each key of a line."""
 MAX_LINE_LENGTH = 200
-"""The greatest number of letters printed of one difference."""
+"""The greatest number of characters printed of one difference."""
 MAX_LINES = 6
 """The greatest number of differences printed."""
 
@@ -47,34 +47,34 @@ class StoredTrial:
 
 
 EMPTY_JOURNAL = StoredTrial((), None)
-"""The content of a trial that was not begun."""
+"""The content for a trial that has no journal yet."""
 
 
 def path_of(directory: Path, index: int) -> Path:
-    """Return the path of the journal of the trial number ``index``."""
+    """Return the path of the journal of the trial with this index."""
     return directory / FOLDER / f"{index:05d}.jsonl"
 
 
 def track_path(directory: Path, index: int) -> Path:
-    """Return the path of the motion track of the trial number ``index``."""
+    """Return the path of the motion track of the trial with this index."""
     return path_of(directory, index).with_suffix(TRACK)
 
 
 def recorded_trials(directory: Path) -> tuple[int, ...]:
-    """Return the numbers of the trials that have a motion track in a result directory."""
+    """Return the indices of the trials that have a motion track in a result directory."""
     tracks = (directory / FOLDER).glob(f"*{TRACK}")
     return tuple(sorted(int(path.stem) for path in tracks if path.stem.isdecimal()))
 
 
 def trials_without_motion(directory: Path) -> tuple[int, ...]:
-    """Return the numbers of the finished trials without a motion track."""
-    recorded_numbers = recorded_trials(directory)
+    """Return the indices of the finished trials without a motion track."""
+    recorded_indices = recorded_trials(directory)
     files = (directory / FOLDER).glob("*.jsonl")
-    numbers = sorted(int(path.stem) for path in files if path.stem.isdecimal())
+    indices = sorted(int(path.stem) for path in files if path.stem.isdecimal())
     return tuple(
         index
-        for index in numbers
-        if index not in recorded_numbers and read_any(path_of(directory, index))[1].end is not None
+        for index in indices
+        if index not in recorded_indices and read_any(path_of(directory, index))[1].end is not None
     )
 
 
@@ -82,13 +82,13 @@ def read(directory: Path, index: int, head: Record, seal: Seal | None = None) ->
     """Read a journal; a missing file has no rows.
 
     Args:
-        directory: the directory of the result.
-        index: the number of the trial.
-        head: the identity of the trial.
-        seal: the seal of rows while the run goes on.
+        directory: the result directory.
+        index: the index of the trial.
+        head: the expected head.
+        seal: the seal of the rows; None if they are not sealed.
 
     Raises:
-        ResultError: the file belongs to another run.
+        ResultError: the head in the file differs: the file belongs to another run.
     """
     path = path_of(directory, index)
     stored_head, content = read_any(path, seal)
@@ -101,7 +101,7 @@ def read(directory: Path, index: int, head: Record, seal: Seal | None = None) ->
 
 
 def level_difference(content: StoredTrial, levels: Sequence[Sequence[float]]) -> str | None:
-    """Return the first row that does not match its level; None if all rows match.
+    """Describe the first row that does not match its level; return None if all rows match.
 
     Args:
         content: the journal of the trial; an unfinished one may have fewer rows.
@@ -128,7 +128,7 @@ def read_any(path: Path, seal: Seal | None = None) -> tuple[Record | None, Store
     """
     if not path.exists():
         return None, EMPTY_JOURNAL
-    lines = path.read_bytes().split(b"\n")[:-1]  # what follows the last newline was cut off
+    lines = path.read_bytes().split(b"\n")[:-1]  # a line without a newline is incomplete
     records: dict[str, list[Record]] = {kind: [] for kind in KINDS}
     for number, line in enumerate(lines, start=1):
         try:
@@ -185,8 +185,8 @@ def _reject_nan(text: str) -> object:
     raise ResultError(f"it contains {text}; a missing value is null.")
 
 
-def cut_back(directory: Path, index: int, n_rows: int) -> None:
-    """Truncate a journal to its first rows."""
+def truncate(directory: Path, index: int, n_rows: int) -> None:
+    """Truncate a journal to its first ``n_rows`` rows."""
     path = path_of(directory, index)
     lines = path.read_bytes().split(b"\n")[: 1 + n_rows]
     draft = path.with_suffix(".part")
@@ -195,13 +195,13 @@ def cut_back(directory: Path, index: int, n_rows: int) -> None:
 
 
 class Journal:
-    """A writer of a journal; rows that exist already are compared.
+    """A writer of a journal; rows that are stored already are compared.
 
     Args:
-        directory: the directory of the result.
-        index: the number of the trial.
-        head: the identity of the trial, which is never sealed.
-        seal: the seal of the rows; None where they are not sealed.
+        directory: the result directory.
+        index: the index of the trial.
+        head: the head of the journal, which is never sealed.
+        seal: the seal of the rows; None if they are not sealed.
 
     Raises:
         ReplayDiffers: a repeated row differs from the stored one.
@@ -216,7 +216,7 @@ class Journal:
         self._write({"unit": head})
         for row in self._content.rows:
             self._write({"row": row.record()})
-        self._publish()
+        self._replace_file()
 
     def add(self, row: StoredRow) -> bool:
         """Add a row, or compare it with the stored one; return whether it is new."""
@@ -236,7 +236,7 @@ class Journal:
         return is_new
 
     def finish(self, end: StoredEnd) -> None:
-        """Write the end of the trial."""
+        """Write the end of the trial, and close the file."""
         self._write({"end": end.record()})
         self._is_finished = True
         self.close()
@@ -266,7 +266,7 @@ class Journal:
             )
         return "do the versions differ, or does the algorithm draw random numbers of its own?"
 
-    def _publish(self) -> None:
+    def _replace_file(self) -> None:
         self._path.with_suffix(".part").replace(self._path)
 
 
@@ -292,7 +292,7 @@ def _round_trip(row: StoredRow) -> Record:
 
 
 def _repeatable_part(row: Record) -> Record:
-    """Return a row without messages of other programs, which arrive at random."""
+    """Return a row without refused messages, whose number differs from run to run."""
     return {name: value for name, value in row.items() if name != REFUSED_KEY}
 
 

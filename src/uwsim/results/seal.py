@@ -1,13 +1,13 @@
-"""A seal on journals and motion tracks: while a run goes on, its algorithm cannot read them.
+"""The encryption (sealing) of journals and motion tracks during a run.
 
-They hold the ground truth, and an algorithm has the rights of the user who runs it. So they are
-encrypted with a key that exists only in the memory of processes that the user's other processes
-cannot read. At the end of the run they are decrypted. A process beside the run, the `Keeper`, has
-the key as well and decrypts them if the run is killed. If the machine goes down, sealed content is
-lost.
+These files hold the ground truth, and an algorithm under test has the rights of the user who runs
+it. So that it cannot read them, they are encrypted with a key that exists only in the memory of
+processes that the user's other processes cannot read. At the end of the run they are decrypted. A
+second process, the `Keeper`, also has the key and decrypts the files if the run is killed. If the
+machine goes down, sealed content is lost.
 
-The key stream is SHAKE-256 of the key and of a number that is used once; HMAC-SHA-256 detects
-changes. This file is also the program of the keeper: it imports the standard library alone.
+The key stream is SHAKE-256 of the key and a nonce; HMAC-SHA-256 detects changes. This file is also
+the program of the keeper, so it imports the standard library alone.
 """
 
 from __future__ import annotations
@@ -34,12 +34,13 @@ MAGIC = b"uwsim-sealed/1\n"
 """The first bytes of a sealed file."""
 SEALED_KEY = "sealed"
 """The key, in a sealed line of a journal, of its content as base64."""
-KEY, NONCE, TAG = 32, 16, 32
-"""The bytes of a key, of a nonce (a number that is used once), and of a tag."""
+KEY_SIZE, NONCE_SIZE, TAG_SIZE = 32, 16, 32
+"""The sizes of the key, of a nonce (a number that is used once), and of an authentication tag
+[bytes]."""
 LOCK_TIMEOUT = 10.0
-"""The time to wait for the lock of the directory, and for the keeper at the end of a run [s]."""
+"""The longest wait for the lock of the directory, and for the keeper at the end of a run [s]."""
 ALL_OPEN = b"all open\n"
-"""The message of a run that needs its keeper no more."""
+"""The message to the keeper that all files are decrypted."""
 PR_SET_DUMPABLE = 4
 FOLDER = "units"
 """The folder of a result with the sealed files."""
@@ -47,26 +48,27 @@ FOLDER = "units"
 
 @dataclass(frozen=True)
 class Seal:
-    """The encryption and decryption of the files of a run."""
+    """The key of a run, with the encryption and decryption of its files."""
 
-    key: bytes = field(default_factory=lambda: secrets.token_bytes(KEY), repr=False)
+    key: bytes = field(default_factory=lambda: secrets.token_bytes(KEY_SIZE), repr=False)
     """The random key, which is never on disk."""
 
     def encrypt(self, data: bytes) -> bytes:
         """Return encrypted data."""
-        nonce = secrets.token_bytes(NONCE)
+        nonce = secrets.token_bytes(NONCE_SIZE)
         ciphertext = nonce + _xor(data, self._stream(nonce, len(data)))
         return self._tag(ciphertext) + ciphertext
 
     def decrypt(self, data: bytes) -> bytes:
         """Return decrypted data; raise ValueError if `encrypt` did not write it with this key."""
-        tag, ciphertext = data[:TAG], data[TAG:]
-        if len(ciphertext) < NONCE or not hmac.compare_digest(tag, self._tag(ciphertext)):
+        tag, ciphertext = data[:TAG_SIZE], data[TAG_SIZE:]
+        if len(ciphertext) < NONCE_SIZE or not hmac.compare_digest(tag, self._tag(ciphertext)):
             raise ValueError("it was changed, or is sealed with another key")
-        return _xor(ciphertext[NONCE:], self._stream(ciphertext[:NONCE], len(ciphertext) - NONCE))
+        nonce, encrypted_data = ciphertext[:NONCE_SIZE], ciphertext[NONCE_SIZE:]
+        return _xor(encrypted_data, self._stream(nonce, len(encrypted_data)))
 
     def line(self, text: str) -> str:
-        """Return a sealed line of a journal."""
+        """Return the sealed line of a journal for a text."""
         return json.dumps({SEALED_KEY: base64.b64encode(self.encrypt(text.encode())).decode()})
 
     def text(self, content: object) -> str:
@@ -77,13 +79,13 @@ class Seal:
             raise ValueError(f"it is not sealed as uwsim does: {error}") from None
 
     def file(self, data: bytes) -> bytes:
-        """Return the content of a sealed file."""
+        """Return the content of the sealed file for some data."""
         return MAGIC + self.encrypt(data)
 
     def open_all(self, directory: Path) -> bool:
         """Decrypt every sealed file of a result; return whether all could be read and written.
 
-        Files that another key has sealed do not change.
+        Files that are sealed with another key are left unchanged.
         """
         is_all_open = True
         for path in sorted((directory / FOLDER).glob("*")):
@@ -132,7 +134,7 @@ class Keeper:
             stdin=subprocess.PIPE,
             stdout=subprocess.DEVNULL,
             stderr=subprocess.DEVNULL,
-            start_new_session=True,  # Ctrl-C is for the run
+            start_new_session=True,  # Ctrl-C reaches the run alone
         )
         paths = [str(directory.resolve()) for directory in directories]
         request = json.dumps({"key": seal.key.hex(), "directories": paths})
@@ -142,7 +144,7 @@ class Keeper:
             self._process.stdin.flush()
 
     def close(self, *, is_all_open: bool = False) -> None:
-        """End the process; it decrypts sealed files, unless the run has decrypted all of them."""
+        """End the keeper; it decrypts sealed files, unless the run has decrypted all of them."""
         assert self._process.stdin is not None
         with suppress(OSError):
             if is_all_open:
@@ -156,9 +158,9 @@ class Keeper:
 
 
 def deny_access_to_memory() -> None:
-    """Prevent other processes of this user from reading the memory and open files of this one.
+    """Prevent the user's other processes from reading the memory and open files of this process.
 
-    This process dumps no core any more. Programs that it starts are not affected.
+    This process no longer dumps core. Programs that it starts are not affected.
     """
     with suppress(OSError, AttributeError):
         ctypes.CDLL(None, use_errno=True).prctl(PR_SET_DUMPABLE, 0, 0, 0, 0)
@@ -180,7 +182,7 @@ def run_keeper() -> None:
 
 @contextmanager
 def _lock_directory(directory: Path) -> Iterator[None]:
-    """Hold the lock of a result directory; wait for a run that has it to end."""
+    """Hold the lock of a result directory; wait for a run that holds it to end."""
     handle = os.open(directory, os.O_RDONLY)
     end = time.monotonic() + LOCK_TIMEOUT
     try:

@@ -7,5 +7,5 @@ In the order of ``uwsim bench``:
 - `executors` distribute the plan's trials, and `trial.trial` executes one, level by level;
 - finished levels are written to `uwsim.results.journal`; `collect` makes the result of them.
 
-`check` is ``uwsim check``.
+``uwsim check`` is in `uwsim.checks`.
 """

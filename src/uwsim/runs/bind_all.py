@@ -1,4 +1,4 @@
-"""The resolution of every name of a benchmark in its scene, before anything runs."""
+"""A check, before a run, that every name in a benchmark exists in its scene."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from .trial.triggered_measure import TriggeredMeasure
 
 
 def bind_all(plan: Plan, simulation: Simulation) -> None:
-    """Resolve every name of the benchmark before the run.
+    """Bind every part of a benchmark to its scene, and release them again.
 
     Raises:
         UnknownName: a body, a camera or a link does not exist.
-        BadSetting: an output of an external program is on no topic.
+        BadSetting: a declared output of an external program is on no topic of the scene.
     """
     benchmark = plan.benchmark
     bind_updaters(benchmark.scene_updater, simulation.world.stage_view)

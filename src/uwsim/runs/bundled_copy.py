@@ -18,7 +18,7 @@ from .prepare import hash_inputs
 
 KINDS = ("scenes", "benchmarks")
 SHARED_FOLDERS = ("scenes", "benchmarks", "vehicles")
-"""The folders of the package whose files are in one folder of the copy."""
+"""The folders of the package whose files are copied directly into the target folder."""
 
 
 def copyable_names() -> list[str]:
@@ -46,10 +46,10 @@ def copy_bundled(name: str, folder: Path, *, overwrite: bool = False) -> list[Pa
     """
     files = _files_of(name.removesuffix(".xml"))
     copies = {folder / _relative_copy(file.path): file.path for file in files}
-    targets = [str(copy) for copy in copies if copy.exists()]
-    if targets and not overwrite:
+    existing_copy = next((copy for copy in copies if copy.exists()), None)
+    if existing_copy is not None and not overwrite:
         raise BadSetting(
-            f"{targets[0]} exists already. Name another folder, or replace it with --overwrite."
+            f"{existing_copy} exists already. Name another folder, or replace it with --overwrite."
         )
     for copy, source in copies.items():
         copy.parent.mkdir(parents=True, exist_ok=True)
@@ -79,7 +79,7 @@ def _is_bundled(path: Path) -> bool:
 
 
 def _relative_copy(path: Path) -> PurePosixPath:
-    """Return the path of a bundled file in the copy."""
+    """Return the path of the copy of a bundled file, relative to the target folder."""
     relative_path = path.relative_to(PACKAGE / "data")
     kind, *parts = relative_path.parts
     return PurePosixPath(*parts) if kind in SHARED_FOLDERS else PurePosixPath(*relative_path.parts)

@@ -1,4 +1,4 @@
-"""The collection of a result: the rows on disk become one result and its logs."""
+"""The collection of the rows on disk into one result and its logs."""
 
 from __future__ import annotations
 
@@ -34,11 +34,11 @@ def collect(
     Args:
         plan: the plan of the run.
         inputs: the names and hashes of the files read.
-        info: the information that is known before the run.
-        stored_trials: each trial of the plan, and its content on disk.
+        info: the description of the run that is known before its execution.
+        stored_trials: each trial of the plan, with its rows and end on disk.
 
     Returns:
-        The result, its logs, and the length of all levels together [s].
+        The result, its logs, and the simulation time of all levels together [s].
     """
     rows = [(trial, row) for trial, content in stored_trials for row in content.rows]
     columns = _columns(plan, [row for _, row in rows])
@@ -60,8 +60,8 @@ def collect(
         ),
         columns=tuple(columns),
         rows=tuple(
-            _row(_lead(plan, trial, row), row, end, columns)
-            for (trial, row), end in zip(rows, end_times, strict=True)
+            _row(_leading_cells(plan, trial, row), row, end_time, columns)
+            for (trial, row), end_time in zip(rows, end_times, strict=True)
         ),
         missing_values=tuple(
             MissingValue(row=number, column=name, reason=reason)
@@ -100,22 +100,26 @@ def _times(rows: Sequence[tuple[Trial, StoredRow]]) -> tuple[list[float], float]
     return start_times, sum(durations.values())
 
 
-def _lead(plan: Plan, trial: Trial, row: StoredRow) -> list[float | int]:
-    """Return the cells of repeat, seed and level, which begin a row or a sample."""
+def _leading_cells(plan: Plan, trial: Trial, row: StoredRow) -> list[float | int]:
+    """Return the cells of repeat, seed and level, with which a row or a sample of a log begins."""
     return [*([trial.repeat, trial.seed] if plan.repeats > 1 else []), *row.values]
 
 
 def _row(
-    lead: Sequence[float | int], row: StoredRow, ended_at: float, columns: Sequence[Column]
+    leading_cells: Sequence[float | int],
+    row: StoredRow,
+    end_time: float,
+    columns: Sequence[Column],
 ) -> tuple[Cell, ...]:
     cells: dict[str, Cell] = {
         **{name: value for name, (value, _) in row.measures.items()},
         **{name: value for name, (value, _) in row.details.items()},
         "total": row.total,
         "status": row.status,
-        "ended_at": ended_at,
+        "ended_at": end_time,
     }
-    return (*lead, *(cells.get(column.name) for column in columns[len(lead) :]))
+    last_columns = columns[len(leading_cells) :]
+    return (*leading_cells, *(cells.get(column.name) for column in last_columns))
 
 
 def _logs(
@@ -133,7 +137,7 @@ def _logs(
             measure=spec.name,
             header=(*levels, TIME, *headers[spec.name]),
             samples=tuple(
-                (*_lead(plan, trial, row), start + sample[0], *sample[1:])
+                (*_leading_cells(plan, trial, row), start + sample[0], *sample[1:])
                 for (trial, row), start in zip(rows, start_times, strict=True)
                 for sample in row.logs.get(spec.name, ())
             ),
@@ -152,7 +156,7 @@ def _streams(trial: Trial, end: StoredEnd) -> list[ImageStream]:
 
 
 def variations_of(plan: Plan) -> tuple[Variation, ...]:
-    """Return the varied values, over the seeds of the plan."""
+    """Return every random variation of the plan, with its value for each seed."""
     seeds = [plan.seed + repeat for repeat in range(plan.repeats)]
     by_seed = [plan.draws(seed) for seed in seeds]
     return tuple(
@@ -167,10 +171,10 @@ def variations_of(plan: Plan) -> tuple[Variation, ...]:
 
 
 def _columns(plan: Plan, rows: Sequence[StoredRow]) -> list[Column]:
-    """Return the columns; before the first row only those that are known without a run.
+    """Return the columns of the result; before the first row, those that the plan determines.
 
-    A measure's details are those of all rows together, and its unit is that of the first row with a
-    value: the unit of a topic may be unknown before its first message.
+    A measure has a column for each detail in any row. The unit of a column is taken from the first
+    row with a value, because the unit of a topic may be unknown before its first message.
     """
     updater = plan.benchmark.scene_updater
     columns = [Column(name=name, kind="run") for name in ("repeat", "seed") if plan.repeats > 1]
@@ -196,7 +200,7 @@ def _columns(plan: Plan, rows: Sequence[StoredRow]) -> list[Column]:
 
 
 def _units(rows: Iterable[Mapping[str, ValueWithUnit]]) -> dict[str, str]:
-    """Return the unit of each name in any row, in the order of its first row."""
+    """Return the unit of each name in any row, in the order in which the names first appear."""
     units: dict[str, tuple[bool, str]] = {}
     for row in rows:
         for name, (value, unit) in row.items():

@@ -1,4 +1,4 @@
-"""The control of a run: `frozen`, which ignores the images, for comparison with a tracker."""
+"""The control of a run: a baseline with `frozen`, an algorithm that ignores the images."""
 
 from __future__ import annotations
 
@@ -11,20 +11,20 @@ from .planning.plan import AlgorithmUnderTest, Plan
 from .run import Run
 
 CONTROL = "frozen"
-"""The algorithm of the control."""
+"""The name of the algorithm of the control."""
 
 
 def needs_control(plan: Plan) -> bool:
-    """Return whether `frozen` runs, too: the benchmark initialises a tracker with its target.
+    """Return whether a plan needs a control: its benchmark initialises a tracker with a target.
 
-    Where a current drives the vehicle, the algorithm steers, and `frozen` is no control.
+    Where a current drives the vehicle, the algorithm steers, and `frozen` is no baseline.
     """
     is_driven = any(updater.name == "current" for updater in chain(plan.benchmark.scene_updater))
     return plan.algorithm.name != CONTROL and not is_driven and bool(_cameras(plan))
 
 
 def image_topic(plan: Plan) -> str | None:
-    """Return the image topic of the camera of the tracker's target."""
+    """Return the image topic of the camera in which the tracker follows its target."""
     topics = {
         interface.camera_name: interface.image_topic
         for interface in plan.scene.ros_interfaces
@@ -42,7 +42,7 @@ def _cameras(plan: Plan) -> list[str | None]:
 
 
 def control_of(run: Run) -> Run:
-    """Return the same run with `frozen`, into ``control/``."""
+    """Return the control of a run: its plan with `frozen` and without images, into ``control/``."""
     from ..algorithms import load_algorithm
     from ..algorithms.tracker_node import INPUT_PARAMETERS
     from ..results.directory import CONTROL as FOLDER

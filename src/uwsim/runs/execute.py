@@ -1,7 +1,7 @@
-"""Executing runs: requests -> plans -> runs -> rows, controls, provenance and reports.
+"""The execution of runs: requests -> plans -> runs -> rows, controls, provenance and reports.
 
-``uwsim bench`` and `uwsim.bench` execute their runs here: `plan_all`, `prepare_execution`,
-`execute`. ``uwsim envelope`` executes the runs of its search within `begin_runs`.
+``uwsim bench`` and `uwsim.bench` call `plan_all`, `prepare_execution` and `execute`, in this order.
+``uwsim envelope`` executes the runs of its search within `begin_runs`.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from ..errors import ErrorCollector, RunFailed
 from ..results.provenance import lasting_provenance, machine, save_beginning, save_provenance
 from ..results.result import Result
 from .control import CONTROL, control_of, needs_control
-from .executors.background import Jobs
+from .executors.background import JobRunner
 from .executors.choose import executor_of
 from .executors.executor import Executor, OnLevel, Outcome, run_each
 from .failed_algorithms import (
@@ -38,22 +38,23 @@ from .run import Run
 from .sealing import is_foreign
 
 PACKAGES = ("mujoco", "numpy", "numba", "moderngl", "opencv-python-headless", "rosbags")
-"""Packages whose versions are recorded."""
+"""The packages whose versions are recorded in the provenance of a run."""
 Progress = Callable[[str, int, int], AbstractContextManager[OnLevel]]
-"""A function that shows progress, with title, number of levels, and number of finished ones."""
+"""A function of a title, the number of levels and the number of finished levels, which returns a
+display of the progress."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Stopwatch:
-    """The start of a run, and the time since.
+    """The start of a run, and the time since then.
 
-    The time of day may be set while a run lasts; durations are measured by a monotonic clock.
+    The system time may be adjusted during a run, so durations are measured by a monotonic clock.
     """
 
     start_date: float = field(default_factory=time.time)
-    """The time of day at the start [s since 1970]."""
+    """The system time at the start [s since 1970-01-01 UTC]."""
     start: float = field(default_factory=time.monotonic)
-    """The same moment on the monotonic clock [s]."""
+    """The reading of the monotonic clock at the start [s]."""
 
     def elapsed_time(self) -> float:
         """Return the time since the start [s]."""
@@ -62,27 +63,27 @@ class Stopwatch:
 
 @dataclass(frozen=True, kw_only=True)
 class Execution:
-    """Runs that are executed together, with the facts to record."""
+    """Runs that are executed together, with the facts to record about them."""
 
     runs: Sequence[Run]
-    """The runs of one benchmark, an algorithm each."""
+    """The runs of one benchmark, one for each algorithm."""
     executor: Executor
     """The executor of the trials."""
     workers: str
-    """The executor, as the command names it."""
+    """The value of ``--workers``: a number, or ``ray``."""
     command: Sequence[str] = ()
-    """The arguments of ``uwsim``; empty if a program executes the runs."""
+    """The arguments of the command ``uwsim``; empty if a Python program executes the runs."""
     stopwatch: Stopwatch = field(default_factory=Stopwatch)
-    """The clock, which runs since the files were read."""
+    """The stopwatch, started when the files have been read."""
 
     @property
     def title(self) -> str:
-        """The benchmark and its algorithms."""
+        """The title of the progress display: the names of the benchmark and its algorithms."""
         names = ", ".join(run.plan.algorithm.name for run in self.runs)
         return f"{Path(self.runs[0].plan.benchmark.path).stem} ({names})"
 
     def timing(self) -> dict[str, object]:
-        """Return the date and the speed of the runs until now."""
+        """Return the start date, the duration and the real-time factor of the runs so far."""
         wall_time = self.stopwatch.elapsed_time()
         simulated_time = sum(run.simulated_s for run in self.runs)
         start_date = datetime.datetime.fromtimestamp(self.stopwatch.start_date, datetime.UTC)
@@ -96,7 +97,10 @@ class Execution:
         }
 
     def save_provenance(self, run: Run, facts: Mapping[str, object]) -> None:
-        """Write facts, command, machine and packages, which affect no score."""
+        """Write the provenance of a run: facts, command, machine and packages.
+
+        No score depends on them.
+        """
         environment = {
             "command": list(self.command),
             **machine(),
@@ -112,9 +116,9 @@ class Callbacks:
     progress: Progress
     """The display of the number of finished levels."""
     on_rows: Callable[[Run, Result], None] = lambda run, result: None
-    """The callback when the rows of a run are complete, and its report is being drawn."""
+    """The callback when the rows of a run are complete, before its report is drawn."""
     on_report: Callable[[Run, Result], None] = lambda run, result: None
-    """The callback when the report of a run is drawn."""
+    """The callback when the report of a run has been drawn."""
 
 
 def plan_all(
@@ -147,15 +151,15 @@ def prepare_execution(
     folders: Sequence[str] = (),
     command: Sequence[str] = (),
 ) -> Execution:
-    """Open the scene once and hash its files; print its code and warnings of unlikely values.
+    """Open the scene once and hash its files; announce its code and warn of unlikely values.
 
     Args:
-        plans: plans of `plan_all` without an error, which differ in the algorithm alone.
+        plans: the plans of `plan_all`, which differ in the algorithm alone.
         executor: the executor of `plan_all`.
         out: the result directory.
-        workers: the executor, as the command names it.
-        folders: the folders of the results in ``out``; none where there is one algorithm.
-        command: the arguments of ``uwsim``.
+        workers: the value of ``--workers``.
+        folders: the subfolder of ``out`` for each result; empty for one result in ``out`` itself.
+        command: the arguments of the command ``uwsim``.
 
     Raises:
         UwsimError: a file, a body, a camera or a service does not exist.
@@ -172,11 +176,13 @@ def prepare_execution(
 
 @contextmanager
 def begin_runs(execution: Execution, directory: AbstractContextManager[None]) -> Iterator[None]:
-    """Lock the directory for the runs, and record their start in it.
+    """Lock the result directory during the block, and record the start of the runs in it.
+
+    A system error in the block is raised as a `RunFailed`.
 
     Args:
-        execution: the execution in this block; a system error there is a `RunFailed`.
-        directory: the context that locks and empties the directory.
+        execution: the runs to execute in the block.
+        directory: the context that locks and empties the result directory.
     """
     with convert_to_run_failed(), directory:
         for run in execution.runs:
@@ -188,7 +194,7 @@ def begin_runs(execution: Execution, directory: AbstractContextManager[None]) ->
 def execute(
     execution: Execution,
     directory: AbstractContextManager[None],
-    open_jobs: Callable[[], Jobs] | None,
+    open_runner: Callable[[], JobRunner] | None,
     callbacks: Callbacks,
 ) -> tuple[Result, ...]:
     """Run one benchmark with each algorithm, and write all results.
@@ -196,26 +202,26 @@ def execute(
     Args:
         execution: the runs to execute.
         directory: the context that locks and empties the result directory.
-        open_jobs: returns the executor of controls and reports; None: there are none.
+        open_runner: returns the runner of controls and reports; None for neither of them.
         callbacks: the functions that are called meanwhile.
 
     Raises:
-        UwsimError: the first failure; the other algorithms are run and written.
+        UwsimError: the first failure; the runs of the other algorithms are finished first.
         RunFailed: a simulation failed, or an algorithm failed in every row.
     """
     runs = execution.runs
     with begin_runs(execution, directory):
-        if open_jobs is None:
+        if open_runner is None:
             outcome = _run(execution, callbacks.progress)
             _save_provenances(execution, outcome)
         else:
-            with open_jobs() as jobs:
-                outcome = _run_with_controls(execution, jobs, callbacks.progress)
+            with open_runner() as runner:
+                outcome = _run_with_controls(execution, runner, callbacks.progress)
                 _save_provenances(execution, outcome)
                 for run, result in outcome.finished_runs(runs):
-                    jobs.submit(run.out)
+                    runner.submit(run.out)
                     callbacks.on_rows(run, result)
-                    jobs.wait()
+                    runner.wait()
                     callbacks.on_report(run, result)
         for _, error in outcome.failures:
             raise error
@@ -233,33 +239,34 @@ def _run(execution: Execution, progress: Progress) -> Outcome:
         return run_each(runs, execution.executor, on_level=on_level)
 
 
-def _run_with_controls(execution: Execution, jobs: Jobs, progress: Progress) -> Outcome:
+def _run_with_controls(execution: Execution, runner: JobRunner, progress: Progress) -> Outcome:
     """Run the trials and the control.
 
-    The control runs beside trials of workers, unless an algorithm could read its rows. After trials
-    in this process it runs here: another process would load the simulation for it.
+    While workers execute trials, the control runs in the background, unless a foreign algorithm
+    could read its rows. If the trials run in this process, the control follows them here: a
+    background process would have to load the simulation first.
     """
     runs = execution.runs
     controls = [control_of(run) for run in runs if needs_control(run.plan)]
     is_local = execution.workers in ("0", "1") and len(runs) == 1
     must_wait = any(is_foreign(run.plan) for run in runs)
     if is_local and not must_wait:
-        jobs, must_wait = jobs.local_jobs(), True
+        runner, must_wait = runner.local_runner(), True
     if controls and not must_wait:
-        jobs.submit(controls[0])
+        runner.submit(controls[0])
     outcome = _run(execution, progress)
     if controls and outcome.finished_runs(runs):
         if must_wait:
-            jobs.submit(controls[0])
-        _wait_for_controls(jobs, controls)
+            runner.submit(controls[0])
+        _wait_for_controls(runner, controls)
     return outcome
 
 
-def _wait_for_controls(jobs: Jobs, controls: Sequence[Run]) -> None:
-    """Wait for the control of a run; the results are complete without it."""
+def _wait_for_controls(runner: JobRunner, controls: Sequence[Run]) -> None:
+    """Wait for the control, and copy its result to the other runs; warn if it failed."""
     try:
-        jobs.wait()
-        for other in controls[1:]:  # the control uses no image: it is the same for all
+        runner.wait()
+        for other in controls[1:]:  # it does not depend on the algorithm under test
             shutil.copytree(controls[0].out, other.out, dirs_exist_ok=True)
     except (RunFailed, OSError) as error:
         warn(f"the report lacks the control {CONTROL!r}, which failed: {error}")

@@ -1,4 +1,4 @@
-"""Python code named by files: announced before it runs, or refused."""
+"""The announcement, or refusal, of Python code that scene and benchmark files name."""
 
 from __future__ import annotations
 
@@ -27,14 +27,14 @@ def announce_code(scene: SceneSpec) -> None:
 
 
 def code_refusal(code: str, file: str) -> BadSetting:
-    """Return the error for ``module:name`` of a file, which may not run."""
+    """Return the error for the code ``module:name`` that a file names and ``--no-code`` refuses."""
     return BadSetting(f"{file}: names the Python code {code!r}, which --no-code refuses.")
 
 
-def announce(code: str, file: str, *, place: Path | None = None) -> None:
-    """Announce that ``module:name`` of a file, or a plugin at a place, will run."""
+def announce(code: str, file: str, *, path: Path | None = None) -> None:
+    """Announce the code that a file names: ``module:name``, or a plugin with its path."""
     try:
-        location = place or find_module_file(code.partition(":")[0])
+        location = path or find_module_file(code.partition(":")[0])
     except (ModuleNotFoundError, ValueError):
         return  # the import reports it
     message = (

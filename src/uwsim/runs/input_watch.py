@@ -1,4 +1,4 @@
-"""Check that the input files of a run have not changed since its start.
+"""The check that the input files of a run have not changed since its start.
 
 Models, data and algorithms are read again by every worker, hours after their hashes were taken. So
 a row is stored only while each file has the hash that is in the result.
@@ -15,6 +15,7 @@ from ..errors import RunFailed
 from ..results.inputs import MAX_LINES, short_hash
 
 _Stamp = tuple[tuple[int, int, int], ...]
+"""The last change [ns], size [bytes] and inode number of a file, or of each file of a folder."""
 
 
 def unique_files(files: Iterable[InputFile]) -> tuple[InputFile, ...]:
@@ -24,7 +25,7 @@ def unique_files(files: Iterable[InputFile]) -> tuple[InputFile, ...]:
 
 
 class InputWatch:
-    """A repeated check of files for changes; a file is hashed again only after a write.
+    """A repeated check of files for changes; a file is hashed again only if its stamp has changed.
 
     Args:
         files: the files with their first hashes (`unique_files`).
@@ -32,7 +33,7 @@ class InputWatch:
 
     def __init__(self, files: Iterable[InputFile]) -> None:
         self._files = tuple(files)
-        self._valid_stamps: dict[Path, _Stamp] = {}  # the stamp at the last equal hash
+        self._valid_stamps: dict[Path, _Stamp] = {}  # stamps of files with their first hash
 
     def check(self) -> None:
         """Raise RunFailed with the changed files, if there are any."""
@@ -60,7 +61,7 @@ class InputWatch:
 
 
 def _stamp(path: Path) -> _Stamp:
-    """Return the time of the last change, size and number of a file, or of a folder's files."""
+    """Return the stamp of a file or folder."""
     statuses = [
         entry.stat() for entry in ([path, *sorted(path.rglob("*"))] if path.is_dir() else [path])
     ]

@@ -19,9 +19,9 @@ def inputs_of(plan: Plan, simulation: Simulation, read_files: Iterable[InputFile
     """Collect the input files of a plan; hash those that were not read yet.
 
     Args:
-        plan: the benchmark to run.
-        simulation: its scene.
-        read_files: the input files that were read to make it (`record_inputs`).
+        plan: the plan.
+        simulation: the simulation of its scene.
+        read_files: the input files that were read to make the plan (`record_inputs`).
     """
     benchmark, scene = Path(plan.benchmark.path), Path(plan.scene.path)
     robots = {
@@ -53,7 +53,7 @@ def inputs_of(plan: Plan, simulation: Simulation, read_files: Iterable[InputFile
 
 
 def hash_algorithm(plan: Plan) -> dict[str, str] | None:
-    """Hash and record the sources of a ``module:Class``; return None if bundled or of a plugin."""
+    """Hash and record the source files of a ``module:Class``; return None for other algorithms."""
     module, colon, _ = plan.algorithm.name.partition(":")
     if not colon:
         return None

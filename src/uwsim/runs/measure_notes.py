@@ -16,7 +16,7 @@ SIGNS = (
     (r"\lVert ", "‖"), (r" \rVert", "‖"), (r"\lVert", "‖"), (r"\rVert", "‖"),
     ("^2", "²"), ("^3", "³"), (r"\,", " "),
 )  # fmt: skip
-"""Signs of TeX, and their plain forms."""
+"""TeX commands, and the characters that replace them in plain text."""
 ROOT = re.compile(r"\\sqrt\{([^{}]*)\}")
 
 
@@ -44,7 +44,7 @@ def live_class(spec: MeasureSpec) -> type[Measure] | None:
 
 
 def plain_text(text: str) -> str:
-    """Return a line of a docstring without marks of code and of mathematics."""
+    """Return a line of a docstring without the markup of code and mathematics."""
     return CODE.sub(r"\1", MATH.sub(lambda match: _strip_tex(match[1]), text))
 
 

@@ -1,4 +1,4 @@
-"""The plugins that a benchmark file names (``u:plugin``): found, announced, or refused."""
+"""The search for plugins that a benchmark file names (``u:plugin``); they may be refused."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ ATTRIBUTE = f"{{{NAMESPACE}}}plugin"
 
 
 def plugin_names(benchmark: Path) -> tuple[str, ...]:
-    """Return the plugins that a benchmark file names; none where it is not XML."""
+    """Return the plugins that a benchmark file names; none if the file is not XML."""
     try:
         root = parse(benchmark, error=BenchmarkError).root
     except (BenchmarkError, OSError):
@@ -26,7 +26,7 @@ def plugin_names(benchmark: Path) -> tuple[str, ...]:
 
 
 def named_plugins(benchmark: Path, request: PlanRequest) -> list[Path]:
-    """Return the plugins that a benchmark file names and that no option has named.
+    """Find and announce the plugins that a benchmark file names and that no option has named.
 
     Raises:
         BadSetting: code is refused.
@@ -43,7 +43,7 @@ def named_plugins(benchmark: Path, request: PlanRequest) -> list[Path]:
         path = _find_plugin(name, benchmark, request.data_path)
         if (digest := compute_hash(path)) not in hashes:
             hashes.add(digest)
-            announce(name, str(benchmark), place=path)
+            announce(name, str(benchmark), path=path)
             paths.append(path)
     return paths
 

@@ -1,4 +1,4 @@
-"""The preparation of runs: resolves all names and hashes all files before execution."""
+"""The preparation of runs: all names are resolved and all files hashed before the execution."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def prepare_runs(plans: Sequence[Plan], out: Path, folders: Sequence[str]) -> li
     Args:
         plans: the plans, one for each algorithm.
         out: the result directory.
-        folders: the folders of the results in ``out``; none where there is one algorithm.
+        folders: the subfolder of ``out`` for each result; empty for one result in ``out`` itself.
 
     Raises:
         UwsimError: as `hash_inputs` does.
@@ -51,14 +51,14 @@ def prepare_runs(plans: Sequence[Plan], out: Path, folders: Sequence[str]) -> li
 
 
 def hash_inputs(plan: Plan, pool: RendererPool | None = None) -> tuple[Inputs, str]:
-    """Open the scene once: hash every file that is read, and name the renderer.
+    """Open the scene once: hash every file that is read, and return the renderer's name.
 
-    Every name of the benchmark is resolved, so that no name can fail later. Inside
-    `record_inputs` the files are recorded with their paths.
+    Every name in the benchmark is resolved, so that no name can fail later. Within a
+    `record_inputs` block of the caller, the files are recorded with their paths.
 
     Args:
-        plan: the benchmark to run.
-        pool: the pool of the renderer; without one a renderer is created and closed again.
+        plan: the plan.
+        pool: the pool of renderers; without one a renderer is created and closed again.
 
     Returns:
         The ``inputs`` of the result, and the name of the renderer.

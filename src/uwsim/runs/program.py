@@ -1,4 +1,4 @@
-"""Programs of the user: a name, ``module:Class``, ``FILE.py`` or ``FILE.py:Class``."""
+"""The class of a user's program: a name, ``module:Class``, ``FILE.py`` or ``FILE.py:Class``."""
 
 from __future__ import annotations
 
@@ -15,6 +15,10 @@ if TYPE_CHECKING:
 
 def load_program(name: str, table: Mapping[str, type[Algorithm]]) -> type[Algorithm]:
     """Find the class of a program; a module may be in the current directory.
+
+    Args:
+        name: the program, as the user names it.
+        table: the classes that can be selected by a name alone.
 
     Raises:
         BadSetting: no program has that name.

@@ -37,28 +37,28 @@ from .uwsim_files import save_dat, save_data
 
 @dataclass(kw_only=True)
 class Run:
-    """A plan and the directory of its result."""
+    """A prepared plan with its result directory, and the progress of its execution."""
 
     plan: Plan
-    """The plan."""
+    """The benchmark, scene, algorithm and options."""
     out: Path
     """The result directory."""
     inputs: Inputs
-    """Names and hashes of the files read (`prepare`)."""
+    """The names and hashes of the files read, from `prepare`."""
     renderer: str
-    """The name of the renderer (`prepare`)."""
+    """The name of the renderer, from `prepare`."""
     files: tuple[InputFile, ...] = ()
     """Files that must not change during the run (`unique_files`)."""
     recorder: TrialRecorder | None = None
-    """The recorder of the messages of its trials."""
+    """The recorder of the messages of its trials; None if they are not recorded."""
     seal: Seal | None = field(default=None, repr=False)
-    """The seal that prevents a foreign algorithm from reading the rows during the run."""
+    """The encryption that prevents a foreign algorithm from reading the rows during the run."""
     n_resumed: int = 0
-    """Levels that were on disk already when the run began."""
+    """The number of levels that were on disk already when the run began."""
     n_lost: int = 0
     """The number of trials that lost their worker and were repeated."""
     simulated_s: float = 0.0
-    """The length of all levels of the result together [s]."""
+    """The simulation time of all levels of the result together [s]."""
 
     @property
     def info(self) -> RunInfo:
@@ -66,7 +66,7 @@ class Run:
         return describe_plan(self.plan, self.renderer)
 
     def begin(self) -> list[Trial]:
-        """Create the directory, and return the trials that are not finished."""
+        """Create the result directory, and return the trials to run."""
         self.out.mkdir(parents=True, exist_ok=True)
         self._truncate_stopped_trials()
         if self.plan.algorithm.client is not None and self.plan.algorithm.client.sync == "none":
@@ -78,8 +78,8 @@ class Run:
     def _truncate_stopped_trials(self) -> None:
         """Truncate trials whose algorithm ended its process, so that they are repeated.
 
-        Earlier levels are kept and compared with the repeated ones. A call that did not return is
-        final, except in a trial without an end, which is repeated.
+        The levels before are kept, and compared when they are repeated. An unfinished trial is also
+        truncated where a call into its algorithm did not return; in a finished trial that is final.
         """
         name = self.plan.algorithm.name
         for trial in self.plan.trials():
@@ -87,14 +87,14 @@ class Run:
             is_truncated = ended_its_process if content.end is not None else was_stopped
             for n, row in enumerate(content.rows):
                 if is_truncated(name, row.missing.get("total")):
-                    journal.cut_back(self.out, trial.index, n)
+                    journal.truncate(self.out, trial.index, n)
                     break
 
     def _trials_without_motion(self) -> Iterator[Trial]:
-        """Yield finished trials to run again, whose motion is absent or damaged.
+        """Yield the finished trials to run again because their motion track is lost or damaged.
 
-        A trial that is not repeatable is kept: one with a pilot, an external program that runs
-        freely, or a call that took too long.
+        A trial that is not repeatable is kept: a trial with a pilot, with an external program that
+        runs freely, or with a call into the algorithm that did not return.
         """
         plan = self.plan
         is_piloted = getattr(plan.algorithm.cls, "IS_PILOTED", False) and not plan.inputs
@@ -114,10 +114,10 @@ class Run:
                 yield trial
 
     def _truncate_unrepeatable(self) -> None:
-        """Begin unfinished trials anew, as their rows would differ from the stored ones."""
+        """Remove the rows of unfinished trials, which repeated rows would not equal."""
         for trial in self.unfinished_trials():
             if self.n_rows(trial):
-                journal.cut_back(self.out, trial.index, 0)
+                journal.truncate(self.out, trial.index, 0)
 
     def unfinished_trials(self) -> list[Trial]:
         """Return the trials whose end is not on disk."""
@@ -132,7 +132,7 @@ class Run:
         return len(self.read_trial(trial).rows)
 
     def head(self, trial: Trial) -> Record:
-        """Return the identity of a trial: equal heads mean that its rows must be equal."""
+        """Return the first line of a trial's journal; trials with equal heads have equal rows."""
         return {
             "inputs": _round_trip(self.inputs.as_dict()),
             "run": _round_trip(self.info.as_dict()),
@@ -165,7 +165,7 @@ class Run:
         """Return the stored rows of a trial.
 
         Raises:
-            ResultError: they belong to another run, or to other levels than those of the trial.
+            ResultError: the rows belong to another run, or to levels that are not in the trial.
         """
         path = journal.path_of(self.out, trial.index)
         if not path.exists():

@@ -1,4 +1,4 @@
-"""The description of a plan in its result: ``run``."""
+"""The entry ``run`` of a result, which describes its plan."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Runs whose algorithm is not of uwsim: their rows and tracks are sealed until all have ended."""
+"""The encryption (sealing) of the rows and motion tracks of third-party algorithms during runs."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ def is_foreign(plan: Plan) -> bool:
 
 @contextmanager
 def seal_runs(runs: Sequence[Run]) -> Iterator[None]:
-    """Seal the files of these runs, if one of them is foreign, until the block ends."""
+    """Seal the files of all these runs until the block ends, if one runs foreign code."""
     if not any(is_foreign(run.plan) for run in runs):
         yield
         return

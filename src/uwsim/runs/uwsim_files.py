@@ -1,4 +1,4 @@
-r"""The original's files: its result, here ``result.dat``, and its logs, ``benchmark-<name>.data``.
+r"""The files of the original UWSim: a result, ``result.dat``, and logs, ``benchmark-<name>.data``.
 
 .. code-block:: text
 
@@ -70,7 +70,7 @@ def dat_text(
     Args:
         result: the result.
         compatibility: the compatibility quirks, of which ``rows`` applies here.
-        measures: the measures of the benchmark; an absent one has one field, its value.
+        measures: the measures of the benchmark; a measure that is not among them has one field.
     """
     specs = {spec.name: spec for spec in measures}
     fields = list(_fields(result, specs))
@@ -93,7 +93,7 @@ def _original_fields(
     cells: Sequence[tuple[Column, Cell]],
     specs: Mapping[str, MeasureSpec],
 ) -> Iterator[tuple[Column, Cell]]:
-    """Yield the fields of a row with start values for missing ones, and the score of those."""
+    """Yield the fields of a row, with start values for missing values and the resulting score."""
     values: dict[str, float | None] = {}
     for column in result.columns_of_kind("measure"):
         cell = row[result.index(column.name)]
@@ -143,8 +143,8 @@ def detail_names(spec: MeasureSpec, n_logged: int) -> tuple[str, ...]:
     """Return the original's names of a measure's details: its log's columns after the time.
 
     Args:
-        spec: the measure; one that the original lacks has all values of its log.
-        n_logged: the number of values in a sample of its log.
+        spec: the measure; a measure that the original lacks has all values of its log.
+        n_logged: the number of values in a sample of the measure's log.
     """
     name = spec.name
     match spec:
@@ -166,7 +166,7 @@ def detail_names(spec: MeasureSpec, n_logged: int) -> tuple[str, ...]:
 
 
 def details(measure: TriggeredMeasure) -> tuple[float | None, ...]:
-    """Return the current details of a measure, in the order of `detail_names`."""
+    """Return the current values of a measure's details, in the order of `detail_names`."""
     values = [finite_value(value)[0] for value in log_sample(measure.measure)]
     if measure.has_start_value:
         values = [measure.spec.start_value, *(0.0 for _ in values[1:])]

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from ...errors import BadSetting, ErrorCollector
-from ...runs.executors.choose import CALLBACK_LIMIT, executor_of, n_at_once
+from ...runs.executors.choose import CALLBACK_LIMIT, executor_of, n_parallel_levels
 from ...runs.planning.plan_request import PlanRequest
 from ...scene.settings import XACRO_PREFIX
 from .completion import benchmark_names, complete_names, scene_names
@@ -212,7 +212,7 @@ class WorkerOptions:
     @property
     def n_parallel(self) -> int:
         """The number of levels that run in parallel."""
-        return n_at_once(self.workers)
+        return n_parallel_levels(self.workers)
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,7 +1,7 @@
-"""A background process of a run: it draws the report, and runs the control of workers' trials.
+"""A background process of a run: it draws the report and runs the control.
 
-Both need no image and no OpenGL, and a run in one process leaves a core half idle. It starts early
-and loads the code of reports before the first job. If it ends, the run executes its jobs.
+Neither needs OpenGL. The process starts with the run and imports the code of reports before its
+first job. If the process ends early, the process of the run executes the remaining jobs.
 """
 
 from __future__ import annotations
@@ -23,18 +23,22 @@ from .parent_watch import exit_with_parent, start_ignoring_interrupts
 if TYPE_CHECKING:
     from ..run import Run
 
-Job: TypeAlias = Union["Run", Path]
-"""A run to execute, or a result directory whose report is drawn."""
+BackgroundJob: TypeAlias = Union["Run", Path]
+"""A run to execute, or a result directory whose report is to be drawn."""
 Reporter = Callable[[], Callable[[Path], object]]
 """A function that imports and returns the function that draws a report; the import is slow."""
 
 
-class Jobs:
-    """An executor of jobs in this process, each when `wait` is called."""
+class JobRunner:
+    """A runner of jobs in this process; each call of `wait` executes one.
+
+    Args:
+        reporter: returns the function that draws a report.
+    """
 
     def __init__(self, reporter: Reporter) -> None:
         self._reporter = reporter
-        self._queue: deque[Job] = deque()
+        self._queue: deque[BackgroundJob] = deque()
 
     def __enter__(self) -> Self:
         return self
@@ -47,16 +51,16 @@ class Jobs:
     ) -> None:
         """Release nothing: jobs in this process hold no resource."""
 
-    def local_jobs(self) -> Jobs:
-        """Return an executor of such jobs in this process."""
-        return Jobs(self._reporter)
+    def local_runner(self) -> JobRunner:
+        """Return a runner with the same reporter that executes its jobs in this process."""
+        return JobRunner(self._reporter)
 
-    def submit(self, job: Job) -> None:
-        """Submit a job."""
+    def submit(self, job: BackgroundJob) -> None:
+        """Append a job to the queue."""
         self._queue.append(job)
 
     def wait(self) -> None:
-        """Wait for the oldest job that `wait` has not returned yet.
+        """Wait for the oldest submitted job for which no call has waited yet.
 
         Raises:
             RunFailed: the job failed.
@@ -65,15 +69,15 @@ class Jobs:
         if reason is not None:
             raise RunFailed(reason)
 
-    def _execute(self, job: Job) -> str | None:
+    def _execute(self, job: BackgroundJob) -> str | None:
         return _run_job(job, self._reporter)
 
 
-class BackgroundProcess(Jobs):
-    """An executor of jobs in its own process, which ends with this one.
+class BackgroundProcess(JobRunner):
+    """A runner of jobs in a child process, which also ends if this process does.
 
-    A context manager: the process is killed at the end of the block. It imports the main module of
-    the program that starts it again.
+    A context manager: the child is killed at the end of the block. The child imports the main
+    module of this program again.
     """
 
     def __init__(self, reporter: Reporter) -> None:
@@ -97,17 +101,17 @@ class BackgroundProcess(Jobs):
         self._pipe.close()
         self._parent.close()
 
-    def submit(self, job: Job) -> None:
-        """Submit a job."""
+    def submit(self, job: BackgroundJob) -> None:
+        """Send a job to the child process."""
         super().submit(job)
-        with suppress(OSError):  # it has ended: `wait` executes the job
+        with suppress(OSError):  # the child has ended: `wait` executes the job
             self._pipe.send(job)
 
-    def _execute(self, job: Job) -> str | None:
-        """Wait for a job; execute it in this process if the other one is lost."""
+    def _execute(self, job: BackgroundJob) -> str | None:
+        """Wait for a job of the child; execute the job in this process if the child has ended."""
         try:
             return cast("str | None", self._pipe.recv())
-        except (EOFError, OSError):  # the process has ended
+        except (EOFError, OSError):
             return super()._execute(job)
 
 
@@ -115,7 +119,7 @@ def _serve(pipe: Connection, parent: Connection, reporter: Reporter) -> None:
     """Execute jobs until the parent has ended or closes the pipe."""
     exit_with_parent(parent)
     ignore_casts()
-    with suppress(Exception):  # slow, so done while the levels run; errors are reported below
+    with suppress(Exception):  # slow, so it is done while levels run; `_run_job` reports errors
         reporter()
     gc.freeze()  # loaded modules remain
     with suppress(EOFError, OSError):  # the parent has ended
@@ -123,7 +127,8 @@ def _serve(pipe: Connection, parent: Connection, reporter: Reporter) -> None:
             pipe.send(_run_job(pipe.recv(), reporter))
 
 
-def _run_job(job: Job, reporter: Reporter) -> str | None:
+def _run_job(job: BackgroundJob, reporter: Reporter) -> str | None:
+    """Execute a job; return the reason of its failure, or None."""
     try:
         if isinstance(job, Path):
             reporter()(job)

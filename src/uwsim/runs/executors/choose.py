@@ -16,11 +16,11 @@ MAX_WORKERS = 1024
 """The greatest number of processes; a greater one is taken for a typing error."""
 
 CALLBACK_LIMIT = 600.0
-"""The default of the longest call into an algorithm [s]."""
+"""The default of the longest call into an algorithm [s of wall time]."""
 
 
-def n_at_once(workers: str) -> int:
-    """Return how many levels run at one time; for a cluster, the cores of this machine."""
+def n_parallel_levels(workers: str) -> int:
+    """Return the number of levels run in parallel; for a cluster, the cores of this machine."""
     return max(1, int(workers)) if workers.isdigit() else os.cpu_count() or 1
 
 
@@ -29,10 +29,10 @@ def executor_of(workers: str, callback_limit: float) -> Executor:
 
     Args:
         workers: the number of workers, or ``ray``.
-        callback_limit: the longest call into an algorithm [s]; 0 for no limit.
+        callback_limit: the longest call into an algorithm [s of wall time]; 0 for no limit.
 
     Raises:
-        BadSetting: the value is neither a number nor ``ray``, or not a time.
+        BadSetting: ``workers`` is neither a number nor ``ray``, or the limit is not a time.
         MissingExtra: Ray is not installed.
     """
     from .executor import SerialExecutor

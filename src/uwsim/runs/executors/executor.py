@@ -1,7 +1,8 @@
 """The queue of trials, and the protocol of the executors that run them.
 
 An executor takes trials from the queue and reports their outcomes to it. The queue counts how often
-a trial has lost its worker, and skips the trials of failed runs; an executor manages processors.
+a trial has lost its worker, and skips the trials of failed runs. The executor starts and ends the
+workers.
 """
 
 from __future__ import annotations
@@ -35,8 +36,8 @@ RESUME_HINT = "Finished rows are kept; continue with --resume."
 MAX_RETRIES = 3
 """The greatest number of repetitions of a trial that has lost its worker."""
 ENVIRONMENT = {"LP_NUM_THREADS": "0", "NUMBA_NUM_THREADS": "1"}
-"""The environment of a worker, unless the user has set it: one thread only, as there is a worker
-for each core."""
+"""The environment variables of a worker, unless the user has set them: one thread for each library,
+as there is a worker for each core."""
 
 
 @dataclass(eq=False)
@@ -48,7 +49,7 @@ class Job:
     trial: Trial
     """The trial."""
     cut: Cut | None = None
-    """The call into the algorithm that ended its process, or did not return."""
+    """The call into the algorithm, to be omitted, that ended its process or did not return."""
 
     def __str__(self) -> str:
         levels = self.trial.levels
@@ -66,10 +67,10 @@ class Executor(Protocol):
 
 
 class JobQueue:
-    """The queue of waiting jobs, in order, with the outcomes of the finished ones.
+    """The queue of waiting jobs, in order, with the failures of executed jobs.
 
-    Where a trial fails, the rest of its run is skipped, as it would fail, too. The other runs
-    continue.
+    If a trial fails, the remaining trials of its run are skipped, as they would fail, too. The
+    other runs continue.
 
     Args:
         jobs: the trials to run.
@@ -78,11 +79,12 @@ class JobQueue:
 
     def __init__(self, jobs: Sequence[Job], on_level: OnLevel = lambda: None) -> None:
         self.failures: list[tuple[Run, Exception]] = []
-        """The first failure of each run, in their order."""
+        """The first failure of each failed run, in the order in which they occurred."""
         self._jobs = deque(jobs)
         self._on_level = on_level
         self._losses: Counter[Job] = Counter()
         self._lost_calls: set[tuple[Job, int]] = set()
+        # the levels of each job that are not on disk yet
         self._n_open = {job: len(job.trial.levels) - job.run.n_rows(job.trial) for job in jobs}
 
     @property
@@ -91,7 +93,7 @@ class JobQueue:
         return self.failures[0][1] if self.failures else None
 
     def add(self, job: Job) -> None:
-        """Append a job; jobs may add others."""
+        """Append a job."""
         self._jobs.append(job)
         self._n_open[job] = len(job.trial.levels) - job.run.n_rows(job.trial)
 
@@ -109,7 +111,7 @@ class JobQueue:
         return any(job.run.seal is not None for job in self._jobs)
 
     def take(self) -> Job | None:
-        """Take the next job; None when there is none now."""
+        """Remove and return the next job; return None if no job is waiting."""
         return self._jobs.popleft() if self._jobs else None
 
     def report_level(self, job: Job) -> None:
@@ -128,6 +130,11 @@ class JobQueue:
 
         A second loss in the same ``call`` is due to the algorithm: from then on the trial is run
         without that call.
+
+        Args:
+            job: the job.
+            reason: how the worker ended.
+            call: the number of the unfinished call into the algorithm; None if there was none.
         """
         if call is not None and (job, call) in self._lost_calls:
             self.report_stop(job, Cut(call, f"{PROCESS_ENDED} ({reason})"))
@@ -166,8 +173,8 @@ class JobQueue:
 def convert_run_error(error: Exception) -> Exception:
     """Return an exception of a job as a `RunFailed`, because all inputs were checked before.
 
-    All files were read, and all names resolved, before the first job; a later error of the same
-    kind is one of the run (exit status 3, not 2).
+    All files were read, and all names resolved, before the first job. A later error of the same
+    class is therefore a failure of the run (exit status 3), not of the user's input (2).
     """
     if isinstance(error, UwsimError) and not isinstance(error, RUN_ERRORS):
         run_error = RunFailed(str(error))
@@ -183,9 +190,9 @@ class SerialExecutor:
     """An executor in this process, one trial after the other.
 
     Args:
-        observer: the observer of each trial.
+        observer: the observer of each trial; None without one.
         callback_limit: the longest call into an algorithm in a process of its own [s of wall
-            time]; None: no limit.
+            time]; None for no limit.
     """
 
     def __init__(
@@ -240,7 +247,7 @@ class Outcome:
     """The outcome of runs that were executed together."""
 
     results: tuple[Result, ...]
-    """The results, one for each run, as far as it ran; also on disk."""
+    """The result of each run, also on disk; a failed run has the rows up to its failure."""
     failures: tuple[tuple[Run, Exception], ...]
     """The failed runs with their errors, in the order of the failures."""
 

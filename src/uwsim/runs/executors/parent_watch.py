@@ -1,7 +1,7 @@
 """The end of a process when its parent ends, for any reason.
 
-The parent holds one end of a pipe that has no writer. The system closes it with the parent, and the
-process at the other end detects this at once.
+The parent holds the writing end of a pipe, and writes nothing. The system closes that end when the
+parent ends, and the process at the reading end detects this at once.
 """
 
 from __future__ import annotations
@@ -24,7 +24,11 @@ def start_ignoring_interrupts(process: BaseProcess) -> None:
 
 
 def exit_with_parent(parent: Connection) -> None:
-    """End this process as soon as the parent has ended and the pipe to it is closed."""
+    """End this process as soon as the parent has ended.
+
+    Args:
+        parent: the reading end of a pipe whose writing end the parent alone holds.
+    """
     threading.Thread(target=_exit_with, args=(parent,), daemon=True).start()
 
 

@@ -1,10 +1,10 @@
-"""Processes of this machine, each with its own graphics context and one thread a library.
+"""An executor with worker processes on this machine, each with its own graphics context.
 
-They are started with ``spawn``, those of a sealed run by `ProtectedForks`. They write rows into the
-result directory and report their progress through a pipe. A worker that ends loses only its current
-level: a new one runs its trial again, and must reproduce the rows on disk. No process runs two
-algorithms. A call into an algorithm that ends its process twice, or does not return, is omitted
-when its trial is run again, with a reason in its row.
+Workers are started with ``spawn``, or by `ProtectedForks` for a sealed run. They write rows into
+the result directory and report their progress through a pipe. A worker that ends loses only its
+current level: a new worker runs the trial again, and must reproduce the rows on disk. No worker
+runs two algorithms. A call into an algorithm that ends its process twice, or does not return, is
+omitted when the trial is run again; the row states the reason.
 """
 
 from __future__ import annotations
@@ -31,29 +31,29 @@ from .protected_forks import ProtectedForks, can_protect_forks
 from .worker import TrialFailed, make_picklable
 
 EXIT_TIMEOUT = 10.0
-"""The time in which a worker without work must end, before it is killed [s]."""
+"""The time for a dismissed worker to end before it is killed [s of wall time]."""
 POLL_PERIOD = 1.0
-"""The longest time between two checks of the calls [s]."""
+"""The longest time between two checks of the duration of calls [s of wall time]."""
 
 
 @dataclass(frozen=True)
 class LevelStored:
-    """The event that a level is on disk that was not there before."""
+    """The event that a new level has been written to disk."""
 
 
 @dataclass(frozen=True)
 class TrialFinished:
-    """The event that a trial is on disk."""
+    """The event that the end of a trial has been written to disk."""
 
 
 Report = LevelStored | TrialFinished | TrialFailed
 
 
 class ProcessExecutor:
-    """A number of processes; a trial that loses its worker is repeated by a new one.
+    """An executor with several processes; a trial that loses its worker is repeated by a new one.
 
-    A single bundled algorithm, with one worker or one trial, runs in this process, as the start of
-    another one takes time.
+    A single bundled algorithm, with one worker or one trial, runs in this process, which saves the
+    time to start a worker.
 
     Args:
         n: the greatest number of processes.
@@ -101,7 +101,7 @@ class ProcessExecutor:
         for worker in busy_workers:
             worker.report(queue)
             if self._limit is not None and self._poll_period is not None:
-                # a longer time in which this process itself was stopped does not count
+                # time in which this process itself was suspended does not count
                 worker.watch(queue, min(wait_time, 2 * self._poll_period), self._limit)
 
 
@@ -109,9 +109,9 @@ class WorkerProcess:
     """The parent's handle of a worker process.
 
     Args:
-        settings: its environment variables, unless the user has set them.
-        limit: the longest call into an algorithm in a process of its own [s].
-        forks: the maker of the processes of a sealed run.
+        settings: environment variables of the worker, unless the user has set them.
+        limit: the longest call into an algorithm in a process of its own [s of wall time].
+        forks: creates the processes of a sealed run; None if the run is not sealed.
     """
 
     def __init__(
@@ -138,29 +138,29 @@ class WorkerProcess:
         for end in (child_pipe, parent):
             end.close()  # so that a pipe ends when the process at its other end does
         self.job: Job | None = None
-        """The job it executes."""
-        self._algorithm: str | None = None  # the only one that it runs
-        # the counter, and the time since its last change [s]
+        """The job that the worker executes; None if it is idle."""
+        self._algorithm: str | None = None  # the only algorithm that it runs
+        # the last value of the counter of calls, and the time since it changed [s]
         self._last_count, self._count_age = NO_CALLS, 0.0
 
     @property
     def handles(self) -> tuple[Connection, int]:
-        """Handles that become ready when it has a report or has ended."""
+        """Handles that become ready when the worker has sent a report or has ended."""
         return self._pipe, self._process.sentinel
 
     def accepts(self, job: Job) -> bool:
-        """Return whether it accepts a job: it is alive, and has run no other algorithm."""
+        """Return whether the worker accepts a job: it is alive, and has run no other algorithm."""
         name = job.run.plan.algorithm.name
         return self._process.is_alive() and self._algorithm in (None, name)
 
     def assign(self, job: Job) -> None:
-        """Assign a job to it; if it has ended, the next `report` reports that."""
+        """Send a job to the worker; if the worker has ended, the next `report` reports that."""
         self.job, self._algorithm = job, job.run.plan.algorithm.name
         with suppress(OSError):
             self._pipe.send(job)
 
     def report(self, queue: JobQueue) -> None:
-        """Report the events since the last report to the queue."""
+        """Report the worker's new events, or its end, to the queue."""
         assert self.job is not None
         is_alive = self._process.is_alive()  # read first, so that its last reports are received
         for event in self._reports():
@@ -183,12 +183,12 @@ class WorkerProcess:
             self.job = None
 
     def watch(self, queue: JobQueue, wait_time: float, limit: float) -> None:
-        """End it if the call into the algorithm has taken longer than ``limit`` [s].
+        """Kill the worker if its current call into the algorithm has taken longer than ``limit``.
 
         Args:
             queue: the queue that receives the events.
-            wait_time: the time since the last check [s].
-            limit: the longest call [s].
+            wait_time: the time since the last check [s of wall time].
+            limit: the longest call [s of wall time].
         """
         count = self._counter.value
         self._count_age = self._count_age + wait_time if count == self._last_count else 0.0
@@ -197,7 +197,7 @@ class WorkerProcess:
         if self.job is None or call is None:
             return
         if self.job.run.plan.algorithm.own_process:
-            limit *= 2.0  # the worker itself checks the clock
+            limit *= 2.0  # the worker itself enforces the limit, and is killed only if it fails to
         if self._count_age <= limit:
             return
         self._process.kill()
@@ -206,13 +206,13 @@ class WorkerProcess:
         self.job = None
 
     def dismiss(self) -> None:
-        """Request its end, and wait for it."""
+        """Request the worker to end, and wait for its end up to `EXIT_TIMEOUT`."""
         with suppress(OSError):
             self._pipe.send(None)
         self._process.join(EXIT_TIMEOUT)
 
     def kill(self) -> None:
-        """Kill it, if it has not ended."""
+        """Kill the worker if it has not ended, and release its pipes."""
         self._process.kill()
         self._process.join()
         self._process.close()
@@ -228,7 +228,14 @@ class WorkerProcess:
 def work(
     pipe: Connection, parent: Connection, counter: Counter, limit: float | None = None
 ) -> None:
-    """Run the jobs from the pipe until ``None`` arrives, or until the parent has ended."""
+    """Run the jobs from the pipe until ``None`` arrives, or until the parent has ended.
+
+    Args:
+        pipe: the connection that receives jobs and sends reports.
+        parent: the reading end of the pipe that closes with the parent (`exit_with_parent`).
+        counter: the shared counter of calls into the algorithm.
+        limit: the longest call into an algorithm in a process of its own [s of wall time].
+    """
     exit_with_parent(parent)
     ignore_casts()
     cache = TrialCache()

@@ -1,4 +1,4 @@
-"""The import of this module closes the memory of the process to others (`ProtectedForks`)."""
+"""A module whose import denies other processes access to this one's memory (`ProtectedForks`)."""
 
 from ...results.seal import deny_access_to_memory
 

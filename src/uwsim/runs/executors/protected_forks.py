@@ -1,4 +1,4 @@
-"""Processes whose memory is closed to the user's other processes from their start.
+"""Processes whose memory the user's other processes cannot read, from their start.
 
 Other processes can open the memory of a program until it denies access itself, and an open handle
 remains valid. A fork inherits the denial. So the workers of a sealed run are forks of a process,
@@ -45,10 +45,10 @@ class ProtectedForks:
         Args:
             target: the function that it runs.
             arguments: the arguments of the function.
-            settings: its environment variables, unless the user has set them.
+            settings: environment variables of the process, unless the user has set them.
         """
         name = (target.__module__, target.__qualname__)  # imported there, in its environment
-        variables = {**settings, **os.environ}  # those of the fork server may be older
+        variables = {**settings, **os.environ}  # the fork server's environment may be older
         return self._context.Process(target=begin, args=(variables, name, arguments))
 
     def start(self, process: BaseProcess) -> None:
@@ -59,7 +59,7 @@ class ProtectedForks:
         """
         try:
             start_ignoring_interrupts(process)
-        except (EOFError, OSError):  # it ends just now
+        except (EOFError, OSError):  # the fork server is ending
             raise RunFailed(SERVER_ENDED) from None
         server = parent_of(process.pid)
         self._server = self._server or server
@@ -75,17 +75,17 @@ def begin(
     """Run a function, named by its module and its name, with these environment variables."""
     os.environ.clear()
     os.environ.update(variables)
-    importlib.import_module(PROTECTION_MODULE)  # if the program had started a fork server before
+    importlib.import_module(PROTECTION_MODULE)  # a fork server started earlier has not imported it
     getattr(importlib.import_module(target[0]), target[1])(*arguments)
 
 
 def parent_of(pid: int | None) -> int | None:
-    """Return the parent of a process; None if it has ended."""
+    """Return the process ID of the parent of a process; None if the process has ended."""
     with suppress(OSError, ValueError, IndexError):
         return int(Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[1])
     return None
 
 
 def can_protect_forks() -> bool:
-    """Return whether this system has processes whose memory can be closed."""
+    """Return whether processes of this system can deny access to their memory."""
     return sys.platform == "linux"

@@ -1,7 +1,7 @@
-"""An executor on a Ray cluster: that of ``RAY_ADDRESS``, else one that is started for the run.
+"""An executor on a Ray cluster: at ``RAY_ADDRESS``, or on this machine and started for the run.
 
 No file system is shared. Rows and images return level by level and are stored on this machine, as
-those of a local run. A worker whose machine has other files, versions or another renderer raises an
+in a local run. A worker whose machine has other files, versions or another renderer raises an
 error before it begins. Its machine must have uwsim, and the user's own files under the same paths
 (``ray job submit --working-dir`` copies them).
 """
@@ -38,17 +38,18 @@ ADDRESS = "RAY_ADDRESS"
 OBJECT_STORE_SIZE = 256 * 2**20
 """The memory for rows and images within a cluster that is started for the run [bytes]."""
 RAY_ENV = {"RAY_USAGE_STATS_ENABLED": "0", "RAY_ACCEL_ENV_VAR_OVERRIDE_ON_ZERO": "0"}
-"""The environment that suppresses telemetry and advice."""
+"""The environment variables that turn off Ray's telemetry and its advice."""
 
 
 class RayExecutor:
     """Workers on a Ray cluster, one for each of its processors.
 
-    A new worker repeats the trial of a lost one. A cluster that is started for the run accepts
+    A new worker repeats the trial of a lost worker. A cluster that is started for the run accepts
     connections of this machine only, has its own token, and is removed at the end.
 
     Args:
-        cpus: the processors of a cluster for the run; None for all that this process may use.
+        cpus: the number of processors of a cluster that is started for the run; None for all that
+            this process may use.
 
     Raises:
         MissingExtra: Ray is not installed.
@@ -77,7 +78,7 @@ class RayExecutor:
             n_workers = max(1, int(ray.cluster_resources().get("CPU", 1)))
             worker_class = ray.remote(num_cpus=1, max_restarts=0)(RayWorker)
             worker_class = worker_class.options(runtime_env={"env_vars": select_unset(ENVIRONMENT)})
-            pool: list[tuple[Any, str]] = []  # with the only algorithm of each
+            pool: list[tuple[Any, str]] = []  # idle workers, each with its only algorithm
             tasks: dict[Any, AssignedJob] = {}
             try:
                 while True:
@@ -122,7 +123,7 @@ class RayExecutor:
         except errors.RayError as error:
             task.is_alive = False
             queue.report_loss(task.job, f"with {type(error).__name__}")
-        except UwsimError as error:  # the row differs from that on disk
+        except UwsimError as error:  # the row differs from the row on disk
             self._ray.kill(task.worker)
             task.is_alive = False
             queue.report_failure(task.job, error)
@@ -130,7 +131,7 @@ class RayExecutor:
 
     @contextmanager
     def _cluster(self) -> Iterator[None]:
-        """Connect; stop a cluster that was started for the run after it."""
+        """Connect to the cluster during the block; then stop it if it was started for the run."""
         if self._ray.is_initialized():
             yield
             return
@@ -188,9 +189,10 @@ def address() -> str | None:
 
 @dataclass
 class AssignedJob:
-    """A job that a worker executes."""
+    """A job that a worker executes, and the writer of its journal."""
 
     job: Job
+    """The job."""
     worker: Any
     """Ray's handle of a `RayWorker`."""
     is_alive: bool = True
@@ -201,15 +203,15 @@ class AssignedJob:
         run, trial = self.job.run, self.job.trial
         self.writer = JournalWriter(run, trial)
         execute = self.worker.execute.options(num_returns="streaming")
-        without_key = replace(run, seal=None)  # rows are written here
-        return execute.remote(without_key, trial, run.head(trial))
+        unsealed_run = replace(run, seal=None)  # only this process writes rows and needs the key
+        return execute.remote(unsealed_run, trial, run.head(trial))
 
 
 class RayWorker:
     """A process in the cluster, with a renderer kept between trials."""
 
     def __init__(self) -> None:
-        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # for its driver alone
+        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})  # the driver handles Ctrl-C
         self._cache = TrialCache()
         self._checked_heads: list[Record] = []
 
@@ -222,12 +224,12 @@ class RayWorker:
             yield TrialFailed(make_picklable(error))
 
     def _check(self, run: Run, trial: Trial, head: Record) -> None:
-        """Check that the trial would be the same on the driver's machine.
+        """Check that the trial gives the same rows here as on the driver's machine.
 
         Args:
             run: the run of the trial.
             trial: the trial to run.
-            head: the trial's head as the driver wrote it.
+            head: the head of the trial's journal, from the driver.
 
         Raises:
             RunFailed: files, versions or the renderer differ from the driver's.
@@ -266,7 +268,7 @@ def _short_folder() -> Path | None:
 
 @contextmanager
 def _keep_signals() -> Iterator[None]:
-    """Keep the handler of a signal that Ray would replace."""
+    """Restore the handler of SIGTERM, which Ray replaces, at the end of the block."""
     is_main = threading.current_thread() is threading.main_thread()
     handler = signal.getsignal(signal.SIGTERM)
     try:

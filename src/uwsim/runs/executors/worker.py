@@ -1,7 +1,7 @@
-"""The execution of a trial in a worker, and the writing of its journal next to the result.
+"""The execution of a trial by a worker, and the writing of the trial's journal.
 
-The two may be on different machines, which exchange numbers, text and the bytes of images, never a
-path.
+The two may take place on different machines, which exchange numbers, text and the bytes of images,
+but no paths.
 """
 
 from __future__ import annotations
@@ -38,9 +38,9 @@ class LevelEnded:
     """The end of a level, with its row to store and its images."""
 
     row: StoredRow
-    """The row."""
+    """The row to store."""
     images: tuple[tuple[str, bytes], ...]
-    """The name in the result directory and the PNG of each image."""
+    """The path in the result directory, and the bytes of the PNG file, of each image."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,11 +48,11 @@ class TrialEnded:
     """The end of a trial."""
 
     end: StoredEnd
-    """The record of the end."""
+    """The end to store."""
     motion: bytes = b""
-    """The file of its motion track."""
+    """The bytes of the file with the motion track."""
     inputs: bytes = b""
-    """The inputs of a pilot; empty without a pilot."""
+    """The bytes of the file with a pilot's inputs; empty without a pilot."""
 
 
 @dataclass(frozen=True)
@@ -77,11 +77,11 @@ def run_trial(
     """Run a trial; yield each level as it ends, and finally the end of the trial.
 
     Args:
-        plan: the benchmark to run.
-        trial: one of its trials.
-        cache: the cache of scenes and renderers.
+        plan: the plan of the run.
+        trial: a trial of the plan.
+        cache: the cache of scene models and renderers.
         calls: the counter of calls into the algorithm.
-        observer: the observer between the steps.
+        observer: the observer, which is called between the steps.
         recorder: the recorder of the messages.
 
     Raises:
@@ -105,11 +105,11 @@ def run_trial(
 
 
 class JournalWriter:
-    """A writer of the events of a trial to its journal; rows already there are compared.
+    """A writer of the events of a trial to its journal; rows that are stored already are compared.
 
     Raises:
         ReplayDiffers: a repeated row differs from the stored one.
-        RunFailed: a file of the run was changed.
+        RunFailed: an input file of the run was changed.
     """
 
     def __init__(self, run: Run, trial: Trial) -> None:
@@ -137,7 +137,7 @@ class JournalWriter:
         return self._file.add(event.row)
 
     def close(self) -> None:
-        """Close the trial's file; written events are on disk."""
+        """Close the journal; all written events are on disk."""
         self._file.close()
 
     def _seal_data(self, data: bytes) -> bytes:
@@ -145,7 +145,7 @@ class JournalWriter:
 
 
 def make_picklable(error: BaseException) -> Exception:
-    """Return the error with its traceback as a note, or an equivalent that can be pickled."""
+    """Return the error, or a `RunFailed` if it cannot be pickled, with its traceback as a note."""
     error.add_note("".join(traceback.format_exception(error)).rstrip())
     try:
         copy = pickle.loads(pickle.dumps(error))

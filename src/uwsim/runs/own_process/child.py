@@ -5,17 +5,17 @@ It receives frames through one socket, answers each, and has no other access to 
 .. code-block:: text
 
     from the simulation                 answer, when the algorithm has returned
-      make  path, plugins, class          done  published, value, broken rule
+      make  path, plugins, class          done  published, value, violated rule
       start now, parameters, random       raised  published, kind, message, text
       call  callback, now, message
       parameters  given
-      names_read                          (names of parameters that it read)
+      names_read                          (names of parameters that the algorithm has read)
       given / refused                   (the reply to a request of the algorithm)
 
-Within a call the algorithm requests the functions of a node (`ask`): the frames nest, as the calls
-of one process do. A message that the simulation is certain to accept needs no answer: it is sent
-with the next frame of any kind, as its first request (``published``: a frame for each, of a
-publisher's number and a message).
+During a call the algorithm may request the functions of its node (`ask`), so the frames nest as
+function calls do. A message that the simulation is certain to accept needs no answer of its own: it
+is sent with the next frame of any kind (``published``: a list of frames, each with the number of a
+publisher and a message).
 """
 
 from __future__ import annotations
@@ -47,13 +47,17 @@ M = TypeVar("M")
 PARENT_CHECK_PERIOD = 0.5
 """The period at which this process checks that its parent exists [s]."""
 MAX_PUBLISHED = 100
-"""The greatest number of messages that wait for the next frame."""
+"""The number of waiting messages at which they are sent without waiting for the next frame."""
 MAX_PUBLISHED_BYTES = 2**20
-"""The size of messages from which they are sent at once [bytes]."""
+"""The total size of waiting messages at which they are sent without waiting [bytes]."""
 
 
 class ChildNode:
-    """The node of an algorithm in this process; it forwards every request to the simulation."""
+    """The node of an algorithm in this process; it forwards every request to the simulation.
+
+    Args:
+        ask: sends a request to the simulation and returns the result.
+    """
 
     def __init__(self, ask: Callable[..., Any]) -> None:
         self._ask = ask
@@ -62,13 +66,13 @@ class ChildNode:
         self._types = Bus()  # checks the classes of messages before they are encoded
         self._thread = threading.get_ident()
         self.callbacks: list[Callable[..., object]] = []
-        """The callbacks of the simulation, by number."""
+        """The algorithm's callbacks, by the number with which the simulation calls them."""
         self.violation: str | None = None
         """The rule that a thread of the algorithm has violated."""
         self.now = 0.0
         """The simulation time [s]."""
         self.parameters = TrackedParameters({})
-        """The parameters that the user set."""
+        """The parameters of the algorithm that the user set."""
         self.rng = np.random.default_rng(0)
         """The algorithm's own random stream."""
 
@@ -94,11 +98,11 @@ class ChildNode:
         return publish
 
     def serve(self, name: str, type: type[M], handler: Callable[[M], object]) -> None:
-        """Offer a service; ``type`` is the class of its request."""
+        """Advertise a service; ``type`` is the class of its request."""
         self._request("serve", name, _check_message_class(type), self._number(handler))
 
     def call(self, name: str, request: object) -> object:
-        """Call a service; raise UnknownName if it is not offered."""
+        """Call a service; raise UnknownName if no node advertises it."""
         return self._request("call", name, request)
 
     def create_timer(self, period_s: float, callback: Callable[[], None]) -> None:
@@ -136,10 +140,10 @@ class ChildNode:
 
 
 class Child:
-    """The server of the frames of the simulation.
+    """The server of the frames that the simulation sends.
 
     Args:
-        pipe: the connection to it.
+        pipe: the connection to the simulation.
     """
 
     def __init__(self, pipe: Connection) -> None:
@@ -162,8 +166,8 @@ class Child:
             trace = error.__traceback__
             error.__traceback__ = trace and trace.tb_next  # the first is that of this function
             text = describe_exception(error, self._class)
-            fault = (type(error).__name__, message, text)
-            frame = encode(["raised", self._node.take_published(), *fault])
+            description = (type(error).__name__, message, text)
+            frame = encode(["raised", self._node.take_published(), *description])
         self._send(frame)
 
     def _make(self, path: list[str], sources: list[list[Any]], module: str, name: str) -> None:
@@ -179,9 +183,9 @@ class Child:
 
     def _start(self, now: float, parameters: dict[str, Any], rng_state: list[Any]) -> None:
         name, state = rng_state
-        bits = getattr(np.random, name)()
-        bits.state = state
-        self._node.rng = np.random.Generator(bits)
+        bit_generator = getattr(np.random, name)()
+        bit_generator.state = state
+        self._node.rng = np.random.Generator(bit_generator)
         self._node.now, self._node.parameters = now, TrackedParameters(parameters)
         self._algorithm.start(self._node)
 
@@ -197,7 +201,7 @@ class Child:
         return list(self._node.parameters.names_read)
 
     def _ask(self, method: str, *arguments: object) -> Any:
-        """Request something of the simulation, and answer calls that arrive before the reply."""
+        """Send a request to the simulation, and execute calls that arrive before its reply."""
         self._send(encode(["ask", self._node.take_published(), method, *arguments]))
         while True:
             kind, *rest = self._receive()
@@ -222,7 +226,7 @@ class Child:
 
 
 def _check_message_class(cls: type) -> type:
-    """Return the class of a message, which must be known outside this process, too."""
+    """Return the class of a message; raise BadSetting if the simulation cannot know the class."""
     name = f"{cls.__module__}:{cls.__qualname__}" if isinstance(cls, type) else ""
     if message_class(name) is not cls:
         raise BadSetting(f"{cls!r} is not a class of messages that its process can exchange.")
@@ -247,22 +251,22 @@ def _leave() -> NoReturn:
     os._exit(0)
 
 
-def main(descriptor: int, parent: int) -> None:
+def main(descriptor: int, parent_pid: int) -> None:
     """Serve the simulation at the other end of a socket, and end with it.
 
     Args:
-        descriptor: the descriptor of the socket.
-        parent: the process that holds the other end.
+        descriptor: the file descriptor of the socket.
+        parent_pid: the process ID of the simulation.
     """
     ignore_casts()
     os.set_inheritable(descriptor, False)  # not for processes that the algorithm starts
-    threading.Thread(target=_exit_with, args=(parent,), daemon=True).start()
+    threading.Thread(target=_exit_with, args=(parent_pid,), daemon=True).start()
     Child(Connection(descriptor)).serve()
 
 
-def _exit_with(parent: int) -> None:
-    """End this process when its parent has ended, also from within an endless callback."""
-    while os.getppid() == parent:
+def _exit_with(parent_pid: int) -> None:
+    """End this process when its parent has ended, even during an endless callback."""
+    while os.getppid() == parent_pid:
         time.sleep(PARENT_CHECK_PERIOD)
     os._exit(1)
 

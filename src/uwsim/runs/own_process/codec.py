@@ -1,8 +1,10 @@
-"""Messages as bytes between the simulation and an algorithm's process.
+"""The encoding of values as frames (bytes) between the simulation and an algorithm's process.
 
 A frame is JSON, which preserves every float64, followed by the bytes of all arrays. A frame decodes
 to numbers, texts, lists, arrays and message classes that this process has already loaded: no code
-arrives with a frame, and nothing is imported for it.
+arrives with a frame, and nothing is imported for it. A value that JSON lacks is an object with one
+key: ``t`` tuple, ``d`` dict, ``m`` message, ``a`` array, ``s`` array scalar, ``b`` bytes,
+``c`` message class, ``o`` any other object, as its ``repr``.
 """
 
 from __future__ import annotations
@@ -20,15 +22,15 @@ import numpy as np
 
 MAX_FRAME = 2**30
 """The greatest length of a frame [bytes]."""
-_TEXT = json.JSONEncoder(separators=(",", ":"), check_circular=False).encode
-_VALUE = json.JSONDecoder().decode
+_encode_json = json.JSONEncoder(separators=(",", ":"), check_circular=False).encode
+_decode_json = json.JSONDecoder().decode
 _LENGTH = struct.Struct("<I")
 _ARRAYS = (np.ndarray, np.generic)
 _BASES: tuple[Any, ...] = (bool, int, float, str, list, tuple, dict)
 _SCALARS = frozenset((type(None), bool, int, float, str))
-_MAX_NAMES = 10_000
+_CACHE_SIZE = 10_000
 MAX_DEPTH = 100
-"""The greatest depth of values that leave the process; deeper ones may contain themselves."""
+"""The greatest depth of nested values in a frame; a deeper value may contain itself."""
 
 
 class FrameError(Exception):
@@ -36,7 +38,7 @@ class FrameError(Exception):
 
 
 class UnknownValue:
-    """A replacement of a value that cannot leave its process, with its representation there."""
+    """A substitute for a value that cannot be sent, with the ``repr`` of that value."""
 
     def __init__(self, text: str) -> None:
         self._text = text
@@ -51,7 +53,7 @@ def encode(value: object) -> bytes:
     Any other value becomes `UnknownValue` in the other process.
     """
     arrays: list[bytes] = []
-    head = _TEXT(_to_json(value, arrays)).encode()
+    head = _encode_json(_to_json(value, arrays)).encode()
     return b"".join((_LENGTH.pack(len(head)), head, *arrays))
 
 
@@ -64,7 +66,7 @@ def decode(frame: bytes) -> Any:
     try:
         (n,) = _LENGTH.unpack_from(frame)
         start = _LENGTH.size + n
-        value, end = _Reader(frame, start).value(_VALUE(frame[_LENGTH.size : start].decode()))
+        value, end = _Reader(frame, start).value(_decode_json(frame[_LENGTH.size : start].decode()))
     except struct.error:
         raise FrameError(f"{len(frame)} bytes, which end too early") from None
     except (ValueError, TypeError, KeyError, IndexError, RecursionError) as error:
@@ -75,7 +77,7 @@ def decode(frame: bytes) -> Any:
 
 
 def _to_json(value: Any, arrays: list[bytes], depth: int = 0) -> object:
-    """Return JSON of a value; a value without a form in JSON is an object with one key."""
+    """Return a value as JSON types, and append the bytes of its arrays to ``arrays``."""
     cls: Any = value.__class__
     if cls in _SCALARS:
         return value
@@ -89,8 +91,8 @@ def _to_json(value: Any, arrays: list[bytes], depth: int = 0) -> object:
     if cls is dict:
         pairs = [(_to_json(k, arrays, level), _to_json(v, arrays, level)) for k, v in value.items()]
         return {"d": [list(pair) for pair in pairs]}
-    if hasattr(cls, "__dataclass_fields__") and message_class(name := _name(cls)) is cls:
-        fields = [getattr(value, field) for field in _names(cls)]
+    if hasattr(cls, "__dataclass_fields__") and message_class(name := _qualified_name(cls)) is cls:
+        fields = [getattr(value, field) for field in _field_names(cls)]
         values = (v if v.__class__ in _SCALARS else _to_json(v, arrays, level) for v in fields)
         return {"m": [name, *values]}
     if isinstance(value, _ARRAYS) and value.dtype.kind in "biufSU":
@@ -101,7 +103,7 @@ def _to_json(value: Any, arrays: list[bytes], depth: int = 0) -> object:
         arrays.append(value)
         return {"b": len(value)}
     if isinstance(value, type):
-        return {"c": _name(value)}
+        return {"c": _qualified_name(value)}
     base_type = next((cls_ for cls_ in _BASES if isinstance(value, cls_)), None)
     if base_type is not None:
         return _to_json(base_type(value), arrays, level)
@@ -109,7 +111,12 @@ def _to_json(value: Any, arrays: list[bytes], depth: int = 0) -> object:
 
 
 class _Reader:
-    """A reader of the value of a frame, and of its arrays in their order."""
+    """A reader of the value of a frame, with the bytes of its arrays.
+
+    Args:
+        frame: the frame.
+        start: the index of the first byte after the JSON.
+    """
 
     def __init__(self, frame: bytes, start: int) -> None:
         self._frame, self._offset = frame, start
@@ -142,9 +149,9 @@ class _Reader:
     def _message(self, name: str, *values: object) -> object:
         cls = _class_of(name)
         message: object = object.__new__(cls)
-        for field, value in zip(_names(cls), values, strict=True):
-            read = value if value.__class__ in _SCALARS else self._read(value)
-            object.__setattr__(message, field, read)  # of a frozen one, too
+        for field, value in zip(_field_names(cls), values, strict=True):
+            field_value = value if value.__class__ in _SCALARS else self._read(value)
+            object.__setattr__(message, field, field_value)  # also if the message is frozen
         return message
 
     def _array(self, tag: str, dtype: str, *shape: int) -> Any:
@@ -162,8 +169,8 @@ class _Reader:
         return self._frame[self._offset - n : self._offset]
 
 
-@functools.lru_cache(_MAX_NAMES)
-def _name(cls: Hashable) -> str:
+@functools.lru_cache(_CACHE_SIZE)
+def _qualified_name(cls: Hashable) -> str:
     assert isinstance(cls, type)
     return f"{cls.__module__}:{cls.__qualname__}"
 
@@ -176,34 +183,35 @@ def _class_of(name: str) -> type:
 
 
 def message_class(name: str) -> type | None:
-    """Return the message class ``module:Class``, or ``object``; None if this process has none.
+    """Return the message class ``module:Class``; None if this process has not loaded it.
 
-    Message classes are dataclasses, those of uwsim with a ROS name. Nothing is imported.
+    A message class is a dataclass; in uwsim, a dataclass with a ROS name. The name of ``object``
+    gives ``object``. Nothing is imported.
     """
     if name == "builtins:object":
         return object
-    module, path = _path(name)
+    module, path = _split_name(name)
     cls: Any = sys.modules.get(module)
     for part in path:
         cls = getattr(cls, part, None)
     return cls if isinstance(cls, type) and _is_message(cast(Hashable, cls), module) else None
 
 
-@functools.lru_cache(_MAX_NAMES)
-def _path(name: str) -> tuple[str, tuple[str, ...]]:
+@functools.lru_cache(_CACHE_SIZE)
+def _split_name(name: str) -> tuple[str, tuple[str, ...]]:
     """Return the module of ``module:Class``, and the names that lead from it to the class."""
     module, _, path = name.partition(":")
     return module, tuple(path.split("."))
 
 
-@functools.lru_cache(_MAX_NAMES)
+@functools.lru_cache(_CACHE_SIZE)
 def _is_message(cls: Hashable, module: str) -> bool:
     is_own = module.partition(".")[0] == "uwsim"
     return dataclasses.is_dataclass(cls) and (hasattr(cls, "__msgtype__") or not is_own)
 
 
-@functools.lru_cache(_MAX_NAMES)
-def _names(cls: Any) -> tuple[str, ...]:
+@functools.lru_cache(_CACHE_SIZE)
+def _field_names(cls: Any) -> tuple[str, ...]:
     names = [field.name for field in dataclasses.fields(cls)]
     return tuple(name for name in names if name != "__msgtype__")  # rosbags has it as a field
 

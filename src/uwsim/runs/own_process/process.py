@@ -1,9 +1,9 @@
-"""An algorithm in a process of its own, as the simulation uses it: an `Algorithm` like any other.
+"""An algorithm in a process of its own, which the simulation uses like any other `Algorithm`.
 
-Its node is that of the simulation's process (`uwsim.simulation.InProcessNode`). Each callback is a
-frame to the process and waits for the answer; requests of the algorithm to its node are executed
-meanwhile, in their order. So the order of events is that of one process, and simulation time does
-not advance: the rows are the same.
+The node of the algorithm is in the simulation's process (`uwsim.simulation.InProcessNode`). To call
+a callback, the simulation sends a frame to the algorithm's process and waits for the answer;
+meanwhile it executes the algorithm's requests to the node, in order. So events have the same order
+as in one process, no simulation time passes during a call, and the rows are the same.
 """
 
 from __future__ import annotations
@@ -33,23 +33,23 @@ from ...simulation import CallStopped
 from .codec import MAX_FRAME, FrameError, decode, encode
 
 PROCESS_ENDED = "its process ended"
-"""The beginning of the reason of an algorithm whose process has ended."""
+"""The beginning of the reason in a row whose algorithm has ended its process."""
 CALL_TIMEOUT = "a callback took longer than --callback-limit"
-"""The reason of a row whose algorithm did not return."""
+"""The reason in a row whose algorithm did not return from a call."""
 CLOCK_PERIOD = 1.0
-"""The longest time between two checks of the clock [s]."""
+"""The longest time between two checks of the clock [s of wall time]."""
 END_TIMEOUT = 10.0
 """The time in which a process that has closed its socket must end [s of wall time]."""
 MAX_SOCKET_TIMEOUT = 1e9
-"""The longest timeout of a socket; a longer one is unlimited [s]."""
+"""The longest timeout that is set on a socket [s of wall time]."""
 MODULE = "uwsim.runs.own_process.child"
 
 
 class OwnProcess:
-    """A process that waits for the class of an algorithm; a context manager, which ends it.
+    """A child process that runs an algorithm; a context manager, which kills it at the end.
 
     Args:
-        limit: the longest computation for one request [s of wall time]; None: no limit.
+        limit: the longest computation for one request [s of wall time]; None for no limit.
     """
 
     def __init__(self, limit: float | None = None) -> None:
@@ -65,7 +65,7 @@ class OwnProcess:
                 },
             )
         if limit is not None:
-            # no single read or write of a frame takes longer: seconds and microseconds
+            # the limit of a single read or write of a frame, in seconds and microseconds
             timeout = min(limit, MAX_SOCKET_TIMEOUT)
             timeval = struct.pack("ll", int(timeout), int(timeout % 1.0 * 1e6) or 1)
             own_socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVTIMEO, timeval)
@@ -90,7 +90,7 @@ class OwnProcess:
 
     @property
     def pid(self) -> int:
-        """The number of the process."""
+        """The process ID."""
         return self._process.pid
 
     def request(self, frame: list[object], answer: Callable[[list[Any]], object]) -> Any:
@@ -98,13 +98,13 @@ class OwnProcess:
 
         Args:
             frame: the request to the process.
-            answer: executes a request of the algorithm and returns its result; the messages that
+            answer: executes a request of the algorithm and returns the result; the messages that
                 arrive with the request are published first.
 
         Raises:
-            RemoteError: the algorithm raised, or broke a rule.
-            BadSetting: it refused a parameter in its start.
-            Stopped: its process has ended, sent bytes that are no frame, or took too long.
+            RemoteError: the algorithm raised an exception, or violated a rule.
+            BadSetting: the algorithm refused a parameter in its ``start``.
+            CallStopped: the process has ended, sent bytes that are no frame, or took too long.
         """
         self._send(frame)
         wait_time = 0.0
@@ -126,10 +126,16 @@ class OwnProcess:
             raise CallStopped("its process sent a frame that nobody understands")
 
     def _wait(self, wait_time: float) -> float:
-        """Wait for a frame, ``wait_time`` after the request; return the time of its arrival [s].
+        """Wait for a frame of the process.
+
+        Args:
+            wait_time: the time already waited since the request [s of wall time].
+
+        Returns:
+            The time from the request to the arrival of the frame [s of wall time].
 
         Raises:
-            Stopped: no frame arrived within the limit, or its process has ended.
+            CallStopped: no frame arrived within the limit, or the process has ended.
         """
         limit = math.inf if self._limit is None else self._limit
         period = min(CLOCK_PERIOD, limit / 4)
@@ -138,8 +144,8 @@ class OwnProcess:
             if self._poll.poll(max(1.0, 1000.0 * period)):
                 return wait_time + time.monotonic() - start
             if self._process.poll() is not None and not self._poll.poll(0):
-                raise self._end_error()  # though a child of it may hold the socket
-            # a longer time in which this process itself was stopped does not count
+                raise self._end_error()  # a child of the process may still hold the socket open
+            # time in which this process itself was suspended does not count
             wait_time += min(time.monotonic() - start, 2 * period)
         self._process.kill()
         raise CallStopped(CALL_TIMEOUT)
@@ -155,7 +161,7 @@ class OwnProcess:
             frame: object = decode(self._pipe.recv_bytes(MAX_FRAME))
         except FrameError as error:
             raise CallStopped(f"its process sent bytes that are no frame: {error}") from None
-        except BlockingIOError:  # half a frame
+        except BlockingIOError:  # the rest of a frame did not arrive in time
             self._process.kill()
             raise CallStopped(CALL_TIMEOUT) from None
         except (EOFError, OSError):
@@ -175,18 +181,18 @@ class OwnProcess:
 
 
 class ProcessAlgorithm:
-    """The algorithm that runs in the process.
+    """An algorithm that runs in an `OwnProcess`.
 
     Args:
-        process: the process, which waits for a class.
-        algorithm: the class; its module can be imported there, too, or is that of a plugin.
-        plugins: the plugins of ``--plugin``.
+        process: the process, which has no algorithm yet.
+        algorithm: the class of the algorithm, which the process imports.
+        plugins: the plugins to load in the process; one of them may contain the class.
         settings: the parameters set by the user.
-        may_refuse: returns whether a subscriber of a topic refuses some of its messages; the
-            algorithm then waits at each.
+        may_refuse: returns whether a subscriber of a topic may refuse messages; the algorithm then
+            waits for the answer to each message that it publishes there.
 
     Raises:
-        RemoteError: the algorithm cannot be made.
+        RemoteError: the algorithm cannot be constructed.
     """
 
     def __init__(
@@ -205,17 +211,17 @@ class ProcessAlgorithm:
 
     @property
     def parameters(self) -> Mapping[str, float | int | str]:
-        """The parameters that the algorithm reports; those of the user if it reports none."""
+        """The parameters that the algorithm reports, or else the parameters set by the user."""
         parameters: Mapping[str, float | int | str] = self._request("parameters", self._settings)
         return parameters
 
     @property
     def names_read(self) -> list[str]:
-        """The names of the parameters that it has read."""
+        """The names of the parameters that the algorithm has read."""
         return list(map(str, self._request("names_read")))
 
     def start(self, node: Node) -> None:
-        """Start it in its process."""
+        """Start the algorithm in its process; its requests are executed by ``node``."""
         self._node = node
         bit_generator = node.rng.bit_generator
         rng_state = [type(bit_generator).__name__, dict(bit_generator.state)]
@@ -250,7 +256,7 @@ class ProcessAlgorithm:
             case ["publish", bytes() as frame]:
                 self._publish_frame(decode(frame))
             case ["take"]:
-                pass  # what was published has been taken
+                pass  # the request only delivers published messages, which are published already
             case ["serve", str(name), type() as cls, int(number)]:
                 node.serve(name, cls, self._remote_call(number))
             case ["call", str(name), request]:
@@ -308,7 +314,7 @@ def _algorithm_error(request: str, kind: str, message: str, text: str) -> Except
 
 
 def describe_exit(exit_code: int | None) -> str:
-    """Describe the end of a process."""
+    """Describe how a process ended, from its exit code; a negative code is a signal."""
     if exit_code is not None and exit_code < 0:
         return f"killed by {signal.Signals(-exit_code).name}"
     return f"with exit status {exit_code}"

@@ -1,4 +1,4 @@
-"""The algorithm of a plan: in this process, in one of its own, or an external program."""
+"""The algorithm of a plan: in this process, in a process of its own, or an external program."""
 
 from __future__ import annotations
 
@@ -24,7 +24,9 @@ OWN_PROCESS, SHARED_PROCESS = "own process, grade (b)", "in process"
 
 @contextmanager
 def program_of(plan: Plan, limit: float | None = None) -> Iterator[Program]:
-    """Yield the constructor of a plan's algorithm; its process, or connection, ends with the block.
+    """Yield the constructor of a plan's algorithm.
+
+    The process of the algorithm, or the connection to it, is closed at the end of the block.
 
     Args:
         plan: the plan, which names the algorithm.
@@ -52,7 +54,7 @@ def _client(
     simulation: Simulation,
     parameters: Mapping[str, float | str],
 ) -> Algorithm:
-    """Open the connection of an external program, until the stack is closed."""
+    """Open the connection to an external program; the stack closes it."""
     connection = spec.connection.open(simulation.bus, lambda: simulation.time)
     bridges = stack.enter_context(connection)
     client = make_client(spec, bridges, timestep=simulation.timestep)
@@ -64,9 +66,12 @@ def _client(
 
 
 def take_refused_messages(algorithm: Algorithm) -> tuple[tuple[str, str, int], ...]:
-    """Return the refused messages, since the last call, of programs that do not take part.
+    """Return the number of messages refused since the last call.
 
-    Each has sender, topic or service, and number; only external programs have any.
+    Messages are refused from external programs that do not take part in the benchmark.
+
+    Returns:
+        For each sender and topic or service: the sender, the topic or service, the number.
     """
     if isinstance(algorithm, LockStepClient | ExternalProgram):
         return algorithm.take_refusals()
@@ -74,7 +79,10 @@ def take_refused_messages(algorithm: Algorithm) -> tuple[tuple[str, str, int], .
 
 
 def clients_of(plan: Plan) -> tuple[tuple[str, str], ...] | None:
-    """Return the participants with participation and grade; None for code of uwsim alone."""
+    """Return the name and the participation, with its grade, of each participant.
+
+    None if only code of uwsim takes part.
+    """
     if plan.algorithm.client is not None:
         return ((plan.algorithm.name, plan.algorithm.client.participation),)
     if plan.algorithm.own_process:
@@ -85,5 +93,5 @@ def clients_of(plan: Plan) -> tuple[tuple[str, str], ...] | None:
 
 
 def is_outside(participation: str) -> bool:
-    """Return whether an entry of `clients_of` is an external program, run by its owner only."""
+    """Return whether a participation, from `clients_of`, is of an external program."""
     return participation.startswith((LOCK_STEP, FREE_RUNNING))

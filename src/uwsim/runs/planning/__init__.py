@@ -1,1 +1,1 @@
-"""From a command line or a call to the plan of a run."""
+"""The plan of a run, made from the options of a command line or of a Python call."""

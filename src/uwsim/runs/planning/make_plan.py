@@ -34,12 +34,12 @@ MAX_REPEATS = 10_000
 ALGORITHM_PREFIX = "algorithm."
 """The prefix of ``--set`` for parameters of the algorithm."""
 MAX_TIME = 1e8
-"""The longest simulation of a benchmark; a longer one is taken for a typing error [s]."""
+"""The longest simulation time of a benchmark; a longer one is taken for a typing error [s]."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class _Files:
-    """The files read; None for those with errors."""
+    """The content of the files of a request; None for a file with errors."""
 
     plugins: tuple[Plugin, ...] = ()
     tables: Tables | None = None
@@ -48,12 +48,12 @@ class _Files:
 
 
 def make_plan(request: PlanRequest) -> Plan:
-    """Read the files and make the plan.
+    """Read the files of a request and make the plan.
 
-    Code that they name is announced before it runs, or refused.
+    Code that the files name is announced before it runs, or refused.
 
     Raises:
-        UwsimError: a file, a name or a setting is invalid; or SeveralErrors, with all of them.
+        UwsimError: a file, a name or a setting is invalid; SeveralErrors if there are several.
     """
     from .plan import AlgorithmUnderTest, Plan
 
@@ -62,26 +62,27 @@ def make_plan(request: PlanRequest) -> Plan:
     with errors.collect():
         request, inputs = with_stored_pilot(request)
     pairs = pairs_of(request.settings, errors)
-    read = _read_files(request, xacro_arguments(pairs), errors)
+    files = _read_files(request, xacro_arguments(pairs), errors)
     parameters = {
         name.removeprefix(ALGORITHM_PREFIX): number_or_text(value)
         for name, value in pairs
         if name.startswith(ALGORITHM_PREFIX)
     }
-    read = _apply_values(read, pairs, errors)
-    spec, scene = read.benchmark, read.scene
-    kind: type[Algorithm] | None = None
+    files = _apply_settings(files, pairs, errors)
+    spec, scene = files.benchmark, files.scene
+    algorithm_class: type[Algorithm] | None = None
     with errors.collect():
         if scene is not None and request.no_code:
             refuse_code(scene)
     with errors.collect():
-        kind = request.algorithm_class
+        algorithm_class = request.algorithm_class
         name = request.algorithm or ""
-        if kind is None and not name.startswith(PREFIX):  # else the error has been collected
-            kind = _algorithm(request, read)
+        # a name that still has the prefix has an error, which has been collected
+        if algorithm_class is None and not name.startswith(PREFIX):
+            algorithm_class = _algorithm(request, files)
     with errors.collect():
         check_client(request, parameters)
-    check_parameters(kind, parameters, errors)
+    check_parameters(algorithm_class, parameters, errors)
     mode: Mode = "sequential"
     with errors.collect():
         mode = mode_of(request.mode or (None if spec is None else spec.mode))
@@ -93,17 +94,17 @@ def make_plan(request: PlanRequest) -> Plan:
     errors.raise_errors()
     assert spec is not None
     assert scene is not None
-    assert kind is not None
+    assert algorithm_class is not None
     return Plan(
         benchmark=spec,
         scene=scene,
         algorithm=AlgorithmUnderTest(
-            cls=kind,
+            cls=algorithm_class,
             name=_algorithm_name(request, spec),
             parameters=parameters,
             own_process=request.client is None
             and not request.in_process
-            and kind not in _bundled_algorithms(_algorithm_name(request, spec)),
+            and algorithm_class not in _bundled_algorithms(_algorithm_name(request, spec)),
             client=request.client,
         ),
         settings=tuple(pairs),
@@ -115,12 +116,12 @@ def make_plan(request: PlanRequest) -> Plan:
         compatibility=quirks,
         data_path=tuple(request.data_path),
         inputs=inputs,
-        plugins=_add_program(read.plugins, _algorithm_name(request, spec)),
+        plugins=_add_program(files.plugins, _algorithm_name(request, spec)),
     )
 
 
 def _add_program(plugins: tuple[Plugin, ...], algorithm: str) -> tuple[Plugin, ...]:
-    """Add the file of an algorithm ``FILE.py:Class``, which other processes import as a plugin."""
+    """Add the file of an algorithm ``FILE.py:Class``, so that other processes can import it."""
     file = algorithm.partition(":")[0]
     if not file.endswith(".py"):
         return plugins
@@ -132,7 +133,7 @@ def _add_program(plugins: tuple[Plugin, ...], algorithm: str) -> tuple[Plugin, .
 
 
 def _bundled_algorithms(name: str) -> tuple[type[Algorithm], ...]:
-    """Return the bundled algorithm of this name, if there is one, not a ``module:Class``."""
+    """Return the bundled algorithm that this name selects; empty if there is none."""
     from ...algorithms import ALGORITHMS
 
     return (ALGORITHMS[name],) if name in ALGORITHMS else ()
@@ -141,7 +142,13 @@ def _bundled_algorithms(name: str) -> tuple[type[Algorithm], ...]:
 def _read_files(
     request: PlanRequest, arguments: Mapping[str, str], errors: ErrorCollector
 ) -> _Files:
-    """Read plugins, benchmark and scene, with xacro arguments; collect their errors."""
+    """Read plugins, benchmark and scene; collect their errors.
+
+    Args:
+        request: the request.
+        arguments: the xacro arguments of the scene.
+        errors: the collection of errors.
+    """
     plugins: tuple[Plugin, ...] = ()
     tables: Tables | None = None
     path: Path | None = None
@@ -161,7 +168,10 @@ def _read_files(
     return _Files(plugins=plugins, tables=tables, benchmark=spec, scene=scene)
 
 
-def _apply_values(read: _Files, pairs: Sequence[tuple[str, str]], errors: ErrorCollector) -> _Files:
+def _apply_settings(
+    files: _Files, pairs: Sequence[tuple[str, str]], errors: ErrorCollector
+) -> _Files:
+    """Apply the ``--set`` pairs of updaters and scene; collect errors."""
     from ...benchmark.updater_settings import (
         apply_updater_setting,
         check_path_start,
@@ -169,7 +179,7 @@ def _apply_values(read: _Files, pairs: Sequence[tuple[str, str]], errors: ErrorC
     )
     from ...scene.settings import apply_setting
 
-    spec, scene = read.benchmark, read.scene
+    spec, scene = files.benchmark, files.scene
     for name, value in pairs:
         with errors.collect():
             if name.startswith((ALGORITHM_PREFIX, XACRO_PREFIX)):
@@ -180,7 +190,7 @@ def _apply_values(read: _Files, pairs: Sequence[tuple[str, str]], errors: ErrorC
                 if spec is not None:
                     check_path_start(spec, scene, name, value)
                 scene = apply_setting(scene, name, value)
-    return replace(read, benchmark=spec, scene=scene)
+    return replace(files, benchmark=spec, scene=scene)
 
 
 def _algorithm_name(request: PlanRequest, spec: BenchmarkSpec | None) -> str:
@@ -189,20 +199,20 @@ def _algorithm_name(request: PlanRequest, spec: BenchmarkSpec | None) -> str:
     return request.algorithm or (None if spec is None else spec.algorithm) or ""
 
 
-def _algorithm(request: PlanRequest, read: _Files) -> type[Algorithm] | None:
+def _algorithm(request: PlanRequest, files: _Files) -> type[Algorithm] | None:
     """Find the algorithm; announce or refuse a class that a file names."""
     from ...middleware.lockstep.client import LockStepClient
 
     if request.client is not None:
         return LockStepClient
-    name, spec = _algorithm_name(request, read.benchmark), read.benchmark
+    name, spec = _algorithm_name(request, files.benchmark), files.benchmark
     file = request.algorithm_is_from or ("" if request.algorithm or spec is None else spec.path)
     if file and ":" in name:
         if request.no_code:
             raise code_refusal(name, file)
         announce(name, file)
     try:
-        return algorithm_of(name, spec, read.tables)
+        return algorithm_of(name, spec, files.tables)
     except BadSetting as error:
         if not name or request.algorithm or spec is None:
             raise
@@ -280,7 +290,7 @@ def algorithm_of(
 
 
 def check_client(request: PlanRequest, parameters: Mapping[str, float | str]) -> None:
-    """Refuse options that exclude an external program; raise BadSetting."""
+    """Raise BadSetting for options that cannot be combined with an external program."""
     if request.client is None:
         return
     name = request.client.name
@@ -294,7 +304,9 @@ def check_client(request: PlanRequest, parameters: Mapping[str, float | str]) ->
 
 
 def check_parameters(
-    kind: type[Algorithm] | None, parameters: Mapping[str, float | str], errors: ErrorCollector
+    algorithm_class: type[Algorithm] | None,
+    parameters: Mapping[str, float | str],
+    errors: ErrorCollector,
 ) -> None:
     """Collect errors for parameters that the algorithm does not have."""
     from ... import algorithms
@@ -303,14 +315,14 @@ def check_parameters(
     for name, value in parameters.items():
         with errors.collect():
             latency_of({name: value})
-            if kind is not None:
-                algorithms.check_parameters(kind, {name: value})
+            if algorithm_class is not None:
+                algorithms.check_parameters(algorithm_class, {name: value})
 
 
 def check_length(
     spec: BenchmarkSpec | None, level_choices: Sequence[tuple[str, float]], repeat: int
 ) -> None:
-    """Refuse a benchmark of excessive length; raise BadSetting."""
+    """Raise BadSetting if a benchmark simulates more than `MAX_TIME` or has too many repeats."""
     from ...benchmark import updaters
     from .plan import chosen_levels
 

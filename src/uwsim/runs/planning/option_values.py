@@ -1,4 +1,4 @@
-"""The checks of options: settings ``NAME=VALUE``, modes, levels, names of quirks."""
+"""The checks of option values: settings ``NAME=VALUE``, modes, levels, compatibility quirks."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def pairs_of(settings: Sequence[str], errors: ErrorCollector) -> list[tuple[str,
 
 
 def mode_of(mode: str | None) -> Mode:
-    """Return the mode of levels; raise BadSetting."""
+    """Return the mode of the levels, sequential by default; raise BadSetting for another name."""
     if mode is None or mode == "sequential":
         return "sequential"
     if mode == "independent":

@@ -1,7 +1,7 @@
 """The plan of a run, divided into trials.
 
-A trial is a sequence that runs without interruption: one seed's whole sweep when the benchmark is
-sequential, one seed's one level when it is independent.
+A trial is a sequence of levels that run in one simulation: the whole sweep with one seed if the
+mode is sequential, one level with one seed if it is independent.
 """
 
 from __future__ import annotations
@@ -25,12 +25,12 @@ from ...world import TIMESTEP
 
 Mode = Literal["sequential", "independent"]
 PATIENCE = 10.0
-"""The default of the longest wait for a start, in simulation time [s]."""
+"""The default of the longest wait for a level to begin [s of simulation time]."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Trial:
-    """One sequence: its seed, and its levels."""
+    """A sequence of levels that run in one simulation, with one seed."""
 
     index: int
     """The index in the plan, from 0."""
@@ -39,13 +39,13 @@ class Trial:
     seed: int
     """The seed of every random stream."""
     levels: tuple[Level, ...]
-    """Levels to run, in order."""
+    """The levels to run, in order."""
     is_alone: bool
     """True if the trial is one level of an independent benchmark."""
 
     @property
     def values(self) -> tuple[tuple[float, ...], ...]:
-        """The values of each level, the outermost first."""
+        """The values of the swept parameters of each level, the outermost updater first."""
         return tuple(tuple(value for _, value in level.values) for level in self.levels)
 
     @property
@@ -64,18 +64,18 @@ class AlgorithmUnderTest:
     cls: type[Algorithm]
     """The class of the algorithm."""
     name: str
-    """The name that selected it."""
+    """The name with which the user selected it."""
     parameters: Mapping[str, float | str] = field(default_factory=dict)
     """The values of ``--set algorithm.NAME=VALUE``."""
     own_process: bool = False
     """True if it runs in a process of its own, in lock-step."""
     client: ClientSpec | None = None
-    """The external program that is the algorithm; None where ``cls`` is."""
+    """The external program that is the algorithm; None if the algorithm is ``cls``."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Plan:
-    """A benchmark with scene, algorithm and options; an immutable value, sent to workers."""
+    """A benchmark with scene, algorithm and options: an immutable value that is sent to workers."""
 
     benchmark: BenchmarkSpec
     """The benchmark file."""
@@ -84,9 +84,9 @@ class Plan:
     algorithm: AlgorithmUnderTest
     """The algorithm under test, and where it runs."""
     settings: tuple[tuple[str, str], ...] = ()
-    """Every ``--set``, as written; those of scene and updaters are already applied."""
+    """Every ``--set``, as written; settings of scene and updaters are already applied."""
     mode: Mode = "sequential"
-    """The mode of the levels: each follows the last one, or all are independent."""
+    """The mode of the levels: each continues from the previous level, or all are independent."""
     seed: int = 0
     """The seed of the first repeat."""
     repeats: int = 1
@@ -94,7 +94,7 @@ class Plan:
     level_choices: tuple[tuple[str, float], ...] = ()
     """``--level``: only levels whose swept parameter has one of these values."""
     compatibility: frozenset[str] = frozenset()
-    """The compatibility quirks that are on."""
+    """The names of the compatibility quirks that are on."""
     timestep: float = TIMESTEP
     """The length of a physics step [s]."""
     data_path: tuple[Path, ...] = ()
@@ -102,9 +102,9 @@ class Plan:
     is_blind: bool = False
     """True if images are black, for a control that does not use them."""
     inputs: Mapping[int, bytes] = field(default_factory=dict)
-    """The inputs of a pilot in an earlier run, which are sent again, by the number of the trial."""
+    """The inputs of a pilot in an earlier run, to be sent again: a file for each trial's index."""
     plugins: tuple[Plugin, ...] = ()
-    """The plugins of ``--plugin``."""
+    """The plugins of ``--plugin`` and of the benchmark file, and an algorithm's ``FILE.py``."""
 
     def __reduce__(self) -> tuple[Callable[..., Plan], tuple[object, ...]]:
         """Pickle the plugins first, because later fields may be of their classes."""
@@ -118,7 +118,7 @@ class Plan:
 
     @property
     def patience(self) -> float:
-        """The longest wait for a start [s of simulation time]."""
+        """The longest wait for a level to begin [s of simulation time]."""
         if self.benchmark.patience is not None:
             return self.benchmark.patience
         client = self.algorithm.client
@@ -127,14 +127,14 @@ class Plan:
         return PATIENCE
 
     def draws(self, seed: int) -> tuple[Draw, ...]:
-        """Return the variations of a seed: those of the scene, then of the benchmark."""
+        """Return the values drawn with a seed: variations of the scene, then of the benchmark."""
         return (*draw(self.scene, seed), *updater_draws(self.benchmark, seed))
 
     def levels(self) -> tuple[Level, ...]:
         """Return the levels to run.
 
         Raises:
-            BadSetting: ``--level`` names no swept parameter, or a value the sweep does not have.
+            BadSetting: ``--level`` names no swept parameter, or a value that is not in the sweep.
         """
         return chosen_levels(levels_of(self.benchmark.scene_updater), self.level_choices)
 

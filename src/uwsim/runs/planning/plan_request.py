@@ -19,32 +19,32 @@ class PlanRequest:
     benchmark: str
     """A benchmark file, or a bundled name."""
     scene: str | None = None
-    """A scene file or a bundled name; without it the one that the benchmark names."""
+    """A scene file or a bundled name; None for the scene that the benchmark names."""
     algorithm: str | None = None
-    """A name or ``module:Class``; without it the one that the benchmark names."""
+    """A name, ``module:Class`` or file; None for the algorithm that the benchmark names."""
     algorithm_class: type[Algorithm] | None = None
-    """The class that ``algorithm`` names, where a program has it; None: it is searched."""
+    """The class that ``algorithm`` names, if the caller has it; None to find the class by name."""
     seed: int = 0
     """The seed of the first repeat."""
     repeat: int = 1
     """The number of repeats."""
     mode: str | None = None
-    """``sequential`` or ``independent``; None: that of the benchmark."""
+    """``sequential`` or ``independent``; None for the mode in the benchmark file."""
     levels: Sequence[tuple[str, float]] = ()
-    """Names and values of the levels to run; all without any."""
+    """Names and values of swept parameters: only these levels run; empty for all levels."""
     settings: Sequence[str] = ()
     """``PATH=VALUE`` of each ``--set``."""
     compat: Sequence[str] = ()
-    """Names of quirks of the original."""
+    """Names of compatibility quirks: behaviour of the original UWSim to reproduce."""
     data_path: Sequence[Path] = ()
     """Folders in which files are searched."""
     plugins: Sequence[Path] = ()
-    """Files of ``--plugin``."""
+    """The plugin files of ``--plugin``."""
     no_code: bool = False
     """True if code that the files name is refused."""
     client: ClientSpec | None = None
-    """The external program that is the algorithm."""
+    """The external program that is the algorithm; None if the algorithm is a class."""
     in_process: bool = False
     """True if a third-party algorithm shares the simulation's process."""
     algorithm_is_from: str = ""
-    """The file that names ``algorithm``, where the user did not."""
+    """The file that names ``algorithm``; empty if the user named it."""

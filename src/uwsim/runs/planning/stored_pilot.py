@@ -16,10 +16,10 @@ ALGORITHM_PREFIX = "algorithm."
 
 
 def with_stored_pilot(request: PlanRequest) -> tuple[PlanRequest, dict[int, bytes]]:
-    """Return the request with the algorithm `pilot`, and its inputs by the number of the trial.
+    """Return the request with the algorithm `pilot`, and the stored inputs by index of the trial.
 
-    A request for another algorithm is returned unchanged. Parameters are those of the earlier run,
-    unless the request has some.
+    A request for another algorithm is returned unchanged. The parameters of the earlier run are
+    used, unless the request sets parameters.
 
     Raises:
         BadSetting: the result holds no inputs of a pilot.

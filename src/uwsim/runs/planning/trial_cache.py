@@ -9,7 +9,7 @@ from ...simulation import RendererPool
 from .plan import Plan
 
 N_MODELS = 2
-"""The number of models that are kept: a run and its control alternate, level by level."""
+"""The number of models that are kept: trials of a run and of its control may alternate."""
 
 
 def compile_plan(plan: Plan, seed: int) -> SceneModel:
@@ -36,7 +36,7 @@ class TrialCache:
 
     def __init__(self) -> None:
         self.renderers = RendererPool()
-        """The pool with the renderer of each trial."""
+        """The pool from which each trial takes its renderer."""
         self._models: dict[object, SceneModel] = {}  # in the order of last use
 
     def model(self, plan: Plan, seed: int) -> SceneModel:

@@ -1,13 +1,13 @@
-"""Fingerprints of a run: hashes of the state that locate where two runs diverge.
+"""Fingerprints of a trial: hashes of its motion and images that locate where two runs diverge.
 
-The motion of every body is sampled every 16th step and hashed during the run, body by body and
-without a reset; so are the images on each topic. At intervals a *checkpoint* is stored: the hashes
-so far, four bytes each. A difference changes all later checkpoints, so the first one that differs
-locates the steps, and the body or topic, at which two runs diverged.
+The motion of every body is sampled every 16th step and hashed, body by body, from the beginning of
+the trial; so are the images on each topic. Periodically a *checkpoint* is stored: the hashes so
+far, four bytes each. A difference changes all later checkpoints, so the first checkpoint that
+differs locates the steps, and the body or topic, at which two runs diverged.
 
-A trial has at most 64 checkpoints: when there are more every second one is dropped, and the
-distance doubles. That costs a third of a microsecond a step and a few kilobytes a trial, however
-long the trial is.
+A trial has at most 64 checkpoints: when there are more, every second checkpoint is dropped and the
+period doubles. The cost is a third of a microsecond per step and a few kilobytes per trial,
+however long the trial is.
 """
 
 from __future__ import annotations
@@ -22,12 +22,12 @@ import numpy as np
 from ...simulation import Simulation
 
 SAMPLE_PERIOD = 16
-"""Steps between two samples."""
+"""The number of steps from one sample to the next."""
 BLOCK = 4
-"""Samples that are hashed at a time."""
+"""The number of samples that are hashed at a time."""
 MAX_CHECKPOINTS = 64
-BYTES = 4
-"""The size of each hash in a checkpoint."""
+HASH_SIZE = 4
+"""The size of each hash in a checkpoint [bytes]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,13 +35,13 @@ class Checkpoints:
     """The checkpoints of one trial."""
 
     period: int
-    """Steps from one checkpoint to the next."""
+    """The number of steps from one checkpoint to the next."""
     n_steps: int
-    """Steps of the whole trial; the last checkpoint is at its end."""
+    """The number of steps of the whole trial; the last checkpoint is at its end."""
     parts: tuple[str, ...]
-    """The names of the hashed parts: bodies, then topics of images."""
+    """The names of the parts that are hashed separately: bodies, then topics of images."""
     marks: tuple[str, ...]
-    """The hashes at each checkpoint, in hexadecimal, 8 digits a part."""
+    """The hashes of all parts at each checkpoint, 8 hexadecimal digits for each part."""
 
     def as_dict(self) -> dict[str, object]:
         """Return the checkpoints as they are stored."""
@@ -66,8 +66,8 @@ class Checkpoints:
             return None
 
     def hashes_by_step(self) -> dict[int, tuple[str, ...]]:
-        """Return the hash of each part up to each checkpoint, by step."""
-        width = 2 * BYTES
+        """Return the hashes of the parts at each checkpoint, by the step of the checkpoint."""
+        width = 2 * HASH_SIZE
         return {
             min((i + 1) * self.period, self.n_steps): tuple(
                 mark[k : k + width] for k in range(0, len(mark), width)
@@ -78,18 +78,18 @@ class Checkpoints:
 
 @dataclass(frozen=True, kw_only=True)
 class Divergence:
-    """The divergence of two traces."""
+    """The steps between which two executions of a trial diverge, from their checkpoints."""
 
     last_equal: int
-    """The last step at which they are equal."""
+    """The step of the last checkpoint that is equal; 0 if there is none."""
     first_different: int
-    """The first known step at which they differ."""
+    """The step of the first checkpoint that differs."""
     parts: tuple[str, ...]
-    """The parts that differ first; empty when the traces have different parts."""
+    """The parts that differ there; empty if the executions have different parts or lengths."""
 
 
 def divergence(a: Checkpoints, b: Checkpoints) -> Divergence | None:
-    """Return where two traces of one trial diverge; None if they are equal."""
+    """Return where two executions of one trial diverge; None if their checkpoints are equal."""
     if a == b:
         return None
     if a.parts == b.parts:
@@ -113,7 +113,7 @@ class Fingerprinter:
         self._n = self._step = 0
         ends = np.cumsum([0, *(size for _, size in self._motion.parts)], dtype=int).tolist()
         self._hashes = [
-            (slice(start, end), hashlib.blake2b(digest_size=BYTES))
+            (slice(start, end), hashlib.blake2b(digest_size=HASH_SIZE))
             for start, end in itertools.pairwise(ends)
         ]
         self._marks: list[str] = []
@@ -129,25 +129,25 @@ class Fingerprinter:
         self._motion.read(self._block[self._n])
         self._n += 1
         if self._n == BLOCK:
-            self._absorb()
+            self._hash_block()
         if step % self._period == 0:
-            self._absorb()
+            self._hash_block()
             self._set_checkpoint()
 
     @property
     def fingerprint(self) -> str:
         """The fingerprint of all samples so far, in 16 hexadecimal digits."""
-        self._absorb()
+        self._hash_block()
         return hashlib.blake2b(bytes.fromhex(self._digests()), digest_size=8).hexdigest()
 
     def checkpoints(self) -> Checkpoints:
-        """Return the checkpoints, with a last one of the current state."""
-        self._absorb()
+        """Return the checkpoints so far, with a last one at the current step."""
+        self._hash_block()
         step = self._step
         marks = (*self._marks, *([self._digests()] if step % self._period else []))
         return Checkpoints(period=self._period, n_steps=step, parts=self._names(), marks=marks)
 
-    def _absorb(self) -> None:
+    def _hash_block(self) -> None:
         for columns, digest in self._hashes:
             digest.update(self._block[: self._n, columns].tobytes())
         self._n = 0
@@ -160,7 +160,7 @@ class Fingerprinter:
 
     def _digests(self) -> str:
         images = self._simulation.world.images
-        hashes = [images[topic].sha256[: 2 * BYTES] for topic in sorted(images)]
+        hashes = [images[topic].sha256[: 2 * HASH_SIZE] for topic in sorted(images)]
         return "".join([*(digest.hexdigest() for _, digest in self._hashes), *hashes])
 
     def _names(self) -> tuple[str, ...]:

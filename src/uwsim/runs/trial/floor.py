@@ -1,11 +1,12 @@
-r"""The error floor: the score of a perfect tracker, below which differences are meaningless.
+r"""The error floor: the error of a perfect tracker, below which differences are meaningless.
 
-A perfect tracker of the target's top face follows the homography H that maps the face's corners at
-its start to the current ones. It reports :math:`H q_0`, with its initial quad :math:`q_0`, and the
-crossing of the diagonals of that quad. The truth of the original is the smallest rectangle round
-the projected bounding box, and the projection of the body's origin: with a moving camera they move
-otherwise than the face. A face that is seen exactly and a quad on it would be followed without
-error. Not modelled are noise, the pixels' grid, and the parts of the quad outside of the face.
+A perfect tracker of the target's top face applies the homography H that maps the corners of the
+face at the tracker's start to the current corners. It reports :math:`H q_0`, where :math:`q_0` is
+its initial quadrangle, and the intersection of the diagonals of :math:`H q_0`. The ground truth,
+as the original UWSim defines it, is the smallest rectangle around the projected bounding box, and
+the projection of the body's origin. When the camera moves, these move differently from the face, so
+even a perfect tracker has an error. Not modelled are noise, the pixel grid, and the parts of the
+quadrangle outside the face.
 """
 
 from __future__ import annotations
@@ -26,13 +27,13 @@ from ..planning.plan import Plan
 from .visibility import Fact
 
 SAMPLE_PERIOD = 16
-"""The steps from one sample to the next."""
+"""The number of steps from one sample to the next."""
 
 
-class Floor:
-    """The error of a perfect tracker in each measure of pixels, level by level.
+class ErrorFloor:
+    """The mean error of a perfect tracker in each measure in pixels, for each level.
 
-    Has no effect where no measure starts a tracker on a quad.
+    It is empty if no measure initialises a tracker with a quadrangle.
     """
 
     def __init__(self, simulation: Simulation, plan: Plan) -> None:
@@ -41,7 +42,8 @@ class Floor:
         self._truths: dict[str, GroundTruth] = {}
         self._means: dict[str, list[float]] = {}
         self._sums: dict[str, tuple[float, int]] = {}
-        self._reference: tuple[Array, Array] | None = None  # the initial quad and face: (8,) each
+        # the quadrangle and the face when the tracker was initialised: (8,) each [px]
+        self._reference: tuple[Array, Array] | None = None
         self._is_measured = False
         if tracker_spec is None:
             return
@@ -61,13 +63,13 @@ class Floor:
         simulation.watch(self._update)
 
     def start(self) -> None:
-        """Initialise the tracker with its quad, unless that happens only once."""
+        """Initialise the tracker with its quadrangle, unless it is initialised only once."""
         if self._truths and (self._reference is None or not self._is_started_once):
             quad, face = self._quad.read(), self._face.read()
             self._reference = None if quad is None or face is None else (quad, face)
 
     def begin(self) -> None:
-        """Begin the measurement of a level, and initialise the tracker with its quad."""
+        """Begin the measurement of a level, and initialise the tracker as `start` does."""
         self.start()
         self._is_measured = True
 
@@ -79,7 +81,7 @@ class Floor:
 
     @property
     def facts(self) -> dict[str, Fact]:
-        """``floor_<measure>`` [px]: the mean error of the level in which that is largest."""
+        """``floor_<measure>`` [px]: the largest mean error of the measure in any level."""
         return {
             f"{FLOOR}{name}": (round(max(means), 6), "px") for name, means in self._means.items()
         }
@@ -104,10 +106,10 @@ class Floor:
 
 
 def _corners_of(spec: EuclideanNormSpec) -> CornersFromCameraSpec | None:
-    """Return the quad with which this measure initialises a tracker, if it does."""
+    """Return the quadrangle with which this measure initialises a tracker, if it does."""
     truth = spec.ground_truth
-    starts = isinstance(truth, CornersFromCameraSpec) and truth.publish_on is not None
-    return truth if starts and isinstance(truth, CornersFromCameraSpec) else None
+    is_published = isinstance(truth, CornersFromCameraSpec) and truth.publish_on is not None
+    return truth if is_published and isinstance(truth, CornersFromCameraSpec) else None
 
 
 def largest_floors(facts: Iterable[Mapping[str, StoredFact]]) -> dict[str, StoredFact]:
@@ -121,10 +123,17 @@ def largest_floors(facts: Iterable[Mapping[str, StoredFact]]) -> dict[str, Store
 
 
 def homography(source: Array, target: Array) -> Array | None:
-    """Return the homography that maps four points to four others, (3, 3); None if there is none.
+    """Return the homography that maps four points to four others; None if there is none.
 
-    Eight equations for eight unknowns, with the ninth number 1 (Hartley and Zisserman 2004,
-    section 4.1).
+    Eight equations determine eight elements; the ninth is 1 (Hartley and Zisserman 2004, section
+    4.1).
+
+    Args:
+        source: x, y of the four points, (8,).
+        target: x, y of their images, (8,).
+
+    Returns:
+        The homography, (3, 3).
     """
     rows: list[list[float]] = []
     for (x, y), (u, v) in zip(source.reshape(4, 2), target.reshape(4, 2), strict=True):
@@ -138,14 +147,14 @@ def homography(source: Array, target: Array) -> Array | None:
 
 
 def transform_points(homography: Array, points: Array) -> Array:
-    """Apply a homography to points (n, 2), (n, 2)."""
+    """Apply a homography (3, 3) to points (n, 2); return the mapped points (n, 2)."""
     vectors = product(np.column_stack([points, np.ones(len(points))]), homography.T)
     result: Array = vectors[:, :2] / vectors[:, 2:]
     return result
 
 
 def crossing(quad: Array) -> Array:
-    """Return where the diagonals of a quad (4, 2) cross, (2,)."""
+    """Return the intersection (2,) of the diagonals of a quadrangle (4, 2)."""
     (x1, y1), (x2, y2), (x3, y3), (x4, y4) = quad.tolist()
     p, q, r = y1 - y3, x3 - x1, x1 * y3 - y1 * x3  # the line p x + q y + r = 0
     u, v, w = y2 - y4, x4 - x2, x2 * y4 - y2 * x4

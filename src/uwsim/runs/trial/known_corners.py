@@ -1,6 +1,6 @@
-"""Constant target corners of a file, set for trackers where no ``autoInit`` is called.
+"""Constant target corners of a benchmark file, as a parameter for trackers.
 
-A benchmark of the original may have a constant place of its target in the image:
+A benchmark of the original UWSim may give the image position of its target as constants:
 
 .. code-block:: xml
 
@@ -9,7 +9,8 @@ A benchmark of the original may have a constant place of its target in the image
       <target>cornersTopic</target> ...
     </euclideanNorm>
 
-The user of the original entered these numbers into the tracker.
+The user entered these numbers into the tracker. Here a tracker that no measure initialises
+(``publishOn``) receives them as a parameter.
 """
 
 from __future__ import annotations
@@ -21,16 +22,16 @@ from ...benchmark.measures import EuclideanNormSpec
 from ..planning.plan import Plan
 
 PARAMETER = "corners"
-"""The parameter of the algorithm: x, y of four corners [px], eight numbers separated by blanks."""
+"""The parameter of the algorithm: x, y of four corners [px], eight numbers separated by spaces."""
 TOPIC = "cornersTopic"
-"""The topic of its estimates of the corners."""
+"""The topic of the algorithm's estimates of the corners."""
 
 
 def known_corners(plan: Plan) -> dict[str, str]:
     """Return the parameter with the constant corners of the file.
 
-    It is empty when a measure initialises the algorithm itself (``publishOn``), when the file has
-    no eight constants for the topic of the corners, or when the algorithm has no such parameter.
+    It is empty if a measure initialises the algorithm (``publishOn``), if the file does not have
+    eight constants for the topic of the corners, or if the algorithm has no such parameter.
     """
     norms = [spec for spec in plan.benchmark.measures if isinstance(spec, EuclideanNormSpec)]
     defaults: object = getattr(plan.algorithm.cls, "PARAMETERS", None)

@@ -1,4 +1,4 @@
-"""The values of a trial to store: a row for each level, and at its end a record of the whole."""
+"""The values of a trial to store: a row for each level, and a record of the whole at the end."""
 
 from __future__ import annotations
 
@@ -27,13 +27,13 @@ class LevelRow:
     status: str
     """``ok``, or the first status of docs/levels.md that applies."""
     missing_reasons: dict[str, str]
-    """The reason of each null column."""
+    """The reason of each missing (null) value, by column."""
     ended_at: float
     """The simulation time at the end of the level [s]."""
     duration: float
-    """The duration of the measurement [s]."""
+    """The duration of the measurement [s of simulation time]."""
     logs: dict[str, list[Sample]]
-    """The samples of each measure: time in the level [s], then `log_headers`."""
+    """The samples of each measure: time in the level [s], then the columns of `log_headers`."""
     log_headers: dict[str, tuple[str, ...]]
     """The columns of each measure's samples after the time, with units."""
     fingerprint: str
@@ -43,7 +43,7 @@ class LevelRow:
     refused_messages: tuple[tuple[str, str, int], ...] = ()
     """The refused messages of programs that do not take part: sender, topic or service, number."""
     remarks: tuple[str, ...] = ()
-    """The notes beside its status, with the measure that each is about."""
+    """Notes on the level that do not affect its status, each with the names of its measures."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -51,19 +51,19 @@ class TrialEnd:
     """The end of a trial: its constants, notes and fingerprints."""
 
     facts: dict[str, Fact]
-    """Constants of the scene, and the range of the target's motion in the image."""
+    """Values that hold for the whole trial, with units: image statistics and error floors."""
     parameters: dict[str, float | str]
-    """Parameters of the algorithm, defaults included."""
+    """The parameters of the algorithm, including defaults."""
     streams: tuple[tuple[str, int, str], ...]
-    """The topic, number of images and SHA-256 over their pixels of each stream."""
+    """The topic, the number of images and the SHA-256 of all pixels of each stream of images."""
     notes: tuple[str, ...]
     """Notes for the reader of the result."""
     checkpoints: Checkpoints
     """The fingerprints during the trial."""
     motion: bytes
-    """The motion track (`uwsim.results.motion`)."""
+    """The file of the motion track (`uwsim.results.motion`)."""
     inputs: bytes = b""
-    """The inputs of a pilot (`pilot_inputs`); empty without a pilot."""
+    """The file of a pilot's inputs (`pilot_inputs`); empty without a pilot."""
 
 
 @dataclass(frozen=True)
@@ -77,14 +77,14 @@ class Cells:
     details: dict[str, tuple[float | None, str]] = field(default_factory=dict)
     """The value and unit of each ``measure.detail``."""
     missing_reasons: dict[str, str] = field(default_factory=dict)
-    """The reason of each null column."""
+    """The reason of each missing (null) value, by column."""
 
 
 def cells_of(measures: Sequence[TriggeredMeasure], status: str, status_reason: str | None) -> Cells:
-    """Return the values of measures.
+    """Return the values of measures at the end of a level.
 
-    Those that the algorithm feeds are null if the row is not ok. In a ``timeout`` they keep their
-    values: a measure that waited for estimates has none, the others have one.
+    If the status is not ``ok``, a measure that the algorithm feeds has no value; with ``timeout``
+    it keeps a value that it has. After a simulation error no measure has a value.
     """
     cells = Cells()
     for triggered_measure in measures:

@@ -1,10 +1,10 @@
-"""The benchmark's startOn and stopOn, which begin and end levels.
+"""The benchmark's triggers startOn and stopOn, which begin and end levels.
 
 A level runs while ``startOn`` is on and ``stopOn`` is off. ``startOn`` is never reset: most types
 stay on, so the next level follows at once; a message ``off`` on a topic ends the level, and the
 next one waits for ``on``. ``stopOn`` is reset for every level, so it ends one level only. The
-original never resets it: with the compatibility ``stop-once`` a stop that stays on prevents every
-later level.
+original UWSim never resets it: with the compatibility ``stop-once``, a ``stopOn`` that stays on
+prevents every later level.
 """
 
 from __future__ import annotations
@@ -25,14 +25,15 @@ class LevelTriggers:
     def arm(self) -> None:
         """Reset the stop trigger.
 
-        The new trigger is bound before the old one is closed: a service is offered without a gap.
+        The new trigger is bound before the old one is closed, so that a service of the trigger is
+        advertised without interruption.
         """
         if not self._stops_once:
             old_stop, self._stop = self._stop, self._spec.stop_on.bind(self._world)
             old_stop.close()
 
     def may_begin(self) -> bool:
-        """Return whether a level may begin now; a stop counts with ``stop-once`` only."""
+        """Return whether a level may begin now; the stop trigger counts with ``stop-once`` only."""
         start, stop = self._start.is_on(), self._stop.is_on()
         return start and not (stop and self._stops_once)
 

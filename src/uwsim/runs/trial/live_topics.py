@@ -1,7 +1,7 @@
 """The topics BenchmarkInfo and BenchmarkResults, published while a benchmark runs.
 
-They are those of the original, but in simulation time, so that every run publishes the same
-messages. Nothing is computed for a topic without subscribers.
+They are topics of the original UWSim. Here they follow simulation time, so that every run publishes
+the same messages. Nothing is computed for a topic without subscribers.
 """
 
 from __future__ import annotations
@@ -26,14 +26,16 @@ RATE = 10.0
 class LiveTopics:
     """``BenchmarkInfo`` (std_msgs/String) and ``BenchmarkResults`` (std_msgs/Float32MultiArray).
 
-    Both carry a message every 0.1 s. Info is empty, except once after the scene was changed:
-    ``Updated scene 1`` when the outermost updater stepped, ``Updated scene n`` when the n-th from
-    outside was the outermost that did. Results, if the function has ``publishResult``, are empty,
-    except that every ``publishRate`` seconds (at least) one entry is added: the updaters' values,
-    outermost first; the running time without pauses [s]; every measure's details, in the order of
-    its original log; the score. An entry in which a measure or the score has no value is left out.
-    Several entries that fall into 0.1 s share a message. They contain the error of the estimate,
-    and so the truth: no algorithm under test receives them.
+    Both carry a message every 0.1 s. A message of BenchmarkInfo is empty, except once after the
+    scene was changed: it is ``Updated scene n`` if updater n, counted from the outermost as 1, is
+    the outermost updater that stepped.
+
+    BenchmarkResults is published if the function has ``publishResult``. Its message holds the
+    entries of the last 0.1 s, and is mostly empty, as an entry is added every ``publishRate``
+    seconds at most. An entry has the updaters' values, outermost first; the running time without
+    pauses [s]; every measure's details, in the order of its log in the original UWSim; the score.
+    An entry in which a measure or the score has no value is left out. No algorithm under test
+    receives this topic, because the errors reveal the ground truth.
     """
 
     def __init__(
@@ -45,13 +47,13 @@ class LiveTopics:
         simulation.bus.hide_topic(RESULTS)
         self._publishes_results = function.publish_result
         self._period = max(1, math.ceil(function.publish_rate / simulation.timestep - 1e-9))
-        self._due = 0  # step from which on the next entry may be taken
+        self._due = 0  # the first step at which the next entry may be added
         self._scene_change = ""
         self._entries: list[float] = []
         simulation.world.schedule.create_timer(RATE, self._publish)
 
     def record_change(self, level: Level, *, last_level: Level | None) -> None:
-        """Record that the scene was brought to ``level``; the first level changes nothing."""
+        """Record the change of the scene to ``level``; the first level is no change."""
         if last_level is not None and level != last_level:
             self._scene_change = f"Updated scene {find_steps(level, last_level).index(True) + 1}"
 

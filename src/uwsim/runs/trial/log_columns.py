@@ -1,4 +1,4 @@
-"""Column names of a measure's log, with units."""
+"""The column names of a measure's log, with units."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from ...benchmark.measures import Measure
 def log_columns(measure: Measure) -> tuple[str, ...]:
     """Return the columns of a measure's log with their units: ``total [px]``.
 
-    A detail has its own unit. A signal with statistics among the details, and ``value`` and
-    ``total``, have the unit of the measure. A column that states its unit itself, or whose unit is
-    unknown, is unchanged.
+    A detail has its own unit. A signal whose statistics are details, and ``value`` and ``total``,
+    have the unit of the measure. A name that already contains a unit, or whose unit is unknown or
+    1, is unchanged.
     """
     signals = {detail.partition(".")[0] for detail in measure.details} | {"value", "total"}
 

@@ -1,4 +1,4 @@
-"""The construction of the algorithm of a trial, and its parameters."""
+"""The construction of a trial's algorithm, and the parameters that it reports and reads."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def reported_parameters(
 
 
 def unread_parameters(plan: Plan, algorithm: Algorithm, node: InProcessNode) -> tuple[str, ...]:
-    """Return a note on the parameters of the user that an algorithm has never read, if any.
+    """Return a note on the user's parameters that an algorithm has never read, if there are any.
 
     There is no note on a failed algorithm, which may have failed before it could read them.
     """

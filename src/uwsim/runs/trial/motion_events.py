@@ -1,4 +1,4 @@
-"""The events of a scene between the frames of its motion: sand that is taken, and markers."""
+"""Logs of the changes of a scene between motion frames: sand that is dug away, and markers."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ MAX_STORED_POINTS = 200_000
 
 
 class SandLog:
-    """A log of the places where sand was taken between one frame and the next.
+    """A log of the spots where sand was dug away between one frame and the next.
 
     Args:
         simulation: the simulation with the sand.
@@ -30,7 +30,7 @@ class SandLog:
         self._rows: list[tuple[int, ...]] = []
 
     def update(self, frame: int) -> None:
-        """Record the digs until a frame."""
+        """Record the spots that were dug since the last call, for the frame with this index."""
         for number, heap in enumerate(self._heaps):
             if heap.version == self._versions[number]:
                 continue
@@ -43,7 +43,7 @@ class SandLog:
             self._known_spots[number] = list(heap.state.spots)
 
     def sand(self) -> DugSand:
-        """Return all digs so far."""
+        """Return all spots dug so far."""
         return DugSand(table=np.array(self._rows, np.int32).reshape(-1, COLUMNS))
 
 
@@ -59,13 +59,13 @@ class MarkerLog:
         self._markers: dict[str, Marker] = {}
         self._drawings: dict[str, DrawnMarker] = {}
         self._shapes: set[object] = set()
-        # points that may be stored, and that are drawn now
+        # the number of points that may still be stored, and that are drawn now
         self._n_free, self._n_drawn = MAX_STORED_POINTS, 0
         self.changes: list[MarkerChange] = []
         """All changes so far."""
 
     def update(self, frame: int) -> None:
-        """Record the changes until a frame."""
+        """Record the changes since the last call, for the frame with this index."""
         if (is_full := len(self.changes) >= MAX_CHANGES) and not self._markers:
             return
         markers = {} if is_full else self._world.markers.active_markers
@@ -82,7 +82,7 @@ class MarkerLog:
                 )
 
     def _renew(self, name: str, marker: Marker) -> None:
-        """Draw a marker anew, with as many points as viewers accept and the track may hold."""
+        """Draw a marker again, with as many points as viewers accept and the track may hold."""
         if name in self._drawings:
             self._n_drawn -= count_points(self._drawings[name])
         n_max = max(0, min(MAX_POINTS - self._n_drawn, self._n_free))

@@ -20,9 +20,9 @@ from .motion_events import MarkerLog, SandLog
 from .triggered_measure import TriggeredMeasure
 
 CORNERS = 8
-"""Numbers of a quadrangle in an image."""
+"""The number of coordinates of a quadrangle in an image: x, y of four corners."""
 BATCH = 300
-"""Rows that are quantised at once."""
+"""The number of rows that are quantised at a time."""
 PIXEL = 0.5
 """The resolution of image coordinates [px]."""
 
@@ -32,7 +32,7 @@ class MotionRecorder:
 
     Args:
         simulation: the simulation; `start` records its first frame.
-        measures: the measures of the benchmark; quadrangles that they compare are recorded.
+        measures: the measures of the benchmark; the quadrangles that they compare are recorded.
     """
 
     def __init__(self, simulation: Simulation, measures: Sequence[MeasureSpec]) -> None:
@@ -103,11 +103,11 @@ class MotionRecorder:
 
     @staticmethod
     def _corners(measure: EuclideanNorm | None) -> list[float]:
-        """Return the true and estimated corners in an image, (16,) [px]; NaN for none."""
+        """Return the true and the estimated corners in an image, (16,) [px]; NaN if unknown."""
         numbers: list[float] = []
         for quad in (None, None) if measure is None else (measure.ground_truth, measure.estimate):
-            is_whole = quad is not None and quad.shape == (CORNERS,)
-            numbers += quad.tolist() if quad is not None and is_whole else [np.nan] * CORNERS
+            is_complete = quad is not None and quad.shape == (CORNERS,)
+            numbers += quad.tolist() if quad is not None and is_complete else [np.nan] * CORNERS
         return numbers
 
 
@@ -115,11 +115,11 @@ def compact_lamps(signals: Sequence[Signal], table: Table) -> tuple[Signal, ...]
     """Store lamps that are never dimmed as on or off: 1 or 0 instead of multiples of 0.01.
 
     Args:
-        signals: the signals of the last columns of the table.
-        table: quantised rows, (frames, 7 bodies + signals); columns of such lamps are changed.
+        signals: the signals, which are the last columns of the table.
+        table: quantised rows, (frames, 7 bodies + signals); the columns of such lamps are changed.
 
     Returns:
-        The signals, with the steps of the changed table.
+        The signals, with new resolutions (`Signal.step`) for the changed columns.
     """
     new_signals, n_steps = list(signals), round(1.0 / BRIGHTNESS_RESOLUTION)
     for k, signal in enumerate(signals, start=-len(signals)):
@@ -130,7 +130,7 @@ def compact_lamps(signals: Sequence[Signal], table: Table) -> tuple[Signal, ...]
 
 
 def _compared_measures(measures: Sequence[MeasureSpec]) -> dict[str, str]:
-    """Return the first measure that compares quadrangles in each camera's images."""
+    """Return, by camera, the name of the first measure that compares quadrangles in its images."""
     names: dict[str, str] = {}
     for spec in measures:
         if isinstance(spec, EuclideanNormSpec) and isinstance(

@@ -1,7 +1,7 @@
-"""Images of the phases of a task, for the report: an observer's view, with the camera's image.
+"""Images of the phases of a task, for the report: an external view, with a camera's image inset.
 
-Each is rendered from the scene when its phase ends. No random number is drawn and nothing is
-published, so a trial is the same with and without them.
+An image is rendered when its phase ends. No random number is drawn and nothing is published, so a
+trial is the same with and without these images.
 """
 
 from __future__ import annotations
@@ -25,15 +25,16 @@ SIZE = (640, 400)
 FIELD_OF_VIEW = np.radians(45.0)
 """The vertical field of view [rad]."""
 DISTANCE = 2.6
-"""The distance from the watched body [m]."""
+"""The distance of the viewpoint from the target [m]."""
 OFFSET = (-0.45, 0.75, 0.35)
-"""The direction to the observer: ahead of the vehicle, to its starboard, above; relative."""
+"""The direction from the target to the viewpoint, as components ahead of the vehicle, to its
+starboard, and up; of any length."""
 INSET_HEIGHT = 0.45
-"""The height of the camera's image, relative to the whole."""
+"""The height of the camera's image, relative to the height of the whole image."""
 MAX_IMAGES = 24
 """The greatest number of images of one level."""
 PREFIX = "phase"
-"""The prefix of the name of such an image, in the place of a camera's name."""
+"""The prefix of the name of a phase image, which is stored in place of a camera's name."""
 
 
 class PhaseImages:
@@ -79,11 +80,11 @@ class PhaseImages:
         self._images[self._phase] = self._draw(*bodies)
 
     def _draw(self, vehicle: Body, target: Body) -> npt.NDArray[np.uint8]:
-        """Return an observer's view, with the camera's last image in a corner, (h, w, 3)."""
+        """Return an external view with a camera's last image in a corner, (h, w, 3) RGB."""
         pose = observer_pose(vehicle.world_from_body, target.world_from_body.position)
-        lens = Intrinsics.from_fovy(*SIZE, float(FIELD_OF_VIEW))
+        intrinsics = Intrinsics.from_fovy(*SIZE, float(FIELD_OF_VIEW))
         scenery = self._simulation.world.scenery
-        view = scenery.render_view(pose, lens, targets=frozenset({"colour"}))
+        view = scenery.render_view(pose, intrinsics, targets=frozenset({"colour"}))
         assert view.colour is not None
         pixels = np.ascontiguousarray(view.colour.view(np.uint8)[..., :3])
         for images in self._simulation.world.images.values():
@@ -99,14 +100,19 @@ def all_snapshots(
     *,
     is_tracking: bool,
 ) -> tuple[Snapshot, ...]:
-    """Return the cameras' last images, and those of the phases if there are any."""
+    """Return the cameras' last images, and the phase images if there are any."""
     pairs = [(measure.spec, measure.measure) for measure in measures]
     snapshots = capture(simulation, pairs, is_tracking=is_tracking)
     return snapshots if phase_images is None else (*snapshots, *phase_images.snapshots)
 
 
 def observer_pose(world_from_vehicle: Pose, target: Array) -> Pose:
-    """Return the pose of an observer of a vehicle who faces a point in W, (3,) [m]; OpenGL axes."""
+    """Return the pose in the world frame of a viewpoint that faces a target; OpenGL camera axes.
+
+    Args:
+        world_from_vehicle: the pose of the vehicle, whose heading determines the viewpoint.
+        target: the position of the target in the world frame, (3,) [m].
+    """
     forward = world_from_vehicle.rotation[:, 0] * [1.0, 1.0, 0.0]
     if length(forward) < 1e-3:
         forward = np.array([1.0, 0.0, 0.0])

@@ -1,13 +1,13 @@
-"""Inputs of a pilot: published at the ends of steps, stored, and published again.
+"""A pilot's inputs: published at the end of a step, stored, and published again in a later run.
 
 .. code-block:: text
 
     {"uwsim_inputs": 1, "axes": ["surge", ...]}
     {"step": 1503, "values": [0.5, 0.0, ...]}
 
-The file is beside the journal of the trial. A change is published at once, but not earlier than
-1 / `RATE` after another one. An input is published at the end of its step and delivered at the end
-of the next, so a run with stored inputs repeats the run in which they were recorded.
+The file is beside the journal of the trial. A changed input is published at once, but not earlier
+than 1 / `RATE` after the previous one. An input is published at the end of its step and delivered
+at the end of the next, so a run with stored inputs repeats the run in which they were recorded.
 Inputs of an earlier version may lack axes that were added later.
 """
 
@@ -36,7 +36,7 @@ class StoredInputs:
     """Inputs of an earlier run."""
 
     axes: tuple[str, ...]
-    """The first of `AXES`; all of them except in runs of earlier versions."""
+    """The names of the axes: the first entries of `AXES`, or all of them since this version."""
     values_by_step: Mapping[int, tuple[float, ...]]
     """The values of the axes, -1..1, by step."""
 
@@ -46,8 +46,9 @@ class PilotInputs:
 
     Args:
         simulation: the simulation.
-        read_pilot: returns the pilot's inputs, a number for each axis; None without a pilot.
-        stored_inputs: the inputs of an earlier run instead.
+        read_pilot: returns the pilot's inputs, -1..1 for each axis; None without a pilot.
+        stored_inputs: the inputs of an earlier run, which replace the pilot's; None to read the
+            pilot's.
     """
 
     def __init__(
@@ -65,7 +66,7 @@ class PilotInputs:
         simulation.watch(self._update)
 
     def data(self) -> bytes:
-        """Return the file of the inputs so far."""
+        """Return the content of the file with the inputs so far."""
         head = {"uwsim_inputs": VERSION, "axes": self._axes}
         lines = [{"step": step, "values": values} for step, values in self._inputs]
         return "".join(json.dumps(line) + "\n" for line in (head, *lines)).encode()
@@ -92,7 +93,7 @@ class PilotInputs:
 
 
 def read_inputs(data: bytes) -> StoredInputs:
-    """Read a file of inputs; raise ResultError where it is invalid."""
+    """Read the content of a file of inputs; raise ResultError if it is invalid."""
     try:
         head, *lines = [json.loads(line) for line in data.splitlines()]
         axes = tuple(map(str, head["axes"]))
@@ -109,7 +110,7 @@ def read_inputs(data: bytes) -> StoredInputs:
 def pilot_inputs(
     plan: Plan, trial: Trial, simulation: Simulation, observer: TrialObserver | None
 ) -> PilotInputs | None:
-    """Return a pilot's inputs, live or stored; None where the algorithm has no pilot."""
+    """Return the publisher of a pilot's inputs, live or stored; None if no pilot is needed."""
     if not getattr(plan.algorithm.cls, "IS_PILOTED", False):
         return None
     data = plan.inputs.get(trial.index)

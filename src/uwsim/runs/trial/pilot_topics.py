@@ -1,4 +1,4 @@
-"""Topics of a scene by which a pilot drives a vehicle, as parameters of `pilot`."""
+"""The topics of a scene with which a pilot drives a vehicle, as parameters of `pilot`."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from ...topics.ros_twist_to_pat import ROSTwistToPATSpec
 from ...topics.thruster_commands import ROSThrustersToPATSpec
 
 JAW = ("jaw", "grip", "hand", "finger")
-"""The parts of the name of a joint that opens a hand."""
+"""Words in the name of a joint that opens a gripper."""
 
 
 def pilot_topics(simulation: Simulation) -> dict[str, float | str]:
-    """Return the parameters of `uwsim.algorithms.pilot.Pilot` that the scene gives.
+    """Return the parameters of `uwsim.algorithms.pilot.Pilot` that the scene determines.
 
-    They belong to the first vehicle that can be steered, or to the first of all; empty where the
-    scene has no vehicle.
+    They are for the first vehicle that can be steered, or else for the first vehicle. The result is
+    empty if the scene has no vehicle.
     """
     world = simulation.world
     if not world.vehicles:

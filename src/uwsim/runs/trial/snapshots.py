@@ -15,16 +15,16 @@ from ...simulation import Simulation
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Snapshot:
-    """A camera's last image, with the corners that were true and those that were estimated."""
+    """A camera's last image, with the true and the estimated corners of the target."""
 
     camera: str
     """The name of the camera."""
     pixels: npt.NDArray[np.uint8]
-    """(h, w, 3)."""
+    """The image, (h, w, 3) RGB."""
     truth: tuple[float, ...] | None
-    """x, y of four corners [px]."""
+    """x, y of the target's four corners [px]; None if no measure compares corners."""
     estimate: tuple[float, ...] | None
-    """The same of the algorithm's last estimate; None if it has none."""
+    """x, y of the four corners in the algorithm's last estimate [px]; None without an estimate."""
 
 
 def capture(
@@ -54,7 +54,7 @@ def capture(
 def _corners(
     camera: str, measures: Sequence[tuple[MeasureSpec, Measure]]
 ) -> tuple[tuple[float, ...] | None, tuple[float, ...] | None]:
-    """Return true and estimated corners of the first measure that compares them in a camera."""
+    """Return the true and estimated corners from the first measure that compares them."""
     for spec, measure in measures:
         if not isinstance(spec, EuclideanNormSpec) or not isinstance(measure, EuclideanNorm):
             continue

@@ -1,4 +1,4 @@
-"""The status of a row, from the algorithm's reports and its failures."""
+"""The status of a row, from the algorithm's reports and failures and from the measures."""
 
 from __future__ import annotations
 
@@ -11,9 +11,10 @@ from ..own_process.process import PROCESS_ENDED
 from .triggered_measure import TriggeredMeasure
 
 SIMULATION_ERROR = "simulation error"
-"""The status of a level whose simulation failed, in it or before it: it has no values."""
+"""The status of a level in which, or before which, the simulation failed; it has no values."""
 MAX_SILENCE = 1.0
-"""A measure that waits longer than this for an estimate ends in ``timeout`` [s]."""
+"""The longest time for which a measure may wait for an estimate [s of simulation time]; after a
+longer wait the status of the level is ``timeout``."""
 
 
 def was_stopped(name: str, reason: str | None) -> bool:
@@ -29,39 +30,44 @@ def ended_its_process(name: str, reason: str | None) -> bool:
 class StatusMonitor:
     """A monitor of the algorithm's status reports and its failures.
 
-    ``lost: why`` holds until the algorithm reports ``tracking``. A level in which it was reported
-    has the status ``lost``, and so has one at whose end it still holds; ``failed: why`` holds for
-    good.
+    A report ``lost: reason`` holds until the algorithm reports ``tracking``. A level has the status
+    ``lost`` if the loss was reported in it, or still holds at its end. A report ``failed: reason``
+    holds for all later levels.
+
+    Args:
+        node: the node of the algorithm.
+        inbox: the messages on the topic of status reports.
     """
 
     def __init__(self, node: InProcessNode, inbox: Inbox[String]) -> None:
         self._node, self._inbox = node, inbox
-        self._is_lost: str | None = None  # reason and time, until it tracks again
-        self._was_lost: str | None = None  # the same of the first time in this level
+        # the reason and time of a loss that still holds, and of the first loss in this level
+        self._current_loss: str | None = None
+        self._first_loss: str | None = None
         self.failure: str | None = None
-        """The reason and time of its failure or exception."""
+        """The reason and time of the algorithm's failure or exception; None without a failure."""
 
     @property
     def lost(self) -> str | None:
-        """The reason and time of its loss in this level, or before if it continues."""
-        return self._was_lost or self._is_lost
+        """The reason and time of the algorithm's loss in this level, or of one that continues."""
+        return self._first_loss or self._current_loss
 
     def begin_level(self) -> None:
         """Reset the reports of the last level, except those that still hold."""
-        self._was_lost = None
+        self._first_loss = None
 
     def read_reports(self, time: float) -> None:
-        """Read the reports since the last call."""
+        """Read the reports since the last call; ``time`` is the simulation time [s]."""
         if self._inbox.last_message is None and self._node.error is None:
             return
         for message in self._inbox.take():
             state, _, reason = message.data.partition(":")
             text = to_line(f"{self._node.name} {state.strip()} at {time:g} s: {reason.strip()}")
             if state.strip() == "lost":
-                self._is_lost = self._is_lost or text
-                self._was_lost = self._was_lost or text
+                self._current_loss = self._current_loss or text
+                self._first_loss = self._first_loss or text
             elif state.strip() == "tracking":
-                self._is_lost = None
+                self._current_loss = None
             elif state.strip() == "failed" and self.failure is None:
                 self.failure = text
         if self._node.error is not None and self.failure is None:
@@ -71,15 +77,16 @@ class StatusMonitor:
     def status(
         self, measures: Sequence[TriggeredMeasure], *, cutoff: float | None, ending: str | None
     ) -> tuple[str, str | None]:
-        """Return the status of a row and, unless it is ``ok``, its reason: the first that applies.
+        """Return the first status of a row that applies and, unless it is ``ok``, its reason.
 
-        An algorithm that reported itself lost or failed need not send estimates. Where a measure
-        judges the level as a task, its own status counts.
+        An algorithm that reported itself lost or failed need not send estimates. If a measure
+        assesses the level as a task, the status of that measure counts.
 
         Args:
             measures: the measures of the level.
-            cutoff: the time after which a level without an interval was cut off [s].
-            ending: the reason of a measure that ended the level.
+            cutoff: the time after which a level without an interval was cut off [s of simulation
+                time]; None if it was not cut off.
+            ending: the reason for which a measure ended the level; None if no measure did.
         """
         if self.failure is not None:
             return "algorithm error", self.failure

@@ -1,9 +1,10 @@
 """The execution of one trial: an algorithm, a seed, and one level after the other.
 
 *Sequential*: algorithm and scene continue from level to level. *Independent*: a level is run alone
-and begins with a prelude at the updaters' initial values. The algorithm starts, receives the place
-of its target and runs 1 s; then the level's values are ramped in over 1 s, without measurement.
-Without the prelude (``u:prelude="false"``) the level's values hold from the first image on.
+and begins with a *prelude*, which is not measured. In the prelude the algorithm starts at the
+updaters' initial values, receives the image position of its target and runs for 1 s; then the
+values change linearly to those of the level within 1 s. Without the prelude
+(``u:prelude="false"``) the level's values hold from the first image on.
 """
 
 from __future__ import annotations
@@ -38,7 +39,7 @@ from ..own_process.program import Program, program_of, take_refused_messages
 from ..planning.plan import Plan, Trial
 from ..planning.trial_cache import TrialCache, compile_plan
 from .fingerprint import Fingerprinter
-from .floor import Floor
+from .floor import ErrorFloor
 from .known_corners import known_corners
 from .level_row import LevelRow, TrialEnd, cells_of
 from .level_triggers import LevelTriggers
@@ -57,9 +58,10 @@ from .visibility import Fact, TargetMotion, visibility_facts
 
 STATUS_TOPIC = "algorithmStatus"
 SETTLING_TIME = 1.0
-"""The time of an independent level at the initial values before the ramp [s]."""
+"""The time of the prelude at the initial values, before the ramp [s of simulation time]."""
 RAMP_TIME = 1.0
-"""The time in which the values of an independent level are ramped in [s]."""
+"""The time of the prelude in which the values change to those of the level [s of simulation
+time]."""
 
 
 def execute(
@@ -74,12 +76,12 @@ def execute(
     """Run a trial; yield a LevelRow at the end of each level, and finally the TrialEnd.
 
     Args:
-        plan: the benchmark to run.
-        trial: one of its trials.
-        cache: the cache of scenes and renderers; without one the trial compiles its scene and has
-            its own renderer.
+        plan: the plan of the run.
+        trial: a trial of the plan.
+        cache: the cache of scene models and renderers; without one the trial compiles its scene and
+            has its own renderer.
         calls: the counter of calls into the algorithm.
-        observer: the observer between the steps.
+        observer: the observer, which is called between the steps.
         recorder: the recorder of the messages.
 
     Raises:
@@ -129,12 +131,12 @@ class _Execution:
         self._updaters = bind_updaters(self._updater, simulation.world.stage_view)
         if "no-markers" in plan.compatibility:
             simulation.bus.services.withdraw(SPAWN_MARKER)
-        simulation.bus.keeps_unread_messages = False  # all who read subscribe
+        simulation.bus.keeps_unread_messages = False  # every reader subscribes
         self._expression = parse(benchmark.function.text, [m.name for m in benchmark.measures])
         self._measures = benchmark.measures  # with the specs for the next level
         ramp_level(self._updaters, self._base_level())
         for measure in self._bind_measures():
-            measure.close()  # the bus stores the messages read at their start
+            measure.close()  # the bus stores the messages that measures read when they start
         self._triggers = LevelTriggers(benchmark, simulation.world.measure_view)
         self._live_topics = LiveTopics(benchmark.function, self._expression, simulation)
         status = simulation.bus.inbox(STATUS_TOPIC, String)
@@ -157,20 +159,20 @@ class _Execution:
         self._notes: dict[str, None] = {}
         self._facts: dict[str, Fact] = {}
         self._target_motion: TargetMotion | None = None
-        self._floor: Floor | None = None
-        self._level: Level | None = None  # the last one
-        self._level_start: int | None = None  # step in which the level began that runs
-        self._n_measured = 0  # steps of the levels so far
+        self._floor: ErrorFloor | None = None
+        self._level: Level | None = None  # the latest level
+        self._level_start: int | None = None  # the step at which the running level began
+        self._n_measured = 0  # the number of measured steps of all levels so far
         has_images = trial.index == 0 and not plan.is_blind
         self._phases = PhaseImages(simulation) if has_images else None
 
     def moment(self) -> str:
-        """Return ``level fog=0.4, seed 7, at 3.02 s``."""
+        """Return the current moment for a message, as ``level fog=0.4, seed 7, at 3.02 s``."""
         level = f"level {self._level}, " if self._level else ""
         return level + _moment(self._simulation, self._trial)
 
     def rows(self) -> Iterator[LevelRow | TrialEnd]:
-        """Run the levels."""
+        """Run the levels; yield a row for each, and finally the end of the trial."""
         plan, simulation = self._plan, self._simulation
         simulation.advance(0.0)
         self._motion.start()
@@ -206,7 +208,7 @@ class _Execution:
         self._wait("The benchmark never started")
         if not plan.is_blind:
             self._target_motion = TargetMotion(self._simulation, plan)
-            self._floor = Floor(self._simulation, plan)
+            self._floor = ErrorFloor(self._simulation, plan)
         floor = self._floor
         last_level: Level | None = None
         for level in self._trial.levels:
@@ -236,7 +238,7 @@ class _Execution:
         return row
 
     def _failed_row(self, level: Level, reason: str) -> LevelRow:
-        """Return the row of a level whose simulation failed, in it or before it."""
+        """Return the row of a level in which, or before which, the simulation failed."""
         start_step = self._simulation.step if self._level_start is None else self._level_start
         self._level_start = None
         measures = self._bind_measures()  # without the values of the failed level
@@ -261,7 +263,7 @@ class _Execution:
             updater.close()
 
     def _streams(self) -> tuple[tuple[str, int, str], ...]:
-        """Return topic, number and SHA-256 of the images published, by topic."""
+        """Return topic, number and SHA-256 of the images published, in the order of the topics."""
         cameras = [
             (topic, images.n_frames, images.sha256)
             for topic, images in self._simulation.world.images.items()
@@ -290,7 +292,7 @@ class _Execution:
         return simulation.time > start_time
 
     def _prelude(self, level: Level) -> None:
-        """Run the algorithm at the initial values, then ramp in the level's."""
+        """Run the algorithm at the initial values, then change them linearly to the level's."""
         plan, simulation = self._plan, self._simulation
         measures = self._bind_measures()
         settling, ramp = round(SETTLING_TIME / plan.timestep), round(RAMP_TIME / plan.timestep)
@@ -334,8 +336,9 @@ class _Execution:
             self._step_to(level, last_level)
             self._triggers.arm()
 
-    def _settle(self, seconds: float) -> None:
-        for _ in range(round(seconds / self._plan.timestep)):
+    def _settle(self, duration: float) -> None:
+        """Run without measurement for the settling time of the updaters [s]."""
+        for _ in range(round(duration / self._plan.timestep)):
             self._simulation.advance()
             self._monitor.read_reports(self._simulation.time)
 
@@ -363,7 +366,8 @@ class _Execution:
             monitor.read_reports(simulation.time)
             is_stopped = not self._triggers.is_open()
             ending = _end_of_level(measures)
-            is_over = self._trial.is_alone and monitor.failure is not None  # nothing can follow
+            # no later level needs the simulation
+            is_over = self._trial.is_alone and monitor.failure is not None
             if is_stopped or ending is not None or is_over:
                 break
         for measure in measures:
@@ -425,7 +429,7 @@ def _tick(measures: list[TriggeredMeasure]) -> None:
 
 
 def _remarks(measures: list[TriggeredMeasure]) -> tuple[str, ...]:
-    """Return the remarks of measures on a level, each once with the measures that make it."""
+    """Return the remarks of measures on a level, each once, with the names of its measures."""
     names: dict[str, list[str]] = {}
     for measure in measures:
         for remark in measure.measure.remarks:
@@ -434,6 +438,7 @@ def _remarks(measures: list[TriggeredMeasure]) -> tuple[str, ...]:
 
 
 def _end_of_level(measures: list[TriggeredMeasure]) -> str | None:
+    """Return the reason for which a measure ends the level; None if no measure does."""
     for measure in measures:
         if reason := measure.measure.ends_level:
             return reason

@@ -1,4 +1,4 @@
-"""The protocol of an observer of trials, which may supply a pilot's inputs."""
+"""The protocol of an observer of trials (a viewer), which may supply a pilot's inputs."""
 
 from __future__ import annotations
 

@@ -13,4 +13,7 @@ class TrialRecorder(Protocol):
     """A recorder of trials; it changes nothing in them, and can be sent to another process."""
 
     def recording(self, simulation: Simulation, trial: Trial) -> AbstractContextManager[None]:
-        """Record a trial until its end; its simulation is at step 0, and nothing is attached."""
+        """Return a context that records a trial.
+
+        On entry the simulation is at step 0, and no algorithm is attached to it.
+        """

@@ -1,4 +1,4 @@
-"""A measure with its triggers: on from startOn until stopOn, with its log."""
+"""A measure with its triggers startOn and stopOn, and with its log."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Sample = tuple[float | None, ...]
 
 
 def finite_value(value: object) -> tuple[float | None, str | None]:
-    """Return a measure's value if a result may hold it, else None; and the reason of None."""
+    """Return a measure's value, or None if a result cannot hold it, and the reason for None."""
     if value is None:
         return None, None
     if isinstance(value, Real) and not isinstance(value, bool):
@@ -46,26 +46,26 @@ class TriggeredMeasure:
         self._was_on = False
         self._log_due = 0 if spec.log is not None else None
         self.never_started = True
-        """True if it was off all the time so far."""
+        """True if the measure has never been on."""
 
     @property
     def value(self) -> object:
         """The measure's value.
 
-        It is None if the measure never started. With the compatibility ``never-started``, as in the
-        original, it is the start value, unless that is an error there, too.
+        It is None if the measure never started. With the compatibility ``never-started`` it is the
+        start value instead, as in the original UWSim, unless that value is an error there.
         """
         return self.spec.start_value if self.has_start_value else self.measure.value
 
     @property
     def has_start_value(self) -> bool:
-        """True if its value is only a start value."""
-        is_asked = "never-started" in self._world.compatibility
-        is_known = self.spec.error_flag == 0 and self.spec.start_value is not None
-        return self.never_started and is_asked and is_known
+        """True if `value` is the start value of a measure that never started."""
+        is_selected = "never-started" in self._world.compatibility
+        is_valid = self.spec.error_flag == 0 and self.spec.start_value is not None
+        return self.never_started and is_selected and is_valid
 
     def tick(self) -> None:
-        """Start, update or stop the measure according to its triggers."""
+        """Start, update or stop the measure according to its triggers, after a step."""
         is_on = self._read_triggers() if self._has_triggers else self._is_on
         if is_on and not self._was_on:
             self.never_started = False

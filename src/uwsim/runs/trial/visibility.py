@@ -1,8 +1,9 @@
 r"""Image statistics that determine at which fog density a ZNCC tracker loses its target.
 
-With the contrast of the patch S (standard deviation in grey levels, no noise, fog 0), the noise
-sigma, the threshold z and the mean distance d from camera to patch, fog of density f
-leaves the contrast :math:`S e^{-(fd)^2}`, and the ZNCC with a noise-free template is
+Let S be the contrast of the patch (the standard deviation of its grey levels without noise and
+fog), sigma the standard deviation of the noise, z the tracker's threshold, and d the mean distance
+from the camera to the patch. Fog of density f leaves the contrast :math:`S e^{-(fd)^2}`, and the
+zero-mean normalised cross-correlation (ZNCC) with a noise-free template is
 
 .. math:: \rho = \left(1 + \sigma^2 / (S e^{-(fd)^2})^2\right)^{-1/2}
 
@@ -10,13 +11,13 @@ which falls below z at
 
 .. math:: f^* = \frac{1}{d} \sqrt{\ln\left(\frac{S}{\sigma}\sqrt{1/z^2 - 1}\right)}
 
-The noise of a camera is that of each of its channels, ``255 std`` grey levels. Grey is a weighted
-sum of three of them, so its noise is smaller by the norm of the weights, 0.669; ``f_star_grey`` is
-the limit with that, nearer to the noise for a tracker of grey images. Not modelled: noise in the
-template, 8-bit quantisation, the tracker's own error.
+Here sigma is the noise of each colour channel of the camera, ``255 std`` grey levels. Grey is a
+weighted sum of the three channels, so its noise is smaller by the norm of the weights, 0.669.
+``f_star_grey`` is the limit with this noise, for a tracker of grey images. Not modelled are noise
+in the template, 8-bit quantisation, and the tracker's own error.
 
-The motion of the target in the image is measured, too: a tracker of a target at rest has nothing to
-track.
+The motion of the target in the image is measured, too, because a benchmark whose target does not
+move in the image does not test a tracker.
 """
 
 from __future__ import annotations
@@ -45,10 +46,9 @@ def visibility_facts(
     """Measure S, sigma, d and f* of the first target whose corners are tracked in a camera.
 
     Returns:
-        ``S``, ``sigma`` and ``sigma_grey`` [grey level], ``d`` [m], ``z``, ``f_star`` and
-        ``f_star_grey`` [1/m]: with the camera's noise and with that of the grey image.
-        The last three only for an algorithm with the parameter ``zncc_threshold``. Empty when no
-        measure uses corners.
+        ``S``, ``sigma`` and ``sigma_grey`` [grey level], ``d`` [m], ``z`` [1], ``f_star`` and
+        ``f_star_grey`` [1/m]. The last three exist only for an algorithm with the parameter
+        ``zncc_threshold``. Empty if no measure uses corners in a camera.
     """
     for spec in plan.benchmark.measures:
         if not isinstance(spec, EuclideanNormSpec):
@@ -97,7 +97,7 @@ def visibility_facts(
 
 
 class TargetMotion:
-    """The range of motion, in its image, of the first target whose corners are tracked.
+    """The range of motion, in the image, of the first target whose corners are tracked.
 
     It is sampled every 16th step.
     """
@@ -106,7 +106,8 @@ class TargetMotion:
 
     def __init__(self, simulation: Simulation, plan: Plan) -> None:
         self._truth = _first_truth(simulation, plan)
-        self._low = self._high = np.zeros(0)  # the range of each number so far [px]
+        # the range of each coordinate of the corners so far, (8,) [px]
+        self._low = self._high = np.zeros(0)
         self._steps = 0
         if self._truth is not None:
             simulation.watch(self.tick)
@@ -123,7 +124,7 @@ class TargetMotion:
 
     @property
     def facts(self) -> dict[str, Fact]:
-        """``shift`` [px]: the widest range of a corner's x or y; empty if there was no corner."""
+        """``shift`` [px]: the widest range of a corner's x or y; empty if no corners were seen."""
         if not self._low.size:
             return {}
         return {"shift": (float((self._high - self._low).max()), "px")}
@@ -147,7 +148,7 @@ def fog_of_loss(contrast: float, noise: float, distance: float, threshold: float
 
 
 def quad_mask(corners: Array, shape: tuple[int, ...]) -> npt.NDArray[np.bool_]:
-    """Return the mask of pixels with centres in a convex quadrangle (4, 2) [px], (h, w) bool."""
+    """Return the mask (h, w) of the pixels whose centres are in a convex quadrangle (4, 2) [px]."""
     v, u = np.mgrid[0 : shape[0], 0 : shape[1]]
     sides = [
         (b[0] - a[0]) * (v - a[1]) - (b[1] - a[1]) * (u - a[0])
