@@ -99,7 +99,7 @@ class Envelope:
 
     @property
     def verdict(self) -> str:
-        """The verdict ``breaks``, ``does not break``, ``broken from the start`` or ``undecided``."""
+        """The verdict: ``breaks``, ``does not break``, ``broken from the start``, ``undecided``."""
         n = len(self.search.thresholds)
         if self.median.value is not None:
             return "breaks"

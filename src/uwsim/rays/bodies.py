@@ -46,7 +46,7 @@ class Bodies(NamedTuple):
     boxes: Array
     """The lower and upper corner in W of the box of each node's two children, (k, 12) [m]."""
     links: IntArray
-    """For each child: its node and 0; or, of a leaf, its start in `order` and its number of bodies,
+    """The node of each child and 0; or, of a leaf, its start in `order` and its number of bodies,
     (k, 4)."""
     order: IntArray
     """The indices of the bodies in the order of the leaves, (b,)."""

@@ -33,7 +33,7 @@ class Tree(NamedTuple):
     """The lower and upper corner of the box of each node's first child, then of its second child,
     (k, 12) [m]; infinite without a child, so that no ray hits it."""
     links: IntArray
-    """For each child: its node and 0; or, of a leaf, its start in `order` and its number of
+    """The node of each child and 0; or, of a leaf, its start in `order` and its number of
     triangles, (k, 4)."""
     order: IntArray
     """The indices of the triangles in the order of the leaves, (n,)."""

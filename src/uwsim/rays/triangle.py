@@ -31,7 +31,7 @@ class Trees(NamedTuple):
     boxes: Array
     """The lower and upper corner of the box of each node's two children, (k, 12) [m]."""
     links: IntArray
-    """For each child: its node and 0; or, of a leaf, its first triangle and its number of
+    """The node of each child and 0; or, of a leaf, its first triangle and its number of
     triangles, (k, 4)."""
     triangles: Array
     """A corner and two edges of each triangle, in the order of the leaves, (n, 9) [m]."""
