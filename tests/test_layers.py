@@ -17,7 +17,7 @@ PAGE = PACKAGE / "viewer" / "page" / "source"
 
 MAX_MODULES = 20
 
-GROUND = {"errors", "version", "base", "acoustics", "rays", "schema"}
+GROUND = {"errors", "version", "base", "acoustics", "optics", "rays", "schema"}
 BASE = GROUND | {"network", "world", "vehicle", "messages", "bus"}
 PARTS = BASE | {"currents", "forces", "sensors", "devices", "topics", "scene", "assets"}
 ENGINES = PARTS | {"model", "physics", "rendering"}
@@ -28,6 +28,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "errors": {"errors"},
     "version": {"version"},
     "base": {"errors", "base"},
+    "optics": {"errors", "base", "optics"},
     "network": GROUND | {"network"},
     "messages": BASE,
     "bus": GROUND | {"bus"},
