@@ -150,11 +150,11 @@ def test_a_current_of_uwsim_that_a_program_sets_ends_no_run(
     assert taken == [50, 1, 1, 1, 1, 1]
 
 
-def beside_a_drifter(*, is_read: bool = False, is_simulated: bool = True) -> Simulation:
+def beside_a_drifter(*, is_read: bool = False, has_dynamics: bool = True) -> Simulation:
     """A vehicle, simulated or not, and one that drifts, whose motion a sensor may read."""
     scene = read_scene(SCENE).nominal_scene
     first = replace(scene.vehicles[0], parts=())
-    first = first if is_simulated else replace(first, dynamics=None)
+    first = first if has_dynamics else replace(first, dynamics=None)
     imu = ImuSpec(name="imu", relative_to="base_link")
     second = replace(
         first,
@@ -189,16 +189,16 @@ def test_a_vehicle_drifts_in_many_steps_at_once_unless_its_motion_is_read(
 
 
 @pytest.mark.parametrize("is_read", [False, True])
-@pytest.mark.parametrize("is_simulated", [False, True])
+@pytest.mark.parametrize("has_dynamics", [False, True])
 def test_a_vehicle_drifts_as_python_carries_it(
-    monkeypatch: pytest.MonkeyPatch, *, is_read: bool, is_simulated: bool
+    monkeypatch: pytest.MonkeyPatch, *, is_read: bool, has_dynamics: bool
 ) -> None:
     ends, twists = [], []
     for in_python in (True, False):
-        simulation = beside_a_drifter(is_read=is_read, is_simulated=is_simulated)
+        simulation = beside_a_drifter(is_read=is_read, has_dynamics=has_dynamics)
         sheared(simulation)
         if in_python:
-            monkeypatch.setattr(simulation.world.water, "drift", lambda *_: None)
+            monkeypatch.setattr(simulation.world.water, "drift_function", lambda *_: None)
         simulation.advance(0.5)
         ends.append(simulation.world.engine._data.qpos.tobytes())
         twists.append(simulation.world.vehicles.find("drifter").velocity.tolist())

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from ..errors import Diagnostic, UwsimError
-from ..model.collision.scene_shapes import simulated_solids
+from ..model.collision.scene_shapes import solid_objects_in_water
 from ..model.dynamics import NameResolution
 from ..model.placement import set_on_floor
 from ..model.resolved_scene import ResolvedScene
@@ -165,7 +165,7 @@ class CheckedScene(Subject):
     @cached_property
     def loose_objects(self) -> dict[int, PhysicsSpec]:
         """The first `MAX_LOOSE_OBJECTS` objects that forces move, by number."""
-        solids = simulated_solids(self.spec, self.dynamics).items()
+        solids = solid_objects_in_water(self.spec, self.dynamics).items()
         loose_solids = ((index, physics) for index, physics in solids if physics.is_loose)
         return dict(itertools.islice(loose_solids, MAX_LOOSE_OBJECTS))
 

@@ -30,7 +30,7 @@ from .hydrodynamics.water_function import DriftFunction, WaterFunction, move_pla
 from .joint_wrench import JointWrench
 from .kinematics.lift import Lift
 from .kinematics.link_motion import LinkMotion
-from .kinematics.placed_motion import PlacedMotion
+from .kinematics.prescribed_motion import PrescribedMotion
 from .motion import Motion
 from .poses import Poses
 from .scaled import ScaledLinks
@@ -116,7 +116,7 @@ class Engine:
 
     @property
     def is_dynamic(self) -> bool:
-        """True if a vehicle is simulated."""
+        """True if at least one vehicle has dynamics."""
         return self._water is not None
 
     @property
@@ -124,8 +124,8 @@ class Engine:
         """True if a body is placed at every step, as it is carried or lifted."""
         return self.grips.is_carrying or self.lift.is_active
 
-    def is_simulated(self, index: int) -> bool:
-        """Return whether forces move a vehicle."""
+    def has_dynamics(self, index: int) -> bool:
+        """Return whether a vehicle has dynamics: forces move it."""
         return index in self.actuation
 
     @property
@@ -143,7 +143,7 @@ class Engine:
         samples_last: bool = False,
         drift: DriftFunction | None = None,
     ) -> bool:
-        """Advance all simulated bodies by some steps.
+        """Advance all bodies that forces move by some steps.
 
         Args:
             n: the number of steps.
@@ -151,7 +151,7 @@ class Engine:
             samples: the samples after each step but the last, a record of `sampling.TABLE`, (1,).
             step: the number of the first step by the clock of the samples.
             samples_last: take samples after the last step, too.
-            drift: moves the vehicles that are not simulated; None: they stay.
+            drift: moves the kinematic vehicles with the water; None: they do not drift.
 
         Returns:
             True if a timer of the samples was due after the last step, and they were taken.
@@ -264,17 +264,17 @@ class Engine:
         self.poses.mark_stale()
 
     def drift(self, drift: DriftFunction, time: float) -> None:
-        """Move the vehicles that are not simulated by a step that ends at ``time`` [s]."""
+        """Move kinematic vehicles with the water, by a step that ends at ``time`` [s]."""
         poses: Array = self._data.qpos[self._placed_addresses]
         move_placed(drift.function, drift.address, poses, time)
         self._data.qpos[self._placed_addresses] = poses
         self.poses.mark_stale()
 
-    def placed_motion(self, index: int) -> PlacedMotion:
-        """Return the motion of a vehicle that is not simulated; it records from now on."""
+    def prescribed_motion(self, index: int) -> PrescribedMotion:
+        """Return the prescribed motion of a kinematic vehicle, which records from now on."""
         model, prefix = self._model, vehicle_joint(index, "")
         joints = [i for i in range(model.njnt) if model.joint(i).name.startswith(prefix)]
-        return PlacedMotion(model, self._data, joints, index, self.link_motion)
+        return PrescribedMotion(model, self._data, joints, index, self.link_motion)
 
     def joints(self, index: int) -> Array:
         """Return a copy of the joint vector of a vehicle, (n,) [rad or m]."""

@@ -78,17 +78,17 @@ class JointWrench:
         self._workspace = np.zeros(1, WORKSPACE)
         self._copy: mujoco.MjData | None = None
 
-    def sampler(self, body: int, mount: Mount, *, is_simulated: bool) -> Sampler:
+    def sampler(self, body: int, mount: Mount, *, has_dynamics: bool) -> Sampler:
         """Return a sampler of the force [N] and the torque [N m], 6 numbers, in a mount's frame.
 
         Args:
             body: the engine's number of the link.
             mount: the frame on the link.
-            is_simulated: true if its vehicle is simulated; else all numbers are 0.
+            has_dynamics: true if the vehicle of the link has dynamics; else all numbers are 0.
         """
         row, offsets = np.zeros(1, JOINT_WRENCH), callback.offsets()
         row["mount"], row["body"] = address_of(mount), body
-        if is_simulated:
+        if has_dynamics:
             space = self._workspace
             row["workspace"] = address_of(space)
             space["model"], space["data"] = self._model._address, self._data._address

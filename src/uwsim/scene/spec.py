@@ -150,19 +150,19 @@ class SceneSpec(Spec):
         return any(vehicle.dynamics is not None for vehicle in self.vehicles)
 
     @property
-    def is_original_physics(self) -> bool:
+    def requests_uwsim_physics(self) -> bool:
         """True if the original's physics is requested: ``enablePhysics``, nothing in water."""
         return self.sim_params.enable_physics and not self.is_dynamic
 
     @property
     def has_uwsim_physics(self) -> bool:
         """True if objects move by the original's physics."""
-        return self.is_original_physics and any(
+        return self.requests_uwsim_physics and any(
             physics.is_loose for physics in self.solid_objects.values()
         )
 
     @property
-    def simulated_solids(self) -> dict[int, PhysicsSpec]:
+    def solid_objects_in_water(self) -> dict[int, PhysicsSpec]:
         """The solid objects in simulated water, by number.
 
         Objects with ``<physics>`` or ``u:solid`` 1, and ``terrain``; nothing with ``u:solid`` 0.
@@ -176,15 +176,15 @@ class SceneSpec(Spec):
 
     @property
     def solid_objects(self) -> dict[int, PhysicsSpec]:
-        """The objects with contacts, by number: `simulated_solids`; all in the original's physics.
+        """The objects with contacts, by number: `solid_objects_in_water`; all in UWSim's physics.
 
         If nothing is solid, all are, and fixed, as the original ends on a request for contacts.
         Never those with ``u:solid`` 0.
         """
         objects = {i: spec for i, spec in enumerate(self.objects) if spec.is_solid is not False}
-        if self.is_original_physics:
+        if self.requests_uwsim_physics:
             return {i: spec.solid for i, spec in objects.items()}
-        if solids := self.simulated_solids:
+        if solids := self.solid_objects_in_water:
             return solids
         return {
             i: dataclasses.replace(spec.solid, is_kinematic=True) for i, spec in objects.items()

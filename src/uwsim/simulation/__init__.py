@@ -1,7 +1,8 @@
 """The simulation of a scene: clock, commands, forces, sensors, messages, callbacks.
 
-`simulation` has the step; `world` what measures and sensors see of the scene, `stage` also what
-scene updaters set; `scenery` renders; `node` is an algorithm that runs in this process.
+`simulation` is the Python interface and `scene_stepper` takes the steps. `live_scene` connects the
+parts of a scene, and `world_views` restricts it for each kind of part: sensors, devices, measures.
+`scenery` renders images; `nodes` runs algorithms in this process; `state` saves and restores.
 """
 
 from __future__ import annotations

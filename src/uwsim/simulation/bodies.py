@@ -1,4 +1,4 @@
-"""Names to bodies: vehicles, links, objects, and the frame L."""
+"""Look-up of the bodies of a scene by name: vehicles, links, objects, and the frame L."""
 
 from __future__ import annotations
 
@@ -20,40 +20,40 @@ from ..world import Box
 
 
 class SceneBody:
-    """A named frame of the scene that moves with it (`uwsim.world.Body`)."""
+    """A named frame of the scene (`uwsim.world.Body`): of a vehicle, a link or an object, or L."""
 
     def __init__(self, name: str, pose: Callable[[], Pose], box: Box | None) -> None:
         self._name, self._pose, self._box = name, pose, box
 
     @property
     def name(self) -> str:
-        """The route by which the body was found."""
+        """The route by which the body is found, such as ``girona500/base_link``."""
         return self._name
 
     @property
     def world_from_body(self) -> Pose:
-        """The present pose."""
+        """The present pose of the body in W."""
         return self._pose()
 
     @property
     def box(self) -> Box | None:
-        """The bounding box of the mesh in its own frame; None without a mesh."""
+        """The bounding box of the mesh in the frame of the body; None without a mesh."""
         return self._box
 
 
 class SceneBodies:
-    """The bodies of a scene by name."""
+    """The bodies of a scene, by name."""
 
     def __init__(self, model: SceneModel, engine: Engine) -> None:
         self._bodies = name_bodies(model, engine)
 
     def find(self, name: str) -> SceneBody:
-        """Find the body of a route ``a/b/c``; nodes between the first and the last may be skipped.
+        """Find the body of a route ``a/b/c``; names between the first and the last may be left out.
 
-        The name of a link may have slashes itself, ``rov/bluerov2/base_link``.
+        The name of a link may contain slashes itself, as in ``rov/bluerov2/base_link``.
 
         Raises:
-            UnknownName: nothing matches; lists the bodies.
+            UnknownName: no body matches; the message lists the bodies.
         """
         nodes = [node.strip() for node in name.strip().strip("/").split("/")]
         if nodes[0] == "localizedWorld" and len(nodes) > 1:
@@ -65,13 +65,15 @@ class SceneBodies:
 
 
 def name_bodies(model: SceneModel, engine: Engine) -> dict[str, SceneBody]:
-    """Name every frame of the scene by its routes; where two share a name, the first has it.
+    """Return every frame of the scene by its routes; a name that two share is that of the first.
 
-    ``vehicle`` is the base frame, ``vehicle/link`` and ``link`` the kinematic frame of a link,
-    ``link@visual`` its visual frame (the original's meaning of a link's name; the kinematic one of
-    a link without a visual), an object its mesh frame (scale moves the frame's origin and does not
-    turn it), ``localizedWorld`` is L. The boxes of objects are as large as the objects; with the
-    compatibility ``box-scale`` they do not have their ``scaleFactor``, as in the original.
+    ``vehicle`` is the base frame of a vehicle, ``vehicle/link`` and ``link`` the kinematic frame of
+    a link. ``link@visual`` is the frame of its visual, which the original UWSim means by the
+    name of a link; for a link without a visual it is the kinematic frame. The name of an object is
+    its mesh frame, whose origin moves with the scale. ``localizedWorld`` is the frame L.
+
+    The bounding boxes of objects include their ``scaleFactor``; with the compatibility quirk
+    ``box-scale`` they do not, as in the original UWSim.
     """
     scene = model.scene
     bodies = {
@@ -108,7 +110,7 @@ def name_bodies(model: SceneModel, engine: Engine) -> dict[str, SceneBody]:
 
 
 def _object_boxes(model: SceneModel) -> dict[int, Box]:
-    """Return the box of each object that has a visual, by its number."""
+    """Return the bounding box of each object that has a visual, by the number of the object."""
     boxes = {part.object: part.model.box for part in model.parts if part.object is not None}
     if "box-scale" in model.compatibility:
         return boxes
@@ -120,7 +122,7 @@ def _object_boxes(model: SceneModel) -> dict[int, Box]:
 
 
 def _link_boxes(model: SceneModel) -> dict[tuple[int, str], Box]:
-    """Return the box of each link that has a visual, by the number of its vehicle and its name."""
+    """Return the box of each link that has a visual, by vehicle number and name of the link."""
     engine = Engine(model)
     boxes = {}
     for index, robot in model.robots.items():
@@ -144,9 +146,9 @@ def _bounding_box(
     """Return the bounding box of all visuals of a link, in its visual frame.
 
     Args:
-        parts: the visuals.
-        world_from_visual: the visual frame.
-        world_from_link: the frame of the link with its vehicle's scale, (4, 4) [m].
+        parts: the visuals of the link.
+        world_from_visual: the pose of the visual frame in W.
+        world_from_link: the frame of the link in W, with the scale of its vehicle, (4, 4) [m].
     """
     visual_from_link = product(world_from_visual.inverse().matrix, world_from_link)
     corners = np.concatenate(
@@ -163,10 +165,10 @@ def _bounding_box(
 def scaled_box(
     box: Box, object_from_mesh: npt.NDArray[np.float64], scale: tuple[float, float, float]
 ) -> Box:
-    """Return the bounding box, in the mesh's frame, of a mesh that is scaled along other axes.
+    """Return the bounding box, in the mesh's frame, of a mesh scaled along the axes of its object.
 
     Args:
-        box: the box of the mesh as it is in its file.
+        box: the bounding box of the mesh without scale.
         object_from_mesh: the rotation of the mesh in the object, (3, 3).
         scale: the scale along the axes of the object [1].
     """
@@ -180,11 +182,11 @@ def scaled_box(
 
 
 def find_contact_body(name: str, scene: SceneSpec) -> tuple[Literal["vehicle", "object"], int]:
-    """Find kind and number of the vehicle or object of that name, which can have contacts.
+    """Return the kind and the number of the vehicle or object with this name.
 
     Raises:
-        UnknownName: there is none.
-        UwsimError: it cannot have contacts.
+        UnknownName: there is no such vehicle or object.
+        UwsimError: the object cannot have contacts.
     """
     vehicles = [vehicle.name for vehicle in scene.vehicles]
     objects = [spec.name for spec in scene.objects]

@@ -1,4 +1,4 @@
-"""UDP packets from outside, received between steps."""
+"""UDP packets from external programs, received between steps."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from ..errors import UwsimError
 MAX_BYTES = 2048
 """The maximum size of a packet; a longer one is cut."""
 MAX_PACKETS = 1000
-"""The number of packets read from a port in one step; the others wait for the next."""
+"""The maximum number of packets read from a port at once; later packets wait for the next call."""
 
 
 class Datagrams:
-    """The UDP ports of a scene, which are closed at the end.
+    """The open UDP ports of a scene.
 
     Args:
-        address: the address of this computer at which packets are received; None: no ports.
+        address: the address of this computer at which packets are received; None: open no ports.
     """
 
     def __init__(self, address: str | None) -> None:
@@ -25,7 +25,9 @@ class Datagrams:
         self._sockets: list[socket.socket] = []
 
     def open(self, port: int) -> Callable[[], Sequence[bytes]] | None:
-        """Return a function that returns the packets received since its last call, or None.
+        """Open a port; return a function that returns the packets received since its last call.
+
+        The result is None if no ports are opened.
 
         Raises:
             UwsimError: the port is not free, or the address is not one of this computer.
@@ -60,6 +62,6 @@ def _receive_packets(port_socket: socket.socket) -> list[bytes]:
             packets.append(port_socket.recv(MAX_BYTES))
         except BlockingIOError:
             break
-        except OSError:  # closed, or one that was refused elsewhere
+        except OSError:  # the port is closed, or the operating system reports an error
             break
     return packets

@@ -1,4 +1,4 @@
-"""Faults of a sensor on its way to a topic: the same for every sensor and message."""
+"""Faults of sensors, applied to their messages before they are published."""
 
 from __future__ import annotations
 
@@ -23,34 +23,34 @@ Publish = Callable[[Any], None]
 
 @dataclass(slots=True)
 class SensorFaultState(Record):
-    """The changing values of a fault on one topic."""
+    """The state of a fault on one topic."""
 
     times: FaultState
-    """The times at which the fault is present."""
+    """The state of the times at which the fault is present."""
     noise: np.random.Generator
-    """The generator of the outliers."""
+    """The random generator of the outliers."""
     frozen_message: Any = None
-    """The message that a freeze repeats; None: there is none."""
+    """The message that a ``freeze`` fault repeats; None: none is frozen."""
     delayed_messages: deque[tuple[float, Any]] = field(default_factory=deque)
     """The delayed messages, each with the time at which it is due [s]."""
 
 
 @dataclass(slots=True)
 class FaultyTopicState(Record):
-    """The changing values of a topic with faults."""
+    """The state of a topic with faults."""
 
     faults: list[SensorFaultState]
-    """The changing values of each fault."""
+    """The state of each fault."""
 
 
 class SensorFault:
     """One fault of a sensor, on one topic.
 
     Args:
-        spec: the fault.
+        spec: the spec of the fault.
         type_: the type of the messages.
-        times_rng: the generator of the times: the same on each topic of the sensor.
-        noise: the generator of the outliers.
+        times_rng: the random generator of the fault's times, equal on all topics of the sensor.
+        noise: the random generator of the outliers.
     """
 
     def __init__(
@@ -64,11 +64,11 @@ class SensorFault:
         self.times = FaultTimes(spec, times_rng)
         """The times at which the fault is present."""
         self.state = SensorFaultState(self.times.state, noise)
-        """The changing values."""
+        """The state of the fault."""
         self._fields = tuple(measured_fields(type_(), spec.field)) if _disturbs_values(spec) else ()
 
     def apply(self, message: Any, time: float) -> list[Any]:
-        """Return the messages that replace one at ``time`` [s]."""
+        """Return the messages to publish in place of ``message`` at ``time`` [s]."""
         is_present, kind = self.times.acts(time), self._spec.kind
         if kind == "latency":
             return self._delay(message, time, is_present)
@@ -83,7 +83,7 @@ class SensorFault:
         return [self._disturb(message)]
 
     def _delay(self, message: Any, time: float, is_present: bool) -> list[Any]:
-        """Return the delayed messages that are due; at the end of the fault all of them."""
+        """Add a message; return the delayed messages that are due, all if the fault has ended."""
         self.state.delayed_messages.append(
             (time + self._spec.delay if is_present else time, message)
         )
@@ -95,7 +95,7 @@ class SensorFault:
         return messages
 
     def _disturb(self, message: Any) -> Any:
-        """Return the message with a bias or outliers."""
+        """Return a copy of the message with a bias or outliers."""
         disturbed_copy = copy.deepcopy(message)
         for path in self._fields:
             owner = disturbed_copy
@@ -114,17 +114,17 @@ class SensorFault:
 
 
 class FaultyTopic:
-    """A topic of a sensor with faults: a message passes them one after the other."""
+    """A topic of a sensor with faults, which change each message one after the other."""
 
     def __init__(
         self, faults: Sequence[SensorFault], publish: Publish, clock: Callable[[], float]
     ) -> None:
         self._faults, self._publish, self._clock = list(faults), publish, clock
         self.state = FaultyTopicState([fault.state for fault in faults])
-        """The changing values."""
+        """The state of the topic."""
 
     def publish(self, message: object) -> None:
-        """Publish the messages that the faults make of one."""
+        """Apply the faults to a message and publish the result: none, one or several messages."""
         time, messages = self._clock(), [message]
         for fault in self._faults:
             messages = [
@@ -141,7 +141,7 @@ def make_faults(
     type_: type,
     stream: Callable[[str], np.random.Generator],
 ) -> list[SensorFault]:
-    """Return the faults of a sensor's messages of a type on a topic."""
+    """Return the faults of a sensor for one of its topics, with messages of ``type_``."""
     faults = []
     for vehicle in scene.vehicles:
         for number, spec in enumerate(vehicle.parts_of(FaultSpec)):

@@ -1,4 +1,4 @@
-"""The forces of a scene: bound to it, and passed to the engine in each step."""
+"""The forces of a scene: their binding, and the wrenches for the engine in each step."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ def bind_forces(scene: PhysicalScene) -> tuple[Force, ...]:
     """Bind the forces of a scene.
 
     Raises:
-        SceneError: a force names a missing body; with its line.
+        SceneError: a force names a missing body; the error has the line of the force in the file.
     """
     if not scene.model.scene.forces:
         return ()
@@ -46,8 +46,9 @@ def engine_wrenches(
     """Yield the wrenches of a step that begins at ``time`` [s], for `Engine.apply_wrenches`.
 
     Raises:
-        SimulationFailed: a force raises, or returns no pairs of an attachment and six numbers.
-        UwsimError: a force acts on an object that is no attachment of the scene.
+        SimulationFailed: a force raises an exception, or returns something else than pairs of an
+            attachment and six numbers.
+        UwsimError: a force acts on an object that is not an attachment of the scene.
     """
     for spec, force in forces:
         return_value: object = None
@@ -81,7 +82,7 @@ def engine_wrenches(
 def _make_failure(
     spec: ForceSpec, return_value: object, error: BaseException, time: float
 ) -> SimulationFailed:
-    """Return the error for an exception of a force, or for a return value that is no pairs."""
+    """Return the error for an exception of a force, or for a return value of another type."""
     if _is_inside_force(error):
         return SimulationFailed(
             f"{_describe_force(spec)} raised {type_and_text(error)} at {time:.6g} s."
@@ -93,11 +94,11 @@ def _make_failure(
 
 
 def _is_inside_force(error: BaseException) -> bool:
-    """Return whether code that `engine_wrenches` has called raised an error, not its own lines."""
+    """Return whether code called by `engine_wrenches` raised an error, not its own lines."""
     return error.__traceback__ is not None and error.__traceback__.tb_next is not None
 
 
 def _describe_force(spec: ForceSpec) -> str:
-    """Return the name of a force and its element, or its class where it has none."""
+    """Return the name of a force with its element, or with its class if it has no element."""
     elements = [f"<u:{element}>" for element, kind in FORCES.items() if type(spec) is kind]
     return f"The force {spec.name!r} ({elements[0] if elements else type(spec).__name__})"

@@ -23,13 +23,13 @@ def scene_frames(
     *,
     with_objects: bool,
 ) -> list[Frame]:
-    """List the frames of vehicles, their links and sensors, and those of objects."""
+    """List the frames of vehicles, links and sensors and, ``with_objects``, those of objects."""
     frames = [*_vehicle_frames(model, engine, vehicles)]
     return [*frames, *_object_frames(model.scene, bodies)] if with_objects else frames
 
 
 def _vehicle_frames(model: SceneModel, engine: Engine, vehicles: SceneVehicles) -> Iterator[Frame]:
-    """Yield every vehicle with its links and sensors; a sensor on a missing link is left out."""
+    """Yield the frames of vehicles, links and sensors, without sensors on missing links."""
     scene = model.scene
     localized_from_world = scene.world_from_localized.inverse()
     for index, (spec, vehicle) in enumerate(zip(scene.vehicles, vehicles, strict=True)):
@@ -51,7 +51,7 @@ def _vehicle_frames(model: SceneModel, engine: Engine, vehicles: SceneVehicles) 
 
 
 def _object_frames(scene: SceneSpec, bodies: SceneBodies) -> Iterator[Frame]:
-    """Yield the mesh frames of all objects in L; of several of one name the first."""
+    """Yield the mesh frames of all objects in L; the first of several objects with one name."""
     localized_from_world = scene.world_from_localized.inverse()
     for name in dict.fromkeys(spec.name for spec in scene.objects):
         body = bodies.find(name)

@@ -1,4 +1,4 @@
-"""Ghosts: vehicles that follow recorded odometry and joint states instead of their dynamics."""
+"""Ghosts: vehicles whose poses and joints follow recorded messages instead of their dynamics."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 
 from ..base.geometry import Array, Pose
 from ..messages import JointState, Odometry
-from ..physics.kinematics.placed_motion import Source
+from ..physics.kinematics.prescribed_motion import Source
 from ..topics.arm_to_ros_joint_state import ArmToROSJointStateSpec
 from ..topics.pat_to_ros_odom import PATToROSOdomSpec
 from ..topics.ros_pose_to_pat import pose_in_localized
@@ -18,23 +18,23 @@ from .vehicles import SceneVehicle
 
 
 class Ghost:
-    """A vehicle at recorded poses."""
+    """A vehicle that follows recorded poses and joint positions."""
 
     def __init__(self, vehicle: SceneVehicle, world_from_localized: Pose) -> None:
         self._vehicle, self._world_from_localized = vehicle, world_from_localized
-        vehicle.start_placed_motion()
+        vehicle.start_prescribed_motion()
         self._pose: Pose | None = None
         self._joints: Array | None = None  # the joint vector (n,) [rad or m]
-        self._recorded_sources = frozenset[Source]()  # those recorded so far
+        self._recorded_sources = frozenset[Source]()  # the quantities with a message so far
 
     def receive_odometry(self, message: Odometry) -> None:
-        """Store a pose in L."""
+        """Store the recorded pose, which the message has in L."""
         pose = pose_in_localized(message.pose.pose)
         if pose is not None:
             self._pose = self._world_from_localized @ pose
 
     def receive_joints(self, message: JointState) -> None:
-        """Store the finite positions of joints; the others keep theirs."""
+        """Store the finite positions of joints in a message; other joints keep their positions."""
         last_joints = self._vehicle.joints if self._joints is None else self._joints
         pairs = zip(message.name, message.position.tolist(), strict=False)
         positions = {name: value for name, value in pairs if math.isfinite(value)}
@@ -42,7 +42,7 @@ class Ghost:
         self._joints = np.array([positions.get(name, value) for name, value in pairs_before])
 
     def place(self) -> None:
-        """Set the pose of the vehicle; called in every step."""
+        """Set the vehicle to the stored pose and joint positions; called in every step."""
         values: dict[Source, object] = {"base": self._pose, "joints": self._joints}
         sources = frozenset(source for source, value in values.items() if value is not None)
         self._vehicle.set_configuration(self._pose, self._joints, sources - self._recorded_sources)
@@ -50,14 +50,15 @@ class Ghost:
 
 
 def follow_recorded(simulation: Simulation, recorded_topics: Mapping[str, str]) -> tuple[str, ...]:
-    """Make the vehicles follow their recorded topics.
+    """Make the vehicles follow recorded odometry and joint states.
 
     Args:
         simulation: the simulation, whose scene publishes odometry (``PATToROSOdom``).
-        recorded_topics: topic, with a leading slash -> topic on the bus with its recording.
+        recorded_topics: the topic on the bus that carries the recording of each topic, by the name
+            of the recorded topic with a leading slash.
 
     Returns:
-        The names of the vehicles that follow.
+        The names of the vehicles that follow a recording.
     """
     world, ghosts = simulation.world, dict[str, Ghost]()
     for spec in world.model.scene.ros_interfaces:
@@ -80,7 +81,7 @@ def follow_recorded(simulation: Simulation, recorded_topics: Mapping[str, str]) 
 
 
 def commanded_topics(simulation: Simulation, vehicles: tuple[str, ...]) -> frozenset[str]:
-    """Return the topics, with a leading slash, by which these vehicles take commands."""
+    """Return the topics on which these vehicles receive commands, with a leading slash."""
     return frozenset(
         f"/{getattr(spec, field).strip('/')}"
         for spec in simulation.world.model.scene.ros_interfaces
@@ -90,7 +91,7 @@ def commanded_topics(simulation: Simulation, vehicles: tuple[str, ...]) -> froze
 
 
 def odometry_vehicles(simulation: Simulation, recorded_topics: frozenset[str]) -> tuple[str, ...]:
-    """Return the vehicles whose odometry is among recorded topics (with a leading slash)."""
+    """Return the vehicles whose odometry is among topics with a leading slash."""
     return tuple(
         spec.vehicle_name
         for spec in simulation.world.model.scene.ros_interfaces

@@ -1,4 +1,4 @@
-"""The live parts of one running scene, bound and connected."""
+"""A running scene: its parts, which are bound to each other and connected to the bus."""
 
 from __future__ import annotations
 
@@ -35,15 +35,15 @@ TRACE_TOPIC = "/network/trace"
 
 
 class LiveScene:
-    """A running scene: its engine, water, vehicles, sensors, devices, topics, and its views.
+    """The parts of a running scene: engine, water, vehicles, sensors, devices, topics, views.
 
     Args:
         model: the compiled scene.
-        udp_address: the address of this computer at which ``<fdm>`` receives packets, or None.
+        udp_address: the address of this computer at which ``<fdm>`` receives packets; None: none.
         stream_prefix: the prefix of the names of random streams.
-        runs_code: run Python code that the scene names; without it that water is still.
-        pool: the pool of renderers; without one the scene has a renderer of its own.
-        is_blind: True for black images on topics, which need no renderer.
+        runs_code: run Python code that the scene names; False: a current that needs it is still.
+        pool: the pool of renderers; None: the scene has a renderer of its own.
+        is_blind: True: images on topics are black, and need no renderer.
     """
 
     def __init__(
@@ -64,13 +64,13 @@ class LiveScene:
         self.schedule = scene.schedule
         """The timers, and the commands of the next step."""
         self.engine = scene.engine
-        """The engine, which has the poses and moves the bodies."""
+        """The engine, which stores the poses and moves the bodies."""
         self.below_ground = scene.below_ground
         """The check for bodies that have passed through the ground."""
         self.vehicles = scene.vehicles
         """The vehicles, by their number in the file or by name."""
         self.scenery = scene.scenery
-        """The visual side of the scene."""
+        """The rendering of the scene."""
         self.rays = scene.rays
         """The ray casting against the scene."""
         self.bodies = scene.bodies
@@ -80,37 +80,37 @@ class LiveScene:
         self.water = scene.water
         """The motion of the water."""
         self.stream = scene.stream
-        """The function that returns the random generator of a name."""
+        """The function that returns the random generator of a stream's name."""
         self.sensors = SceneSensors(model, self.vehicles, SensorView(scene, is_blind=is_blind))
-        """The sensors, by element and name."""
+        """The sensors, which are found by element and name."""
         self.network = _make_network(scene)
         """The packets between communication devices."""
         self._datagrams = Datagrams(udp_address)
         world = DeviceView(scene, self.network, self._datagrams)
         self.devices, patterns = bind_devices(scene, self.sensors, world)
-        """The devices, which act in the step, in the file's order."""
+        """The devices, which act in each step, in the file's order."""
         self.files = {**model.hydrodynamics_files, **self.water.files, **patterns}
-        """The files of hydrodynamics, of currents, and of a projector's pattern, by name."""
+        """The paths of hydrodynamics, current and pattern files, by file name."""
         self.forces = bind_forces(scene)
         """The forces on bodies besides those of the water, in the file's order."""
         self.markers = _make_markers(model, lambda: self.time)
         """The markers that programs have spawned."""
         self.bus.services.serve(SERVICE, SpawnMarker, self.markers.answer)
         self.trajectories = tuple(self._bind_trajectories())
-        """The trajectories that ``showTrajectory`` requests."""
+        """The trajectories of ``<showTrajectory>`` elements."""
         topics = TopicView(scene, self.sensors, self.markers, is_blind=is_blind)
         self.interfaces = tuple(_bind_interfaces(model.scene, topics))
-        """The interfaces, which publish and subscribe, in the file's order."""
+        """The elements of ``<rosInterfaces>``, which publish and subscribe, in the file's order."""
         self.images = {
             interface.image_topic: interface
             for interface in self.interfaces
             if isinstance(interface, ImagePublisher)
         }
-        """The publishers of images, by topic."""
+        """The publishers of camera images, by topic."""
         self.measure_view = MeasureView(scene, self.sensors)
-        """The scene as measures and triggers see it."""
+        """The view of the scene for measures and triggers."""
         self.stage_view = StageView(scene, self.sensors, self.measure_view)
-        """The scene as scene updaters see it."""
+        """The view of the scene for scene updaters."""
 
     def _bind_trajectories(self) -> Iterator[Trajectory]:
         scene_spec = self.model.scene
@@ -135,7 +135,7 @@ class LiveScene:
 
 def _bind_interfaces(spec: SceneSpec, world: TopicView) -> Iterator[Interface]:
     for interface in spec.ros_interfaces:
-        # one that names a missing part is left out, as in the original
+        # an interface that names a missing part is left out, as in the original UWSim
         with suppress(UnknownName):
             if interface.is_simulated():
                 yield cast("SimulatedInterface", interface).bind(world)
@@ -147,7 +147,7 @@ def _make_markers(model: SceneModel, clock: Callable[[], float]) -> Markers:
 
 
 def _make_network(scene: PhysicalScene) -> Network:
-    """Return the network of a scene; of several channels of one name it has the first."""
+    """Return the network of a scene; the first of several channels with one name is used."""
     spec = scene.model.scene
     channels: dict[str, Channel] = {}
     for custom_channel in spec.custom_comms_channels:

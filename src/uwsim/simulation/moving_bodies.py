@@ -1,4 +1,4 @@
-"""Frames on the links of vehicles, and their motion."""
+"""Frames that are fixed to links of vehicles, and the motion of these frames."""
 
 from __future__ import annotations
 
@@ -15,40 +15,40 @@ from ..base.sampling import Sampler, gather_sampler, number_addresses
 from ..physics.engine import Engine
 from ..physics.kinematics import link_kernel
 from ..physics.kinematics.link_motion import LinkMotion
-from ..physics.kinematics.placed_motion import PlacedMotion
+from ..physics.kinematics.prescribed_motion import PrescribedMotion
 from ..physics.poses import Mount, Poses
 from ..world import BodyMotion, Box
 from ..world.mounts import MOUNT
 
 
 class MountedBody:
-    """A frame on a link of a vehicle (`uwsim.world.Mount`).
+    """A frame that is fixed to a link of a vehicle (`uwsim.world.Mount`).
 
     Args:
-        name: the name of the link.
-        poses: the poses of the engine.
-        mount: the frame, as a record of ``poses``.
+        name: the name ``vehicle/link``.
+        poses: the poses of the engine's bodies.
+        mount: the record of the frame, from `Poses.mount`.
     """
 
     box: Box | None = None
-    """The bounding box: None, as it is a frame alone."""
+    """The bounding box: None, as a frame has no mesh."""
 
     def __init__(self, name: str, poses: Poses, mount: Mount) -> None:
         self._name, self._poses, self._mount = name, poses, mount
 
     @property
     def name(self) -> str:
-        """The names of the vehicle and the link."""
+        """The name ``vehicle/link``."""
         return self._name
 
     @property
     def world_from_body(self) -> Pose:
-        """The present pose of the frame."""
+        """The present pose of the frame in W."""
         return self._poses.mount_pose(self._mount)
 
     @cached_property
     def functions(self) -> npt.NDArray[np.void]:
-        """The functions for compiled code, a record of `uwsim.world.mounts.MOUNT`, (1,)."""
+        """The addresses of the functions for compiled code, a record of `MOUNT`, (1,)."""
         functions = np.zeros(1, MOUNT)
         functions["place"] = function_address(link_kernel.write_mount_frame)
         functions["move"] = function_address(link_kernel.write_mount_motion)
@@ -57,73 +57,73 @@ class MountedBody:
 
     @property
     def is_compiled(self) -> bool:
-        """True if these functions follow the frame in compiled steps without `prepare`."""
+        """True if the functions stay valid during compiled steps without a call of `prepare`."""
         return True
 
     def prepare(self) -> None:
-        """Update the values that these functions read."""
+        """Update the values that `functions` read."""
         self._poses.refresh()
 
 
 @dataclass(frozen=True, kw_only=True)
 class MovingLink:
-    """The motion of a link."""
+    """A link of a vehicle, and the objects from which its motion is read."""
 
     index: int
-    """The number of its vehicle."""
+    """The number of the vehicle in the scene."""
     body: int
-    """The number of the link in the engine."""
+    """The engine's number of the body of the link."""
     motion: LinkMotion
-    """The motion of links."""
-    placed_motion: Callable[[], PlacedMotion | None]
-    """The motion of its vehicle, if poses are set; None where the engine moves it."""
+    """The motion of points on links."""
+    prescribed_motion: Callable[[], PrescribedMotion | None]
+    """A function that returns the prescribed motion of the vehicle; None if forces move it."""
     step: Callable[[], int]
-    """The number of steps that the simulation has taken."""
+    """A function that returns the number of steps taken so far."""
 
 
 class MovingBody(MountedBody):
-    """A frame on a link of a vehicle whose motion is read (`uwsim.world.MovingBody`).
+    """A frame that is fixed to a link, with its motion (`uwsim.world.MovingBody`).
 
     Args:
-        name: the name of the link.
-        poses: the poses of the engine.
-        mount: the frame, as a record of ``poses``.
-        link: the motion of its link.
+        name: the name ``vehicle/link``.
+        poses: the poses of the engine's bodies.
+        mount: the record of the frame, from `Poses.mount`.
+        link: the link, and the sources of its motion.
     """
 
     def __init__(self, name: str, poses: Poses, mount: Mount, link: MovingLink) -> None:
         super().__init__(name, poses, mount)
         self._link = link
-        self._is_placed: bool | None = None
+        self._is_prescribed: bool | None = None
 
     @property
     def is_compiled(self) -> bool:
-        """True if the functions follow the frame in compiled steps without `prepare`."""
-        return self._select_joints() is None
+        """True if the functions stay valid during compiled steps without a call of `prepare`."""
+        return self._select_motion_source() is None
 
     def prepare(self) -> None:
-        """Update the values that the functions read."""
+        """Update the values that `functions` read."""
         self._poses.refresh()
-        if (placed_motion := self._select_joints()) is not None:
-            placed_motion.update(self._link.step())
+        if (prescribed_motion := self._select_motion_source()) is not None:
+            prescribed_motion.update(self._link.step())
 
-    def _select_joints(self) -> PlacedMotion | None:
-        """Make the functions read the joints of the frame; return the placed motion, if any."""
+    def _select_motion_source(self) -> PrescribedMotion | None:
+        """Choose the motion that `functions` read; return the prescribed motion, if any."""
         link = self._link
-        placed_motion = link.placed_motion()
-        if (placed_motion is not None) is not self._is_placed:
-            self._is_placed = placed_motion is not None
-            chain = link.motion.chain(link.body, link.index if self._is_placed else None)
+        prescribed_motion = link.prescribed_motion()
+        if (prescribed_motion is not None) is not self._is_prescribed:
+            self._is_prescribed = prescribed_motion is not None
+            chain = link.motion.chain(link.body, link.index if self._is_prescribed else None)
             self._mount["chain"] = chain
-        return placed_motion
+        return prescribed_motion
 
     def motion(self) -> BodyMotion:
         """Return the present motion of the frame."""
         link, point = self._link, self.world_from_body.position
-        if (placed_motion := link.placed_motion()) is not None:
-            placed_motion.update(link.step())
+        if (prescribed_motion := link.prescribed_motion()) is not None:
+            prescribed_motion.update(link.step())
         return link.motion.point_motion(
-            link.body, point, vehicle=None if placed_motion is None else link.index
+            link.body, point, vehicle=None if prescribed_motion is None else link.index
         )
 
 
@@ -131,13 +131,13 @@ class CompiledVehicle:
     """The samplers of a vehicle for compiled code (`uwsim.world.CompiledVehicle`).
 
     Args:
-        name: the name of its base.
-        root: the link that is its base.
-        joints: the names of the joints of its joint vector.
+        name: the name ``vehicle/root link``.
+        root: the name of the root link, whose frame is the base frame.
+        joints: the names of the joints in the joint vector.
         index: the number of the vehicle in the scene.
-        engine: the engine, which has its pose.
-        placed_twist: returns the velocity of its base in W [m/s] and the angular velocity in its
-            axes [rad/s], (6,), if its poses are set; None where the engine moves it.
+        engine: the engine, which stores the pose of the vehicle.
+        prescribed_twist: returns the twist of the base if the motion is prescribed: linear in W
+            [m/s], angular in the axes of the base [rad/s], (6,); None if forces move the vehicle.
     """
 
     def __init__(
@@ -147,49 +147,49 @@ class CompiledVehicle:
         joints: Sequence[str],
         index: int,
         engine: Engine,
-        placed_twist: Callable[[], Array | None],
+        prescribed_twist: Callable[[], Array | None],
     ) -> None:
         self._name, self._root, self._index, self._engine = name, root, index, engine
-        self._joints, self._placed_twist = joints, placed_twist
+        self._joints, self._prescribed_twist = joints, prescribed_twist
         self._sampled_twist = np.zeros(6)
         self._twist_addresses = np.zeros(0, np.int64)  # of the engine's twist
         self._addresses = self._twist_addresses  # of the pose and the twist
 
     def base_mount(self) -> MountedBody:
-        """Return the frame of its base."""
+        """Return the base frame."""
         poses = self._engine.poses
-        record = poses.mount(self._index, self._root, Pose.identity())
-        return MountedBody(self._name, poses, record)
+        mount = poses.mount(self._index, self._root, Pose.identity())
+        return MountedBody(self._name, poses, mount)
 
     def base_sampler(self) -> Sampler:
-        """Return a sampler of the base, 18 numbers; see `uwsim.world.CompiledVehicle`."""
+        """Return a sampler of the pose and twist of the base; see `uwsim.world.CompiledVehicle`."""
         pose_addresses, twist_addresses = self._engine.link_motion.base_addresses(self._index)
         self._twist_addresses = twist_addresses
         self._addresses = np.concatenate([pose_addresses, twist_addresses])
         return gather_sampler(
-            self._addresses, prepare=self._prepare, is_alone=lambda _: self._select_twist()
+            self._addresses, prepare=self._prepare, is_alone=lambda _: self._select_twist_source()
         )
 
     def _prepare(self, time: float) -> None:
-        """Refresh the pose of the base, and its twist if the engine does not move it."""
+        """Update the pose of the base, and its twist if its motion is prescribed."""
         self._engine.poses.refresh()
-        if not self._select_twist():
-            twist = self._placed_twist()
+        if not self._select_twist_source():
+            twist = self._prescribed_twist()
             assert twist is not None
             self._sampled_twist[:] = twist
 
-    def _select_twist(self) -> bool:
-        """Make samples read the engine's twist or the placed one; return True for the engine's."""
-        is_free = self._placed_twist() is None
+    def _select_twist_source(self) -> bool:
+        """Choose the twist of the engine or the prescribed twist; return True for the engine."""
+        is_from_engine = self._prescribed_twist() is None
         self._addresses[-len(self._sampled_twist) :] = (
-            self._twist_addresses if is_free else number_addresses(self._sampled_twist)
+            self._twist_addresses if is_from_engine else number_addresses(self._sampled_twist)
         )
-        return is_free
+        return is_from_engine
 
     def joint_sampler(self) -> Sampler:
-        """Return a sampler of the joints; see `uwsim.world.CompiledVehicle`."""
+        """Return a sampler of the joint positions; see `uwsim.world.CompiledVehicle`."""
         engine = self._engine
         addresses = engine.link_motion.joint_addresses(
-            self._index, self._joints, with_motion=engine.is_simulated(self._index)
+            self._index, self._joints, with_motion=engine.has_dynamics(self._index)
         )
         return gather_sampler(addresses, prepare=prepare_nothing, is_alone=lambda _: True)

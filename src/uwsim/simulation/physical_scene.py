@@ -1,4 +1,4 @@
-"""The parts of a scene that devices and sensors build on: bodies, water, light and time."""
+"""The physical parts of a running scene, on which sensors and devices are bound."""
 
 from __future__ import annotations
 
@@ -21,13 +21,15 @@ from .water.water_motion import water_motion
 
 
 class PhysicalScene:
-    """The parts of a scene from which its views are made, with the clock and the topics.
+    """The engine, bodies, water, scenery, contacts, clock and topics of a running scene.
+
+    `LiveScene` adds sensors, devices and interfaces to these parts.
 
     Args:
         model: the compiled scene.
         stream_prefix: the prefix of the names of random streams.
-        runs_code: run Python code that the scene names; without it that water is still.
-        pool: the pool of renderers; without one the scene has a renderer of its own.
+        runs_code: run Python code that the scene names; False: a current that needs it is still.
+        pool: the pool of renderers; None: the scene has a renderer of its own.
     """
 
     def __init__(
@@ -46,7 +48,7 @@ class PhysicalScene:
         self.schedule = Schedule(self.bus, model.timestep)
         """The timers, and the commands of the next step."""
         self.engine = engine = Engine(model)
-        """The engine, which has the poses and moves the bodies."""
+        """The engine, which stores the poses and moves the bodies."""
         if model.dynamics or model.scene.has_uwsim_physics:
             lift_from_ground(model, engine)
         self.below_ground = BelowGround(model, engine)
@@ -54,7 +56,7 @@ class PhysicalScene:
         self.vehicles = SceneVehicles(model, engine, self.bus)
         """The vehicles, by their number in the file or by name."""
         self.scenery = Scenery(model, engine, pool)
-        """The visual side of the scene."""
+        """The rendering of the scene."""
         self.rays = SceneRays(model, engine, self.scenery.heaps)
         """The ray casting against the scene."""
         self.bodies = SceneBodies(model, engine)
@@ -65,5 +67,5 @@ class PhysicalScene:
         """The motion of the water."""
 
     def stream(self, name: str) -> np.random.Generator:
-        """Return the random generator of that name."""
+        """Return the random generator of a stream's name."""
         return rng.stream(self.model.seed, self._prefix + name)

@@ -1,4 +1,4 @@
-"""The devices of a scene, bound in the file's order, and the light of lamps and projectors."""
+"""The devices of a scene: they are bound in the file's order, then lamps and projectors are set."""
 
 from __future__ import annotations
 
@@ -23,18 +23,18 @@ from .vehicles import SceneVehicle
 def bind_devices(
     scene: PhysicalScene, sensors: SceneSensors, world: DeviceWorld
 ) -> tuple[tuple[Device, ...], dict[str, Path]]:
-    """Bind the devices of a scene, of which some are sensors or lamps.
+    """Bind the devices of a scene; some of them are also sensors or lamps.
 
     Args:
         scene: the scene.
-        sensors: the sensors, to which devices that measure are added.
-        world: the scene as devices see it.
+        sensors: the sensors of the scene; devices that measure are added to them.
+        world: the view of the scene for devices.
 
     Returns:
-        The devices, and the files that they read, by name.
+        The devices, and the paths of the files that they read, by file name.
 
     Raises:
-        SceneError: a device names a missing part; with its line.
+        SceneError: a device names a missing part; the error has the line of the device in the file.
     """
     devices: list[Device] = []
     visible_devices: list[Device] = []
@@ -67,9 +67,9 @@ def _bind(
 
 
 def _set_lights(scene: PhysicalScene, devices: Sequence[Device]) -> dict[str, Path]:
-    """Turn on lamps, signal lamps and the last projector; return the file of its pattern.
+    """Pass lamps, signal lamps and the last projector to the renderer; return the pattern file.
 
-    In a scene of the original UWSim a projector without its image emits no light.
+    In a scene of the original UWSim, a projector whose image is missing emits no light.
     """
     lamps = [device for device in devices if isinstance(device, MountedLamp)]
     led_arrays = [device for device in devices if isinstance(device, LedArray)]

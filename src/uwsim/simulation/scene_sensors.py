@@ -19,18 +19,23 @@ from .world_views.sensor_view import SensorView
 class SceneSensors:
     """The sensors of a scene, and its devices that measure.
 
-    If two share element and name, the last is found.
+    Of several sensors with the same element and name, the last is found.
+
+    Args:
+        model: the compiled scene.
+        vehicles: the vehicles of the scene.
+        world: the view of the scene for sensors.
     """
 
     def __init__(self, model: SceneModel, vehicles: SceneVehicles, world: SensorView) -> None:
         self._spec, self._world = model.scene, world
         self._sensors: dict[tuple[str, str], Sensor] = {}
         for index, element, sensor in model.sensor_specs:
-            # a sensor on a missing link is left out, as in the original
+            # a sensor on a missing link is left out, as in the original UWSim
             with suppress(UnknownName):
                 self._sensors[element, sensor.name] = sensor.bind(world, vehicles[index])
         self.bound_sensors: tuple[Sensor, ...] = tuple(self._sensors.values())
-        """The sensors without those that are devices, in the file's order."""
+        """The sensors, without devices that measure, in the file's order."""
         self._cameras = {
             name: sensor
             for (_, name), sensor in self._sensors.items()
@@ -39,20 +44,20 @@ class SceneSensors:
         self.cameras = tuple(self._cameras)
         """The names of the virtual cameras, in the file's order."""
         self.faulty_topics: list[FaultyTopic] = []
-        """The topics of sensors with faults."""
+        """The topics whose messages faults change."""
 
     def add(self, element: str, name: str, device: Sensor) -> None:
         """Add a device that measures."""
         self._sensors[element, name] = device
 
     def camera(self, name: str) -> VirtualCamera:
-        """Find a virtual camera; UnknownName if there is none."""
+        """Return the virtual camera with a name; raise UnknownName if there is none."""
         if name not in self._cameras:
             raise UnknownName("virtual camera", name, self._cameras)
         return self._cameras[name]
 
     def sensor(self, name: str, elements: tuple[str, ...]) -> Sensor:
-        """Find a sensor, or a device that measures, of one of these elements; else UnknownName."""
+        """Return a sensor, or measuring device, of one of these elements; or raise UnknownName."""
         sensors = {
             sensor_name: sensor
             for (element, sensor_name), sensor in self._sensors.items()
@@ -68,7 +73,7 @@ class SceneSensors:
         return any(part.sensor == sensor for part in parts)
 
     def publisher(self, sensor: str, topic: str, type_: type) -> Callable[[Any], None]:
-        """Return the function that publishes messages of a sensor on a topic, with its faults."""
+        """Return the function that applies the faults of a sensor and publishes its messages."""
         world = self._world
         publish: Callable[[Any], None] = world.bus.publisher(topic, type_)
         faults = make_faults(self._spec, sensor, topic, type_, world.stream)

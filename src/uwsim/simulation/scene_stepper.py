@@ -30,16 +30,16 @@ class SceneStepper:
     Args:
         world: the live parts of the scene.
         nodes: the attached algorithms; others may be added.
-        watchers: called at the end of every step; others may be added.
+        step_callbacks: called at the end of every step; others may be added.
     """
 
     def __init__(
         self,
         world: LiveScene,
         nodes: Sequence[InProcessNode],
-        watchers: Sequence[Callable[[], None]],
+        step_callbacks: Sequence[Callable[[], None]],
     ) -> None:
-        self._nodes, self._watchers = nodes, watchers
+        self._nodes, self._step_callbacks = nodes, step_callbacks
         self._bus, self._timestep = world.bus, world.model.timestep
         self._engine, self._water, self._schedule = world.engine, world.water, world.schedule
         self._devices, self._contacts = world.devices, world.contacts
@@ -47,9 +47,9 @@ class SceneStepper:
         self._network, self._below_ground = world.network, world.below_ground
         self._image_timers = [images.timer for images in world.images.values()]
         vehicles, engine = world.model.scene.vehicles, world.engine
-        kinematic_indices = [i for i in range(len(vehicles)) if not engine.is_simulated(i)]
-        self._kinematic = [world.vehicles[i] for i in kinematic_indices]
-        self._kinematic_names = tuple(vehicle.name for vehicle in self._kinematic)
+        kinematic_indices = [i for i in range(len(vehicles)) if not engine.has_dynamics(i)]
+        self._kinematic_vehicles = [world.vehicles[i] for i in kinematic_indices]
+        self._kinematic_names = tuple(vehicle.name for vehicle in self._kinematic_vehicles)
         self._submerged_names = tuple(
             "" if i is None else vehicles[i].name for i in engine.submerged_bodies.vehicles
         )
@@ -74,19 +74,25 @@ class SceneStepper:
         self._bus.state.step += 1
         self._schedule.apply_commands()
         self._step_devices()
-        needs_python = self._advects_in_python
+        needs_python = self._needs_drift_in_python
         if needs_python:
-            self._advect_kinematic()
-        n, samples_last = self._plan_run(n_max) if n_max > 1 and not needs_python else (1, False)
-        is_sampled = self._step_physics(n, samples_last=samples_last, with_drift=not needs_python)
+            self._drift_kinematic_vehicles()
+        n, samples_last = (
+            self._count_steps_without_python(n_max)
+            if n_max > 1 and not needs_python
+            else (1, False)
+        )
+        is_sampled = self._step_physics(
+            n, samples_last=samples_last, drifts_vehicles=not needs_python
+        )
         self.animate()
         self._contacts.update(self._step)
         self.publish(is_sampled=is_sampled)
-        for callback in self._watchers:
+        for callback in self._step_callbacks:
             callback()
         return n
 
-    def _plan_run(self, n_max: int) -> tuple[int, bool]:
+    def _count_steps_without_python(self, n_max: int) -> tuple[int, bool]:
         """Compute how many of the steps from this one on the forces may act alone.
 
         In the step after them a command, a sample, a timer or a device may be due. Observers,
@@ -97,7 +103,7 @@ class SceneStepper:
         delivery = self._bus.next_delivery
         if (
             delivery <= now
-            or self._watchers
+            or self._step_callbacks
             or self._forces
             or self._contacts.has_overlaps
             or not engine.is_dynamic
@@ -137,39 +143,43 @@ class SceneStepper:
             device.step(time)
 
     @property
-    def _advects_in_python(self) -> bool:
+    def _needs_drift_in_python(self) -> bool:
         """True if Python, not compiled code, has to move kinematic vehicles before each step."""
         engine, water = self._engine, self._water
-        if not self._kinematic or water.is_still:
+        if not self._kinematic_vehicles or water.is_still:
             return False
         return (
             not engine.is_dynamic
             or engine.places_bodies  # a held object is placed beside a vehicle that has drifted
             or bool(self._forces)
-            or any(v.state.placed_motion.part is not None for v in self._kinematic)  # recorded
-            or water.drift(self._kinematic_names, self._timestep, self._time) is None
+            or any(
+                v.state.prescribed_motion.part is not None for v in self._kinematic_vehicles
+            )  # recorded
+            or water.drift_function(self._kinematic_names, self._timestep, self._time) is None
         )
 
-    def _advect_kinematic(self) -> None:
+    def _drift_kinematic_vehicles(self) -> None:
         """Advect kinematic vehicles with the water, as the original UWSim does."""
         engine, water, timestep, now = self._engine, self._water, self._timestep, self._time
-        drift = water.drift(self._kinematic_names, timestep, now)
+        drift = water.drift_function(self._kinematic_names, timestep, now)
         if drift is not None:
             engine.drift(drift, now)
-        for vehicle in self._kinematic:
+        for vehicle in self._kinematic_vehicles:
             if drift is None:
-                world_from_base = water.advect(vehicle.world_from_base, now, timestep, vehicle.name)
+                world_from_base = water.drifted_pose(
+                    vehicle.world_from_base, now, timestep, vehicle.name
+                )
                 engine.place_vehicle(vehicle.index, world_from_base)
-            if (motion := vehicle.state.placed_motion.part) is not None:
+            if (motion := vehicle.state.prescribed_motion.part) is not None:
                 motion.record_drift(self._step)
 
-    def _step_physics(self, n: int, *, samples_last: bool, with_drift: bool) -> bool:
+    def _step_physics(self, n: int, *, samples_last: bool, drifts_vehicles: bool) -> bool:
         """Advance the physics by some steps, in the flow of the water at their times.
 
         Args:
             n: the number of steps.
             samples_last: take the samples that are due after the last step.
-            with_drift: True if kinematic vehicles drift in these steps.
+            drifts_vehicles: True if kinematic vehicles drift in these steps.
 
         Returns:
             True if samples were due after the last step, and were taken.
@@ -185,8 +195,10 @@ class SceneStepper:
         steps, positions = range(first_step, first_step + n), engine.submerged_bodies.positions
         motion = water.motion_during(positions, steps, self._timestep, self._submerged_names)
         drift = None
-        if with_drift and self._kinematic and motion is not None:
-            drift = water.drift(self._kinematic_names, self._timestep, steps[-1] * self._timestep)
+        if drifts_vehicles and self._kinematic_vehicles and motion is not None:
+            drift = water.drift_function(
+                self._kinematic_names, self._timestep, steps[-1] * self._timestep
+            )
         n_steps_before = engine.n_steps
         try:
             is_sampled = engine.step(

@@ -65,7 +65,7 @@ class Simulation:
             runs_code=runs_code,
             udp_address=udp_address,
         )
-        self._watchers: list[Callable[[], None]] = []
+        self._step_callbacks: list[Callable[[], None]] = []
         self._nodes: list[InProcessNode] = []
         self._open(model)
 
@@ -73,7 +73,7 @@ class Simulation:
         """Open a model at step 0 and read some topics."""
         self.world = world = self._make_scene(model)
         """The live parts of the scene."""
-        self._stepper = SceneStepper(world, self._nodes, self._watchers)
+        self._stepper = SceneStepper(world, self._nodes, self._step_callbacks)
         self._access = TopicAccess(self.bus, read_topics)
         self._state = self._make_state()
         self._stepper.animate()
@@ -173,7 +173,7 @@ class Simulation:
     @renamed_parameters(look="callback")
     def watch(self, callback: Callable[[], None]) -> None:
         """Call ``callback`` at the end of every step."""
-        self._watchers.append(callback)
+        self._step_callbacks.append(callback)
 
     @property
     def topics(self) -> dict[str, str]:
@@ -258,7 +258,7 @@ class Simulation:
             UwsimError: the vehicle is kinematic.
         """
         vehicle = self.world.vehicles.find(name)
-        if not self.world.engine.is_simulated(vehicle.index):
+        if not self.world.engine.has_dynamics(vehicle.index):
             raise UwsimError(
                 f"{name!r} is kinematic (no <u:dynamics>); only simulated vehicles have a velocity."
             )

@@ -17,7 +17,7 @@ from ..errors import UnknownName
 from ..model.scene_model import SceneModel
 from ..physics.actuation.vehicle_actuation import VehicleActuation
 from ..physics.engine import Engine
-from ..physics.kinematics.placed_motion import PlacedMotion, Source
+from ..physics.kinematics.prescribed_motion import PrescribedMotion, Source
 from ..physics.poses import Mount
 from ..scene.mounts import MountFrames
 from ..sensors.sensor import MountedPart
@@ -30,9 +30,9 @@ from .moving_bodies import CompiledVehicle, MountedBody, MovingBody, MovingLink
 class VehicleState(Record):
     """The changing values of a vehicle besides those of the engine."""
 
-    placed_motion: LazyPart[PlacedMotion]
+    prescribed_motion: LazyPart[PrescribedMotion]
     """The motion of a vehicle without dynamics that a sensor reads, or that follows a recording."""
-    centre: tuple[Sequence[float], Sequence[float]] | None = None
+    rest_pose: tuple[Sequence[float], Sequence[float]] | None = None
     """The undisplaced position [m] and angles [rad]; None: those of the file."""
     offsets: list[tuple[int, float]] = field(default_factory=list)
     """The displacers, each with its axis and displacement [m or rad]."""
@@ -62,13 +62,13 @@ class SceneVehicle:
         """The name of the vehicle in the scene."""
         self.joint_names = tuple(joint.name for joint in frames.robot.movable_joints)
         """The names of the joints of the joint vector."""
-        self._lazy_motion = LazyPart(lambda: engine.placed_motion(index))
-        self.state = VehicleState(self._lazy_motion)
+        self._lazy_prescribed_motion = LazyPart(lambda: engine.prescribed_motion(index))
+        self.state = VehicleState(self._lazy_prescribed_motion)
         """The changing values besides those of the engine."""
 
     @property
-    def _motion(self) -> PlacedMotion | None:
-        return self._lazy_motion.part
+    def _prescribed_motion(self) -> PrescribedMotion | None:
+        return self._lazy_prescribed_motion.part
 
     @property
     def autopilot(self) -> Autopilot | None:
@@ -106,9 +106,9 @@ class SceneVehicle:
     @property
     def velocity(self) -> Array:
         """The twist of the base over ground, in its axes, (6,) [m/s, rad/s]."""
-        if self._motion is None:
+        if self._prescribed_motion is None:
             return self._engine.vehicle_velocity(self.index)
-        twist = self._motion.twist(self._step())
+        twist = self._prescribed_motion.twist(self._step())
         return np.concatenate([rotate_back(self.world_from_base.rotation, twist[:3]), twist[3:]])
 
     @property
@@ -123,35 +123,35 @@ class SceneVehicle:
         """
         self.set_configuration(world_from_base, None)
 
-    def start_placed_motion(self) -> None:
+    def start_prescribed_motion(self) -> None:
         """Take velocities from the poses that `set_configuration` sets, not from the dynamics."""
-        self._lazy_motion.get_or_make()
+        self._lazy_prescribed_motion.get_or_make()
 
     def set_configuration(
         self,
         world_from_base: Pose | None,
         joints: Array | None,
-        starts: Collection[Source] = (),
+        starting_sources: Collection[Source] = (),
     ) -> None:
         """Set the pose and the joint vector, if not None, as moved there from the last ones.
 
         Args:
             world_from_base: the pose.
             joints: the joint vector, (n,) [rad or m].
-            starts: the quantities set for the first time, whose motion starts there.
+            starting_sources: the quantities set for the first time, whose motion starts there.
         """
         if world_from_base is not None:
-            self.state.centre = self._compute_centre(world_from_base)
+            self.state.rest_pose = self._compute_rest_pose(world_from_base)
             self._engine.place_vehicle(self.index, world_from_base)
         if joints is not None:
             self._engine.set_joints(self.index, joints)
-        if self._motion is not None:
-            self._motion.record(self._step(), starts)
+        if self._prescribed_motion is not None:
+            self._prescribed_motion.record(self._step(), starting_sources)
 
-    def _move_to(self, world_from_base: Pose) -> None:
+    def _move_base(self, world_from_base: Pose) -> None:
         self._engine.place_vehicle(self.index, world_from_base)
-        if self._motion is not None:
-            self._motion.record(self._step())
+        if self._prescribed_motion is not None:
+            self._prescribed_motion.record(self._step())
 
     def set_joints(self, values: Array) -> None:
         """Set the joint vector, (n,) [rad or m]; clamped to the limits."""
@@ -163,18 +163,18 @@ class SceneVehicle:
         None is its pose in the scene, with the present displacements.
         """
         if world_from_base is None:
-            self.state.centre = None
+            self.state.rest_pose = None
             world_from_base = self._displaced_pose()
         else:
-            self.state.centre = self._compute_centre(world_from_base)
+            self.state.rest_pose = self._compute_rest_pose(world_from_base)
         self._place_at_rest(world_from_base)
 
     def _place_at_rest(self, world_from_base: Pose) -> None:
         self._engine.place_vehicle(self.index, world_from_base)
-        if self._motion is not None:
-            self._motion.record_at_rest()
+        if self._prescribed_motion is not None:
+            self._prescribed_motion.record_at_rest()
 
-    def _compute_centre(
+    def _compute_rest_pose(
         self, world_from_base: Pose
     ) -> tuple[Sequence[float], Sequence[float]] | None:
         """Compute the undisplaced pose for a displaced one; None: it is never displaced."""
@@ -186,7 +186,7 @@ class SceneVehicle:
     def _displaced_pose(self) -> Pose:
         """Return the pose with the present displacements, ``world_from_base``."""
         spec = self._frames.vehicle
-        position, angles = self.state.centre or (spec.position, spec.orientation)
+        position, angles = self.state.rest_pose or (spec.position, spec.orientation)
         return self._frames.world_from_localized @ displace_pose(
             position, angles, self.state.offsets
         )
@@ -199,7 +199,7 @@ class SceneVehicle:
         def displace(offset: float) -> None:
             self.state.offsets[index] = (axis, offset)
             if index == len(self.state.offsets) - 1:
-                self._move_to(self._displaced_pose())
+                self._move_base(self._displaced_pose())
 
         return displace
 
@@ -236,7 +236,11 @@ class SceneVehicle:
             self.joint_names,
             self.index,
             self._engine,
-            lambda: None if self._motion is None else self._motion.twist(self._step()),
+            lambda: (
+                None
+                if self._prescribed_motion is None
+                else self._prescribed_motion.twist(self._step())
+            ),
         )
 
     def mount(self, spec: MountedPart, *, visual: bool = False) -> MountedBody:
@@ -246,18 +250,18 @@ class SceneVehicle:
 
     def moving_mount(self, spec: MountedPart, *, visual: bool = False) -> MovingBody:
         """Fix a part to its link whose motion is read; UnknownName if there is no such link."""
-        record, link, engine = self._make_mount(spec, visual), spec.relative_to, self._engine
+        mount, link, engine = self._make_mount(spec, visual), spec.relative_to, self._engine
         body = engine.poses.link_body(self.index, link)
         if self._actuation is None:
-            self.start_placed_motion()
+            self.start_prescribed_motion()
         moving_link = MovingLink(
             index=self.index,
             body=body,
             motion=engine.link_motion,
-            placed_motion=lambda: self._lazy_motion.part,
+            prescribed_motion=lambda: self._lazy_prescribed_motion.part,
             step=self._step,
         )
-        return MovingBody(f"{self.name}/{link}", engine.poses, record, moving_link)
+        return MovingBody(f"{self.name}/{link}", engine.poses, mount, moving_link)
 
     def wrench_sampler(
         self, spec: MountedPart, *, at_joint: bool = False, visual: bool = False
@@ -266,14 +270,14 @@ class SceneVehicle:
 
         See `uwsim.devices.device.DeviceVehicle`.
         """
-        record, engine = self._make_mount(spec, visual), self._engine
-        is_simulated = self._actuation is not None
-        if not is_simulated:
-            self.start_placed_motion()  # as for a sensor of motion: its velocity stays the same
+        mount, engine = self._make_mount(spec, visual), self._engine
+        has_dynamics = self._actuation is not None
+        if not has_dynamics:
+            self.start_prescribed_motion()  # as for a sensor of motion: its velocity stays the same
         body = engine.poses.link_body(self.index, spec.relative_to)
         if at_joint:
-            return engine.joint_wrench.sampler(body, record, is_simulated=is_simulated)
-        return engine.contacts.wrench_sampler(body, record)
+            return engine.joint_wrench.sampler(body, mount, has_dynamics=has_dynamics)
+        return engine.contacts.wrench_sampler(body, mount)
 
     def _make_mount(self, spec: MountedPart, visual: bool) -> Mount:
         link, robot = spec.relative_to, self._frames.robot

@@ -87,8 +87,9 @@ class MovingBody(Mount, Protocol):
     def motion(self) -> BodyMotion:
         """Return the present motion.
 
-        The motion of a simulated vehicle is the engine's. Another vehicle moves in jumps. Each is
-        spread evenly over the time since the last (`uwsim.physics.kinematics.placed_motion`).
+        The motion of a vehicle with dynamics is the engine's. The poses of a kinematic vehicle are
+        set: the motion spreads each jump evenly over the time since the last
+        (`uwsim.physics.kinematics.prescribed_motion`).
         """
 
 

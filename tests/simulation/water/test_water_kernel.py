@@ -157,7 +157,7 @@ def test_however_many_bodies_there_are(n: int) -> None:
 def test_water_with_one_current_of_python_is_asked_of_python() -> None:
     motion = water(TotalCurrent([a_profile(), InPython(a_walk())]))
     assert motion.needs_positions(VEHICLES)
-    assert motion.drift(VEHICLES, 0.002, 1.0) is None
+    assert motion.drift_function(VEHICLES, 0.002, 1.0) is None
 
 
 @pytest.mark.parametrize("name", CURRENTS)
@@ -172,11 +172,11 @@ def test_vehicles_drift_in_compiled_steps_as_python_carries_them(name: str) -> N
     rows = np.array([[*p.position, *quaternion_from_rotation(p.rotation)] for p in poses])
     for k in range(1, 30):
         time = k * step
-        function = motion.drift(names, step, time)
+        function = motion.drift_function(names, step, time)
         assert function is not None
         ask(function.function, function.address, rows, time)
         poses = [
-            reference.advect(pose, time, step, vehicle)
+            reference.drifted_pose(pose, time, step, vehicle)
             for pose, vehicle in zip(poses, names, strict=True)
         ]
         assert rows[:, :3].tobytes() == np.array([p.position for p in poses]).tobytes()

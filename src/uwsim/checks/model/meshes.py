@@ -8,7 +8,7 @@ from contextlib import suppress
 from ...errors import Diagnostic, UwsimError
 from ...model.collision.fixed_mesh import DEFAULT_ERROR, MAX_EXACT_FACES, FixedMesh
 from ...model.collision.polygon_cache import cached_faces
-from ...model.collision.scene_shapes import contact_mesh, simulated_solids
+from ...model.collision.scene_shapes import contact_mesh, solid_objects_in_water
 from ..subjects import CheckedScene
 
 MAX_PLATES = 5000
@@ -50,7 +50,7 @@ def fixed_meshes(scene: CheckedScene) -> Iterator[Diagnostic]:
 
 
 def _fixed_meshes(scene: CheckedScene) -> Iterator[tuple[int, FixedMesh]]:
-    for index, physics in simulated_solids(scene.spec, scene.dynamics).items():
+    for index, physics in solid_objects_in_water(scene.spec, scene.dynamics).items():
         with suppress(UwsimError):  # reported where models are checked
             mesh = contact_mesh(scene.spec, index, physics, scene.data_path)
             if mesh is not None:

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 
 from ...errors import Diagnostic, SceneError, UwsimError
 from ...model.body_names import object_body
-from ...model.collision.scene_shapes import collision_shapes, simulated_solids
+from ...model.collision.scene_shapes import collision_shapes, solid_objects_in_water
 from ...model.placement import set_on_floor
 from ...physics.free_objects import object_errors
 from ..subjects import CheckedScene
@@ -21,7 +21,7 @@ def object_shapes(scene: CheckedScene) -> Iterator[Diagnostic]:
     """Report objects for which the engine has no collision shape, or that it cannot move."""
     dynamics, spec = scene.dynamics, scene.spec
     density = next(iter(dynamics.values())).density if dynamics else None
-    for index, physics in simulated_solids(spec, dynamics).items():
+    for index, physics in solid_objects_in_water(spec, dynamics).items():
         object_spec = spec.objects[index]
         try:
             shapes = collision_shapes(scene.resolved_scene, (), {index: physics})

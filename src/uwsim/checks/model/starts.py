@@ -89,9 +89,9 @@ class Starts:
             return ""
         fault = (
             f"it begins {depth.rise:.3g} m deep in {depth.ground!r}"
-            if depth.middle is None
+            if depth.centre_depth is None
             else f"it begins under the surface of {depth.ground!r}, its middle "
-            f"{depth.middle:.3g} m deep"
+            f"{depth.centre_depth:.3g} m deep"
         )
         position = self._clear_position(world_from_body, depth.rise)
         return f"{fault}; expected above it, at {position}: <u:onFloor/> sets it there"

@@ -167,7 +167,7 @@ def passable_objects(scene: CheckedScene) -> Iterator[Diagnostic]:
 
 def loose_scenery(scene: CheckedScene) -> Iterator[Diagnostic]:
     """Report scenery that the original's physics moves beside objects that have ``<physics>``."""
-    objects = scene.spec.objects if scene.spec.is_original_physics else ()
+    objects = scene.spec.objects if scene.spec.requests_uwsim_physics else ()
     specs = [
         spec
         for spec in objects

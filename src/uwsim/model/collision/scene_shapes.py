@@ -52,17 +52,19 @@ def simulated_shapes(
     scene = resolved_scene.scene
     if scene.has_uwsim_physics:
         return collision_shapes(resolved_scene, resolved_scene.robots, scene.solid_objects)
-    solid = simulated_solids(scene, dynamics)
+    solid = solid_objects_in_water(scene, dynamics)
     if not solid and len(dynamics) < 2:
         return {}
     return collision_shapes(resolved_scene, dynamics, solid)
 
 
-def simulated_solids(scene: SceneSpec, dynamics: Collection[int]) -> Mapping[int, PhysicsSpec]:
+def solid_objects_in_water(
+    scene: SceneSpec, dynamics: Collection[int]
+) -> Mapping[int, PhysicsSpec]:
     """Return the solid objects of the engine, by number; none if nothing is simulated."""
     if scene.has_uwsim_physics:
         return scene.solid_objects
-    return scene.simulated_solids if dynamics else {}
+    return scene.solid_objects_in_water if dynamics else {}
 
 
 def collision_shapes(

@@ -1,7 +1,7 @@
 """The inputs and outputs of a simulation for the program that owns it.
 
-`topics` publishes and reads messages; `arguments` checks what is passed; `boxes` has the boxes in
-3-D of links and objects; `placing` places vehicles and objects.
+`topics` publishes and reads messages; `arguments` checks arguments; `boxes` computes the 3-D
+bounding boxes of links and objects; `placing` places vehicles and objects.
 """
 
 from __future__ import annotations

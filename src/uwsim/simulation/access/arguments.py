@@ -17,7 +17,7 @@ from ...world import Flow
 from .program_flow import ProgramFlow
 
 MAX_COORDINATE = 1e6
-"""The greatest coordinate at which a body is placed [m]."""
+"""The greatest coordinate in W at which a body can be placed [m]."""
 
 
 def check_seed(seed: int, method: str = "reset") -> int:
@@ -28,7 +28,7 @@ def check_seed(seed: int, method: str = "reset") -> int:
 
 
 def count_steps(seconds: float, timestep: float) -> int:
-    """Return the steps in a time [s]; raise BadSetting if it is negative or not finite."""
+    """Return the number of steps in a time [s]; raise BadSetting if that is no time >= 0."""
     n_steps = _float_of(seconds) / timestep
     if not 0.0 <= n_steps < math.inf:
         raise BadSetting(f"advance({short_repr(seconds)}): expected a time >= 0 [s].")
@@ -63,7 +63,7 @@ def _float_of(number: object) -> float:
 
 
 def check_pose(name: str, world_from_frame: Pose, frame_from_body: Pose) -> Pose:
-    """Return a pose in W; raise BadSetting if it is not finite or too far from the origin."""
+    """Return the pose of a body in W; raise BadSetting if it is not finite or too far away."""
     if not isinstance(frame_from_body, Pose):
         raise BadSetting(
             f"set_pose({name!r}, {short_repr(frame_from_body)}): expected a Pose, as "
@@ -80,11 +80,11 @@ def check_pose(name: str, world_from_frame: Pose, frame_from_body: Pose) -> Pose
 
 
 def flow_of(velocity: Sequence[float] | Flow | None) -> Flow | None:
-    """Return the flow of a velocity (3,) [m/s] in L, or a flow of the program with checks.
+    """Return the flow for a velocity in L, (3,) [m/s], or for a `Flow` object of the program.
 
     Raises:
-        BadSetting: the velocity is not three numbers, or one exceeds the fastest current; or
-            ``is_still`` of a flow raises.
+        BadSetting: the velocity is not three numbers up to `MAX_SPEED`; or the `Flow` is a class,
+            or its ``is_uniform`` or ``is_still`` raises.
     """
     if velocity is None or type(velocity) is Constant:
         return velocity

@@ -1,4 +1,4 @@
-"""Boxes in 3-D of the links and objects of a scene."""
+"""Oriented bounding boxes of the links and objects of a scene."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from ..scenery.scenery import Scenery
 
 @dataclass(frozen=True, eq=False)
 class OrientedBox:
-    """A box in 3-D around a body, with the axes of the body's mesh."""
+    """A bounding box of a link or an object, with the axes of its first mesh."""
 
     pose: Pose
-    """The pose of the centre in the requested frame."""
+    """The pose of the box in the requested frame: its centre and its axes."""
     size: Array
-    """The lengths of the edges along the axes, (3,) [m]."""
+    """The lengths of the edges along the axes of the box, (3,) [m]."""
 
     @property
     def corners(self) -> Array:
@@ -30,9 +30,9 @@ class OrientedBox:
 
 
 def oriented_boxes(scenery: Scenery, frame_from_world: Pose) -> dict[str, OrientedBox]:
-    """Return the boxes of all parts in a frame, by their names in images.
+    """Return the boxes of all links and objects in a frame, by their names in segmentation images.
 
-    Parts of one link or object share a box with the axes of the first part. Sand over buried
+    All parts of one link or object share a box with the axes of the first part. Sand over buried
     objects has no box.
     """
     groups: dict[str, list[Part]] = {}
@@ -44,7 +44,7 @@ def oriented_boxes(scenery: Scenery, frame_from_world: Pose) -> dict[str, Orient
 
 
 def _box(scenery: Scenery, parts: list[Part]) -> OrientedBox:
-    """Return the box in W around some parts."""
+    """Return the box in W around the parts of one link or object."""
     x, y, _ = scenery.world_from_mesh(parts[0])[:3, :3].T  # the columns, which include the scale
     x = x / length(x)
     y = y - dot(x, y) * x

@@ -1,4 +1,4 @@
-"""The poses of bodies, and their placement by a program that owns the simulation."""
+"""Poses of frames, and placement of vehicles and objects by the program that owns a simulation."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from ..live_scene import LiveScene
 
 
 def world_from_frame(scene: LiveScene, frame: str) -> Pose:
-    """Return the pose in W of the frame ``L``, ``W`` or of a body; raises UnknownName."""
+    """Return the pose in W of a frame: ``L``, ``W`` or the name of a body; raises UnknownName."""
     if frame == "W":
         return Pose.identity()
     if frame == "L":
@@ -17,15 +17,15 @@ def world_from_frame(scene: LiveScene, frame: str) -> Pose:
 
 
 def place(scene: LiveScene, name: str, world_from_body: Pose) -> None:
-    """Place a vehicle or an object, at rest.
+    """Set the pose of a vehicle or an object, at rest.
 
     Args:
         scene: the scene.
         name: the name of a vehicle, or of an object that can move.
-        world_from_body: the pose of its frame, as `SceneBodies.find` defines it.
+        world_from_body: the pose in W of the frame that `SceneBodies.find` returns for this name.
 
     Raises:
-        UnknownName: there is no such vehicle or object; names the nearest.
+        UnknownName: there is no such vehicle or object; the message suggests the nearest name.
         UwsimError: the object is fixed, or a vehicle holds it.
     """
     vehicles = scene.vehicles

@@ -1,4 +1,4 @@
-"""The flow of water that a program sets."""
+"""A flow of water whose class a program defines, with checks of what it returns."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ from ...world import Flow
 
 
 class ProgramFlow(Current):
-    """A flow of a class of the program, which errors name.
+    """A `Flow` object of the program; error messages name its class.
 
     Args:
-        flow: the flow of the program.
+        flow: the object of the program.
 
     Raises:
         BadSetting: ``is_uniform`` or ``is_still`` of the flow raises.
@@ -40,31 +40,31 @@ class ProgramFlow(Current):
         return self._is_still
 
     def flow_function(self, vehicles: Sequence[str]) -> FlowFunction | None:
-        """Return the compiled function of a current of uwsim; None for any other flow."""
+        """Return the compiled function of a flow that is a current of uwsim; else None."""
         return flow_function_of(self._flow, vehicles)
 
     def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
-        """Return the velocity of the water in L, (n, 3) [m/s].
+        """Return the velocity of the water at points of L, (n, 3) [m/s].
 
         Raises:
-            BadSetting: the flow raised, or returned another type or shape.
+            BadSetting: the flow raised an exception, or returned another type or shape.
         """
         return self._call_method(self._flow.velocity, points, time, vehicles)
 
     def acceleration(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
-        """Return the acceleration of the water in L, (n, 3) [m/s2]; raises as `velocity` does."""
+        """Return the acceleration of the water at points of L, (n, 3) [m/s2]."""
         return self._call_method(self._flow.acceleration, points, time, vehicles)
 
     def motion(
         self, points: Array, time: float, vehicles: Sequence[str] = ()
     ) -> tuple[Array, Array]:
-        """Return velocity and acceleration; raises as `velocity` does."""
+        """Return the velocity and the acceleration of the water at points of L."""
         with self._name_flow_in_errors(f" at {time:.6g} s"):
-            answer = self._flow.motion(points, time, vehicles)
-            if not isinstance(answer, tuple | list) or len(answer) != 2:
-                raise self._return_error("motion", answer, time, "a velocity and an acceleration")
+            result = self._flow.motion(points, time, vehicles)
+            if not isinstance(result, tuple | list) or len(result) != 2:
+                raise self._return_error("motion", result, time, "a velocity and an acceleration")
             velocity, acceleration = (
-                self._check_vectors("motion", vectors, points, time) for vectors in answer
+                self._check_vectors("motion", vectors, points, time) for vectors in result
             )
             return velocity, acceleration
 
@@ -76,23 +76,23 @@ class ProgramFlow(Current):
                 method.__name__, method(points, time, vehicles), points, time
             )
 
-    def _check_vectors(self, method: str, answer: object, points: Array, time: float) -> Array:
-        """Return vectors of the flow as a new array; raise BadSetting if they are invalid."""
-        vectors = np.array(answer)
+    def _check_vectors(self, method: str, result: object, points: Array, time: float) -> Array:
+        """Copy the vectors that the flow returned; raise BadSetting if they are invalid."""
+        vectors = np.array(result)
         if vectors.shape != points.shape or vectors.dtype.kind not in "iuf":
-            raise self._return_error(method, answer, time, f"numbers of the shape {points.shape}")
+            raise self._return_error(method, result, time, f"numbers of the shape {points.shape}")
         return vectors.astype(np.float64, copy=False)
 
-    def _return_error(self, method: str, answer: object, time: float, expected: str) -> BadSetting:
+    def _return_error(self, method: str, result: object, time: float, expected: str) -> BadSetting:
         kind = type(self._flow).__name__
         return BadSetting(
-            f"set_current: {kind}.{method} returned {short_repr(answer)} at {time:.6g} s; "
+            f"set_current: {kind}.{method} returned {short_repr(result)} at {time:.6g} s; "
             f"expected {expected}."
         )
 
     @contextmanager
     def _name_flow_in_errors(self, time_text: str) -> Iterator[None]:
-        """Make exceptions of this block name the class of the flow."""
+        """Convert exceptions in this block to BadSetting with the name of the flow's class."""
         try:
             yield
         except UwsimError:

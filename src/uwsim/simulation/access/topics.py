@@ -1,4 +1,4 @@
-"""Publishing and reading topics from a program that owns the simulation."""
+"""Publishing and reading of topics by the program that owns a simulation."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from ...errors import UnknownName
 
 
 class NewestMessages(ExternalValue):
-    """The newest message of each topic that is read, with the step of its delivery.
+    """The newest message of each topic that the program reads, and the step of its delivery.
 
     Args:
-        inboxes: the inbox of each topic.
-        open_inbox: a function that opens the inbox of another topic.
+        inboxes: the inbox of each topic, by the name of the topic.
+        open_inbox: a function that opens the inbox of a further topic.
     """
 
     def __init__(
@@ -33,7 +33,7 @@ class NewestMessages(ExternalValue):
         }
 
     def set(self, value: object) -> None:
-        """Set the newest messages; topics that are not read yet are read from now on."""
+        """Set the newest messages; open an inbox for each topic that has none yet."""
         if not isinstance(value, dict):
             raise wrong_scene_error()
         for topic in (topic for topic in self._inboxes if topic not in value):
@@ -48,12 +48,12 @@ class NewestMessages(ExternalValue):
 
 @dataclass(slots=True)
 class AccessState(Record):
-    """The topics that a program reads."""
+    """The state of a program's access to topics."""
 
     newest_messages: NewestMessages
-    """The newest message of each topic that is read."""
+    """The newest message of each topic that the program reads."""
     is_started: bool = False
-    """The first samples, at step 0, are published."""
+    """True if the samples of step 0 are published."""
 
 
 class TopicAccess:
@@ -61,7 +61,7 @@ class TopicAccess:
 
     Args:
         bus: the bus of the simulation.
-        topics_read: the topics to read from the start, if they exist.
+        topics_read: the names of topics to read from the start, if they exist.
     """
 
     def __init__(self, bus: Bus, topics_read: Iterable[str] = ()) -> None:
@@ -69,22 +69,22 @@ class TopicAccess:
         self._publishers: dict[str, Callable[[Any], None]] = {}
         self._inboxes = {name: self._open_inbox(name) for name in topics_read if name in bus.topics}
         self.state = AccessState(NewestMessages(self._inboxes, self._open_inbox))
-        """The topics that the program reads."""
+        """The state: the newest message of each topic that the program reads."""
 
     def _open_inbox(self, name: str) -> Inbox[Any]:
         return self._bus.inbox(name, object, max_messages=1)
 
     @property
     def topics_read(self) -> tuple[str, ...]:
-        """The topics that are read."""
+        """The names of the topics that the program reads."""
         return tuple(self._inboxes)
 
     def publish(self, topic: str, message: object) -> None:
-        """Publish a message; the first one without a subscriber gives a warning.
+        """Publish a message; the first message on a topic without a subscriber prints a warning.
 
         Raises:
-            UnknownName: no such topic; names the nearest that has a subscriber.
-            BadSetting: the topic carries another type.
+            UnknownName: there is no such topic; the message suggests the nearest with a subscriber.
+            BadSetting: the topic carries another type of message.
             BadMessage: a field of the message has the wrong type or shape.
         """
         name = topic.strip().lstrip("/")
@@ -104,10 +104,10 @@ class TopicAccess:
         self._publishers[name](message)
 
     def latest_message(self, topic: str) -> Any:
-        """Return the newest message; None before the first.
+        """Return the newest message on a topic; None before the first.
 
         Raises:
-            UnknownName: no such topic; names the nearest.
+            UnknownName: there is no such topic; the message suggests the nearest name.
         """
         name = topic.strip().lstrip("/")
         if name not in self._inboxes:

@@ -1,1 +1,1 @@
-"""Contacts of a running scene, and bodies that begin in the ground or pass through it."""
+"""Contacts of a running scene; checks for bodies that begin in the ground or fall through it."""

@@ -1,11 +1,12 @@
 """A check that ends a run in which a body has passed through the ground.
 
-Contacts are soft, and ground is plates behind its faces: a body that is loaded heavily, or fast for
-the length of a step, may sink through them and fall on below. The check reads the positions of
-simulated vehicles and loose objects twice a second. A body that is wholly below a ground
-(`solid_grounds`) at two checks in a row, and was not when the run began, has passed through it.
-Below a sheet with an edge it has if it was over the sheet before, and could not have swum around
-the edge at `MAX_SPEED`. A body that begins below the ground may stay there.
+Contacts are soft, and the contact shape of the ground is a layer of plates behind its faces. A body
+under a heavy load, or one that moves far in a step, may sink through these plates and fall on. The
+check reads the poses of vehicles with dynamics and of loose objects every `CHECK_PERIOD`. A body
+that is wholly below a ground (`solid_grounds`) at two consecutive checks, and was not below it when
+the run began, has passed through it. A ground with an edge is a sheet, and bodies can move around
+the edge: below a sheet, the body must also have been above it before, and too far from the edge to
+move around it at `MAX_SPEED`. A body that begins below the ground may stay there.
 """
 
 from __future__ import annotations
@@ -29,57 +30,58 @@ from ...model.scene_model import SceneModel
 from ...physics.engine import Engine
 
 CHECK_PERIOD = 0.5
-"""The time between two checks [s]."""
+"""The time between two consecutive checks [s]."""
 MAX_SPEED = 5.0
-"""The speed at which a body may have moved around an edge [m/s]."""
+"""The highest speed at which a body can have moved around an edge [m/s]."""
 CORNERS = np.array([[i & 1, i >> 1 & 1, i >> 2 & 1] for i in range(8)]) * 2.0 - 1.0
+"""The corners of a box with half edges of 1, (8, 3) [1]."""
 
 
 @dataclass(frozen=True, eq=False)
 class _Body:
     name: str
     pose: Callable[[], Pose]
-    points: Array  # the middle and the corners of its box, in its axes, (9, 3) [m]
+    points: Array  # the centre and the corners of its bounding box, in its frame, (9, 3) [m]
 
-    def places(self) -> Array:
-        """Return the middle and the corners of the box in W, (9, 3) [m]."""
+    def world_points(self) -> Array:
+        """Return the centre and the corners of the bounding box in W, (9, 3) [m]."""
         return self.pose().transform(self.points)
 
 
 @dataclass(slots=True)
 class BelowGroundState(Record):
-    """The result of the last check."""
+    """The result of the last check, for each body and ground."""
 
-    middles: Array
-    """The middle of each body in W, (n, 3) [m]."""
+    centres: Array
+    """The centre of the bounding box of each body in W, (n bodies, 3) [m]."""
     is_below: npt.NDArray[np.bool_]
-    """The flags of each body below each ground, (n, m)."""
+    """True where a body is below a ground, (n bodies, m grounds)."""
     was_above: npt.NDArray[np.bool_]
-    """The flags of each body that was above each ground, and not yet around it, (n, m)."""
-    n_checks: int = 0
-    """The number of periods that are over."""
+    """True where a body was above a ground and has not moved around its edge since, (n, m)."""
+    n_periods: int = 0
+    """The number of check periods that have passed."""
     step: int = 0
-    """The step of the check."""
+    """The step of the last check."""
 
 
 class BelowGround:
-    """The check of one simulation."""
+    """The check of one simulation for bodies that have passed through the ground."""
 
     def __init__(self, model: SceneModel, engine: Engine) -> None:
         self._timestep = model.timestep
         self._period = max(1, round(CHECK_PERIOD / self._timestep))
         self._bodies = [*_list_bodies(model, engine)]
         self._grounds = model.grounds if self._bodies else ()
-        self._start = [body.places() for body in self._bodies]
-        middles = np.array([places[0] for places in self._start]).reshape(-1, 3)
+        self._start_points = [body.world_points() for body in self._bodies]
+        centres = np.array([places[0] for places in self._start_points]).reshape(-1, 3)
         size = len(self._bodies), len(self._grounds)
-        self.state = BelowGroundState(middles, np.zeros(size, bool), np.zeros(size, bool))
+        self.state = BelowGroundState(centres, np.zeros(size, bool), np.zeros(size, bool))
         """The result of the last check."""
 
     @property
     def due(self) -> float:
-        """The step of the next check."""
-        return (self.state.n_checks + 1) * self._period if self._grounds else math.inf
+        """The step of the next check; infinity if there is nothing to check."""
+        return (self.state.n_periods + 1) * self._period if self._grounds else math.inf
 
     def check(self, step: int) -> None:
         """Compare the positions of the bodies with the grounds, if the check is due.
@@ -88,39 +90,39 @@ class BelowGround:
             SimulationFailed: a body has passed through the ground.
         """
         n_periods = step // self._period
-        if n_periods == self.state.n_checks or not self._grounds:
+        if n_periods == self.state.n_periods or not self._grounds:
             return
         elapsed_time = (step - self.state.step) * self._timestep
-        self.state.n_checks, self.state.step = n_periods, step
-        places = [body.places() for body in self._bodies]
+        self.state.n_periods, self.state.step = n_periods, step
+        places = [body.world_points() for body in self._bodies]
         for i, k in np.ndindex(self.state.is_below.shape):
             depth = self._grounds[k].depth(places[i])
             is_below = self._has_passed(i, k, places[i][0], depth, elapsed_time)
             if is_below and self.state.is_below[i, k]:
                 self._fail(self._bodies[i], self._grounds[k], step, depth)
             self.state.is_below[i, k] = is_below
-        self.state.middles = np.array([points[0] for points in places])
+        self.state.centres = np.array([box_points[0] for box_points in places])
 
-    def _has_passed(self, i: int, k: int, middle: Array, depth: float, elapsed_time: float) -> bool:
-        """Return whether body i is below ground k and has passed through it.
+    def _has_passed(self, i: int, k: int, centre: Array, depth: float, elapsed_time: float) -> bool:
+        """Return whether body i has passed through ground k.
 
         Args:
             i: the number of the body.
             k: the number of the ground.
-            middle: the middle of its box in W, (3,) [m].
-            depth: the depth of its highest point below the ground [m]; 0 if it is not below.
+            centre: the centre of the body's bounding box in W, (3,) [m].
+            depth: the depth of the body's highest point below the ground [m]; 0 if not below.
             elapsed_time: the time since the last check [s].
         """
         ground = self._grounds[k]
-        path_length = ground.path_length_around(self.state.middles[i], middle)
+        path_length = ground.path_length_around(self.state.centres[i], centre)
         if path_length == 0.0 and depth == 0.0:  # a distant body
             self.state.was_above[i, k] = False
             return False
         if not ground.has_edge:
-            return depth > 0.0 and ground.depth(self._start[i]) == 0.0
-        if self.state.n_checks == 1:  # the first check
-            self.state.was_above[i, k] = ground.is_above(self._start[i][0])
-        if ground.is_above(middle):
+            return depth > 0.0 and ground.depth(self._start_points[i]) == 0.0
+        if self.state.n_periods == 1:  # the first check
+            self.state.was_above[i, k] = ground.is_above(self._start_points[i][0])
+        if ground.is_above(centre):
             self.state.was_above[i, k] = True
         elif path_length < MAX_SPEED * elapsed_time:
             self.state.was_above[i, k] = False
@@ -138,7 +140,7 @@ def _list_bodies(model: SceneModel, engine: Engine) -> Iterator[_Body]:
     scene, shapes = model.scene, model.shapes
     for i, vehicle in enumerate(scene.vehicles):
         name = vehicle_body(i, model.robots[i].root)
-        if engine.is_simulated(i) and name in shapes:
+        if engine.has_dynamics(i) and name in shapes:
             yield _make_body(vehicle.name, partial(engine.poses.vehicle, i), shapes[name])
     for i, spec in enumerate(scene.objects):
         name = object_body(i)

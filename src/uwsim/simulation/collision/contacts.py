@@ -1,7 +1,8 @@
-"""Contacts between bodies: those of the engine, and overlaps of kinematic bodies.
+"""Contacts between bodies: from the engine, and from overlaps of kinematic bodies.
 
-The engine computes contacts between simulated vehicles and objects with ``<physics>``. For other
-bodies `uwsim.physics.collision.kinematic_contacts` computes them, from the first request on.
+The engine computes contacts between the bodies that it simulates: vehicles with dynamics and solid
+objects. For other bodies `uwsim.physics.collision.kinematic_contacts` computes overlaps of shapes,
+from the first request on.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ from ..bodies import find_contact_body, no_contacts_error
 
 @dataclass(slots=True)
 class ContactsState(Record):
-    """The changing values of contacts besides those of the engine."""
+    """The state of contacts that is not part of the engine's state."""
 
     overlaps: LazyPart[KinematicContacts]
     """The overlaps of kinematic bodies, from the first request on."""
@@ -39,12 +40,12 @@ class Contacts:
         self._contact_bodies: dict[str, tuple[Literal["vehicle", "object"], int]] = {}
         self._overlaps = LazyPart(self._make_overlaps)
         self.state = ContactsState(self._overlaps)
-        """The changing values besides those of the engine."""
+        """The state that is not part of the engine's state."""
 
     def is_possible(self, name: str) -> bool:
-        """Return whether there is a vehicle or object of that name that can have contacts.
+        """Return whether there is a vehicle or object with this name that can have contacts.
 
-        A body without a shape cannot, as in the original without physics.
+        A body without a collision shape cannot, as in the original UWSim without physics.
         """
         try:
             kind, index = find_contact_body(name, self._model.scene)
@@ -64,10 +65,10 @@ class Contacts:
             self._overlaps.part.record(step)
 
     def find(self, name: str) -> list[Contact]:
-        """Find the contacts of the vehicle or object of that name.
+        """Return the present contacts of the vehicle or object with this name.
 
         Raises:
-            UnknownName: there is none.
+            UnknownName: there is no such vehicle or object.
             UwsimError: it cannot have contacts.
         """
         kind, index = find_contact_body(name, self._model.scene)
@@ -82,10 +83,12 @@ class Contacts:
         return contacts
 
     def forces(self, name: str) -> Mapping[str, Array]:
-        """Return the contact forces on the vehicle or object of that name, (3,) in W [N].
+        """Return the contact forces on the vehicle or object with this name, in W, (3,) [N].
+
+        The keys are the names of the other bodies.
 
         Raises:
-            UnknownName: there is none.
+            UnknownName: there is no such vehicle or object.
         """
         if name not in self._contact_bodies:
             self._contact_bodies[name] = find_contact_body(name, self._model.scene)

@@ -1,8 +1,8 @@
-"""The depths at which vehicles and objects begin in the ground, and their lifting out of it.
+"""The depths at which vehicles and objects begin in the ground, and the lift out of it.
 
-The ground is each fixed object with contacts, on its own. Bodies that begin deeper than a share of
-their height are a mistake of the scene, of which `uwsim check` warns. Those whose origin is less
-than their own height below the surface are lifted when the run begins
+Each fixed object with contacts is a ground. A body that begins deeper in it than a share of its own
+height is a mistake in the scene, about which `uwsim check` warns. When a run begins, bodies whose
+origin is less than their height below the surface are lifted to it
 (`uwsim.physics.kinematics.lift`), unless the scene accepts their start. Deeper bodies stay.
 """
 
@@ -19,10 +19,11 @@ from ...model.resolved_scene import ResolvedScene
 from ...model.scene_model import SceneModel
 from ...physics.engine import Engine, Kind
 
-SUNK_SHARE = 0.1
-"""The share of its height by which a body may begin in the ground; contacts push it out of less."""
-MIN_RISE = 0.02
-"""The least such depth [m]."""
+MAX_SUNK_SHARE = 0.1
+"""The share of its height by which a body may begin in the ground without a warning [1]: contacts
+push it out."""
+MIN_LIFT = 0.02
+"""The depth up to which a body of any height may begin in the ground [m]."""
 
 
 @dataclass(frozen=True)
@@ -30,19 +31,19 @@ class StartDepth:
     """The depth at which a body begins in the ground."""
 
     ground: str
-    """The name of the object that it is in."""
+    """The name of the object that is the ground."""
     rise: float
     """The height by which it must be lifted to rest on the ground [m]."""
-    middle: float | None
-    """The depth of the middle of its box below the surface [m]; None: it is above."""
-    origin: float
-    """The depth of its origin below the surface [m]; negative above it."""
+    centre_depth: float | None
+    """The depth of the centre of its bounding box below the surface [m]; None: it is above."""
+    origin_depth: float
+    """The depth of the body's origin below the surface [m]; negative above it."""
     height: float
     """The height of the body [m]."""
 
 
 class StartDepths:
-    """The start poses of a scene's vehicles and objects.
+    """The depths in the ground of a scene's vehicles and objects at their start poses.
 
     Raises:
         UwsimError: a mesh cannot be read.
@@ -51,7 +52,7 @@ class StartDepths:
     def __init__(self, resolved_scene: ResolvedScene) -> None:
         self._scene = scene = resolved_scene.scene
         self.floor = Floor(resolved_scene)
-        """The ground, and the shapes of bodies."""
+        """The faces of each ground, and the collision shapes of bodies."""
         self._grounds = {
             scene.objects[index].name: Ground(faces) for index, faces in self.floor.faces.items()
         }
@@ -67,40 +68,45 @@ class StartDepths:
         return self.body_depth(self.floor.body_of_object(index, pose), pose)
 
     def body_depth(self, body: Array, pose: Pose) -> StartDepth | None:
-        """Return the start depth of a body, (n, 3, 3) in W [m]; None if it is above the ground."""
+        """Return the start depth of a body; None if it is above the ground.
+
+        Args:
+            body: the triangles of its collision shapes in W, (n, 3, 3) [m].
+            pose: its pose in W.
+        """
         if not len(body):
             return None
         low, high = body.min(axis=(0, 1)), body.max(axis=(0, 1))
-        middle, height = 0.5 * (low + high), float(high[2] - low[2])
+        centre, height = 0.5 * (low + high), float(high[2] - low[2])
         for name, ground in self._grounds.items():
             rise = ground.rise(body)
             if rise is None:
                 continue
             depth: float | None = None
-            if ground.covers(middle):
-                level = ground.level(middle)
-                depth = 0.0 if level is None else level - float(middle[2])
-            elif not max(MIN_RISE, SUNK_SHARE * height) < rise < height:
+            if ground.covers(centre):
+                level = ground.level(centre)
+                depth = 0.0 if level is None else level - float(centre[2])
+            elif not max(MIN_LIFT, MAX_SUNK_SHARE * height) < rise < height:
                 continue
-            at_origin = ground.level(pose.position)
-            origin = -np.inf if at_origin is None else at_origin - float(pose.position[2])
-            return StartDepth(name, rise, depth, origin, height)
+            level = ground.level(pose.position)
+            origin_depth = -np.inf if level is None else level - float(pose.position[2])
+            return StartDepth(name, rise, depth, origin_depth, height)
         return None
 
 
 def lift_from_ground(model: SceneModel, engine: Engine) -> None:
-    """Begin to lift simulated vehicles and loose objects that begin in the ground."""
+    """Begin to lift vehicles with dynamics and loose objects that begin in the ground."""
     for kind, index, rise in model.compute_once(_start_lifts):
         engine.begin_lift(kind, index, rise)
 
 
 def _start_lifts(model: SceneModel) -> list[tuple[Kind, int, float]]:
-    """Return the bodies that are lifted when the run begins, and the heights [m].
+    """Return kind and number of each body to lift when the run begins, and the height [m].
 
-    Only bodies in contact with a fixed one at the start are examined.
+    Only bodies that are in contact with a fixed body at the start are examined.
     """
     lifts: list[tuple[Kind, int, float]] = []
-    contact_bodies = Engine(model).find_deep_bodies(MIN_RISE)
+    contact_bodies = Engine(model).find_deep_bodies(MIN_LIFT)
     if not contact_bodies:
         return lifts
     scene = model.scene
@@ -110,6 +116,6 @@ def _start_lifts(model: SceneModel) -> list[tuple[Kind, int, float]]:
         if "start" in spec.accepts:
             continue
         depth = depths.vehicle_depth(index) if kind == "vehicle" else depths.object_depth(index)
-        if depth is not None and depth.rise > 0.0 and depth.origin < depth.height:
+        if depth is not None and depth.rise > 0.0 and depth.origin_depth < depth.height:
             lifts.append((kind, index, depth.rise))
     return lifts

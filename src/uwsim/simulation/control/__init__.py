@@ -1,4 +1,4 @@
-"""Services by which programs outside pause, step, reset and rearrange a running simulation."""
+"""Services by which external programs pause, step, reset and rearrange a running simulation."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""Play, pause, step, reset and quit, as the services of ROS 2's simulation_interfaces.
+"""Play, pause, step, reset and quit, by the services of ROS 2's simulation_interfaces.
 
-The bus offers them, so that every transport has them. Their names there have no prefix:
+The services are on the bus, so that every transport offers them. Their names have no prefix:
 ``/get_simulation_state``, ``/step_simulation`` and so on.
 """
 
@@ -48,22 +48,22 @@ INFO = (
     "spawned is a marker: it has no mass and no camera sees it. A reset is of everything."
 )
 POLL_INTERVAL = 0.002
-"""The period at which a paused simulation polls for calls [s]."""
+"""The period at which a paused simulation polls for calls of services [s of wall time]."""
 
 
 class Quit(Exception):
-    """An exception that ends the simulation at the request of a program outside."""
+    """An exception that ends the simulation at the request of an external program."""
 
 
 class SimulationControl:
-    """The state of a simulation that programs outside control.
+    """The services by which external programs control a simulation.
 
     `hold` is called at the end of each step, after the transports; it returns when the next step
     may begin.
 
     Args:
         simulation: the simulation to control.
-        exchange: a function that answers calls of the transports during a pause.
+        exchange: a function that answers the service calls on all transports during a pause.
     """
 
     def __init__(self, simulation: Simulation, exchange: Callable[[], None]) -> None:
@@ -81,7 +81,7 @@ class SimulationControl:
         self._entities.serve(bus)
 
     def begin(self) -> None:
-        """Save the state that a reset restores; before the first step."""
+        """Save the state that a reset restores; call this before the first step."""
         try:
             self._start = self._simulation.save()
         except UwsimError:
@@ -91,7 +91,7 @@ class SimulationControl:
         """Wait while the simulation is paused or stopped, and answer calls.
 
         Raises:
-            Quit: a program requested it.
+            Quit: an external program has requested it.
         """
         while not self._is_stepping and self._state != SimulationState.PLAYING:
             if self._state == SimulationState.QUITTING:
@@ -149,7 +149,7 @@ class SimulationControl:
         return ResetSimulationResponse(self._restore_start() or Result())
 
     def _restore_start(self) -> Result | None:
-        """Restore the state of the beginning; return the reason where there is none."""
+        """Restore the state at the start; return an error if that state could not be saved."""
         if self._start is None:
             message = "An algorithm is attached, whose state cannot be reset."
             return Result(Result.FEATURE_UNSUPPORTED, message)

@@ -1,8 +1,8 @@
 """Vehicles, objects and markers, as entities of ROS 2's simulation_interfaces.
 
-Poses and velocities are in the frame of the scene file, L, as on all topics. Velocities are those
-of simulated vehicles, over ground, with the axes of L; accelerations are not computed. A vehicle
-may be placed, at rest. A spawned entity is a marker with a mesh (`uwsim.simulation.markers`).
+Poses are in the frame of the scene file, L, as on all topics. Vehicles with dynamics also have a
+velocity over ground, with the axes of L; accelerations are not computed. A service can place a
+vehicle, at rest. A spawned entity is a marker with a mesh (`uwsim.simulation.markers`).
 """
 
 from __future__ import annotations
@@ -38,13 +38,13 @@ NAMESPACE = "spawned"
 NAME_PATTERN = re.compile(r"[A-Za-z0-9_./-]{1,100}")
 """The names that an entity may have."""
 MAX_FILTER_LENGTH = 100
-"""The maximum length of an expression over names."""
+"""The maximum number of characters of a regular expression that filters names."""
 MAX_REPETITIONS = 3
-"""The maximum number of repetitions in such an expression; a group may have none."""
+"""The maximum number of repetition operators in such an expression; groups cannot be repeated."""
 
 
 class Entities:
-    """The services of entities."""
+    """The services that list, read, set, spawn and delete entities."""
 
     def __init__(self, simulation: Simulation) -> None:
         self._simulation = simulation
@@ -52,7 +52,7 @@ class Entities:
         self._n_spawned = 0
 
     def serve(self, bus: Bus) -> None:
-        """Offer the services."""
+        """Offer the services on a bus."""
         bus.services.serve("get_entities", GetEntities, self.get_entities)
         bus.services.serve("get_entity_state", GetEntityState, self.get_state)
         bus.services.serve("set_entity_state", SetEntityState, self.set_state)
@@ -72,7 +72,7 @@ class Entities:
         return [*scene_names, *self._marker_ids]
 
     def get_entities(self, request: GetEntities) -> GetEntitiesResponse:
-        """List the entities; only names are filtered."""
+        """List the entities whose names match the filter; other filters are not supported."""
         filters = request.filters
         if filters.categories or filters.tags.tags or filters.bounds.points:
             message = "Entities are filtered by name only."
@@ -87,7 +87,7 @@ class Entities:
         return GetEntitiesResponse(entities=[n for n in self.names if pattern.search(n)])
 
     def get_state(self, request: GetEntityState) -> GetEntityStateResponse:
-        """Return the pose of an entity, and its twist if it is a simulated vehicle."""
+        """Return the pose of an entity, and its twist if it is a vehicle with dynamics."""
         name, world = request.entity, self._simulation.world
         if name not in self.names:
             return GetEntityStateResponse(_make_not_found(name))
@@ -97,7 +97,7 @@ class Entities:
             return GetEntityStateResponse(state=state)
         pose = self._simulation.pose(name)
         state.pose = _pose_message(pose)
-        if name in world.vehicles.names and world.engine.is_simulated(
+        if name in world.vehicles.names and world.engine.has_dynamics(
             world.vehicles.find(name).index
         ):
             twist = self._simulation.velocity(name)
@@ -136,11 +136,11 @@ class Entities:
         marker = Marker(ns=NAMESPACE, id=self._n_spawned, type=Marker.MESH_RESOURCE)
         marker.mesh_resource, marker.pose = uri, request.initial_pose.pose
         marker.scale = Vector3(1.0, 1.0, 1.0)
-        answer = self._simulation.world.markers.answer(SpawnMarker(marker=marker))
-        if not answer.success:
-            is_lost = "there is no mesh" in answer.status_message
+        response = self._simulation.world.markers.answer(SpawnMarker(marker=marker))
+        if not response.success:
+            is_lost = "there is no mesh" in response.status_message
             result_code = code.MISSING_ASSETS if is_lost else code.INVALID_POSE
-            return code(Result(result_code, answer.status_message))
+            return code(Result(result_code, response.status_message))
         self._marker_ids[name] = self._n_spawned
         self._n_spawned += 1
         return code(entity_name=name)
@@ -159,7 +159,7 @@ class Entities:
 
 
 def check_filter(filter: str) -> None:
-    """Raise re.error if an expression may take unbounded time."""
+    """Raise re.error if a regular expression could take too long to match."""
     if len(filter) > MAX_FILTER_LENGTH:
         raise re.error(f"it has more than {MAX_FILTER_LENGTH} characters")
     if len(re.findall(r"[*+?{]", filter)) > MAX_REPETITIONS or re.search(r"\)[*+?{]", filter):

@@ -1,7 +1,7 @@
-"""Spawned markers as lines that viewers draw over their images.
+"""Drawings of spawned markers as lines, which viewers draw over their images.
 
-Cubes, spheres, cylinders and arrows are outlines, lists of points and of shapes have a cross at
-each, meshes and texts are a dot with their name.
+Cubes, spheres, cylinders and arrows are drawn as outlines, lists of points or shapes as a cross at
+each point, meshes and texts as a dot with the name of the marker.
 """
 
 from __future__ import annotations
@@ -23,20 +23,21 @@ CROSS_SIZE = 0.1
 """The size of a cross [m]."""
 CIRCLE = [(math.cos(turn), math.sin(turn)) for turn in np.linspace(0.0, 2.0 * math.pi, 17).tolist()]
 SQUARE = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0)]
+"""The closed outline of a base with the half width 1."""
 NAMED_TYPES = (Marker.MESH_RESOURCE, Marker.TEXT_VIEW_FACING)
-"""The types that viewers show as a dot with the name."""
+"""The types of markers that viewers show as a dot with the name."""
 Line = list[tuple[float, float, float]]
 
 
 def draw_marker(
     marker: Marker, world_from_localized: Pose, max_points: int = MAX_POINTS
 ) -> DrawnMarker:
-    """Return the drawing of a marker.
+    """Return the drawing of a marker as lines.
 
     Args:
         marker: the marker, with its pose in L.
-        world_from_localized: the transform of W from L.
-        max_points: the limit of points of its lines; lines beyond it are left out.
+        world_from_localized: the pose of L in W.
+        max_points: the maximum number of points; lines beyond it are left out.
     """
     lines = []
     for line in filter(None, _lines(marker)):
@@ -57,7 +58,7 @@ def count_points(drawing: DrawnMarker) -> int:
 def draw_markers(
     markers: Mapping[str, Marker], world_from_localized: Pose
 ) -> dict[str, DrawnMarker]:
-    """Return the drawings of markers, with at most `MAX_POINTS` points together."""
+    """Return the drawings of markers by name, with at most `MAX_POINTS` points together."""
     drawings, n_left = {}, MAX_POINTS
     for name, marker in markers.items():
         drawings[name] = draw_marker(marker, world_from_localized, n_left)
@@ -66,7 +67,7 @@ def draw_markers(
 
 
 def describe_markers(drawings: Mapping[str, DrawnMarker]) -> list[dict[str, Any]]:
-    """Return name, colour and lines in W of each marker, as `uwsim.viewer.head` defines them."""
+    """Return the name, the colour and the lines in W of each marker, as in `uwsim.viewer.head`."""
     descriptions: list[dict[str, Any]] = []
     for name, drawing in drawings.items():
         pose = Pose.from_quaternion(np.array(drawing.pose[:3]), np.array(drawing.pose[3:]))
@@ -78,14 +79,14 @@ def describe_markers(drawings: Mapping[str, DrawnMarker]) -> list[dict[str, Any]
 
 
 def localized_from_marker(marker: Marker) -> Pose:
-    """Return the pose of a marker in L, whose message was checked when it was spawned."""
+    """Return the pose of a marker in L; its message was checked when the marker was spawned."""
     pose = read_pose(marker.pose)
     assert pose is not None
     return pose
 
 
 def _format_colour(marker: Marker) -> str:
-    """Return the colour as ``#rrggbb``; white for a transparent or invalid one."""
+    """Return the colour as ``#rrggbb``; white if it is transparent or invalid."""
     rgb = [marker.color.r, marker.color.g, marker.color.b]
     if marker.color.a <= 0.0 or not all(map(math.isfinite, rgb)):
         return "#ffffff"

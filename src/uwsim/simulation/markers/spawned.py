@@ -1,9 +1,9 @@
-"""Markers that programs add by the service ``SpawnMarker``, for a viewer and on ``/tf``.
+"""Markers that programs add by the service ``SpawnMarker``, for viewers and for ``/tf``.
 
-A marker is named ``<id>+<ns>``. A second marker of a name replaces the first; ``DELETE`` removes
-it, and ``DELETEALL`` all of them. Poses are in L, whatever frame the header names. Markers have no
-mass and no contacts, and are not in the images of virtual cameras. The folders of the scene are
-searched for a mesh; a marker without its mesh is rejected.
+The name of a marker is ``<id>+<ns>``. A new marker replaces an older one with the same name;
+``DELETE`` removes one marker, and ``DELETEALL`` all of them. Poses are in L, whatever frame the
+header names. Markers have no mass and no contacts, and are not in the images of virtual cameras. A
+mesh is searched in the folders of the scene; a marker whose mesh is missing is rejected.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ TYPES = {
     **{Marker.SPHERE_LIST: "SPHERE_LIST", Marker.TEXT_VIEW_FACING: "TEXT_VIEW_FACING"},
     **{Marker.MESH_RESOURCE: "MESH_RESOURCE", Marker.TRIANGLE_LIST: "TRIANGLE_LIST"},
 }
-"""The types of markers that are shown."""
+"""The names of the supported types of markers."""
 MAX_MARKERS = 10_000
 MAX_POINTS = 1_000_000
 """The maximum number of points of a marker."""
@@ -40,9 +40,9 @@ class MarkersState(Record):
     """The markers of a running scene."""
 
     markers: dict[str, Marker] = field(default_factory=dict)
-    """The markers by name, in the order in which they were added."""
+    """The markers, by name, in the order in which they were added."""
     ends: dict[str, float] = field(default_factory=dict)
-    """The time at which each marker expires [s]."""
+    """The simulation time at which each marker expires, by name [s]."""
 
 
 class Markers:
@@ -50,13 +50,13 @@ class Markers:
 
     Args:
         clock: returns the simulation time [s].
-        has_mesh: returns whether there is a mesh of a name; raises AssetError if it is unreadable.
+        has_mesh: returns whether a mesh of this name exists; raises AssetError if it is unreadable.
     """
 
     def __init__(self, clock: Callable[[], float], has_mesh: Callable[[str], bool]) -> None:
         self._clock, self._has_mesh = clock, has_mesh
         self.state = MarkersState()
-        """The markers."""
+        """The state: the markers and their times of expiry."""
 
     @property
     def active_markers(self) -> dict[str, Marker]:
@@ -65,12 +65,12 @@ class Markers:
         return {name: marker for name, marker in self.state.markers.items() if now < ends[name]}
 
     def frames(self) -> list[Frame]:
-        """Return the frames of the markers in L."""
+        """Return the frames of the active markers in L."""
         markers = self.active_markers.items()
         return [Frame("", name, partial(localized_from_marker, marker)) for name, marker in markers]
 
     def answer(self, request: SpawnMarker) -> SpawnMarkerResponse:
-        """Add, modify or delete a marker."""
+        """Add, modify or delete a marker, and return the result."""
         marker = request.marker
         name, label = f"{marker.id}+{marker.ns}", f"object {marker.id} {marker.ns}"
         self.state.markers = self.active_markers
@@ -90,7 +90,7 @@ class Markers:
         return SpawnMarkerResponse(True, f"{label} was successfully {verb}.")
 
     def _find_error(self, name: str, marker: Marker) -> str | None:
-        """Return the reason why a marker cannot be shown; None: it can."""
+        """Return the reason why a marker is rejected; None if it is valid."""
         if marker.type not in TYPES:
             return f"its type is {marker.type}; expected one of {', '.join(sorted(TYPES.values()))}"
         if name not in self.state.markers and len(self.state.markers) >= MAX_MARKERS:

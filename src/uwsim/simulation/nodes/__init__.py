@@ -1,1 +1,1 @@
-"""Algorithms that run in this process, and the calls of their callbacks."""
+"""Nodes of algorithms that run in this process, and the counting of calls to the algorithms."""

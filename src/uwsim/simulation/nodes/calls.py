@@ -1,7 +1,7 @@
-"""Calls into an algorithm, counted in memory shared with the parent process.
+"""Calls of an algorithm's methods, counted in memory that is shared with the parent process.
 
-The counter remains readable when the process dies: an odd number means that a call of the algorithm
-has not returned. The parent runs the trial again without that call: everything before it is the
+The counter stays readable when the process of the algorithm dies: an odd number means that a call
+has not returned. The parent then runs the trial again up to that call: everything before it is the
 same, and the algorithm is not called any more.
 """
 
@@ -12,36 +12,36 @@ from types import TracebackType
 from typing import Protocol
 
 NO_CALLS = 0
-"""The value of a counter before the first call."""
+"""The value of the counter before the first call."""
 
 
 class Counter(Protocol):
-    """A number that outlives this process."""
+    """A number in memory that stays readable when this process has died."""
 
     value: int
-    """``2 n + 1`` within call number n, ``2 n + 2`` after it."""
+    """``2 n + 1`` during call number n (from 0), ``2 n + 2`` after it."""
 
 
 @dataclass(frozen=True)
 class Cut:
-    """The first call that is no longer made."""
+    """The call before which a repeated trial stops calling the algorithm."""
 
     call: int
-    """The number of the call."""
+    """The number of the first call that is not made, from 0."""
     reason: str
-    """The failure of the call in the process before."""
+    """The failure of that call in the earlier process."""
 
 
 class CallStopped(Exception):
-    """An exception instead of a call: the algorithm is not called any more."""
+    """An exception raised in place of a call, as the algorithm is not called any more."""
 
 
 class Calls:
-    """The calls into an algorithm: each ``with`` block is one, with the calls made within it.
+    """A counter of the calls of an algorithm: each outermost ``with`` block is one call.
 
     Args:
-        counter: the counter in shared memory; None: none.
-        cut: the call that is not made.
+        counter: the counter in shared memory; None: the calls are not reported.
+        cut: the first call that is not made; None: all calls are made.
         limit: the time limit of a call [s of wall time], if the algorithm has its own process;
             None: no limit.
     """
@@ -61,7 +61,7 @@ class Calls:
             counter.value = NO_CALLS
 
     def __enter__(self) -> None:
-        """Begin a call; raises Stopped if it is the one that is not made."""
+        """Begin a call; raise CallStopped from the call of ``cut`` on."""
         if self._depth == 0:
             if self._cut is not None and self._n >= self._cut.call:
                 raise CallStopped(self._cut.reason)
@@ -84,5 +84,9 @@ class Calls:
 
 
 def unfinished_call(count: int) -> int | None:
-    """Return the number of the call that has not returned; None if there is none."""
+    """Return the number of the call that has not returned; None if all have returned.
+
+    Args:
+        count: the value of a `Counter`.
+    """
     return count // 2 if count % 2 else None

@@ -24,11 +24,11 @@ from .undelivered import UndeliveredMessages
 
 M = TypeVar("M")
 STOPPED_VERB = "was stopped"
-"""The verb of an algorithm that is not called any more though it raised nothing."""
+"""The verb in messages about an algorithm that was stopped without an exception."""
 
 
 def latency_of(parameters: Mapping[str, float | str]) -> float:
-    """Return the parameter ``latency_s`` [s], 0 if not given; BadSetting if it is no time."""
+    """Return the parameter ``latency_s`` [s], by default 0; raise BadSetting if it is no time."""
     latency = parameters.get("latency_s", 0.0)
     if isinstance(latency, str) or latency < 0.0:
         raise BadSetting(f"algorithm.latency_s is {latency!r}; expected a time >= 0 [s].")
@@ -36,19 +36,19 @@ def latency_of(parameters: Mapping[str, float | str]) -> float:
 
 
 def describe_failure(error: BaseException, algorithm: type) -> str:
-    """Describe the exception of a third-party program, or the reason why it was stopped."""
+    """Describe the exception of an algorithm, or the reason why it was stopped."""
     return str(error) if isinstance(error, CallStopped) else describe_exception(error, algorithm)
 
 
 @runtime_checkable
 class SavesItself(Protocol):
-    """An algorithm whose state is part of that of the simulation."""
+    """An algorithm whose own state can be saved as part of the state of the simulation."""
 
     def save(self) -> bytes:
-        """Return the state."""
+        """Return the state of the algorithm as bytes."""
 
     def restore(self, data: bytes) -> None:
-        """Go back, or on, to a state that `save` has returned."""
+        """Set the algorithm to a state that `save` has returned."""
 
 
 class AlgorithmState(ExternalValue):
@@ -82,37 +82,37 @@ class AlgorithmState(ExternalValue):
 
 @dataclass(slots=True)
 class NodeTimerState(Record):
-    """The progress of a timer of an algorithm."""
+    """The state of a timer of an algorithm."""
 
     due: int
-    """The step from which on the timer is due."""
+    """The step at which the timer is due next."""
     n_fired: int = 0
     """The number of calls so far."""
 
 
 @dataclass(slots=True)
 class NodeState(Record):
-    """The changing values of an attached algorithm and its node."""
+    """The state of an attached algorithm and its node."""
 
     name: str
     """The name of the algorithm."""
     rng: np.random.Generator
-    """The generator of the algorithm."""
+    """The random generator of the algorithm."""
     timers: list[NodeTimerState] = field(default_factory=list)
-    """The progress of its timers."""
+    """The states of the timers of the algorithm."""
     algorithm: AlgorithmState | None = None
-    """The state of the algorithm itself; None before it was started."""
+    """The state of the algorithm itself; None before it is started."""
     error: str | None = None
-    """The exception that it raised, if any, and where; or the reason why it was stopped."""
+    """The exception that the algorithm raised, and where, or the reason why it was stopped."""
     failure_verb: str = "raised"
-    """The verb of a sentence with `error`: it raised, or was stopped."""
+    """The verb of a sentence about `error`: ``raised`` or ``was stopped``."""
 
 
 class _Timer:
-    """A periodic timer."""
+    """A periodic timer of an algorithm; its start and its period are in steps."""
 
     def __init__(self, start: int, period: float, callback: Callable[[], None]) -> None:
-        self._start, self._period, self.callback = start, period, callback  # [steps]
+        self._start, self._period, self.callback = start, period, callback
         self.state = NodeTimerState(start)
 
     def advance(self) -> None:
@@ -122,11 +122,19 @@ class _Timer:
 
 
 class InProcessNode:
-    """A `uwsim.bus.Node` in lock-step: callbacks run inside the step, time waits for them.
+    """A `uwsim.bus.Node` in lock-step: its callbacks run within a step of the simulation.
 
-    An exception in a callback, of whatever kind, is the algorithm's failure, not the simulator's:
-    it is stored in `error`, and the algorithm is not called any more. With ``raises`` the caller of
-    the simulation receives it. Messages are copied when they are published.
+    Any exception in a callback is a failure of the algorithm, not of the simulator: it is stored in
+    `error`, and the algorithm is not called any more. Messages are copied when they are published.
+
+    Args:
+        bus: the bus of the simulation.
+        name: the name of the algorithm.
+        timestep: the length of a step [s].
+        rng: the random generator of the algorithm.
+        parameters: the parameters of the algorithm; ``latency_s`` [s] delays its messages.
+        raises: True: an exception is also raised to the caller of the simulation.
+        calls: the counter of the algorithm's calls; None: they are not counted.
     """
 
     def __init__(
@@ -150,7 +158,7 @@ class InProcessNode:
         self._publications: dict[str, Callable[[], str | None]] = {}
         self._timestep = timestep
         self.state = NodeState(name, rng)
-        """The changing values."""
+        """The state of the algorithm and its node."""
         user_parameters = {key: value for key, value in parameters.items() if key != "latency_s"}
         self._parameters = TrackedParameters(user_parameters)
         self._timers: list[_Timer] = []
@@ -162,12 +170,12 @@ class InProcessNode:
 
     @property
     def error(self) -> str | None:
-        """The exception that it raised, if any, and where; or the reason why it was stopped."""
+        """The exception that the algorithm raised, and where, or the reason why it was stopped."""
         return self.state.error
 
     @property
     def failure_verb(self) -> str:
-        """The verb of a sentence with `error`: it raised, or was stopped."""
+        """The verb of a sentence about `error`: ``raised`` or ``was stopped``."""
         return self.state.failure_verb
 
     @property
@@ -177,12 +185,12 @@ class InProcessNode:
 
     @property
     def parameters(self) -> TrackedParameters:
-        """The parameters that the user set; the algorithm has its own defaults."""
+        """The parameters that the user has set; defaults are those of the algorithm."""
         return self._parameters
 
     @property
     def rng(self) -> np.random.Generator:
-        """The algorithm's own random stream."""
+        """The random generator of the algorithm."""
         return self.state.rng
 
     @property
@@ -195,7 +203,7 @@ class InProcessNode:
         """Start the algorithm; an exception is stored in `error`.
 
         Raises:
-            BadSetting: it rejects one of its parameters, which is a mistake of the user.
+            BadSetting: the algorithm rejects a parameter, which is a mistake of the user.
         """
         self._algorithm, self.state.algorithm = type(algorithm), AlgorithmState(algorithm)
         try:
@@ -219,7 +227,7 @@ class InProcessNode:
         )
 
     def publisher(self, topic: str, type: type[M]) -> Callable[[M], None]:
-        """Return ``publish(message)``; delayed by the parameter ``latency_s``."""
+        """Return the function that publishes a message, delayed by the parameter ``latency_s``."""
         self._check(topic)
         self._publications[f"it publishes on {topic!r}, but "] = lambda: (
             self._bus.describe_missing_subscriber(topic)
@@ -243,7 +251,7 @@ class InProcessNode:
         warn(f"{self.name}: /{topic}: {text}")
 
     def describe_unconnected_topics(self) -> list[str]:
-        """Return a sentence for each of its topics that has no publisher or no subscriber."""
+        """Return a sentence for each topic of the algorithm without a publisher or a subscriber."""
         return self._describe_topics({**self._subscriptions, **self._publications})
 
     @deprecated_name("describe_unconnected_topics")
@@ -252,7 +260,7 @@ class InProcessNode:
         return self.describe_unconnected_topics()
 
     def describe_unpublished_topics(self) -> list[str]:
-        """Return a sentence for each topic that it subscribes to and that has no publisher."""
+        """Return a sentence for each topic that is subscribed and has no publisher."""
         return self._describe_topics(self._subscriptions)
 
     def _describe_topics(self, topics: Mapping[str, Callable[[], str | None]]) -> list[str]:
@@ -274,12 +282,12 @@ class InProcessNode:
         self._close.append(lambda: self._bus.services.withdraw(name))
 
     def call(self, name: str, request: object) -> object:
-        """Call a service; UnknownName if it is not offered."""
+        """Call a service and return its response; raise UnknownName if no node offers it."""
         self._check()
         return self._bus.services.call(name, request)
 
     def create_timer(self, period_s: float, callback: Callable[[], None]) -> None:
-        """Call ``callback`` every ``period_s`` of simulation time, from now on."""
+        """Call ``callback`` every ``period_s`` [s] of simulation time, from now on."""
         self._check()
         if not 0.0 < period_s < math.inf:
             raise BadSetting(f"A timer's period is {period_s!r}; expected a time > 0 [s].")
@@ -293,7 +301,7 @@ class InProcessNode:
         self.create_timer(period_s, callback)
 
     def tick(self) -> None:
-        """Call the timers that are due at the current step, in the order they were set."""
+        """Call the timers that are due at the current step, in the order of their creation."""
         for timer in self._timers:
             if self._bus.step >= timer.state.due:
                 timer.advance()
@@ -301,7 +309,7 @@ class InProcessNode:
 
     @property
     def next_tick(self) -> float:
-        """The step at which `tick` calls a timer; inf without any."""
+        """The next step at which `tick` calls a timer; infinity without timers."""
         return min((timer.state.due for timer in self._timers), default=math.inf)
 
     def close(self) -> None:
@@ -333,7 +341,7 @@ class InProcessNode:
             raise error
 
     def _check(self, topic: str | None = None) -> None:
-        """Reject a forbidden use of the node; that ends the algorithm, caught or not."""
+        """Raise NotAllowed for a forbidden use, and stop the algorithm even if it catches that."""
         if threading.get_ident() != self._thread:
             self._reject_use("it uses its node from a thread of its own")
         if not self._is_started:

@@ -8,9 +8,9 @@ from ...base.message_fields import size_of
 from ...errors import NotAllowed
 
 MAX_MESSAGES = 10_000
-"""The maximum number of messages in transit of one algorithm: published now, or delayed."""
+"""The maximum number of undelivered messages of one algorithm, delayed messages included."""
 MAX_BYTES = 256 * 2**20
-"""The maximum size of these messages together."""
+"""The maximum total size of these messages [bytes]."""
 
 
 class UndeliveredMessages:
@@ -21,10 +21,10 @@ class UndeliveredMessages:
         self._n_bytes = 0
 
     def add(self, message: object, *, step: int, delay_steps: int) -> None:
-        """Count a message.
+        """Count a message that is published at a step.
 
         Raises:
-            NotAllowed: it is one too many.
+            NotAllowed: the messages are too many, or too large in total.
         """
         while self._deliveries and self._deliveries[0][0] < step:
             self._n_bytes -= self._deliveries.popleft()[1]

@@ -1,1 +1,1 @@
-"""The visible side of a scene: images, rays, and the sand over buried objects."""
+"""The visible surfaces of a scene: rendering, ray casting, and the sand over buried objects."""

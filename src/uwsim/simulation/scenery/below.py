@@ -16,16 +16,16 @@ from .scenery import Scenery
 
 @dataclass(frozen=True)
 class LowerSurface:
-    """A surface below a point."""
+    """A surface vertically below a point."""
 
     name: str
-    """The name of the object or link that it belongs to."""
+    """The name of the object or link to which the surface belongs."""
     height: float
     """The z coordinate of the surface in W [m]."""
 
 
 def surfaces_below_vehicle(world: LiveScene, vehicle: str) -> tuple[LowerSurface, ...]:
-    """Return the visible surfaces below a vehicle's origin, without its own, nearest first."""
+    """Return the visible surfaces below a vehicle's origin, nearest first; not its own surfaces."""
     index = world.vehicles.find(vehicle).index
     parts = world.scenery.parts
     visible_parts = [part for part in parts if part.vehicle != index and not part.is_hidden]
@@ -35,11 +35,12 @@ def surfaces_below_vehicle(world: LiveScene, vehicle: str) -> tuple[LowerSurface
 def surfaces_below(
     point: Array, scenery: Scenery, parts: Iterable[Part]
 ) -> tuple[LowerSurface, ...]:
-    """Return the highest surface of each name of ``parts`` below a point of W, (3,) [m].
+    """Return the surfaces of ``parts`` below a point of W, (3,) [m], the highest first.
 
-    The highest comes first. The vertical through the point meets a triangle if the signed areas
-    :math:`a, b, c` of the point with each pair of corners have one sign, at the height
-    :math:`(a z_0 + b z_1 + c z_2) / (a + b + c)`. Vertical triangles are not met.
+    Of several surfaces with the same name, only the highest is returned. Seen from above, the
+    point and each pair of corners of a triangle span the signed areas :math:`a, b, c`. The vertical
+    through the point crosses the triangle if these have the same sign, at the height
+    :math:`(a z_0 + b z_1 + c z_2) / (a + b + c)`. Vertical triangles have no crossing.
     """
     heights: dict[str, float] = {}
     for part in parts:
@@ -54,7 +55,12 @@ def surfaces_below(
 
 
 def _highest_crossing(point: Array, triangles: Array) -> float | None:
-    """Return z of the highest crossing of triangles (n, 3, 3) [m] below a point (3,) [m]."""
+    """Return the height in W [m] of the highest crossing below the point; None without any.
+
+    Args:
+        point: the point in W, (3,) [m].
+        triangles: the corners of the triangles in W, (n, 3, 3) [m].
+    """
     corners = triangles[:, :, :2] - point[:2]  # (n, 3, 2) [m], the point is the origin
     next_corners = np.roll(corners, -1, axis=1)
     areas = (

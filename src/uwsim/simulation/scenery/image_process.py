@@ -1,10 +1,10 @@
-"""Images of cameras drawn in a process of their own, so that a paced run does not wait for them.
+"""Camera images that a separate process renders, so that a run in real time does not wait for them.
 
-At a sample of a camera the state on which images depend (`STATE_FIELDS`) goes to the process
-through shared memory. It restores that in a simulation of the same scene and draws there, with the
-camera's own random numbers: the pixels are equal to those of this process, to the last bit. The
-image is published when it is received, some steps later, stamped with the time of its sample. That
-depends on the wall clock: for runs in real time only.
+When an image of a camera is due, the state on which images depend (`STATE_FIELDS`) is sent to the
+render process through shared memory. That process restores the state in a simulation of the same
+scene and renders there, with the camera's own random numbers: its pixels are equal to the last bit.
+The image is published when it is received, some steps later, stamped with the time at which it was
+due. The delay depends on the wall clock, so this is for runs in real time only.
 """
 
 from __future__ import annotations
@@ -29,22 +29,23 @@ if TYPE_CHECKING:
     from ..simulation import Simulation
 
 STATE_FIELDS = ("engine", "scenery", "devices", "sensors", "vehicles")
-"""The fields of a simulation's state on which images depend."""
+"""The fields of `State` on which images depend."""
 SPARE_BYTES = 2**20
-"""The memory for a state that grows [bytes]."""
+"""The spare memory for a state that grows [bytes]."""
 NICENESS = 5
-"""The increment of the process's nice value, which gives the simulation priority."""
+"""The increment of the render process's nice value, which gives the simulation priority."""
 READY_MESSAGE = "ready"
+"""The message with which the render process reports that it can receive requests."""
 
 
 class ImageProcess:
-    """A process that draws the images of a simulation; it starts with the first request.
+    """A process that renders the images of a simulation; it starts with the first request.
 
-    Until it is ready, and after its end, this process draws the images. A sample that is due while
-    the last image is still being drawn is left out.
+    Until it is ready, and after its end, the simulation renders the images itself. An image that is
+    due while the last one is still being rendered is left out.
 
     Args:
-        simulation: the simulation of the images.
+        simulation: the simulation whose images are rendered.
         report: a function that prints a line for the user.
     """
 
@@ -59,25 +60,25 @@ class ImageProcess:
         self._requests: list[tuple[str, float]] = []
         self._n_state = 0
         self.pid: int | None = None
-        """The number of the process, once it is started."""
+        """The id of the render process; None before it is started."""
         self.n_left_out = 0
-        """The number of samples left out so far."""
+        """The number of images left out so far."""
         for publisher in simulation.world.images.values():
             publisher.request_image = self._request
         simulation.watch(self.step)
 
     @property
     def is_ready(self) -> bool:
-        """True if the process draws images."""
+        """True if the render process can receive requests."""
         return self._is_ready
 
     @property
     def is_idle(self) -> bool:
-        """True if the process draws nothing and no request is pending."""
+        """True if the render process has no request, and none is pending."""
         return not self._is_busy and not self._requests
 
     def step(self) -> None:
-        """Publish the images that are drawn, and send the requests; at the end of a step."""
+        """Publish the finished images and send the pending requests; called after each step."""
         pipe = self._pipe
         if pipe is None:
             return
@@ -92,7 +93,7 @@ class ImageProcess:
             self.close()
 
     def close(self) -> None:
-        """End the process; images are drawn in this one."""
+        """End the render process; the simulation renders further images itself."""
         for publisher in self._simulation.world.images.values():
             publisher.request_image = None
         self._is_ready = False
@@ -133,7 +134,7 @@ class ImageProcess:
         return pack(copy_fields(self._simulation.state, STATE_FIELDS))
 
     def _request(self, publisher: ImagePublisher, time: float) -> bool:
-        """Request an image from the process; False: this process has to draw it."""
+        """Request an image; return False if the simulation has to render the image itself."""
         if self._process is None:
             self._start_process()
         pinhole, slot = publisher.camera.intrinsics, self._slots[publisher.image_topic]
@@ -174,7 +175,7 @@ def draw_images(
     memory_layout: tuple[str, Mapping[str, tuple[int, int]]],
     model: SceneModel,
 ) -> None:
-    """Draw the requested images until the pipe is closed; the main function of the process."""
+    """Render requested images until the pipe closes; the main function of the render process."""
     from ..simulation import Simulation
 
     signal.signal(signal.SIGINT, signal.SIG_IGN)
@@ -184,7 +185,7 @@ def draw_images(
     assert memory.buf is not None
     try:
         with Simulation(model) as simulation:
-            _ = simulation.world.scenery.renderer_name  # its graphics context
+            _ = simulation.world.scenery.renderer_name  # makes the graphics context
             pipe.send(READY_MESSAGE)
             while True:
                 n_state, requests = pipe.recv()

@@ -1,4 +1,4 @@
-"""The poses of the models of a scene: of one, and of all at once for an image."""
+"""The poses of the visible parts of a scene: of one part, or of all parts for an image."""
 
 from __future__ import annotations
 
@@ -15,18 +15,20 @@ from ...physics.poses import Poses
 
 
 class PartPoses:
-    """The poses of the models of a scene, with their scale."""
+    """The poses of the visible parts of a scene, as matrices that include their scale."""
 
     def __init__(self, parts: Sequence[Part], poses: Poses) -> None:
         self._parts, self._poses = parts, poses
         frames = [part.frame_from_mesh for part in parts]
         self._frame_from_mesh: Array = np.array(frames, dtype=np.float64).reshape(-1, 4, 4)
-        self._carried_objects: list[int] | None = None  # those of `_bodies`
-        self._bodies = np.zeros(0, dtype=np.int64)  # of the engine; -1: none
-        self._unattached_parts: list[int] = []  # without a body of the engine
+        self._carried_objects: list[int] | None = (
+            None  # the carried objects for which `_bodies` is valid
+        )
+        self._bodies = np.zeros(0, dtype=np.int64)  # the engine's body of each part; -1: none
+        self._unattached_parts: list[int] = []  # the parts without a body of the engine
 
     def world_from_mesh(self, part: Part) -> Array:
-        """Return the present pose of a part, (4, 4) [m]."""
+        """Return the present pose of a part in W with its scale, (4, 4) [m]."""
         if part.vehicle is None:
             assert part.object is not None
             frame = self._poses.object(part.object).matrix
@@ -35,7 +37,7 @@ class PartPoses:
         return product(frame, part.frame_from_mesh)
 
     def compute_all(self) -> Array:
-        """Return the present poses of the parts, in their order, (n, 4, 4) [m]."""
+        """Return the present poses in W of all parts, in the order of the scene, (n, 4, 4) [m]."""
         poses, carried_objects = self._poses, list(self._poses.state.carriers)
         if self._carried_objects != carried_objects:
             bodies = [poses.engine_body(p.vehicle, p.link, p.object) for p in self._parts]
@@ -61,11 +63,11 @@ def _write_poses(
     """Write the poses of the parts that move with bodies of the engine, (n, 4, 4) [m].
 
     Args:
-        origins: the origins of the engine's bodies, (m, 3) [m].
-        axes: the axes of these, (m, 3, 3).
-        bodies: the bodies of the parts, (n,); -1: none.
+        origins: the origins of the engine's bodies in W, (m, 3) [m].
+        axes: the axes of the engine's bodies in W, as columns, (m, 3, 3).
+        bodies: the number of the engine's body of each part, (n,); -1: none.
         frame_from_mesh: the poses of the parts on their bodies, (n, 4, 4) [m].
-        world_from_mesh: the poses that are written.
+        world_from_mesh: the poses of the parts in W, which are written, (n, 4, 4) [m].
     """
     frame = np.eye(4)
     for n in range(len(bodies)):

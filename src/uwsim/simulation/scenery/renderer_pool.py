@@ -1,4 +1,4 @@
-"""Renderers that are reused by one simulation after another.
+"""A pool of renderers, which several simulations use one after another.
 
 A new OpenGL context has to compile its shaders and load every texture again, which costs as
 much as dozens of images. A pool is shared by several simulations of one process.
@@ -13,19 +13,19 @@ if TYPE_CHECKING:
 
 
 class RendererPool:
-    """A pool of renderers, each lent to one simulation at a time.
+    """A pool of renderers, each used by one simulation at a time.
 
-    Images do not depend on earlier use of a renderer. Use the pool from one thread.
+    Images do not depend on the earlier use of a renderer. Use the pool from one thread only.
     """
 
     def __init__(self) -> None:
         self._idle_renderers: list[Renderer] = []
 
     def acquire(self) -> Renderer:
-        """Return an empty renderer, a new one if none is idle.
+        """Return an idle renderer without models, or a new renderer.
 
         Raises:
-            NoGraphics: no OpenGL context could be made.
+            NoGraphics: no OpenGL context can be created.
         """
         from ...rendering.renderer import Renderer
 

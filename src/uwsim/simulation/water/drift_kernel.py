@@ -1,4 +1,4 @@
-"""The drift of vehicles that are not simulated, in compiled code: `WaterMotion.advect`."""
+"""The drift of vehicles that are not simulated, in compiled code: `WaterMotion.drifted_pose`."""
 
 from __future__ import annotations
 

@@ -130,8 +130,10 @@ class WaterMotion:
             row[0, :, 6:9] = rotation
         return row_function(row)
 
-    def drift(self, vehicles: Sequence[str], timestep: float, end: float) -> DriftFunction | None:
-        """Return the function that moves vehicles with the water in compiled steps, as `advect`.
+    def drift_function(
+        self, vehicles: Sequence[str], timestep: float, end: float
+    ) -> DriftFunction | None:
+        """Return the function that lets vehicles drift in compiled steps, as `drifted_pose`.
 
         None where Python has to compute the flow.
 
@@ -244,7 +246,9 @@ class WaterMotion:
             )
         return functions[vehicle, n]
 
-    def advect(self, world_from_base: Pose, time: float, timestep: float, vehicle: str) -> Pose:
+    def drifted_pose(
+        self, world_from_base: Pose, time: float, timestep: float, vehicle: str
+    ) -> Pose:
         """Return the pose of a vehicle after a step of drifting with the water: ``p += v dt``."""
         point = self._localized_from_world.transform(world_from_base.position[None])  # (1, 3) [m]
         velocity = self._flow.velocity(point, time, (vehicle,))[0]  # (3,) [m/s]

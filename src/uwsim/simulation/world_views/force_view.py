@@ -92,7 +92,7 @@ class ForceView:
             vehicle.name,
             lambda: mount.world_from_body,
             mount.motion,
-            engine.poses.link_body(index, link) if engine.is_simulated(index) else None,
+            engine.poses.link_body(index, link) if engine.has_dynamics(index) else None,
             np.array([x, y, z]),
         )
 

@@ -36,7 +36,7 @@ class Readings:
         if not world.vehicles:
             return
         self._vehicle = world.vehicles[vehicle]
-        self._has_dynamics = world.engine.is_simulated(self._vehicle.index)
+        self._has_dynamics = world.engine.has_dynamics(self._vehicle.index)
         for element, part in world.model.scene.vehicles[vehicle].all_parts():
             if isinstance(part, ForceSensorSpec | BatterySpec):
                 with suppress(UnknownName):  # a sensor on a link that does not exist is left out

@@ -1,6 +1,7 @@
-r"""Velocities and accelerations of a vehicle that is placed, by commands or by a recording.
+r"""Prescribed motion: velocities and accelerations of a vehicle whose poses are set.
 
-Its commands move it in jumps (`jumps`), each made evenly over a time T:
+Commands, or a recording, set the poses of a vehicle without dynamics, in jumps (`jumps`). The
+motion spreads each jump evenly over a time T:
 
 .. math:: \dot q = \Delta q / T, \qquad \ddot q = (\dot q - \dot q_{before}) / T
 
@@ -29,22 +30,23 @@ Source = Literal["base", "joints"]
 
 @dataclass(slots=True)
 class SourceState(Record):
-    """The motion by one source."""
+    """The motion that one source causes."""
 
     speed: Array
-    """The velocity of its last jump, (n,) [m/s, rad/s]."""
+    """The velocity of the last jump, (n,) [m/s, rad/s]."""
     previous_speed: Array
-    """The velocity of the jump before it, (n,)."""
+    """The velocity of the jump before the last, (n,) [m/s, rad/s]."""
     times: JumpState
     """The time of the last jump."""
 
 
 @dataclass(slots=True)
-class PlacedState(Record):
-    """The state of the motion of a placed vehicle."""
+class PrescribedMotionState(Record):
+    """The state of the prescribed motion of a vehicle."""
 
     positions: Array
-    """The positions of the joints when they were last recorded, (7 + n,)."""
+    """The base and joints when last recorded: position in W [m], quaternion (wxyz), and the joint
+    positions [rad or m], (7 + n,)."""
     base: SourceState
     """The motion by commands of the base."""
     joints: SourceState
@@ -53,8 +55,8 @@ class PlacedState(Record):
     """The motion by the water."""
 
 
-class PlacedMotion:
-    """The motion of one vehicle that is placed.
+class PrescribedMotion:
+    """The motion of one vehicle whose poses are set.
 
     Args:
         model: the engine's model.
@@ -82,11 +84,13 @@ class PlacedMotion:
         self._base, self._drift = _Motion(6, timestep), _Motion(6, timestep)
         self._joints = _Motion(len(other_joints), timestep)
         now: Array = data.qpos[self._places]
-        self.state = PlacedState(now, self._base.state, self._joints.state, self._drift.state)
+        self.state = PrescribedMotionState(
+            now, self._base.state, self._joints.state, self._drift.state
+        )
         """The state of the motion."""
 
     def record(self, step: int, starting_sources: Collection[Source] = ()) -> None:
-        """Record the present position; motion by ``starting_sources`` begins there."""
+        """Record the present configuration; motion by ``starting_sources`` begins there."""
         change = self._measure_change()
         sources: tuple[tuple[Source, _Motion, Array], ...] = (
             ("base", self._base, change[:6]),
@@ -103,13 +107,13 @@ class PlacedMotion:
         self._drift.add(step, self._measure_change()[:6])
 
     def record_at_rest(self) -> None:
-        """Record the present position, at rest."""
+        """Record the present configuration, at rest."""
         self._measure_change()
         for jumps in (self._base, self._joints, self._drift):
             jumps.clear()
 
     def twist(self, step: int) -> Array:
-        """Return the velocity of the base in W and its angular velocity in its own axes, (6,)."""
+        """Return the twist of the base: linear in W [m/s], angular in its axes [rad/s], (6,)."""
         return self._base.speed(step) + self._drift.speed(step)
 
     def update(self, step: int) -> None:
