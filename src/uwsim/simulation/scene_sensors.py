@@ -57,7 +57,7 @@ class SceneSensors:
         return self._cameras[name]
 
     def sensor(self, name: str, elements: tuple[str, ...]) -> Sensor:
-        """Return a sensor, or measuring device, of one of these elements; or raise UnknownName."""
+        """Return a sensor or measuring device of one of these elements; or raise UnknownName."""
         sensors = {
             sensor_name: sensor
             for (element, sensor_name), sensor in self._sensors.items()

@@ -1,13 +1,13 @@
-"""The step of a simulation.
+"""The sequence of a step of a simulation.
 
 .. code-block:: text
 
-    apply_commands -> step_devices -> advect_kinematic -> forces -> step_physics -> animate
-      -> update_contacts -> publish: samples that are due (images first), messages on the bus,
-         algorithms' callbacks -> observers
+    commands -> devices -> drift of kinematic vehicles -> forces -> physics -> animation
+      -> contacts -> publishing: samples that are due (images first), messages on the bus,
+         algorithms' callbacks -> step callbacks
 
-Time is an integer count of steps. The tail of the step (sensors and after) also runs once at
-step 0, when a simulation is started.
+Time is an integer count of steps. Publishing also happens once at step 0, when a simulation is
+started. Several steps are taken at once, in compiled code, if no Python code is due between them.
 """
 
 from __future__ import annotations
@@ -25,12 +25,12 @@ MAX_STEPS_AT_ONCE = 1000
 
 
 class SceneStepper:
-    """The sequence of calls that makes a step of a simulation.
+    """The object that takes the steps of a simulation.
 
     Args:
-        world: the live parts of the scene.
-        nodes: the attached algorithms; others may be added.
-        step_callbacks: called at the end of every step; others may be added.
+        world: the parts of the running scene.
+        nodes: the nodes of the attached algorithms; the list may grow.
+        step_callbacks: the functions called at the end of every step; the list may grow.
     """
 
     def __init__(
@@ -63,7 +63,7 @@ class SceneStepper:
         return self._bus.state.step * self._timestep
 
     def advance(self, n_max: int = 1) -> int:
-        """Take a step, and further steps as long as nothing has to happen between them.
+        """Take one step, or several at once if no Python code is due between them.
 
         Args:
             n_max: the maximum number of steps.
@@ -93,16 +93,16 @@ class SceneStepper:
         return n
 
     def _count_steps_without_python(self, n_max: int) -> tuple[int, bool]:
-        """Compute how many of the steps from this one on the forces may act alone.
+        """Return how many steps compiled code can take at once, this step included.
 
-        In the step after them a command, a sample, a timer or a device may be due. Observers,
-        forces and water that Python computes from positions need every step. The second value is
-        True if the samples after the last step need no preparation.
+        They end before Python has to handle a command, a sample, a timer or a device. Step
+        callbacks, forces, and water that Python computes from positions need Python at every step.
+        The second value is True if compiled code can also take the samples after the last step.
         """
         engine, water, now = self._engine, self._water, self._step
-        delivery = self._bus.next_delivery
+        next_delivery = self._bus.next_delivery
         if (
-            delivery <= now
+            next_delivery <= now
             or self._step_callbacks
             or self._forces
             or self._contacts.has_overlaps
@@ -112,20 +112,20 @@ class SceneStepper:
         ):
             return 1, False
         python_due, preparation_due = self._schedule.due_steps(now + n_max - 1)
-        dues = [delivery, python_due if self._network.is_idle else now]
-        dues += [timer.due for timer in self._image_timers]
-        dues += [self._below_ground.due, *(node.next_tick for node in self._nodes)]
+        due_steps = [next_delivery, python_due if self._network.is_idle else now]
+        due_steps += [timer.due for timer in self._image_timers]
+        due_steps += [self._below_ground.due, *(node.next_tick for node in self._nodes)]
         start_time = self._time - self._timestep
         idle_times = [math.inf, *(device.idle_until(start_time) for device in self._devices)]
         n_idle_steps = (min(idle_times) - start_time) // self._timestep - 1
-        n = int(min(n_max, MAX_STEPS_AT_ONCE, min(dues) - now + 1, n_idle_steps))
+        n = int(min(n_max, MAX_STEPS_AT_ONCE, min(due_steps) - now + 1, n_idle_steps))
         return (n, now + n <= preparation_due) if n > 1 else (1, False)
 
     def publish(self, *, is_sampled: bool = False) -> None:
         """Take samples that are due, deliver messages and call algorithms.
 
         Args:
-            is_sampled: True if the step has taken the samples of sensors.
+            is_sampled: True if compiled code has already taken the samples of this step.
         """
         bus, step = self._bus, self._step
         for timer in self._image_timers:
@@ -150,7 +150,7 @@ class SceneStepper:
             return False
         return (
             not engine.is_dynamic
-            or engine.places_bodies  # a held object is placed beside a vehicle that has drifted
+            or engine.places_bodies  # a held object has to follow a vehicle that has drifted
             or bool(self._forces)
             or any(
                 v.state.prescribed_motion.part is not None for v in self._kinematic_vehicles
@@ -159,7 +159,7 @@ class SceneStepper:
         )
 
     def _drift_kinematic_vehicles(self) -> None:
-        """Advect kinematic vehicles with the water, as the original UWSim does."""
+        """Move kinematic vehicles with the water, as the original UWSim does."""
         engine, water, timestep, now = self._engine, self._water, self._timestep, self._time
         drift = water.drift_function(self._kinematic_names, timestep, now)
         if drift is not None:
@@ -174,12 +174,12 @@ class SceneStepper:
                 motion.record_drift(self._step)
 
     def _step_physics(self, n: int, *, samples_last: bool, drifts_vehicles: bool) -> bool:
-        """Advance the physics by some steps, in the flow of the water at their times.
+        """Advance the physics by some steps, in the flow of the water at the time of each step.
 
         Args:
             n: the number of steps.
             samples_last: take the samples that are due after the last step.
-            drifts_vehicles: True if kinematic vehicles drift in these steps.
+            drifts_vehicles: move kinematic vehicles with the water in compiled code.
 
         Returns:
             True if samples were due after the last step, and were taken.
@@ -215,6 +215,6 @@ class SceneStepper:
         return is_sampled
 
     def animate(self) -> None:
-        """Move the parts that devices animate."""
+        """Apply the motions that devices animate, such as sway."""
         for device in self._devices:
             device.animate(self._time)

@@ -1,4 +1,4 @@
-"""The calls at later steps: samples, timers of a rate, and commands."""
+"""The schedule of a simulation: periodic timers with their samples, and deferred commands."""
 
 from __future__ import annotations
 
@@ -20,38 +20,38 @@ M = TypeVar("M")
 
 @dataclass(slots=True)
 class ScheduleState(Record):
-    """The changing values of a schedule."""
+    """The state of a schedule."""
 
     due: npt.NDArray[np.int64]
     """The step before which no timer is due, (1,)."""
     timers: list[TimerState] = field(default_factory=list)
     """The state of each timer."""
     commands: list[tuple[int, object]] = field(default_factory=list)
-    """The commands of this step, each with the number of its handler and the message."""
+    """The commands for the next step: the number of the handler and the message of each."""
 
 
 @dataclass(frozen=True, eq=False)
 class _Timer:
     """A timer, its callback, and the samples that it takes."""
 
-    rate: float
+    rate: float  # [Hz]
     call: Callable[[], None]
     is_needed: Callable[[], bool] | None
     sampling: Sampling | None
     state: TimerState
 
     def is_alone(self, end_time: float) -> bool:
-        """Return whether its samples, if any, need no preparation until a time [s]."""
+        """Return whether samples until ``end_time`` [s] need no preparation in Python."""
         return self.sampling is None or self.sampling.sampler.is_alone(end_time)
 
     @property
     def is_called(self) -> bool:
-        """True if its callback has something to do now."""
+        """True if the callback has something to do now."""
         return self.is_needed is None or self.is_needed()
 
 
 class Schedule:
-    """Timers, and the commands of the next step.
+    """The timers of a simulation, and the commands for the next step.
 
     Args:
         bus: the bus, which counts the steps.
@@ -63,7 +63,7 @@ class Schedule:
         self._timers: list[_Timer] = []
         self._command_handlers: list[Callable[[Any], None]] = []
         self.state = ScheduleState(np.full(1, NO_STEP))
-        """The changing values."""
+        """The state of the schedule."""
 
     def create_timer(
         self,
@@ -73,14 +73,14 @@ class Schedule:
         is_needed: Callable[[], bool] | None = None,
         sampling: Sampling | None = None,
     ) -> Callable[[], None]:
-        """Call ``call`` at the samples of ``rate`` [Hz] from now on.
+        """Call ``call`` periodically from now on.
 
         Args:
-            rate: the rate [Hz].
+            rate: the number of calls per second of simulation time [Hz].
             call: the callback.
             is_needed: returns whether the callback has something to do; None: always. Compiled
                 steps do not end where it has nothing to do.
-            sampling: takes a sample before each call, needed or not.
+            sampling: the sampler that takes a sample before each call; None: no samples.
 
         Returns:
             A function that stops the timer.
@@ -123,14 +123,14 @@ class Schedule:
         return table
 
     def due_steps(self, last_step: int) -> tuple[int, int]:
-        """Return the steps at which Python is needed.
+        """Return the next steps at which compiled steps need Python.
 
         Args:
             last_step: the last step of interest.
 
         Returns:
-            The step at which compiled steps have to end, as a call of Python is due; and that of
-            the first sample which compiled code cannot take without preparation.
+            The step at which compiled steps have to end, because a callback is due; and the step
+            of the first sample that compiled code cannot take without preparation.
         """
         python_due = preparation_due = NO_STEP
         for i, timer in enumerate(self._timers):
@@ -144,7 +144,7 @@ class Schedule:
         return min(python_due, preparation_due), preparation_due
 
     def _is_sampled(self, index: int, timer: _Timer) -> bool:
-        """Return whether a timer takes its samples now, and write this for compiled code."""
+        """Return whether a timer takes its samples now, and write the flag for compiled code."""
         if timer.sampling is None or timer.sampling.is_needed is None:
             return True
         is_sampled = timer.sampling.is_needed()
@@ -158,17 +158,17 @@ class Schedule:
         return lambda message: state.commands.append((number, message))
 
     def apply_commands(self) -> None:
-        """Apply the commands that arrived during the last step, in their order."""
+        """Apply the commands that arrived during the last step, in the order of arrival."""
         commands, self.state.commands = self.state.commands, []
         for number, message in commands:
             self._command_handlers[number](message)
 
     def tick(self, step: int, *, is_sampled: bool = False) -> None:
-        """Take the samples that are due at a step, and make the calls that are due.
+        """Take the samples that are due at a step, and call the callbacks that are due.
 
         Args:
-            step: the step that has been taken.
-            is_sampled: True if compiled code has taken the samples that are due at it.
+            step: the number of steps taken so far.
+            is_sampled: True if compiled code has already taken the samples of this step.
         """
         if is_sampled:
             self._call_fired(self._timers)

@@ -1,4 +1,4 @@
-"""A running scene, as programs use it."""
+"""The Python interface of a running scene."""
 
 from __future__ import annotations
 
@@ -32,12 +32,12 @@ class Simulation:
     """A running scene: the clock, the step, and the attached algorithms.
 
     Args:
-        model: the model of the scene, from `uwsim.physics.compile_scene.compile_scene`; its seed is
-            the seed of every random stream.
+        model: the compiled scene, from `uwsim.physics.compile_scene.compile_scene`; its seed is the
+            seed of every random stream.
         stream_prefix: the prefix of the name of every random stream.
         pool: the pool of renderers; None: the simulation has its own renderer.
         is_blind: images on topics are black, and nothing is rendered for them.
-        runs_code: run Python code that the scene names; else the water of that code is still.
+        runs_code: run Python code that the scene names; False: a current that needs it is still.
         udp_address: the address of this computer at which ``<fdm>`` receives packets; None: none.
     """
 
@@ -70,9 +70,9 @@ class Simulation:
         self._open(model)
 
     def _open(self, model: SceneModel, read_topics: Iterable[str] = ()) -> None:
-        """Open a model at step 0 and read some topics."""
+        """Start a model at step 0, and open an inbox for each of ``read_topics``."""
         self.world = world = self._make_scene(model)
-        """The live parts of the scene."""
+        """The parts of the running scene."""
         self._stepper = SceneStepper(world, self._nodes, self._step_callbacks)
         self._access = TopicAccess(self.bus, read_topics)
         self._state = self._make_state()
@@ -105,8 +105,8 @@ class Simulation:
     def reset(self, seed: int | None = None) -> None:
         """Start again at step 0, with the variations (``<u:vary>``) of a seed.
 
-        The simulation has then the same bytes as one that is loaded with this seed. `world` is
-        another object afterwards. The topics of `latest_message` and the callbacks of `watch` stay.
+        The state is then equal to that of a new simulation with this seed. `world` is a new object.
+        Topics that `latest_message` reads, and callbacks of `watch`, remain.
 
         Args:
             seed: the new seed of every random stream; None: the same seed again.
@@ -128,12 +128,12 @@ class Simulation:
 
     @property
     def state(self) -> State:
-        """The state; it changes while the simulation runs, a ``copy()`` does not."""
+        """The state of the simulation; it changes with each step, a ``copy()`` does not."""
         return self._state
 
     @property
     def bus(self) -> Bus:
-        """The topics and services."""
+        """The bus, which carries the topics and services."""
         return self.world.bus
 
     @property
@@ -152,13 +152,13 @@ class Simulation:
         return self._state.bus.step * self.world.model.timestep
 
     def advance(self, seconds: float | None = None) -> None:
-        """Take one step, or the whole number of steps nearest to a time [s].
+        """Take one step, or the number of steps nearest to a time [s].
 
         The first call also publishes the samples of step 0; ``advance(0.0)`` does only this.
 
         Raises:
             BadSetting: the time is negative or not finite.
-            RunFailed: the engine cannot continue.
+            RunFailed: the engine cannot continue, for example because of invalid numbers.
         """
         if not self._access.state.is_started:
             self._access.state.is_started = True
@@ -183,11 +183,11 @@ class Simulation:
     def publish(self, topic: str, message: object) -> None:
         """Publish a message; it is delivered at the end of the next step.
 
-        A topic that exists and has no subscriber now gives a warning on standard error, once.
+        For an existing topic without a subscriber, a warning is printed on standard error, once.
 
         Raises:
-            UnknownName: no such topic; names the nearest that has a subscriber.
-            BadSetting: the topic carries another type.
+            UnknownName: there is no such topic; the message suggests the nearest with a subscriber.
+            BadSetting: the topic carries another type of message.
             BadMessage: a field of the message has the wrong type or shape.
         """
         self._access.publish(topic, message)
@@ -199,7 +199,7 @@ class Simulation:
         while their topic is read: call this once, then advance.
 
         Raises:
-            UnknownName: no such topic; names the nearest.
+            UnknownName: there is no such topic; the message suggests the nearest name.
         """
         return self._access.latest_message(topic)
 
@@ -212,8 +212,8 @@ class Simulation:
         """Call a service and return its response.
 
         Raises:
-            UnknownName: the service is not offered; names the nearest.
-            BadMessage: the request is of another type.
+            UnknownName: no node offers the service; the message suggests the nearest name.
+            BadMessage: the request has the wrong type.
         """
         return self.bus.services.call(service, request)
 
@@ -226,22 +226,22 @@ class Simulation:
             frame: ``L`` (the frame of files and topics), ``W`` (z up), or another body's name.
 
         Raises:
-            UnknownName: there is no such body; names the nearest.
+            UnknownName: there is no such body; the message suggests the nearest name.
         """
         world_from_body = self.world.bodies.find(name).world_from_body
         return placing.world_from_frame(self.world, frame).inverse() @ world_from_body
 
     @renamed_parameters(of="frame")
     def set_pose(self, name: str, pose: Pose, frame: str = "L") -> None:
-        """Place a vehicle or an object, at rest; afterwards `pose` returns this pose.
+        """Set the pose of a vehicle or an object, at rest; afterwards `pose` returns this pose.
 
         Args:
             name: the name of a vehicle, or of an object that can move (``<physics>`` and a mass).
-            pose: the pose of its frame in ``frame``.
+            pose: the pose of the vehicle or object in ``frame``.
             frame: the reference frame, as in `pose`.
 
         Raises:
-            UnknownName: there is no such vehicle, object or frame; names the nearest.
+            UnknownName: there is no such vehicle, object or frame; the message suggests a name.
             BadSetting: the pose is not finite, or farther than 1e6 m from the origin.
             UwsimError: the object is fixed, or a vehicle holds it.
         """
@@ -249,12 +249,12 @@ class Simulation:
         placing.place(self.world, name, arguments.check_pose(name, world_from_frame, pose))
 
     def velocity(self, name: str) -> Array:
-        """Return the twist of a simulated vehicle over ground, in its base frame, (6,).
+        """Return the twist of a vehicle with dynamics, over ground in its base frame, (6,).
 
-        Linear [m/s] first, then angular [rad/s].
+        The linear velocity [m/s] is first, then the angular velocity [rad/s].
 
         Raises:
-            UnknownName: there is no such vehicle; names the nearest.
+            UnknownName: there is no such vehicle; the message suggests the nearest name.
             UwsimError: the vehicle is kinematic.
         """
         vehicle = self.world.vehicles.find(name)
@@ -265,11 +265,11 @@ class Simulation:
         return vehicle.velocity
 
     def image(self, camera: str) -> RenderedImage:
-        """Render the present image of a camera without noise: colour, range, ids and their names.
+        """Render the present image of a camera without noise: colour, range and part numbers.
 
         Raises:
-            UnknownName: there is no such camera; names the nearest.
-            NoGraphics: there is no OpenGL.
+            UnknownName: there is no such camera; the message suggests the nearest name.
+            NoGraphics: no OpenGL context can be created.
         """
         view, scenery = self.world.sensors.camera(camera), self.world.scenery
         image = scenery.render_clean(
@@ -279,37 +279,38 @@ class Simulation:
 
     @renamed_parameters(of="frame")
     def boxes(self, frame: str = "L") -> dict[str, OrientedBox]:
-        """Return the boxes in 3-D of all links and objects by name, as images name them.
+        """Return the 3-D bounding boxes of all links and objects, by their names in `image`.
 
         Args:
-            frame: the frame of the boxes, as in `pose`. The frame of a camera is
-                ``simulation.world.sensors.camera(name).world_from_camera`` of ``W``.
+            frame: the frame in which the boxes are returned, as in `pose`. For boxes in a camera's
+                frame, request ``W``, and transform them by the inverse of the camera's pose
+                ``simulation.world.sensors.camera(name).world_from_camera``.
 
         Raises:
-            UnknownName: there is no such frame; names the nearest.
+            UnknownName: there is no such frame; the message suggests the nearest name.
         """
         return oriented_boxes(
             self.world.scenery, placing.world_from_frame(self.world, frame).inverse()
         )
 
     def set_fog(self, density: float) -> None:
-        """Set the density of the fog [1/m], 0: clear water; raise BadSetting if it is negative."""
+        """Set the fog density [1/m], 0 for clear water; raise BadSetting if it is negative."""
         self.world.scenery.set_fog(arguments.check_number("set_fog", density))
 
     def set_light(self, rate: float) -> None:
-        """Scale the light of the scene: 1 by default, 0 at night; raise BadSetting if negative."""
+        """Set the factor on the light, by default 1; raise BadSetting if it is negative."""
         self.world.scenery.set_light_rate(arguments.check_number("set_light", rate))
 
     def set_current(self, velocity: Sequence[float] | Flow | None) -> None:
         """Add a current to those of the scene; it replaces the current of an earlier call.
 
         Args:
-            velocity: the velocity of the water in the frame of the file, (3,) [m/s]; or a `Flow`;
-                None: no current.
+            velocity: the velocity of the water in the frame of the scene file, (3,) [m/s]; or a
+                `Flow`; None: no added current.
 
         Raises:
-            BadSetting: the velocity is not three numbers, or one exceeds the fastest current. A
-                flow that raises, or returns another shape, raises it in the step that calls it.
+            BadSetting: the velocity is not three numbers, or one exceeds the fastest current. If a
+                `Flow` raises an exception or returns a wrong shape, `advance` raises BadSetting.
         """
         self.world.water.set(arguments.flow_of(velocity))
 
@@ -324,8 +325,13 @@ class Simulation:
     ) -> InProcessNode:
         """Connect an algorithm to the bus and start it.
 
-        Its exceptions are raised here and by `advance`. Without ``raises`` an exception is stored
-        in ``error`` of the node, and the algorithm is not called again. ``calls`` counts its calls.
+        Args:
+            algorithm: the algorithm, an object with a method ``start(node)``.
+            name: the name of its node; None: the name of its class.
+            parameters: the parameters of the algorithm.
+            raises: True: its exceptions are raised here and by `advance`. False: an exception is
+                stored in ``error`` of the node, and the algorithm is not called again.
+            calls: the counter of the algorithm's calls; None: they are not counted.
 
         Raises:
             BadSetting: the algorithm is a class, or has no method ``start(node)``.
@@ -360,8 +366,8 @@ class Simulation:
             data: the bytes of `save`, or a copy of `state`.
 
         Raises:
-            UwsimError: the bytes are damaged, or of another scene, seed, timestep or version; or
-                other algorithms are attached. The simulation does not change then.
+            UwsimError: the bytes are damaged, or belong to another scene, seed, timestep or
+                version; or other algorithms are attached. The simulation then does not change.
         """
         state = data if isinstance(data, State) else State.from_bytes(data)
         names, names_saved = (
@@ -382,7 +388,7 @@ class Simulation:
             self.world.scenery.redraw()
 
     def close(self) -> None:
-        """Release the graphics context and disconnect the algorithms."""
+        """Disconnect the algorithms, close the ports and release the graphics context."""
         for node in self._nodes:
             node.close()
         self.world.close()

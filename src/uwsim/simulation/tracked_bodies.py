@@ -1,7 +1,7 @@
-"""The bodies of a scene that may move against each other, and their poses as rows of numbers.
+"""The bodies of a scene that can move relative to each other, and their poses as rows of numbers.
 
-Links that fixed joints connect are one body, named after the link nearest to the root. The second
-body of a name has ``#2`` behind it, the next ``#3``, ...
+Links that are connected by fixed joints are one body, named after the link nearest to the root. A
+second body with the same name has the suffix ``#2``, the third ``#3``, and so on.
 """
 
 from __future__ import annotations
@@ -16,14 +16,14 @@ from .unique_names import make_unique
 
 
 class TrackedBodies:
-    """The bodies that a motion track records."""
+    """The bodies whose poses a motion track records: rigid groups of links, and movable objects."""
 
     def __init__(self, world: LiveScene) -> None:
         self._poses = world.engine.poses
-        self._leaders = {i: leading_links(robot) for i, robot in world.model.robots.items()}
+        self._group_links = {i: rigid_group_links(robot) for i, robot in world.model.robots.items()}
         links = [
             (i, link)
-            for i, leader_of in self._leaders.items()
+            for i, leader_of in self._group_links.items()
             for link in dict.fromkeys(leader_of.values())
         ]
         movable_ids = [
@@ -41,17 +41,17 @@ class TrackedBodies:
         self._object_rows = {i: len(links) + k for k, i in enumerate(objects)}
         link_names, object_names = body_names(world)
         self.names = (*(link_names[link] for link in links), *(object_names[i] for i in objects))
-        """The name of each: ``vehicle/link``, or that of an object."""
+        """The unique name of each body: ``vehicle/link``, or the name of an object."""
 
     def body_number(self, part: Part) -> int | None:
-        """Return the number of the body that a part of the scene moves with; None: it is fixed."""
+        """Return the row of the body with which a visible part moves; None if the part is fixed."""
         if part.vehicle is not None:
-            return self._link_rows[part.vehicle, self._leaders[part.vehicle][part.link]]
+            return self._link_rows[part.vehicle, self._group_links[part.vehicle][part.link]]
         assert part.object is not None
         return self._object_rows.get(part.object)
 
     def rows(self) -> Array:
-        """Return position in W [m] and quaternion (wxyz) of each, (n, 7)."""
+        """Return the position in W [m] and the quaternion (wxyz) of each body, (n, 7)."""
         rows = self._poses.read_frames(self._numbers)
         if not self._placed_objects and not self._poses.state.carriers:
             return rows
@@ -63,7 +63,7 @@ class TrackedBodies:
         return rows
 
     def show(self, rows: Array) -> None:
-        """Set the poses of all bodies to rows (n, 7), as of `rows`, for example for images."""
+        """Set the poses of all bodies, for rendering, to (n, 7) numbers as `rows` returns them."""
         n = len(self._numbers)
         self._poses.set_frames(self._numbers, rows[:n])
         for i, row in zip(self._placed_objects, rows[n:], strict=True):
@@ -76,12 +76,12 @@ def vehicle_labels(world: LiveScene) -> tuple[str, ...]:
 
 
 def body_names(world: LiveScene) -> tuple[dict[tuple[int, str], str], dict[int, str]]:
-    """Return a unique name for each body: of a vehicle's leading links, and of objects."""
+    """Return unique names of bodies: by vehicle number and link, and by object number."""
     labels, objects = vehicle_labels(world), world.model.scene.objects
     links = [
         (i, name)
         for i, robot in world.model.robots.items()
-        for name in set(leading_links(robot).values())
+        for name in set(rigid_group_links(robot).values())
     ]
     links.sort()
     names = make_unique(
@@ -90,8 +90,8 @@ def body_names(world: LiveScene) -> tuple[dict[tuple[int, str], str], dict[int, 
     return dict(zip(links, names, strict=False)), dict(enumerate(names[len(links) :]))
 
 
-def leading_links(robot: RobotSpec) -> dict[str, str]:
-    """Return for each link the nearest one to the root with no moving joint between them."""
+def rigid_group_links(robot: RobotSpec) -> dict[str, str]:
+    """Return, for each link, the link nearest to the root to which it is rigidly connected."""
     leaders = {robot.root: robot.root}
     joints = list(robot.joints)
     while joints:

@@ -1,4 +1,4 @@
-"""The changing values of a scene as one row of numbers: poses, water, thrusters, lamps."""
+"""The recorded values of a scene as one row of numbers: poses, water, thrusters, lamps."""
 
 from __future__ import annotations
 
@@ -15,11 +15,11 @@ from .tracked_bodies import TrackedBodies, vehicle_labels
 LAMP_PREFIX = "lamp/"
 """The prefix of the name of a lamp's signal, which is its brightness [0..1]."""
 BRIGHTNESS_RESOLUTION = 0.01
-"""The resolution of a brightness."""
+"""The resolution at which a brightness is recorded [1]."""
 
 
 class TrackedState:
-    """The rows of a motion track, and of a live view."""
+    """The source of the rows of a motion track and of a live view."""
 
     def __init__(self, world: LiveScene) -> None:
         self._world = world
@@ -29,10 +29,13 @@ class TrackedState:
         self.bodies = self._bodies.names
         """The names of the bodies."""
         self.signals = tuple(self._signals())
-        """The signals, which follow the seven numbers of each body."""
+        """The signals, whose values follow the poses of the bodies in a row."""
 
     def row(self) -> Array:
-        """Return the present row, (7 bodies + signals,); quaternions keep their sign."""
+        """Return the present row, (7 n bodies + m signals,).
+
+        The sign of a quaternion does not jump from row to row.
+        """
         rows = self._bodies.rows()
         if (
             self._last_quaternions is not None
@@ -49,7 +52,7 @@ class TrackedState:
         return np.concatenate([rows.reshape(-1), signals])
 
     def _water_velocity(self, position: Array, vehicle: str) -> Array:
-        """Return the velocity of the water at a vehicle in W, (3,) [m/s]."""
+        """Return the velocity of the water at the position of a vehicle, in W, (3,) [m/s]."""
         if self._world.water.is_still:
             return np.zeros(3)
         velocity: Array = self._world.water.velocity(position[None], self._world.time, vehicle)[0]

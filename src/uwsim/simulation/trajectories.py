@@ -1,7 +1,8 @@
 """Trajectories: the paths of the bodies of ``<showTrajectory>``, for a viewer.
 
-A point is added when the body is more than 0.02 m from the last one. It is read 60 times a second,
-as the original's window does; with ``timeWindow`` above 0 points are removed after that time.
+The position of a body is read 60 times a second, as the window of the original UWSim does. A point
+is added when the body is more than 0.02 m from the last point. With a ``timeWindow`` above 0, older
+points are removed.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ MAX_POINTS = 1_000_000
 
 @dataclass(slots=True)
 class TrajectoryState(Record):
-    """The path of a body."""
+    """The state of a trajectory: the path of a body."""
 
     points: deque[tuple[float, float, float, float]]
     """The points, each with its time [s] and its position in L [m]."""
@@ -37,9 +38,9 @@ class Trajectory:
     """The path of a body.
 
     Args:
-        spec: the body of the trajectory, and its drawing.
-        body: the body.
-        localized_from_world: the transform of L from W.
+        spec: the ``<showTrajectory>`` element: line style, colour and time window.
+        body: the body whose path is recorded.
+        localized_from_world: the pose of W in L.
         clock: returns the simulation time [s].
     """
 

@@ -1,4 +1,4 @@
-"""Unique names for objects that share one: the second gets ``#2`` behind it."""
+"""Unique names: the second of two equal names gets the suffix ``#2``."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from collections.abc import Iterable
 
 
 def make_unique(names: Iterable[str]) -> tuple[str, ...]:
-    """Return the names, each of which is there once."""
+    """Return the names in their order, with suffixes ``#2``, ``#3`` for repeated names."""
     unique_names: dict[str, None] = {}
     for name in names:
         candidate, number = name, 1

@@ -1,4 +1,4 @@
-"""Vehicles, for sensors, devices and topics."""
+"""The vehicles of a running scene, which sensors, devices and topics read and command."""
 
 from __future__ import annotations
 
@@ -28,28 +28,30 @@ from .moving_bodies import CompiledVehicle, MountedBody, MovingBody, MovingLink
 
 @dataclass(slots=True)
 class VehicleState(Record):
-    """The changing values of a vehicle besides those of the engine."""
+    """The state of a vehicle that is not part of the engine's state."""
 
     prescribed_motion: LazyPart[PrescribedMotion]
-    """The motion of a vehicle without dynamics that a sensor reads, or that follows a recording."""
+    """The prescribed motion of a vehicle; it exists for a kinematic vehicle whose motion a sensor
+    reads, and for a vehicle that follows a recording."""
     rest_pose: tuple[Sequence[float], Sequence[float]] | None = None
-    """The undisplaced position [m] and angles [rad]; None: those of the file."""
+    """The base pose without displacements, in L: position [m] and Rx Ry Rz angles [rad]; None: the
+    pose in the scene file."""
     offsets: list[tuple[int, float]] = field(default_factory=list)
-    """The displacers, each with its axis and displacement [m or rad]."""
+    """The axis index and the displacement [m or rad] of each device that displaces the vehicle."""
     losses: dict[int, list[float]] = field(default_factory=dict)
-    """The losses of each thruster, one a setter [1]."""
+    """The losses of thrust [1] by thruster number: one loss for each device that sets it."""
 
 
 class SceneVehicle:
     """One vehicle of a scene (`uwsim.vehicle.Vehicle`, `uwsim.sensors.sensor.Carrier`).
 
-    Its number identifies it: several vehicles may share a name.
+    The number of a vehicle identifies it: several vehicles may share a name.
 
     Args:
         index: the number of the vehicle in the scene.
-        frames: the vehicle at its pose in the file.
-        engine: the engine, which has the poses of its links.
-        step: returns the number of steps that the simulation has taken.
+        frames: the frames of the vehicle's links and mounts at its pose in the scene file.
+        engine: the engine, which stores the poses of the links.
+        step: returns the number of steps taken so far.
     """
 
     def __init__(
@@ -61,10 +63,10 @@ class SceneVehicle:
         self.name = frames.vehicle.name
         """The name of the vehicle in the scene."""
         self.joint_names = tuple(joint.name for joint in frames.robot.movable_joints)
-        """The names of the joints of the joint vector."""
+        """The names of the joints in the joint vector."""
         self._lazy_prescribed_motion = LazyPart(lambda: engine.prescribed_motion(index))
         self.state = VehicleState(self._lazy_prescribed_motion)
-        """The changing values besides those of the engine."""
+        """The state of the vehicle that is not part of the engine's state."""
 
     @property
     def _prescribed_motion(self) -> PrescribedMotion | None:
@@ -72,12 +74,12 @@ class SceneVehicle:
 
     @property
     def autopilot(self) -> Autopilot | None:
-        """The autopilot; None if the vehicle is not simulated."""
+        """The autopilot; None for a kinematic vehicle."""
         return self._actuation.autopilot if self._actuation else None
 
     @property
     def servos(self) -> Servos | None:
-        """The joint servos; None if the vehicle is not simulated."""
+        """The joint servos; None for a kinematic vehicle."""
         return self._actuation.servos if self._actuation else None
 
     @property
@@ -86,26 +88,26 @@ class SceneVehicle:
 
     @property
     def thrusters(self) -> tuple[str, ...]:
-        """The names of the thrusters in the hydrodynamics file; none if it is not simulated."""
+        """The names of the thrusters in the hydrodynamics file; none for a kinematic vehicle."""
         return self._actuation.thrusters if self._actuation else ()
 
     @property
     def fins(self) -> tuple[str, ...]:
-        """The names of the fins in the hydrodynamics file; none if it is not simulated."""
+        """The names of the fins in the hydrodynamics file; none for a kinematic vehicle."""
         return self._actuation.fins if self._actuation else ()
 
     def turn_fins(self, angles: Array) -> None:
-        """Turn the fins to these angles, (n,) [rad]."""
+        """Turn the fins towards these angles, (n,) [rad]."""
         self._engine.actuation[self.index].turn_fins(angles)
 
     @property
     def world_from_base(self) -> Pose:
-        """The present pose of the base."""
+        """The present pose of the base in W."""
         return self._engine.poses.vehicle(self.index)
 
     @property
     def velocity(self) -> Array:
-        """The twist of the base over ground, in its axes, (6,) [m/s, rad/s]."""
+        """The twist of the base over ground, in base axes, (6,) [m/s, rad/s]."""
         if self._prescribed_motion is None:
             return self._engine.vehicle_velocity(self.index)
         twist = self._prescribed_motion.twist(self._step())
@@ -117,14 +119,15 @@ class SceneVehicle:
         return self._engine.joints(self.index)
 
     def place(self, world_from_base: Pose) -> None:
-        """Set the pose: a simulated vehicle is at rest there, another has moved there.
+        """Set the pose of the base. A vehicle with dynamics is at rest there.
 
-        Displacements add to it from now on.
+        A kinematic vehicle counts as moved there: its velocity is the distance per time. Later
+        displacements (``<u:sway>``) are relative to this pose.
         """
         self.set_configuration(world_from_base, None)
 
     def start_prescribed_motion(self) -> None:
-        """Take velocities from the poses that `set_configuration` sets, not from the dynamics."""
+        """Compute velocities from the poses that are set (prescribed motion), not from forces."""
         self._lazy_prescribed_motion.get_or_make()
 
     def set_configuration(
@@ -133,12 +136,13 @@ class SceneVehicle:
         joints: Array | None,
         starting_sources: Collection[Source] = (),
     ) -> None:
-        """Set the pose and the joint vector, if not None, as moved there from the last ones.
+        """Set the pose and the joint vector; a prescribed motion counts the change as movement.
 
         Args:
-            world_from_base: the pose.
-            joints: the joint vector, (n,) [rad or m].
-            starting_sources: the quantities set for the first time, whose motion starts there.
+            world_from_base: the pose of the base in W; None: no change.
+            joints: the joint vector, (n,) [rad or m]; None: no change.
+            starting_sources: the quantities that are set for the first time: their prescribed
+                motion starts here, at rest.
         """
         if world_from_base is not None:
             self.state.rest_pose = self._compute_rest_pose(world_from_base)
@@ -154,13 +158,13 @@ class SceneVehicle:
             self._prescribed_motion.record(self._step())
 
     def set_joints(self, values: Array) -> None:
-        """Set the joint vector, (n,) [rad or m]; clamped to the limits."""
+        """Set the joint vector, (n,) [rad or m], clamped to the joint limits."""
         self.set_configuration(None, values)
 
     def reset_pose(self, world_from_base: Pose | None) -> None:
-        """Set the pose, at rest; displacements add to it from now on.
+        """Set the pose of the base in W, at rest; later displacements are relative to it.
 
-        None is its pose in the scene, with the present displacements.
+        None: the pose in the scene file, with the present displacements.
         """
         if world_from_base is None:
             self.state.rest_pose = None
@@ -177,14 +181,14 @@ class SceneVehicle:
     def _compute_rest_pose(
         self, world_from_base: Pose
     ) -> tuple[Sequence[float], Sequence[float]] | None:
-        """Compute the undisplaced pose for a displaced one; None: it is never displaced."""
+        """Return the rest pose for a displaced pose in W; None if no device displaces it."""
         if not self.state.offsets:
             return None
         localized_from_base = self._frames.world_from_localized.inverse() @ world_from_base
         return rest_pose(localized_from_base, self.state.offsets)
 
     def _displaced_pose(self) -> Pose:
-        """Return the pose with the present displacements, ``world_from_base``."""
+        """Return the rest pose with the present displacements, in W."""
         spec = self._frames.vehicle
         position, angles = self.state.rest_pose or (spec.position, spec.orientation)
         return self._frames.world_from_localized @ displace_pose(
@@ -192,7 +196,13 @@ class SceneVehicle:
         )
 
     def displacer(self, axis: int) -> Callable[[float], None]:
-        """Return a function that displaces it along or about an axis; displacements add up."""
+        """Return a function that sets a displacement from the rest pose along or about an axis.
+
+        Displacements of several functions are added; the call of the last one sets the pose.
+
+        Args:
+            axis: the index of the axis in `uwsim.devices.sway.AXES`.
+        """
         index = len(self.state.offsets)
         self.state.offsets.append((axis, 0.0))
 
@@ -204,7 +214,7 @@ class SceneVehicle:
         return displace
 
     def loss_setter(self, thruster: str) -> Callable[[float], None]:
-        """Return a setter of the loss of a thruster [0..1]; of several the greatest applies."""
+        """Return a function that sets a loss of thrust [0..1]; the greatest of several applies."""
         if thruster not in self.thrusters:
             raise UnknownName("thruster", thruster, self.thrusters)
         number = self.thrusters.index(thruster)
@@ -219,11 +229,11 @@ class SceneVehicle:
         return set_loss
 
     def hold(self, object_index: int, link: str) -> None:
-        """Fix an object, by its index, to a link of the vehicle at its present pose."""
+        """Fix the object with a number, at its present pose, to a link of the vehicle."""
         self._engine.grips.hold(object_index, self.index, link)
 
     def release(self, object_index: int) -> None:
-        """Release a held object."""
+        """Release the held object with a number."""
         self._engine.grips.release(object_index)
 
     @property
@@ -244,12 +254,12 @@ class SceneVehicle:
         )
 
     def mount(self, spec: MountedPart, *, visual: bool = False) -> MountedBody:
-        """Fix a part to its link; raises UnknownName if there is no such link."""
+        """Return the frame of a part on its link; raise UnknownName if there is no such link."""
         name = f"{self.name}/{spec.relative_to}"
         return MountedBody(name, self._engine.poses, self._make_mount(spec, visual))
 
     def moving_mount(self, spec: MountedPart, *, visual: bool = False) -> MovingBody:
-        """Fix a part to its link whose motion is read; UnknownName if there is no such link."""
+        """Return the frame of a part with its motion; raise UnknownName without its link."""
         mount, link, engine = self._make_mount(spec, visual), spec.relative_to, self._engine
         body = engine.poses.link_body(self.index, link)
         if self._actuation is None:
@@ -266,14 +276,14 @@ class SceneVehicle:
     def wrench_sampler(
         self, spec: MountedPart, *, at_joint: bool = False, visual: bool = False
     ) -> Sampler:
-        """Return a sampler of a wrench at a link; raise UnknownName if there is no such link.
+        """Return a sampler of the wrench at a link; raise UnknownName if there is no such link.
 
         See `uwsim.devices.device.DeviceVehicle`.
         """
         mount, engine = self._make_mount(spec, visual), self._engine
         has_dynamics = self._actuation is not None
         if not has_dynamics:
-            self.start_prescribed_motion()  # as for a sensor of motion: its velocity stays the same
+            self.start_prescribed_motion()  # as for sensors of motion: `velocity` stays the same
         body = engine.poses.link_body(self.index, spec.relative_to)
         if at_joint:
             return engine.joint_wrench.sampler(body, mount, has_dynamics=has_dynamics)
@@ -288,11 +298,11 @@ class SceneVehicle:
 
 
 class SceneVehicles:
-    """The vehicles of a scene, in the file's order, which may share names."""
+    """The vehicles of a scene, in the file's order; several may share a name."""
 
     def __init__(self, model: SceneModel, engine: Engine, bus: Bus) -> None:
         self.names = tuple(vehicle.name for vehicle in model.scene.vehicles)
-        """The names, by number."""
+        """The names of the vehicles, in the file's order."""
         self._actuation = engine.actuation
         self._vehicles = tuple(
             SceneVehicle(index, frames, engine, lambda: bus.state.step)
@@ -300,13 +310,13 @@ class SceneVehicles:
         )
 
     def find(self, name: str) -> SceneVehicle:
-        """Find the first vehicle of a name; UnknownName if there is none."""
+        """Return the first vehicle with a name; raise UnknownName if there is none."""
         if name not in self.names:
             raise UnknownName("vehicle", name, self.names)
         return self._vehicles[self.names.index(name)]
 
     def actuators(self, name: str) -> Actuators | None:
-        """Return the actuators; None if the vehicle is not simulated; raises UnknownName."""
+        """Return the actuators of a vehicle, None if it is kinematic; raise UnknownName."""
         actuation = self._actuation.get(self.find(name).index)
         return None if actuation is None else actuation.actuators()
 

@@ -1,4 +1,4 @@
-"""Views of a scene: the viewer's, from above, and around its main bodies."""
+"""Cameras that view a scene: of the scene file, from above, or around the vehicles."""
 
 from __future__ import annotations
 
@@ -21,37 +21,38 @@ from .simulation import Simulation
 Size = tuple[int, int]
 FIELD_OF_VIEW = math.radians(50.0)
 """The vertical field of view of the views that are computed here [rad]."""
-FILLED_SHARE = 0.8
-"""The share of an image, in width or height, that the focus fills [1]."""
+MAX_FILLED_SHARE = 0.8
+"""The largest share of an image, in width and in height, that the focus fills [1]."""
 OBJECT_DISTANCE = 6.0
-"""The distance from the vehicles, at least 3 times their size, within which objects matter [m]."""
+"""The least distance from the vehicles within which objects are part of the focus [m]."""
 MAX_VEHICLE_DISTANCE = 30.0
 """The distance from the first vehicle beyond which others are left out of a view [m]."""
 MAX_RADIUS = 10.0
-"""The largest half diagonal of an object; a larger one is a landscape [m]."""
+"""The largest half diagonal of an object in the focus; larger objects are landscape [m]."""
 MIN_VISIBLE_SHARE = 0.98
-"""The share of the focus that is visible in a good view [1]."""
-BEARINGS = (35.0, -35.0, 145.0, -145.0, 80.0, -80.0, 0.0, 180.0)
-"""The azimuths from which to view a vehicle, from its bow to starboard; the best first [deg]."""
-ELEVATIONS = (25.0, 50.0, 10.0)
-"""The angles above the horizon [deg]."""
-SKETCH_SIZE: Size = (96, 72)
-"""The size of the images that measure the visible share [px]."""
+"""The visible share of the focus at which the search for a better view ends [1]."""
+ORBIT_BEARINGS = (35.0, -35.0, 145.0, -145.0, 80.0, -80.0, 0.0, 180.0)
+"""The tried bearings of the camera from the bow, positive to starboard; the best first [deg]."""
+ORBIT_ELEVATIONS = (25.0, 50.0, 10.0)
+"""The tried elevations of the camera above the horizon [deg]."""
+VISIBILITY_IMAGE_SIZE: Size = (96, 72)
+"""The width and height of the images that measure the visible share [px]."""
 NEAR_PLANE = 0.05
 """The distance of the near plane [m]."""
 UP = np.array([0.0, 0.0, 1.0])
+"""The upward direction in W, (3,)."""
 
 
 @dataclass(frozen=True, eq=False)
 class View:
-    """A camera of a view."""
+    """A camera that views a scene."""
 
     world_from_camera: Pose
     """The pose of the camera in W; OpenGL axes."""
     intrinsics: Intrinsics
-    """The pinhole."""
+    """The pinhole model of the camera."""
     is_clear: bool = False
-    """True if the water has no fog."""
+    """True to render the water without fog."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -59,51 +60,56 @@ class Focus:
     """The part of a scene that a view should show."""
 
     ids: frozenset[int]
-    """The numbers of the parts."""
+    """The numbers of the parts in segmentation images."""
     corners: Array
-    """The corners of their boxes in W, (n, 3) [m]."""
+    """The corners of the bounding boxes of the parts in W, (n, 3) [m]."""
     bow_direction: Array
-    """The horizontal direction of the first vehicle's bow in W, (3,)."""
+    """The horizontal unit vector to the bow of the first vehicle in W, (3,)."""
 
     @property
-    def middle(self) -> Array:
-        """The middle of the box around the corners, in W, (3,) [m]."""
-        middle: Array = 0.5 * (self.corners.min(axis=0) + self.corners.max(axis=0))
-        return middle
+    def centre(self) -> Array:
+        """The centre of the bounding box of the corners in W, (3,) [m]."""
+        centre: Array = 0.5 * (self.corners.min(axis=0) + self.corners.max(axis=0))
+        return centre
 
 
 def viewer_view(simulation: Simulation, spec: ViewerCameraSpec, size: Size) -> View:
-    """Return the viewer's camera of a scene file: in W, or about the object that it tracks.
+    """Return the view of the ``<camera>`` of a scene file.
+
+    Its position and target are in W, or relative to the object that it tracks.
 
     Raises:
-        BadSetting: the two points are the same.
+        BadSetting: position and target are the same point.
     """
-    centre = np.zeros(3)
+    tracked_point = np.zeros(3)
     if not spec.free_motion and spec.object_to_track:
-        centre = _find_centre(simulation, spec.object_to_track)
+        tracked_point = _find_centre(simulation, spec.object_to_track)
     lens = _lens(size, math.radians(spec.fov))
     if spec.near > 0.0 and spec.far > spec.near:
         lens = replace(lens, near=spec.near, far=spec.far)
-    eye, target = centre + spec.position, centre + spec.look_at
+    eye, target = tracked_point + spec.position, tracked_point + spec.look_at
     return View(_look_pose(eye, target - eye, "<camera>"), lens)
 
 
 def view_from(simulation: Simulation, eye: Array, target: Array, size: Size) -> View:
-    """Return the view from a point to a point in L, (3,) [m]; BadSetting if they are the same."""
+    """Return the view from ``eye`` to ``target`` in L, (3,) [m]; BadSetting if they are equal."""
     points = simulation.world.model.scene.world_from_localized.transform(np.stack([eye, target]))
     return View(_look_pose(points[0], points[1] - points[0], "--from"), _lens(size, FIELD_OF_VIEW))
 
 
 def view_from_pose(world_from_camera: Pose, size: Size, field: float = FIELD_OF_VIEW) -> View:
-    """Return the view from a pose of a camera in W (OpenGL axes), through clear water.
+    """Return the view of a camera at a pose in W, through water without fog.
 
-    ``field`` is the vertical field of view [rad].
+    Args:
+        world_from_camera: the pose of the camera; OpenGL axes.
+        size: the width and height of the image [px].
+        field: the vertical field of view [rad].
     """
     return View(world_from_camera, _lens(size, field), is_clear=True)
 
 
 def top_view(simulation: Simulation, size: Size) -> View:
-    """Return the view from above; L's x axis is up in the image, if it is horizontal."""
+    """Return the view of the focus from above, with L's x axis upwards unless it is vertical."""
     focus, lens = find_focus(simulation), _lens(size, FIELD_OF_VIEW)
     top = simulation.world.model.scene.world_from_localized.rotation[:, 0] * [1.0, 1.0, 0.0]
     if length(top) < 0.5:
@@ -112,14 +118,14 @@ def top_view(simulation: Simulation, size: Size) -> View:
 
 
 def orbit_view(simulation: Simulation, size: Size) -> View:
-    """Return a view around the focus that hides as little of it as possible.
+    """Return a view in which as much of the focus as possible is visible.
 
-    Positions around it are tried one after the other, each with a small image of all parts and
-    one of the focus alone.
+    Camera positions around the focus are tried one after the other. For each, a small image of all
+    parts is compared with an image of the focus alone.
     """
     focus, lens = find_focus(simulation), _lens(size, FIELD_OF_VIEW)
     best_pose, best_share = None, -1.0
-    for elevation, bearing in itertools.product(ELEVATIONS, BEARINGS):
+    for elevation, bearing in itertools.product(ORBIT_ELEVATIONS, ORBIT_BEARINGS):
         pose = _frame_focus(focus, _camera_axes(focus.bow_direction, bearing, elevation), lens)
         share = _visible_share(simulation, focus, pose)
         if share > best_share + 0.01:
@@ -131,9 +137,9 @@ def orbit_view(simulation: Simulation, size: Size) -> View:
 
 
 def find_focus(simulation: Simulation) -> Focus:
-    """Find the focus: the vehicles and objects near them; else the objects; else the ground.
+    """Return the focus: vehicles and objects near them; else the objects; else all parts.
 
-    Of several vehicles it has those near the first one.
+    Vehicles far from the first vehicle are left out.
     """
     world, scenery = simulation.world, simulation.world.scenery
     part_corners = [(part, scenery.corners(part)) for part in scenery.parts]
@@ -166,7 +172,7 @@ def find_focus(simulation: Simulation) -> Focus:
 
 
 def _group_vehicles(part_corners: Sequence[tuple[Part, Array]]) -> list[tuple[int, Array]]:
-    """Return numbers and corners of the vehicles' parts that are not far from the first vehicle."""
+    """Return number and corners of each part of the vehicles that are near the first vehicle."""
     if not part_corners:
         return []
     first_points = np.concatenate(
@@ -182,8 +188,8 @@ def _group_vehicles(part_corners: Sequence[tuple[Part, Array]]) -> list[tuple[in
 
 
 def _visible_share(simulation: Simulation, focus: Focus, world_from_camera: Pose) -> float:
-    """Return the visible share of the focus, 0..1: 1 where nothing hides it."""
-    lens = _lens(SKETCH_SIZE, FIELD_OF_VIEW)
+    """Return the share of the focus that no other part hides, the mean over its parts [0..1]."""
+    lens = _lens(VISIBILITY_IMAGE_SIZE, FIELD_OF_VIEW)
     other_ids = frozenset(part.id for part in simulation.world.scenery.parts) - focus.ids
     shares = []
     focus_ids, scene_ids = (
@@ -201,10 +207,10 @@ def _visible_share(simulation: Simulation, focus: Focus, world_from_camera: Pose
 
 
 def _frame_focus(focus: Focus, axes: Array, lens: Intrinsics) -> Pose:
-    """Return the nearest pose with these axes in W that has all corners in the image."""
-    offsets = product(focus.corners - focus.middle, axes)  # (n, 3): right, up, towards the eye [m]
+    """Return the nearest camera pose with these axes in W at which all corners are in the image."""
+    offsets = product(focus.corners - focus.centre, axes)  # (n, 3): right, up, towards the eye [m]
     halves = (
-        np.array([lens.width / lens.fx, lens.height / lens.fy]) * 0.5 * FILLED_SHARE
+        np.array([lens.width / lens.fx, lens.height / lens.fy]) * 0.5 * MAX_FILLED_SHARE
     )  # (2,) [1]
     sides, depth = offsets[:, :2] / halves, offsets[:, 2:]
     # the eye's distance from the two planes through the corners, right and left, above and below
@@ -214,11 +220,11 @@ def _frame_focus(focus: Focus, axes: Array, lens: Intrinsics) -> Pose:
     )  # (2,) [m]
     distance = float((0.5 * (upper + lower)).max())
     eye = np.array([*(0.5 * (upper - lower) * halves), max(distance, 0.5)])
-    return Pose(focus.middle + product(axes, eye), axes)
+    return Pose(focus.centre + product(axes, eye), axes)
 
 
 def _camera_axes(bow_direction: Array, bearing: float, elevation: float) -> Array:
-    """Return the axes of a camera that looks at the focus from a bearing, in W, (3, 3)."""
+    """Return the axes in W, (3, 3), of a camera at a bearing and an elevation [deg]."""
     turn, tilt = math.radians(bearing), math.radians(elevation)
     starboard = np.cross(bow_direction, UP)
     direction = math.cos(turn) * bow_direction + math.sin(turn) * starboard
@@ -237,7 +243,7 @@ def _lens(size: Size, field: float) -> Intrinsics:
 
 
 def _find_centre(simulation: Simulation, route: str) -> Array:
-    """Return the middle of the body of a route, in W, (3,) [m]; the origin if there is none."""
+    """Return the centre of the body with a route, in W, (3,) [m]; the origin of W without one."""
     for name in (f"{route}@visual", route):
         try:
             body = simulation.world.bodies.find(name)
@@ -252,10 +258,10 @@ def _find_centre(simulation: Simulation, route: str) -> Array:
 
 
 def _radius(corners: Array) -> float:
-    """Return half the diagonal of the box around points [m]."""
+    """Return half the diagonal of the bounding box of points (n, 3) [m]."""
     return 0.5 * length(corners.max(axis=0) - corners.min(axis=0))
 
 
 def _distance(corners: Array, point: Array) -> float:
-    """Return the distance from a point to the middle of the box around points [m]."""
+    """Return the distance from a point to the centre of the bounding box of corners [m]."""
     return length(0.5 * (corners.max(axis=0) + corners.min(axis=0)) - point)

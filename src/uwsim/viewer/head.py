@@ -171,7 +171,7 @@ from ..sensors.virtual_camera import VirtualCameraSpec
 from ..simulation import Simulation
 from ..simulation.live_scene import LiveScene
 from ..simulation.scenery.sand import CELL_WIDTH, TOOL_REACH, Heap
-from ..simulation.tracked_bodies import body_names, leading_links, vehicle_labels
+from ..simulation.tracked_bodies import body_names, rigid_group_links, vehicle_labels
 from ..simulation.unique_names import make_unique
 from ..simulation.views import FIELD_OF_VIEW, find_focus, orbit_view, viewer_view
 from .models import Models
@@ -257,7 +257,7 @@ class _Bodies:
 
     def __init__(self, world: LiveScene) -> None:
         self._world = world
-        self._leaders = {i: leading_links(robot) for i, robot in world.model.robots.items()}
+        self._leaders = {i: rigid_group_links(robot) for i, robot in world.model.robots.items()}
         self._link_names, self._object_names = body_names(world)
         self.labels = vehicle_labels(world)
         """The unique names of the vehicles."""
@@ -425,7 +425,7 @@ def _vehicles(world: LiveScene, bodies: _Bodies) -> Iterator[Json]:
 
 def _orbit(simulation: Simulation) -> Json:
     """Return the view of vehicles and nearby objects, the same as in `uwsim render`."""
-    eye, middle = orbit_view(simulation, SIZE).world_from_camera, find_focus(simulation).middle
+    eye, middle = orbit_view(simulation, SIZE).world_from_camera, find_focus(simulation).centre
     return _view(eye, FIELD_OF_VIEW, dot(eye.position - middle, eye.rotation[:, 2]))
 
 

@@ -55,9 +55,10 @@ class BelowGroundState(Record):
     centres: Array
     """The centre of the bounding box of each body in W, (n bodies, 3) [m]."""
     is_below: npt.NDArray[np.bool_]
-    """True where a body is below a ground, (n bodies, m grounds)."""
+    """The flags that are True where a body is below a ground, (n bodies, m grounds)."""
     was_above: npt.NDArray[np.bool_]
-    """True where a body was above a ground and has not moved around its edge since, (n, m)."""
+    """The flags that are True where a body was above a ground and has not moved around its edge
+    since, (n bodies, m grounds)."""
     n_periods: int = 0
     """The number of check periods that have passed."""
     step: int = 0

@@ -1,13 +1,14 @@
-r"""Sand over buried objects, and its removal by dredging.
+r"""Heaps of sand over buried objects, and the removal of sand by dredging.
 
-An object of the attribute ``buried`` = b lies in a heap over its box in W: as high as b times the
-height h of the box, level over it, with a skirt around it of the length 3 b h that falls as
+A heap of sand covers each object with the attribute ``buried`` = b. The heap is level above the
+object's bounding box in W, at b times the height h of the box. Around the box it falls to the
+bottom within the length 3 b h; at the distance d from the box its height is
 
 .. math:: b h \Bigl(1 - \bigl(\frac{d}{3 b h}\bigr)^2\Bigr)
 
-with the distance d from the level part. It is a grid of columns, each `CELL_WIDTH` wide; larger
-heaps have `MAX_COLUMNS` of them a side. Cameras and rays meet it. Places of removed sand are
-rounded to `GRAIN`, so that replays remove the same sand. Not modelled: forces of the sand on
+A heap is a grid of columns, each `CELL_WIDTH` wide; the columns of large heaps are wider, at most
+`MAX_COLUMNS` along a side. Cameras and rays see the sand. The positions at which sand is removed
+are rounded to `GRAIN`, so that replays remove the same sand. Not modelled: forces of the sand on
 bodies, slopes that slide, sand that settles elsewhere, particles in the water.
 """
 
@@ -25,36 +26,37 @@ from ...results.motion import GRAIN, Spot
 from ...scene.spec import SceneSpec
 
 CELL_WIDTH = 0.01
-"""The width of a column, and the height removed from one at once [m]."""
+"""The width of a column, and the height that a tool removes from a column at once [m]."""
 MAX_COLUMNS = 256
 """The maximum number of columns of a heap along a side."""
 TOOL_REACH = 0.1
 """The distance from a tool within which the top of a column loses sand [m]."""
 COLOUR = (0.72, 0.64, 0.46)
+"""The colour of sand, RGB [0..1]."""
 MAX_OFFSET = 2**31
-"""The distance from a heap's lower corner beyond which no sand is removed [`GRAIN`]."""
+"""The distance from a heap's lower corner beyond which no sand is removed, in units of `GRAIN`."""
 
 
 @dataclass(slots=True)
 class HeapState(Record):
-    """The sand of a heap."""
+    """The state of a heap: the sand that is left in it."""
 
     heights: Array
-    """The heights of the columns above the bottom, (along x, along y) [m]."""
+    """The heights of the columns above the bottom, (n columns along x, m along y) [m]."""
     version: int = 0
     """A number that changes whenever sand is removed or put back."""
     spots: list[Spot] = field(default_factory=list)
-    """The places at which sand was removed, in order."""
+    """The positions at which sand was removed, in order, in `GRAIN` from the lower corner."""
 
 
 class Heap:
-    """The sand over one object.
+    """The heap of sand over one object.
 
     Args:
         name: the name of the object.
-        lower: the smallest coordinates of its box in W, (3,) [m].
-        upper: the largest coordinates, (3,) [m].
-        buried_share: the share of its height that is under sand [1].
+        lower: the lower corner of the object's bounding box in W, (3,) [m].
+        upper: the upper corner of the bounding box in W, (3,) [m].
+        buried_share: the share of the object's height that is under sand [1].
     """
 
     def __init__(self, name: str, lower: Array, upper: Array, buried_share: float) -> None:
@@ -74,7 +76,7 @@ class Heap:
         self._bottom = float(lower[2])
         self._initial_heights: Array = top * (1.0 - distance**2)
         self.state = HeapState(self._initial_heights.copy())
-        """The sand."""
+        """The state: the sand that is left."""
 
     @property
     def version(self) -> int:
@@ -83,7 +85,7 @@ class Heap:
 
     @property
     def corner(self) -> Array:
-        """The lower corner in W, (3,) [m]."""
+        """The lower corner of the heap in W, (3,) [m]."""
         return np.array([self._x[0], self._y[0], self._bottom])
 
     @property
@@ -93,11 +95,11 @@ class Heap:
 
     @property
     def heights(self) -> Array:
-        """The heights of the columns above the bottom, (along x, along y) [m]; a copy."""
+        """The heights of the columns above the bottom, (n along x, m along y) [m]; a copy."""
         return self.state.heights.copy()
 
     def height(self, x: float, y: float) -> float:
-        """Return the height of the nearest column, in W [m]; its bottom beside the heap."""
+        """Return z in W of the sand's surface at (x, y) [m]; beside the heap z of its bottom."""
         i, j = np.abs(self._x - x).argmin(), np.abs(self._y - y).argmin()
         is_inside = self._x[0] <= x <= self._x[-1] and self._y[0] <= y <= self._y[-1]
         return self._bottom + (float(self.state.heights[i, j]) if is_inside else 0.0)
@@ -111,7 +113,7 @@ class Heap:
         return self._remove_sand((x, y, z))
 
     def restore(self, spots: Sequence[Spot]) -> None:
-        """Restore the heap from which sand was removed at some places, one after the other."""
+        """Restore the heap from which sand was removed at these positions, in this order."""
         n = len(self.state.spots)
         if self.state.spots != list(spots[:n]):
             np.copyto(self.state.heights, self._initial_heights)
@@ -137,7 +139,7 @@ class Heap:
         return n
 
     def mesh(self) -> Mesh:
-        """Return the present surface, in W."""
+        """Return the present surface as a mesh in W."""
         shape = self.state.heights.shape
         x, y = np.meshgrid(self._x, self._y, indexing="ij")
         points = np.stack([x, y, self._bottom + self.state.heights], axis=2).reshape(-1, 3)
@@ -158,16 +160,17 @@ class Heap:
         )
 
     def model(self) -> Model:
-        """Return the present surface as a model."""
+        """Return the present surface as a model in W."""
         return Model(name=f"sand/{self.name}", meshes=(self.mesh(),), source="stand-in")
 
 
 def make_heaps(scene: SceneSpec, corners: Sequence[tuple[int, Array]]) -> tuple[Heap, ...]:
-    """Return the heaps of a scene, in the file's order.
+    """Return the heaps over the buried objects of a scene, in the file's order.
 
     Args:
         scene: the spec of the scene.
-        corners: the number of an object and the corners of a part of it in W, (n, 3) [m].
+        corners: for each visible part of an object, the number of the object and the corners of
+            the part's bounding box in W, (n, 3) [m].
     """
     heaps = []
     for index, spec in enumerate(scene.objects):

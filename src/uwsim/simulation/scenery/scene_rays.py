@@ -1,4 +1,4 @@
-"""Ray casting against the visible models of a scene, with their acoustic materials."""
+"""Ray casting against the visible surfaces of a scene, with their acoustic materials."""
 
 from __future__ import annotations
 
@@ -19,9 +19,14 @@ from .sand import Heap
 
 
 class SceneRays:
-    """Rays against the models of a scene (`uwsim.world.Rays`); ghosts (``vr``) are not met.
+    """Ray casting against the surfaces of a scene (`uwsim.world.Rays`).
 
-    The triangles of a scene are sorted when the first ray is cast.
+    Rays pass through ghosts, the vehicles with ``<vr>`` 1.
+
+    Args:
+        model: the compiled scene.
+        engine: the engine, which stores the poses.
+        heaps: the heaps of sand.
     """
 
     def __init__(
@@ -33,7 +38,7 @@ class SceneRays:
         self._bodies, self._heaps = model.ray_bodies, tuple(heaps)
         self._engine = engine
         self._cast_heaps: dict[int, tuple[int, RayScene]] = {}
-        self._carried_objects: list[int] | None = None  # those of `_ray_scene`
+        self._carried_objects: list[int] | None = None  # for which `_ray_scene` is valid
         self._ray_scene: RayScene | None = (
             None  # fixed bodies as the first body, then all that move
         )
@@ -46,13 +51,13 @@ class SceneRays:
             *self._bodies.materials,
             *(MATERIALS["sand"] for _ in heaps),
         )
-        """The material of each surface, by its number."""
+        """The acoustic material of each surface, by the surface's number."""
         self.vehicles: tuple[str, ...] = (*self._bodies.vehicles, *("" for _ in heaps))
-        """The name of the vehicle that each surface belongs to, by its number; or empty."""
+        """The name of the vehicle of each surface, by the surface's number; empty for none."""
 
     @cached_property
     def functions(self) -> npt.NDArray[np.void]:
-        """The rays for compiled code, a record of `uwsim.rays.scene_record.RAYS`, (1,)."""
+        """The scene for compiled ray casting, a record of `uwsim.rays.scene_record.RAYS`, (1,)."""
         return rays_record(self._records)
 
     def cast(
@@ -62,15 +67,16 @@ class SceneRays:
         reach: float,
         starts: Array | None = None,
     ) -> Hits:
-        """Cast rays from the origin of a sensor; see `RayScene.cast`."""
+        """Cast rays from a sensor at the present poses of the scene; see `RayScene.cast`."""
         self.prepare()
         return cast(self.functions, world_from_sensor, directions, reach, starts)
 
     @property
     def is_compiled(self) -> bool:
-        """True if compiled steps update the poses that rays read without `prepare`.
+        """True if rays read up-to-date poses in compiled steps without a call of `prepare`.
 
-        They do where all follow bodies of the engine; sand and placed or carried objects do not.
+        This is so if all surfaces move with bodies of the engine. It is not so with sand, or with
+        objects that Python places or that a vehicle carries.
         """
         return (
             self._ray_scene is not None
@@ -88,7 +94,7 @@ class SceneRays:
             self._records[number] = self._sand_scene(number - 1, heap).record[0]
 
     def balls(self) -> Balls:
-        """Return balls that cover each surface, except the sand of heaps; see `RayScene.balls`."""
+        """Return balls that cover each surface without the heaps of sand; see `RayScene.balls`."""
         return self._scene.balls()
 
     @property
@@ -122,7 +128,7 @@ class SceneRays:
     def _frame(
         self, vehicle: int | None, link: str, object_index: int | None
     ) -> Callable[[], Array]:
-        """Return a function of the present pose of a link or an object, (4, 4) [m]."""
+        """Return a function that returns the present pose of a link or object in W, (4, 4) [m]."""
         engine = self._engine
         if vehicle is not None:
             return lambda: engine.poses.link_frame(vehicle, link)

@@ -1,4 +1,4 @@
-"""The visual side of a scene: models, water, light, and the renderer."""
+"""The rendering of a scene: its models, water, light and the renderer."""
 
 from __future__ import annotations
 
@@ -38,31 +38,32 @@ if TYPE_CHECKING:
     from ...rendering.renderer import Renderer
 
 MAX_SMOOTHED_SIZE = 8192
-"""The size above which images are not drawn larger to be smoothed [px]."""
+"""The greatest width and height, in samples, of an image with several samples a pixel."""
 POLISHED_SAMPLES = 2
-"""The samples of a pixel of a polished camera, in width and in height."""
+"""The number of samples in a pixel of a polished camera, in width and in height."""
 ALL_TARGETS = frozenset({"colour", "range", "ids"})
+"""The names of the images that can be rendered at once: colour, range, part number."""
 
 
 @dataclass(slots=True)
 class SceneryState(Record):
-    """The changing values of the visible side, besides the poses."""
+    """The state of the scenery; the poses of its parts are in the state of the engine."""
 
     water: Water
-    """The water; scene updaters change its fog."""
+    """The optical properties of the water; scene updaters change the fog."""
     light: Light
-    """The sun; scene updaters change its rate."""
+    """The light of the scene; scene updaters change its ``rate``."""
     heaps: list[HeapState]
-    """The sand of each heap."""
+    """The state of each heap of sand."""
 
 
 class Scenery:
-    """The models of a scene in its water; acquires a renderer for the first image.
+    """The visible parts of a scene in water; a renderer is acquired for the first image.
 
     Args:
         model: the compiled scene.
-        engine: the engine, which has the poses.
-        pool: the pool of renderers; without one the scenery has a renderer of its own.
+        engine: the engine, which stores the poses.
+        pool: the pool of renderers; None: the scenery has a renderer of its own.
     """
 
     def __init__(self, model: SceneModel, engine: Engine, pool: RendererPool | None) -> None:
@@ -71,30 +72,30 @@ class Scenery:
         self._own_pool = RendererPool()
         self._pool = pool or self._own_pool
         self._renderer: Renderer | None = None
-        self._handles: list[int] = []  # of each part
+        self._handles: list[int] = []  # the renderer's handle of each part
         self._drawn_version = -1
         self._vehicle_names = tuple(vehicle.name for vehicle in scene.vehicles)
         self._vehicle_labels = make_unique(self._vehicle_names)
         self.parts = model.parts
-        """The models of the scene, each with its vehicle or object."""
+        """The visible parts of the scene: models of links and objects."""
         self._poses = PartPoses(self.parts, engine.poses)
         self._hidden_ids = frozenset(part.id for part in self.parts if part.is_hidden)
         self.mounted_lamps: tuple[MountedLamp | Led, ...] = ()
-        """The lamps and signal lamps of the scene."""
+        """The lamps, and the signal lamps (``LedArray``), of the scene."""
         self.mounted_projector: tuple[MountedProjector, npt.NDArray[np.uint8]] | None = None
-        """The projector of the scene, and its pattern (h, w, 4)."""
+        """The structured-light projector of the scene, and its pattern (h, w, 4); None: none."""
         self._projector: Projector | None = None
         buried_objects = {index for index, spec in enumerate(scene.objects) if spec.buried > 0.0}
         self.heaps = make_heaps(
             scene, [(p.object, self.corners(p)) for p in self.parts if p.object in buried_objects]
         )
-        """The sand over buried objects."""
+        """The heaps of sand over buried objects."""
         self.state = SceneryState(
             Water.from_ocean_state(scene.ocean_state, model.compatibility),
             Light(rate=scene.sim_params.light_rate, shadows=_has_sun_shadows(scene)),
             [heap.state for heap in self.heaps],
         )
-        """The changing values."""
+        """The state: water, light and sand."""
         self._drawn_heaps: dict[int, tuple[int, int, Model]] = {}  # version, handle, model
 
     def set_lamps(self, lamps: Sequence[MountedLamp], leds: Sequence[Led] = ()) -> None:
@@ -112,23 +113,23 @@ class Scenery:
         self.mounted_projector = projector, pattern
 
     def set_fog(self, density: float) -> None:
-        """Set the fog density [1/m] of the water; its colour stays.
+        """Set the fog density [1/m] of the water, not the colour of the fog.
 
-        The original sets the colour of its window's fog to (0, 0.05, 0.3) here, and leaves that of
-        its cameras as the scene has it.
+        The original UWSim also sets the fog colour of its window to (0, 0.05, 0.3), and does not
+        change the fog colour of its cameras.
         """
         self.state.water = replace(self.state.water, fog=density)
 
     def set_light_rate(self, rate: float) -> None:
-        """Scale the light of the scene, 1 by default."""
+        """Set the factor on the light of the scene [1]; 1 by default."""
         self.state.light = replace(self.state.light, rate=rate)
 
     def world_from_mesh(self, part: Part) -> npt.NDArray[np.float64]:
-        """Return the present pose of a part, with its scale, (4, 4) [m]."""
+        """Return the present pose of a part in W, with its scale, (4, 4) [m]."""
         return self._poses.world_from_mesh(part)
 
     def corners(self, part: Part) -> Array:
-        """Return the corners of a part's box at its present pose, in W, (8, 3) [m]."""
+        """Return the corners of a part's bounding box at its present pose, in W, (8, 3) [m]."""
         world_from_mesh = self.world_from_mesh(part)
         return product(part.model.box.corners(), world_from_mesh[:3, :3].T) + world_from_mesh[:3, 3]
 
@@ -142,9 +143,15 @@ class Scenery:
         grey: bool,
         is_polished: bool = False,
     ) -> npt.NDArray[np.uint8]:
-        """Render a camera's image, with noise, (h, w, 3) or (h, w) when ``grey``.
+        """Render the noisy image of a camera, (h, w, 3), or (h, w) if ``grey``.
 
-        Polished: as `render_clean` has it.
+        Args:
+            world_from_camera: the pose of the camera; OpenGL axes.
+            intrinsics: the pinhole model of the camera.
+            std: the standard deviation of the noise, as a share of the full brightness [1].
+            rng: the random generator of the noise.
+            grey: return a grey image.
+            is_polished: render for presentation (`Light.is_polished`), with smooth edges.
         """
         image = self._draw_smooth(
             world_from_camera,
@@ -162,7 +169,7 @@ class Scenery:
         return grey_truncated(pixels) if grey else pixels
 
     def depth(self, world_from_camera: Pose, intrinsics: Intrinsics) -> npt.NDArray[np.float64]:
-        """Render the distance along the optical axis, (h, w) [m]; +inf = nothing there."""
+        """Render the distance along the optical axis, (h, w) [m]; +inf where no surface is."""
         targets = frozenset({"range"})
         image = self._draw(world_from_camera, intrinsics, self.state.water, targets=targets)
         return image.depth.astype(np.float64)
@@ -170,7 +177,7 @@ class Scenery:
     def segmentation(
         self, world_from_camera: Pose, intrinsics: Intrinsics
     ) -> npt.NDArray[np.uint16]:
-        """Render the number of the body that each pixel sees, (h, w); 0: none."""
+        """Render the number of the part that is visible at each pixel, (h, w); 0: none."""
         targets = frozenset({"ids"})
         image = self._draw(world_from_camera, intrinsics, self.state.water, targets=targets)
         assert image.ids is not None
@@ -185,10 +192,15 @@ class Scenery:
         targets: Collection[str] = ALL_TARGETS,
         is_polished: bool = False,
     ) -> RenderedImage:
-        """Render a noise-free image with range and ids, optionally at another fog density.
+        """Render a noise-free image with range and part numbers.
 
-        Polished: in the light of `Light.is_polished`; edges are smooth if only colour is drawn.
-        A pixel has one range and one id, so that with these its colour is that of its centre.
+        Args:
+            world_from_camera: the pose of the camera; OpenGL axes.
+            intrinsics: the pinhole model of the camera.
+            fog: the fog density instead of the scene's [1/m]; None: the density of the scene.
+            targets: the images to render, some of `ALL_TARGETS`.
+            is_polished: render for presentation (`Light.is_polished`). Edges are smooth if colour
+                is the only target: a pixel has one range and one number, those of its centre.
         """
         return self._draw_smooth(
             world_from_camera,
@@ -209,16 +221,16 @@ class Scenery:
         fog: float | None = None,
         samples: int = 1,
     ) -> RenderedImage:
-        """Render the view of an observer: with ghosts, and with air above the water; polished.
+        """Render the view of an observer, for presentation: with ghosts, and air above the water.
 
         Args:
-            world_from_camera: the pose of the viewer; OpenGL axes.
-            intrinsics: the pinhole.
-            targets: some of colour, range, ids.
-            hidden_ids: the numbers of parts that are left out.
-            fog: the density of the fog instead of the scene's [1/m].
-            samples: the number of samples of a pixel in width and in height; more than one smooths
-                edges, and draws no range and ids.
+            world_from_camera: the pose of the observer's camera; OpenGL axes.
+            intrinsics: the pinhole model of the camera.
+            targets: the images to render, some of `ALL_TARGETS`.
+            hidden_ids: the numbers of the parts that are left out.
+            fog: the fog density instead of the scene's [1/m]; None: the density of the scene.
+            samples: the number of samples in a pixel, in width and in height; with more than one
+                edges are smooth, and only colour is rendered.
         """
         density = self.state.water.fog if fog is None else fog
         return self._draw_smooth(
@@ -246,9 +258,9 @@ class Scenery:
         colour: str = "uint8",
         hidden_ids: frozenset[int] | None = None,
     ) -> RenderedImage:
-        """Render an image of which each pixel is the mean of ``samples`` in width and in height.
+        """Render an image in which each pixel is the mean of ``samples`` x ``samples`` samples.
 
-        With several only the colour is drawn. Images that would be too large have one.
+        With more than one, only colour is rendered. Too large images have one sample a pixel.
         """
         if samples == 1 or max(intrinsics.width, intrinsics.height) * samples > MAX_SMOOTHED_SIZE:
             return self._draw(
@@ -283,9 +295,16 @@ class Scenery:
         colour: str = "uint8",
         hidden_ids: frozenset[int] | None = None,
     ) -> RenderedImage:
-        """Render an image in the scene's light or another, without the parts ``hidden_ids``.
+        """Render an image at the present poses of all parts.
 
-        Without ``hidden_ids`` it has no ghosts.
+        Args:
+            world_from_camera: the pose of the camera; OpenGL axes.
+            intrinsics: the pinhole model of the camera.
+            water: the water.
+            light: the light; None: the light of the scene.
+            targets: the images to render, some of `ALL_TARGETS`.
+            colour: the number format of the colour image, ``uint8`` or ``linear16``.
+            hidden_ids: the numbers of the parts that are left out; None: the ghosts.
         """
         renderer = self._open()
         if not self._handles:
@@ -327,12 +346,12 @@ class Scenery:
 
     @property
     def renderer_name(self) -> str:
-        """The name of the renderer; makes the graphics context if there is none yet."""
+        """The name of the renderer; reading it creates the graphics context if there is none."""
         return self._open().description
 
     @property
     def part_names(self) -> dict[int, str]:
-        """The names of parts, number in segmentation images -> ``vehicle/link`` or object."""
+        """The unique names of parts, ``vehicle/link`` or object, by number in segmentations."""
         names = {}
         for part in self.parts:
             names[part.id] = part.name
@@ -345,9 +364,9 @@ class Scenery:
 
     @property
     def generated_hashes(self) -> dict[str, str]:
-        """The generated models, name -> sha256 of the arrays, sorted by name.
+        """The sha256 of the arrays of each generated model, by name, sorted by name.
 
-        Boxes, cylinders and spheres are left out: the file of their robot or scene has their sizes.
+        Boxes, cylinders and spheres are left out: the robot or scene file contains their sizes.
         """
         generated_models = [
             part.model for part in self.parts if part.model.sha256 and not part.model.files
@@ -356,7 +375,7 @@ class Scenery:
         return {name: models[name] for name in sorted(models)}
 
     def redraw(self) -> None:
-        """Update all poses before the next image."""
+        """Mark all poses as changed, so that the next image updates them."""
         self._drawn_version = -1
 
     def _open(self) -> Renderer:

@@ -1,4 +1,4 @@
-"""Images of the bodies at pixels, by the renderer or by rays."""
+"""Segmentation images, from the renderer or by ray casting."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from .scenery import Scenery
 
 
 class SceneSegmenter:
-    """The segmentation of images by body (`uwsim.topics.interface.Segmenter`).
+    """The source of segmentation images (`uwsim.topics.interface.Segmenter`).
 
     Args:
-        scenery: the visible side of the scene.
-        rays: the rays against it.
-        is_blind: cast rays, which meet no ghosts, instead of rendering.
+        scenery: the rendering of the scene.
+        rays: the ray casting against the scene.
+        is_blind: cast rays instead of rendering.
     """
 
     def __init__(self, scenery: Scenery, rays: SceneRays, *, is_blind: bool) -> None:
@@ -27,13 +27,13 @@ class SceneSegmenter:
 
     @property
     def part_names(self) -> Mapping[int, str]:
-        """The names of parts, number in segmentation images -> ``vehicle/link`` or object."""
+        """The names of parts, ``vehicle/link`` or object, by number in segmentation images."""
         return self._scenery.part_names
 
     def segmentation(
         self, world_from_camera: Pose, intrinsics: Intrinsics
     ) -> npt.NDArray[np.uint16]:
-        """Return the number of the body at each pixel, (h, w); 0: none."""
+        """Return the number of the part that is visible at each pixel, (h, w); 0: none."""
         if self._is_blind:
             return cast_surfaces(self._rays, world_from_camera, intrinsics)
         return self._scenery.segmentation(world_from_camera, intrinsics)

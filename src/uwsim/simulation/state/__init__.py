@@ -1,1 +1,1 @@
-"""The state of a simulation: one record of all that changes while it runs."""
+"""The state of a simulation, which can be copied, saved as bytes and restored."""

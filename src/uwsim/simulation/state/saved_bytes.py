@@ -1,4 +1,8 @@
-"""Records as bytes: of numbers, texts, arrays, messages and records of uwsim, and nothing else."""
+"""Conversion of states to bytes and back.
+
+Only numbers, texts, arrays, messages and records of uwsim are written and read, so that bytes from
+unknown sources run no code.
+"""
 
 from __future__ import annotations
 
@@ -26,11 +30,12 @@ ALLOWED_CLASSES = {
     ("numpy._core.numeric", "_frombuffer"),
     ("collections", "deque"),
 }
-"""The classes allowed in bytes, besides numbers, texts and dataclasses of uwsim and rosbags."""
+"""The classes that are read, besides numbers, texts and dataclasses of uwsim and rosbags."""
 
 PLAIN_TYPES = (bool, int, float, str, bytes, tuple, type(None), np.generic, np.dtype)
 """The types that are pickled as they are."""
 OWN_PACKAGES = ("uwsim.", "rosbags.")
+"""The prefixes of the modules whose dataclasses are allowed."""
 CHECKSUM_SIZE = 4
 """The number of bytes of a checksum."""
 
@@ -61,7 +66,7 @@ def _checksum(payload: bytes | memoryview) -> bytes:
 
 
 def unpack(data: bytes, kind: type[T]) -> T:
-    """Read a value of a type from bytes.
+    """Return the value of the class ``kind`` that `pack` has written.
 
     Raises:
         UwsimError: the bytes are damaged, or another version of uwsim wrote them.
@@ -84,9 +89,10 @@ def unpack(data: bytes, kind: type[T]) -> T:
 
 
 class _Flatteners(dict[type, Callable[[Any], Any]]):
-    """The functions that make lists of values, as pickle is slower for records and arrays.
+    """The functions that convert values to lists before pickling, by the type of the value.
 
-    Each list begins with a tag. Numbers, texts, tuples and messages stay.
+    Pickling is slower for records and arrays than for lists. Each list begins with a tag that names
+    the type. Numbers, texts, tuples and messages are not converted.
     """
 
     def __missing__(self, kind: type) -> Callable[[Any], Any]:
@@ -102,18 +108,22 @@ class _Flatteners(dict[type, Callable[[Any], Any]]):
 
 
 RECORD, ARRAY, LIST, DICT, QUEUE = range(5)
+"""The tags of converted values."""
 
 
 def _record_flattener(kind: type) -> Callable[[Any], list[Any]]:
-    """Return the function that makes lists of the records of a class: most fields stay."""
+    """Return the function that converts records of a class to lists.
+
+    Only the fields that can contain other records or arrays are converted themselves.
+    """
     name = f"{kind.__module__}:{kind.__qualname__}"
-    places, flatteners = [2 + place for place in changing_fields(kind)], _FLATTENERS
+    indices, flatteners = [2 + index for index in changing_fields(kind)], _FLATTENERS
 
     def flatten(record: Any) -> list[Any]:
         values = [RECORD, name, *field_values(record)]
-        for place in places:
-            value = values[place]
-            values[place] = flatteners[type(value)](value)
+        for index in indices:
+            value = values[index]
+            values[index] = flatteners[type(value)](value)
         return values
 
     return flatten
@@ -144,7 +154,7 @@ _FLATTENERS: _Flatteners = _Flatteners(
 
 
 def _rebuild(lists: Any) -> Any:
-    """Return the value from which lists were made."""
+    """Return the value that was converted to lists."""
     if type(lists) is not list:
         return lists
     tag, *rest = lists
@@ -180,7 +190,7 @@ def _is_allowed(kind: object) -> bool:
 
 
 class _Unpickler(pickle.Unpickler):
-    """An unpickler of numbers, arrays, messages and records, which calls nothing else."""
+    """An unpickler of numbers, arrays, messages and records that rejects all other classes."""
 
     def find_class(self, module: str, name: str) -> Any:
         if (module, name) in ALLOWED_CLASSES:

@@ -1,4 +1,4 @@
-"""The state of a simulation."""
+"""The state of a simulation: one record of all values that change while it runs."""
 
 from __future__ import annotations
 
@@ -27,16 +27,16 @@ from .saved_bytes import pack, unpack
 
 @dataclass(frozen=True, slots=True)
 class Identity:
-    """The values that identify a simulation and do not change: its states fit no other."""
+    """The constant values that a simulation must share with a state to restore it."""
 
     seed: int
     """The seed of every random stream."""
     timestep: float
     """The length of a step [s]."""
     compatibility: str
-    """The compatibility quirks that are on."""
+    """The names of the active compatibility quirks, separated by commas."""
     scene: str
-    """The hash of the scene, with its variations."""
+    """The hash of the scene, after the variations of the seed are applied."""
 
 
 class RunningIdentity(ExternalValue):
@@ -55,7 +55,7 @@ class RunningIdentity(ExternalValue):
         return self._identity
 
     def set(self, value: object) -> None:
-        """Raise UwsimError if a state belongs to another simulation."""
+        """Raise UwsimError if ``value`` is not the identity of this simulation."""
         identity = self.value()
         if not isinstance(value, Identity):
             raise wrong_scene_error()
@@ -76,62 +76,62 @@ class State(Record):
     """The values of a simulation that change while it runs.
 
     `uwsim.Simulation.state` is the state of the running simulation and changes with it; a `copy`
-    does not, but it shares messages, which must not change once they are published. Two states are
-    equal if all their numbers are, to the bit. These include frames of bodies, which are computed
-    on request: the state differs after `Simulation.pose` or an image.
+    does not. A copy shares messages, which must not change once they are published. Two states are
+    equal if all their numbers are equal to the bit. These include cached poses of bodies, which are
+    computed on request: the state differs after `Simulation.pose` or an image.
 
-    Not part of it: callbacks, the hash of the images published so far, and the values of algorithms
-    without ``save`` and ``restore``.
+    Not part of the state: callbacks, the hash of the images published so far, and the values of
+    algorithms without ``save`` and ``restore``.
     """
 
     identity: RunningIdentity
-    """The simulation to which the state belongs; a state of another one cannot be set."""
+    """The identity of the simulation; the state of another simulation cannot be restored."""
     bus: BusState
     """The step, and the undelivered messages."""
     engine: EngineState
     """The poses, velocities and actuators: the physics."""
     vehicles: list[VehicleState]
-    """The changing values of each vehicle besides the physics."""
+    """The state of each vehicle that is not part of the engine's state."""
     sensors: list[Record]
-    """The changing values of each sensor."""
+    """The state of each sensor."""
     devices: list[Record]
-    """The changing values of each device."""
+    """The state of each device."""
     forces: list[Record]
-    """The changing values of each force."""
+    """The state of each force."""
     interfaces: list[Record]
-    """The changing values of each element of ``<rosInterfaces>``."""
+    """The state of each element of ``<rosInterfaces>``."""
     faults: list[FaultyTopicState]
-    """The changing values of each topic of a sensor with faults."""
+    """The state of each topic of a sensor with faults."""
     scenery: SceneryState
     """The fog, the light and the sand."""
     water: WaterState
     """The current that a program has set."""
     contacts: ContactsState
-    """The contacts besides those of the engine."""
+    """The state of contacts that is not part of the engine's state."""
     below_ground: BelowGroundState
     """The result of the last check for bodies below the ground."""
     schedule: ScheduleState
-    """The timers and the commands of the next step."""
+    """The timers, and the commands for the next step."""
     network: NetworkState
     """The packets between communication devices."""
     markers: MarkersState
     """The markers that programs have spawned."""
     trajectories: list[TrajectoryState]
-    """The paths of bodies."""
+    """The path of each body of a ``<showTrajectory>``."""
     access: AccessState
     """The topics that a program has read, and whether the first samples are published."""
     nodes: list[NodeState]
     """The timers and the states of attached algorithms."""
 
     def copy(self) -> Self:
-        """Return a state of values alone, which the simulation does not change."""
+        """Return a copy of all values, which the running simulation does not change."""
         return copy_record(self)
 
     def to_bytes(self) -> bytes:
         """Return the state as bytes, for the same version of uwsim.
 
         Raises:
-            UwsimError: a part of it, such as a current of a class of a program, cannot be saved.
+            UwsimError: a value, such as a current of a program's own class, cannot be saved.
         """
         return pack(self)
 
@@ -145,7 +145,7 @@ class State(Record):
         return unpack(data, cls)
 
     def __eq__(self, other: object) -> bool:
-        """Compare all values, to the bit."""
+        """Return whether all values of two states are equal to the bit."""
         return isinstance(other, State) and are_equal(self.copy(), other.copy())
 
     __hash__ = None  # type: ignore[assignment]

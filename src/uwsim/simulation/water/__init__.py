@@ -1,1 +1,1 @@
-"""The motion of the water of a scene."""
+"""The motion of the water in a running scene."""

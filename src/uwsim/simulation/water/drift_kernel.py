@@ -1,4 +1,7 @@
-"""The drift of vehicles that are not simulated, in compiled code: `WaterMotion.drifted_pose`."""
+"""The drift of kinematic vehicles with the water, in compiled code: `WaterMotion.drifted_pose`.
+
+W is the world frame and L the localized world, the frame of scene files.
+"""
 
 from __future__ import annotations
 
@@ -15,12 +18,12 @@ from ...physics.step_kernel import engine_rotation
 DRIFT = np.dtype(
     [
         ("flow", FUNCTION),
-        ("query", np.int64),  # the address of a record of `QUERY`, with a point a vehicle
+        ("query", np.int64),  # the address of a record of `QUERY`, with one point for each vehicle
         ("timestep", np.float64),  # [s]
-        ("rotation", np.float64, (3, 3)),  # of W from L
-        ("position", np.float64, 3),
-        ("inverse_rotation", np.float64, (3, 3)),  # of L from W
-        ("inverse_position", np.float64, 3),
+        ("rotation", np.float64, (3, 3)),  # of L in W
+        ("position", np.float64, 3),  # of L in W [m]
+        ("inverse_rotation", np.float64, (3, 3)),  # of W in L
+        ("inverse_position", np.float64, 3),  # of W in L [m]
     ],
     align=True,
 )
@@ -30,12 +33,12 @@ DRIFT = np.dtype(
 def drift_function(
     flow: FlowFunction, world_from_localized: Pose, vehicles: npt.NDArray[np.int64], timestep: float
 ) -> DriftFunction:
-    """Return the function of vehicles that drift in the flow of a compiled function.
+    """Return the function that lets vehicles drift in a flow.
 
     Args:
-        flow: the function, in L.
-        world_from_localized: W from L.
-        vehicles: the number of each in ``flow``, (n,).
+        flow: the compiled function of the flow, in L.
+        world_from_localized: the pose of L in W.
+        vehicles: the number of each vehicle in ``flow``, (n,).
         timestep: the length of a step [s].
     """
     query, *arrays = query_of(vehicles)
@@ -51,7 +54,13 @@ def drift_function(
 
 
 def drift(parameters: int, values: int, time: float) -> None:
-    """Move vehicles by a step; see `DriftFunction`."""
+    """Move vehicles with the water by one step.
+
+    Args:
+        parameters: the address of a `DRIFT` record.
+        values: the address of the poses in W, (n, 7); see `DriftFunction`.
+        time: the time at the end of the step [s].
+    """
     record = carray(pointer(parameters), (1,), DRIFT)[0]
     query = carray(pointer(record.query), (1,), QUERY)[0]
     poses = view_doubles(values, 7 * query.n).reshape((query.n, 7))

@@ -1,4 +1,7 @@
-"""The velocity of the water at points of W, in compiled code: `WaterMotion.velocity`."""
+"""The velocity of the water at points, in compiled code: `WaterMotion.velocity`.
+
+W is the world frame and L the localized world, the frame of scene files.
+"""
 
 from __future__ import annotations
 
@@ -21,8 +24,8 @@ POINTS = np.dtype(
     [
         ("flow", FUNCTION),  # 0: the water is still
         ("query", np.int64),  # the address of a record of `QUERY`
-        ("rotation", np.float64, (3, 3)),  # of L from W
-        ("position", np.float64, 3),
+        ("rotation", np.float64, (3, 3)),  # of W in L
+        ("position", np.float64, 3),  # of W in L [m]
     ],
     align=True,
 )
@@ -32,11 +35,11 @@ POINTS = np.dtype(
 def point_function(
     flow: FlowFunction | None, localized_from_world: Pose, n: int
 ) -> CompiledFunction:
-    """Return the function of the water at points around one vehicle.
+    """Return the function that computes the velocity of the water at points of one vehicle.
 
     Args:
-        flow: the flow in L, for this vehicle alone; None: the water is still.
-        localized_from_world: L from W.
+        flow: the compiled function of the flow in L, for this vehicle only; None: still water.
+        localized_from_world: the pose of W in L.
         n: the number of points.
     """
     query, *arrays = query_of(np.zeros(n, dtype=np.int64))
@@ -55,7 +58,13 @@ def point_function(
 
 
 def write_velocities(parameters: int, values: int, time: float) -> None:
-    """Write velocities after the points, see `uwsim.world.mounts.read_water`."""
+    """Write the velocities of the water behind the points; see `uwsim.world.mounts.read_water`.
+
+    Args:
+        parameters: the address of a `POINTS` record.
+        values: the address of n points in W [m], then of n velocities in W [m/s], (2, n, 3).
+        time: the time [s].
+    """
     water = carray(pointer(parameters), (1,), POINTS)[0]
     query = carray(pointer(water.query), (1,), QUERY)[0]
     rows = view_doubles(values, 6 * query.n).reshape((2, query.n, 3))

@@ -1,7 +1,8 @@
 r"""The motion of the water at bodies, in compiled code.
 
-In W, from the velocity :math:`u` and its change :math:`\partial u/\partial t` of the flow in L: the
-acceleration of the water which passes a point, and its rotation,
+The flow gives the velocity :math:`u` and its change :math:`\partial u/\partial t` in L, the frame
+of scene files. From these the functions compute, in the world frame W, the acceleration of the
+water that passes a point, and the angular velocity of the water,
 
 .. math:: \frac{Du}{Dt} = \frac{\partial u}{\partial t} + (u \cdot \nabla) u, \qquad
     \tfrac12 \nabla \times u
@@ -31,25 +32,28 @@ from ...physics.hydrodynamics.water_function import (
 )
 
 SHEAR_DISTANCE = 0.05
-"""The half distance over which shear is taken [m]."""
+"""The offset of the points for central differences [m]."""
 N_AROUND = 6
-"""The number of points around a body: along x, y and z of L, ahead of it and behind it."""
+"""The number of points around a body for differences: on both sides along x, y and z of L."""
 
 WATER = np.dtype(
     [
         ("flow", FUNCTION),
-        ("n", np.int64),  # bodies
+        ("n", np.int64),  # the number of bodies
         ("is_uniform", np.int64),
-        ("rotation", np.float64, (3, 3)),  # of L from W
-        ("position", np.float64, 3),
-        ("at_bodies", np.int64),  # the address of a record of `QUERY`
-        ("around_bodies", np.int64),  # likewise, with `N_AROUND` points a body
+        ("rotation", np.float64, (3, 3)),  # of W in L
+        ("position", np.float64, 3),  # of W in L [m]
+        ("at_bodies", np.int64),  # the address of a `QUERY` record with one point a body
+        (
+            "around_bodies",
+            np.int64,
+        ),  # the address of a `QUERY` record with `N_AROUND` points a body
     ],
     align=True,
 )
 """The record of the water of a scene, for compiled code."""
 ROWS = np.dtype([("rows", np.int64), ("n_left", np.int64), ("n", np.int64)])
-"""The address of rows computed beforehand, the number of steps that have one, and of bodies."""
+"""The record of precomputed rows: their address, the number of steps left, the number of bodies."""
 
 Record = Any
 
@@ -62,12 +66,12 @@ def flow_function(
     is_uniform: bool,
     is_steady: bool,
 ) -> WaterFunction:
-    """Return the function of water that flows as a compiled function describes.
+    """Return the function that computes the motion of the water from a compiled flow.
 
     Args:
-        flow: the function, in L.
-        localized_from_world: L from W.
-        vehicles: the number in ``flow`` of the vehicle at each body, (n,).
+        flow: the compiled function of the flow, in L.
+        localized_from_world: the pose of W in L.
+        vehicles: the number in ``flow`` of the vehicle of each body, (n,).
         is_uniform: True if the flow is the same everywhere.
         is_steady: True if the flow is uniform and the same at all times.
     """
@@ -88,11 +92,11 @@ def flow_function(
 
 
 def row_function(rows: Array) -> WaterFunction:
-    """Return the function of water that was computed beforehand.
+    """Return the function that reads the motion of the water from precomputed rows.
 
     Args:
-        rows: velocity, acceleration and rotation of the water in each step, (steps, n, 9); a single
-            one applies to all steps.
+        rows: for each step and body, the velocity [m/s], acceleration [m/s2] and angular velocity
+            [rad/s] of the water in W, (n steps, n bodies, 9). One step applies to all.
     """
     parameters = np.zeros(1, ROWS)
     parameters["rows"], parameters["n_left"], parameters["n"] = (
@@ -109,7 +113,7 @@ def row_function(rows: Array) -> WaterFunction:
 
 
 def write_next_rows(parameters: int, values: int, time: float) -> None:
-    """Write rows that were computed beforehand; see `WaterFunction`."""
+    """Write the precomputed rows of the next step; see `WaterFunction`."""
     table = carray(pointer(parameters), (1,), ROWS)[0]
     if table.n_left == 0:
         return
@@ -126,7 +130,13 @@ def write_next_rows(parameters: int, values: int, time: float) -> None:
 
 
 def write_water(parameters: int, values: int, time: float) -> None:
-    """Write the motion of the water; see `WaterFunction`."""
+    """Write the motion of the water at each body; see `WaterFunction`.
+
+    Args:
+        parameters: the address of a `WATER` record.
+        values: the address of the rows, (n, `WATER_ROW`).
+        time: the time in the middle of the step [s].
+    """
     water = carray(pointer(parameters), (1,), WATER)[0]
     query = carray(pointer(water.at_bodies), (1,), QUERY)[0]
     rows = view_doubles(values, WATER_ROW * water.n).reshape((water.n, WATER_ROW))
@@ -145,7 +155,7 @@ def write_water(parameters: int, values: int, time: float) -> None:
 
 @njit
 def localize(water: Record, rows: Array, points: Array) -> None:
-    """Write the points of rows into (3 n,), in L."""
+    """Transform the points of rows from W to L, into ``points``, (3 n,) [m]."""
     for i in range(water.n):
         x, y, z = rows[i, POINT], rows[i, POINT + 1], rows[i, POINT + 2]
         for k in range(3):
@@ -157,7 +167,7 @@ def localize(water: Record, rows: Array, points: Array) -> None:
 def add_shear(
     water: Record, rows: Array, points: Array, velocities: Array, accelerations: Array, time: float
 ) -> None:
-    """Add the effect of shear to the accelerations in L, and write the rotations into the rows."""
+    """Add the convective acceleration in L, and write the angular velocities in W to the rows."""
     query = carray(pointer(water.around_bodies), (1,), QUERY)[0]
     neighbours = view_doubles(query.points, 3 * N_AROUND * water.n).reshape((water.n, 3, 2, 3))
     for i in range(water.n):
@@ -169,7 +179,7 @@ def add_shear(
     query.acceleration = 0
     call(water.flow.function, water.flow.parameters, water.around_bodies, time)
     flows = view_doubles(query.velocity, 3 * N_AROUND * water.n).reshape((water.n, 3, 2, 3))
-    gradient, rotation = np.empty((3, 3)), np.empty(3)  # rows of the gradient are components
+    gradient, rotation = np.empty((3, 3)), np.empty(3)  # gradient[k, j]: change of u_k along j
     for i in range(water.n):
         for k in range(3):
             convection = 0.0
@@ -185,7 +195,7 @@ def add_shear(
 
 @njit
 def globalize(rotation: Array, vector: Array, world_vector: Array) -> None:
-    """Write a vector of L in W, by the rotation of L from W."""
+    """Rotate a vector from L to W, by the rotation of W in L, into ``world_vector``, (3,)."""
     for k in range(3):
         world_vector[k] = (
             0.0

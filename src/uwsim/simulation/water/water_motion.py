@@ -1,4 +1,4 @@
-"""The flow of a scene: its currents, and the flow that scene updaters add."""
+"""The motion of the water in a scene: its currents, and a flow that programs or updaters add."""
 
 from __future__ import annotations
 
@@ -30,22 +30,24 @@ from .water_kernel import SHEAR_DISTANCE, flow_function, row_function
 F = TypeVar("F")
 _CachedFunction = tuple[Flow | None, Sequence[str], FlowFunction | None, F | None]
 WaterRow = tuple[Array, Array, Array | None]
-"""The velocity, acceleration and rotation of the water at some points."""
+"""The velocity, acceleration and angular velocity of the water at n points in W, (n, 3) each."""
 
 
 @dataclass(slots=True)
 class WaterState(Record):
-    """The changing values of the flow."""
+    """The state of the motion of the water."""
 
     added_flow: Flow | None = None
-    """The flow that is added to the currents of the scene."""
+    """The flow that is added to the currents of the scene; None: none."""
 
 
 class WaterMotion:
-    """The flow of the water around the vehicles of a scene, in W.
+    """The motion of the water around the vehicles of a scene, in the world frame W.
+
+    Currents are defined in L, the frame of the scene file.
 
     Args:
-        scene: spec of the scene.
+        scene: the spec of the scene.
         context: the properties of the scene that currents may read.
     """
 
@@ -57,17 +59,17 @@ class WaterMotion:
         self._last_added_flow: Flow | None = None
         self._sum: Flow = self._scene_current
         self.state = WaterState()
-        """The changing values."""
-        # a flow, the vehicles in it, and its functions
+        """The state: the added flow."""
+        # the flow and the vehicles for which the functions are valid, and the functions
         self._water_cache: _CachedFunction[WaterFunction] = None, (), None, None
         self._drift_cache: _CachedFunction[DriftFunction] = None, (), None, None
-        # a flow, and its functions by the vehicle and the number of points
+        # the flow for which the functions are valid; the functions by vehicle and number of points
         self._point_cache: tuple[Flow, dict[tuple[str, int], CompiledFunction | None]] = (
             self._sum,
             {},
         )
         self.files: dict[str, Path] = {}
-        """The files that the currents read, by name."""
+        """The paths of the files that the currents read, by file name."""
         for spec in specs:
             self.files |= spec.files(context)
 
@@ -103,15 +105,15 @@ class WaterMotion:
         timestep: float,
         vehicles: Sequence[str],
     ) -> WaterFunction | None:
-        """Return the motion of the water at some bodies in some steps, in W; None if it is still.
+        """Return the function of the water's motion at bodies in some steps; None for still water.
 
-        It is the motion in the middle of each step.
+        The motion is in W, and in the middle of each step.
 
         Args:
             positions: returns the present positions of the bodies in W, (n, 3) [m].
-            steps: the numbers of the steps; a single one, if `needs_positions`.
-            timestep: length of a step [s].
-            vehicles: the name of the vehicle that each body belongs to, or empty.
+            steps: the numbers of the steps; only one if `needs_positions`.
+            timestep: the length of a step [s].
+            vehicles: the name of the vehicle of each body; empty for other bodies.
         """
         flow = self._flow
         if flow.is_still:
@@ -135,12 +137,12 @@ class WaterMotion:
     ) -> DriftFunction | None:
         """Return the function that lets vehicles drift in compiled steps, as `drifted_pose`.
 
-        None where Python has to compute the flow.
+        The result is None if Python has to compute the flow.
 
         Args:
-            vehicles: names of all vehicles that are not simulated.
-            timestep: length of a step [s].
-            end: the end of the last step [s].
+            vehicles: the names of all kinematic vehicles.
+            timestep: the length of a step [s].
+            end: the time at the end of the last step [s].
         """
         flow, (for_flow, for_vehicles, compiled_flow, function) = self._flow, self._drift_cache
         if flow is not for_flow or vehicles != for_vehicles:
@@ -158,7 +160,7 @@ class WaterMotion:
     def _functions(
         self, vehicles: Sequence[str]
     ) -> tuple[WaterFunction | None, FlowFunction | None]:
-        """Return the functions of the present flow; None where Python computes it."""
+        """Return the compiled functions of the present flow; None where Python computes it."""
         flow, (for_flow, for_vehicles, compiled_flow, function) = self._flow, self._water_cache
         if flow is not for_flow or vehicles != for_vehicles:
             numbers, names = _number_names(vehicles)
@@ -175,7 +177,7 @@ class WaterMotion:
         return function, compiled_flow
 
     def _uniform_rows(self, times: Sequence[float], vehicles: Sequence[str]) -> Array:
-        """Return rows of uniform water, computed once for all points of a vehicle."""
+        """Return the rows for `row_function` of uniform water, computed once for each vehicle."""
         numbers, names = _number_names(vehicles)
         flow, points = self._flow, np.zeros((len(names), 3))
         motions = np.empty((len(times), 2, len(names), 3))
@@ -184,19 +186,21 @@ class WaterMotion:
         return _spread_rows(motions, numbers, self._localized_from_world.rotation)
 
     def motion_at(self, points: Array, time: float, vehicles: Sequence[str]) -> WaterRow:
-        r"""Return the motion of the water, in W.
+        r"""Return the motion of the water at points, in W.
 
-        The acceleration is that of the water which passes a point. Its pressure accelerates a body
-        alike: :math:`Du/Dt = \partial u/\partial t + (u \cdot \nabla) u`.
+        The acceleration is the material derivative, of the water that passes a point. The pressure
+        of the water gives a body the same acceleration:
+        :math:`Du/Dt = \partial u/\partial t + (u \cdot \nabla) u`.
 
         Args:
-            points: in W, (n, 3) [m].
-            time: [s].
-            vehicles: the name of the vehicle that each point belongs to, or empty.
+            points: the points in W, (n, 3) [m].
+            time: the time [s].
+            vehicles: the name of the vehicle of each point; empty for other points.
 
         Returns:
-            The velocity, (n, 3) [m/s], the acceleration, (n, 3) [m/s2], and the rotation of the
-            water, :math:`\tfrac12 \nabla \times u`, (n, 3) [rad/s]; None for uniform water.
+            The velocity, (n, 3) [m/s], the acceleration, (n, 3) [m/s2], and the angular velocity of
+            the water, :math:`\tfrac12 \nabla \times u`, (n, 3) [rad/s]; the last is None for
+            uniform water.
         """
         local_points = self._localized_from_world.transform(points)
         turn = self._localized_from_world.rotation
@@ -210,7 +214,7 @@ class WaterMotion:
         return product(velocity, turn), product(acceleration, turn), product(rotation, turn)
 
     def _gradient(self, points: Array, time: float, vehicles: Sequence[str]) -> Array:
-        """Return the velocity gradient in L, (n, 3, 3) [1/s]: rows are components."""
+        """Return the velocity gradient in L, (n, 3, 3) [1/s]: [:, k, j] is du_k / dx_j."""
         n = len(points)
         offsets = SHEAR_DISTANCE * np.concatenate([np.eye(3), -np.eye(3)])  # (6, 3) [m]
         neighbours = (points + offsets[:, None]).reshape(-1, 3)  # (6 n, 3)
@@ -220,7 +224,13 @@ class WaterMotion:
         return slopes.transpose(1, 2, 0)
 
     def velocity(self, points: Array, time: float, vehicle: str) -> Array:
-        """Return the velocity at points of W (n, 3) [m] for a vehicle, (n, 3) [m/s]."""
+        """Return the velocity of the water in W at points of W, (n, 3) [m/s].
+
+        Args:
+            points: the points in W, (n, 3) [m].
+            time: the time [s].
+            vehicle: the name of the vehicle of the points; some currents differ by vehicle.
+        """
         if self.is_still:
             return np.zeros((len(points), 3))
         local_points = self._localized_from_world.transform(points)
@@ -228,10 +238,10 @@ class WaterMotion:
         return product(velocity, self._localized_from_world.rotation)
 
     def velocity_function(self, vehicle: str, n: int) -> CompiledFunction | None:
-        """Return `velocity` at ``n`` points as a compiled function; None if there is none.
+        """Return `velocity` as a compiled function; None if Python has to compute the flow.
 
         Args:
-            vehicle: the name of the vehicle.
+            vehicle: the name of the vehicle of the points.
             n: the number of points.
         """
         flow, (for_flow, functions) = self._flow, self._point_cache
@@ -257,7 +267,7 @@ class WaterMotion:
 
 
 def _number_names(vehicles: Sequence[str]) -> tuple[npt.NDArray[np.int64], tuple[str, ...]]:
-    """Return the number of each name, and the names, each once."""
+    """Return the number of each name in the tuple of distinct names, and that tuple."""
     names = tuple(dict.fromkeys(vehicles))
     return np.array([names.index(name) for name in vehicles], dtype=np.int64), names
 
@@ -284,12 +294,12 @@ def _spread_rows(motions: Array, numbers: npt.NDArray[np.int64], turn: Array) ->
 def water_motion(
     model: SceneModel, stream: Callable[[str], np.random.Generator], *, runs_code: bool
 ) -> WaterMotion:
-    """Return the flow of a scene.
+    """Return the motion of the water in a scene.
 
     Args:
         model: the compiled scene.
-        stream: a function that returns the random generator of a name.
-        runs_code: run Python code that the scene names.
+        stream: a function that returns the random generator of a stream's name.
+        runs_code: run Python code that the scene names; False: a current that needs it is still.
     """
     scene = model.scene
     context = SceneContext(

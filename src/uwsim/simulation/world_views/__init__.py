@@ -1,7 +1,8 @@
-"""The views of a live scene: one for each kind of part, each exactly its Protocol.
+"""The views of a running scene: the part of its interface that each kind of component may use.
 
-`measure_view` for measures and triggers, `stage_view` for scene updaters, `sensor_view`,
-`device_view`, `force_view` and `topic_view` for what they are named after.
+Each view implements one protocol of `uwsim.world` or `uwsim.topics`. `measure_view` is for measures
+and triggers, `stage_view` for scene updaters, `sensor_view` for sensors, `device_view` for devices,
+`force_view` for forces, and `topic_view` for the elements of ``<rosInterfaces>``.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""A scene as its forces see it, and the frames at which they act."""
+"""The view of a running scene for its forces, and the frames at which forces act."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ from ..physical_scene import PhysicalScene
 
 
 class SceneAttachment:
-    """A frame fixed to a body of a scene (`uwsim.world.Attachment`).
+    """A frame that is fixed to a body of the scene (`uwsim.world.Attachment`).
 
     Args:
-        name: of the body.
-        vehicle: name of the vehicle that it is on; empty on an object.
-        pose: where the frame is.
-        motion: how it moves.
-        engine_body: number of the engine's body; None where forces do not move it.
-        position_on_body: where the frame's origin is in the frame of that body, (3,) [m].
+        name: the name of the body.
+        vehicle: the name of the body's vehicle; empty for an object.
+        pose: a function that returns the present pose of the frame in W.
+        motion: a function that returns the present motion of the frame.
+        engine_body: the engine's number of the body; None if forces do not move it.
+        position_on_body: the origin of the frame in the frame of the engine's body, (3,) [m].
     """
 
     def __init__(
@@ -39,27 +39,27 @@ class SceneAttachment:
         self.name, self.vehicle = name, vehicle
         self._pose, self.motion = pose, motion
         self.engine_body = engine_body
-        """The number of the engine's body; None where forces do not move it."""
+        """The engine's number of the body; None if forces do not move it."""
         self.position_on_body = position_on_body
-        """The position of the frame's origin in the frame of that body, (3,) [m]."""
+        """The position of the frame's origin in the frame of the engine's body, (3,) [m]."""
 
     @property
     def world_from_body(self) -> Pose:
-        """The present pose of the frame."""
+        """The present pose of the frame in W."""
         return self._pose()
 
 
 @dataclass(frozen=True)
 class _Mount:
-    """A frame on a link with the link's axes."""
+    """The spec of a frame on a link, which has the axes of the link."""
 
-    relative_to: str
-    position: tuple[float, float, float]
+    relative_to: str  # the link
+    position: tuple[float, float, float]  # in the frame of the link [m]
     orientation: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
 
 class ForceView:
-    """A scene as its forces see it (`uwsim.world.ForceWorld`)."""
+    """The view of a running scene for its forces (`uwsim.world.ForceWorld`)."""
 
     def __init__(self, scene: PhysicalScene) -> None:
         spec = scene.model.scene
@@ -68,7 +68,7 @@ class ForceView:
         self.timestep = scene.model.timestep
         """The length of a step [s]."""
         self.world_from_localized = spec.world_from_localized
-        """The transform of W from L: the scene's offset."""
+        """The pose of L, the frame of the scene file, in W."""
         self.surface_height = spec.ocean_state.ocean_surface_height
         """The height of the water's surface in W [m]."""
         self.water_velocity = scene.water.velocity
@@ -77,7 +77,15 @@ class ForceView:
         self._depths, self._densities = depths, densities  # (n,) [m], (n,) [kg/m3]
 
     def attach(self, name: str, position: Sequence[float] = (0.0, 0.0, 0.0)) -> SceneAttachment:
-        """Fix a frame to a vehicle's base, a link ``vehicle/link`` or an object."""
+        """Return a frame that is fixed to a body, with the axes of the body.
+
+        Args:
+            name: the name of a vehicle (its base), of a link ``vehicle/link`` or of an object.
+            position: the origin of the frame in the frame of the body, (3,) [m].
+
+        Raises:
+            UnknownName: there is no such body.
+        """
         if name not in self._bodies:
             raise UnknownName("vehicle, link or object", name, self._bodies)
         x, y, z = map(float, position)
@@ -113,7 +121,7 @@ class ForceView:
         return SceneAttachment(name, "", pose, motion, body, object_from_frame.position)
 
     def water_density(self, points: Array) -> Array:
-        """Return the density of the water at points of W (n, 3) [m], (n,) [kg/m3]; 0 above it."""
+        """Return the density of the water at points of W (n, 3) [m], (n,) [kg/m3]; 0 in the air."""
         depths = self.surface_height - points[:, 2]
         density: Array = np.interp(depths, self._depths, self._densities)
         return np.where(depths < 0.0, 0.0, density)

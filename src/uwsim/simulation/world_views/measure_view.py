@@ -1,4 +1,4 @@
-"""A scene as its measures and triggers see it."""
+"""The view of a running scene for measures and triggers."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from .scene_view import SceneView
 
 
 class MeasureView(SceneView):
-    """A scene as its measures and triggers see it (`uwsim.world.World`)."""
+    """The view of a running scene for measures and triggers (`uwsim.world.World`)."""
 
     def __init__(self, scene: PhysicalScene, sensors: SceneSensors) -> None:
         super().__init__(scene)
         self.world_from_localized = scene.model.scene.world_from_localized
-        """The transform of W from L: the scene's offset."""
+        """The pose of L, the frame of the scene file, in W."""
         self.compatibility = scene.model.compatibility
         """The compatibility quirks that are on."""
         self.body = scene.bodies.find

@@ -1,4 +1,4 @@
-"""The clock and the topics of a scene, which all its views but that of forces have."""
+"""The base of the views of a running scene: its clock and its bus."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ from ..physical_scene import PhysicalScene
 
 
 class SceneView:
-    """The base of the views of a scene (`uwsim.world.TimedWorld`)."""
+    """The clock and the bus, which all views but `ForceView` have (`uwsim.world.TimedWorld`)."""
 
     def __init__(self, scene: PhysicalScene) -> None:
         self.bus = scene.bus
@@ -21,5 +21,5 @@ class SceneView:
 
     @property
     def time(self) -> float:
-        """``step * timestep`` [s]."""
+        """The simulation time, ``step * timestep`` [s]."""
         return self.bus.state.step * self.timestep

@@ -1,4 +1,4 @@
-"""A scene as its sensors see it."""
+"""The view of a running scene for its sensors."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from .scene_view import SceneView
 
 
 class SensorView(SceneView):
-    """A scene as its sensors see it (`uwsim.world.SensorWorld`).
+    """The view of a running scene for its sensors (`uwsim.world.SensorWorld`).
 
     Args:
         scene: the scene.
-        is_blind: measure depths by rays, not by the renderer.
+        is_blind: compute depth images by ray casting, not by rendering.
     """
 
     def __init__(self, scene: PhysicalScene, *, is_blind: bool) -> None:
@@ -24,17 +24,17 @@ class SensorView(SceneView):
         spec = scene.model.scene
         self._scenery, self._is_blind = scene.scenery, is_blind
         self.world_from_localized = spec.world_from_localized
-        """The transform of W from L: the scene's offset."""
+        """The pose of L, the frame of the scene file, in W."""
         self.compatibility = scene.model.compatibility
         """The compatibility quirks that are on."""
         self.rays = scene.rays
-        """The surfaces of the scene at their present poses."""
+        """The ray casting against the scene."""
         self.sea_water = spec.ocean_state.sea_water
         """The water as an acoustic medium."""
         self.surface_height = spec.ocean_state.ocean_surface_height
         """The height of the water's surface in W [m]."""
         self.density_levels = scene.model.density_levels
-        """The depth [m] and density [kg/m3] of the water's levels; one level of uniform water."""
+        """The depth [m] and density [kg/m3] of each level of the water; uniform water has one."""
         self.earth_origin = spec.earth_origin
         """The geodetic position of the origin of W; None if the scene states none."""
         self.compiled_water = scene.water.velocity_function
@@ -43,10 +43,10 @@ class SensorView(SceneView):
         self.stream = scene.stream
 
     def depth(self, world_from_camera: Pose, intrinsics: Intrinsics) -> npt.NDArray[np.float64]:
-        """Measure the depth of each pixel, (h, w) [m]; in a blind world by rays, not the renderer.
+        """Return the distance along the optical axis for each pixel, (h, w) [m].
 
-        Their depths differ by the renderer's rounding, about 1e-6 of the depth, and at the edges of
-        bodies, where a pixel may be of either.
+        Ray casting and rendering differ by the renderer's rounding, about 1e-6 of the depth. They
+        also differ at the edges of bodies, where a pixel may show either surface.
         """
         if self._is_blind:
             return cast_depth(self.rays, world_from_camera, intrinsics)

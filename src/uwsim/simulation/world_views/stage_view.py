@@ -1,4 +1,4 @@
-"""A scene as its scene updaters see it."""
+"""The view of a running scene for scene updaters."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from .scene_view import SceneView
 
 
 class StageView(SceneView):
-    """A scene as its updaters see it: its setters (`uwsim.world.Stage`)."""
+    """The view of a running scene for scene updaters, which change it (`uwsim.world.Stage`)."""
 
     def __init__(self, scene: PhysicalScene, sensors: SceneSensors, world: World) -> None:
         super().__init__(scene)
         self._scenery, self._sensors = scene.scenery, sensors
         self._vehicles, self._data_path = scene.vehicles, scene.model.data_path
         self.world = world
-        """The bodies, cameras and contacts, as measures see them."""
+        """The view of the scene for measures: bodies, cameras and contacts."""
         self.vehicles = scene.vehicles.names
         """The names of the vehicles, in the file's order."""
         self.set_fog = scene.scenery.set_fog
@@ -31,20 +31,20 @@ class StageView(SceneView):
 
     @property
     def fog_colour(self) -> tuple[float, float, float]:
-        """The colour of the fog [0..1]."""
+        """The colour of the fog, RGB [0..1]."""
         return self._scenery.state.water.fog_colour
 
     def find(self, name: str, *, named_by: str) -> Path:
-        """Find a file named in the file ``named_by``; AssetNotFound lists the folders searched."""
+        """Return the path of a file that the file ``named_by`` names; raise AssetNotFound."""
         return find_file(name, named_by, self._data_path)
 
     def set_camera_noise(self, std: float) -> None:
-        """Set the noise [0..1] of every colour camera."""
+        """Set the noise of every camera: standard deviation as a share of full brightness [1]."""
         for name in self._sensors.cameras:
             self._sensors.camera(name).state.std = std
 
     def set_joints(self, vehicle: str, values: Mapping[int, float]) -> None:
-        """Set joints by their number in the joint vector [rad or m], clamped to limits."""
+        """Set joints by their index in the joint vector [rad or m], clamped to the joint limits."""
         scene_vehicle = self._vehicles.find(vehicle)
         joints = scene_vehicle.joints
         for number, value in values.items():
@@ -53,5 +53,5 @@ class StageView(SceneView):
         scene_vehicle.set_joints(joints)
 
     def put_back(self, vehicle: str) -> None:
-        """Place a vehicle at its pose in the scene, at rest; UnknownName if there is none."""
+        """Set a vehicle to its pose in the scene file, at rest; raise UnknownName."""
         self._vehicles.find(vehicle).reset_pose(None)

@@ -1,4 +1,4 @@
-"""A scene as its interfaces see it."""
+"""The view of a running scene for the elements of ``<rosInterfaces>``."""
 
 from __future__ import annotations
 
@@ -14,13 +14,13 @@ from .scene_view import SceneView
 
 
 class TopicView(SceneView):
-    """A scene as its interfaces see it (`uwsim.topics.interface.TopicWorld`).
+    """The view of a running scene for interfaces (`uwsim.topics.interface.TopicWorld`).
 
     Args:
         scene: the scene.
-        sensors: its sensors, and its devices that measure.
-        markers: the markers in it.
-        is_blind: True for black images; nothing is drawn.
+        sensors: the sensors of the scene, and its devices that measure.
+        markers: the markers that programs have spawned.
+        is_blind: True: images are black, and nothing is rendered.
     """
 
     def __init__(
@@ -29,17 +29,17 @@ class TopicView(SceneView):
         super().__init__(scene)
         self._scene = scene
         self.is_blind = is_blind
-        """True if images are black and nothing is drawn."""
+        """True if images are black and nothing is rendered."""
         self.world_from_localized = scene.model.scene.world_from_localized
-        """The transform of W from L: the scene's offset."""
+        """The pose of L, the frame of the scene file, in W."""
         self.compatibility = scene.model.compatibility
         """The compatibility quirks that are on."""
         self.sensors = sensors
         """The sensors and devices that publish."""
         self.contacts = scene.contacts
-        """Contacts between bodies."""
+        """The contacts between bodies."""
         self.segmenter = SceneSegmenter(scene.scenery, scene.rays, is_blind=is_blind)
-        """The segmentation of images by body."""
+        """The source of segmentation images."""
         self.body = scene.bodies.find
         self.vehicle = scene.vehicles.find
         self.marker_frames = markers.frames
@@ -47,7 +47,7 @@ class TopicView(SceneView):
         self.defer_to_next_step = scene.schedule.defer_to_next_step
 
     def frames(self, *, with_objects: bool) -> Sequence[Frame]:
-        """List the frames of vehicles, their links and sensors, and those of objects."""
+        """List the frames of vehicles, links, sensors and, ``with_objects``, of objects."""
         scene = self._scene
         return scene_frames(
             scene.model, scene.engine, scene.vehicles, scene.bodies, with_objects=with_objects

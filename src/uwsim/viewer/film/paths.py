@@ -66,8 +66,8 @@ class CameraPath:
         self._initial_pose = view.world_from_camera
         focus = find_focus(scene.simulation)
         self._radius = 0.5 * float(np.linalg.norm(np.ptp(focus.corners, axis=0)))  # of the subject
-        self._vehicle_path = smooth_vehicle_path(scene, focus.middle, focus.bow_direction)
-        self._centre = focus.middle
+        self._vehicle_path = smooth_vehicle_path(scene, focus.centre, focus.bow_direction)
+        self._centre = focus.centre
         self._start_position = self._vehicle_path.positions[frame_at(scene.track, start)[0]]
 
     def pose(self, time: float) -> Pose:
