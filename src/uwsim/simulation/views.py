@@ -52,7 +52,7 @@ class View:
     intrinsics: Intrinsics
     """The pinhole model of the camera."""
     is_clear: bool = False
-    """True to render the water without fog."""
+    """True if the water is rendered without fog."""
 
 
 @dataclass(frozen=True, eq=False)

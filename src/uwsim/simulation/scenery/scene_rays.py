@@ -19,7 +19,7 @@ from .sand import Heap
 
 
 class SceneRays:
-    """Ray casting against the surfaces of a scene (`uwsim.world.Rays`).
+    """The ray casting against the surfaces of a scene (`uwsim.world.Rays`).
 
     Rays pass through ghosts, the vehicles with ``<vr>`` 1.
 
