@@ -1,6 +1,6 @@
-"""Results on disk; read and written without MuJoCo.
+"""Results on disk: their content, and their reading and writing (without MuJoCo).
 
-`result` is the content of ``result.json``, which `result_file` reads and writes; `journal` keeps
-the rows of each trial while a run lasts; `provenance` has what may differ between equal runs,
-`table` the printed table.
+`result` is the content of ``result.json``, which `result_file` reads and writes; `journal` stores
+the rows of each trial during a run; `provenance` holds the facts that may differ between runs with
+the same result; `table` prints a result.
 """

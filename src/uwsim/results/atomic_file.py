@@ -1,4 +1,4 @@
-"""Atomic writing of files."""
+"""Atomic writing of files: a file is replaced as a whole, or not at all."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from pathlib import Path
 from ..errors import name_file_in_errors
 
 DRAFT = re.compile(r"\.(.+)\.[0-9]+\.part")
-"""The name of a draft: the file's name and the process that writes it."""
+"""The name of a draft: the name of the file and the ID of the process that writes it."""
 
 
 def write_text(path: Path, text: str) -> None:
-    """Write a text file atomically: readers see the old or the new one, never a part."""
+    """Write a text file atomically: readers see the old or the new file, never a partial one."""
     with atomic_write(path) as draft, draft.open("w", encoding="utf-8", newline="\n") as stream:
         stream.write(text)
         stream.flush()
@@ -24,9 +24,10 @@ def write_text(path: Path, text: str) -> None:
 
 @contextmanager
 def atomic_write(path: Path) -> Iterator[Path]:
-    """Yield a temporary path; it replaces the file when the block ends without error.
+    """Yield the path of a draft, which replaces the file when the block ends without error.
 
-    Two processes may write the same file at once: each has a draft, and the last one replaces it.
+    Two processes may write the same file at the same time: each writes its own draft, and the draft
+    that is finished last remains.
     """
     draft = path.with_name(f".{path.name}.{os.getpid()}.part")
     try:
@@ -38,6 +39,6 @@ def atomic_write(path: Path) -> Iterator[Path]:
 
 
 def name_of_draft(name: str) -> str | None:
-    """Return the name of the file whose draft this is; None where the name is no draft's."""
+    """Return the name of the file that a draft replaces; None if this is not a draft's name."""
     match = DRAFT.fullmatch(name)
     return None if match is None else match[1]

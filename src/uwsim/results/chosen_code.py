@@ -1,9 +1,10 @@
 """The code paths that numerical libraries have chosen for this processor.
 
-numpy, OpenCV, OpenBLAS and numba have several codes for one function, or compile it. They choose
-one for the processor, or as environment variables set. The numbers of `uwsim` have the same bytes
-with any of them (``tests/test_same_bytes.py``); a user's own algorithm or measure may not. So a
-result states the choice, and a comparison that finds other bytes reports a different choice.
+numpy, OpenCV, OpenBLAS and numba have several implementations of a function, or compile it, and
+choose one by the features of the processor or by environment variables. The numbers of `uwsim` have
+the same bytes with any choice (``tests/test_same_bytes.py``); those of a user's own algorithm or
+measure may differ. So the provenance of a run states the choice, and a comparison that finds
+different bytes reports a different choice.
 """
 
 from __future__ import annotations
@@ -16,13 +17,13 @@ from contextlib import suppress
 import numpy as np
 
 Code = dict[str, list[str]]
-"""The names of the code paths that each library has chosen."""
+"""The names of the code paths (processor features or kernels) that each library has chosen."""
 BLAS_NAMES = (
     "scipy_openblas_get_corename64_",
     "scipy_openblas_get_corename",
     "openblas_get_corename",
 )
-"""The function of OpenBLAS that names its kernels, as builds of numpy call it."""
+"""The function of OpenBLAS that returns the name of its kernels, as different builds call it."""
 MAX_NAMES = 6
 """The greatest number of names listed."""
 
@@ -46,7 +47,7 @@ def chosen_code() -> Code:
 def code_differences(recorded_code: object) -> str:
     """Return the differences between recorded code paths and those of this process.
 
-    The text is empty where both are the same, or nothing is recorded.
+    The text is empty if both are the same, or if nothing is recorded.
     """
     if not isinstance(recorded_code, Mapping):
         return ""

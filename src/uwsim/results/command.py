@@ -1,4 +1,4 @@
-"""The command line that leads to a result, from the run that the result describes."""
+"""The command line that repeats the run of a result."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ def bench_words(
     """Return the words of ``uwsim bench ...``, without the output directory.
 
     Args:
-        run: the run of one of the algorithms.
-        inputs: its inputs.
-        algorithms: the algorithms under test; several are run together.
-        repeats: number of repeats.
+        run: the description of the run of one of the algorithms.
+        inputs: the inputs of that run.
+        algorithms: the names of the algorithms under test; several are run together.
+        repeats: the number of repeats.
     """
     words = ["uwsim", "bench", _benchmark(inputs)]
     for name in algorithms:

@@ -18,7 +18,7 @@ from .provenance import load_provenance
 CONTROL = "control"
 """The folder of the control's own result."""
 REPORT = "report.html"
-"""The report, the first page for a reader."""
+"""The page with the report of a result."""
 REPLAY = "replay.html"
 """The page that replays the trials; ``uwsim replay`` writes it."""
 FILE_NAMES = re.compile(
@@ -31,8 +31,8 @@ FILE_NAMES = re.compile(
       | pictures/\d+-[^/]+\.png(\.part)?
     )"""
 )
-"""The files that uwsim writes into a result directory, or into its folders for each algorithm; each
-may have drafts next to it."""
+"""The paths of the files that uwsim writes into a result directory, or into its subfolder for each
+algorithm; each file may have drafts next to it."""
 FOLDERS = (journal.FOLDER, "plots", "pictures", CONTROL)
 
 
@@ -48,7 +48,7 @@ def prepare_directory(
         directory: the directory, which need not exist.
         resume: whether to continue the run in the directory.
         overwrite: whether to replace the content of the directory.
-        results: the names of the folders of several results.
+        results: the subfolders for several results; empty if the directory itself is the result.
 
     Raises:
         BadSetting: the directory is not empty and neither option is set; or it is to be
@@ -69,7 +69,7 @@ def prepare_directory(
 
 
 def check(directory: Path, *, resume: bool, overwrite: bool, results: Sequence[str] = ()) -> None:
-    """Make the checks of `prepare_directory`, except that of the lock; change nothing."""
+    """Make the checks of `prepare_directory`, except for the lock; change nothing."""
     if resume and overwrite:
         raise BadSetting("--resume and --overwrite exclude each other.")
     folders = (*FOLDERS, *results)
@@ -93,26 +93,25 @@ def check_resume(
 
     Args:
         directory: the directory, which need not exist.
-        pattern: the paths of the files that uwsim writes there, relative to it.
-        folders: the names of the folders that it writes there.
-        results: the names of the folders of several results; if there are none, the directory
-            itself is a result.
+        pattern: the paths of the files that uwsim writes there, relative to the directory.
+        folders: the names of the folders that uwsim creates there.
+        results: the subfolders for several results; empty if the directory itself is the result.
 
     Raises:
         BadSetting: the path is not a directory; or a folder that is to be written into holds
             files, but no run of uwsim.
     """
     _refuse_file(directory)
-    places = [directory / name for name in results] or [directory]
-    if results and not any(map(is_begun, places)):
-        places = [directory]
-    for place in places:
-        if is_begun(place):
+    result_folders = [directory / name for name in results] or [directory]
+    if results and not any(map(is_begun, result_folders)):
+        result_folders = [directory]
+    for folder in result_folders:
+        if is_begun(folder):
             continue
-        file_name = next(_finished_files(place, pattern, folders), None)
+        file_name = next(_finished_files(folder, pattern, folders), None)
         if file_name is not None:
             raise BadSetting(
-                f"--out {place}: holds {file_name!r}, but no run of uwsim to resume; "
+                f"--out {folder}: holds {file_name!r}, but no run of uwsim to resume; "
                 "nothing was changed. Omit --resume to begin a new run."
             )
 
@@ -151,9 +150,9 @@ def check_output(
     Args:
         directory: the directory, which need not exist.
         overwrite: whether the directory may be emptied.
-        pattern: the paths of the files that uwsim writes there, relative to it.
-        folders: the names of the folders that it writes there.
-        hint: the options for a directory that is not empty.
+        pattern: the paths of the files that uwsim writes there, relative to the directory.
+        folders: the names of the folders that uwsim creates there.
+        hint: the sentence of the error message that names options for a non-empty directory.
 
     Raises:
         BadSetting: the path is not a directory; it is not empty and may not be emptied; or it
@@ -174,7 +173,7 @@ def check_output(
 
 
 def empty(directory: Path, keep: Sequence[str] = ()) -> None:
-    """Remove the content of a directory, which need not exist, except the names to keep."""
+    """Remove the content of a directory, which need not exist, except entries with these names."""
     if not directory.is_dir():
         return
     for name in [path.name for path in directory.iterdir() if path.name not in keep]:
@@ -183,7 +182,7 @@ def empty(directory: Path, keep: Sequence[str] = ()) -> None:
 
 
 def discard_drafts(directory: Path, pattern: re.Pattern[str], folders: tuple[str, ...]) -> None:
-    """Remove drafts of uwsim's files, which killed processes had not finished."""
+    """Remove drafts of uwsim's files that killed processes have left."""
     for path, is_ours in _files(directory, pattern, folders):
         if is_ours and name_of_draft(path.name) is not None:
             (directory / path).unlink(missing_ok=True)
@@ -192,7 +191,7 @@ def discard_drafts(directory: Path, pattern: re.Pattern[str], folders: tuple[str
 def _finished_files(
     directory: Path, pattern: re.Pattern[str], folders: tuple[str, ...]
 ) -> Iterator[str]:
-    """Yield the names, relative to the directory, of all but empty folders and drafts of uwsim."""
+    """Yield the paths, relative to the directory, of all files except drafts of uwsim."""
     for path, is_ours in _files(directory, pattern, folders):
         if not is_ours or name_of_draft(path.name) is None:
             yield str(path)
@@ -201,9 +200,9 @@ def _finished_files(
 def _files(
     directory: Path, pattern: re.Pattern[str], folders: tuple[str, ...]
 ) -> Iterator[tuple[Path, bool]]:
-    """Yield the files, relative to the directory, and whether uwsim wrote them.
+    """Yield the path of each file, relative to the directory, and whether uwsim wrote the file.
 
-    Unknown folders and links count as files that it did not write; their content is not read.
+    Unknown folders and links count as files that uwsim did not write; their content is not read.
     """
     for root, subfolders, files in os.walk(directory):
         parent = Path(root).relative_to(directory)
@@ -226,7 +225,7 @@ def lock_directory(directory: Path) -> Iterator[None]:
     """Lock a result directory, which is created if necessary.
 
     Raises:
-        BadSetting: another run is writing into it.
+        BadSetting: another run is writing into the directory.
     """
     directory.mkdir(parents=True, exist_ok=True)
     handle = os.open(directory, os.O_RDONLY)

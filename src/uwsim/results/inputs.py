@@ -1,9 +1,9 @@
 """The ``inputs`` of a result: every input file by role and name, with its hash.
 
-``benchmark``, ``scene`` and ``plugins`` are name and hash. ``assets`` are the files that the scene
-and the benchmark name: robots, vehicles' parts, models with their materials, buffers and images,
-data of currents, the user's own functions, recordings. ``algorithm`` is the source of a user's own
-``module:Class`` and of the modules that it imports.
+``assets`` are the files that the scene and the benchmark name: robots, parts of vehicles, models
+with their materials, buffers and images, data of currents, the user's own functions, recordings.
+``algorithm`` has the source files of a user's own ``module:Class`` and of the modules that it
+imports.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ NO_HASH = "sha256:"
 HASH_DIGITS = 12
 """The number of digits of a hash that texts show."""
 MAX_LINES = 6
-"""The greatest number of differences listed."""
+"""The greatest number of differences that are listed."""
 
 
 @dataclass(frozen=True, kw_only=True)

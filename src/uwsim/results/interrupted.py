@@ -33,7 +33,7 @@ def describe_missing_result(path: Path) -> str:
         return "no result here but an envelope: its runs are in envelope.json"
     names = sorted(file.parent.name for file in path.glob(f"*/{RESULT}"))
     command = resume_command(path)
-    if names and not (command and names == [CONTROL]):  # the control may be over long before
+    if names and not (command and names == [CONTROL]):  # the control may end long before its run
         message = f"holds {len(names)} results ({', '.join(names)}); name one, as {path / names[0]}"
         return message if len(names) > 1 else f"no result here, but in {path / names[0]}"
     if command:
@@ -45,7 +45,7 @@ def describe_missing_result(path: Path) -> str:
 
 
 def resume_command(directory: Path) -> str | None:
-    """Return the command that resumes an interrupted run; None where there is none."""
+    """Return the command that resumes an interrupted run; None if there is no such run."""
     own_head = _head(directory)
     heads = {"": own_head} if own_head is not None else _heads_below(directory)
     if not heads:

@@ -1,7 +1,7 @@
-"""Comparison of the rows of a result with the journals of its trials.
+"""The comparison of the rows of a result with the journals of its trials.
 
-``result.json`` is collected from the journals of the trials (`journal`). Where they are in the same
-directory, every row has to agree with them. A result without journals can be read, but is not
+``result.json`` is collected from the journals of the trials (`journal`). If the journals are in the
+same directory, every row must agree with them. A result without journals can be read, but is not
 checked.
 """
 
@@ -19,9 +19,9 @@ from .result import Cell, Column, Result
 from .stored.stored_row import StoredRow, ValueWithUnit
 
 Key = tuple[Cell, ...]
-"""The seed of a row, then its levels."""
+"""The seed of a row, then the values of its level."""
 MAX_LISTED = 3
-"""The greatest number of contradictions listed."""
+"""The greatest number of contradictions that are listed."""
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,8 @@ class Journals:
     """The journals of all trials of a result."""
 
     rows: dict[Key, tuple[StoredRow, float]]
-    """The stored row of each level, and the time since its seed began [s]."""
+    """The stored row of each key, and the simulation time from the start of its seed to its end
+    [s]."""
     ended_keys: tuple[Key, ...]
     """The keys of the rows of finished trials."""
     n_ended: int
@@ -41,22 +42,22 @@ def check_rows(result: Result, directory: Path) -> str | None:
 
     Args:
         result: the result as read from the directory.
-        directory: its directory.
+        directory: the result directory.
 
     Returns:
-        The rows not checked, with the reason; None where every row agrees with its journal.
+        A text on the rows that are not checked and the reason; None if all rows are checked.
 
     Raises:
         ResultError: a row differs from its journal.
     """
     if not (directory / FOLDER).is_dir():
         return f"rows are not checked: there is no {FOLDER}/ next to them" if result.rows else None
-    message, n_without_journal = _compare(result, read_journals(directory))
-    if message:
-        rest = f"; and {len(message) - MAX_LISTED} more" if len(message) > MAX_LISTED else ""
+    messages, n_without_journal = _compare(result, read_journals(directory))
+    if messages:
+        rest = f"; and {len(messages) - MAX_LISTED} more" if len(messages) > MAX_LISTED else ""
         raise ResultError(
             f"{directory / 'result.json'}: differs from the journals of its trials: "
-            f"{'; '.join(message[:MAX_LISTED])}{rest}. uwsim verify lists all differences; "
+            f"{'; '.join(messages[:MAX_LISTED])}{rest}. uwsim verify lists all differences; "
             "uwsim bench --resume writes it anew."
         )
     if n_without_journal:
@@ -91,7 +92,7 @@ def _compare(result: Result, journals: Journals) -> tuple[list[str], int]:
 
 
 def read_journals(directory: Path) -> Journals:
-    """Read the journals of all trials, in their order; raise ResultError for a repeated level."""
+    """Read the journals of all trials, in order; raise ResultError if a level occurs twice."""
     rows: dict[Key, tuple[StoredRow, float]] = {}
     ended_keys: list[Key] = []
     elapsed_times: dict[Cell, float] = {}
@@ -164,7 +165,7 @@ def _cell(entry: StoredRow, column: Column, ended_at: float) -> Cell:
 
 
 def _unit(entry: StoredRow, column: Column) -> str | None:
-    """Return the unit of a value; None where there is no value, whose unit need not be known."""
+    """Return the unit of a value; None if there is no value, as its unit may be unknown."""
     if column.kind not in ("measure", "detail"):
         return None
     value, unit = _values_of_kind(entry, column.kind).get(column.name, (None, None))

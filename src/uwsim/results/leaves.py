@@ -1,4 +1,4 @@
-"""The numbers, words and nulls of a JSON value, each with its path."""
+"""The leaves of a JSON value (numbers, strings, booleans and nulls), each with its path."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ Leaves = dict[tuple[str | int, ...], str]
 
 
 def leaves(value: Any) -> Leaves:
-    """Return path -> text of every number, word and null in a JSON value."""
+    """Return the JSON text of every leaf of a value, by the path of the leaf."""
     texts: Leaves = {}
     todo: list[tuple[tuple[str | int, ...], Any]] = [((), value)]
     while todo:

@@ -6,8 +6,8 @@
     0.0,0.1,1.83,0.2,-0.1
     0.0,0.2,,,
 
-Numbers are written with as many digits as they need to be read back exactly; an empty field
-has no measurement. A log is a pure function of inputs, seed and versions, as a result is.
+Numbers are written with as many digits as they need to be read back exactly; an empty field means
+that nothing was measured. Like a result, a log is a pure function of inputs, seed and versions.
 """
 
 from __future__ import annotations
@@ -27,17 +27,17 @@ from .result import MAX_VALUE
 Sample = tuple[float | int | None, ...]
 
 TIME = "time [s]"
-"""The column between the levels and the values."""
+"""The header of the column between the levels and the values."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Log:
-    """The samples of one measure, through all levels."""
+    """The samples of one measure at all levels."""
 
     measure: str
     """The name of the measure."""
     header: tuple[str, ...]
-    """Columns of a sample, with units: levels, ``time [s]``, value, components."""
+    """The columns of a sample, with units: levels, ``time [s]``, value, components."""
     samples: tuple[Sample, ...] = ()
     """The samples in the order of measurement; the time counts from the start of the benchmark."""
 
@@ -90,7 +90,7 @@ def logs_of(directory: Path) -> tuple[Path, ...]:
 
 
 def _python_numbers(sample: Sample) -> Iterable[float | int | None]:
-    """Yield numpy's scalars as Python's, whose ``repr`` is the number alone."""
+    """Yield numpy scalars as Python numbers, whose ``repr`` is the number alone."""
     for value in sample:
         yield value if value is None or isinstance(value, int) else float(value)
 

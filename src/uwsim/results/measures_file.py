@@ -19,9 +19,9 @@ from .atomic_file import write_text
 
 FILE = "measures.json"
 MAX_BYTES = 1_000_000
-"""The greatest size of a file that is read."""
+"""The greatest size of a file that is read [bytes]."""
 MAX_MEANING = 300
-"""The greatest number of letters of a meaning that is read."""
+"""The greatest number of characters of a meaning that are read."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -29,9 +29,9 @@ class MeasureNote:
     """The description of a measure."""
 
     meaning: str
-    """A noun phrase without a full stop; empty where the measure has no docstring."""
+    """A noun phrase without a full stop; empty if the measure has no docstring."""
     value: str
-    """``last``, ``mean``, ``rms`` or ``max``."""
+    """The statistic that is the value of the measure: ``last``, ``mean``, ``rms`` or ``max``."""
 
 
 def save_measures(notes: Mapping[str, MeasureNote], directory: Path) -> None:
@@ -50,7 +50,7 @@ def remove_meanings(text: str) -> str:
 
 
 def load_measures(directory: Path) -> dict[str, MeasureNote]:
-    """Read the file; return nothing where it does not exist or is damaged."""
+    """Read the file; return an empty dict if the file does not exist or is damaged."""
     try:
         if (directory / FILE).stat().st_size > MAX_BYTES:
             return {}

@@ -10,15 +10,15 @@ from ..statistics import Interval, Rate, mean_interval, rate
 from .result import Result
 
 LEVEL_DECIMALS = 9
-"""The decimals to which the levels of two results agree."""
+"""The number of decimals to which equal levels of two results agree."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class LevelInterval:
-    """One column at one level, over all repeats."""
+    """The mean and confidence interval of one column at one level, over all repeats."""
 
     level: tuple[float, ...]
-    """The swept parameters, outermost first."""
+    """The values of the swept parameters, outermost first."""
     interval: Interval
     """The interval over the repeats with a value; missing values are counted, never estimated."""
     n_missing: int
@@ -32,15 +32,15 @@ class LevelRate:
     """The success rate of one level, over all repeats."""
 
     level: tuple[float, ...]
-    """The swept parameters, outermost first."""
+    """The values of the swept parameters, outermost first."""
     seeds: tuple[int | None, ...]
-    """The seed of every repeat, in the order of execution; None where not recorded."""
+    """The seed of every repeat, in the order of execution; None if it is not recorded."""
     success: Rate | None
-    """The rate of repeats that ended ``ok``; None when the result has no status."""
+    """The rate of repeats that ended ``ok``; None if the result has no status."""
 
 
 def rows_by_level(result: Result) -> dict[tuple[float, ...], list[int]]:
-    """Return the row numbers of each level (one a repeat), in the order of execution."""
+    """Return the row numbers of each level (one for each repeat), in the order of execution."""
     columns = [result.numbers(column.name) for column in result.columns_of_kind("level")]
     row_numbers: dict[tuple[float, ...], list[int]] = {}
     for row in range(len(result.rows)):
@@ -50,12 +50,12 @@ def rows_by_level(result: Result) -> dict[tuple[float, ...], list[int]]:
 
 
 def round_level(level: tuple[float, ...]) -> tuple[float, ...]:
-    """Return a level rounded for comparison with those of other results."""
+    """Return a level rounded for comparison with levels of other results."""
     return tuple(round(value, LEVEL_DECIMALS) for value in level)
 
 
 def select_levels(result: Result, levels: Collection[tuple[float, ...]]) -> Result:
-    """Return the rows of a result at some levels (of `round_level`) and the notes on these rows."""
+    """Return a result with only the rows at some levels, rounded by `round_level`."""
     groups = [rows for level, rows in rows_by_level(result).items() if round_level(level) in levels]
     indices = {row: i for i, row in enumerate(sorted(row for rows in groups for row in rows))}
     return replace(
@@ -73,7 +73,7 @@ def select_levels(result: Result, levels: Collection[tuple[float, ...]]) -> Resu
 
 
 def seeds_of(result: Result) -> tuple[int | None, ...]:
-    """Return the seed of every row: the column ``seed``, else that of the run."""
+    """Return the seed of every row: from the column ``seed``, or else the seed of the run."""
     if any(column.name == "seed" for column in result.columns_of_kind("run")):
         return tuple(None if v is None else round(v) for v in result.numbers("seed"))
     return (result.run.seed,) * len(result.rows)

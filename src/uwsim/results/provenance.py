@@ -1,8 +1,8 @@
 """Provenance: machine, date and timing of a run.
 
-``provenance.json`` holds the facts that differ between two runs with the same result: host, CPU,
-load, dates, wall time, workers, resumes, the achieved real-time factor, versions of the packages,
-the code that libraries chose for the processor. No score depends on them.
+``provenance.json`` holds the facts that may differ between two runs with the same result: host,
+CPU, load, dates, wall time, workers, resumed levels, the real-time factor, versions of the
+packages, the code paths that libraries chose for the processor. No score depends on them.
 """
 
 from __future__ import annotations
@@ -30,15 +30,15 @@ def save_provenance(provenance: Mapping[str, object], directory: Path) -> Path:
 
 
 def save_beginning(command: Sequence[str], directory: Path) -> str:
-    """Write the provenance at the start of a run, unless it resumes another.
+    """Write the provenance at the start of a run, unless the run resumes an earlier one.
 
     Args:
-        command: the arguments of ``uwsim``.
+        command: the arguments of the command ``uwsim``.
         directory: the directory of the result or the envelope.
 
     Returns:
-        A warning if libraries had chosen other code for the processor when the run was begun,
-        else an empty text. Both choices are recorded.
+        A warning if libraries had chosen other code paths when the run was begun, or else an empty
+        text. Both choices are recorded.
     """
     provenance = load_provenance(directory)
     if not provenance:
@@ -62,7 +62,7 @@ def codes_of(provenance: Mapping[str, object]) -> list[object]:
 
 
 def lasting_provenance(directory: Path) -> dict[str, object]:
-    """Return the part of the provenance that remains after the run."""
+    """Return the recorded part of the provenance to keep when the run writes a new one."""
     return {k: v for k, v in load_provenance(directory).items() if k == EARLIER_CODES}
 
 
@@ -89,7 +89,7 @@ def _cpu_name() -> str:
 
 
 def load_provenance(directory: Path) -> dict[str, object]:
-    """Read ``provenance.json``; return nothing when it is absent, damaged or of another shape."""
+    """Read ``provenance.json``; return an empty dict if it is absent, damaged or invalid."""
     try:
         provenance = json.loads((directory / "provenance.json").read_text(encoding="utf-8"))
         PROVENANCE(provenance, "")

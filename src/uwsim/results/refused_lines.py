@@ -1,4 +1,4 @@
-"""Sentences about messages of programs that do not take part in a run."""
+"""The description of messages of programs that do not take part in a run, and are refused."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections import Counter
 from .result import Result
 
 MAX_LINES = 5
-"""The number of topics and services that are named."""
+"""The greatest number of topics and services that are named."""
 
 
 def refused_lines(result: Result) -> list[str]:

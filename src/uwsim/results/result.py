@@ -19,7 +19,7 @@ from .run_info import RunInfo
 from .stored.checked_values import checked_values
 
 MAX_VALUE = 1e60
-"""The largest number of a row; its powers and sums are still float64."""
+"""The largest absolute value in a row; powers and sums of such values still fit in a float64."""
 
 Kind = Literal["run", "level", "measure", "detail", "score", "status", "time"]
 Cell = float | int | str | None
@@ -31,16 +31,16 @@ FLOOR = "floor_"
 
 @dataclass(frozen=True, kw_only=True)
 class Column:
-    """A column: name, kind and unit."""
+    """A column of the rows: its name, kind and unit."""
 
     name: str
     """``fog``, ``corners``, ``corners.mean``, ``total``, ``status``, ``ended_at``, ``seed``."""
     kind: Kind
     """``run`` is repeat or seed; a ``detail`` belongs to the measure before its first dot."""
     unit: str | None = None
-    """The unit, such as ``px`` or ``1/m``; None where there is none."""
+    """The unit, such as ``px`` or ``1/m``; None if there is none."""
     expression: str | None = None
-    """The function of a score; None for other columns."""
+    """The function that computes a score from the measures; None for other columns."""
 
     @property
     def label(self) -> str:
@@ -50,14 +50,14 @@ class Column:
 
 @dataclass(frozen=True, kw_only=True)
 class MissingValue:
-    """A cell that is null, with the reason."""
+    """A missing value (a null cell), with the reason."""
 
     row: int
     """The number of the row, from 0."""
     column: str
     """The name of the column."""
     reason: str
-    """The reason with its time, for people; ``why`` in the file."""
+    """The reason, with the time at which it arose, as text; ``why`` in the file."""
 
     @property
     @deprecated_name("reason")
@@ -73,7 +73,7 @@ class Variation:
     path: str
     """The path of the value, as ``--set`` names it."""
     unit: str
-    """The unit; ``1`` where the value has none, or none is known."""
+    """The unit; ``1`` if the value has no unit, or its unit is unknown."""
     drawn_from: str
     """The distribution in words: ``uniform 1.95 to 2.05``."""
     values: tuple[tuple[int, float], ...]
@@ -92,13 +92,13 @@ class ImageStream:
     seed: int
     """The seed of the trial."""
     level: tuple[float, ...] | None
-    """The trial's level, outermost first; None when one trial runs all levels."""
+    """The values of the trial's level, outermost first; None if the trial runs all levels."""
     topic: str
     """The topic of the images."""
     frames: int
     """The number of images."""
     sha256: str
-    """SHA-256 over all of their bytes, in order."""
+    """The SHA-256 of the bytes of all images, in order."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -106,15 +106,16 @@ class SavedImage:
     """A camera's image at the end of a level, kept for the report."""
 
     row: int
-    """The row that it belongs to, from 0."""
+    """The number of the row that the image belongs to, from 0."""
     camera: str
     """The name of the camera."""
     file: str
-    """PNG, relative to the result directory."""
+    """The path of the PNG file, relative to the result directory."""
     truth: tuple[float, ...] | None = None
-    """The true corners x, y, x, y, ... [px from the top left corner]."""
+    """The true corners of the target, x, y, x, y, ... [px], from the centre of the top left pixel;
+    None if no measure compares corners."""
     estimate: tuple[float, ...] | None = None
-    """The algorithm's corners, alike; None when it gave none."""
+    """The corners in the algorithm's last estimate, in this order [px]; None without an estimate."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -122,7 +123,7 @@ class RefusedMessages:
     """Messages, calls or answers of a program that does not take part, which were refused."""
 
     row: int
-    """The number of the row in whose level they came, from 0."""
+    """The number of the row in whose level they arrived, from 0."""
     sender: str
     """The sender, as the transport names it; ``by`` in the file."""
     topic_or_service: str
@@ -145,10 +146,10 @@ class RefusedMessages:
 
 @dataclass(frozen=True, kw_only=True)
 class Remark:
-    """A note beside the status of a row that has all its values."""
+    """A note on a row, which does not affect its status."""
 
     row: int
-    """The row that it is about, from 0."""
+    """The number of the row, from 0."""
     text: str
     """The measures and the notes on them."""
 
@@ -157,23 +158,23 @@ class Remark:
 class Result:
     """The rows of a run with its inputs, columns and constants.
 
-    Numbers are finite, those of rows up to `MAX_VALUE`, and every row has one cell for each
-    column; the constructor raises ResultError for anything else.
+    All numbers are finite, numbers in rows are at most `MAX_VALUE`, and every row has one cell for
+    each column; otherwise the constructor raises ResultError.
     """
 
     inputs: Inputs
-    """Names and hashes of the files read."""
+    """The names and hashes of the files read."""
     run: RunInfo
     """The seed, mode, algorithm, parameters, timestep and versions."""
     columns: tuple[Column, ...]
     """The name, kind and unit of each cell of a row."""
     rows: tuple[tuple[Cell, ...], ...]
-    """One a level (and repeat), in the order of execution."""
+    """A row for each level (and repeat), in the order of execution."""
     missing_values: tuple[MissingValue, ...] = ()
     """The null cells with their reasons; ``missing`` in the file."""
     facts: Json = field(default_factory=dict)
-    """The measured constants of the scene as (value, unit), of the first seed: ``S``, ``sigma``,
-    ``d``, ``f_star``."""
+    """The values measured for the whole run as (value, unit), such as ``S``, ``sigma``, ``d`` and
+    ``f_star``: from the first trial, and for ``floor_...`` the largest of all trials."""
     variations: tuple[Variation, ...] = ()
     """The values that were drawn for each seed."""
     image_streams: tuple[ImageStream, ...] = ()
@@ -183,7 +184,7 @@ class Result:
     refused_messages: tuple[RefusedMessages, ...] = ()
     """The messages of programs that do not take part; ``refused`` in the file."""
     remarks: tuple[Remark, ...] = ()
-    """The notes beside the status of rows."""
+    """The notes on rows that do not affect their status."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "facts", checked_values(self.facts, "facts"))
@@ -221,7 +222,7 @@ class Result:
         return reasons.get(column) or reasons.get(column.split(".")[0])
 
     def reasons(self, row: int) -> tuple[str, ...]:
-        """Return the reasons given in a row, each once; not those of single details."""
+        """Return the reasons of a row's missing values, each once, without reasons of details."""
         reasons = self._reasons.get(row, {})
         return tuple(
             dict.fromkeys(reason for column, reason in reasons.items() if "." not in column)

@@ -3,8 +3,8 @@ r"""Reading and writing ``result.json``.
 The format's history, newest first:
 
 ``uwsim-result/1`` (uwsim 0.1.0)
-    ``inputs``, ``run``, ``columns``, ``rows``, ``missing``; and, read as empty where they are not
-    there, ``facts``, ``variations``, ``image_streams``, ``pictures``, ``refused``, ``remarks``.
+    ``inputs``, ``run``, ``columns``, ``rows``, ``missing``; and, read as empty if they are absent,
+    ``facts``, ``variations``, ``image_streams``, ``pictures``, ``refused``, ``remarks``.
     ``docs/result-format.md`` describes them.
 """
 
@@ -77,7 +77,7 @@ def load(path: Path | str) -> Result:
 
 
 def dumps(result: Result) -> str:
-    """Return the text of ``result.json``: one column, row or reason a line, floats exact."""
+    """Return the text of ``result.json``: a line for each column, row and reason; floats exact."""
     parts = {
         "format": _json(FORMAT),
         "inputs": _object(result.inputs.as_dict()),
@@ -151,7 +151,7 @@ def _object(values: Mapping[str, object]) -> str:
 def _optional_block(
     key: str, entries: Iterable[Variation | RefusedMessages | Remark]
 ) -> dict[str, str]:
-    """Return the key and its entries; nothing where there are no entries."""
+    """Return the key and its entries; an empty dict if there are no entries."""
     lines = [_entry(entry) for entry in entries]
     return {key: _block("[]", lines)} if lines else {}
 

@@ -11,7 +11,7 @@ from .stored.record import StoredRecord
 
 @dataclass(frozen=True, kw_only=True)
 class RunInfo(StoredRecord):
-    """The executed algorithm, its settings and versions; None where a result lacks them."""
+    """The executed algorithm, its settings and versions; None for values that a result lacks."""
 
     KEY: ClassVar[str] = "run"
 
@@ -24,15 +24,15 @@ class RunInfo(StoredRecord):
     algorithm: str | None = None
     """The name of the algorithm, or ``module:Class``."""
     clients: tuple[tuple[str, str], ...] | None = None
-    """The third-party algorithm and external clients: name, and kind of participation (`docs`)."""
+    """The name of each third-party algorithm or external client, and how it takes part."""
     parameters: Mapping[str, object] | None = None
-    """Parameters that the algorithm ran with."""
+    """The parameters of the algorithm, including defaults."""
     settings: tuple[tuple[str, str], ...] | None = None
     """The path and value of each ``--set``."""
     levels: tuple[tuple[str, float], ...] | None = None
     """The name and value of each ``--level``."""
     compatibility: tuple[str, ...] | None = None
-    """Quirks of the original that were on."""
+    """The names of the compatibility quirks that were on."""
     timestep: tuple[float, str] | None = None
     """The length of a physics step, and its unit."""
     version: str | None = None
@@ -65,5 +65,5 @@ class RunInfo(StoredRecord):
 
 
 def _word(value: object) -> str:
-    """Return a value as a person writes it: ``3`` for 3.0."""
+    """Return a value as a user writes it: ``3`` for 3.0."""
     return f"{value:.10g}" if isinstance(value, float) else str(value)

@@ -31,21 +31,21 @@ from .result import Column, Result
 
 GAP = "-"
 MIN_REASON_WIDTH = 30
-"""The width of a terminal below which reasons are printed under the table."""
+"""The least width of a column of reasons; if less is left, they are printed under the table."""
 MAX_DECIMALS = 4
 """The greatest number of decimals of a measure."""
 MAX_FIXED = 1e7
-"""The size from which numbers have an exponent instead of fixed decimals."""
+"""The absolute value from which numbers have an exponent instead of fixed decimals."""
 
 
 @dataclass(frozen=True)
 class CellText:
-    """A value as text, and its limits: ``1.83 [1.71, 1.99]``."""
+    """A value as text, with its confidence limits: ``1.83 [1.71, 1.99]``."""
 
     value: str
-    """``1.83``; ``-`` where there is nothing."""
+    """``1.83``; ``-`` if there is no value."""
     limits: str = ""
-    """``1.71, 1.99``; empty where there are none."""
+    """``1.71, 1.99``; empty if there are no limits."""
 
     def __str__(self) -> str:
         return f"{self.value} [{self.limits}]" if self.limits else self.value
@@ -53,22 +53,22 @@ class CellText:
 
 @dataclass(frozen=True, kw_only=True)
 class LevelLine:
-    """One level, as text."""
+    """The line of one level in the table, as text."""
 
     level: tuple[float, ...]
-    """The swept parameters."""
+    """The values of the swept parameters, outermost first."""
     cells: tuple[CellText, ...]
-    """The texts of level, measures, total and ended_at."""
+    """The texts in the columns of `shown_columns`."""
     status: str
-    """``ok``, ``lost``, ... or, over repeats, ``8 of 10 ok``."""
+    """``ok``, ``lost``, ...; with repeats, ``8 of 10 ok``."""
     rate: str
-    """The limits of that rate: ``44 to 97 %``; empty without repeats."""
+    """The confidence limits of the rate of ``ok``: ``44 to 97 %``; empty without repeats."""
     is_ok: bool
     """True if every repeat ended ``ok``."""
     reason: str
-    """The reasons and remarks, each once; over repeats, the number of each status."""
+    """The reasons and remarks, each once; with repeats, how often each status and remark occurs."""
     rows: tuple[int, ...] = ()
-    """The numbers of its rows, one a repeat."""
+    """The numbers of the level's rows, one for each repeat."""
 
     @property
     def status_text(self) -> str:
@@ -86,7 +86,7 @@ def shown_columns(result: Result) -> tuple[Column, ...]:
 
 
 def lines(result: Result) -> tuple[LevelLine, ...]:
-    """Return the table's lines, a line a level; repeats are combined."""
+    """Return the table's lines, one for each level; repeats are combined."""
     levels = rows_by_level(result)
     texts: list[list[CellText]] = []
     for i, column in enumerate(shown_columns(result)):
@@ -115,8 +115,8 @@ def lines(result: Result) -> tuple[LevelLine, ...]:
 def table(result: Result, *, width: int = 80) -> Table:
     """Return the table for a terminal of ``width`` columns.
 
-    Measures that do not fit are omitted and named below, levels and status never. Reasons follow
-    their line where the width suffices, else the table.
+    Measures that do not fit are omitted and named below the table; levels and status are always
+    shown. Reasons are in the last column if the width suffices, or else below the table.
     """
     level_lines = lines(result)
     columns = shown_columns(result)
@@ -151,7 +151,10 @@ def table(result: Result, *, width: int = 80) -> Table:
 
 
 def _fit_columns(columns: Sequence[Column], widths: Sequence[int], space: int) -> list[int]:
-    """Return the columns that fit next to the status: all levels, then total, time and measures."""
+    """Return the indices of the columns that fit next to the status, in a space [characters].
+
+    All levels are included; then, while space is left, total, time and measures.
+    """
     order = ("level", "score", "time", "measure")
     indices: list[int] = []
     for i in sorted(range(len(columns)), key=lambda i: order.index(columns[i].kind)):
@@ -193,7 +196,7 @@ def number_text(value: float, decimals: int) -> str:
 
 
 def exact_decimals(values: Sequence[float]) -> int:
-    """Return the decimals that distinguish a sweep's levels: 2 for steps of 0.05, at most 6."""
+    """Return the number of decimals that a sweep's values need: 2 for steps of 0.05, at most 6."""
     texts = [f"{value:.6f}".rstrip("0") for value in values]
     return max((len(text.partition(".")[2]) for text in texts), default=0)
 
@@ -212,13 +215,13 @@ def _head(result: Result, column: Column) -> tuple[str, str]:
 
 
 def _notes(level_lines: Sequence[LevelLine], n_levels: int) -> list[str]:
-    """Return a note for each sequence of lines with one reason: ``1.20 to 1.30: lost ...``."""
+    """Return a note for each sequence of lines with the same reason: ``1.20 to 1.30: lost ...``."""
     notes = []
     for reason, run in itertools.groupby(level_lines, key=lambda line: line.reason):
         levels = [" ".join(map(str, line.cells[:n_levels])) for line in run]
         if reason:
-            place = f"{levels[0]} to {levels[-1]}" if len(levels) > 1 else levels[0]
-            notes.append(f"{place}: {reason}")
+            level_range = f"{levels[0]} to {levels[-1]}" if len(levels) > 1 else levels[0]
+            notes.append(f"{level_range}: {reason}")
     return notes
 
 

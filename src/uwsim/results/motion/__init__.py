@@ -1,7 +1,7 @@
 """Motion tracks: the poses of all bodies during a trial, 30 times a second, in a small file.
 
-`packing` is the law of the bytes, `motion_track` what they mean, `dug_sand` what a dredge took,
-`marker_log` what programs spawned.
+`motion_track` reads and writes the file, and `packing` encodes its numbers. `dug_sand` holds the
+sand that dredges removed, `marker_log` the markers that programs spawned.
 """
 
 from __future__ import annotations

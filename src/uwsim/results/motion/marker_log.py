@@ -1,8 +1,9 @@
 """The markers that programs spawned during a trial, as a part of its motion track.
 
-In the head of the track ``"markers":{"shapes":[...],"changes":[...]}``: a shape is a list of lines
-in the marker's frame, ``[[[x,y,z],...],...]`` [m]; a change is ``[frame, name, number of a shape,
-"#rrggbb", [x,y,z,w,x,y,z]]``, the pose in W, or ``[frame, name]`` where a marker is gone.
+They are in the head of the track, ``"markers":{"shapes":[...],"changes":[...]}``. A shape is a list
+of polylines in the marker's frame, ``[[[x,y,z],...],...]`` [m]. A change is ``[frame, name, index
+of a shape, "#rrggbb", [x,y,z,w,x,y,z]]``, which ends with the pose in the world frame W, or
+``[frame, name]`` if the marker is removed.
 """
 
 from __future__ import annotations
@@ -15,7 +16,9 @@ from typing import Any
 
 COLOUR = re.compile(r"#[0-9a-f]{6}")
 Point = tuple[float, ...]
+"""The coordinates x, y, z of a point in the marker's frame [m]."""
 Line = tuple[Point, ...]
+"""The points of a polyline."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -25,9 +28,9 @@ class DrawnMarker:
     colour: str
     """The colour as ``#rrggbb``."""
     pose: tuple[float, ...]
-    """The position in W [m] and quaternion wxyz, (7,)."""
+    """The position in the world frame W [m], and the quaternion wxyz, (7,)."""
     lines: tuple[Line, ...]
-    """The lines in the marker's frame [m]; without lines a viewer shows the name."""
+    """The polylines in the marker's frame; without polylines a viewer shows the marker's name."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,15 +38,15 @@ class MarkerChange:
     """The appearance, change or removal of a marker."""
 
     frame: int
-    """The first frame with the change."""
+    """The index of the first frame with the change."""
     name: str
     """The name of the marker."""
     marker: DrawnMarker | None
-    """The marker as drawn from then on; None where it is removed."""
+    """The marker as it is drawn from this frame on; None if it is removed."""
 
 
 def markers_at(changes: Sequence[MarkerChange], frame: int) -> dict[str, DrawnMarker]:
-    """Return the markers of a frame by name, in the order of spawning."""
+    """Return the markers in a frame, by name, in the order in which they were spawned."""
     markers: dict[str, DrawnMarker] = {}
     for change in changes:
         if change.frame > frame:
@@ -56,7 +59,7 @@ def markers_at(changes: Sequence[MarkerChange], frame: int) -> dict[str, DrawnMa
 
 
 def as_json(changes: Sequence[MarkerChange]) -> dict[str, Any]:
-    """Return the value for the head of a track."""
+    """Return the value of ``markers`` in the head of a track."""
     shapes: dict[tuple[Line, ...], int] = {}
     rows: list[list[Any]] = []
     for change in changes:
@@ -68,7 +71,7 @@ def as_json(changes: Sequence[MarkerChange]) -> dict[str, Any]:
 
 
 def from_json(head: dict[str, Any]) -> tuple[MarkerChange, ...]:
-    """Read the value of `as_json`; raise ValueError, KeyError or TypeError where it is invalid."""
+    """Read the value of `as_json`; raise ValueError, KeyError or TypeError if it is invalid."""
     shapes = [tuple(tuple(map(_point, line)) for line in shape) for shape in head["shapes"]]
     return tuple(_change(shapes, *row) for row in head["changes"])
 

@@ -7,14 +7,15 @@
      "levels":[{"values":{"fog":0.5},"began":4.0,"duration":8.0,"status":"ok"}, ...]}
     <line feed, then the numbers, as in `packing`; all of it gzipped without time or name>
 
-Row k is of the time start + k/rate since the simulation began. It holds seven numbers of every
-body, its position in W [m] and its quaternion (wxyz), and then one of every signal; each is stored
-as a whole number of its step. Equal tracks give equal bytes.
+Row k is the frame at the simulation time start + k/rate. It holds seven numbers for every body (the
+position in the world frame W [m] and the quaternion wxyz), then one number for every signal. Each
+number is stored as an integer multiple of its resolution: ``length``, ``quaternion`` or ``step``.
+Equal tracks give equal bytes.
 
-Version 2 is a track in which sand was taken (`dug_sand`) or markers were spawned (`marker_log`).
-Its head has ``"sand":{"n":412,"grain":0.000001}``, and a second table of n rows, packed by itself,
-follows the first; or ``"markers":{"shapes":[...],"changes":[...]}``, or both. A track without is
-of version 1.
+In a track of version 2, sand was removed (`dug_sand`) or markers were spawned (`marker_log`). With
+sand the head has ``"sand":{"n":412,"grain":0.000001}``, and a second table of n rows, packed
+separately, follows the first; with markers the head has
+``"markers":{"shapes":[...],"changes":[...]}``. A track with neither is of version 1.
 """
 
 from __future__ import annotations
@@ -40,21 +41,22 @@ Array = npt.NDArray[np.float64]
 
 FORMAT, VERSIONS = "uwsim_motion", (1, 2)
 RATE = 30.0
-"""Frames in a second of simulation time [Hz]."""
+"""The number of frames in a second of simulation time [Hz]."""
 POSITION_STEP = 1e-4
 """The resolution of positions [m]."""
 QUATERNION_STEP = 1e-4
 """The resolution of the components of a quaternion [1]."""
 MAX_BYTES = 2**30
-"""The greatest size of a track that is read, decompressed."""
+"""The greatest decompressed size of a track that is read [bytes]."""
 NUMBERS_PER_BODY = 7
-"""The count of numbers for a body."""
+"""The number of values for a body: a position and a quaternion."""
 MAX_NUMBER = 2**31 - 1
+"""The greatest absolute value of a stored integer."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Signal:
-    """A number, other than a pose, that may change."""
+    """A scalar value, other than those of poses, that may change during a trial."""
 
     name: str
     """The name, such as ``fog`` or ``current.x``."""
@@ -73,9 +75,9 @@ class TrackLevel:
     start_time: float
     """The simulation time at which the measurement began [s]."""
     duration: float
-    """The duration of the measurement [s]."""
+    """The duration of the measurement [s of simulation time]."""
     status: str
-    """The status: ``ok``, or the reason of failure."""
+    """The status of the level: ``ok``, ``lost``, ..."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -83,21 +85,22 @@ class MotionTrack:
     """The motion of all bodies during a trial."""
 
     bodies: tuple[str, ...]
-    """Names: ``vehicle/link``, or an object's."""
+    """The names of the bodies: ``vehicle/link``, or the name of an object."""
     poses: Array
-    """The position in W [m] and unit quaternion wxyz of each body, (frames, bodies, 7)."""
+    """The position in the world frame W [m] and the unit quaternion wxyz of each body, (frames,
+    bodies, 7)."""
     signals: tuple[Signal, ...] = ()
-    """The further signals of a row."""
+    """The signals, which follow the poses in a row."""
     values: Array
-    """The values of each signal, (frames, signals); NaN where there is none."""
+    """The values of the signals, (frames, signals); NaN for a missing value."""
     levels: tuple[TrackLevel, ...] = ()
     """The levels, in order."""
     rate: float = RATE
-    """Frames a second [Hz]."""
+    """The number of frames in a second of simulation time [Hz]."""
     sand: DugSand = field(default_factory=DugSand)
-    """The places where sand was taken."""
+    """The spots where sand was removed."""
     markers: tuple[MarkerChange, ...] = ()
-    """The markers that programs spawned, in the order of their frames."""
+    """The changes of the markers that programs spawned, in the order of their frames."""
 
     @property
     def n_frames(self) -> int:
@@ -106,17 +109,20 @@ class MotionTrack:
 
     @property
     def duration(self) -> float:
-        """The time of the last frame [s]."""
+        """The time of the last frame after the first [s]."""
         return max(0, self.n_frames - 1) / self.rate
 
     def signal(self, name: str) -> Array | None:
-        """Return the values of a signal, (frames,); None if there is none of that name."""
+        """Return the values of a signal, (frames,); None if no signal has that name."""
         names = [signal.name for signal in self.signals]
         return self.values[:, names.index(name)] if name in names else None
 
 
 def quantise(values: Array, steps: Array) -> Table:
-    """Return values (..., m) as whole multiples of steps (m,)."""
+    """Return values (..., m) as integer multiples of their resolutions ``steps`` (m,).
+
+    A value that is not finite becomes `NO_VALUE`.
+    """
     multiples = np.rint(np.nan_to_num(values, nan=0.0, posinf=0.0, neginf=0.0) / steps)
     table = np.clip(multiples, -MAX_NUMBER, MAX_NUMBER).astype(np.int32)
     table[~np.isfinite(values)] = NO_VALUE
@@ -124,7 +130,7 @@ def quantise(values: Array, steps: Array) -> Table:
 
 
 def steps_of(n_bodies: int, signals: Sequence[Signal]) -> Array:
-    """Return the resolution of each number of a row, (7 bodies + signals,)."""
+    """Return the resolution of each number in a row, (7 bodies + signals,)."""
     pose = [POSITION_STEP] * 3 + [QUATERNION_STEP] * 4
     return np.array([*pose * n_bodies, *(signal.step for signal in signals)])
 
@@ -139,16 +145,16 @@ def track_bytes(
     sand: DugSand | None = None,
     markers: Sequence[MarkerChange] = (),
 ) -> bytes:
-    """Return the file of a track.
+    """Return the content of the file of a track.
 
     Args:
         bodies: the names of the bodies.
-        signals: the further signals of a row.
-        table: quantised rows, (frames, 7 bodies + signals).
+        signals: the signals, which follow the poses in a row.
+        table: rows from `quantise`, (frames, 7 bodies + signals).
         levels: the levels, in order.
-        rate: the frames a second [Hz].
-        sand: the places where sand was taken; None where none was.
-        markers: the markers that programs spawned, in the order of their frames.
+        rate: the number of frames in a second of simulation time [Hz].
+        sand: the spots where sand was removed; None if no sand was removed.
+        markers: the changes of markers, in the order of their frames.
     """
     digs = (sand or DugSand()).table
     head = {
@@ -172,7 +178,7 @@ def track_bytes(
 
 
 def read_track(data: bytes) -> MotionTrack:
-    """Read the bytes of a track; raise ResultError where they are not a track."""
+    """Read the content of the file of a track; raise ResultError if it is not a track."""
     try:
         line, _, rest = _decompress(data).partition(b"\n")
         head = json.loads(line)
@@ -191,7 +197,7 @@ def read_track(data: bytes) -> MotionTrack:
 
 
 def load_track(path: Path) -> MotionTrack:
-    """Read the file of a track; raise ResultError where it does not exist or is damaged."""
+    """Read the file of a track; raise ResultError if it does not exist or is damaged."""
     try:
         return read_track(path.read_bytes())
     except OSError as error:

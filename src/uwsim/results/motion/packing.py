@@ -1,9 +1,9 @@
-"""Packing of slowly changing whole numbers: differences, bytes shuffled.
+"""The packing of tables of slowly changing integers, so that they compress well.
 
-A table of 32 bit integers, (n, m), is stored column by column. The first number of a column is
-stored itself, every other as its difference from its predecessor, modulo 2^32. The lowest bytes of
-all numbers of all columns are written first, then the next ones. Bytes that are nearly always 0 or
-255 are then adjacent, and gzip compresses them well.
+A table of 32 bit integers, (n, m), is stored column by column. The first integer of a column is
+stored itself, every other integer as the difference from its predecessor, modulo 2^32. The lowest
+bytes of all integers are written first, then the second lowest bytes, and so on. Bytes that are
+nearly always 0 or 255 are then adjacent, and gzip compresses them well.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import numpy.typing as npt
 
 Table = npt.NDArray[np.int32]
 BYTES = 4
-"""The size of a number."""
+"""The size of an integer [bytes]."""
 
 
 def pack_table(table: Table) -> bytes:
@@ -24,7 +24,7 @@ def pack_table(table: Table) -> bytes:
 
 
 def unpack_table(data: bytes, n_rows: int, n_columns: int) -> Table:
-    """Return the table from the bytes of `pack_table`; raise ValueError for another length."""
+    """Return the table from the bytes of `pack_table`; raise ValueError for a wrong length."""
     n_bytes = n_rows * n_columns * BYTES
     if n_rows < 0 or len(data) != n_bytes:
         raise ValueError(f"expected {n_bytes} bytes of numbers, found {len(data)}")

@@ -1,4 +1,4 @@
-"""Values that JSON can hold, checked, as dicts, tuples, text and finite numbers."""
+"""The check that a value can be stored as JSON, and its conversion to immutable sequences."""
 
 from __future__ import annotations
 
@@ -11,10 +11,14 @@ from ...errors import ResultError
 
 
 def checked_values(value: object, path: str) -> Any:
-    """Return the value as dicts, tuples, str, bool, int, float or None; all numbers finite.
+    """Return the value as dicts, tuples, str, bool, int, float or None, with finite numbers.
+
+    Args:
+        value: the value.
+        path: the path of the value in the document, for error messages.
 
     Raises:
-        ResultError: it is of another kind, or a number is not finite; names its path.
+        ResultError: a value is of another type, or a number is not finite.
     """
     if value is None or isinstance(value, str | bool):
         return value

@@ -1,4 +1,4 @@
-"""Records of a result whose keys are known and may be absent; unknown keys are preserved."""
+"""The base class of the records in a result; known keys may be absent, unknown keys are kept."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .checked_values import checked_values
 
 @dataclass(frozen=True, kw_only=True)
 class StoredRecord:
-    """An object of ``result.json``; None stands for an absent key."""
+    """An object in ``result.json``, with an attribute for each known key; None if it is absent."""
 
     KEY: ClassVar[str]
     """The key of the record in ``result.json``."""
@@ -33,7 +33,7 @@ class StoredRecord:
         return cls(other_values=other_values, **known_values)
 
     def as_dict(self) -> dict[str, object]:
-        """Return the input of `from_dict`: the keys that are present, in their order."""
+        """Return the JSON object: present keys in the order of the fields, then unknown keys."""
         names = (attribute.name for attribute in fields(self) if attribute.name != "other_values")
         known_values = {name: value for name in names if (value := getattr(self, name)) is not None}
         return {**known_values, **self.other_values}

@@ -17,20 +17,20 @@ Shape = Callable[[Any, str], None]
 MAX_DEPTH = 12
 """The greatest depth of nested lists and objects."""
 MAX_SHOWN = 60
-"""The greatest number of letters of a wrong value in a message."""
+"""The greatest number of characters of an invalid value in a message."""
 _CELLS = {int, float, NoneType}
 
 
-def expect(truth: bool, value: object, path: str, expected: str) -> None:
+def expect(condition: bool, value: object, path: str, expected: str) -> None:
     """Raise ResultError with the value found and expected at a path, unless a condition holds."""
-    if not truth:
+    if not condition:
         excerpt = repr(value)
         excerpt = excerpt if len(excerpt) <= MAX_SHOWN else f"{excerpt[: MAX_SHOWN - 3]}..."
         raise ResultError(f"{path} is {excerpt}; expected {expected}.")
 
 
 def text(value: Any, path: str) -> None:
-    """Check a string that can be written: without half of a surrogate pair."""
+    """Check a string that can be encoded as UTF-8: it has no unpaired surrogate."""
     expect(isinstance(value, str) and _is_unicode(value), value, path, "text")
 
 
@@ -43,7 +43,7 @@ def _is_unicode(value: str) -> bool:
 
 
 def integer(value: Any, path: str) -> None:
-    """Check a whole number from 0."""
+    """Check an integer that is not negative."""
     fits = isinstance(value, int) and not isinstance(value, bool) and value >= 0
     expect(fits, value, path, "a whole number from 0")
 
@@ -55,7 +55,7 @@ def number(value: Any, path: str) -> None:
 
 
 def any_value(value: Any, path: str) -> None:
-    """Check a value of JSON that is not nested too deep."""
+    """Check a JSON value that is nested at most `MAX_DEPTH` deep."""
     layer = [value]
     for _ in range(MAX_DEPTH):
         inner_values = [node.values() if isinstance(node, Mapping) else node for node in layer]
@@ -67,13 +67,13 @@ _SCALARS = (str, int, float, NoneType)
 
 
 def cells(value: Any, path: str) -> None:
-    """Check a list of numbers and nulls; quick, as lists are long."""
+    """Check a list of numbers and nulls; this is fast, as the lists are long."""
     expect(isinstance(value, list), value, path, "a list")
     expect(set(map(type, value)) <= _CELLS, value, path, "numbers and nulls")
 
 
 def null_or(shape: Shape) -> Shape:
-    """Return the shape of null or of a value of the shape."""
+    """Return the shape of a value that is null or has the shape."""
 
     def check(value: Any, path: str) -> None:
         if value is not None:
@@ -83,7 +83,7 @@ def null_or(shape: Shape) -> Shape:
 
 
 def array(shape: Shape, *, n: int | None = None) -> Shape:
-    """Return the shape of a list, of ``n`` values where it is set, every value of the shape."""
+    """Return the shape of a list whose values all have the shape; of ``n`` values if it is set."""
 
     def check(value: Any, path: str) -> None:
         expect(isinstance(value, list), value, path, "a list")
@@ -95,7 +95,7 @@ def array(shape: Shape, *, n: int | None = None) -> Shape:
 
 
 def items(*shapes: Shape) -> Shape:
-    """Return the shape of a list of one value for each shape."""
+    """Return the shape of a list with one value for each of the shapes, in order."""
 
     def check(value: Any, path: str) -> None:
         fits = isinstance(value, list) and len(value) == len(shapes)
@@ -107,7 +107,7 @@ def items(*shapes: Shape) -> Shape:
 
 
 def table(shape: Shape) -> Shape:
-    """Return the shape of an object with any keys, every value of the shape."""
+    """Return the shape of an object with any keys, whose values all have the shape."""
 
     def check(value: Any, path: str) -> None:
         expect(isinstance(value, dict), value, path, "an object")
@@ -119,7 +119,7 @@ def table(shape: Shape) -> Shape:
 
 
 def fields(keys: Mapping[str, Shape], optional_keys: Mapping[str, Shape] | None = None) -> Shape:
-    """Return the shape of an object with these keys; other keys may have any value."""
+    """Return the shape of an object that has these keys; unknown keys may have any value."""
     shapes = {**keys, **(optional_keys or {})}
 
     def check(value: Any, path: str) -> None:

@@ -1,4 +1,4 @@
-"""The lines of a journal, with their values by name: a finished level, and the end of a trial."""
+"""The content of the lines of a journal: a row for a finished level, and the end of a trial."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ Record = dict[str, Any]
 ValueWithUnit = tuple[float | None, str]
 """A value and its unit."""
 StoredFact = tuple[Any, str]
-"""A constant of the scene and its unit."""
+"""A quantity measured for the whole trial, and its unit."""
 Sample = Sequence[Any]
-"""A line of a log: the time in the level [s], and the values of `StoredRow.log_headers`."""
+"""A sample of a log: the time in the level [s], then the columns of `StoredRow.log_headers`."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -20,13 +20,13 @@ class StoredPicture:
     """The last image of a camera in a level."""
 
     camera: str
-    """The camera."""
+    """The name of the camera."""
     file: str
-    """The file, from the directory of the result."""
+    """The path of the PNG file, relative to the result directory."""
     truth: tuple[float, ...] | None
-    """The corners of the target, x and y of each [px]."""
+    """x, y of the target's four corners [px]; None if no measure compares corners."""
     estimate: tuple[float, ...] | None
-    """The same as the algorithm published them last."""
+    """x, y of the four corners in the algorithm's last estimate [px]; None without an estimate."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,7 +34,7 @@ class StoredRow:
     """The result of one level."""
 
     values: tuple[float, ...]
-    """The values of the level, the outermost first."""
+    """The values of the swept parameters, outermost first."""
     measures: Mapping[str, ValueWithUnit]
     """The value and unit of each measure."""
     details: Mapping[str, ValueWithUnit]
@@ -44,13 +44,13 @@ class StoredRow:
     status: str
     """``ok``, or the first status of docs/levels.md that applies."""
     missing: Mapping[str, str]
-    """The reason of each null column."""
+    """The reason of each missing (null) value, by column."""
     ended_at: float | None
     """The simulation time at the end of the level [s]; None in files of early versions."""
     duration: float
-    """The duration of the measurement [s]."""
+    """The duration of the measurement [s of simulation time]."""
     logs: Mapping[str, Sequence[Sample]]
-    """The samples of each measure."""
+    """The samples of each measure that has a log."""
     log_headers: Mapping[str, tuple[str, ...]]
     """The columns of each measure's samples after the time, with units."""
     pictures: tuple[StoredPicture, ...]
@@ -60,7 +60,7 @@ class StoredRow:
     refused: tuple[tuple[str, str, int], ...] = ()
     """The refused messages of programs that do not take part: sender, topic or service, number."""
     remarks: tuple[str, ...] = ()
-    """Notes beside its status, each with the measure that it is about."""
+    """Notes on the level that do not affect its status, each with the names of its measures."""
 
     @classmethod
     def from_dict(cls, record: Record) -> StoredRow:
@@ -91,7 +91,7 @@ class StoredRow:
         )
 
     def record(self) -> Record:
-        """Return the record to write, without unknown or empty values that may be absent."""
+        """Return the record to write, without optional keys that have no value."""
         record = {field.name: getattr(self, field.name) for field in fields(self)}
         record["pictures"] = [vars(picture) for picture in self.pictures]
         for name in ("refused", "remarks"):
@@ -105,18 +105,18 @@ class StoredRow:
 
 @dataclass(frozen=True, kw_only=True)
 class StoredEnd:
-    """The end of a trial: everything that it stores besides its rows."""
+    """The end of a trial: all that is stored of the trial besides its rows."""
 
     facts: Mapping[str, StoredFact]
-    """The constants of the scene: name -> value and unit."""
+    """The value and unit of each quantity measured for the whole trial."""
     parameters: Mapping[str, float | str]
-    """The parameters of the algorithm, defaults included."""
+    """The parameters of the algorithm, including defaults."""
     streams: tuple[tuple[str, int, str], ...]
-    """The topic, number of images and SHA-256 over their pixels of each stream."""
+    """The topic, the number of images and the SHA-256 of all pixels of each stream of images."""
     notes: tuple[str, ...]
     """Notes for the reader of the result."""
     trace: Record | None
-    """The fingerprints on the way (`uwsim.runs.trial.fingerprint`); None in early versions."""
+    """The checkpoints (`uwsim.runs.trial.fingerprint`); None in files of early versions."""
 
     @classmethod
     def from_dict(cls, record: Record) -> StoredEnd:
