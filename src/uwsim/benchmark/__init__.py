@@ -1,6 +1,6 @@
-"""Benchmark files: their specs, measures, triggers and scene updaters.
+"""Benchmark files: reading and checking them, and their measures, triggers and scene updaters.
 
 `reader` reads a file into a `spec`; `measures`, `triggers` and `updaters` have one module for each
-element; `metrics` has the computations of measures; `plugin` and `plugin_tables` add a user's own.
-Benchmarks are executed by `uwsim.runs`.
+XML element; `metrics` has the formulas of the measures; `plugin` and `plugin_tables` add the
+measures, triggers and updaters of a user. `uwsim.runs` executes benchmarks.
 """

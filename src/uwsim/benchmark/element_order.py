@@ -1,4 +1,7 @@
-"""The order of elements that the original's grammar prescribes for a benchmark file."""
+"""Checks of the order of XML elements in a benchmark file.
+
+The document type definition (DTD) of the original UWSim prescribes that order; uwsim does not.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +10,9 @@ from lxml import etree
 from ..schema import Diagnostics
 
 GATE_ELEMENTS = ("log", "startOn", "stopOn")
+"""The last children of every measure."""
 SWEEP_ELEMENTS = ("initialValue", "finalValue", "step", "interval")
+"""The first children of an updater that sweeps one value."""
 ORDER: dict[str, tuple[str, ...]] = {
     "benchmark": ("measures", "startOn", "stopOn", "function", "sceneUpdater"),
     "measures": (
@@ -50,16 +55,16 @@ ORDER: dict[str, tuple[str, ...]] = {
     "directionVariation": ("theta", "phi"),
     "directionPeriod": ("theta", "phi"),
 }  # fmt: skip
-"""The children of each element, in order."""
+"""The children of each element, in the order that the DTD prescribes."""
 
 REQUIRED_CHILDREN: dict[str, tuple[str, ...]] = {
     measure: ("startOn", "stopOn") for measure in ORDER["measures"]
 }
-"""The children that the original requires although they have a default."""
+"""The children that the DTD requires, but that have a default in uwsim."""
 
 
 def check_order(root: etree._Element, diagnostics: Diagnostics) -> None:
-    """Report elements that uwsim reads and the original's grammar rejects."""
+    """Report elements that are out of order or absent: uwsim reads the file, UWSim rejects it."""
     for node in root.iter("*"):
         order = ORDER.get(str(node.tag), ())
         last_index, last_tag = -1, ""

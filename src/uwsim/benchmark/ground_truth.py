@@ -1,4 +1,4 @@
-r"""Ground truth: the reference for an estimate, evaluated in the live scene.
+r"""Ground truths: the true values with which an algorithm's estimates are compared.
 
 .. code-block:: xml
 
@@ -17,12 +17,13 @@ r"""Ground truth: the reference for an estimate, evaluated in the live scene.
       <publishOn>autoInit</publishOn>
     </groundTruth>
 
-A truth on a topic (std_msgs/Float32MultiArray) is hidden from the algorithm under test, which can
-neither read nor publish it. `uwsim.benchmark.updaters.bag_fog_updater` publishes the truth of
-recorded images, from a CSV file.
+A ground truth is computed from the present state of the simulated scene, except for those of type
+``constant`` and ``topic``. The topic of a truth (std_msgs/Float32MultiArray) is hidden from the
+algorithm under test, which can neither read it nor publish on it. For recorded images,
+`uwsim.benchmark.updaters.bag_fog_updater` publishes the truth from a CSV file.
 
-Image coordinates are in pixels from the centre of the first pixel, top left, v down, as in ROS and
-OpenCV (`uwsim.base.geometry.Intrinsics`); constants have the coordinates of the estimate.
+Image coordinates u, v are in pixels from the centre of the top left pixel, u to the right and v
+down, as in ROS and OpenCV (`uwsim.base.geometry.Intrinsics`). W is the world frame, z up.
 """
 
 from __future__ import annotations
@@ -44,6 +45,7 @@ from .metrics.min_area_rectangle import match_corners, min_area_rectangle
 
 TARGET_BEHIND_CAMERA = "the target is behind the camera"
 CORNERS = ("nw_x", "nw_y", "ne_x", "ne_y", "se_x", "se_y", "sw_x", "sw_y")
+"""The components of four corners in an image: the u (x) and v (y) of each, clockwise from NW."""
 
 
 class GroundTruthSpec(Spec, abc.ABC):
@@ -52,33 +54,38 @@ class GroundTruthSpec(Spec, abc.ABC):
     unit: ClassVar[str]
     """The unit of the components."""
     camera: str | None = None
-    """The name of the virtual camera; None when there is none."""
+    """The name of the virtual camera in whose image the truth is; None: the truth is no pixel."""
     publish_on: str | None = None
     """The service called with the truth when the measure starts; None: no call."""
 
     @abc.abstractmethod
     def bind(self, world: World, truth: str = "original") -> GroundTruth:
-        """Resolve the names of the truth; raises UnknownName if one is unknown."""
+        """Resolve the names of bodies and cameras; raises UnknownName if one is unknown.
+
+        Args:
+            world: the scene with the bodies and cameras.
+            truth: the value of ``u:truth`` of the measure: ``original`` or ``face``.
+        """
 
 
 class GroundTruth(abc.ABC):
-    """A vector of numbers, the present truth."""
+    """A true value: a vector of numbers that may change at every step."""
 
     components: tuple[str, ...]
     """The names of the numbers."""
 
     @property
     def absence_reason(self) -> str:
-        """The reason why there may be no truth now."""
+        """The reason that applies when `read` returns None."""
         return ""
 
     @property
     def n_images(self) -> int | None:
-        """The number of images of its camera so far; None if no camera takes images of it."""
+        """The number of images that the truth's camera has taken; None if it takes none."""
         return None
 
-    def close(self) -> None:  # noqa: B027 - most truths hold nothing
-        """Release its resources (a subscription)."""
+    def close(self) -> None:  # noqa: B027 - most truths have no subscription
+        """End the subscription, if the truth is received on a topic."""
 
     @abc.abstractmethod
     def read(self) -> Array | None:
@@ -92,15 +99,15 @@ class ConstantSpec(GroundTruthSpec):
     unit: ClassVar[str] = "1"
 
     values: tuple[float, ...] = element("value")
-    """The numbers."""
+    """The true values, in the units and coordinates of the estimate."""
 
     def bind(self, world: World, truth: str = "original") -> Constant:
-        """Return the truth, which needs nothing of the world."""
+        """Return the constant truth, which does not depend on the world."""
         return Constant(self.values)
 
 
 class Constant(GroundTruth):
-    """The numbers of the file, named 1, 2, ..."""
+    """A truth that never changes; its components are named 1, 2, ..."""
 
     def __init__(self, values: tuple[float, ...]) -> None:
         self._values = np.array(values, dtype=np.float64)
@@ -120,7 +127,7 @@ class CornersFromCameraSpec(GroundTruthSpec):
     camera: str = element(refers_to="camera")
     """The name of the virtual camera."""
     target: str = element(refers_to="body")
-    """The route of the body with the corners."""
+    """The route of the body whose corners are projected into the image."""
     publish_on: str | None = element(default=None)
     """The service called with the corners when the measure starts; None: no call."""
 
@@ -142,7 +149,7 @@ class CentroidFromCameraSpec(GroundTruthSpec):
     camera: str = element(refers_to="camera")
     """The name of the virtual camera."""
     target: str = element(refers_to="body")
-    """The route of the body whose origin is used."""
+    """The route of the body whose origin is projected into the image."""
     publish_on: str | None = element(default=None)
     """The service called with the centroid when the measure starts; None: no call."""
 
@@ -162,9 +169,9 @@ class RelativeLocationSpec(GroundTruthSpec):
     unit: ClassVar[str] = "m"
 
     from_: str = element("from", refers_to="body")
-    """The route of the body in whose frame the location is given (``<from>``)."""
+    """The route of the body in whose frame the location is expressed (``<from>``)."""
     to: str = element(refers_to="body")
-    """The route of the body whose origin is used."""
+    """The route of the body whose origin is the location."""
 
     def bind(self, world: World, truth: str = "original") -> RelativeLocation:
         """Resolve both bodies; raises UnknownName if one is unknown."""
@@ -186,9 +193,10 @@ class RelativeLocation(GroundTruth):
 
 
 class ProjectedTruth(GroundTruth):
-    """The projected points of a body, computed again only after camera or body has moved.
+    """The projection of points of a body into an image.
 
-    Compatibility ``unseen``: points behind the camera are projected through its centre.
+    It is computed again only after the camera or the body has moved. Compatibility ``unseen``:
+    points behind the camera are projected through its optical centre.
     """
 
     @property
@@ -204,7 +212,7 @@ class ProjectedTruth(GroundTruth):
 
     @property
     def n_images(self) -> int | None:
-        """The number of images of its camera so far; None if it takes none."""
+        """The number of images that the camera has taken; None if it takes none."""
         return self._camera.n_images
 
     def read(self) -> Array | None:
@@ -229,16 +237,17 @@ class ProjectedTruth(GroundTruth):
 
     @abc.abstractmethod
     def _from_pixels(self, pixels: Array) -> Array:
-        """Return the truth of the projected points (n, 2) [px]."""
+        """Return the truth (k,) [px] for the projected points (n, 2) [px]."""
 
 
 class CornersFromCamera(ProjectedTruth):
-    r"""The original's corners: those of the smallest rectangle round the projected bounding box.
+    r"""The corners of the smallest rectangle round a projected bounding box.
 
-    The eight corners of the body's local bounding box are projected; the truth is the rectangle of
-    smallest area round their convex hull (`uwsim.benchmark.metrics.min_area_rectangle`): x, y of
-    NW, NE, SE, SW. These are *not* the corners of a face: the box has depth, and perspective makes
-    its near face larger; ``u:truth="face"`` gives the corners of a face.
+    As in the original UWSim, the eight corners of the body's local bounding box are projected into
+    the image, and the truth is the rectangle of the smallest area round their convex hull
+    (`uwsim.benchmark.metrics.min_area_rectangle`): x, y of NW, NE, SE, SW. These are *not* the
+    corners of a face of the body: the box has depth, and in perspective the near face of the box is
+    the larger one. ``u:truth="face"`` selects the corners of a face (`FaceCorners`).
     """
 
     components = CORNERS
@@ -253,9 +262,9 @@ class CornersFromCamera(ProjectedTruth):
 
 
 class CentroidFromCamera(GroundTruth):
-    """The original's centroid: the projected *origin* of the body, not the centre of its box.
+    """The projection of a body's *origin*, not of the centre of its box, as in the original UWSim.
 
-    Compatibility ``unseen``: as in `ProjectedTruth`.
+    Compatibility ``unseen``: a point behind the camera is projected, as in `ProjectedTruth`.
     """
 
     components = ("x", "y")
@@ -270,7 +279,7 @@ class CentroidFromCamera(GroundTruth):
 
     @property
     def n_images(self) -> int | None:
-        """The number of images of its camera so far; None if it takes none."""
+        """The number of images that the camera has taken; None if it takes none."""
         return self._camera.n_images
 
     def read(self) -> Array | None:
@@ -279,7 +288,7 @@ class CentroidFromCamera(GroundTruth):
         return None if pixel is None else np.array(pixel)
 
     def pixel(self) -> tuple[float, float] | None:
-        """Return the centroid as plain numbers, for calls at every step."""
+        """Return the centroid u, v [px] as floats, which cost less than an array at every step."""
         camera = self._camera.world_from_camera
         world_offset = self._body.world_from_body.position - camera.position  # (3,) [m]
         x, y, z = rotate_back(camera.rotation, world_offset).tolist()
@@ -288,12 +297,13 @@ class CentroidFromCamera(GroundTruth):
 
 
 class FaceCorners(ProjectedTruth):
-    """The projected corners of the body's top face.
+    """The projected corners of the top face of a body's local bounding box.
 
-    The top face is that of the local bounding box whose outward normal points most upwards in W
-    at the moment of binding (first of +z, -z, +y, -y, +x, -x of equal ones); it stays the same
-    face however the body turns. Its corners are named NW, NE, SE, SW so that they are nearest to
-    those of `CornersFromCamera` when first visible; each keeps its name after that.
+    The top face is the one whose outward normal points most upwards in W when the truth is bound;
+    of faces that point equally far upwards, the first of +z, -z, +y, -y, +x, -x. It stays the top
+    face however the body turns. When it is first visible, its corners are named NW, NE, SE and SW
+    so that they are nearest to the corners of `CornersFromCamera` with these names; each corner
+    keeps its name after that.
     """
 
     components = CORNERS
@@ -332,12 +342,12 @@ class FaceCentre(ProjectedTruth):
 
 
 def bounding_box(body: Body) -> Box:
-    """Return the local bounding box of a body; a point at its origin if it has no meshes."""
+    """Return the local bounding box of a body; for a body without meshes, a point at its origin."""
     return body.box or Box((0.0, 0.0, 0.0), (0.0, 0.0, 0.0))
 
 
 def top_face(body: Body) -> Array:
-    """Return the corners of the face that points upwards, in cyclic order, body axes (4, 3) [m]."""
+    """Return the corners of the top face of a body in cyclic order, (4, 3) [m] in its frame."""
     up = body.world_from_body.rotation[2]  # z of W in the body frame, (3,)
     axis = max((2, 1, 0), key=lambda i: (round(abs(float(up[i])), 9), i))
     box = bounding_box(body)
@@ -352,26 +362,27 @@ def top_face(body: Body) -> Array:
 
 @dataclass(frozen=True, kw_only=True)
 class TopicTruthSpec(GroundTruthSpec):
-    """A ``<groundTruth type="topic">`` element; an extension."""
+    """A ``<groundTruth type="topic">`` element, which the original UWSim does not have."""
 
     topic: str
-    """The topic of the truth (std_msgs/Float32MultiArray); an empty message: none."""
+    """The topic of the truth (std_msgs/Float32MultiArray); an empty message states that there is
+    no truth."""
     components: str
-    """The names of its numbers, separated by blanks: ``x y``."""
-    unit: str = element(default="1")  # type: ignore[misc]  # of others it follows from the type
-    """The unit of its numbers."""
+    """The names of the numbers in a message, separated by blanks: ``x y``."""
+    unit: str = element(default="1")  # type: ignore[misc]  # a class variable of the other types
+    """The unit of the numbers."""
     publish_on: str | None = element(default=None)
     """The service called with the truth when the measure starts; None: no call."""
 
     def bind(self, world: World, truth: str = "original") -> TopicTruth:
-        """Subscribe to the topic, and hide it from the algorithm."""
+        """Subscribe to the topic, and hide it from the algorithm under test."""
         world.bus.hide_topic(self.topic)
         inbox = world.bus.inbox(self.topic, Float32MultiArray, latched=True)
         return TopicTruth(self.topic, tuple(self.components.split()), inbox)
 
 
 class TopicTruth(GroundTruth):
-    """The newest message of a topic; each message is a sample."""
+    """The truth in the newest message of a topic; each message counts as an image."""
 
     def __init__(
         self, topic: str, components: tuple[str, ...], inbox: Inbox[Float32MultiArray]
@@ -398,7 +409,7 @@ class TopicTruth(GroundTruth):
         return self._n_messages
 
     def read(self) -> Array | None:
-        """Return the newest truth, (k,); None before the first, and if there is none."""
+        """Return the truth in the newest message, (k,); None if it has none, or none arrived."""
         message = self._inbox.last_message
         numbers = np.zeros(0) if message is None else np.asarray(message.data, dtype=np.float64)
         is_valid = numbers.shape == (len(self.components),) and bool(np.isfinite(numbers).all())
@@ -416,4 +427,4 @@ GROUND_TRUTHS: dict[str, type[GroundTruthSpec]] = {
     "relativeLocation": RelativeLocationSpec,
     "topic": TopicTruthSpec,
 }
-"""The spec of each type, in alphabetical order."""
+"""The spec of each type of ground truth, in alphabetical order."""

@@ -1,4 +1,4 @@
-"""Checks of the names of measures, and of the function of these."""
+"""Checks of the names of measures, and of the score function, whose variables these names are."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .spec import FunctionSpec
 from .updaters import SceneUpdaterSpec, swept_parameters
 
 RESERVED_NAMES = ("repeat", "seed", "total", "status", "ended_at")
-"""The columns of a result whose names no measure may have."""
+"""The names of other columns of a result, which no measure may have."""
 MAX_NAME_LENGTH = 100
 """The greatest number of letters of a measure's name."""
 
@@ -21,7 +21,7 @@ MAX_NAME_LENGTH = 100
 def check_names(
     measures: list[MeasureSpec], updater: SceneUpdaterSpec | None, diagnostics: Diagnostics
 ) -> None:
-    """Check that the names of measures are identifiers and unique."""
+    """Report names of measures that are no identifiers, too long, reserved or not unique."""
     columns = () if updater is None else swept_parameters(updater)
     named_specs: dict[str, MeasureSpec] = {}
     for spec in measures:
@@ -60,7 +60,15 @@ def check_function(
     measures: list[MeasureSpec],
     diagnostics: Diagnostics,
 ) -> None:
-    """Parse the function; measures with errors of their own count as known."""
+    """Report errors of the score function.
+
+    Args:
+        root: the ``<benchmark>`` element, whose ``<function>`` gets the errors.
+        function: the score function as read.
+        measures: the measures that were read without an error. The names of the others, taken from
+            the file, may occur in the function, too.
+        diagnostics: the list of errors.
+    """
     names = [spec.name for spec in measures]
     names += [(name.text or "").strip() for name in root.iterfind("measures/*/name")]
     try:

@@ -1,4 +1,4 @@
-"""Tables of numbers in CSV files of a benchmark: a line of names, then lines of numbers."""
+"""Tables of numbers in the CSV files of a benchmark: a line of column names, then of numbers."""
 
 from __future__ import annotations
 
@@ -24,29 +24,29 @@ MAX_COLUMNS = 100
 
 @dataclass(frozen=True, eq=False)
 class NumberTable:
-    """The numbers of a file."""
+    """The columns of numbers in a CSV file."""
 
     name: str
-    """The name of the file in the benchmark."""
+    """The name of the CSV file as written in the benchmark file."""
     header: tuple[str, ...]
     """The names of the columns, without units."""
     units: tuple[str, ...]
-    """The units of the columns, as ``m`` of ``x [m]``; empty if the file has none."""
+    """The units of the columns (``m`` for the title ``x [m]``); empty for a title without unit."""
     rows: Array
-    """The numbers, (n, columns); NaN in empty cells and for everything but finite numbers."""
+    """The numbers, (n, columns); NaN for a cell that is empty or has no finite number."""
     invalid_cells: Mapping[int, str]
-    """The position and text of the first invalid cell, by the index of its column."""
+    """The error message for the first invalid cell of a column, by the index of the column."""
 
     def columns(self, names: Sequence[str], unit: str = "") -> Array:
-        """Return some columns, (n, len(names)).
+        """Return the columns with these names, (n, len(names)).
 
         Args:
             names: the names of the columns.
-            unit: their required unit; empty: any.
+            unit: the unit that the columns must have, if the file states their units; empty: any.
 
         Raises:
-            AssetError: one is missing, in another unit, or has cells that are neither finite
-                numbers nor empty.
+            AssetError: a column is missing, has another unit, or has a cell that is neither a
+                finite number nor empty.
         """
         for name in names:
             if name not in self.header:
@@ -68,17 +68,17 @@ class NumberTable:
         return self.rows[:, indices]
 
 
-def read_numbers(name: str, named_by: str, *, at_most: int) -> NumberTable:
-    """Read a table; its hash becomes an input of the result.
+def read_numbers(name: str, named_by: str, *, max_rows: int) -> NumberTable:
+    """Read a table; the hash of the file is recorded among the inputs of the result.
 
     Args:
-        name: the name of the file, relative to the folder of the benchmark.
-        named_by: the benchmark file.
-        at_most: the greatest number of lines.
+        name: the name of the CSV file, relative to the folder of the benchmark file.
+        named_by: the path of the benchmark file.
+        max_rows: the greatest number of lines with numbers.
 
     Raises:
-        AssetNotFound: the file is not in the folder of the benchmark.
-        AssetError: it is no table of numbers, or is too large.
+        AssetNotFound: the CSV file is not in the folder of the benchmark file.
+        AssetError: the CSV file is no table of numbers, or is too large.
     """
     folder = Path(named_by).parent if named_by else Path()
     path = find(name, named_by=folder)
@@ -97,8 +97,8 @@ def read_numbers(name: str, named_by: str, *, at_most: int) -> NumberTable:
         for number, line in enumerate(lines, start=2):
             if not line:
                 continue
-            if len(rows) >= at_most:
-                raise AssetError(f"{name}: has more than {at_most} lines.", name=name)
+            if len(rows) >= max_rows:
+                raise AssetError(f"{name}: has more than {max_rows} lines.", name=name)
             if len(line) != len(header):
                 raise AssetError(
                     f"{name}:{number}: has {len(line)} cells; expected {len(header)}.", name=name

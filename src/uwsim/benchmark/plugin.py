@@ -7,13 +7,14 @@
     UPDATERS = {"turbidity": TurbiditySpec}     # <u:turbidity>
     ALGORITHMS = {"brightest": Brightest}       # --algorithm brightest
 
-Any of the four may be left out. Names without a prefix are the original's, so the elements of a
-plugin are in the namespace ``urn:uwsim:1``. A name that uwsim or another plugin already has is an
-error.
+Any of the four dicts may be left out. Element names without a prefix are those of the original
+UWSim, so the elements of a plugin are in the namespace ``urn:uwsim:1``. A name that uwsim or
+another plugin already has is an error.
 
-A plugin is one file, which is sent as its source: a worker, here or on another machine, runs the
-bytes whose hash is in the result. The modules that it imports must be installed. The hash is part
-of the name of its module, so nothing global changes and two plugins do not affect each other.
+A plugin is one file, and its source is sent to the workers: each worker process, here or on another
+machine, runs the source whose hash is in the result. The modules that a plugin imports must be
+installed. The name of a plugin's own module contains the hash, so two plugins do not affect each
+other.
 """
 
 from __future__ import annotations
@@ -42,14 +43,14 @@ from .updaters import SceneUpdater, SceneUpdaterSpec
 MODULE_PREFIX = "uwsim_plugin_"
 """The prefix of the name of a plugin's module."""
 MAX_BYTES = 10_000_000
-
-
+"""The greatest size of a plugin file [byte]."""
 LIVE_CLASSES = ((MeasureSpec, Measure), (TriggerSpec, Trigger), (SceneUpdaterSpec, SceneUpdater))
+"""The base class of a spec, and the base class of the object to which the spec binds."""
 
 
 @dataclass(frozen=True)
 class Plugin:
-    """A plugin file, with the source that was read."""
+    """A plugin file and its source."""
 
     path: str
     """The path of the file as given by the user."""
@@ -57,7 +58,7 @@ class Plugin:
     """The content of the file."""
 
     def __reduce__(self) -> tuple[Callable[[str, bytes], Plugin], tuple[str, bytes]]:
-        """Pickle the source; unpickling imports the module, and with it the classes."""
+        """Pickle path and source; unpickling imports the module, which defines the classes."""
         return _import_plugin, (self.path, self.source)
 
     @property
@@ -67,20 +68,20 @@ class Plugin:
 
     @property
     def sha256(self) -> str:
-        """The hash of the source."""
+        """The SHA-256 hash of the source, after the prefix ``sha256:``."""
         return "sha256:" + hashlib.sha256(self.source).hexdigest()
 
     @property
     def module_name(self) -> str:
-        """The name of its module: equal sources are one module."""
+        """The name of the module in Python, which contains the start of the hash of the source."""
         stem = re.sub(r"\W", "_", Path(self.path).stem, flags=re.ASCII)
         return f"{MODULE_PREFIX}{stem}_{hashlib.sha256(self.source).hexdigest()[:16]}"
 
     def module(self) -> ModuleType:
-        """Return its module; import it at the first call.
+        """Return the module of the plugin; the first call imports it.
 
         Raises:
-            PluginError: it cannot be imported.
+            PluginError: the module cannot be imported.
         """
         try:
             return source_module(self.module_name, self.path, self.source)
@@ -96,11 +97,11 @@ class Plugin:
             raise self.diagnostic(message, self.line_of(error)) from error
 
     def diagnostic(self, message: str, line: int | None = None) -> PluginError:
-        """Return a `PluginError` for this file."""
+        """Return a `PluginError` with a message about this file, and a line of it if known."""
         return PluginError([Diagnostic(file=self.path, line=line, message=message)])
 
     def line_of(self, error: BaseException) -> int | None:
-        """Return the line of this file in which an error was raised; None if in another file."""
+        """Return the last line of this file in the traceback of an error; None if it has none."""
         frames = traceback.extract_tb(error.__traceback__)
         lines = [frame.lineno for frame in frames if frame.filename == self.path]
         return lines[-1] if lines else None
@@ -116,7 +117,7 @@ def read_plugin(path: Path) -> Plugin:
     """Read and import a plugin.
 
     Raises:
-        PluginError: it cannot be read or imported.
+        PluginError: the file cannot be read or imported.
     """
     try:
         source = read_bytes(path, at_most=MAX_BYTES)
@@ -129,7 +130,7 @@ def read_plugin(path: Path) -> Plugin:
 
 
 def line_of_class(value: object, plugin: Plugin) -> int | None:
-    """Return the line of a class of the plugin; None for any other value."""
+    """Return the line at which a class of the plugin is defined; None for any other value."""
     if not isinstance(value, type) or value.__module__ != plugin.module_name:
         return None
     try:
@@ -139,6 +140,7 @@ def line_of_class(value: object, plugin: Plugin) -> int | None:
 
 
 def _line_of_attribute(error: ContractViolation, plugin: Plugin) -> int | None:
+    """Return the line of the invalid property, or else of its class; None if in another file."""
     cls = type(error.part)
     if cls.__module__ != plugin.module_name:
         return None
@@ -160,11 +162,12 @@ def format_exception(error: BaseException) -> str:
 def attribute_errors_to(
     plugins: Sequence[Plugin], *, moment: Callable[[], str] | None = None
 ) -> Iterator[None]:
-    """Add the line of the plugin to exceptions that its code raises.
+    """Replace an exception raised by a plugin's code by an error that names its file and line.
 
     Args:
         plugins: the plugins in use.
-        moment: returns the moment of a running benchmark; None while files are read.
+        moment: a function that describes the present level and time of a running benchmark; None
+            while files are read.
 
     Raises:
         PluginError: a plugin raised an exception while files were read.
@@ -190,10 +193,10 @@ def attribute_errors_to(
 
 
 def check_bound(plugins: Sequence[Plugin], parts: Sequence[Part], stage: Stage) -> None:
-    """Bind all measures, triggers and updaters of plugins, and check the results.
+    """Bind all measures, triggers and updaters that plugins define, and check the bound objects.
 
     Raises:
-        PluginError: it cannot be used in a run.
+        PluginError: a spec binds to an object of the wrong class, or a measure has no unit.
     """
     plugins_by_module = {plugin.module_name: plugin for plugin in plugins}
     for part in parts:
@@ -214,5 +217,5 @@ def check_bound(plugins: Sequence[Plugin], parts: Sequence[Part], stage: Stage) 
 
 
 def hashes(plugins: Sequence[Plugin]) -> tuple[tuple[str, str], ...]:
-    """Return name and hash of each plugin, in the order of their names."""
+    """Return the name and the hash of each plugin, in the order of the names."""
     return tuple(sorted((plugin.name, plugin.sha256) for plugin in plugins))

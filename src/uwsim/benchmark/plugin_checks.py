@@ -1,7 +1,8 @@
-"""Checks of the values of a plugin's measures, triggers and updaters against their contract.
+"""Checks that the measures, updaters and algorithms of plugins return values of the right types.
 
-Python does not check annotations, and a result is only complete if names are text and samples fit
-their header. The values of a measure are therefore checked where they are read.
+Python does not check type annotations, and results can only be written if, for example, names are
+text and a log sample has one value for each column. Values are therefore checked when they are
+read.
 """
 
 from __future__ import annotations
@@ -20,11 +21,11 @@ from .updaters import SceneUpdaterSpec
 TEXT_ATTRIBUTES = ("missing_reason", "ends_level")
 """The attributes of a measure that are text or None."""
 DICT_ATTRIBUTES = ("details", "detail_units", "reasons")
-"""The attributes of a measure that are dicts by the names of its details."""
+"""The attributes of a measure that are dicts; their keys are the names of its details."""
 
 
 class ContractViolation(Exception):
-    """A plugin violates its interface."""
+    """The error that an attribute or method of a plugin's object has a value of the wrong type."""
 
     def __init__(self, part: object, attribute: str, message: str) -> None:
         self.part, self.attribute = part, attribute
@@ -32,10 +33,11 @@ class ContractViolation(Exception):
 
 
 def check_values(measure: Measure) -> None:
-    """Check all attributes of a measure that are not numbers, at the end of a level.
+    """Check the texts, dicts and times of a measure at the end of a level.
 
     Raises:
-        ContractViolation: names are no text, or a reason belongs to no detail without a value.
+        ContractViolation: an attribute has the wrong type, or `reasons` explains the absence of a
+            detail that is not absent.
     """
 
     def expect(attribute: str, is_valid: Callable[[object], bool], expected: str) -> None:
@@ -67,10 +69,10 @@ def check_values(measure: Measure) -> None:
 
 
 def log_sample(measure: Measure) -> Sequence[object]:
-    """Return a line of a measure's log, as of now.
+    """Return the present values of the columns of a measure's log.
 
     Raises:
-        ContractViolation: the number of values differs from that of the header's names.
+        ContractViolation: the log has another number of columns than of values.
     """
     values: object = measure.log_values
     if not isinstance(values, tuple | list):
@@ -85,15 +87,16 @@ def log_sample(measure: Measure) -> Sequence[object]:
 def read_parameters(
     algorithm: object, user_parameters: Mapping[str, float | str], *, name: str
 ) -> dict[str, float | int | str]:
-    """Return the parameters that an algorithm reports; without them, those of the user.
+    """Return the parameters that an algorithm reports.
 
     Args:
-        algorithm: the algorithm.
-        user_parameters: the parameters that the user set.
-        name: the name of its class.
+        algorithm: the algorithm under test.
+        user_parameters: the parameters that the user set; returned for an algorithm that has no
+            attribute ``parameters``.
+        name: the name of the algorithm's class, for messages.
 
     Raises:
-        RunFailed: they are no dict of name -> number or text, as a result requires.
+        RunFailed: the parameters are not a dict of name -> number or text.
     """
     reports: object = untracked_parameters(getattr(algorithm, "parameters", user_parameters))
     subject = f"Algorithm {name}: its attribute parameters"
@@ -120,10 +123,10 @@ def _as_float(value: Real) -> float:
 
 
 def updater_files(updater: SceneUpdaterSpec, stage: Stage) -> Mapping[str, Path]:
-    """Return the files that an updater reads.
+    """Return the files that an updater reads, by their names in the benchmark file.
 
     Raises:
-        ContractViolation: it returns no dict of name -> path, or a file does not exist.
+        ContractViolation: the updater returns no dict of name -> path, or a file does not exist.
     """
     files: object = updater.files(stage)
     if not isinstance(files, Mapping):
@@ -142,7 +145,7 @@ def _are_texts(value: object) -> bool:
 
 
 def _describe(value: object) -> str:
-    """Describe a value in a few words that are the same in every run."""
+    """Return the type of a value, and its text if that is the same in every run."""
     kind = type(value).__name__
     if not isinstance(value, str | Real):
         return kind

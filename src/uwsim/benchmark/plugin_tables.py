@@ -1,4 +1,4 @@
-"""The tables of names that a benchmark can use, with the names of plugins."""
+"""The tables of the measures, triggers, updaters and algorithms that a benchmark can name."""
 
 from __future__ import annotations
 
@@ -17,38 +17,41 @@ from .triggers import TriggerSpec
 from .updaters import SceneUpdaterSpec
 
 PREFIX = "u:"
-"""The prefix of a plugin's names in a file."""
+"""The prefix of the names of a plugin's elements in a benchmark file."""
 ELEMENT_NAME = re.compile(r"[A-Za-z][A-Za-z0-9]*")
-"""The valid names of elements and of columns."""
+"""The pattern of valid names of elements and columns."""
 ALGORITHM_NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]*")
+"""The pattern of valid names of algorithms."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Tables:
-    """The names that a benchmark can use: those of the package and those of plugins."""
+    """The classes that a benchmark can name, those of plugins included."""
 
     measures: Mapping[str, type[MeasureSpec]] = field(default_factory=dict)
-    """The spec of each element of a measure."""
+    """The specs of measures by the names of their elements."""
     triggers: Mapping[str, type[TriggerSpec]] = field(default_factory=dict)
-    """The spec of each type of trigger."""
+    """The specs of triggers by the names of their types."""
     updaters: Mapping[str, type[SceneUpdaterSpec]] = field(default_factory=dict)
-    """The spec of each element of an updater."""
+    """The specs of scene updaters by the names of their elements."""
     algorithms: Mapping[str, type[Algorithm]] = field(default_factory=dict)
-    """The class of each algorithm, by name."""
+    """The classes of algorithms by name."""
 
 
 BASE_CLASSES = {"MEASURES": MeasureSpec, "TRIGGERS": TriggerSpec, "UPDATERS": SceneUpdaterSpec}
+"""The base class of the specs in each dict of a plugin."""
 TABLE_NAMES = (*BASE_CLASSES, "ALGORITHMS")
+"""The names of the dicts that a plugin may define."""
 NEW_NAMES = {"faults": "errors", "reference": "parameter", "reference_unit": "parameter_unit"}
-"""The methods and properties of specs that had another name: old name -> new name."""
+"""The renamed methods and properties of specs: old name -> new name."""
 
 
 def extend_tables(package_tables: Tables, plugins: Sequence[Plugin]) -> Tables:
-    """Return the tables of the package with the entries of plugins.
+    """Return the tables of the package with the entries of plugins added.
 
     Raises:
-        PluginError: it has all errors of the plugins' entries.
-        BadSetting: a plugin is given twice.
+        PluginError: entries of plugins are invalid; the error lists all of them.
+        BadSetting: a plugin is named twice.
     """
     diagnostics: list[Diagnostic] = []
     tables = {name: dict(getattr(package_tables, name.lower())) for name in TABLE_NAMES}
@@ -75,7 +78,7 @@ def extend_tables(package_tables: Tables, plugins: Sequence[Plugin]) -> Tables:
 
 
 def _read_entries(plugin: Plugin, diagnostics: list[Diagnostic]) -> Iterator[tuple[str, str, type]]:
-    """Yield table, key and class of the entries of a plugin; errors go to ``diagnostics``."""
+    """Yield the table, key and class of each valid entry of a plugin; report invalid ones."""
     module = plugin.module()
 
     def add(message: str, value: object = None) -> None:

@@ -1,4 +1,4 @@
-"""Reading a benchmark file: XML -> `BenchmarkSpec`, every error at once.
+"""Reading a benchmark file into a `BenchmarkSpec`; all errors are reported at once.
 
 .. code-block:: xml
 
@@ -10,8 +10,7 @@
       <sceneUpdater> <sceneFogUpdater> ... </sceneFogUpdater> </sceneUpdater>
     </benchmark>
 
-The tables of measures, triggers and updaters are arguments: they may have more entries than those
-of the package.
+The tables of measures, triggers and updaters are arguments, since plugins add entries to them.
 """
 
 from __future__ import annotations
@@ -54,6 +53,7 @@ from .updaters import UPDATERS, NoneSpec, SceneUpdaterSpec
 from .warnings import find_short_times, warn_never_started
 
 PLUGIN_HINT = ", nor of a plugin that was given (--plugin FILE.py)"
+"""The text after an unknown name that may be a plugin's."""
 
 T = TypeVar("T")
 
@@ -66,10 +66,17 @@ def read_benchmark(
     updaters: Mapping[str, type[SceneUpdaterSpec]] = UPDATERS,
     timestep: float = TIMESTEP,
 ) -> BenchmarkSpec:
-    """Read a benchmark file; durations of less than half a ``timestep`` [s] are errors.
+    """Read a benchmark file.
+
+    Args:
+        path: the benchmark file.
+        measures: the specs of measures by the names of their elements.
+        triggers: the specs of triggers by the names of their types.
+        updaters: the specs of scene updaters by the names of their elements.
+        timestep: the length of a simulation step [s], unless the file states another.
 
     Raises:
-        BenchmarkError: it has all errors of the file.
+        BenchmarkError: the file is invalid; the error lists everything that is wrong.
     """
     path = Path(path)
     diagnostics = Diagnostics(path)
@@ -90,15 +97,15 @@ def check_benchmark(
 ) -> tuple[list[Diagnostic], BenchmarkSpec | None]:
     """Return all errors and warnings of a benchmark file, ordered by line, and its spec.
 
-    With errors, the spec lacks the invalid parts, or there is none.
+    The spec of a file with errors lacks the invalid parts, or is None.
 
     Args:
-        path: the file.
-        is_strict: also check the order of elements in the original's grammar.
-        measures: the spec of each element.
-        triggers: the spec of each type.
-        updaters: the spec of each element.
-        timestep: the length of a step [s].
+        path: the benchmark file.
+        is_strict: also check the order of elements, as the original UWSim does (`element_order`).
+        measures: the specs of measures by the names of their elements.
+        triggers: the specs of triggers by the names of their types.
+        updaters: the specs of scene updaters by the names of their elements.
+        timestep: the length of a simulation step [s], unless the file states another.
     """
     diagnostics = Diagnostics(path)
     reader = _Reader(diagnostics, measures, triggers, updaters, timestep)
@@ -111,7 +118,7 @@ def check_benchmark(
 
 @dataclass(frozen=True)
 class _Reader:
-    """The reader of one file with given tables."""
+    """A reader of one benchmark file; see `check_benchmark` for the fields."""
 
     diagnostics: Diagnostics
     measures: Mapping[str, type[MeasureSpec]]
@@ -125,9 +132,8 @@ class _Reader:
         check_head(document, "benchmark", self.diagnostics)
         if root.tag != "benchmark":
             return None
-        self.diagnostics.allows_trailing_text = (
-            document.has_doctype
-        )  # the original read its numbers with atof
+        # the original UWSim, whose files have a DOCTYPE, reads numbers with atof.
+        self.diagnostics.allows_trailing_text = document.has_doctype
         if is_strict:
             check_order(root, self.diagnostics)
         known_fields: dict[str, object] = {"path": str(path)}
@@ -162,24 +168,24 @@ class _Reader:
             check_function(root, function, measures, self.diagnostics)
         file_timestep = None if spec is None else spec.timestep
         timestep = self.timestep if file_timestep is None else file_timestep
-        for place, message in find_short_times(measures, updater, function, timestep):
-            self.diagnostics.error(place, message)
+        for location, message in find_short_times(measures, updater, function, timestep):
+            self.diagnostics.error(location, message)
         if spec is not None and updater is not None:
             warn_endless(spec, self.diagnostics)
         if spec is not None and not self.diagnostics.has_errors:
-            for place, message in warn_never_started(spec):
-                self.diagnostics.warning(place, message)
+            for location, message in warn_never_started(spec):
+                self.diagnostics.warning(location, message)
         return spec
 
-    def read_measures(self, box: etree._Element) -> list[MeasureSpec]:
+    def read_measures(self, parent: etree._Element) -> list[MeasureSpec]:
         """Read the children of ``<measures>``, in the file's order."""
         measures = []
-        if box.find("*") is None:
-            self.diagnostics.warning(box, "<measures> is empty: nothing is measured")
-        for node in self.read_children(box):
+        if parent.find("*") is None:
+            self.diagnostics.warning(parent, "<measures> is empty: nothing is measured")
+        for node in self.read_children(parent):
             cls = self.measures.get(element_name(node))
             if cls is None:
-                self.report_unknown_element(node, box, self.measures)
+                self.report_unknown_element(node, parent, self.measures)
             elif (spec := self.read_measure(cls, node)) is not None:
                 measures.append(spec)
         return measures
@@ -203,7 +209,7 @@ class _Reader:
         return spec
 
     def read_manual_fields(self, cls: type, node: etree._Element) -> dict[str, Any]:
-        """Read the fields of a spec whose class depends on the file."""
+        """Read the children whose spec classes depend on the file: triggers, truths, updaters."""
         known_fields: dict[str, Any] = {}
         for field in fields_of(cls):
             child = node.find(field.tag)
@@ -221,7 +227,7 @@ class _Reader:
         return known_fields
 
     def read_trigger(self, node: etree._Element) -> TriggerSpec:
-        """Read ``<startOn>`` or ``<stopOn>``; elements that a type does not use are ignored."""
+        """Read ``<startOn>`` or ``<stopOn>``; ignore children that its type does not use."""
         kinds = node.findall("type")
         kind = read_text(kinds[0], self.diagnostics) if kinds else ""
         if not kind:
@@ -249,7 +255,7 @@ class _Reader:
         return read(cls, node, self.diagnostics) or NeverSpec()
 
     def read_ground_truth(self, node: etree._Element) -> GroundTruthSpec:
-        """Read ``<groundTruth>``, by its type."""
+        """Read ``<groundTruth>`` into the spec of its type."""
         placeholder = ConstantSpec(values=())
         kind = str(node.attrib.pop("type", "")).strip()
         if not kind and {element_name(child) for child in self.read_children(node)} == {"value"}:
@@ -267,12 +273,12 @@ class _Reader:
             return placeholder
         return read(cls, node, self.diagnostics) or placeholder
 
-    def read_updater(self, box: etree._Element) -> SceneUpdaterSpec | None:
+    def read_updater(self, parent: etree._Element) -> SceneUpdaterSpec | None:
         """Read ``<sceneUpdater>`` with its nested updaters."""
-        nodes = self.read_children(box)
+        nodes = self.read_children(parent)
         if not nodes:
             self.diagnostics.error(
-                box, f"<sceneUpdater> is empty; expected one of <{'>, <'.join(UPDATERS)}>"
+                parent, f"<sceneUpdater> is empty; expected one of <{'>, <'.join(UPDATERS)}>"
             )
         for sibling in nodes[1:]:
             self.diagnostics.error(
@@ -285,7 +291,7 @@ class _Reader:
         node = nodes[0]
         cls = self.updaters.get(element_name(node))
         if cls is None:
-            self.report_unknown_element(node, box, self.updaters)
+            self.report_unknown_element(node, parent, self.updaters)
             return None
         spec = read(cls, node, self.diagnostics, known_fields=self.read_manual_fields(cls, node))
         errors = [] if spec is None else list(spec.errors())
@@ -302,23 +308,24 @@ class _Reader:
             )
         return names
 
-    def read_children(self, box: etree._Element) -> list[etree._Element]:
-        """Return the children of an element that may contain nothing else."""
-        for text in (box.text, *(child.tail for child in box)):
+    def read_children(self, parent: etree._Element) -> list[etree._Element]:
+        """Return the children of an element that must have no text and no attributes."""
+        for text in (parent.text, *(child.tail for child in parent)):
             if (stray := (text or "").strip()) != "":
-                self.diagnostics.error(box, f"stray text {stray[:60]!r} in <{box.tag}>")
+                self.diagnostics.error(parent, f"stray text {stray[:60]!r} in <{parent.tag}>")
                 break
-        for name in box.attrib:
-            self.diagnostics.error(box, f"{str(name)[:60]} is not an attribute of <{box.tag}>")
-        return list(box.iterchildren("*"))
+        for name in parent.attrib:
+            self.diagnostics.error(
+                parent, f"{str(name)[:60]} is not an attribute of <{parent.tag}>"
+            )
+        return list(parent.iterchildren("*"))
 
     def report_unknown_element(
-        self, node: etree._Element, box: etree._Element, known_names: Mapping[str, T]
+        self, node: etree._Element, parent: etree._Element, known_names: Mapping[str, T]
     ) -> None:
         name = element_name(node)
-        message = (
-            f"{format_tag(str(node.tag))} is not an element of <{box.tag}>{advice(str(node.tag))}"
-        )
+        tag = str(node.tag)
+        message = f"{format_tag(tag)} is not an element of <{parent.tag}>{advice(tag)}"
         if name.startswith(PREFIX):
             message += PLUGIN_HINT
             if (plugin := node.getroottree().getroot().get(f"{{{NAMESPACE}}}plugin")) is not None:

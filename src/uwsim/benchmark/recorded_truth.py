@@ -20,10 +20,11 @@ from ..schema import Spec, element
 from .number_table import read_numbers
 
 MAX_LINES = 1_000_000
-"""The greatest number of lines."""
+"""The greatest number of lines of the CSV file."""
 TIME_TOLERANCE = 5e-4
-"""The greatest difference between the times of an image and its line [s]."""
+"""The greatest difference between the time of an image and the time in its line [s]."""
 TIME_COLUMN = "time"
+"""The column with the time since the first image of the recording [s]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,16 +36,19 @@ class RecordedTruthSpec(Spec):
     topic: str = element(namespaced=True)
     """The topic of the truth (std_msgs/Float32MultiArray); hidden from the algorithm."""
     columns: str = element(namespaced=True, default="")
-    """The columns to publish, separated by blanks; without: all but ``time``, in their order."""
+    """The columns to publish, separated by blanks; if absent, all columns except ``time``."""
 
     def read(self, benchmark: str) -> RecordedTruth:
-        """Read the file.
+        """Read the CSV file.
+
+        Args:
+            benchmark: the path of the benchmark file, in whose folder the CSV file is.
 
         Raises:
-            AssetNotFound: the file does not exist.
-            AssetError: it lacks a column or a line, or its times do not increase.
+            AssetNotFound: the CSV file does not exist.
+            AssetError: the CSV file lacks a column, has no line, or its times do not increase.
         """
-        table = read_numbers(self.file, benchmark, at_most=MAX_LINES)
+        table = read_numbers(self.file, benchmark, max_rows=MAX_LINES)
         names: Sequence[str] = self.columns.split() or [n for n in table.header if n != TIME_COLUMN]
         times, values = table.columns([TIME_COLUMN], "s")[:, 0], table.columns(names)
         if not len(times) or not names:
@@ -55,29 +59,29 @@ class RecordedTruthSpec(Spec):
 
 
 class RecordedTruth:
-    """The truth as a function of the time of a recording.
+    """The truth of recorded images as a function of the time since the first image.
 
     Args:
         topic: the topic on which the numbers are published.
-        columns: the names of the columns.
-        times: the increasing times of the lines, (n,) [s].
-        values: the numbers at these times, (n, k); NaN: none.
+        columns: the names of the k columns that are published.
+        times: the times of the n lines, which increase, (n,) [s].
+        values: the numbers in these lines, (n, k); NaN for an empty cell.
     """
 
     def __init__(self, topic: str, columns: Sequence[str], times: Array, values: Array) -> None:
         self.topic = topic
         """The topic on which the numbers are published."""
         self.columns = tuple(columns)
-        """The names of the columns."""
+        """The names of the columns that are published."""
         self._times, self._values = times, values
 
     @property
     def span(self) -> tuple[float, float]:
-        """The first and the last time of the file [s]."""
+        """The first and the last time in the file [s]."""
         return float(self._times[0]), float(self._times[-1])
 
     def find_values(self, time: float) -> Array:
-        """Return the numbers at a time [s] of the recording, (k,); (0,) if there are none."""
+        """Return the numbers at a time [s], (k,), interpolated; (0,) if there is no truth then."""
         nearest_row = int(np.argmin(np.abs(self._times - time)))
         values = self._values[nearest_row]
         if abs(self._times[nearest_row] - time) > TIME_TOLERANCE:

@@ -5,8 +5,9 @@
     <u:path> <u:points> 0 0 4  2 0 4  2 1 4 </u:points> </u:path>
     <u:path> <u:file>survey.csv</u:file> </u:path>
 
-The file has a column for each of x, y and z [m], named in its first line; other columns are not
-read. It is searched in the folder of the benchmark.
+The CSV file has a column for each of x, y and z [m], named in its first line; other columns are not
+read. It is in the folder of the benchmark file. The coordinates are in the frame that the element
+``<from>`` of `uwsim.benchmark.measures.path_following` names.
 """
 
 from __future__ import annotations
@@ -25,8 +26,9 @@ from .number_table import read_numbers
 MAX_POINTS = 100_000
 """The greatest number of points."""
 MAX_COORDINATE = 1e6
-"""The greatest coordinate [m]."""
+"""The greatest absolute value of a coordinate [m]."""
 COLUMNS = ("x", "y", "z")
+"""The columns of the CSV file that are read."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,13 +36,13 @@ class ReferencePathSpec(Spec):
     """A ``<u:path>`` element."""
 
     points: Numbers = element(namespaced=True, default=())
-    """The x, y and z of each point, one after the other [m]."""
+    """The x, y and z of each point, one after the other, in the frame ``<from>`` [m]."""
     file: str | None = element(namespaced=True, default=None)
-    """A CSV file with the columns x, y and z [m], instead of the points. A header may state the
-    unit (`x [m]`); another one is an error."""
+    """A CSV file with the columns x, y and z in the frame ``<from>`` [m], instead of the points.
+    The title of a column may state the unit (``x [m]``); any other unit is an error."""
 
     def errors(self) -> Sequence[str]:
-        """Return errors of the points, and of the choice between points and file."""
+        """Return errors: invalid points, or points and a file together, or neither."""
         if (self.file is not None) == bool(self.points):
             return ["<u:path> needs either <u:points> or <u:file>"]
         if len(self.points) % 3:
@@ -51,18 +53,18 @@ class ReferencePathSpec(Spec):
         return []
 
     def read(self, benchmark: str) -> Array:
-        """Return the points, (n, 3) [m].
+        """Return the points in the frame ``<from>``, (n, 3) [m].
 
         Args:
-            benchmark: the benchmark file, in whose folder the file of points is searched.
+            benchmark: the path of the benchmark file, in whose folder the CSV file is.
 
         Raises:
-            AssetNotFound: the file does not exist.
-            AssetError: it has no points, or numbers that are not finite.
+            AssetNotFound: the CSV file does not exist.
+            AssetError: the CSV file has no points, or numbers that are too large or not finite.
         """
         if self.file is None:
             return np.array(self.points, dtype=np.float64).reshape(-1, 3)
-        table = read_numbers(self.file, benchmark, at_most=MAX_POINTS)
+        table = read_numbers(self.file, benchmark, max_rows=MAX_POINTS)
         points = table.columns(COLUMNS, "m")
         if not len(points):
             raise AssetError(f"{self.file}: has no point.", name=self.file)
@@ -74,7 +76,7 @@ class ReferencePathSpec(Spec):
 
 
 def path_message(points: Array) -> Path:
-    """Return points (n, 3) [m] as a message."""
+    """Return a nav_msgs/Path through points (n, 3) [m]."""
     poses = []
     for x, y, z in points.tolist():
         pose = PoseStamped()

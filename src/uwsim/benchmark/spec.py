@@ -1,4 +1,4 @@
-"""The spec of a benchmark file."""
+"""The contents of a benchmark file: `BenchmarkSpec`."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .triggers import TriggerSpec
 from .updaters import SceneUpdaterSpec, chain
 
 MAX_TASK_DURATION = 600.0
-"""The duration after which a level without an interval ends, in ``timeout`` [s]."""
+"""The duration after which a level without an interval ends with the status ``timeout`` [s]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -20,19 +20,19 @@ class FunctionSpec(Spec):
     """The ``<function>`` element: the score as a function of the measures."""
 
     text: str = element(text=True)
-    """An expression over the measures' names (`uwsim.base.expression`)."""
+    """An expression whose variables are the names of measures (`uwsim.base.expression`)."""
     publish_result: bool = element(default=False, attribute=True)
     """True if results are published during the run."""
     publish_rate: float = element(default=0.1, attribute=True, minimum=0.0)
-    """The shortest time between two such messages [s]; not a rate, in spite of its name."""
+    """The shortest time between two messages with results [s]; a period, in spite of its name."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class BenchmarkSpec(Spec):
-    """A benchmark file: equal files give equal specs."""
+    """The contents of a benchmark file; equal files have equal specs."""
 
     measures: tuple[MeasureSpec, ...]
-    """The measures, in the file's order, which is that of the columns."""
+    """The measures, in the order of the file, which is also the order of the result's columns."""
     start_on: TriggerSpec
     """The trigger of the first level."""
     stop_on: TriggerSpec
@@ -40,24 +40,26 @@ class BenchmarkSpec(Spec):
     function: FunctionSpec
     """The score."""
     scene_updater: SceneUpdaterSpec
-    """The changes of the scene from level to level."""
+    """The outermost scene updater, which changes the scene from level to level."""
     scene: str | None = element(default=None, attribute=True, namespaced=True)
-    """The scene file, relative to this file's folder; None: it is given with ``--scene``."""
+    """The scene file, relative to the folder of this file; None: ``--scene`` names the scene."""
     algorithm: str | None = element(default=None, attribute=True, namespaced=True)
     """The algorithm under test, unless `--algorithm` names another."""
     plugin: tuple[str, ...] = element(default=(), attribute=True, namespaced=True)
     """The plugins (files with a user's measures, triggers, updaters or algorithms), separated by
-    blanks; relative to this file's folder. `uwsim check` runs those of ``--plugin`` only."""
+    blanks, relative to the folder of this file. `uwsim check` does not run these plugins, but only
+    those named with ``--plugin``."""
     mode: Literal["sequential", "independent"] | None = element(
         default=None, attribute=True, namespaced=True
     )
     """The execution of the levels; None: sequential."""
     prelude: bool = element(default=True, attribute=True, namespaced=True)
     """True if an independent level begins with a prelude: 1 s at the initial values of the
-    updaters, and 1 s on the way to its own. Otherwise its values hold from the first image on."""
+    updaters, and 1 s in which these change to the values of the level. Otherwise the values of the
+    level hold from the first image on."""
     compatibility: tuple[str, ...] = element(default=(), attribute=True, namespaced=True)
-    """The compatibility quirks of the original to reproduce (`uwsim.base.compatibility`), separated
-    by blanks; ``uwsim`` is all of them but ``visual-frames``."""
+    """The compatibility quirks, behaviours of the original UWSim to reproduce, separated by blanks
+    (`uwsim.base.compatibility`); ``uwsim`` selects all of them except ``visual-frames``."""
     patience: float | None = element(
         default=None, attribute=True, namespaced=True, exclusive_minimum=0.0
     )
@@ -67,8 +69,8 @@ class BenchmarkSpec(Spec):
     )
     """The length of a physics step [s]; None: 0.002 s."""
     vary: tuple[VariationSpec, ...] = element(namespaced=True, choice=DISTRIBUTIONS, default=())
-    """The values of its scene updaters that are drawn anew for each seed: ``u:path`` begins with
-    the name of the updater, ``currentForceUpdater.timeOffset``."""
+    """The values of scene updaters that are drawn at random for each seed. ``u:path`` begins with
+    the name of the updater, as in ``currentForceUpdater.timeOffset``."""
     path: str = field(default="", compare=False, metadata={"path": True})
     """The path of the file as given by the user."""
 

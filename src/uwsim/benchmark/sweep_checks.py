@@ -1,4 +1,4 @@
-"""Checks of nested updaters: the number of levels, and levels without an effect."""
+"""Checks of scene updaters: the number of levels, and updaters or levels without an effect."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ from .updaters import (
 )
 
 SETTER_SPECS = (CameraNoiseUpdaterSpec, SceneFogUpdaterSpec, SceneLightUpdaterSpec)
-"""The updaters that set one value: of two nested ones, only the inner one has an effect."""
+"""The updaters that set one value; if two of one type are nested, the outer has no effect."""
 
 
 def check_levels(root_updater: SceneUpdaterSpec, diagnostics: Diagnostics) -> None:
-    """Report an endless sweep, and nested updaters with too many levels."""
+    """Report sweeps that never end, invalid values, and nested updaters with too many levels."""
     count = 1
     for updater in chain(root_updater):
         values: tuple[float, ...] = ()
@@ -46,7 +46,7 @@ def check_levels(root_updater: SceneUpdaterSpec, diagnostics: Diagnostics) -> No
 
 
 def warn_overridden(root_updater: SceneUpdaterSpec, diagnostics: Diagnostics) -> None:
-    """Warn about an updater without effect, because an inner one sets the same value."""
+    """Warn about an updater that has no effect because a nested updater sets the same value."""
     outer_types: list[type] = []
     for updater in chain(root_updater):
         if isinstance(updater, SETTER_SPECS) and type(updater) in outer_types:
@@ -59,7 +59,7 @@ def warn_overridden(root_updater: SceneUpdaterSpec, diagnostics: Diagnostics) ->
 
 
 def warn_still_water(root_updater: SceneUpdaterSpec, diagnostics: Diagnostics) -> None:
-    """Warn about levels that end before their current flows."""
+    """Warn about levels that end before their water current begins to flow."""
     length, leaf_updater = interval(root_updater), chain(root_updater)[-1]
     for updater in chain(root_updater):
         if not isinstance(updater, CurrentForceUpdaterSpec) or length is None:
@@ -73,7 +73,7 @@ def warn_still_water(root_updater: SceneUpdaterSpec, diagnostics: Diagnostics) -
 
 
 def warn_endless(spec: BenchmarkSpec, diagnostics: Diagnostics) -> None:
-    """Warn about a level that nothing ends."""
+    """Warn about levels that have neither an interval nor a stop trigger."""
     leaf_updater = chain(spec.scene_updater)[-1]
     if leaf_updater.seconds_per_level is None and isinstance(spec.stop_on, NeverSpec):
         diagnostics.warning(

@@ -1,4 +1,4 @@
-"""Checks of recorded truths (``<u:truth>``) against the measures that use them, and the images."""
+"""Checks that recorded truths (``<u:truth>``) fit the measures that use them, and the images."""
 
 from __future__ import annotations
 
@@ -17,8 +17,9 @@ from .updaters import BagFogUpdaterSpec, chain
 def truth_diagnostics(benchmark: BenchmarkSpec, stage: Stage) -> list[Diagnostic]:
     """Compare the columns and times of recorded truths with the measures and recordings.
 
-    Another number of components in a measure is an error; a truth that begins after the first
-    image, or ends before the recording, is a warning. Files that cannot be read are skipped.
+    It is an error if a measure names another number of components than the truth has columns. It
+    is a warning if the truth begins after the first image, or ends before the recording ends. Files
+    that cannot be read are skipped.
     """
     diagnostics = Diagnostics(benchmark.path)
     for updater in chain(benchmark.scene_updater):
@@ -54,8 +55,8 @@ def _coverage_warning(truth: RecordedTruth, gap: float, length: float) -> str:
 
     Args:
         truth: the truth of the images.
-        gap: the time between images [s].
-        length: the time from the first image to the end of the recording, with any topic [s].
+        gap: the time from the first image to the second [s].
+        length: the time from the first image to the last message of any topic [s].
     """
     start, end = truth.span
     if start <= TIME_TOLERANCE and end >= length - gap - TIME_TOLERANCE:

@@ -1,4 +1,4 @@
-"""Lookup of all names of a benchmark in its scene, each error with its line."""
+"""Finding the names in a benchmark file that its scene does not have."""
 
 from __future__ import annotations
 
@@ -15,12 +15,13 @@ from .updaters import chain
 def find_unknown_names(
     benchmark: BenchmarkSpec, stage: Stage, *, is_whole: bool = True
 ) -> list[Diagnostic]:
-    """Resolve every name of a benchmark file; return all errors of binding it to the scene.
+    """Return the errors of all parts of a benchmark whose names the scene does not have.
 
     Args:
-        benchmark: the spec that was read from the file.
+        benchmark: the contents of the benchmark file.
         stage: the scene.
-        is_whole: it was read without an error; otherwise its parts are not bound.
+        is_whole: True if the file was read without an error. Only then are the parts bound, which
+            finds further errors.
     """
     diagnostics = Diagnostics(benchmark.path)
     errors_of = _binding_errors if is_whole else _reference_errors
@@ -39,7 +40,7 @@ def _parts(benchmark: BenchmarkSpec) -> Iterator[Part]:
 
 
 def _name_line(spec: object, name: str) -> int | None:
-    """Return the line of the field within a spec that has the value ``name``; else of the spec."""
+    """Return the line of the field that has the value ``name``, or else the line of the spec."""
     return next(_name_lines(spec, name), line_of(spec)) if name else line_of(spec)
 
 
@@ -53,7 +54,7 @@ def _name_lines(spec: object, name: str) -> Iterator[int | None]:
 
 
 def _binding_errors(part: Part, stage: Stage) -> Iterator[tuple[int | None, str]]:
-    """Yield the errors of a part with their lines: its unknown names; else that of binding it."""
+    """Yield the unknown names in a part, or else the error of binding it; each with its line."""
     reference_errors = [*_reference_errors(part, stage)]
     if reference_errors:
         yield from reference_errors
@@ -90,4 +91,4 @@ RESOLVERS: dict[str, Callable[[Stage, str], object]] = {
     "contacts": lambda stage, name: stage.world.contacts(name),
     "vehicle": _find_vehicle,
 }
-"""The functions that resolve a reference of a field (`element`); they raise UnknownName."""
+"""The function that resolves each kind of reference (``refers_to``); it raises UnknownName."""

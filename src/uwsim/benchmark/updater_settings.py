@@ -1,7 +1,8 @@
-"""One value of a scene updater: drawn for each seed (``u:vary``), or set with ``--set``.
+"""Changing one value of a scene updater: at random for each seed (``u:vary``), or with ``--set``.
 
-A path begins with the name of the updater's element, at any depth of nesting:
-``currentForceUpdater.timeOffset``. Values that determine levels or their duration are fixed.
+The path of a value begins with the name of the updater's element, at any depth of nesting:
+``currentForceUpdater.timeOffset``. Values that determine the levels or their duration cannot be
+changed.
 """
 
 from __future__ import annotations
@@ -20,18 +21,18 @@ from .updaters import levels as levels_of
 
 
 def updater_element(updater: SceneUpdaterSpec) -> str:
-    """Return the name of an updater's element; for a plugin's updater that of its column."""
+    """Return the name of an updater's element; for a plugin's updater, the name of its column."""
     names = {kind: name for name, kind in UPDATERS.items()}
     return names.get(type(updater), updater.name)
 
 
 def is_updater_path(benchmark: BenchmarkSpec, path: str) -> bool:
-    """Return whether a path begins with the name of one of its updaters."""
+    """Return whether a path begins with the name of one of the benchmark's updaters."""
     return path.partition(".")[0] in map(updater_element, chain(benchmark.scene_updater))
 
 
 def check_path_start(benchmark: BenchmarkSpec, scene: SceneSpec, path: str, value: str) -> None:
-    """Raise BadSetting if the beginning of a path is unknown; list all that are known."""
+    """Raise BadSetting, with a list of the valid names, if the first name of a path is unknown."""
     name = path.partition(".")[0].partition("[")[0].removeprefix("u:")
     known_names = [field.label.removeprefix("u:") for field in fields_of(type(scene))]
     known_names += map(updater_element, chain(benchmark.scene_updater))
@@ -44,7 +45,7 @@ def check_path_start(benchmark: BenchmarkSpec, scene: SceneSpec, path: str, valu
 
 
 def locate_in_benchmark(benchmark: Any, path: str) -> Place:
-    """Find the field of a path; raises BadSetting for an unknown path."""
+    """Find the field of an updater by its path; raises BadSetting for an unknown path."""
     name, _, rest = path.partition(".")
     steps: list[Step] = []
     owner, field = benchmark, "scene_updater"
@@ -64,7 +65,7 @@ def locate_in_benchmark(benchmark: Any, path: str) -> Place:
 
 
 def check_same_levels(benchmark: BenchmarkSpec, changed_benchmark: BenchmarkSpec) -> None:
-    """Raise BadSetting if a change affects the levels."""
+    """Raise BadSetting if a changed benchmark is invalid, or has other levels or durations."""
     old_spec, new_spec = benchmark.scene_updater, changed_benchmark.scene_updater
     for updater in chain(new_spec):
         for error in updater.errors():
@@ -74,10 +75,10 @@ def check_same_levels(benchmark: BenchmarkSpec, changed_benchmark: BenchmarkSpec
 
 
 def apply_updater_setting(benchmark: BenchmarkSpec, path: str, value: str) -> BenchmarkSpec:
-    """Return a copy with another value; a variation of that value is removed.
+    """Return a copy of a benchmark with one value changed; a variation of the value is removed.
 
     Raises:
-        BadSetting: an unknown path, or an invalid value.
+        BadSetting: the path is unknown, or the value is invalid.
     """
     try:
         place = locate_in_benchmark(benchmark, path)
@@ -94,10 +95,10 @@ def apply_updater_setting(benchmark: BenchmarkSpec, path: str, value: str) -> Be
 
 
 def benchmark_of_seed(benchmark: BenchmarkSpec, seed: int) -> BenchmarkSpec:
-    """Return the benchmark with the variations of a seed."""
+    """Return the benchmark with the values that ``u:vary`` draws for a seed."""
     return apply_variations(benchmark, seed, find=locate_in_benchmark)
 
 
 def updater_draws(benchmark: BenchmarkSpec, seed: int) -> tuple[Draw, ...]:
-    """Return the values drawn for a seed."""
+    """Return the paths and values that ``u:vary`` draws for a seed."""
     return draw(benchmark, seed, find=locate_in_benchmark)

@@ -1,7 +1,7 @@
-"""Warnings about benchmark files that are valid but probably wrong.
+"""Checks for levels that never begin, and for times shorter than half a simulation step.
 
-They concern levels that never begin or measure nothing, and times shorter than half a step of the
-simulation, which have no effect or that of another time.
+Such a benchmark file is readable, but cannot do what its author intends: a time is rounded to a
+whole number of steps, so a time below half a step is 0.
 """
 
 from __future__ import annotations
@@ -14,15 +14,15 @@ from .spec import BenchmarkSpec, FunctionSpec
 from .triggers import NeverSpec, ServiceSpec
 from .updaters import SceneUpdaterSpec, chain, interval
 
-PlacedMessage = tuple[Spec | int | None, str]
+LocatedMessage = tuple[Spec | int | None, str]
 """A spec or a line, and the message about it."""
 
 
-def warn_never_started(spec: BenchmarkSpec) -> Iterator[PlacedMessage]:
-    """Warn about a trigger with which no level can begin."""
-    start, place = spec.start_on, line_of(spec, "startOn")
+def warn_never_started(spec: BenchmarkSpec) -> Iterator[LocatedMessage]:
+    """Yield a warning for each reason why the start trigger can never start a level."""
+    start, line = spec.start_on, line_of(spec, "startOn")
     if isinstance(start, NeverSpec):
-        yield place, "<startOn> is 'never': no level will ever begin"
+        yield line, "<startOn> is 'never': no level will ever begin"
     init_services = [
         measure.ground_truth.publish_on
         for measure in spec.measures
@@ -30,7 +30,7 @@ def warn_never_started(spec: BenchmarkSpec) -> Iterator[PlacedMessage]:
     ]
     if isinstance(start, ServiceSpec) and start.target in init_services:
         yield (
-            place,
+            line,
             f"<startOn> waits for the service {start.target!r}, which the algorithm serves "
             "(<publishOn>): it cannot be called in this run, so no level will begin",
         )
@@ -41,14 +41,14 @@ def find_short_times(
     updater: SceneUpdaterSpec | None,
     function: FunctionSpec | None,
     timestep: float,
-) -> Iterator[PlacedMessage]:
-    """Yield errors of durations shorter than half a step.
+) -> Iterator[LocatedMessage]:
+    """Yield an error for each time that is shorter than half a simulation step.
 
     Args:
         measures: the measures that could be read.
         updater: the outermost updater, if it could be read.
-        function: the score's element, if it could be read.
-        timestep: the length of a step [s].
+        function: the score function, if it could be read.
+        timestep: the length of a simulation step [s].
     """
     step = f"less than half a step of {timestep:g} s"
     for spec in measures:
@@ -64,7 +64,7 @@ def find_short_times(
 
 def _short_intervals(
     updater: SceneUpdaterSpec, timestep: float, step: str
-) -> Iterator[PlacedMessage]:
+) -> Iterator[LocatedMessage]:
     length, deepest_updater = interval(updater), chain(updater)[-1]
     if length is not None and _is_too_short(length, timestep):
         message = f"<interval> is {length:g} s: {step}, so no step is run"

@@ -92,6 +92,18 @@ def test_a_goal_that_was_published_before_the_level_began_counts() -> None:
     assert error.value == pytest.approx(3.0)
 
 
+def test_the_newest_goal_counts_if_several_arrived_before_the_measure_starts() -> None:
+    world = FakeWorld({"v": FakeBody((1.0, 0.0, 0.0))})
+    error = PositionErrorSpec(name="e", target="v", position=(0.0, 0.0, 0.0), topic="goal").bind(
+        world
+    )
+    for x in (9.0, 4.0):
+        world.bus.publisher("goal", PoseStamped)(stamped(x, 0.0, 0.0))
+        world.advance()
+    error.start()
+    assert error.value == pytest.approx(3.0)
+
+
 def test_the_original_measures_in_the_world_and_takes_the_topic_to_be_in_it() -> None:
     original = frozenset({"position-frame"})
     world = FakeWorld(

@@ -1,4 +1,4 @@
-r"""Collision: the approach speeds of a body's contacts.
+r"""Collision: a score of the speeds at which a body approaches others while they touch.
 
 .. code-block:: xml
 
@@ -30,7 +30,7 @@ class CollisionSpec(MeasureSpec):
 
     @property
     def start_value(self) -> float:
-        """The original's start value."""
+        """The value that the original UWSim reports before its first sample [1]."""
         return 1.0
 
     def bind(self, world: World) -> Collision:
@@ -44,15 +44,17 @@ class Collision(Measure):
 
     .. math:: \max\left(0,\ 1 - \frac{\bar s}{0.5} - \frac{s_{max}}{0.5}\right)
 
-    s is the speed at a step at which parts of the body and of another approach each other along the
-    normal of their contact, the mean over its contacts [m/s]; it is 0 at any other step.
-    :math:`\bar s` is its mean over *all* steps at which the measure is active. Details: the highest
-    s, the mean of s over the steps in contact, and the share of steps in contact. A body that rests
-    on another is in contact, with s = 0.
+    The approach speed of a contact is the speed at which the two touching points approach each
+    other along the normal of the contact. s is the mean approach speed of the body's contacts that
+    close at a step [m/s], or 0 at a step without such a contact. :math:`\bar s` is the mean of s
+    over *all* steps at which the measure is active, and :math:`s_{max}` the largest s. Details: the
+    largest s, the mean of s over the steps in contact, and the share of steps in contact. A body
+    that rests on another is in contact, with s = 0.
 
-    Compatibility ``collision``: only contacts that list the body first, and only its own velocity
-    count, as in the original, and only contacts with the first body that it approaches.
-    ``restart``: it is reset when it becomes active again.
+    Compatibility ``collision``: as in the original UWSim, the only contacts that count are those
+    that list the body first, and of these only those with the first other body that the body
+    approaches; the approach speed is computed from the velocity of the body alone. ``restart``: the
+    measure begins anew when it becomes active again.
     """
 
     unit = "1"
@@ -65,9 +67,9 @@ class Collision(Measure):
         self._ends_at_contact = spec.stop_on_contact
         self._end_reason: str | None = None
         self._n_steps = 0
-        self._n_in_contact = 0
-        self._speed_sum = 0.0  # of s [m/s]
-        self._max_speed = 0.0  # s [m/s]
+        self._n_in_contact = 0  # steps in contact
+        self._speed_sum = 0.0  # sum of s over all steps [m/s]
+        self._max_speed = 0.0  # largest s [m/s]
 
     def start(self) -> None:
         """Evaluate the first step."""
@@ -92,7 +94,7 @@ class Collision(Measure):
                 self._end_reason = f"{self._target!r} touched{other_name} at {self._world.time:g} s"
 
     def _approach_speed(self, contacts: Sequence[Contact]) -> float:
-        """Return the mean speed of the contacts that close [m/s]."""
+        """Return s, the mean approach speed of the contacts that close [m/s]."""
         if self._is_original:
             name = next((contact.other for contact in contacts if contact.own_speed > 0.0), None)
             speeds = [contact.own_speed for contact in contacts if contact.other == name]
@@ -115,7 +117,7 @@ class Collision(Measure):
 
     @property
     def details(self) -> dict[str, float | None]:
-        """The highest and mean speed of approach [m/s], and the share of time in contact [1]."""
+        """The largest and mean approach speed [m/s], and the share of steps in contact [1]."""
         if self._n_steps == 0:
             return dict.fromkeys(("max_speed", "mean_speed", "contact_share"))
         n = self._n_in_contact
@@ -127,7 +129,7 @@ class Collision(Measure):
 
     @property
     def ends_level(self) -> str | None:
-        """The reason that states the first contact, if ``u:stopOnContact`` is set."""
+        """A sentence about the first contact, if ``u:stopOnContact`` is set."""
         return self._end_reason
 
     @property

@@ -1,4 +1,4 @@
-r"""Control: effort and variation of a controller's commands, and the step response of its error.
+r"""Control: the effort and variation of a controller's commands, and its step response.
 
 .. code-block:: xml
 
@@ -9,6 +9,8 @@ r"""Control: effort and variation of a controller's commands, and the step respo
       <band>0.05</band>
       <quantity>settlingTime</quantity>
     </u:control>
+
+L is the localized world frame.
 """
 
 from __future__ import annotations
@@ -31,31 +33,32 @@ from ..metrics.step_response import INTEGRALS, UNITS, StepResponse
 from .measure import Measure, MeasureSpec
 
 COMMAND_QUANTITIES = ("variation", "effort", "max")
-"""The quantities that need a topic of commands; the others need an error."""
+"""The quantities of the commands; all others are quantities of the error."""
 ERROR_TYPES: tuple[type, ...] = (Float64, Float32MultiArray, Float64MultiArray)
-"""The message types of an error."""
+"""The types of messages with an error."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class ControlSpec(MeasureSpec):
-    """A ``<u:control>`` element of a benchmark file: commands, an error, or both."""
+    """A ``<u:control>`` element: it evaluates commands, a control error, or both."""
 
     topic: str | None = element(default=None)
     """The topic of the commands (Twist, TwistStamped, Wrench, WrenchStamped, Float64MultiArray or
     JointState)."""
     axes: str = ""
-    """The axes of the commands that count, separated by blanks; all when left out."""
+    """The axes of the commands that are evaluated, separated by blanks; if absent, all axes."""
     target: str | None = element(default=None, refers_to="body")
-    """The route of the body whose error counts."""
+    """The route of the body whose position error is evaluated."""
     position: tuple[float, float, float] | None = None
-    """The desired position of the target, in L [m]."""
+    """The desired position of the target, in the localized world frame L [m]."""
     error_topic: str | None = element(default=None)
-    """The topic with the error instead (std_msgs/Float64, Float32MultiArray or
-    Float64MultiArray)."""
+    """The topic on which the algorithm publishes the error, instead of a target (std_msgs/Float64,
+    Float32MultiArray or Float64MultiArray)."""
     band: float = element(default=0.02, exclusive_minimum=0.0, exclusive_maximum=1.0)
     """The half-width of the settling band, relative to the step [1]."""
     least_step: float = element(default=0.01, minimum=0.0)
-    """The greatest first error that is no step [m, or the error topic's unit]."""
+    """The largest first error that is too small to evaluate a step response
+    [m, or the error topic's unit]."""
     quantity: (
         Literal[
             "variation", "effort", "max", "ise", "iae", "itae", "overshoot", "riseTime",
@@ -63,16 +66,17 @@ class ControlSpec(MeasureSpec):
         ]
         | None
     ) = element(default=None)  # fmt: skip
-    """The detail that is the value; without: ``variation`` if there is a topic, else ``iae``."""
+    """The quantity that is the value of the measure; if absent, ``variation`` with a ``<topic>``,
+    else ``iae``."""
 
     @property
     def selected_quantity(self) -> str:
-        """The quantity that is its value."""
+        """The quantity that is the value of the measure."""
         return self.quantity or ("variation" if self.topic is not None else "iae")
 
     @property
     def has_error(self) -> bool:
-        """True if the measure evaluates an error, too."""
+        """True if the measure evaluates an error."""
         return self.target is not None or self.error_topic is not None
 
     def errors(self) -> Sequence[str]:
@@ -96,11 +100,11 @@ class ControlSpec(MeasureSpec):
         return errors
 
     def bind(self, world: World) -> Control:
-        """Resolve body and topics.
+        """Resolve the body, and subscribe to the topics.
 
         Raises:
-            UnknownName: there is no such body, or commands of that type have no such axis.
-            BadSetting: a topic has another type.
+            UnknownName: there is no such body, or commands of the topic's type lack an axis.
+            BadSetting: a topic has a type that cannot be evaluated.
         """
         body = None if self.target is None else world.body(self.target)
         commands = errors = None
@@ -119,18 +123,19 @@ class ControlSpec(MeasureSpec):
 class Control(Measure):
     """The effort and variation of the commands, and the shape of an error over time.
 
-    *Commands.* `uwsim.benchmark.metrics.held_commands` has the formulas. A command holds until the
-    next. The command in force when the measure starts counts for effort and largest value, not as a
-    change. Details: ``variation``, ``effort`` and ``max`` over all axes that count, the same of
-    each axis, and ``n``, the number of messages since the measure started. Sums over axes of
-    different units are sums of plain numbers: choose ``axes``.
+    *Commands.* `uwsim.benchmark.metrics.held_commands` has the formulas. A command is in force
+    until the next one arrives. The command in force when the measure starts adds to effort and
+    largest value, but not to the variation. Details: ``variation``, ``effort`` and ``max`` over all
+    selected axes and for each of these axes, and ``n``, the number of messages since the measure
+    started. Totals over axes with different units add numbers of different units; select axes
+    of one unit with ``axes``.
 
-    *Error.* Either that of the body: ``position`` minus its origin, in L, at every step; or that of
-    the error topic, held from message to message. Details: those of
-    `uwsim.benchmark.metrics.step_response`. Time begins at the first error.
+    *Error.* Either the position error of a body, which is ``position`` minus the body's origin in L
+    at every step, or the error that the algorithm publishes, held from message to message. Details:
+    the quantities of `uwsim.benchmark.metrics.step_response`. Their time begins at the first error.
 
-    The time while the measure is inactive does not count. A message that is not finite, or not of
-    the kind and size of those before, is ignored, with a note.
+    The time while the measure is inactive does not count. A message is ignored, with a note, if it
+    has a number that is not finite, or if its type or size differs from earlier messages.
     """
 
     def __init__(
@@ -152,20 +157,20 @@ class Control(Measure):
         self._response = StepResponse(
             world.timestep, band=spec.band, least_step=spec.least_step, is_constant=body is None
         )
-        self._n_commands = 0  # commands
+        self._n_commands = 0  # commands since the measure started
         self._has_commands = False  # whether any command arrived
         self._has_ignored = False  # whether any message was ignored
-        self._error_text = ""  # the error of the newest message
+        self._error_text = ""  # what was wrong with the type of a message
         self._was_active = False
         self._step = 0  # step of the last update
         self._integrated_step = 0  # step up to which the command in force was integrated
-        self._sample_step: int | None = None  # step of the last error, while active
-        self._error: Array | None = None  # the newest (k,)
+        self._sample_step: int | None = None  # step of the last error sample since the start
+        self._error: Array | None = None  # the newest error (k,)
 
     # -- updates -------------------------------------------------------------------------------
 
     def start(self) -> None:
-        """Start with the command in force; nothing before counts."""
+        """Start with the command in force; earlier commands do not count."""
         self._integrate_command()
         self._was_active = True
         self._step = self._integrated_step = self._world.step
@@ -208,7 +213,7 @@ class Control(Measure):
             self._commands.hold(command)
 
     def _sample(self) -> None:
-        """Sample the present error, if there is one."""
+        """Add a sample of the present error, if there is one."""
         if self._body is not None:
             position = self._body.world_from_body.position[None]
             self._error = self._goal - self._localized_from_world.transform(position)[0]
@@ -223,7 +228,7 @@ class Control(Measure):
         if not isinstance(message, ERROR_TYPES):
             self._report_type(self._spec.error_topic, message, ERROR_TYPES)
             return
-        data = message.data  # type: ignore[attr-defined]  # every type of ERRORS has it
+        data = message.data  # type: ignore[attr-defined]  # all ERROR_TYPES have this field
         error = np.atleast_1d(np.asarray(data, dtype=np.float64))  # (k,)
         has_shape = self._error is None or error.shape == self._error.shape
         if has_shape and error.size and np.isfinite(error).all():
@@ -262,7 +267,7 @@ class Control(Measure):
 
     @property
     def detail_units(self) -> dict[str, str]:  # type: ignore[override]  # those of the commands
-        """The units of the quantities."""
+        """The units of all quantities."""
         return {name: unit for name, (_, unit) in self._quantities().items()}
 
     @property
@@ -297,7 +302,7 @@ class Control(Measure):
 
     @property
     def log_header(self) -> tuple[str, ...]:
-        """The columns of the commands and of the error, whichever there are."""
+        """The columns of the commands, if there is a topic, and of the error, if there is one."""
         has_error = self._spec.has_error
         error = "error" if self._body is None else f"error [{self._error_unit('step')}]"
         return (
@@ -323,7 +328,7 @@ class Control(Measure):
                 inbox.close()
 
     def _quantity(self, name: str) -> Quantity:
-        """Return one number and its unit, without the step response unless it is needed."""
+        """Return one quantity, which computes the step response only if it depends on it."""
         if name in COMMAND_QUANTITIES:
             self._integrate_command()
             return self._commands.total(name)
@@ -369,7 +374,11 @@ class Control(Measure):
 
 
 def _check_type(world: World, topic: str, types: tuple[type, ...]) -> type:
-    """Return the type of a topic if it is known, else `object`; BadSetting for another type."""
+    """Return the type of a topic, or `object` if it has none yet.
+
+    Raises:
+        BadSetting: the topic has none of the types ``types``.
+    """
     known_type = world.bus.message_type(topic)
     if known_type is not None and known_type not in types:
         raise BadSetting(

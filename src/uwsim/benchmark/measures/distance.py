@@ -1,4 +1,4 @@
-r"""Distance: the path length of a body.
+r"""Distance: the length of the path that a body travels.
 
 .. code-block:: xml
 
@@ -21,11 +21,11 @@ class DistanceSpec(MeasureSpec):
     """A ``<distance>`` element of a benchmark file."""
 
     target: str = element(refers_to="body")
-    """The name of the body."""
+    """The route of the body."""
 
     @property
     def start_value(self) -> float:
-        """The original's start value."""
+        """The value that the original UWSim reports before its first sample [m]."""
         return 0.0
 
     def bind(self, world: World) -> Distance:
@@ -34,7 +34,7 @@ class DistanceSpec(MeasureSpec):
 
 
 class Distance(Measure):
-    r"""The length of the path of a body's origin :math:`p` in the world frame.
+    r"""The length of the path of a body's origin :math:`p` in the world frame W.
 
     .. math:: d = \sum_k \lVert p_k - p_{k-1} \rVert
 
@@ -45,7 +45,7 @@ class Distance(Measure):
 
     def __init__(self, body: Body) -> None:
         self._body = body
-        self._last_position: Array | None = None  # (3,) [m]
+        self._last_position: Array | None = None  # in W (3,) [m]
         self._path_length = 0.0  # [m]
 
     def start(self) -> None:

@@ -19,16 +19,17 @@ from ...world import Actuators, World
 from .measure import Measure, MeasureSpec
 
 JOULES = {"J": 1.0, "Wh": 3600.0}
+"""The size of each unit of energy [J]."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class BatterySpec(Spec):
-    """A ``<battery>``: its capacity, full when the measure starts."""
+    """A ``<battery>`` element, with the capacity of a battery as its text."""
 
     capacity: float = element(text=True, exclusive_minimum=0.0)
-    """The energy that can be drawn, in ``unit``."""
+    """The energy in the full battery, in ``unit``."""
     unit: Literal["J", "Wh"] = element(default="J", attribute=True)
-    """The unit: joules or watt hours."""
+    """The unit of the capacity: joules or watt hours."""
 
     @property
     def joules(self) -> float:
@@ -41,14 +42,14 @@ class EnergySpec(MeasureSpec):
     """A ``<u:energy>`` element of a benchmark file."""
 
     target: str = element(refers_to="actuators")
-    """The name of the vehicle. Without ``<u:dynamics>`` it has no energy."""
+    """The name of the vehicle. A vehicle without ``<u:dynamics>`` has no value."""
     hotel_load: float = element(default=0.0, minimum=0.0)
     """The constant power of computers, sensors and lamps [W]."""
     battery: BatterySpec | None = None
-    """The battery; None: no charge is computed."""
+    """The battery, full when the measure starts; None: no charge is computed."""
 
     def bind(self, world: World) -> Energy:
-        """Resolve the vehicle's consumers; raises UnknownName if there is no such vehicle."""
+        """Resolve the vehicle's thrusters and joints; raises UnknownName if it does not exist."""
         return Energy(self, world, world.actuators(self.target))
 
 
@@ -57,14 +58,15 @@ class Energy(Measure):
 
     .. math:: E = \int \Big( P_{hotel} + \sum_i P_i \Big)\, dt
 
-    over the thrusters and joints i of the vehicle, by the trapezoidal rule over the simulation's
-    steps. The section ``u:energy`` of ``docs/measures.md`` has the power of a thruster at a thrust
-    and of a joint at a torque and a speed, with coefficients from the vehicle's hydrodynamics file.
-    Details: the energy of all thrusters, of all joints, of the hotel load, of each thruster and of
-    each joint; the mean and the highest power; and the remaining charge, :math:`\max(0, 1 - E/C)`,
-    of a battery of capacity C that was full when the measure first started.
+    The sum is over the thrusters and joints i of the vehicle; the integral is computed by the
+    trapezoidal rule over the simulation steps. The section ``u:energy`` of ``docs/measures.md``
+    has the formulas for the power :math:`P_i` of a thruster and of a joint, whose coefficients are
+    in the vehicle's hydrodynamics file. Details: the energy of all thrusters, of all joints, of the
+    hotel load, of each thruster and of each joint; the mean and the highest power; and the
+    remaining charge, :math:`\max(0, 1 - E/C)`, of a battery of capacity C that was full when the
+    measure first started.
 
-    A vehicle that is not simulated has no forces and so no energy.
+    A vehicle without dynamics has no forces, and so no value.
     """
 
     unit = "J"
@@ -79,12 +81,12 @@ class Energy(Measure):
         self._names = [f"thruster.{name}" for name in thrusters]
         self._names += [f"joint.{name}" for name in joints]
         # Plain floats: a few numbers at every step cost more as arrays.
-        self._powers = [0.0] * len(self._names)  # at the last sample [W]
-        self._power = 0.0  # their sum at the last sample [W]
-        self._energies = [0.0] * len(self._names)  # [J]
-        self._peak: float | None = None  # [W]
+        self._powers = [0.0] * len(self._names)  # of each consumer at the last sample [W]
+        self._power = 0.0  # total at the last sample, hotel load included [W]
+        self._energies = [0.0] * len(self._names)  # of each consumer [J]
+        self._peak: float | None = None  # largest total [W]
         self._last_step = 0  # step of the last sample
-        self._n_steps = 0
+        self._n_steps = 0  # steps over which the power was integrated
 
     def start(self) -> None:
         """Start counting from the energy drawn so far."""
@@ -118,7 +120,7 @@ class Energy(Measure):
 
     @property
     def value(self) -> float | None:
-        """The energy drawn so far [J]; None for a vehicle without forces."""
+        """The energy drawn so far [J]; None for a vehicle without dynamics."""
         if self._peak is None:
             return None
         return self._spec.hotel_load * self._active_time + sum(self._energies)
@@ -132,7 +134,7 @@ class Energy(Measure):
 
     @property
     def details(self) -> dict[str, float | None]:
-        """The energy by consumer [J], power [W] and charge [1]."""
+        """The energy of each consumer [J], the mean and highest power [W], and the charge [1]."""
         is_known = self._peak is not None
         n = self._n_thrusters
         energies = self._energies
@@ -165,7 +167,7 @@ class Energy(Measure):
 
     @property
     def reasons(self) -> dict[str, str]:
-        """The reasons why there is no charge, or no mean."""
+        """The reasons why there is no charge, or no mean power."""
         reasons = {}
         if self._capacity is None:
             reasons["charge"] = "no <battery> is given"
@@ -175,7 +177,7 @@ class Energy(Measure):
 
     @property
     def log_header(self) -> tuple[str, ...]:
-        """The names of energy, power and charge."""
+        """The names of the columns energy, power and charge."""
         return ("energy [J]", "power [W]", "charge [1]")
 
     @property

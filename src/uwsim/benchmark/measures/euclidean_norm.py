@@ -33,9 +33,9 @@ from .measure import Measure, MeasureSpec
 MAX_AGE = 1.0
 """The greatest age of an estimate that is scored [s]."""
 COUNTS = ("refused", "frames", "answered")
-"""The details that are counts."""
+"""The details without unit: two counts and a share."""
 Sample = tuple[float, list[float]]
-"""A norm, and the components under its root."""
+"""The norm of an error, and the components of the error."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,23 +46,22 @@ class EuclideanNormSpec(MeasureSpec):
     error_flag: ClassVar[int] = 1
 
     ground_truth: GroundTruthSpec
-    """The ground truth of the estimate."""
+    """The ground truth with which the estimate is compared."""
     target: str
     """The topic of the estimate (std_msgs/Float32MultiArray)."""
     truth: Literal["original", "face"] = element(
         default="original", attribute=True, namespaced=True
     )
-    """The kind of truth: ``original``, or ``face``: corners and centre of the target's top face
-    (``u:truth``)."""
-
+    """The truth of a target in an image (``u:truth``): ``original`` for the corners and centroid of
+    the original UWSim, ``face`` for the corners and centre of the target's top face."""
     auto_init: Literal["always", "once"] = element(
         default="always", attribute=True, namespaced=True
     )
-    """The calls of ``publishOn``: ``always`` when the measure starts, as in the original, or
-    ``once``, until its first call (``u:autoInit``)."""
+    """The starts of the measure at which it calls ``publishOn`` (``u:autoInit``): ``always``, as in
+    the original UWSim, or ``once``, only until the service was called."""
 
     def errors(self) -> Sequence[str]:
-        """Return errors: ``face`` needs a truth from a camera; ``once`` needs a service to call."""
+        """Return errors: ``face`` without a camera, or ``once`` without a service to call."""
         errors = []
         if self.truth == "face" and self.ground_truth.camera is None:
             errors.append(
@@ -75,7 +74,7 @@ class EuclideanNormSpec(MeasureSpec):
 
     @property
     def spec_once_initialised(self) -> EuclideanNormSpec:
-        """The spec itself; with ``u:autoInit="once"`` one that initialises no algorithm."""
+        """The spec itself; with ``u:autoInit="once"`` a copy without the call of ``publishOn``."""
         if self.auto_init == "always":
             return self
         truth: Any = self.ground_truth
@@ -83,7 +82,7 @@ class EuclideanNormSpec(MeasureSpec):
 
     @property
     def start_value(self) -> float:
-        """The original's start value."""
+        """The value that the original UWSim reports before the first estimate."""
         return -1.0
 
     def bind(self, world: World) -> EuclideanNorm:
@@ -92,35 +91,36 @@ class EuclideanNormSpec(MeasureSpec):
 
 
 class EuclideanNorm(Measure):
-    r"""The distance between truth :math:`g` and estimate :math:`e`.
+    r"""The distance between the ground truth :math:`g` and an estimate :math:`e`.
 
     .. math:: \lVert g - e \rVert = \sqrt{\sum_i (g_i - e_i)^2}
 
-    The last value compares the newest estimate with the truth at the step of its arrival; the
-    components are :math:`g_i - e_i`. The statistics are over time, not over messages:
+    The value ``last`` compares the newest estimate with the truth at the step at which the estimate
+    arrived; the components are :math:`g_i - e_i`. The statistics are over time, not over messages:
 
     .. math:: \text{mean} = \frac1K \sum_{k=1}^K \lVert g(t_k) - e(t_k) \rVert
 
     Here :math:`t_k` are the steps at which the truth's camera took an image while the measure was
-    active (every step, if no camera takes images), after the arrival of the messages of that step.
-    :math:`e(t_k)` is the newest estimate at that time; before the first estimate, the first. Every
-    image therefore counts once, answered or not, whatever the rate of the estimates.
+    active (every step, if no camera takes images), after the messages of that step have arrived.
+    :math:`e(t_k)` is the newest estimate at that time; before the first estimate has arrived, it is
+    the first estimate. Every image therefore counts once, whether the algorithm answered it with an
+    estimate or not, and whatever the rate of the estimates.
 
-    There is no value without an estimate, or with none for more than 1 s while the measure was
-    active: an old estimate is never scored. A message of the wrong length or with numbers that are
-    not finite is no estimate. The start discards earlier messages and sends the truth to
-    ``publishOn``.
+    There is no value if there was no estimate, or none for more than 1 s while the measure was
+    active: an old estimate is never scored. A message of the wrong length, or with a number that is
+    not finite, is no estimate. When the measure starts, it discards earlier messages and calls the
+    service ``publishOn`` with the truth.
 
     Details, besides the statistics: ``n``, the number of estimates; ``refused``, the number of
-    invalid messages; ``frames``, the number of :math:`t_k` in the statistics; ``answered``, the
-    share of these with a new estimate since the previous one.
+    invalid messages; ``frames``, the number of steps :math:`t_k` in the statistics; ``answered``,
+    the share of these steps with a new estimate since the previous such step.
 
-    The log has the norm at the newest image, or at the newest estimate if that came later, and
-    nothing from 1 s after the last estimate on.
+    The log has the norm at the newest image, or at the newest estimate if that arrived later. It
+    has no norm while the newest estimate is older than 1 s.
 
-    Compatibility ``last-norm`` keeps the last norm, of any age, as the original does, and reads
-    estimates that arrive after the measure stopped; without a new estimate the components in its
-    log are 0.
+    Compatibility ``last-norm``: as in the original UWSim, the newest estimate is scored at any age,
+    and so are estimates that arrive after the measure stopped; at a step without a new estimate the
+    components in the log are 0.
     """
 
     unit = "1"
@@ -134,30 +134,28 @@ class EuclideanNorm(Measure):
         self._publish_on = spec.ground_truth.publish_on
         self._keeps_last_norm = "last-norm" in world.compatibility
         self._inbox = world.bus.inbox(spec.target, Float32MultiArray)
-        self._frames = Signal(truth.components)
-        self._n_images: int | None = None  # of the truth's camera, at the last update
-        self._last_sample: Sample | None = (
-            None  # of the newest estimate with a truth, at its arrival
-        )
-        self._newest_sample: Sample | None = (
-            None  # at the newest image or estimate; None without a truth
-        )
+        self._frames = Signal(truth.components)  # the errors at the steps t_k
+        self._n_images: int | None = None  # images of the truth's camera at the last update
+        # The error of the newest estimate that had a truth, at the step of its arrival.
+        self._last_sample: Sample | None = None
+        # The error at the newest image or estimate; None if there was no truth.
+        self._newest_sample: Sample | None = None
         self._n_without_truth: dict[str, int] = {}  # images without a truth, by the reason
         self._n_estimates = self._n_invalid = self._n_answered = 0
-        self._estimate: Array | None = None  # in force (k,)
+        self._estimate: Array | None = None  # the newest estimate since the start (k,)
         self._waiting_truths: list[Array] = []  # truths before the first estimate, (k,) each
         self._is_new = False  # whether an estimate arrived at this step
         self._is_answered = False  # whether an estimate arrived since the last image
-        self._error = ""  # the error of the newest message
+        self._error = ""  # what is wrong with the newest message
         self._notes: list[str] = []
         self._has_initialised = False
         self._start_truth: Array | None = None  # the last truth sent to publishOn (k,)
-        self._n_at_start = 0  # estimates that are equal to it
+        self._n_at_start = 0  # estimates that are equal to that truth
         self._wait_start: int | None = None  # step of the last estimate, or of the start
-        self._longest_wait = (0, 0)  # the longest: its length [steps], the step at which it began
+        self._longest_wait = (0, 0)  # longest time without estimate: [steps], step of its start
 
     def start(self) -> None:
-        """Discard old estimates, and send the truth to ``publishOn`` if the file requests it."""
+        """Discard old estimates, and call ``publishOn`` with the truth if the file names it."""
         self._inbox.clear()
         self._estimate, self._newest_sample, self._is_answered = None, None, False
         self._waiting_truths.clear()
@@ -167,7 +165,7 @@ class EuclideanNorm(Measure):
             self._publish(self._publish_on)
 
     def update(self) -> None:
-        """Read the received estimates, and take a sample if there was an image."""
+        """Read the received estimates, and take a sample if the camera took an image."""
         self._is_new = self._read()
         self._is_answered |= self._is_new
         if self._wait_start is not None:
@@ -205,7 +203,7 @@ class EuclideanNorm(Measure):
 
     @property
     def details(self) -> dict[str, float | None]:
-        """The statistics of the norm and of each component, and the counts."""
+        """The statistics of the norm and of each component, and the numbers of messages."""
         values = self._frames.details
         values |= {key: float(self._n_estimates) for key in values if key.rpartition(".")[2] == "n"}
         n_frames = self._frames.n
@@ -218,7 +216,7 @@ class EuclideanNorm(Measure):
 
     @property
     def reasons(self) -> dict[str, str]:
-        """The reason why the answered share is None."""
+        """The reason why the share of answered images is None."""
         if self._frames.n:
             return {}
         return {
@@ -227,14 +225,15 @@ class EuclideanNorm(Measure):
 
     @property
     def log_header(self) -> tuple[str, ...]:
-        """The names of the norm and of each component."""
+        """The names of the norm and of the components of the error."""
         return ("total", *self._truth.components)
 
     @property
     def log_values(self) -> tuple[float | None, ...]:
-        """The norm at the newest image or estimate; None without a truth or 1 s after the estimate.
+        """The norm and components of the error at the newest image or estimate.
 
-        With the compatibility ``last-norm`` it is that of the newest estimate, of any age.
+        They are None without a truth, and while the newest estimate is older than 1 s. With the
+        compatibility ``last-norm`` they belong to the newest estimate, however old it is.
         """
         sample = self._last_sample if self._keeps_last_norm else self._newest_sample
         if sample is None or (not self._keeps_last_norm and self._present_silence > MAX_AGE):
@@ -246,16 +245,18 @@ class EuclideanNorm(Measure):
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """The notes on ``publishOn``, and on estimates that are all equal to its truth."""
+        """The notes on calls of ``publishOn`` that were not possible, and the `remarks`."""
         return (*self._notes, *self.remarks)
 
     @property
     def remarks(self) -> tuple[str, ...]:
-        """The remarks on images without truth, and on estimates equal to that of ``publishOn``."""
+        """The remarks on images without truth, and on estimates that are all the start value.
+
+        The start value is the truth with which ``publishOn`` was called.
+        """
         n_images = self._frames.n + len(self._waiting_truths) + sum(self._n_without_truth.values())
-        counts = (
-            self._n_without_truth if self.missing_reason is None else {}
-        )  # else the row has the reason
+        # A row without a value states the reason itself.
+        counts = self._n_without_truth if self.missing_reason is None else {}
         remarks = tuple(
             f"{n} of {n_images} {self._instants} are not scored: {reason}"
             for reason, n in counts.items()
@@ -279,25 +280,25 @@ class EuclideanNorm(Measure):
 
     @property
     def longest_silence(self) -> float:
-        """The longest time without an estimate while it was active [s]."""
+        """The longest time without an estimate while the measure was active [s]."""
         if self._keeps_last_norm and self._last_sample is not None:
             return 0.0
         return self._longest_wait[0] * self._world.timestep
 
     @property
     def _present_silence(self) -> float:
-        """The time since the last estimate, or since the start [s]."""
+        """The time since the last estimate, or since the start of the measure [s]."""
         start = self._world.step if self._wait_start is None else self._wait_start
         return (self._world.step - start) * self._world.timestep
 
     @property
     def ground_truth(self) -> Array | None:
-        """The present truth."""
+        """The present truth (k,)."""
         return self._truth.read()
 
     @property
     def estimate(self) -> Array | None:
-        """The newest message, valid or not."""
+        """The numbers of the newest message, valid or not."""
         message = self._inbox.last_message
         return None if message is None else np.asarray(message.data, dtype=np.float64)
 
@@ -329,7 +330,7 @@ class EuclideanNorm(Measure):
         return True
 
     def _read_estimate(self, message: Float32MultiArray) -> Array | None:
-        """Return the numbers of an estimate; None for an invalid one, whose reason is stored."""
+        """Return the estimate in a message (k,); None, and a stored error, for an invalid one."""
         estimate: Array = np.asarray(message.data, dtype=np.float64)
         n = len(self._truth.components)
         if estimate.shape != (n,):
@@ -349,7 +350,7 @@ class EuclideanNorm(Measure):
         return self._n_images is None or self._n_images != n_before
 
     def _take_sample(self) -> None:
-        """Compare the estimate in force with the truth; store the truth until there is one."""
+        """Compare the newest estimate with the truth; before the first one, store the truth."""
         truth = self._truth.read()
         if truth is None:
             reason = self._truth.absence_reason
@@ -378,6 +379,6 @@ class EuclideanNorm(Measure):
 
 
 def compare(truth: Array, estimate: Array) -> Sample:
-    """Return the norm of the difference, and its components."""
+    """Return the norm and the components of the error, truth minus estimate, (k,) each."""
     error = truth - estimate
     return length(error), error.tolist()

@@ -1,4 +1,4 @@
-r"""u:grasp: the lift and hold of an object, and the course of the attempt.
+r"""u:grasp: whether a vehicle lifted and held an object, and the phases of the attempt.
 
 .. code-block:: xml
 
@@ -9,6 +9,8 @@ r"""u:grasp: the lift and hold of an object, and the course of the attempt.
       <lift>0.5</lift> <hold>10</hold>
       <topic>graspPhase</topic> <phases>search approach grasp lift hold</phases>
     </u:grasp>
+
+W is the world frame, z up.
 """
 
 from __future__ import annotations
@@ -32,13 +34,15 @@ from .phases import Phases
 RAISED_HEIGHT = 0.02
 """The height above its rest position from which a held object is off the ground [m]."""
 DROP_HEIGHT = 0.1
-"""The height below which a fallen object is missed, not dropped, and may be tried again [m]."""
+"""The largest lift after which a lost object counts as missed, not dropped [m].
+
+The algorithm may then try again."""
 DROP_TIME = 0.5
-"""The time without contact to the vehicle after which an object is dropped [s]."""
+"""The time without contact with the vehicle after which a raised object counts as dropped [s]."""
 SETTLING_TIME = 1.0
-"""The time between leaving the ground and the first evaluation of slip [s]."""
+"""The time from when the object leaves the ground until slip is first evaluated [s]."""
 NOT_FOUND = "not found"
-"""The prefix of an algorithm's reason for ending its search without result."""
+"""The start of the reason with which an algorithm ends an unsuccessful search."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,26 +52,28 @@ class GraspSpec(MeasureSpec):
     target: str = element(refers_to="contacts")
     """The name of the object."""
     vehicle: str = element(refers_to="vehicle")
-    """The name of the vehicle that is to lift it."""
+    """The name of the vehicle that lifts the object."""
     jaw: str = element(refers_to="body")
-    """The route of the frame in which slip is measured, between the fingers of the jaw."""
+    """The route of the frame between the fingers of the jaw, in which slip is measured."""
     ground: str = element(default="terrain", refers_to="contacts")
-    """The name of the body below the object."""
+    """The name of the body on which the object lies."""
     lift: float = element(default=0.5, exclusive_minimum=0.0)
-    """The height to which it is to be lifted [m]."""
+    """The height above its rest position to which the object has to be lifted [m]."""
     hold: float = element(default=10.0, exclusive_minimum=0.0)
-    """The time for which it is to be held at that height [s]."""
+    """The time for which the lifted object has to be held [s]."""
     max_impulse: float = element(default=40.0, exclusive_minimum=0.0)
-    """The greatest impulse on ground or object within 50 ms that is no collision [N s]."""
+    """The impulse within 50 ms, on the ground or the object, above which a contact is a collision
+    [N s]."""
     topic: str | None = None
     """The topic on which the algorithm publishes its phase (std_msgs/String)."""
     phases: str = ""
-    """The phases that count, in their order, separated by blanks."""
+    """The names of the algorithm's phases, in their order, separated by blanks."""
     truth: str = ""
-    """The topics with the truth, separated by blanks; the result names those that are read."""
+    """The topics with the true state, separated by blanks; a note in the result names those that
+    the algorithm reads."""
 
     def errors(self) -> Sequence[str]:
-        """Return errors: phases without a topic, a phase twice, one name for two bodies."""
+        """Return errors: phases without a topic, a repeated phase, one name for two bodies."""
         names, errors = self.phases.split(), []
         if names and self.topic is None:
             errors.append("<phases> need a <topic> on which they are published")
@@ -90,21 +96,23 @@ class GraspSpec(MeasureSpec):
 class Grasp(Measure):
     r"""1 if the object was lifted by ``lift`` and then held for ``hold`` seconds, else 0.
 
-    The object is *carried* while it is in contact with the vehicle and not with the ground, and at
-    least 2 cm above its rest height. The *hold* begins when it is carried at ``lift`` above that
-    height, and lasts while it is carried. All of this is the truth of the simulation; the algorithm
-    adds only its phases.
+    The object is *carried* while it is in contact with the vehicle and not with the ground, and
+    more than 2 cm above its rest height. The *hold* begins when the object is carried at least
+    ``lift`` above its rest height, and lasts while it is carried. Everything but the phases is
+    computed from the state of the simulation, not from messages of the algorithm.
 
-    Slip is the displacement in the jaw's frame, since the hold began, of the object's point that
-    was then the mean of its contacts with the vehicle: the largest value during the hold.
-    ``slip_raising`` is the same from 1 s after the object was off the ground until the hold began.
-    Impulses are :math:`\max_t \lVert \int_{t-50\,\mathrm{ms}}^{t} F\,dt \rVert` of the net force
-    of the vehicle on the object, and of the ground on the vehicle; the two forces of a closed jaw
-    cancel. ``excursion`` is the largest displacement of the vehicle's base from the first contact
-    with the object until that was off the ground.
+    *Slip.* When the hold begins, the mean position of the contacts between object and vehicle
+    defines a point of the object. ``slip`` is the largest displacement of this point in the jaw's
+    frame during the hold. ``slip_raising`` is the same for a point defined 1 s after the object has
+    left the ground, until the hold begins.
 
-    It ends the level with success, with a collision, and when the object was dropped; and it
-    determines its status (`task_status`).
+    *Impulses* are :math:`\max_t \lVert \int_{t-50\,\mathrm{ms}}^{t} F\,dt \rVert` of the net force
+    F of the vehicle on the object, and of the ground on the vehicle; the forces of the two fingers
+    of a closed jaw cancel. ``excursion`` is the largest displacement of the vehicle's base from the
+    first contact with the object until the object leaves the ground.
+
+    The measure ends the level after a success, after a collision, and when the object was dropped.
+    It determines the status of the level (`task_status`).
     """
 
     unit = "1"
@@ -131,24 +139,24 @@ class Grasp(Measure):
         self._phases = Phases(spec.phases.split(), world, inbox)
         self._on_object = Impulse(world.timestep)
         self._on_ground = Impulse(world.timestep)
-        self._start_time: float | None = None  # [s]
-        self._rest_height = 0.0  # height in W [m]
-        self._height = 0.0  # largest, above the rest height [m]
-        self._longest_hold = 0.0  # longest hold [s]
-        self._event_times: dict[str, float] = {}  # the first time of each event, in the level [s]
+        self._start_time: float | None = None  # simulation time [s]; all times below are after it
+        self._rest_height = 0.0  # height of the object at the start, z in W [m]
+        self._height = 0.0  # largest height while carried, above the rest height [m]
+        self._longest_hold = 0.0  # [s]
+        self._event_times: dict[str, float] = {}  # first time of each event [s]
         self._hold_start: float | None = None  # [s]
-        self._hold_point: tuple[Array, Array] | None = None  # of the hold: `_point_at_jaw`
-        self._raising_point: tuple[Array, Array] | None = None  # of the raising
-        self._slip: float | None = None
-        self._slip_raising: float | None = None
-        self._contact_position: Array | None = None  # the base's position then, (3,) [m]
-        self._excursion: float | None = None
-        self._last_contact: float | None = None  # when the vehicle last touched it [s]
+        self._hold_point: tuple[Array, Array] | None = None  # `_contact_point` of the hold
+        self._raising_point: tuple[Array, Array] | None = None  # `_contact_point` while raising
+        self._slip: float | None = None  # [m]
+        self._slip_raising: float | None = None  # [m]
+        self._contact_position: Array | None = None  # of the base at first contact, W (3,) [m]
+        self._excursion: float | None = None  # [m]
+        self._last_contact: float | None = None  # time of last contact of vehicle and object [s]
         self._carry_start: float | None = None  # [s]
-        self._n_collisions = 0
-        self._ground_contact: float | None = None  # [s]
-        self._end: tuple[str, str | None] | None = None
-        self._read_topics: dict[str, None] = {}
+        self._n_collisions = 0  # contacts of the vehicle with the ground
+        self._ground_contact: float | None = None  # time of the last of these contacts [s]
+        self._end: tuple[str, str | None] | None = None  # status and reason of the ended task
+        self._read_topics: dict[str, None] = {}  # topics with the truth that the algorithm read
 
     def start(self) -> None:
         """Store the rest height of the object."""
@@ -196,7 +204,7 @@ class Grasp(Measure):
             self._end = self._failure()
 
     def _add_forces(self, time: float, forces: Mapping[str, Array]) -> None:
-        """Add to the impulses; too large an impulse is a collision."""
+        """Update the impulses with the forces [N] on the object; detect collisions."""
         spec = self._spec
         self._on_object.add(forces.get(spec.vehicle))
         ground = self._world.contact_forces(spec.vehicle).get(spec.ground)
@@ -211,7 +219,7 @@ class Grasp(Measure):
                 self._end = ("collision", f"{spec.vehicle!r} hit {name!r} at {time:g} s: {size}")
 
     def _track_motion(self, time: float) -> None:
-        """Track the base while the jaw closes, and the object while it is raised."""
+        """Update the excursion of the base, and the slip of the object while it is raised."""
         if "touched" in self._event_times and "raised" not in self._event_times:
             base = self._base.world_from_body.position
             if self._contact_position is None:
@@ -229,7 +237,7 @@ class Grasp(Measure):
             self._slip_raising = max(self._slip_raising or 0.0, displacement)
 
     def _time_hold(self, time: float, height: float) -> None:
-        """Begin the hold, track it, and end the level when it was long enough."""
+        """Begin the hold, or update its slip and duration, and end the level after success."""
         if self._hold_start is None:
             if height < self._spec.lift:
                 return
@@ -244,7 +252,11 @@ class Grasp(Measure):
             self._end = "ok", None
 
     def _contact_point(self) -> tuple[Array, Array]:
-        """Return the mean of its contacts with the vehicle, in the object's and the jaw's frame."""
+        """Return the mean position of the contacts between object and vehicle.
+
+        It is given twice: in the object's frame and in the jaw's frame, (3,) [m] each. Without
+        contacts it is the origin of the jaw's frame.
+        """
         contacts = self._world.contacts(self._spec.target)
         points = [contact.position for contact in contacts if contact.other == self._spec.vehicle]
         centre = np.mean(points, axis=0) if points else self._jaw.world_from_body.position
@@ -258,6 +270,7 @@ class Grasp(Measure):
         return position
 
     def _displacement(self, point: Array, start: Array) -> float:
+        """Return the distance [m] of a point of the object from ``start``, in the jaw's frame."""
         return length(self._jaw_position(point) - start)
 
     def _record_event(self, event: str, time: float) -> None:
@@ -265,14 +278,14 @@ class Grasp(Measure):
 
     @property
     def value(self) -> float | None:
-        """The success: 1, or 0 for a failure; None if the measure was never active."""
+        """1 for a success, 0 otherwise; None if the measure was never active."""
         if self._start_time is None:
             return None
         return 1.0 if "done" in self._event_times else 0.0
 
     @property
     def details(self) -> dict[str, float | None]:
-        """The times of events [s], distances, impulses, and the phases."""
+        """The distances [m], impulses [N s], times of events [s], and the phases."""
         was_active = self._start_time is not None
         times = {
             f"time_{name}": self._event_times.get(name)
@@ -293,7 +306,7 @@ class Grasp(Measure):
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """The note on topics with the truth that the algorithm read."""
+        """The note that the algorithm read topics with the truth."""
         self._find_read_topics()
         if not self._read_topics:
             return ()
@@ -326,13 +339,13 @@ class Grasp(Measure):
 
     @property
     def log_header(self) -> tuple[str, ...]:
-        """The names: success, height above the rest position, two forces, slip, phase number."""
+        """The columns: success, height above rest, two forces, slip, and number of the phase."""
         forces = ("force_on_object [N]", "force_on_ground [N]")
         return ("value", "height [m]", *forces, "slip [m]", "phase [1]")
 
     @property
     def log_values(self) -> tuple[float | None, ...]:
-        """The present values."""
+        """The present values of the columns of the log."""
         if self._start_time is None:
             return (None,) * len(self.log_header)
         height = float(self._object.world_from_body.position[2]) - self._rest_height
@@ -341,7 +354,7 @@ class Grasp(Measure):
 
     @property
     def ends_level(self) -> str | None:
-        """The reason: the task is done, or can no longer be."""
+        """A sentence that states the success, or the failure after which none is possible."""
         if self._end is None:
             return None
         return self._end[1] or "the object was lifted and held"
@@ -368,7 +381,7 @@ class Grasp(Measure):
 
     @property
     def moment(self) -> str | None:
-        """The algorithm's phase."""
+        """The present phase of the algorithm."""
         return self._phases.name
 
     @property

@@ -1,4 +1,4 @@
-"""The base classes of measures: values that are read at the end of a level."""
+"""The base classes of measures, which compute one value for each level of a benchmark."""
 
 from __future__ import annotations
 
@@ -18,75 +18,76 @@ class MeasureSpec(Spec, abc.ABC):
     """An element of ``<measures>`` in a benchmark file."""
 
     values: ClassVar[tuple[str, ...]] = ("last",)
-    """The allowed statistics of ``u:value``."""
+    """The allowed statistics in ``u:value``."""
     error_flag: ClassVar[int] = 0
-    """The share of a missing value in the original's sum of errors (compatibility ``rows``)."""
+    """The number that a missing value adds to the sum of error flags of a row (compatibility
+    ``rows``: as in the original UWSim, result.dat has only rows whose sum is 0)."""
 
     name: str
-    """The name of its column, and of the value in the function; an identifier."""
+    """The name of the column and of the variable in the score function; an identifier."""
     start_on: TriggerSpec = field(default_factory=OnInitSpec)
     """The trigger that activates the measure."""
     stop_on: TriggerSpec = field(default_factory=NeverSpec)
     """The trigger that deactivates the measure."""
     log: float | None = element(default=None, exclusive_minimum=0.0)
-    """The period of its log [s]; None: no log."""
+    """The period at which the log is written [s]; None: no log."""
     value: Literal["last", "mean", "rms", "max"] = element(
         default="last", attribute=True, namespaced=True
     )
-    """The statistic of a signal that is its value (``u:value``)."""
+    """The statistic over the level that is the value of the measure (``u:value``)."""
 
     def errors(self) -> Sequence[str]:
-        """Return errors in the combination of elements that are valid one by one."""
+        """Return errors of elements that are valid one by one, but not together."""
         return ()
 
     @property
     def start_value(self) -> float | None:
-        """The original's value before the first measurement; None: no value."""
+        """The value that the original UWSim reports before its first sample; None: no value."""
         return None
 
     @property
     def spec_once_initialised(self) -> MeasureSpec:
-        """The spec to bind after the measure `has_initialised` an algorithm."""
+        """The spec to bind in later levels, once the measure `has_initialised` an algorithm."""
         return self
 
     @property
     def original_fields(self) -> Mapping[str, str]:
-        """The columns of the result by the names of its fields in ``result.dat``."""
+        """The measure's fields in ``result.dat``: field name -> column name of the result."""
         return {self.name: self.name}
 
     @abc.abstractmethod
     def bind(self, world: World) -> Measure:
-        """Resolve the names of the spec; raises UnknownName if one is unknown."""
+        """Resolve the names in the spec; raises UnknownName if one is unknown."""
 
 
 class Measure(abc.ABC):
-    """A quantity that is measured while its triggers are on.
+    """A quantity that is measured while it is active: between its start and its stop trigger.
 
-    It is bound anew for every level. `start` is called at the first step at which it is active,
-    `update` at every later one, and `went_off` at the first at which it is inactive again, or when
-    the level ends.
+    A measure is bound anew for every level. `start` is called at the first step at which it is
+    active, `update` at every later step, and `went_off` at the first step at which it is inactive
+    again, or when the level ends.
     """
 
     unit: ClassVar[str]
-    """The unit of its value."""
+    """The unit of the value."""
     detail_units: ClassVar[Mapping[str, str]] = {}
-    """The units of those details that have another than its value: column suffix -> unit.
+    """The units of the details whose unit is not that of the value: column suffix -> unit.
 
-    ``time`` is that of all ``time.<name>`` that have no entry.
+    The entry ``time`` applies to all details ``time.<name>`` without an entry.
     """
     fed_by_algorithm: ClassVar[bool] = False
-    """True if it scores messages that the algorithm under test publishes."""
+    """True if the measure scores messages that the algorithm under test publishes."""
 
     @abc.abstractmethod
     def start(self) -> None:
-        """Begin, at the first step at which it is active."""
+        """Begin to measure, at the first step at which the measure is active."""
 
     @abc.abstractmethod
     def update(self) -> None:
         """Evaluate the world after one more step."""
 
     def went_off(self) -> None:  # noqa: B027 - most measures ignore it
-        """Stop, at the first step at which it is inactive again, or at the last of the level."""
+        """Stop, at the first step at which the measure is inactive, or the last of the level."""
 
     @property
     @abc.abstractmethod
@@ -107,66 +108,72 @@ class Measure(abc.ABC):
 
     @property
     def details(self) -> Mapping[str, float | None]:
-        """The further values of the result: column suffix -> value."""
+        """The further values in the result: column suffix -> value."""
         return {}
 
     @property
     def reasons(self) -> Mapping[str, str]:
-        """The reasons of missing details by column suffix, unless `missing_reason` applies."""
+        """The reasons why details are None, unless `missing_reason` applies: suffix -> reason."""
         return {}
 
     @property
     def log_header(self) -> tuple[str, ...]:
-        """The columns of its log, after the time; a name may include its unit: ``depth [m]``."""
+        """The columns of the log, after the time; a name may include a unit: ``depth [m]``."""
         return ("value",)
 
     @property
     def log_values(self) -> tuple[float | None, ...]:
-        """The present values of a line of its log."""
+        """The present values of the columns of the log."""
         return (self.value,)
 
     @property
     def notes(self) -> tuple[str, ...]:
-        """The notes for the reader of the result, besides the value."""
+        """The notes about this measure for the reader of the result."""
         return ()
 
     @property
     def remarks(self) -> tuple[str, ...]:
-        """The remarks beside the status of a row that has all values."""
+        """The remarks that the result shows next to the status of a row with all values."""
         return ()
 
     @property
     def has_initialised(self) -> bool:
-        """True if it has initialised the algorithm under test with the position of its target."""
+        """True if the measure has sent the position of its target to the algorithm under test."""
         return False
 
     @property
     def longest_silence(self) -> float:
-        """The longest time without an estimate while it was active [s]; 0 without estimates."""
+        """The longest time without an estimate while the measure was active [s].
+
+        It is 0 for a measure that scores no estimates.
+        """
         return 0.0
 
     @property
     def ends_level(self) -> str | None:
-        """The reason to end the level, status ``collision`` or its `task_status`; None: no end."""
+        """The reason to end the level now; None: it continues.
+
+        The level then has the status `task_status`, or ``collision`` without a task.
+        """
         return None
 
     @property
     def task_status(self) -> tuple[str, str | None] | None:
-        """The status of the level as a task and, unless it is ``ok``, the reason; None: no task.
+        """The status of the task and, unless it is ``ok``, the reason; None: there is no task.
 
-        It is used at the end of the level, unless the algorithm failed.
+        It becomes the status of the level when the level ends, unless the algorithm failed.
         """
         return None
 
     @property
     def moment(self) -> str | None:
-        """The name of the phase of a task of which the report has an image; None: none."""
+        """The name of the present phase, of which the report shows an image; None: no image."""
         return None
 
     @property
     def viewed_bodies(self) -> tuple[Body, Body] | None:
-        """The vehicle and the body that such an image shows."""
+        """The vehicle and the body that are shown in the image of a phase."""
         return None
 
-    def close(self) -> None:  # noqa: B027 - most measures hold nothing
-        """Release its resources (a subscription)."""
+    def close(self) -> None:  # noqa: B027 - most measures have no subscription
+        """End the measure's subscriptions."""

@@ -1,4 +1,4 @@
-r"""Object centred on a camera: the distance of a body from the middle of the image.
+r"""Object centred on a camera: the distance of a body's image from the centre of the image.
 
 .. code-block:: xml
 
@@ -34,7 +34,7 @@ class ObjectCenteredOnCamSpec(MeasureSpec):
 
     @property
     def start_value(self) -> float:
-        """The original's start value."""
+        """The value that the original UWSim reports before its first sample [px]."""
         return 0.0
 
     def bind(self, world: World) -> ObjectCenteredOnCam:
@@ -51,14 +51,15 @@ class ObjectCenteredOnCamSpec(MeasureSpec):
 class ObjectCenteredOnCam(Measure):
     r"""The distance :math:`\sqrt{d_x^2 + d_y^2}` of a body's projected origin from the centre.
 
-    With the image coordinates u, v of the origin and the centre of an image w wide and h high,
-    :math:`d_x = (w - 1)/2 - u` and, as the original counts rows from the bottom,
+    With the image coordinates u, v of the projected origin [px], in an image of w x h pixels,
+    :math:`d_x = (w - 1)/2 - u` and, as the original UWSim counts rows from the bottom,
     :math:`d_y = v - (h - 1)/2`. There is a sample for each step at which the origin projects into
-    the image, and no value if it does not at the last step. ``visible`` is the share of steps at
-    which it does. Not modelled: occlusion.
+    the image, and no value if it is outside of the image at the last step. The detail ``visible``
+    is the share of steps with a sample. Not modelled: occlusion.
 
-    Compatibility ``unseen``: a sample at each step, wherever the origin projects to; points behind
-    the camera are projected through its centre, upside down. ``visible`` is then 1.
+    Compatibility ``unseen``: there is a sample at each step, wherever the origin projects to;
+    points behind the camera are projected through its optical centre, upside down. ``visible`` is
+    then 1.
     """
 
     unit = "px"
@@ -108,7 +109,7 @@ class ObjectCenteredOnCam(Measure):
 
     @property
     def details(self) -> dict[str, float | None]:
-        """The statistics of distance and components, and the share of steps with it in view."""
+        """The statistics of distance and components, and the share of steps with a sample."""
         visible_share = self._signal.n / self._n_steps if self._n_steps else None
         return {**self._signal.details, "visible": visible_share}
 

@@ -7,7 +7,7 @@ r"""Path following: the distance of a body from a path.
       <topic>path</topic> <from>localizedWorld</from>
     </pathFollowing>
 
-With ``<u:path>`` the file itself has the path, by its points or by a CSV file next to it:
+With ``<u:path>`` the benchmark file itself defines the path, by points or by a CSV file:
 
 .. code-block:: xml
 
@@ -37,7 +37,7 @@ from ..reference_path import ReferencePathSpec, path_message
 from .measure import Measure, MeasureSpec
 
 DETAIL_UNITS = {"iae": "m s", "distance": "m", "waypoint": "1", "ise": "m^2 s", "share": "1"}
-"""The details and their units; first the original's three, in its order."""
+"""The details and their units; the first three are those of the original UWSim, in its order."""
 STATISTIC_UNITS = {"mean": "m", "rms": "m", "max": "m", "std": "m", "n": "1"}
 """The statistics of the distance and their units."""
 
@@ -46,8 +46,8 @@ STATISTIC_UNITS = {"mean": "m", "rms": "m", "max": "m", "std": "m", "n": "1"}
 class PathFollowingSpec(MeasureSpec):
     """A ``<pathFollowing>`` element of a benchmark file.
 
-    ``u:value="last"`` is the integral of the error, the original's value; ``mean``, ``rms`` and
-    ``max`` are those of the distance from the path.
+    ``u:value="last"`` selects the integral of the distance over time, as in the original UWSim;
+    ``mean``, ``rms`` and ``max`` select these statistics of the distance from the path.
     """
 
     values: ClassVar[tuple[str, ...]] = VALUES
@@ -58,11 +58,13 @@ class PathFollowingSpec(MeasureSpec):
     topic: str | None = element(default=None)
     """The topic of the path (nav_msgs/Path); without one there is no path, and so no value."""
     from_: str | None = element("from", default=None, refers_to="body")
-    """The route of the body in whose frame the path is given; None: W, not L."""
+    """The route of the body in whose frame the path is given; None: the world frame W (not the
+    localized world L)."""
     reference: ReferencePathSpec | None = element("path", namespaced=True, default=None)
-    """The path. With ``<topic>`` too, it is published there when the measure starts."""
+    """The path. If there is a ``<topic>`` too, the path is published on it when the measure
+    starts."""
     path: str = field(default="", compare=False, metadata={"path": True})
-    """The benchmark file; a file of points is searched in its folder."""
+    """The path of the benchmark file, in whose folder a CSV file of points is."""
 
     def errors(self) -> Sequence[str]:
         """Return errors of the path."""
@@ -70,7 +72,7 @@ class PathFollowingSpec(MeasureSpec):
 
     @property
     def start_value(self) -> float:
-        """The original's start value."""
+        """The value that the original UWSim reports before its first sample [m s]."""
         return 0.0
 
     def bind(self, world: World) -> PathFollowing:
@@ -86,30 +88,34 @@ class PathFollowing(Measure):
 
     .. math:: \text{iae} = \int d \, dt \qquad \text{ise} = \int d^2 \, dt
 
-    d is sampled at every step and linear in time between steps, so that the integrals over a step
-    are :math:`(d_0 + d_1) \Delta t / 2` and :math:`(d_0^2 + d_0 d_1 + d_1^2) \Delta t / 3`. The
-    time while the measure is inactive, or without a path, does not count.
+    d is sampled at every step and assumed to be linear in time between steps. With the distances
+    :math:`d_0` and :math:`d_1` at the start and end of a step of :math:`\Delta t`, the step adds
+    :math:`(d_0 + d_1) \Delta t / 2` to the first integral and
+    :math:`(d_0^2 + d_0 d_1 + d_1^2) \Delta t / 3` to the second. The time while the measure is
+    inactive, or without a path, does not count.
 
-    The path is that of ``<u:path>``. Without it, it is the newest path when the measure starts, or
-    the first to arrive after that; later ones are ignored until the next level. Straight segments
-    join its points in the frame ``from``, at the pose of that frame at each step (orientations and
-    the message's frame_id are not used).
+    The path is given by ``<u:path>``. Without that element, it is the newest path on the topic when
+    the measure starts, or the first one to arrive after that; later paths are ignored until the
+    next level. Straight segments join the points of the path in the frame ``from``, at the present
+    pose of that frame (orientations of points and the message's frame_id are not used).
 
-    The first segment is current at the start. When the body is nearer to the next segment than to
-    the current one, the next becomes current; an earlier segment never does. A body that passes two
-    waypoints in a step is measured against a segment behind it for a step. One that begins in the
-    middle of the path is measured against the first segments until it comes near them. A point that
-    repeats the previous one is left out.
+    d is the distance from the current segment. The first segment is current at the start. When the
+    body is nearer to the next segment than to the current one, the next segment becomes current;
+    an earlier segment never becomes current again. At most one segment is passed at each step. A
+    body that begins in the middle of the path is measured against the first segments until it comes
+    near them. A point that repeats the previous point is left out.
 
-    Details: ``iae`` (the value) [m s], ``ise`` [m^2 s], the present ``distance`` [m], ``waypoint``,
-    the index of the point at which the current segment begins, ``share`` of the path's length up to
-    the farthest nearest point so far [1], and the statistics of the distance over all steps [m].
+    Details: ``iae`` (the value) [m s]; ``ise`` [m^2 s]; the present ``distance`` [m]; ``waypoint``,
+    the index of the point at which the current segment begins; ``share``, the largest share of the
+    path's length that the point nearest to the body has reached [1]; and the statistics of the
+    distance over all steps [m].
 
-    Compatibility ``path-ise``: ``iae`` is the sum of :math:`d_1 \Delta t`, also under ``ise``.
+    Compatibility ``path-ise``: both ``iae`` and ``ise`` are the sum of :math:`d_1 \Delta t`.
     ``path-frame``: the position of ``from`` in W is added to the points of the path.
-    ``path-repeats``: a repeated point is a segment of length 0; as the body is never nearer to it
-    than to the previous segment, that stays current. ``path-point``: a path of one point is
-    invalid; here it is a segment of length 0. (The original reads beyond the end of its list.)
+    ``path-repeats``: a repeated point is a segment of length 0; as the body is never nearer to this
+    segment than to the previous one, the previous segment stays current. ``path-point``: a path of
+    one point is invalid. (The original UWSim reads beyond the end of its list of points. Without
+    this quirk the path is a segment of length 0.)
     """
 
     unit = "m s"
@@ -135,14 +141,14 @@ class PathFollowing(Measure):
         self.detail_units = {**DETAIL_UNITS, **STATISTIC_UNITS, **ise}  # type: ignore[misc]
         self._path: Polyline | None = None
         self._waypoints: list[int] = []  # the index of the point at which each segment begins
-        self._error = ""  # the error of the newest path
-        self._reference = points
+        self._error = ""  # what is wrong with the newest path
+        self._reference = points  # of <u:path> (n, 3) [m]
         self._was_active = False
-        self._segment = 0
-        self._farthest_length = 0.0  # along the path [m]
+        self._segment = 0  # index of the current segment
+        self._farthest_length = 0.0  # largest path length up to a nearest point [m]
         self._iae = 0.0  # [m s]
         self._ise = 0.0  # [m^2 s]
-        self._last_sample: tuple[int, float] | None = None  # the last step, and its d [m]
+        self._last_sample: tuple[int, float] | None = None  # the last step, and d at it [m]
         self._signal = Signal(())
 
     def start(self) -> None:
@@ -178,7 +184,7 @@ class PathFollowing(Measure):
 
     @property
     def value(self) -> float | None:
-        """The integral of the error [m s], or the statistic given by ``u:value`` [m]."""
+        """The integral of the distance [m s], or the statistic given by ``u:value`` [m]."""
         if not self._signal.n:
             return None
         return self._iae if self._statistic == "last" else self._signal.value(self._statistic)
@@ -211,13 +217,13 @@ class PathFollowing(Measure):
 
     @property
     def reasons(self) -> dict[str, str]:
-        """The reason why there is no share."""
+        """The reason why the path has no share."""
         is_point = self._path is not None and self._path.length == 0.0
         return {"share": "the path has no length"} if is_point else {}
 
     @property
     def log_header(self) -> tuple[str, ...]:
-        """The names of integral, distance and waypoint; then those that the original lacks."""
+        """The details except the statistics; the first three are those of the original UWSim."""
         return tuple(DETAIL_UNITS)
 
     @property
@@ -267,6 +273,7 @@ class PathFollowing(Measure):
         return rotate_back(world_from_frame.rotation, position - world_from_frame.position)
 
     def _integrate(self, last_distance: float, distance: float, duration: float) -> None:
+        """Add a step of ``duration`` [s] between two distances [m] to the integrals."""
         if self._is_original:
             self._iae += distance * duration
             return

@@ -1,4 +1,4 @@
-"""The phases that an algorithm under test publishes, and the duration of each."""
+"""The phases of a task that an algorithm under test publishes, and the duration of each phase."""
 
 from __future__ import annotations
 
@@ -13,25 +13,25 @@ ABORT_NAME = "aborted"
 
 
 class Phases:
-    """A subscription to a topic with the name of the present phase.
+    """A subscription to the topic on which an algorithm publishes its present phase.
 
-    A message is the name of a phase, optionally with ``: details``; other names are ignored.
-    ``aborted: why`` states that the algorithm gave up.
+    A message is the name of a phase, optionally followed by ``: details``; unknown names are
+    ignored. ``aborted: why`` states that the algorithm gave up.
 
     Args:
-        names: the phases that count, in their order.
-        world: the simulation.
-        inbox: the received messages; None: there are none.
+        names: the names of the phases, in their order.
+        world: the simulation, whose time is measured.
+        inbox: the received messages; None: the algorithm publishes no phases.
     """
 
     def __init__(self, names: Sequence[str], world: World, inbox: Inbox[String] | None) -> None:
         self._names, self._world, self._inbox = list(names), world, inbox
-        self._seconds = dict.fromkeys(self._names, 0.0)
-        self._name: str | None = None
-        self._count_time = world.time
-        self._max_number = 0  # 1 is the first
+        self._durations = dict.fromkeys(self._names, 0.0)  # of each phase [s]
+        self._name: str | None = None  # the present phase
+        self._last_time = world.time  # up to which the durations are complete [s]
+        self._max_number = 0  # of the farthest phase; 1 is the first
         self.abort_reason: str | None = None
-        """The reason why the algorithm gave up; None: it did not."""
+        """The reason why the algorithm gave up; None: it did not give up."""
 
     def update(self) -> None:
         """Read the messages since the last call."""
@@ -41,7 +41,7 @@ class Phases:
             name, _, details = (part.strip() for part in message.data.partition(":"))
             if name == ABORT_NAME:
                 self.abort_reason = self.abort_reason or (details or "the algorithm gave up")[:200]
-            elif name in self._seconds:
+            elif name in self._durations:
                 self._add_time()
                 self._name = name
                 self._max_number = max(self._max_number, self._names.index(name) + 1)
@@ -49,33 +49,33 @@ class Phases:
     def _add_time(self) -> None:
         time = self._world.time
         if self._name is not None:
-            self._seconds[self._name] += time - self._count_time
-        self._count_time = time
+            self._durations[self._name] += time - self._last_time
+        self._last_time = time
 
     @property
     def name(self) -> str | None:
-        """The present phase; None before any."""
+        """The present phase; None before the first message."""
         return self._name
 
     @property
     def number(self) -> int:
-        """The number of the present phase, 1 the first; 0 before any."""
+        """The number of the present phase: 1 is the first phase, 0 is before the first message."""
         return 0 if self._name is None else self._names.index(self._name) + 1
 
     @property
     def is_at_first(self) -> bool:
-        """True if no phase but the first was ever reached."""
+        """True if the first phase was reached, and no later one."""
         return self._max_number == 1
 
     @property
     def details(self) -> dict[str, float | None]:
-        """The number of the farthest phase, 1 the first, and the time in each [s]."""
+        """The number of the farthest phase (1 is the first), and the duration of each phase [s]."""
         if not self._names:
             return {}
         self._add_time()
         return {
             "phase": float(self._max_number),
-            **{f"time.{name}": self._seconds[name] for name in self._names},
+            **{f"time.{name}": self._durations[name] for name in self._names},
         }
 
     def close(self) -> None:

@@ -7,6 +7,8 @@ r"""Position error: the distance of a body from its desired position.
       <position> <x>2</x> <y>0</y> <z>2.5</z> </position>
       <topic>goal</topic>
     </positionError>
+
+L is the localized world frame, W the world frame.
 """
 
 from __future__ import annotations
@@ -28,6 +30,7 @@ from ..metrics.signal import VALUES, Signal
 from .measure import Measure, MeasureSpec
 
 ATTITUDE = ("rx", "ry", "rz", "rw")
+"""The details with the attitude of the body, a quaternion x, y, z, w."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,14 +42,17 @@ class PositionErrorSpec(MeasureSpec):
     target: str = element(refers_to="body")
     """The route of the body."""
     position: tuple[float, float, float]
-    """The desired position, in L [m]."""
+    """The desired position, in the localized world frame L [m]."""
     topic: str | None = element(default=None)
-    """The topic with the desired position instead (geometry_msgs/PoseStamped, in L): its newest
-    message when the measure starts, or the first after that. None: ``position``."""
+    """The topic of the desired position (geometry_msgs/PoseStamped, in L), which replaces
+    ``position``: the newest message when the measure starts, or the first message after that."""
 
     @property
     def start_value(self) -> float:
-        """The original's start value: 100, or with a topic the value until its first message."""
+        """The value that the original UWSim reports before its first sample [m].
+
+        It is 100; with a topic, the value until the first message.
+        """
         return 100.0 if self.topic is None else -1.0
 
     def bind(self, world: World) -> PositionError:
@@ -60,12 +66,12 @@ class PositionErrorSpec(MeasureSpec):
 class PositionError(Measure):
     r"""The distance :math:`\lVert p - q \rVert` of a body's origin from its desired position.
 
-    There is a sample at each step. The components x, y, z are those of :math:`p - q` in L; rx, ry,
-    rz, rw are the body's present attitude in L, a quaternion xyzw, as in the original.
+    There is a sample at each step. x, y, z are the components of :math:`p - q` in L; rx, ry, rz, rw
+    are the body's present attitude in L, a quaternion xyzw, as in the original UWSim.
 
-    Compatibility ``position-frame``: the components are in W, and so is the topic's position.
-    ``position-start``: the first sample is taken a step later; until then the value is 100, and -1
-    until the first message of the topic.
+    Compatibility ``position-frame``: the components are in W, and the position on the topic is
+    taken to be in W. ``position-start``: the first sample is taken a step later; until then the
+    value is 100. With a topic, the value is then -1 until the first message arrives.
     """
 
     unit = "m"
@@ -79,7 +85,7 @@ class PositionError(Measure):
         self._localized_from_world = world.world_from_localized.inverse()
         is_original = "position-frame" in world.compatibility
         self._frame_from_world = Pose.identity() if is_original else self._localized_from_world
-        self._goal: Array | None = None  # (3,) [m], in L, or in W
+        self._goal: Array | None = None  # in L, or in W with position-frame (3,) [m]
         if inbox is None:
             localized_from_goal = Pose(np.array(spec.position), np.eye(3))  # in L
             self._goal = (
@@ -95,6 +101,8 @@ class PositionError(Measure):
     def start(self) -> None:
         """Take the first sample."""
         self._was_active = True
+        if self._goal is None:
+            self._goal = self._read_goal(-1)  # the newest message
         if not self._starts_at_100:
             self.update()
 
@@ -102,7 +110,7 @@ class PositionError(Measure):
         """Take a sample if the desired position is known."""
         self._was_updated = True
         if self._goal is None:
-            self._goal = self._read_goal()
+            self._goal = self._read_goal(0)  # the first message since the start
         if self._goal is not None:
             error = (self._position() - self._goal).tolist()
             self._signal.add(math.hypot(*error), error)
@@ -143,7 +151,7 @@ class PositionError(Measure):
             self._inbox.close()
 
     def _position(self) -> Array:
-        """Return the position of the body in the frame of the components, (3,) [m]."""
+        """Return the position of the body in L, or in W with ``position-frame``, (3,) [m]."""
         frame = self._frame_from_world
         return rotate(frame.rotation, self._body.world_from_body.position) + frame.position
 
@@ -151,9 +159,10 @@ class PositionError(Measure):
         w, x, y, z = (self._localized_from_world @ self._body.world_from_body).quaternion.tolist()
         return (x, y, z, w)
 
-    def _read_goal(self) -> Array | None:
+    def _read_goal(self, index: int) -> Array | None:
+        """Return the position in one of the messages that arrived; None if none arrived."""
         messages = self._inbox.take() if self._inbox is not None else []
         if not messages:
             return None
-        point = messages[0].pose.position
+        point = messages[index].pose.position
         return np.array([point.x, point.y, point.z])

@@ -1,4 +1,4 @@
-"""Reconstruction 3D: the error of point clouds against a body's box.
+"""Reconstruction 3D: the distance of measured points from the surface of a body's bounding box.
 
 .. code-block:: xml
 
@@ -31,9 +31,9 @@ ORIGINAL_FIELDS = {
     "coverage %": "coverage",
     "outliers %": "outlier_share",
 }
-"""The details by the original's name."""
+"""The details by their names in the original UWSim."""
 MAX_NOTES = 5
-"""The greatest number of kinds of invalid clouds that are reported."""
+"""The greatest number of different errors of clouds that are reported."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,30 +45,31 @@ class Reconstruction3DSpec(MeasureSpec):
     topic: str
     """The topic of the clouds (sensor_msgs/PointCloud2)."""
     from_: str | None = element("from", default=None, original=REQUIRED_BY_DTD, refers_to="body")
-    """The route of the body in whose frame the clouds are; without one W, not L."""
+    """The route of the body in whose frame the points are given; None: the world frame W (not the
+    localized world L)."""
     level_of_detail: float = element(default=0.003, exclusive_minimum=0.0)
-    """The cell size of the coverage [m]."""
+    """The distance between the grid nodes of the coverage [m]."""
     detailed_results_to_globals: bool = element(default=False, attribute=True)
-    """True if result.dat has the details instead of the value."""
+    """True if ``result.dat`` has the details instead of the value."""
 
     @property
     def original_fields(self) -> Mapping[str, str]:
-        """The value, or the details in its place."""
+        """The value, or the details in place of the value."""
         if not self.detailed_results_to_globals:
             return {self.name: self.name}
         return {name: f"{self.name}.{detail}" for name, detail in ORIGINAL_FIELDS.items()}
 
     @property
     def start_value(self) -> float:
-        """The original's start value."""
+        """The value that the original UWSim reports before the first cloud [m]."""
         return 0.0
 
     def bind(self, world: World) -> Reconstruction3D:
         """Resolve target and frame.
 
         Raises:
-            UnknownName: one of them is unknown.
-            BadSetting: the target has no shape, or the level of detail gives too many cells.
+            UnknownName: target or frame is unknown.
+            BadSetting: the target has no shape, or the level of detail gives too many nodes.
         """
         target = world.body(self.target)
         frame = None if self.from_ is None else world.body(self.from_)
@@ -86,29 +87,30 @@ class Reconstruction3DSpec(MeasureSpec):
 
 
 class Reconstruction3D(Measure):
-    """The mean distance of the points of all clouds so far from the surface of a body's box.
+    """The mean distance of measured points from the surface of a body's local bounding box.
 
-    Each cloud is transformed from the frame ``from`` to the body's, with the poses of both at the
-    step of its arrival. The message's frame_id is not used, and points with a coordinate that is
-    NaN, infinite or beyond 1e9 m are skipped. `uwsim.benchmark.metrics.reconstruction` defines
-    ground, outliers and inliers: only inliers have an error. The box is the body's own bounding
-    box, in any attitude; its top is the side that points most upwards when the level begins.
+    The mean is over all clouds of the level. Each cloud is transformed from the frame ``from`` to
+    the frame of the body, with the poses of both frames at the step at which the cloud arrives. The
+    message's frame_id is not used, and points with a coordinate that is NaN, infinite or beyond
+    1e9 m are skipped. `uwsim.benchmark.metrics.reconstruction` classifies points as ground,
+    outliers and inliers; only inliers count in the mean. The box may have any attitude; its top is
+    the side that points most upwards when the level begins.
 
-    There is no value without a cloud, or without an inlier. All clouds of the level count, so a
-    pause of the topic is no failure.
+    There is no value without a cloud, or without an inlier. A time without clouds is no failure.
 
-    Details: ``mean_error`` (the value) [m]; ``error_variance`` over n - 1, None with one inlier
-    [m^2]; ``coverage``, the share of the nodes on the five faces above ground with a point near
-    them [1] (`uwsim.benchmark.metrics.coverage`); ``outlier_share``, outliers among outliers and
-    inliers [1]; and the numbers of points and clouds of each kind. Only a *box* has an error of 0:
-    the distance of the body's surface from its bounding box counts as error. Repeating one accurate
-    point makes the mean small: compare the coverage.
+    Details: ``mean_error`` (the value) [m]; ``error_variance``, divided by n - 1, None with one
+    inlier [m^2]; ``coverage``, the share of the grid nodes on the five faces above the ground that
+    have a point near them [1] (`uwsim.benchmark.metrics.coverage`); ``outlier_share``, the share of
+    outliers among outliers and inliers [1]; and the numbers of points of each kind and of clouds.
+    Only a body with the shape of a *box* can have an error of 0: for any other body the distance of
+    its surface from its bounding box counts as error. Measuring one accurate point many times makes
+    the mean small: compare the coverage.
 
-    Compatibility ``reconstruction-transform``: clouds are transformed to the body's frame with the
-    poses of both when the level began. ``reconstruction-box``: two corners of the box are rotated
-    to W and sorted, which is right only for quarter turns. ``reconstruction-coverage``: the
-    original's number of nodes. ``reconstruction-empty``: without inliers the error is 0 and its
-    variance -0.
+    Compatibility ``reconstruction-transform``: clouds are transformed with the poses that both
+    frames had when the level began. ``reconstruction-box``: two corners of the box are rotated to
+    W and sorted, which is right only for quarter turns. ``reconstruction-coverage``: the number of
+    nodes is that of the original UWSim. ``reconstruction-empty``: without inliers the error is 0
+    and its variance -0.
     """
 
     unit = "m"
@@ -186,11 +188,11 @@ class Reconstruction3D(Measure):
 
     @property
     def details(self) -> dict[str, float | None]:
-        """The original's four details, and the numbers of points and clouds."""
+        """The four details of the original UWSim, and the numbers of points and clouds."""
         points = self._points
         variance = points.variance
         if self._is_never_empty and not points.n_inliers:
-            variance = points.squares / (points.n_inliers - 1)
+            variance = points.squared_deviations / (points.n_inliers - 1)
         return {
             "mean_error": self.value,
             "error_variance": variance,
@@ -205,7 +207,7 @@ class Reconstruction3D(Measure):
 
     @property
     def reasons(self) -> dict[str, str]:
-        """The reasons why there is no variance, or no share, although there is a value."""
+        """The reasons why there is no variance, or no outlier share, although there is a value."""
         points = self._points
         if points.n_inliers == 1:
             return {"error_variance": "there was one inlier only"}
@@ -215,7 +217,7 @@ class Reconstruction3D(Measure):
 
     @property
     def log_header(self) -> tuple[str, ...]:
-        """The original's four details."""
+        """The four details of the original UWSim."""
         return tuple(ORIGINAL_FIELDS.values())
 
     @property

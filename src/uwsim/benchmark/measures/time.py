@@ -23,7 +23,7 @@ class TimeSpec(MeasureSpec):
 
     @property
     def start_value(self) -> float:
-        """The original's start value."""
+        """The value that the original UWSim reports before the measure stops [s]."""
         return 0.0
 
     def bind(self, world: World) -> Time:
@@ -32,22 +32,22 @@ class TimeSpec(MeasureSpec):
 
 
 class Time(Measure):
-    """The simulation time from the step at which the measure starts to that at which it stops.
+    """The simulation time from the step at which the measure starts to the one at which it stops.
 
-    Without a stop it is the time to the last step of the level. The times of several activations
-    are added. It is never wall time.
+    If the measure does not stop, the time lasts to the last step of the level. If it is active
+    several times, the durations are added. Wall-clock time is never used.
 
-    Compatibility ``time-log``: it is 0 until it stops or the level ends. ``restart``: it is reset
-    when it becomes active again.
+    Compatibility ``time-log``: the value is 0 until the measure stops or the level ends.
+    ``restart``: the time begins at 0 when the measure becomes active again.
     """
 
     unit = "s"
 
     def __init__(self, world: World) -> None:
         self._world = world
-        self._last_step: int | None = None  # step
-        self._n_steps = 0
-        self._is_known = True  # whether it can be read now
+        self._last_step: int | None = None  # step of the last update
+        self._n_steps = 0  # steps while the measure was active
+        self._is_known = True  # False: the value is 0 until the measure stops
         self._is_known_at_end = "time-log" in world.compatibility
         self._is_reset = "restart" in world.compatibility
 
@@ -59,13 +59,13 @@ class Time(Measure):
             self._n_steps = 0
 
     def update(self) -> None:
-        """Add the time since the last call."""
+        """Add the time since the last update."""
         if self._last_step is not None:
             self._n_steps += self._world.step - self._last_step
         self._last_step = self._world.step
 
     def went_off(self) -> None:
-        """Add the step in which the measure stopped."""
+        """Add the step at which the measure stopped."""
         self.update()
         self._is_known = True
 

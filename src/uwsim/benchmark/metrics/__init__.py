@@ -1,1 +1,1 @@
-"""Metrics: the computations of measures, on numbers alone."""
+"""Metrics: the formulas of the measures, as functions of numbers, without a simulation."""

@@ -2,8 +2,9 @@ r"""The largest impulse of a force within a short time.
 
 .. math:: J = \max_t \Bigl\lVert \int_{t-T}^{t} F\, dt \Bigr\rVert, \qquad T = 50\,\mathrm{ms}
 
-A collision lasts about 40 ms in the soft contacts of the engine, so T contains all of it.
-Unlike the peak of the force, the impulse does not depend on the softness or the step.
+In the soft contacts of the physics engine a collision lasts about 40 ms, so a window of the length
+T contains all of it. Unlike the largest force, the impulse depends neither on the stiffness of the
+contacts nor on the length of a step.
 """
 
 from __future__ import annotations
@@ -19,12 +20,16 @@ WINDOW_LENGTH = 0.05
 
 
 class Impulse:
-    """The largest impulse of a force that is sampled at every step."""
+    """The largest impulse of a force that is sampled at every step.
+
+    Args:
+        timestep: the length of a step [s].
+    """
 
     def __init__(self, timestep: float) -> None:
         self._timestep = timestep
         self._forces: deque[Triple] = deque(maxlen=max(1, round(WINDOW_LENGTH / timestep)))
-        self._n_idle = 0
+        self._n_idle = 0  # steps since the last force
         self.peak = 0.0
         """The largest impulse so far [N s]."""
         self.force = 0.0

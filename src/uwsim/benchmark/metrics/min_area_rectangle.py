@@ -1,4 +1,4 @@
-"""The smallest rectangle round points of an image, and the names of its corners."""
+"""The smallest rectangle round points in an image, and the order of its corners."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ AREA_TOLERANCE = 1e-9
 
 
 def convex_hull(points: list[tuple[float, float]]) -> list[tuple[float, float]]:
-    """Return the convex hull in cyclic order, without points on its edges (Andrew's chain)."""
+    """Return the corners of the convex hull in cyclic order (Andrew's monotone chain)."""
     points_by_x = sorted(set(points))
     if len(points_by_x) < 3:
         return points_by_x
@@ -34,13 +34,14 @@ def _half_hull(points: list[tuple[float, float]]) -> list[tuple[float, float]]:
 
 
 def min_area_rectangle(pixels: Array) -> Array:
-    r"""Return NW, NE, SE, SW of the smallest-area rectangle round points (n, 2) [px], (4, 2) [px].
+    r"""Return the corners NW, NE, SE, SW of the rectangle of least area round points, (4, 2) [px].
 
-    One side of that rectangle is along an edge of the convex hull (rotating calipers), so each
-    edge is tried. In coordinates with y up, rotated back by the edge's angle :math:`\alpha`,
-    NW is :math:`(x_{min}, y_{max})`, NE :math:`(x_{max}, y_{max})`, and so on. :math:`\alpha` is
-    reduced modulo a right angle to (-45, 45] degrees, so NW is the corner nearest to the top left.
-    Of equal areas that with the smallest :math:`|\alpha|` is used, then the positive one.
+    The points (n, 2) [px] have y down. One side of the rectangle lies along an edge of the convex
+    hull (rotating calipers), so each edge is tried. Let :math:`\alpha` be the angle of the edge in
+    coordinates with y up, reduced by multiples of a right angle to (-45, 45] degrees. In axes that
+    are turned by :math:`\alpha`, NW is :math:`(x_{min}, y_{max})`, NE :math:`(x_{max}, y_{max})`,
+    and so on; NW is thus the corner nearest to the top left of the image. Of rectangles with equal
+    areas, the one with the smallest :math:`|\alpha|` is used, and of two such the positive one.
     """
     hull = convex_hull([(x, -y) for x, y in pixels.tolist()])  # y up
     boxes: list[tuple[float, float, float, float, float, float]] = []
@@ -63,10 +64,17 @@ def min_area_rectangle(pixels: Array) -> Array:
 
 
 def match_corners(pixels: Array, targets: Array) -> tuple[list[int], Array]:
-    """Order four corners (4, 2) [px], given in cyclic order, to be nearest to targets (4, 2) [px].
+    """Order four corners so that each is near to its target.
 
-    Return the order as indices into ``pixels``, and the corners in that order. Of the eight cyclic
-    orders that with the smallest sum of squared distances between the centred corners is used.
+    Both sets are shifted to a common centre. Of the eight cyclic orders, clockwise or
+    anticlockwise, the one with the smallest sum of squared distances is used.
+
+    Args:
+        pixels: the corners in cyclic order, (4, 2) [px].
+        targets: the targets in cyclic order, (4, 2) [px].
+
+    Returns:
+        The order as indices into ``pixels``, and the corners in that order, (4, 2) [px].
     """
     quad = pixels - pixels.mean(axis=0) + targets.mean(axis=0)
     orders = [[(start + sign * i) % 4 for i in range(4)] for sign in (1, -1) for start in range(4)]

@@ -1,4 +1,4 @@
-"""Polyline: a path of straight segments, and the nearest point on it."""
+"""Polyline: a path of straight segments, and the point of a segment nearest to a given point."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ class Polyline:
     """A path of points joined by straight segments; a single point is a segment of length 0."""
 
     def __init__(self, points: Array) -> None:
-        """Join ``points`` (n, 3) [m], n >= 1."""
+        """Join n >= 1 points (n, 3) [m] by segments."""
         positions = points.tolist()
         self._points: list[list[float]] = positions if len(positions) > 1 else positions * 2
         self._lengths = [0.0]  # length of the path before each point [m]
@@ -29,10 +29,11 @@ class Polyline:
         return self._lengths[-1]
 
     def find_nearest(self, segment: int, point: Array) -> tuple[float, float]:
-        """Find the nearest point of a segment, its ends included, to ``point`` (3,) [m].
+        """Find the point of a segment, its ends included, that is nearest to ``point`` (3,) [m].
 
         Returns:
-            The distance of that point, and the path length up to it [m].
+            The distance of the nearest point from ``point`` [m], and the length of the path from
+            its start to the nearest point [m].
         """
         x1, y1, z1 = self._points[segment]
         x2, y2, z2 = self._points[segment + 1]

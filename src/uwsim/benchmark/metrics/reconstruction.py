@@ -1,16 +1,17 @@
-r"""Reconstruction: the error of measured points against a box.
+r"""Reconstruction: the distance of measured points from the surface of a box.
 
-Everything is in the frame of the box: its faces are parallel to the axes, z' is up. With the box
-from l to u, a point p has the distances
+Everything is in the frame of the box, whose axes are parallel to the faces, z up. For a box with
+the lower corner l and the upper corner u, a point p has the distances
 
 .. math::
     d_{out} = \lVert \max(l - p,\ p - u,\ 0) \rVert \qquad
     d_{plane} = \min_i \min(|p_i - l_i|, |p_i - u_i|) \qquad
     d = \max(d_{out}, d_{plane})
 
-from the box, from the planes of its faces, and from its surface. With :math:`g = |p_z - l_z|`, the
-distance from the plane below the box, it is *ground* if g < d and g <= 0.1 m, else an *outlier*
-if d >= 0.15 m, else an *inlier*. These are the original's rules.
+from the box (0 inside), from the nearest plane of a face, and from the surface of the box. With the
+distance :math:`g = |p_z - l_z|` from the plane of the lower face, the point is *ground* if g < d
+and g <= 0.1 m, else an *outlier* if d >= 0.15 m, else an *inlier*. These are the rules of the
+original UWSim.
 """
 
 from __future__ import annotations
@@ -23,17 +24,17 @@ from ...world import Box
 from .coverage import Coverage
 
 MAX_GROUND_DISTANCE = 0.10
-"""The greatest distance of ground points from the plane below the box [m]."""
+"""The greatest distance of ground points from the plane of the lower face [m]."""
 MIN_OUTLIER_DISTANCE = 0.15
 """The smallest distance of outliers from the surface of the box [m]."""
 MAX_COORDINATE = 1e9
-"""The greatest coordinate of a valid point [m]."""
+"""The greatest absolute value of a coordinate of a valid point [m]."""
 BLOCK_SIZE = 1 << 15
 """The number of points in a block, which fits into a processor's cache."""
 
 
 class Reconstruction:
-    """A box and running statistics of the points measured of it."""
+    """The statistics of points that were measured on a box."""
 
     def __init__(self, box: Box, coverage: Coverage) -> None:
         self._lower, self._upper = (np.array(side)[:, None] for side in (box.lower, box.upper))
@@ -44,10 +45,16 @@ class Reconstruction:
         self.n_skipped = 0
         """The number of points with a coordinate that is NaN or beyond `MAX_COORDINATE`."""
         self._mean = 0.0  # of d over the inliers [m]
-        self._squares = 0.0  # sum of squared deviations from it [m^2]
+        self._squares = 0.0  # sum of the squared deviations of d from the mean [m^2]
 
     def add(self, points: Array, rotation: Array, offset: Array) -> None:
-        """Add points (n, 3) [m]; ``rotation`` (3, 3) and ``offset`` (3,) map them to the box."""
+        """Add points, which are transformed to the frame of the box.
+
+        Args:
+            points: the points in any frame, (n, 3) [m].
+            rotation: the rotation from that frame to the frame of the box, (3, 3).
+            offset: the origin of that frame in the frame of the box, (3,) [m].
+        """
         for begin in range(0, len(points), BLOCK_SIZE):
             block = points[begin : begin + BLOCK_SIZE]
             is_valid = (np.abs(block) <= MAX_COORDINATE).all(axis=1)  # NaN is not
@@ -64,13 +71,16 @@ class Reconstruction:
         return self._mean if self.n_inliers else None
 
     @property
-    def squares(self) -> float:
-        """The sum of the squared deviations from the mean [m^2]."""
+    def squared_deviations(self) -> float:
+        """The sum of the squared deviations of the inliers' distances from the mean [m^2]."""
         return self._squares
 
     @property
     def variance(self) -> float | None:
-        """The variance of that distance, over n - 1 [m^2]; None with fewer than two inliers."""
+        """The variance of the inliers' distances [m^2]; None with fewer than two inliers.
+
+        The sum of squared deviations is divided by n - 1.
+        """
         return self._squares / (self.n_inliers - 1) if self.n_inliers > 1 else None
 
     @property
@@ -81,10 +91,11 @@ class Reconstruction:
 
     @property
     def coverage(self) -> float | None:
-        """The share of the five faces with points near them [1]."""
+        """The share of the nodes on five faces with points near them [1]; see `Coverage`."""
         return self._coverage.share
 
     def _classify(self, points: Array) -> None:
+        """Count ground, outliers and inliers among points (3, n) [m], in the frame of the box."""
         lower_excess, upper_excess = self._lower - points, points - self._upper
         excess = np.maximum(np.maximum(lower_excess, upper_excess), 0.0)
         d_out = np.sqrt(np.einsum("ij,ij->j", excess, excess))
@@ -98,7 +109,7 @@ class Reconstruction:
         self._add_inliers(d[~(is_ground | is_outlier)])
 
     def _add_inliers(self, d: Array) -> None:
-        """Merge mean and squares of another group with those so far (Chan, Golub, LeVeque)."""
+        """Update the mean and the squared deviations with distances d (Chan, Golub, LeVeque)."""
         if not d.size:
             return
         mean = float(d.mean())
@@ -110,11 +121,12 @@ class Reconstruction:
 
 
 def upright_rotation(rotation: Array) -> Array:
-    """Return the quarter turns that bring a body's axes nearest to those of W, (3, 3).
+    """Return the rotation of quarter turns that brings a body's axes nearest to those of W, (3, 3).
 
-    The rows are axes of the body, some of them reversed: the last is the one that points most
-    upwards in ``rotation`` (world_from_body), the first of the other two the one nearest to W's x.
-    For a body turned by quarter turns only, this *is* ``rotation``.
+    W is the world frame, z up, and ``rotation`` is world_from_body, (3, 3). Each row selects an
+    axis of the body, possibly reversed: the last row the axis that points most upwards, the first
+    row the one of the other two that is nearest to the x axis of W. If ``rotation`` consists of
+    quarter turns, the result equals ``rotation``.
     """
     box_from_body = np.zeros((3, 3))
     axes = [2, 1, 0]
@@ -127,7 +139,7 @@ def upright_rotation(rotation: Array) -> Array:
 
 
 def rotate_box(box: Box, rotation: Array) -> Box:
-    """Rotate the lower and the upper corner of a box, and sort each coordinate of the two.
+    """Rotate the lower and the upper corner of a box, and return the box between these points.
 
     The result encloses the rotated box only if ``rotation`` (3, 3) consists of quarter turns.
     """

@@ -1,6 +1,6 @@
-r"""Signal: the statistics of a quantity that is sampled many times in a level.
+r"""Signal: the statistics of a quantity that is sampled at many steps of a level.
 
-In addition to its value a measure of a signal has, over the samples of the level,
+Over the n samples :math:`x_k` of a level, these are
 
 .. math::
     \text{mean} = \frac1n \sum x_k \quad
@@ -8,7 +8,8 @@ In addition to its value a measure of a signal has, over the samples of the leve
     \text{max} = \max_k |x_k| \quad
     \text{std} = \sqrt{\tfrac1n \sum (x_k - \text{mean})^2} \quad n
 
-and the same for each of its components. ``rms^2 = mean^2 + std^2``.
+so that ``rms^2 = mean^2 + std^2``. If the quantity is the norm of a vector, each component of the
+vector has the same statistics.
 """
 
 from __future__ import annotations
@@ -17,12 +18,17 @@ import math
 from collections.abc import Sequence
 
 STATISTICS = ("mean", "rms", "max", "std", "n")
+"""The names of the statistics."""
 VALUES = ("last", "mean", "rms", "max")
-"""The values of ``u:value`` for a measure of a signal."""
+"""The valid texts of ``u:value`` for a measure that samples a signal."""
 
 
 class Signal:
-    """A sampled total and its components; it stores running sums, not samples (Welford)."""
+    """The running statistics of a sampled total and its components (Welford's algorithm).
+
+    Args:
+        components: the names of the components.
+    """
 
     def __init__(self, components: Sequence[str]) -> None:
         self.components = tuple(components)
@@ -33,19 +39,19 @@ class Signal:
         self._last_sample = [0.0] * size
         self._mean = [0.0] * size
         self._squares = [0.0] * size  # sum of squared deviations from the mean
-        self._power = [0.0] * size  # sum of squares
+        self._square_sums = [0.0] * size
         self._max = [0.0] * size
 
     def add(self, total: float, components: Sequence[float]) -> None:
-        """Add a sample: the total and its components, k plain floats."""
+        """Add a sample: the total and its k components."""
         sample = [total, *components]
         self.n = n = self.n + 1
-        means, squares, power, maxima = self._mean, self._squares, self._power, self._max
+        means, squares, sums, maxima = self._mean, self._squares, self._square_sums, self._max
         for i, value in enumerate(sample):
             deviation = value - means[i]
             mean = means[i] = means[i] + deviation / n
             squares[i] += deviation * (value - mean)
-            power[i] += value * value
+            sums[i] += value * value
             size = abs(value)
             if size > maxima[i]:
                 maxima[i] = size
@@ -82,7 +88,7 @@ class Signal:
         if name == "mean":
             return self._mean[index]
         if name == "rms":
-            return math.sqrt(self._power[index] / self.n)
+            return math.sqrt(self._square_sums[index] / self.n)
         if name == "max":
             return self._max[index]
         return math.sqrt(max(0.0, self._squares[index]) / self.n)

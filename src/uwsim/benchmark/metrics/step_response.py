@@ -1,26 +1,28 @@
 r"""Step response: rise time, overshoot, settling time and integrals of an error.
 
-The error :math:`e(t)` is set point less output, a vector in general; t counts from its first
-sample, :math:`e_0`, which is the step. Performance indices (Ogata, *Modern Control Engineering*,
-3rd ed. 1997, ch. 4; ITAE: Graham and Lathrop, *Trans. AIEE* 72, 1953, 273-288):
+The error :math:`e(t)` is the setpoint minus the output, a vector in general. The time t begins at
+the first sample of the error, :math:`e_0`, which is called the step. Performance indices (Ogata,
+*Modern Control Engineering*, 3rd ed. 1997, ch. 4; ITAE: Graham and Lathrop, *Trans. AIEE* 72, 1953,
+273-288):
 
 .. math::
     \text{ISE} = \int |e|^2 dt \qquad \text{IAE} = \int |e|\, dt \qquad
     \text{ITAE} = \int t\,|e|\, dt
 
-Between samples the error of a body is linear in time, and one from messages is constant. With the
-direction of the step, :math:`n = e_0 / |e_0|`, the response is :math:`y = 1 - e \cdot n / |e_0|`,
-from 0 to 1 (Ogata, 5th ed. 2010, section 5-3; Franklin, Powell and Emami-Naeini, *Feedback Control
-of Dynamic Systems*, 7th ed. 2015, section 3.4):
+Between two samples, the position error of a body is assumed to be linear in time, and an error from
+messages to be constant. With the direction of the step, :math:`n = e_0 / |e_0|`, the response is
+:math:`y = 1 - e \cdot n / |e_0|`, which begins at 0 and is 1 at the setpoint (Ogata, 5th ed. 2010,
+section 5-3; Franklin, Powell and Emami-Naeini, *Feedback Control of Dynamic Systems*, 7th ed. 2015,
+section 3.4):
 
 - *overshoot*: :math:`|e_0| \max(0, \max y - 1)`, also in percent of the step;
 - *rise time*: from the first sample with :math:`y \ge 0.1` to the first with :math:`y \ge 0.9`;
-- *settling time*: of the first sample from which on :math:`|e| \le b\,|e_0|` to the end, with the
-  band b, 2 % unless another is given;
-- *steady-state error*: the size of the mean of e over the last tenth of the time.
+- *settling time*: the time of the first sample from which on :math:`|e| \le b\,|e_0|` until the
+  end, with the half-width b of the settling band, 2 % by default;
+- *steady-state error*: the norm of the mean of e over the last tenth of the time.
 
-Overshoot, percentages and band refer to the set point; the books use the final value. Both are
-equal without a steady-state error; with one, only the set point shows it.
+Overshoot, percentages and band refer to the setpoint, while the cited books refer to the final
+value. The two are equal if there is no steady-state error.
 """
 
 from __future__ import annotations
@@ -33,13 +35,13 @@ from ...base.geometry import Array
 from ...base.numerics.linear import dot, length, product
 
 RISE_RANGE = (0.1, 0.9)
-"""The parts of the step between which the rise time is measured [1]."""
+"""The values of the response y between which the rise time is measured [1]."""
 STEADY_SHARE = 0.1
-"""The share of the time, at its end, that counts as steady [1]."""
+"""The share of the time, at its end, over which the steady-state error is averaged [1]."""
 INTEGRALS = ("ise", "iae", "itae")
-"""The numbers that exist from the first sample on, without a step."""
+"""The performance indices, which do not depend on the size of the step."""
 Shape = tuple[dict[str, float | None], dict[str, str]]
-"""Numbers, and the reasons why those are None that are."""
+"""The other quantities by name, and the reason for each that is None."""
 UNITS = {
     "ise": ("m^2 s", "s"),
     "iae": ("m s", "s"),
@@ -51,34 +53,36 @@ UNITS = {
     "settling_time": ("s", "s"),
     "steady_state_error": ("m", "1"),
 }
-"""The unit of each number for an error in metres, and for one without unit."""
+"""The units of each quantity: for an error in metres, and for an error without unit."""
 
 
 class StepResponse:
-    """A sampled error signal; integrals are updated at once, the shape is computed on demand."""
+    """The step response of a sampled error.
+
+    The integrals are updated with each sample; the other quantities are computed on demand.
+    """
 
     def __init__(
         self, timestep: float, *, band: float, least_step: float, is_constant: bool
     ) -> None:
-        """Create a response without a sample.
+        """Create a step response without samples.
 
         Args:
             timestep: the length of a step of the simulation [s].
             band: the half-width of the settling band, relative to the step [1].
-            least_step: the greatest first error that is no step.
-            is_constant: the error is constant between samples; otherwise it is linear in time.
+            least_step: the largest first error that is too small to evaluate its response, in the
+                unit of the error.
+            is_constant: True if the error is constant between samples; False: linear in time.
         """
         self._timestep = timestep
         self._band, self._least_step, self._is_constant = band, least_step, is_constant
-        self._steps = array("q")  # of each sample, since the first
-        self._errors = array("d")  # the samples in sequence
-        self._last_error: Array = np.zeros(0)
-        self._size = 0.0  # of the last error
+        self._steps = array("q")  # simulation step of each sample; 0 is the first
+        self._errors = array("d")  # the components of all samples, one sample after the other
+        self._last_error: Array = np.zeros(0)  # (k,)
+        self._size = 0.0  # norm of the last error
         self.ise, self.iae, self.itae = 0.0, 0.0, 0.0
-        """The integrals so far."""
-        self._cached_shape: tuple[int, Shape] | None = (
-            None  # the number of samples, and their shape
-        )
+        """The performance indices so far."""
+        self._cached_shape: tuple[int, Shape] | None = None  # number of samples, their shape
 
     @property
     def n(self) -> int:
@@ -87,11 +91,17 @@ class StepResponse:
 
     @property
     def size(self) -> float | None:
-        """The magnitude of the newest error."""
+        """The norm of the newest error; None without samples."""
         return self._size if self._steps else None
 
     def add(self, error: Array, steps: int) -> None:
-        """Add a sample (k,) a number of measured steps after the last; 0 for the first."""
+        """Add a sample of the error.
+
+        Args:
+            error: the error, (k,).
+            steps: the number of steps since the last sample while the measure was active; 0 for
+                the first sample, and for the first one after a pause.
+        """
         last_size, last_error = self._size, self._last_error
         size = length(error)
         last_step = self._steps[-1] if self._steps else 0
@@ -112,7 +122,7 @@ class StepResponse:
             self.itae += 0.5 * (start * last_size + end * size) * dt
 
     def shape(self) -> Shape:
-        """Return the numbers of the response, and the reasons why some are None."""
+        """Return the quantities other than the indices, and the reason for each that is None."""
         if self._cached_shape is None or self._cached_shape[0] != self.n:
             self._cached_shape = (self.n, self._compute_shape())
         return self._cached_shape[1]

@@ -20,7 +20,7 @@ TRIGGERS: dict[str, type[TriggerSpec]] = {
     "service": ServiceSpec,
     "topic": TopicSpec,
 }
-"""The spec of each ``<type>``, in alphabetical order."""
+"""The spec of each ``<type>`` of trigger, in alphabetical order."""
 
 __all__ = [
     "TRIGGERS",

@@ -1,4 +1,4 @@
-"""never: always off.
+"""never: a trigger that is always off.
 
 .. code-block:: xml
 
@@ -19,7 +19,7 @@ class NeverSpec(TriggerSpec):
     """A trigger of type ``never``."""
 
     def bind(self, world: World) -> NeverTrigger:
-        """Return the trigger, which needs nothing of the world."""
+        """Return the trigger, which does not depend on the world."""
         return NeverTrigger()
 
 

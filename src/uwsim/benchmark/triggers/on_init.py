@@ -1,4 +1,4 @@
-"""onInit: on from the beginning.
+"""onInit: a trigger that is on from the beginning.
 
 .. code-block:: xml
 
@@ -19,7 +19,7 @@ class OnInitSpec(TriggerSpec):
     """A trigger of type ``onInit``."""
 
     def bind(self, world: World) -> OnInitTrigger:
-        """Return the trigger, which needs nothing of the world."""
+        """Return the trigger, which does not depend on the world."""
         return OnInitTrigger()
 
 

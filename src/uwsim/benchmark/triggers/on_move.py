@@ -1,4 +1,4 @@
-r"""onMove: on as soon as a body has moved.
+r"""onMove: a trigger that turns on as soon as a body has moved.
 
 .. code-block:: xml
 
@@ -21,10 +21,10 @@ MOVED_DISTANCE = 0.2
 
 
 def threshold(length: float, world: World) -> float:
-    """Return ``length`` [m], or its root under the quirk ``thresholds``.
+    """Return a threshold of distance: ``length`` [m], or its square root (see below).
 
-    The original compares the *square* of a distance with these constants, so 0.2 acts as
-    0.447 m and 0.3 as 0.548 m (compatibility ``thresholds``).
+    The original UWSim compares the *square* of a distance with its constants, so that 0.2 acts as
+    0.447 m and 0.3 as 0.548 m. The compatibility ``thresholds`` reproduces this by the root.
     """
     return float(np.sqrt(length)) if "thresholds" in world.compatibility else length
 
@@ -44,7 +44,8 @@ class OnMoveSpec(TriggerSpec):
 class OnMove(Trigger):
     r"""A trigger that turns on, for good, once :math:`\lVert p - p_0 \rVert > 0.2` m.
 
-    :math:`p_0` is the position of the body's origin at binding; rotation does not count.
+    :math:`p` is the position of the body's origin and :math:`p_0` its position when the trigger is
+    bound. Rotation does not count.
     """
 
     def __init__(self, body: Body, distance: float) -> None:
@@ -53,7 +54,7 @@ class OnMove(Trigger):
         self._has_moved = False
 
     def is_on(self) -> bool:
-        """Return whether the body has been far enough from its start."""
+        """Return whether the body has been far enough from its start position."""
         if not self._has_moved:
             displacement = self._body.world_from_body.position - self._start_position
             self._has_moved = length(displacement) > self._distance

@@ -1,4 +1,4 @@
-r"""onNoMove: on as soon as a body has not moved for 4 s.
+r"""onNoMove: a trigger that turns on as soon as a body has not moved for 4 s.
 
 .. code-block:: xml
 
@@ -22,7 +22,7 @@ from .trigger import Trigger, TriggerSpec
 STILL_TIME = 4.0
 """The time without motion after which the trigger is on [s]."""
 N_SAMPLES = 10
-"""The number of samples of the position within that time."""
+"""The number of samples of the position within `STILL_TIME`."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,8 +40,9 @@ class OnNoMoveSpec(TriggerSpec):
 class OnNoMove(Trigger):
     """A trigger that turns on, for good, once a body has stayed within 0.2 m for more than 4 s.
 
-    Its position is stored every 0.4 s. At every step the oldest positions that are farther than
-    0.2 m from the present one are discarded; on when the oldest that remains is older than 4 s.
+    The position of the body is stored every 0.4 s. At every step, stored positions are discarded,
+    the oldest first, until one is within 0.2 m of the present position. The trigger turns on when
+    the oldest position that remains is older than 4 s.
     """
 
     def __init__(self, world: World, body: Body, distance: float) -> None:

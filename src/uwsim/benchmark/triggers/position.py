@@ -1,4 +1,4 @@
-r"""position: on as soon as a body comes near a position.
+r"""position: a trigger that turns on as soon as a body comes near a position.
 
 .. code-block:: xml
 
@@ -32,7 +32,7 @@ class PositionSpec(TriggerSpec):
     target: str = element(refers_to="body")
     """The route of the body."""
     position: tuple[float, float, float]
-    """The position, in L [m]."""
+    """The position, in the localized world frame L [m]."""
 
     def bind(self, world: World) -> Position:
         """Resolve the target; raises UnknownName if there is none."""
@@ -44,8 +44,8 @@ class Position(Trigger):
     r"""A trigger that turns on, for good, once a body is within 0.3 m of a position.
 
     It is on from the step at which :math:`\lVert p - q \rVert < 0.3` m for the body's origin
-    :math:`p`. The position :math:`q` is given in L, as all positions in files. (The original
-    intends the same, but converts it with wrong numbers.)
+    :math:`p`. The position :math:`q` is given in L, as are all positions in files. (The original
+    UWSim intends the same, but its conversion from L to the world frame is wrong.)
     """
 
     def __init__(self, body: Body, goal: npt.NDArray[np.float64], distance: float) -> None:

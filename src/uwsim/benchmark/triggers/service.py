@@ -1,4 +1,4 @@
-"""service: on as soon as its service is called.
+"""service: a trigger that turns on as soon as a service is called, which the trigger offers.
 
 .. code-block:: xml
 
@@ -19,7 +19,7 @@ class ServiceSpec(TriggerSpec):
     """A trigger of type ``service``."""
 
     target: str
-    """The name of the service that it offers (std_srvs/Empty)."""
+    """The name of the service that the trigger offers (std_srvs/Empty)."""
 
     def bind(self, world: World) -> Service:
         """Offer the service."""
@@ -29,7 +29,7 @@ class ServiceSpec(TriggerSpec):
 class Service(Trigger):
     """A trigger that turns on, for good, at the first call of its service.
 
-    Several triggers may have one service: a call reaches all of them.
+    Several triggers may share one service; a call turns all of them on.
     """
 
     def __init__(self, world: World, name: str) -> None:
@@ -41,7 +41,7 @@ class Service(Trigger):
         return self._was_called
 
     def close(self) -> None:
-        """Withdraw from the service; the last trigger to do so removes it."""
+        """Stop offering the service; it is removed when no other trigger shares it."""
         self._withdraw()
 
     def _call(self, request: Empty) -> EmptyResponse:

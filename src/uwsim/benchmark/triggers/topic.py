@@ -1,4 +1,4 @@
-"""topic: on and off by the messages of a topic.
+"""topic: a trigger that messages on a topic turn on and off.
 
 .. code-block:: xml
 
@@ -20,7 +20,8 @@ class TopicSpec(TriggerSpec):
     """A trigger of type ``topic``."""
 
     target: str
-    """The topic, of any type: a std_msgs/Bool means on or off, any other message on."""
+    """The topic, of any type: a std_msgs/Bool turns the trigger on or off, any other message
+    on."""
 
     def bind(self, world: World) -> Topic:
         """Subscribe to the topic."""
@@ -31,7 +32,8 @@ class Topic(Trigger):
     """A trigger with the state of the newest message on its topic; off before the first.
 
     A std_msgs/Bool sets the state to its value. A message of any other type is an event, such as
-    the first image of a camera or a goal, and sets it on. (The original reads a Bool only.)
+    the first image of a camera or a goal, and turns the trigger on. (The original UWSim reads only
+    a Bool.)
     """
 
     def __init__(self, inbox: Inbox[object]) -> None:
@@ -39,7 +41,7 @@ class Topic(Trigger):
         self._is_on = False
 
     def is_on(self) -> bool:
-        """Return whether the last message was true, or not a Bool."""
+        """Return whether the newest message is a true Bool, or of another type."""
         for message in self._inbox.take():
             self._is_on = bool(message.data) if isinstance(message, Bool) else True
         return self._is_on

@@ -1,4 +1,4 @@
-"""The base classes of triggers, which are on or off."""
+"""The base classes of triggers: conditions that start or stop a benchmark or a measure."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ class TriggerSpec(Spec, abc.ABC):
     """A ``<startOn>`` or ``<stopOn>`` element of a benchmark file."""
 
     def __str__(self) -> str:
-        """Return its name in messages: ``service 'startBench'``."""
+        """Return type and target for messages: ``service 'startBench'``."""
         kind = type(self).__name__.removesuffix("Spec")
         kind = kind[0].lower() + kind[1:]
         target = getattr(self, "target", None)
@@ -27,17 +27,18 @@ class TriggerSpec(Spec, abc.ABC):
 
 
 class Trigger(abc.ABC):
-    """A state of the world that is on or off.
+    """A condition on the world that is on or off.
 
-    It is bound anew for every level, without state of earlier levels; read it once a step.
+    A trigger is bound anew for every level, so it has no state of earlier levels. Read `is_on` at
+    every step.
     """
 
     is_constant: ClassVar[bool] = False
-    """True if the state never changes, so it is read only once."""
+    """True if the trigger never changes; it is then read only once."""
 
     @abc.abstractmethod
     def is_on(self) -> bool:
-        """Return whether it is on, at the current step."""
+        """Return whether the trigger is on at the current step."""
 
-    def close(self) -> None:  # noqa: B027 - most triggers have none
-        """Release its resources (a service, a subscription)."""
+    def close(self) -> None:  # noqa: B027 - most triggers have neither
+        """End the trigger's service or subscription."""

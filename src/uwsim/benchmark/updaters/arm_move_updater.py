@@ -28,16 +28,18 @@ from .updater import MAX_LEVELS, SceneUpdater, SceneUpdaterSpec
 class ArmMoveUpdaterSpec(SceneUpdaterSpec):
     """An ``<armMoveUpdater>`` element.
 
-    Its levels are the arm positions with ``step`` more, evenly spaced, between each and the next.
-    The value of a level is its number from 0. (In the original it is always 1.)
+    There is a level for each arm position, and ``step`` more levels, evenly spaced, between each
+    position and the next. The value of a level is its number, from 0. (In the original UWSim it is
+    always 1.)
     """
 
     name: ClassVar[str] = "armPosition"
 
     arm_position: tuple[tuple[float, ...], ...] = element("armPosition", item="joint")
-    """The joint vectors, in the order of the vehicle's joints [rad or m]."""
+    """The arm positions: vectors of joint positions in the order of the vehicle's joints
+    [rad or m]."""
     step: int = element(minimum=0, maximum=MAX_LEVELS)
-    """The number of levels between two arm positions."""
+    """The number of levels between an arm position and the next."""
     interval: float = element(exclusive_minimum=0.0)
     """The length of a level [s]."""
     target: str = element(refers_to="vehicle")
@@ -56,7 +58,7 @@ class ArmMoveUpdaterSpec(SceneUpdaterSpec):
             yield "every <armPosition> must have as many <joint> as the first"
 
     def joints(self, value: float) -> npt.NDArray[np.float64]:
-        """Return the joint vector of a level, or between two levels, (n,) [rad or m]."""
+        """Return the joint positions of a level, interpolated between levels, (n,) [rad or m]."""
         arm_positions = np.array(self.arm_position)  # (k, n)
         levels = np.arange(len(arm_positions)) * (self.step + 1.0)
         return np.array([np.interp(value, levels, column) for column in arm_positions.T])
@@ -74,12 +76,12 @@ class ArmMoveUpdaterSpec(SceneUpdaterSpec):
 
 
 class ArmMoveUpdater(SceneUpdater):
-    """An updater that sets the joints of a vehicle."""
+    """An updater that sets the joint positions of a vehicle."""
 
     def __init__(self, stage: Stage, spec: ArmMoveUpdaterSpec) -> None:
         self._stage, self._spec = stage, spec
 
     def apply(self, value: float) -> None:
-        """Set the arm to the position of level ``value``."""
+        """Set the joints to their positions in the level with the number ``value``."""
         joints = self._spec.joints(value).tolist()
         self._stage.set_joints(self._spec.target, dict(enumerate(joints)))

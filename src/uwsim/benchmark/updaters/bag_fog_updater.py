@@ -11,20 +11,22 @@ r"""bagFogUpdater: fog over recorded images, to test an algorithm on real footag
       <u:truth> <u:file>corners.csv</u:file> <u:topic>truth/corners</u:topic> </u:truth>
     </bagFogUpdater>
 
-The bag is replayed in an endless loop, in simulation time and with the recorded spacing; from the
-last image to the first of the next loop it is the mean spacing. The distance of everything in an
-image is ``imageDepth``, so an image c in fog of density f and colour g becomes
+The recording is replayed in an endless loop, in simulation time and with the recorded times between
+images; between the last image and the first image of the next loop, the mean of these times passes.
+Everything in an image is assumed to be at the distance ``imageDepth``. In fog of the density f
+[1/m] and the colour g, an image c therefore becomes
 
 .. math:: c' = c\, t + g\, (1 - t), \quad t = e^{-(f \cdot imageDepth)^2}
 
-as in the renderer (docs/rendering.md); g is the scene's fog colour. Images are published as
-``rgb8`` or ``mono8``, each with the camera's info, both stamped with the time of publication. Not
-modelled: attenuation, and fog that was already in the water.
+as in the renderer (docs/rendering.md); g is the scene's fog colour. Each image is published as
+``rgb8`` or ``mono8`` together with the camera's CameraInfo; both are stamped with the time of
+publication. Not modelled: attenuation, and fog that was already in the recorded water.
 
-``<u:truth>`` gives the truth of each image: a CSV file with a column ``time`` [s], which begins at
-the first image of the recording, and a column for each number. It is interpolated linearly between
-lines, and published with each image, for ``<groundTruth type="topic">``. The message is empty next
-to an empty cell, before the first line and after the last.
+``<u:truth>`` names a CSV file with the ground truth of each image. Its column ``time`` is the time
+since the first image of the recording [s]; the other columns are the numbers of the truth. The
+numbers are interpolated linearly between lines and published with each image, for
+``<groundTruth type="topic">``. The message has no numbers if a cell next to the time of the image
+is empty, and before the first and after the last line.
 """
 
 from __future__ import annotations
@@ -49,11 +51,12 @@ from .fog_sweep import FogSweepSpec
 from .updater import SceneUpdater
 
 ORIGINAL_COLOUR = (0.0, 0.05, 0.3)
-"""The colour that the original adds to the three channels, in any order of these."""
+"""The fog colour of the original UWSim, for the channels in their recorded order."""
 ORIGINAL_FACTOR = 1.442695
-"""The factor 1/ln 2: the original uses base e with a constant for base 2."""
+"""The factor 1/ln 2, by which the exponent of the original UWSim is too large: its formula has
+base e, but a constant for base 2."""
 GREY = np.array([0.299, 0.587, 0.114])
-"""The weights of red, green and blue in grey (ITU-R BT.601)."""
+"""The weights of red, green and blue in the brightness of grey images (ITU-R BT.601)."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -65,25 +68,25 @@ class BagFogUpdaterSpec(FogSweepSpec):
     image_topic: str
     """The topic of the images in the recording (sensor_msgs/Image or CompressedImage)."""
     info_topic: str
-    """The topic of the camera's info in the recording (sensor_msgs/CameraInfo)."""
+    """The topic of the camera parameters in the recording (sensor_msgs/CameraInfo)."""
     image_depth: float = element(exclusive_minimum=0.0)
     """The assumed distance of everything in the images [m]."""
     image_pub: str | None = element(default=None)
-    """The topic on which images are published; None: as in the recording."""
+    """The topic on which images are published; None: the topic in the recording."""
     info_pub: str | None = element(default=None)
-    """The topic on which the camera's info is published; None: as in the recording."""
+    """The topic on which camera parameters are published; None: the topic in the recording."""
     truth: RecordedTruthSpec | None = element(namespaced=True, default=None)
-    """The truth of the images."""
+    """The ground truth of the images."""
     path: str = field(default="", compare=False, metadata={"path": True})
-    """The benchmark file; recordings are searched next to it."""
+    """The path of the benchmark file, in whose folder recordings are searched."""
 
     @property
     def topics(self) -> tuple[str, str]:
-        """The topics on which images and info are published."""
+        """The topics on which images and camera parameters are published."""
         return self.image_pub or self.image_topic, self.info_pub or self.info_topic
 
     def find(self, stage: Stage) -> Path:
-        """Find the recording; AssetNotFound names every searched folder."""
+        """Return the path of the recording; raises AssetNotFound with every searched folder."""
         try:
             return stage.find(self.bag, named_by=self.path)
         except AssetNotFound as error:
@@ -93,15 +96,15 @@ class BagFogUpdaterSpec(FogSweepSpec):
                 raise error from None
 
     def files(self, stage: Stage) -> Mapping[str, Path]:
-        """Return the recording."""
+        """Return the path of the recording by its name in the benchmark file."""
         return {self.bag: self.find(stage)}
 
     def times(self, path: Path) -> tuple[float, float]:
-        """Return the times from the first image to the next, and to the recording's end [s].
+        """Return the times from the first image to the second, and to the recording's end [s].
 
         Raises:
-            AssetError: it cannot be read, or a topic has another type.
-            UnknownName: a topic is not in it.
+            AssetError: the recording cannot be read, or a topic has the wrong type.
+            UnknownName: a topic is not in the recording.
         """
         recording = Recording(path, self.image_topic, self.info_topic)
         recording.close()
@@ -111,10 +114,10 @@ class BagFogUpdaterSpec(FogSweepSpec):
         """Open the recording.
 
         Raises:
-            AssetNotFound: it does not exist.
-            AssetError: it cannot be read, or a topic has another type.
-            UnknownName: a topic is not in it.
-            BadSetting: the scene publishes on such a topic already.
+            AssetNotFound: the recording does not exist.
+            AssetError: the recording cannot be read, or a topic has the wrong type.
+            UnknownName: a topic is not in the recording.
+            BadSetting: the scene publishes on one of the topics already.
         """
         path = self.find(stage)
         _, length = self.times(path)
@@ -138,15 +141,15 @@ class BagFogUpdaterSpec(FogSweepSpec):
 
 
 class BagFogUpdater(SceneUpdater):
-    """An updater that replays a recording in fog.
+    """An updater that replays recorded images in fog.
 
-    Until the benchmark has begun, and in the prelude of an independent level, the first image is
-    repeated at the spacing of the first two: a tracker takes its template from the image with which
-    its level begins. The replay begins with level 1 of a sequence, or with any independent level;
-    in a sequence it continues from level to level.
+    The replay begins with the first level of a sequence, and continues from level to level; an
+    independent level has a replay of its own. Before that, and in the prelude of an independent
+    level, the first image is published repeatedly, with the time between the first two images as
+    the period: a tracker takes its template from the image with which its level begins.
 
-    Compatibility ``bag-fog``: the exponent is 1.44 times as great, the colour is (0, 0.05, 0.3) on
-    the channels in recorded order, and grey images do not change.
+    Compatibility ``bag-fog``: the exponent is 1.44 times as large, the fog colour is (0, 0.05, 0.3)
+    for the channels in their recorded order, and grey images do not change.
     """
 
     def __init__(
@@ -160,27 +163,27 @@ class BagFogUpdater(SceneUpdater):
         self._density = spec.density(spec.first_value)  # [1/m]
         self._recording: Recording | None = None
         self._has_begun = False
-        self._start_step = 0  # step at which the first image was due
-        self._schedule: Iterator[tuple[int, RecordedFrame]] = iter(())
-        self._next_frame: tuple[int, RecordedFrame] | None = None  # with its step
-        self._n_frames = 0
-        self._digest = hashlib.sha256()
+        self._start_step = 0  # step at which the first image of the schedule was due
+        self._schedule: Iterator[tuple[int, RecordedFrame]] = iter(())  # due times [ns], images
+        self._next_frame: tuple[int, RecordedFrame] | None = None  # the step at which it is due
+        self._n_frames = 0  # images published
+        self._digest = hashlib.sha256()  # of the images published
         stage.create_timer(1.0 / stage.timestep, self._tick)
 
     def apply(self, value: float) -> None:
-        """Set the fog; the first level starts the replay."""
+        """Set the fog, and start the replay in the first level."""
         self._density = self._spec.density(value)
         if not self._has_begun:
             self._has_begun = True
             self._start(self._replay())
 
     def ramp(self, value: float) -> None:
-        """Set the fog alone."""
+        """Set the fog, without starting the replay."""
         self._density = self._spec.density(value)
 
     @property
     def streams(self) -> tuple[tuple[str, int, str], ...]:
-        """The images published so far."""
+        """The topic, number and SHA-256 hash of the images published so far."""
         return ((self._image_topic, self._n_frames, self._digest.hexdigest()),)
 
     def close(self) -> None:
@@ -265,11 +268,12 @@ class BagFogUpdater(SceneUpdater):
 def add_fog(
     pixels: npt.NDArray[np.uint8], contrast: float, colour: tuple[float, float, float]
 ) -> npt.NDArray[np.uint8]:
-    """Return ``pixels * seen + colour * (1 - seen)``, rounded to whole numbers.
+    """Return ``pixels * contrast + colour * (1 - contrast)``, rounded to whole numbers.
 
     Args:
-        pixels: (h, w, 3), red first; or (h, w), whose fog is as grey as the colour.
-        contrast: the remaining share of the contrast, 0..1.
+        pixels: a colour image (h, w, 3), red first, or a grey image (h, w), in which the fog has
+            the brightness of ``colour``.
+        contrast: the share of the contrast that remains, 0..1.
         colour: the red, green and blue of the fog, 0..1.
     """
     import cv2

@@ -20,14 +20,14 @@ from .sweep import Setter, SweepSpec
 
 @dataclass(frozen=True, kw_only=True)
 class CameraNoiseUpdaterSpec(SweepSpec):
-    """A ``<cameraNoiseUpdater>`` element. The number of levels is counted in float64."""
+    """A ``<cameraNoiseUpdater>`` element."""
 
     name: ClassVar[str] = "noise"
 
     initial_value: float = element(original=Original(aliases=("initialNoise",)), minimum=0.0)
-    """The noise of the first level: a standard deviation in colour units, 0..1."""
+    """The standard deviation of the noise in the first level; 1 is the full range of a colour."""
     final_value: float = element(original=Original(aliases=("finalNoise",)), minimum=0.0)
-    """The noise that is not exceeded."""
+    """The greatest standard deviation of the noise in a level; 1 is the full range of a colour."""
 
     def bind(self, stage: Stage) -> Setter:
         """Return a setter of the noise of all colour cameras."""

@@ -11,6 +11,8 @@
       <random>0.01</random> <step>0.01</step> <interval>120</interval>
       <target>girona500</target>
     </currentForceUpdater>
+
+L is the localized world frame.
 """
 
 from __future__ import annotations
@@ -30,31 +32,32 @@ from .sweep import SweepSpec
 from .updater import SceneUpdater
 
 STILL_WATER_TIME = 2.0
-"""The time without current after each change of level [s]."""
+"""The time without current after each step to a level [s]."""
 MAX_OFFSET = 3600.0
-"""The greatest time offset of the clock, for which all random factors have to be drawn [s]."""
+"""The greatest time offset [s]; the random factors of all earlier times have to be drawn."""
 RESET_SERVICE = "dynamics/reset"
-"""The service called when a level begins, if it exists."""
+"""The service that is called when a level begins, if it is offered."""
 FORCE_TOPIC = "currentForce"
+"""The topic on which the force of the current is published (geometry_msgs/WrenchStamped)."""
 FORCE_RATE = 100.0
-"""The rate of the messages on that topic [Hz]."""
+"""The rate of the messages on `FORCE_TOPIC` [Hz]."""
 DRAG_FACTOR = 500.0 * 0.82
-"""The product of half the density of water, the drag coefficient of a cube, and 1 m2 [kg/m]."""
+"""The product of half the density of water, drag coefficient and area, as in UWSim [kg/m]."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class SphericalSpec(Spec):
-    """A value for each of the two angles of the current's direction."""
+    """Two numbers, one for each of the two angles of the current's direction."""
 
     theta: float
-    """The value of the polar angle from z of L."""
+    """The number for the polar angle, which is measured from the z axis of L."""
     phi: float
-    """The value of the azimuth from y of L towards -x."""
+    """The number for the azimuth, which is measured from the y axis of L towards -x."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class CurrentForceUpdaterSpec(SweepSpec):
-    """A ``<currentForceUpdater>`` element. The number of levels is counted in float64."""
+    """A ``<currentForceUpdater>`` element."""
 
     name: ClassVar[str] = "current"
     unit: ClassVar[str] = "m/s"
@@ -66,19 +69,19 @@ class CurrentForceUpdaterSpec(SweepSpec):
     final_value: float = element(
         original=Original(aliases=("finalCurrent",)), minimum=-MAX_SPEED, maximum=MAX_SPEED
     )
-    """The speed that is not exceeded [m/s]."""
+    """The greatest speed of the current in a level [m/s]."""
     spherical_direction: SphericalSpec
-    """The direction of the current [rad]."""
+    """The mean direction of the current, in L [rad]."""
     force_variation: float = element(minimum=-MAX_SPEED, maximum=MAX_SPEED)
-    """The amplitude of the variation of its speed [m/s]."""
+    """The amplitude of the variation of the speed [m/s]."""
     force_period: float = element(minimum=MIN_PERIOD)
-    """The period of the variation of its speed [s]."""
+    """The period of the variation of the speed [s]."""
     direction_variation: SphericalSpec
-    """The amplitudes of the variation of its direction [rad]."""
+    """The amplitudes of the variation of the direction [rad]."""
     direction_period: SphericalSpec
-    """The periods of the variation of its direction [s]."""
+    """The periods of the variation of the direction [s]."""
     random: float = element(minimum=0.0, maximum=10.0)
-    """The half-width of the uniform noise, relative."""
+    """The half-width of the uniform noise, relative to the speed and to each angle."""
     step: float = element(exclusive_minimum=0.0)
     """The increment from level to level [m/s]."""
     target: str = element(refers_to="vehicle")
@@ -91,7 +94,7 @@ class CurrentForceUpdaterSpec(SweepSpec):
     """The time of the current's clock when a level begins [s] (``u:timeOffset``)."""
 
     def current(self, value: float) -> UwsimSinusoidSpec:
-        """Return the current of a level.
+        """Return the current with the mean speed ``value`` [m/s].
 
         Raises:
             BadSetting: the direction varies with a period that is not above 0.
@@ -127,15 +130,16 @@ class CurrentForceUpdaterSpec(SweepSpec):
 
 
 class CurrentForceUpdater(SceneUpdater):
-    """An updater that resets the vehicle's pose; after 2 s the level's current flows.
+    """An updater that resets the vehicle's pose and, 2 s later, starts the current of a level.
 
-    As in the original, the first level of a sequence is no step: the vehicle keeps its pose and the
-    current flows at once. Before it there is no current.
+    As in the original UWSim, in the first level of a sequence the vehicle keeps its pose and the
+    current flows at once. Before the first level there is no current.
 
-    The current's time and its random factors begin with the level, so that a level does not depend
-    on those before it. (In the original both continue through the levels, from the clock.)
+    The time and the random factors of the current begin anew with each level, so that a level does
+    not depend on earlier levels. (In the original UWSim they depend on the wall clock, and continue
+    from level to level.)
 
-    Compatibility ``current-target``: the current moves the target alone, not all floating bodies.
+    Compatibility ``current-target``: the current moves only the target, not all floating bodies.
     """
 
     def __init__(self, stage: Stage, spec: CurrentForceUpdaterSpec) -> None:
@@ -177,9 +181,10 @@ class ForcePublisher:
     .. math:: f_i = \tfrac{1}{2} \rho\, C_d A\; v_i |v_i|, \quad
         \rho = 1000,\ C_d = 0.82,\ A = 1
 
-    along each axis of L (``frame_id`` "Currents"), torque 0. It is for dynamics nodes without a
-    current of their own. With the compatibility ``current-force`` it is :math:`v_i^2` as in the
-    original, which loses the sign. Not modelled: the vehicle's own velocity and shape.
+    along each axis of L (``frame_id`` "Currents"), with the velocity v of the current. The torque
+    is 0. The message is for external dynamics nodes that do not model a current. With the
+    compatibility ``current-force``, :math:`v_i^2` replaces :math:`v_i |v_i|` as in the original
+    UWSim, which loses the sign. Not modelled: the velocity and shape of the vehicle.
     """
 
     def __init__(self, stage: Stage, current: Flow) -> None:

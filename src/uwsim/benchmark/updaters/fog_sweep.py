@@ -1,4 +1,4 @@
-r"""The base of the two fog updaters: a sweep of fog density, or of a length that defines it.
+r"""The base class of the fog updaters: a sweep of fog density, or of a length that defines it.
 
 .. code-block:: xml
 
@@ -7,19 +7,20 @@ r"""The base of the two fog updaters: a sweep of fog density, or of a length tha
       <interval>2</interval>
     </sceneFogUpdater>
 
-Fog of density f reduces contrast at the distance d by the factor :math:`e^{-(fd)^2}`. ``u:unit`` is
-the quantity of the values of the sweep:
+Fog of the density f [1/m] reduces contrast at the distance d [m] by the factor
+:math:`e^{-(fd)^2}`. ``u:unit`` selects the quantity that the sweep changes:
 
 ``density``
-    f itself [1/m], as in the original.
+    The density f [1/m], as in the original UWSim.
 ``attenuationLength``
     The distance at which contrast has fallen to 1/e, :math:`L = 1/f` [m].
 ``visibilityRange``
-    The distance at which it has fallen to 2 %, the smallest that the eye distinguishes (Koschmieder
-    1924), :math:`V = \sqrt{\ln 50}/f = 1.98\,L` [m].
+    The distance at which contrast has fallen to 2 %, the smallest that the eye distinguishes
+    (Koschmieder 1924), :math:`V = \sqrt{\ln 50}/f = 1.98\,L` [m].
 
-Lengths decrease as fog increases, so a sweep in metres may have a negative step. Its last value is
-a level if it is a whole number of steps away, independent of rounding.
+These lengths decrease as the density increases, so a sweep of a length may have a negative step.
+Its final value is a level if it is a whole number of steps away from the initial value, regardless
+of rounding errors.
 """
 
 from __future__ import annotations
@@ -37,40 +38,43 @@ from .updater import MAX_LEVELS
 
 @dataclass(frozen=True, kw_only=True)
 class FogSweepSpec(SweepSpec):
-    """An updater of fog. Its levels are counted in float32, unless its values are lengths."""
+    """An updater that sweeps the density of fog, or a length that defines the density.
+
+    The number of levels of a density is computed in float32, as in the original UWSim.
+    """
 
     name: ClassVar[str] = "fog"
     unit: ClassVar[str] = "1/m"
     is_single: ClassVar[bool] = True
 
     initial_value: float = element(original=Original(aliases=("initialFog",)), minimum=0.0)
-    """The fog density of the first level [1/m]; or a length [m] with another ``u:unit``."""
+    """The fog density of the first level [1/m], or the length that ``u:unit`` selects [m]."""
     final_value: float = element(original=Original(aliases=("finalFog",)), minimum=0.0)
-    """The fog density, or length, that is not passed."""
+    """The fog density, or the length, beyond which there is no level."""
     step: float = element()
-    """The increment from level to level; below 0 only for lengths."""
+    """The increment from level to level; only the increment of a length may be negative."""
     quantity: Literal["density", "attenuationLength", "visibilityRange"] = element(
         "unit", default="density", attribute=True, namespaced=True
     )
-    """The quantity of the values (``u:unit``): ``density`` [1/m], or the length [m] at which
-    contrast has fallen to 1/e, ``attenuationLength``, or to 2 %, ``visibilityRange``."""
+    """The quantity that the sweep changes (``u:unit``): ``density`` [1/m], or the distance [m] at
+    which contrast has fallen to 1/e (``attenuationLength``) or to 2 % (``visibilityRange``)."""
 
     @property
     def parameter(self) -> str:
-        """The name ``fog``, or that of the length."""
+        """The name of the column: ``fog`` for a density, or the name of the length."""
         return self.name if self.quantity == DENSITY else self.quantity
 
     @property
     def parameter_unit(self) -> str:
-        """The unit 1/m, or m."""
+        """The unit of the column: 1/m for a density, m for a length."""
         return self.unit if self.quantity == DENSITY else "m"
 
     def density(self, value: float) -> float:
-        """Return the fog density [1/m] of a level."""
+        """Return the fog density [1/m] for a value of the sweep."""
         return value if self.quantity == DENSITY else LENGTHS[self.quantity](value)
 
     def values(self) -> tuple[float, ...]:
-        """Return the densities [1/m], or the lengths [m]."""
+        """Return the density [1/m] or the length [m] of each level."""
         if self.quantity == DENSITY:
             return super().values()
         start, end, step = self.initial_value, self.final_value, self.step
@@ -80,7 +84,7 @@ class FogSweepSpec(SweepSpec):
         return tuple(start + i * step for i in range(math.floor(span + 1e-9) + 1))
 
     def errors(self) -> Iterator[str]:
-        """Report a sweep without levels."""
+        """Report a step of 0 or of the wrong sign, and lengths that are not positive."""
         start, end, step = self.initial_value, self.final_value, self.step
         if self.quantity == DENSITY:
             if step <= 0.0:

@@ -1,4 +1,4 @@
-"""none: a scene that does not change.
+"""none: an updater that does not change the scene.
 
 .. code-block:: xml
 
@@ -21,11 +21,11 @@ class NoneSpec(SceneUpdaterSpec):
     name: ClassVar[str] = "none"
 
     def values(self) -> tuple[float, ...]:
-        """Return the value of the only level, 1 as in the original."""
+        """Return the value of the only level, which is 1 as in the original UWSim."""
         return (1.0,)
 
     def bind(self, stage: Stage) -> NoneUpdater:
-        """Return the updater, which needs nothing of the scene."""
+        """Return the updater, which does not depend on the scene."""
         return NoneUpdater()
 
 

@@ -1,4 +1,4 @@
-"""repeat: the same level several times.
+"""repeat: an updater that repeats a level several times without a change of the scene.
 
 .. code-block:: xml
 
@@ -22,7 +22,7 @@ class RepeatSpec(SceneUpdaterSpec):
     name: ClassVar[str] = "iteration"
 
     iterations: int = element(minimum=1, maximum=MAX_LEVELS)
-    """The number of iterations."""
+    """The number of levels."""
     interval: float = element(exclusive_minimum=0.0)
     """The length of a level [s]."""
 
@@ -36,11 +36,11 @@ class RepeatSpec(SceneUpdaterSpec):
         return self.interval
 
     def blend(self, value: float, fraction: float) -> float:
-        """Return ``value``: there is nothing between two iterations."""
+        """Return ``value``: there is no value between the numbers of two iterations."""
         return value
 
     def bind(self, stage: Stage) -> Repeat:
-        """Return the updater, which needs nothing of the scene."""
+        """Return the updater, which does not depend on the scene."""
         return Repeat()
 
 

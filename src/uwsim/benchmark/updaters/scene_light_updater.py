@@ -20,14 +20,14 @@ from .sweep import Setter, SweepSpec
 
 @dataclass(frozen=True, kw_only=True)
 class SceneLightUpdaterSpec(SweepSpec):
-    """A ``<sceneLightUpdater>`` element. The number of levels is counted in float64."""
+    """A ``<sceneLightUpdater>`` element."""
 
     name: ClassVar[str] = "light"
 
     initial_value: float = element(original=Original(aliases=("initialLight",)), minimum=0.0)
-    """The light rate of the first level; 1 is the scene's own light."""
+    """The light of the first level, as a multiple of the scene's own light."""
     final_value: float = element(original=Original(aliases=("finalLight",)), minimum=0.0)
-    """The light rate that is not exceeded."""
+    """The greatest light of a level, as a multiple of the scene's own light."""
 
     def bind(self, stage: Stage) -> Setter:
         """Return a setter of the light of the scene."""

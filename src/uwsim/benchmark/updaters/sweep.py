@@ -1,4 +1,4 @@
-"""The base of updaters that sweep one value from an initial to a final one by a step."""
+"""The base class of updaters that increase one value from level to level by a constant step."""
 
 from __future__ import annotations
 
@@ -18,19 +18,20 @@ class SweepSpec(SceneUpdaterSpec):
     """An updater whose value increases by a step from level to level."""
 
     is_single: ClassVar[bool] = False
-    """True if the original counts its levels in float32."""
+    """True if the number of levels is computed in float32, as in the original UWSim; otherwise it
+    is computed in float64 (`sweep_values`)."""
 
     initial_value: float
     """The value of the first level."""
     final_value: float
-    """The value that is not exceeded."""
+    """The greatest value of a level."""
     step: float = element(exclusive_minimum=0.0)
     """The increment from level to level."""
     interval: float = element(exclusive_minimum=0.0)
     """The length of a level [s]."""
 
     def values(self) -> tuple[float, ...]:
-        """Return the value of each level."""
+        """Return the initial value, the next value one step above, and so on."""
         return sweep_values(
             self.initial_value, self.final_value, self.step, is_single=self.is_single
         )
@@ -50,7 +51,11 @@ class SweepSpec(SceneUpdaterSpec):
 
 
 class Setter(SceneUpdater):
-    """An updater that sets one value of the scene to that of the level."""
+    """An updater that sets one value of the scene by calling a function.
+
+    Args:
+        setter: the function, called with the value of each level.
+    """
 
     def __init__(self, setter: Callable[[float], None]) -> None:
         self._set = setter
@@ -63,14 +68,21 @@ class Setter(SceneUpdater):
 def sweep_values(
     start: float, end: float, step: float, *, is_single: bool = False
 ) -> tuple[float, ...]:
-    """Return ``initial + i * step`` for as many i as the original runs.
+    """Return ``start + i * step`` for as many levels i as the original UWSim runs.
 
-    The original adds ``step`` until the sum *exceeds* ``end``, in float64 or (``is_single``, the
-    fog) in float32, so rounding determines whether the last value is included: fog 0..1.3 by 0.05
-    has 27 levels, current 0..0.2 by 0.01 only 20. The number is kept; the values are exact.
+    The original UWSim adds ``step`` until the sum *exceeds* ``end``. Rounding therefore determines
+    whether ``end`` is the last level: a fog sweep from 0 to 1.3 by 0.05 has 27 levels, a current
+    sweep from 0 to 0.2 by 0.01 only 20. uwsim runs the same number of levels, but computes each
+    value by a multiplication, without the accumulated rounding errors.
+
+    Args:
+        start: the first value.
+        end: the value that is not exceeded.
+        step: the increment from level to level.
+        is_single: True if the sums are computed in float32 (fog), False in float64.
 
     Raises:
-        BadSetting: it never ends, or has more than 100 000 levels.
+        BadSetting: the sweep never ends, or has more than 100 000 levels.
     """
     kind = np.float32 if is_single else np.float64
     value, end_value, increment = kind(start), kind(end), kind(step)

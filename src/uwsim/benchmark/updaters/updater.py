@@ -14,14 +14,16 @@ from ...schema import Spec, element
 from ...world import Stage
 
 MAX_LEVELS = 100_000
+"""The greatest number of levels of a benchmark."""
 
 
 @dataclass(frozen=True)
 class Level:
-    """A level of a sweep: the value of each updater, the outermost first."""
+    """A level of a benchmark: one value for each scene updater."""
 
     values: tuple[tuple[str, float], ...]
-    """The parameter and value of each updater, as ``(("current", 0.1), ("fog", 0.05))``."""
+    """The column name and the value of each updater, the outermost first:
+    ``(("current", 0.1), ("fog", 0.05))``."""
 
     def __str__(self) -> str:
         return ", ".join(f"{name}={value:g}" for name, value in self.values)
@@ -32,49 +34,52 @@ class SceneUpdaterSpec(Spec, abc.ABC):
     """An element of ``<sceneUpdater>``, which changes the scene from level to level."""
 
     name: ClassVar[str]
-    """The parameter: the name of its column in the result."""
+    """The name of the swept parameter: the name of its column in the result."""
     unit: ClassVar[str] = "1"
-    """The unit of its values."""
+    """The unit of the values."""
     child: SceneUpdaterSpec | None = element("sceneUpdater", default=None)
-    """The nested updater, which is stepped first."""
+    """The nested updater, which runs through all of its values for each value of this one."""
     settling_time: float = element(default=0.0, attribute=True, namespaced=True, minimum=0.0)
-    """The time after each step of it, the first level included, during which measuring and the
-    interval wait [s] (``u:settlingTime``)."""
+    """The time after each step of this updater, the first level included, before measures are
+    active and the interval begins [s] (``u:settlingTime``)."""
 
     @abc.abstractmethod
     def values(self) -> tuple[float, ...]:
-        """Return the value of each of its levels."""
+        """Return the values of this updater, in the order of the levels."""
 
     @abc.abstractmethod
     def bind(self, stage: Stage) -> SceneUpdater:
-        """Resolve the changed part of the scene; raises UnknownName or UwsimError if it cannot."""
+        """Resolve the part of the scene to change; raises UwsimError if the scene lacks it."""
 
     def files(self, stage: Stage) -> Mapping[str, Path]:
-        """Return the files and folders that it reads, by their names in the file."""
+        """Return the files and folders that the updater reads: name in the benchmark -> path."""
         return {}
 
     def errors(self) -> Iterable[str]:
-        """Return its errors as a whole; a message ``<step> ...`` gets that child's line."""
+        """Return errors of values that are valid one by one, but not together.
+
+        A message that begins with the name of a child, ``<step> ...``, gets the child's line.
+        """
         return ()
 
     @property
     def parameter(self) -> str:
-        """The name of its column: `name`, unless the file selects another quantity."""
+        """The name of the column: `name`, unless the file selects another quantity."""
         return self.name
 
     @property
     def parameter_unit(self) -> str:
-        """The unit of that column."""
+        """The unit of the column."""
         return self.unit
 
     @property
     def seconds_per_level(self) -> float | None:
-        """The duration of a level when it is the deepest updater [s]; None: until ``stopOn``."""
+        """The duration of a level if this is the deepest updater [s]; None: until ``stopOn``."""
         return None
 
     @property
     def first_value(self) -> float:
-        """The value of the first level."""
+        """The value in the first level."""
         return self.values()[0]
 
     def blend(self, value: float, fraction: float) -> float:
@@ -84,34 +89,38 @@ class SceneUpdaterSpec(Spec, abc.ABC):
 
 
 class SceneUpdater(abc.ABC):
-    """A bound updater, which changes one quantity of the scene."""
+    """An updater bound to a scene, of which it changes one quantity."""
 
     @abc.abstractmethod
     def apply(self, value: float) -> None:
-        """Step to ``value``, with which a level begins."""
+        """Change the scene to ``value`` at the beginning of a level."""
 
     def begin(self, value: float) -> None:
-        """Begin the first level of a sequence, before which there is no step: as `apply`."""
+        """Change the scene to ``value`` at the beginning of the first level of a sequence.
+
+        The default is to call `apply`.
+        """
         self.apply(value)
 
     def ramp(self, value: float) -> None:
-        """Set the scene to ``value`` outside of any level: as `apply`.
+        """Change the scene to ``value`` outside of any level.
 
-        It is called before the first level, and between the initial values and a level.
+        It is called before the first level, and during the prelude of an independent level. The
+        default is to call `apply`.
         """
         self.apply(value)
 
     @property
     def streams(self) -> tuple[tuple[str, int, str], ...]:
-        """The topic, number and SHA-256 of the images that it published itself."""
+        """The images that the updater itself has published: topic, number, SHA-256 hash."""
         return ()
 
-    def close(self) -> None:  # noqa: B027 - most updaters have none
-        """Release its resources (a file)."""
+    def close(self) -> None:  # noqa: B027 - most updaters have none open
+        """Close the files of the updater."""
 
 
 def chain(spec: SceneUpdaterSpec) -> tuple[SceneUpdaterSpec, ...]:
-    """Return the updater and those nested in it, outermost first.
+    """Return an updater and the updaters nested in it, the outermost first.
 
     A ``<none/>`` nested in another updater changes nothing and is left out.
     """
@@ -135,7 +144,7 @@ def swept_parameters(spec: SceneUpdaterSpec) -> tuple[str, ...]:
 
 
 def n_levels(spec: SceneUpdaterSpec) -> int:
-    """Return the number of levels: the product over nested updaters."""
+    """Return the number of levels: the product of the numbers of values of nested updaters."""
     total = 1
     for updater in chain(spec):
         total *= len(updater.values())
@@ -167,20 +176,21 @@ def blend(spec: SceneUpdaterSpec, level: Level, fraction: float) -> Level:
 
 
 def interval(spec: SceneUpdaterSpec) -> float | None:
-    """Return the duration of a level [s], that of the deepest updater; None: until ``stopOn``."""
+    """Return the duration of a level [s], set by the deepest updater; None: until ``stopOn``."""
     return chain(spec)[-1].seconds_per_level
 
 
 def bind_updaters(spec: SceneUpdaterSpec, stage: Stage) -> tuple[SceneUpdater, ...]:
-    """Bind the updater and those nested in it, outermost first."""
+    """Bind an updater and the updaters nested in it, the outermost first."""
     return tuple(updater.bind(stage) for updater in chain(spec))
 
 
 def find_steps(level: Level, last_level: Level | None) -> tuple[bool, ...]:
-    """Return the updaters that change from ``last_level`` to ``level``, outermost first.
+    """Return for each updater, the outermost first, whether it steps from one level to the next.
 
-    As in the original, an updater steps only when its value or that of an outer one changes: a
-    current that contains a sweep of fog resets its vehicle once, not at every fog level.
+    As in the original UWSim, an updater steps only when its own value or the value of an outer
+    updater changes: a current updater that contains a sweep of fog resets its vehicle once for each
+    current, not at every fog level. All updaters step if ``last_level`` is None.
     """
     n = len(level.values)
     return tuple(
@@ -191,7 +201,7 @@ def find_steps(level: Level, last_level: Level | None) -> tuple[bool, ...]:
 def settling_time(
     spec: SceneUpdaterSpec, level: Level, *, last_level: Level | None = None
 ) -> float:
-    """Return the time for which measuring and the interval wait after the step to ``level`` [s]."""
+    """Return the time from the step to ``level`` until the interval and the measures begin [s]."""
     updater_steps = zip(chain(spec), find_steps(level, last_level), strict=True)
     return max(updater.settling_time if is_step else 0.0 for updater, is_step in updater_steps)
 
@@ -199,12 +209,12 @@ def settling_time(
 def apply_level(
     updaters: Sequence[SceneUpdater], level: Level, *, last_level: Level | None = None
 ) -> None:
-    """Step to ``level``, the outermost updater first.
+    """Change the scene to ``level``, with the outermost updater first.
 
     Args:
         updaters: the bound updaters, outermost first.
         level: the level that begins.
-        last_level: the previous level in the same simulation, if any; see `find_steps`.
+        last_level: the previous level in the same simulation; None for the first (`find_steps`).
     """
     updater_steps = zip(updaters, level.values, find_steps(level, last_level), strict=True)
     for updater, (_, value), is_step in updater_steps:
@@ -213,12 +223,12 @@ def apply_level(
 
 
 def begin_level(updaters: Sequence[SceneUpdater], level: Level) -> None:
-    """Begin the first level of a sequence, the outermost updater first."""
+    """Change the scene to the first level of a sequence, with the outermost updater first."""
     for updater, (_, value) in zip(updaters, level.values, strict=True):
         updater.begin(value)
 
 
 def ramp_level(updaters: Sequence[SceneUpdater], level: Level) -> None:
-    """Set the scene to values outside of any level, the outermost updater first."""
+    """Change the scene to values outside of any level, with the outermost updater first."""
     for updater, (_, value) in zip(updaters, level.values, strict=True):
         updater.ramp(value)
