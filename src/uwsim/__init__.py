@@ -1,6 +1,6 @@
 """Simulate underwater robots, and benchmark the algorithms that control them.
 
-The names of `__all__` are stable: `docs/python.md` states the rule, `uwsim.api` describes them::
+The names in `__all__` are stable, as `docs/python.md` explains; for example::
 
     import uwsim
 
@@ -72,7 +72,7 @@ _MODULES = {
 """The module that defines each public name."""
 
 
-if not TYPE_CHECKING:  # with it, a type checker accepts every name
+if not TYPE_CHECKING:  # with a `__getattr__`, a type checker would accept every name
 
     def __getattr__(name: str) -> Any:
         """Import a public name when it is first used."""

@@ -1,4 +1,4 @@
-"""The functions of the Python interface that `import uwsim` offers.
+"""The functions of the Python interface: `load`, `bench`, `check`, `compare`, `read_result`.
 
 Files are found as by the command line: a path, a name in a search folder, or a bundled name. All
 functions take `str` or `Path`. They raise an `UwsimError` of one or more lines, which states the
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 Setting = str | float | int
 OnProgress = Callable[[int, int], object]
-"""A function of the number of finished levels and the number of all levels."""
+"""A function that is called with the number of finished levels and the number of all levels."""
 
 
 def load(
@@ -52,8 +52,8 @@ def load(
             ``{"oceanState.fog.density": 0.4}``; ``{"xacro.depth": 3}`` is a xacro argument.
         data_path: more folders in which files are searched.
         udp_address: the address of this computer at which vehicles with ``<fdm>`` receive UDP
-            packets, such as ``127.0.0.1``; None: they receive none, and the run can be repeated.
-        is_blind: images on topics are black, and nothing is rendered for them.
+            packets, such as ``127.0.0.1``; None: they receive none, so that runs are repeatable.
+        is_blind: publish black images on topics, and render nothing for them.
 
     Raises:
         UwsimError: a file, a name or a setting is invalid; the message has all errors of the file.
@@ -108,11 +108,12 @@ def bench(
         levels: the levels of the sweep to run, as numbers: ``{"fog": [0.0, 1 / 3]}``.
         settings: values to change, as ``--set`` names them; ``algorithm.kp`` is a parameter.
         data_path: more folders in which files are searched.
-        workers: the number of processes; 0 runs everything in this process, the control and the
-            report included. With more, the program needs ``if __name__ == "__main__":``.
-        out: the result directory, which is empty or does not exist. It gets all files that
-            ``uwsim bench`` writes, the control and the report included. None: only the returned
-            result remains.
+        workers: the number of processes; 0 runs everything in this process, including the control
+            (a run of an algorithm that does nothing) and the report. With more, the program needs
+            ``if __name__ == "__main__":``.
+        out: the result directory, which is empty or does not exist. It receives all files that
+            ``uwsim bench`` writes, including those of the control and the report. None: no files
+            remain; only the result is returned.
         on_progress: a function that is called with the number of finished levels and the number of
             all levels, at the beginning and after each level.
 
@@ -203,7 +204,7 @@ def _count_levels(
 
 
 def _checked_settings(settings: Mapping[str, Setting] | None) -> Mapping[str, Setting]:
-    """Return settings as a mapping; raise BadSetting if they are none."""
+    """Return settings, empty for None; raise BadSetting if they are not a mapping."""
     if settings is None or isinstance(settings, Mapping):
         return settings or {}
     raise BadSetting(
@@ -212,7 +213,7 @@ def _checked_settings(settings: Mapping[str, Setting] | None) -> Mapping[str, Se
 
 
 def _folders_of(data_path: Sequence[str | Path]) -> tuple[Path, ...]:
-    """Return folders as paths; raise BadSetting for other values."""
+    """Return folders as paths; raise BadSetting if they are not a collection of paths."""
     if isinstance(data_path, str) or not isinstance(data_path, Collection):
         raise BadSetting(f"data_path={short_repr(data_path)}: expected folders, as ['meshes'].")
     for folder in data_path:
@@ -242,7 +243,7 @@ def _pairs_of(levels: Mapping[str, Sequence[float]]) -> list[tuple[str, float]]:
 
 
 def _finite_number(value: object) -> float | None:
-    """Return a number as a float; None for other values, and numbers beyond its range."""
+    """Return a number as a float; None for other types, and for numbers that no float holds."""
     from .base.external_values import finite_float
 
     if not isinstance(value, Real) or isinstance(value, bool):
@@ -257,10 +258,10 @@ def _first_seed(seeds: Sequence[int]) -> int:
         raise BadSetting(
             f"seeds={seed_text}: expected a sequence, such as ({seed_text},) or range(6)."
         )
-    given_seeds = list(seeds) if isinstance(seeds, Collection) else []
-    are_integers = all(isinstance(s, Integral) and not isinstance(s, bool) for s in given_seeds)
-    first_seed = int(given_seeds[0]) if given_seeds and are_integers else -1
-    if first_seed < 0 or given_seeds != list(range(first_seed, first_seed + len(given_seeds))):
+    seed_list = list(seeds) if isinstance(seeds, Collection) else []
+    are_integers = all(isinstance(s, Integral) and not isinstance(s, bool) for s in seed_list)
+    first_seed = int(seed_list[0]) if seed_list and are_integers else -1
+    if first_seed < 0 or seed_list != list(range(first_seed, first_seed + len(seed_list))):
         raise BadSetting(
             f"seeds={short_repr(seeds)}: expected consecutive seeds >= 0, such as (0,) or range(6)."
         )
@@ -307,9 +308,9 @@ def check(
     data_path: Sequence[str | Path] = (),
     arguments: Mapping[str, Setting] | None = None,
 ) -> tuple[Diagnostic, ...]:
-    """Return the errors and warnings of scene, benchmark, robot and hydrodynamics files.
+    """Return the errors and warnings about scene, benchmark, robot and hydrodynamics files.
 
-    Each has its file, line and severity; a valid file has none.
+    Each contains the file, the line and the severity. There are none about a valid file.
 
     Args:
         paths: the files, or names of bundled scenes and benchmarks.

@@ -33,7 +33,7 @@ from dataclasses import dataclass
 from typing import Any, Literal
 
 MAX_LISTED_NAMES = 16
-"""The greatest number of names that an error lists; of more, it lists the nearest `N_NEAREST`."""
+"""The greatest number of names that an error lists; of more names, the nearest `N_NEAREST`."""
 MAX_NAME_LENGTH = 200
 """The longest name that is compared with valid names [characters]; peers send longer ones."""
 N_NEAREST = 3
@@ -44,12 +44,13 @@ MAX_REPR_LENGTH = 80
 class UwsimError(Exception):
     """The base of all errors of uwsim; its message is for the user.
 
-    Workers send errors to their parent, so pickle does not call the ``__init__`` of a subclass.
+    Worker processes send errors to their parent by pickle, which does not call the ``__init__`` of
+    a subclass.
     """
 
     def __init__(self, message: str = "", *, name: str = "") -> None:
         self.name = name
-        """The name in a file that the error concerns, which gives its line; may be empty."""
+        """The name in a file to which the error refers, by which its line is found; may be empty."""
         super().__init__(message)
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -67,7 +68,7 @@ class Diagnostic:
     message: str
     """The text: what was found, what was expected, and the nearest valid value."""
     severity: Literal["error", "warning"] = "error"
-    """The severity; a file with warnings is valid ("read, not simulated yet")."""
+    """The severity; a file with warnings alone is valid."""
 
     def __str__(self) -> str:
         place = self.file if self.line is None else f"{self.file}:{self.line}"
@@ -171,7 +172,7 @@ def name_file_in_errors(path: object, draft: object = None) -> Iterator[None]:
 
     Args:
         path: the path of the file.
-        draft: the path of its draft, which is written first and is not named.
+        draft: the path of the temporary file that later replaces it; errors do not name it.
     """
     try:
         yield

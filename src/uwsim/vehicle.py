@@ -1,4 +1,4 @@
-"""Protocols of a vehicle for topics and devices."""
+"""The protocols through which topics and devices command and read a vehicle."""
 
 from __future__ import annotations
 
@@ -16,23 +16,23 @@ JointIndices = npt.NDArray[np.int64]
 
 
 class Autopilot(Protocol):
-    """The autopilot of a simulated vehicle; a command is active until the next of any kind."""
+    """The autopilot of a vehicle with dynamics; each command replaces the one before."""
 
     def go_to(self, world_from_base: Pose) -> None:
-        """Move to a pose and keep it."""
+        """Move the base to a pose in W, and keep the pose."""
 
     def command(self, linear: Sequence[float], angular: Sequence[float]) -> None:
-        """Move at a twist in base axes [m/s], [rad/s]."""
+        """Move at a linear velocity [m/s] and an angular velocity [rad/s], in base axes."""
 
     def push(self, force: Array, torque: Array) -> None:
-        """Apply a wrench with the thrusters in base axes, (3,) [N], (3,) [N m]."""
+        """Apply a force (3,) [N] and a torque (3,) [N m], in base axes, with the thrusters."""
 
     def set_thrusters(self, commands: Array) -> None:
-        """Set the commands of the thrusters, (n,) [1]."""
+        """Set the commands of the n thrusters, from -1 to 1, (n,) [1]."""
 
 
 class Servos(Protocol):
-    """The joint servos of a simulated vehicle; joints have their index in the joint vector."""
+    """The joint servos of a vehicle with dynamics; joints are indexed as in the joint vector."""
 
     @property
     def velocities(self) -> Array:
@@ -43,17 +43,17 @@ class Servos(Protocol):
         """The torques or forces at the joints, (n,) [N m or N]."""
 
     def aim(self, joints: JointIndices, targets: Array) -> None:
-        """Move joints to target positions, (n,) [rad or m], and hold these."""
+        """Move joints to target positions (n,) [rad or m], and hold them there."""
 
     def drive(self, joints: JointIndices, speeds: Array) -> None:
-        """Move the target positions of joints at speeds, (n,) [rad/s or m/s]."""
+        """Move the target positions of joints at velocities (n,) [rad/s or m/s]."""
 
     def push(self, joints: JointIndices, efforts: Array) -> None:
-        """Apply efforts to joints, (n,) [N m or N]."""
+        """Apply efforts (n,) [N m or N] to joints."""
 
 
 class Vehicle(Protocol):
-    """A vehicle of the scene: simulated, with autopilot and servos, or moved by commands alone."""
+    """A vehicle: with dynamics, an autopilot and servos; or kinematic, moved by commands alone."""
 
     @property
     def name(self) -> str:
@@ -61,34 +61,34 @@ class Vehicle(Protocol):
 
     @property
     def joint_names(self) -> Sequence[str]:
-        """The names of the joints of the joint vector."""
+        """The names of the joints, in the order of the joint vector."""
 
     @property
     def thrusters(self) -> tuple[str, ...]:
-        """The names of the thrusters in the hydrodynamics file; empty if it is not simulated."""
+        """The names of the thrusters in the hydrodynamics file; none on a kinematic vehicle."""
 
     @property
     def fins(self) -> tuple[str, ...]:
-        """The names of the fins in the hydrodynamics file; empty if it is not simulated."""
+        """The names of the fins in the hydrodynamics file; none on a kinematic vehicle."""
 
     def turn_fins(self, angles: Array) -> None:
-        """Turn the fins to angles and hold these, (n,) [rad]."""
+        """Turn the fins to angles (n,) [rad], and hold them there."""
 
     @property
     def autopilot(self) -> Autopilot | None:
-        """The autopilot; None if the vehicle is not simulated."""
+        """The autopilot; None if the vehicle is kinematic."""
 
     @property
     def servos(self) -> Servos | None:
-        """The joint servos; None if the vehicle is not simulated."""
+        """The joint servos; None if the vehicle is kinematic."""
 
     @property
     def world_from_base(self) -> Pose:
-        """The pose of the base."""
+        """The present pose of the base in W."""
 
     @property
     def velocity(self) -> Array:
-        """The twist of the base over ground in base axes, (6,) [m/s, rad/s]."""
+        """The linear [m/s] and angular [rad/s] velocity of the base over ground, base axes, (6,)."""
 
     @property
     def joints(self) -> Array:
@@ -96,26 +96,28 @@ class Vehicle(Protocol):
 
     @property
     def compiled_vehicle(self) -> CompiledVehicle:
-        """The vehicle for compiled code."""
+        """The interface of the vehicle for compiled code."""
 
     def place(self, world_from_base: Pose) -> None:
-        """Set the pose, at rest; later displacements are relative to this pose."""
+        """Set the pose of the base in W, at rest, from which later displacements count."""
 
     def set_joints(self, values: Array) -> None:
-        """Set the joint vector, (n,) [rad or m]; clamped to the limits."""
+        """Set the joint vector (n,) [rad or m], clamped to the joint limits."""
 
     def displacer(self, axis: int) -> Callable[[float], None]:
-        """Return a function that displaces the vehicle, at rest, from its last placed pose.
+        """Return a function that sets a displacement of the vehicle from its rest pose.
 
-        Before `place` this is the pose in the file. ``axis`` 0 to 2: x, y, z of L [m]; 3 to 5:
-        roll, pitch, yaw of its orientation [rad]. The displacements of several functions add up;
-        the vehicle moves when the last of them is set.
+        The rest pose is that of the last `place`, or of the scene file. The displacements of all
+        returned functions add up; the vehicle moves when the function returned last is called.
+
+        Args:
+            axis: 0 to 2: x, y, z of L [m]; 3 to 5: roll, pitch, yaw of the orientation [rad].
         """
 
     def loss_setter(self, thruster: str) -> Callable[[float], None]:
         """Return a function that sets the share of the thrust that a thruster loses [0..1].
 
-        Of several functions for one thruster the greatest loss counts.
+        If several functions set losses of one thruster, the greatest loss applies.
 
         Raises:
             UnknownName: the vehicle has no such thruster.
@@ -123,7 +125,7 @@ class Vehicle(Protocol):
 
 
 def go_or_place(vehicle: Vehicle, world_from_base: Pose) -> None:
-    """Place a vehicle at a pose, at rest; a simulated vehicle moves there by its autopilot."""
+    """Move a vehicle with dynamics to a pose by its autopilot; place a kinematic one there."""
     if (autopilot := vehicle.autopilot) is not None:
         autopilot.go_to(world_from_base)
     else:

@@ -1,4 +1,4 @@
-"""Sensors, one file each: the spec of the element, and the sensor that is sampled.
+"""Sensors, one file each: the spec of the XML element, and the sensor that is bound from it.
 
 `SENSORS` lists them. The interface that publishes a sensor on a topic is in `uwsim.topics`;
 docs/adding-a-sensor.md shows how to add one.
@@ -33,6 +33,6 @@ SENSORS: dict[str, type[SensorSpec]] = {
     f"{{{NAMESPACE}}}scanningSonar": ScanningSonarSpec,
     f"{{{NAMESPACE}}}sideScanSonar": SideScanSonarSpec,
 }
-"""The spec of each sensor element of a vehicle; one without ``bind`` is read and not simulated."""
+"""The spec of each sensor element; elements whose spec has no ``bind`` are not simulated."""
 
 __all__ = ["SENSORS", "SensorSpec"]

@@ -8,16 +8,18 @@ With the time :math:`\Delta t` since the last sample,
     b_k &= e^{-\Delta t / T} b_{k-1} + s \sqrt{1 - e^{-2 \Delta t / T}} \, w_2 \\
     r_k &= r_{k-1} + K \sqrt{\Delta t} \, w_3
 
-where the w are normal with a deviation of 1: N is the noise density, K the random walk, and b a
-Gauss-Markov process of the correlation time T. Its Allan variance,
+where the w are standard normal random numbers. N is the noise density, K the coefficient of the
+random walk r, :math:`b_0` the constant bias of the run, and :math:`b_k` a Gauss-Markov process with
+the correlation time T and the standard deviation s. The Allan variance of :math:`b_k`,
 
 .. math:: \sigma^2(\tau) = \frac{2 s^2 T}{\tau}
     \Bigl[1 - \frac{T}{2 \tau} (3 - 4 e^{-\tau/T} + e^{-2\tau/T})\Bigr],
 
-is greatest at 1.89 T, with a deviation of 0.6174 s. The bias instability B of a data sheet
+is greatest at 1.89 T, where the Allan deviation is 0.6174 s. The bias instability B of a data sheet
 is the floor of the Allan deviation divided by :math:`\sqrt{2 \ln 2 / \pi} = 0.664`; s is chosen so
-that the greatest deviation of b is that floor. Those of white noise and random walk are
-:math:`N / \sqrt\tau` and :math:`K \sqrt{\tau / 3}`. After IEEE Std 952-1997, annex C.
+that the greatest Allan deviation of :math:`b_k` is that floor. The Allan deviations of the white
+noise and the random walk are :math:`N / \sqrt\tau` and :math:`K \sqrt{\tau / 3}`. After IEEE Std
+952-1997, annex C.
 """
 
 from __future__ import annotations
@@ -37,27 +39,28 @@ from ..base.record import Record
 from ..schema import Spec, element
 
 FLOOR = math.sqrt(2.0 * math.log(2.0) / math.pi)
-"""The Allan deviation of flicker noise of the bias instability 1 [1]."""
+"""The floor of the Allan deviation of flicker noise whose bias instability is 1 [1]."""
 PEAK = 0.6174
-"""The greatest Allan deviation of a Gauss-Markov process of the standard deviation 1 [1]."""
+"""The greatest Allan deviation of a Gauss-Markov process with the standard deviation 1 [1]."""
 FIRST_INTERVAL = 0.01
-"""The averaging time of the first sample [s]."""
+"""The averaging time of the first sample, which has no sample before it [s]."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class DriftSpec(Spec):
-    """A ``<u:gyro>`` or ``<u:accelerometer>``: its errors, the same for each axis."""
+    """A ``<u:gyro>`` or ``<u:accelerometer>``: the errors of each of its three axes."""
 
     noise_density: float = element(namespaced=True, default=0.0, minimum=0, maximum=1e3)
     """The density N of the white noise [rad/s/sqrt(Hz), or m/s2/sqrt(Hz)]."""
     bias_instability: float = element(namespaced=True, default=0.0, minimum=0, maximum=1e3)
-    """The bias instability B of a data sheet: floor of the Allan deviation [rad/s, or m/s2]."""
+    """The bias instability B of a data sheet: the floor of the Allan deviation divided by 0.664
+    [rad/s, or m/s2]."""
     correlation_time: float = element(
         namespaced=True, default=300.0, exclusive_minimum=0, maximum=1e9
     )
     """The correlation time T of the bias [s]."""
     random_walk: float = element(namespaced=True, default=0.0, minimum=0, maximum=1e3)
-    """The random walk K of the rate or the acceleration [rad/s/sqrt(s), or m/s2/sqrt(s)]."""
+    """The coefficient K of the random walk [rad/s/sqrt(s), or m/s2/sqrt(s)]."""
     turn_on_bias: float = element(namespaced=True, default=0.0, minimum=0, maximum=1e3)
     """The standard deviation of the constant bias of a run [rad/s, or m/s2]."""
 
@@ -74,13 +77,13 @@ class DriftState(Record):
     rng: np.random.Generator
     """The generator of the errors."""
     constant: Array
-    """The bias of this run, (3,)."""
+    """The constant bias of the run, (3,) [rad/s, or m/s2]."""
     bias: Array
-    """The varying bias, (3,)."""
+    """The varying bias, (3,) [rad/s, or m/s2]."""
     walk: Array
-    """The random walk, (3,)."""
+    """The random walk, (3,) [rad/s, or m/s2]."""
     time: Array
-    """The time of the last errors, NaN before the first ones, (1,) [s]."""
+    """The time of the last sample, NaN before the first, (1,) [s]."""
 
 
 DRIFT = np.dtype(
@@ -90,19 +93,19 @@ DRIFT = np.dtype(
         ("bias", np.int64),
         ("walk", np.int64),
         ("time", np.int64),
-        ("density_squared", np.float64),
-        ("bias_std", np.float64),
-        ("correlation_time", np.float64),
-        ("random_walk", np.float64),
-        ("walk_squared", np.float64),
-        ("constant_variance", np.float64),  # of the bias of a run and of the one that wanders
+        ("density_squared", np.float64),  # N squared
+        ("bias_std", np.float64),  # s
+        ("correlation_time", np.float64),  # T [s]
+        ("random_walk", np.float64),  # K
+        ("walk_squared", np.float64),  # K squared
+        ("constant_variance", np.float64),  # of b_0 + b_k
     ]
 )
-"""The errors of three axes, for compiled code."""
+"""The parameters of the errors of three axes, for compiled code."""
 
 
 class Drift:
-    """The errors of three axes, from sample to sample; `draw_errors` draws them."""
+    """The errors of three axes, which `draw_errors` draws for each sample."""
 
     def __init__(self, spec: DriftSpec, rng: np.random.Generator) -> None:
         constant = spec.turn_on_bias * rng.standard_normal(3)
@@ -110,7 +113,7 @@ class Drift:
         self.state = state = DriftState(rng, constant, bias, np.zeros(3), np.full(1, math.nan))
         """The slow errors."""
         self.parameters = np.zeros(1, DRIFT)
-        """The input of `draw_errors`, (1,)."""
+        """The parameters for `draw_errors`, a record of `DRIFT`, (1,)."""
         row = self.parameters[0]
         row["stream"] = stream_of(rng)
         for name in ("constant", "bias", "walk", "time"):
@@ -123,12 +126,12 @@ class Drift:
 
 @njit
 def draw_errors(drift: Any, time: float, errors: Array) -> float:
-    """Write the errors at ``time`` [s] into (3,); return the variance of each.
+    """Draw the errors of a sample; return the variance of each.
 
     Args:
         drift: a record of `DRIFT`.
-        time: when the sample is taken [s].
-        errors: into which they are written.
+        time: the time of the sample [s].
+        errors: the array into which the errors are written, (3,) [rad/s, or m/s2].
     """
     last_time, constant, bias = (
         view_doubles(drift.time, 1),
@@ -141,8 +144,8 @@ def draw_errors(drift: Any, time: float, errors: Array) -> float:
     decay = math.exp(-interval / drift.correlation_time)
     bias_step = drift.bias_std * math.sqrt(1.0 - decay * decay)
     walk_step = drift.random_walk * math.sqrt(interval)
-    white = drift.density_squared / (interval if interval != 0.0 else FIRST_INTERVAL)
-    std = math.sqrt(white)
+    white_variance = drift.density_squared / (interval if interval != 0.0 else FIRST_INTERVAL)
+    std = math.sqrt(white_variance)
     for i in range(3):
         errors[i] = std * normal(drift.stream)
     for i in range(3):
@@ -150,5 +153,5 @@ def draw_errors(drift: Any, time: float, errors: Array) -> float:
     for i in range(3):
         walk[i] = walk[i] + walk_step * normal(drift.stream)
         errors[i] = ((errors[i] + constant[i]) + bias[i]) + walk[i]
-    variance: float = white + (drift.constant_variance + drift.walk_squared * time)
+    variance: float = white_variance + (drift.constant_variance + drift.walk_squared * time)
     return variance

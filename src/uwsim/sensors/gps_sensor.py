@@ -8,8 +8,9 @@
         <name>gpsSensor</name> <relativeTo>base_link</relativeTo> <std>0.5</std>
       </gpsSensor>
 
-With ``<nedOrigin>`` it measures latitude and longitude on WGS84 [deg] and the altitude [m]; without
-it x and y of L in metres, as the original does. Under water there is no fix.
+With ``<nedOrigin>`` it measures latitude and longitude on WGS84 [deg] and the altitude [m]. Without
+``<nedOrigin>`` it measures x and y in L [m], as the original UWSim does, and no altitude. Deeper
+than ``<u:maxDepth>`` it has no fix.
 """
 
 from __future__ import annotations
@@ -28,14 +29,14 @@ from ..messages import NavSatFix, NavSatStatus, header
 from ..schema import MAX_DISTANCE, element
 from ..world import Mount, SensorWorld
 from ..world.mounts import MOUNT, read_frame
-from .sensor import Carrier, CompiledSensor, SensorSpec, follow_mount
+from .sensor import Carrier, CompiledSensor, SensorSpec, create_sampler
 
 NO_FIX, FIX = -1, 0
 """The statuses of NavSatStatus."""
 GPS = 1
-"""The service of NavSatStatus."""
+"""The service GPS of NavSatStatus."""
 COVARIANCE_UNKNOWN, COVARIANCE_DIAGONAL = 0, 2
-"""The types of the covariance of NavSatFix."""
+"""The covariance types of NavSatFix."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,7 +54,7 @@ class GpsSensorSpec(SensorSpec):
     std: float = element(default=0.0, minimum=0, maximum=1000)
     """The noise of each coordinate, standard deviation [m]."""
     max_depth: float = element(namespaced=True, default=0.5, minimum=0, maximum=MAX_DISTANCE)
-    """The depth below the surface down to which the receiver has a fix [m]."""
+    """The depth below the surface from which on the receiver has no fix [m]."""
 
     def bind(self, world: SensorWorld, vehicle: Carrier) -> GpsSensor:
         """Mount it on its link; raise UnknownName if the vehicle has no such link."""
@@ -61,10 +62,10 @@ class GpsSensorSpec(SensorSpec):
         return GpsSensor(self, vehicle.mount(self), world, rng)
 
 
-GNSS = np.dtype([("mount", MOUNT), ("stream", STREAM), ("std", np.float64)])
+GNSS = np.dtype([("mount", MOUNT), ("stream", STREAM), ("std", np.float64)])  # std in [m]
 """The parameters of a satellite receiver, for compiled code."""
 N_VALUES = 6
-"""The number of values of a sample: its position in W, and the noise east, north and up [m]."""
+"""The number of values of a sample: the position in W, then its noise along x, y and z [m]."""
 
 
 class GpsSensor(CompiledSensor):
@@ -75,22 +76,22 @@ class GpsSensor(CompiledSensor):
     ) -> None:
         self._spec, self._world = spec, world
         self.state = RandomState(rng)
-        """The state."""
-        self._is_original = "gps-metres" in world.compatibility
+        """The state: the generator of the noise."""
+        self._publishes_metres = "gps-metres" in world.compatibility
         row = np.zeros(1, GNSS)
         row["mount"], row["stream"], row["std"] = mount.functions, stream_of(rng), spec.std
-        self.sampler = follow_mount(mount, sample_gps, row, N_VALUES, (self.state,))
+        self.sampler = create_sampler(mount, sample_gps, row, N_VALUES, (self.state,))
         """The sampler."""
 
     def message(self, time: float, values: Array) -> NavSatFix | None:
-        """Return the message of a sample at ``time`` [s]; None without one."""
+        """Return the message of a sample at ``time`` [s]; None for no message."""
         position, noise = values[:3], values[3:]
         if self._world.surface_height - float(position[2]) >= self._spec.max_depth:
-            return None if self._is_original else self._no_fix(time)
+            return None if self._publishes_metres else self._no_fix(time)
         latitude, longitude, altitude = self._coordinates(position, noise)
         return NavSatFix(
-            header=header(0.0) if self._is_original else header(time, self._spec.name),
-            status=NavSatStatus(status=FIX, service=0 if self._is_original else GPS),
+            header=header(0.0) if self._publishes_metres else header(time, self._spec.name),
+            status=NavSatStatus(status=FIX, service=0 if self._publishes_metres else GPS),
             latitude=latitude,
             longitude=longitude,
             altitude=altitude,
@@ -99,14 +100,14 @@ class GpsSensor(CompiledSensor):
         )
 
     def _coordinates(self, position: Array, noise: Array) -> tuple[float, float, float]:
-        """Return latitude, longitude [deg], altitude [m] of a position in W; or x, y of L [m]."""
+        """Return latitude, longitude [deg] and altitude [m] of a position in W; or x, y in L, 0 [m]."""
         origin = self._world.earth_origin
-        if origin is None or self._is_original:
+        if origin is None or self._publishes_metres:
             x, y, _ = self._world.world_from_localized.inverse().transform(position[None])[0]
             return float(x + noise[0]), float(y + noise[1]), 0.0
         east, north, up = (position + noise).tolist()
-        place = origin.place(np.array([north, east, -up]))
-        return math.degrees(place.latitude), math.degrees(place.longitude), place.altitude
+        geodetic = origin.place(np.array([north, east, -up]))
+        return math.degrees(geodetic.latitude), math.degrees(geodetic.longitude), geodetic.altitude
 
     def _no_fix(self, time: float) -> NavSatFix:
         return NavSatFix(

@@ -10,8 +10,9 @@
       <u:accelerometer> <u:noiseDensity>6e-4</u:noiseDensity> </u:accelerometer>
     </imu>
 
-The attitude is that of the sensor in L, the frame of the file. The accelerometer measures
-:math:`R^T (a - g)`, with the acceleration a at its position: at rest 9.81 m/s2 upwards.
+The attitude is the sensor's orientation in L, the frame of scene files. The accelerometer measures
+:math:`R^T (a - g)`, with the sensor's acceleration a and its rotation R in W, and gravity g. At
+rest this is 9.81 m/s2 upwards.
 """
 
 from __future__ import annotations
@@ -33,7 +34,7 @@ from ..schema import MAX_DISTANCE, element
 from ..world import GRAVITY, MovingBody, SensorWorld
 from ..world.mounts import MOUNT, read_frame, read_motion
 from .drift import DRIFT, Drift, DriftSpec, DriftState, draw_errors
-from .sensor import Carrier, CompiledSensor, SensorSpec, follow_mount
+from .sensor import Carrier, CompiledSensor, SensorSpec, create_sampler
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -49,11 +50,11 @@ class ImuSpec(SensorSpec):
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
     """The orientation of the sensor in the link's frame, roll, pitch, yaw (Rz Ry Rx) [rad]."""
     std: float = element(default=0.0, minimum=0, maximum=10)
-    """The noise of each angle, standard deviation [rad]."""
+    """The standard deviation of the noise of roll, pitch and yaw [rad]."""
     gyro: DriftSpec = element(namespaced=True, default=DriftSpec())
-    """The errors of the angular velocity."""
+    """The errors of the measured angular velocity."""
     accelerometer: DriftSpec = element(namespaced=True, default=DriftSpec())
-    """The errors of the specific force."""
+    """The errors of the measured specific force."""
 
     def bind(self, world: SensorWorld, vehicle: Carrier) -> InertialUnit:
         """Mount it on its link; raise UnknownName if the vehicle has no such link."""
@@ -65,11 +66,11 @@ class ImuState(Record):
     """The state of an inertial measurement unit."""
 
     rng: np.random.Generator
-    """The generator of the noise of its attitude."""
+    """The generator of the noise of the attitude."""
     gyro: DriftState
-    """The errors of its rates."""
+    """The slow errors of the angular velocity [rad/s]."""
     accelerometer: DriftState
-    """The errors of its accelerations."""
+    """The slow errors of the specific force [m/s2]."""
 
 
 SPECIFIC_FORCE_AT_REST = (0.0, 0.0, GRAVITY)
@@ -78,17 +79,17 @@ IMU = np.dtype(
     [
         ("mount", MOUNT),
         ("stream", STREAM),  # of the noise of the attitude
-        ("std", np.float64),
+        ("std", np.float64),  # of the noise of each angle [rad]
         ("localized_from_world", np.float64, (3, 3)),
-        ("measures_motion", np.int64),
+        ("measures_motion", np.int64),  # 0: the attitude alone, as the original UWSim
         ("gyro", DRIFT),
         ("accelerometer", DRIFT),
     ]
 )
 """The parameters of an inertial measurement unit, for compiled code."""
 N_VALUES = 12
-"""The number of values of a sample: a quaternion wxyz; turn rates [rad/s], then specific forces
-[m/s2], of three axes with their variance each."""
+"""The number of values of a sample: a quaternion wxyz (4); the angular velocity (3) [rad/s] and the
+variance of each component; the specific force (3) [m/s2] and the variance of each component."""
 
 
 class InertialUnit(CompiledSensor):
@@ -101,7 +102,7 @@ class InertialUnit(CompiledSensor):
         accelerometer = Drift(spec.accelerometer, world.stream(f"{prefix}/accelerometer"))
         rng = world.stream(f"{prefix}/noise")
         self.state = ImuState(rng, gyro.state, accelerometer.state)
-        """The state."""
+        """The state: the slow errors, and the generators of the noise."""
         self._measures_motion = "imu-orientation" not in world.compatibility
         self._attitude_covariance = _diagonal(spec.std**2)
         row = np.zeros(1, IMU)
@@ -109,7 +110,7 @@ class InertialUnit(CompiledSensor):
         row["localized_from_world"] = world.world_from_localized.rotation.T
         row["measures_motion"] = self._measures_motion
         row["gyro"], row["accelerometer"] = gyro.parameters, accelerometer.parameters
-        self.sampler = follow_mount(mount, sample_imu, row, N_VALUES, (self.state,))
+        self.sampler = create_sampler(mount, sample_imu, row, N_VALUES, (self.state,))
         """The sampler."""
 
     def message(self, time: float, values: Array) -> Imu:
@@ -136,7 +137,7 @@ def sample_imu(parameters: int, values: int, time: float) -> None:
 
 @njit
 def measure(imu: Any, time: float, values: Array) -> None:
-    """Write the attitude in L, the turn rates and the specific forces with their errors."""
+    """Write the values of a sample with their errors; see `N_VALUES`."""
     frame, noise = np.empty(12), np.empty((3, 3))
     read_frame(imu.mount, frame)
     axes = frame[3:].reshape((3, 3))
@@ -161,7 +162,7 @@ def measure(imu: Any, time: float, values: Array) -> None:
 
 @functools.lru_cache(maxsize=64)
 def _diagonal(variance: float) -> Array:
-    """Return a covariance of equal variances, by rows, (9,); read-only."""
+    """Return the covariance matrix of three equal variances, by rows, (9,); read-only."""
     covariance = np.zeros(9)
     covariance[::4] = variance
     covariance.flags.writeable = False

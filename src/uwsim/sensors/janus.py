@@ -1,11 +1,12 @@
-r"""Four beams in Janus configuration, and velocities from measurements along them.
+r"""Four beams in Janus configuration: their directions, and the error velocity.
 
 The beams are inclined from the z axis of the sensor by the angle :math:`\theta`, towards the
-azimuths 45, 135, 225 and 315 degrees from x to y. A beam of the direction d measures
-:math:`b = d \cdot v`. Three or four beams give the least-squares velocity. With a deviation s
-along each of four beams those of x and y are :math:`s / (\sqrt 2 \sin\theta)`, and that of z is
-:math:`s / (2 \cos\theta)`. The redundancy of four beams is the error velocity,
-:math:`(b_1 - b_2 + b_3 - b_4) / (2 \sqrt 2 \sin\theta)`, with the deviation of x and y.
+azimuths 45, 135, 225 and 315 degrees from x to y. A beam with the direction d measures
+:math:`b = d \cdot v` of the sensor's velocity v. Three or four beams give the least-squares
+estimate of v. If the noise along each of four beams has the standard deviation s, the noise of the
+components x and y has :math:`s / (\sqrt 2 \sin\theta)`, and that of z :math:`s / (2 \cos\theta)`.
+The redundancy of four beams gives the error velocity,
+:math:`(b_1 - b_2 + b_3 - b_4) / (2 \sqrt 2 \sin\theta)`, whose noise is equal to that of x and y.
 """
 
 from __future__ import annotations
@@ -23,19 +24,24 @@ SIGNS = np.array([1.0, -1.0, 1.0, -1.0])
 """The signs of the beams in the error velocity."""
 
 Flags = npt.NDArray[np.bool_]
+"""A truth value for each beam."""
 
 
 class Janus:
-    """The geometry of four beams inclined by an angle [rad]."""
+    """The geometry of four beams.
+
+    Args:
+        angle: the angle from the z axis of the sensor to each beam [rad].
+    """
 
     def __init__(self, angle: float) -> None:
         sine, cosine = math.sin(angle), math.cos(angle)
-        turns = [math.radians(azimuth) for azimuth in AZIMUTHS.tolist()]
+        azimuths = [math.radians(degrees) for degrees in AZIMUTHS.tolist()]
         self.directions = np.array(
-            [[sine * math.cos(turn), sine * math.sin(turn), cosine] for turn in turns]
+            [[sine * math.cos(azimuth), sine * math.sin(azimuth), cosine] for azimuth in azimuths]
         )
-        """The directions of the beams, sensor frame, (4, 3)."""
+        """The directions of the beams, unit vectors in the sensor's frame, (4, 3)."""
         self.cosine = cosine
-        """The distance along the z axis per distance along a beam [1]."""
-        self.error_share = 1.0 / (2.0 * math.sqrt(2.0) * sine)
-        """The error velocity per difference between the beams, signs as in `SIGNS` [1]."""
+        """The cosine of the angle: the distance along the z axis per distance along a beam [1]."""
+        self.error_scale = 1.0 / (2.0 * math.sqrt(2.0) * sine)
+        """The factor from the sum of the beam velocities, signed by `SIGNS`, to the error velocity."""

@@ -1,7 +1,7 @@
-r"""A narrow beam as rays with a Gaussian pattern: half of the power at half of its width.
+r"""Weighted rays that represent a narrow beam with a Gaussian pattern.
 
-The ray on the axis has the weight 1, one at the angle :math:`\theta` from it
-:math:`2^{-(2 \theta / w)^2}` for a beam of the width w.
+In a beam with the width w at -3 dB, a ray at the angle :math:`\theta` from the axis has the weight
+:math:`2^{-(2 \theta / w)^2}`: 1 on the axis, and one half at half of the width.
 """
 
 from __future__ import annotations
@@ -13,16 +13,16 @@ import numpy as np
 from ..base.geometry import Array
 
 RINGS = ((0.25, 6), (0.5, 12))
-"""The radius of each ring in beam widths, and its number of rays; one more ray is on the axis."""
+"""The radius of each ring of rays in beam widths, and its number of rays, besides the axis."""
 
 
 def pencil_rays(axes: Array, normals: Array, width: float) -> tuple[Array, Array]:
-    """Return the rays of beams and their weights: (n, k, 3) and (k,).
+    """Return the k rays of each of n beams (n, k, 3), and their weights (k,).
 
     Args:
-        axes: of the beams, unit vectors (n, 3).
+        axes: the axes of the beams, unit vectors (n, 3).
         normals: a unit vector at right angles to each axis, (n, 3).
-        width: of the beam, between its points of half power [rad]; 0: the ray on the axis alone.
+        width: the width of a beam at -3 dB [rad]; 0: the ray on the axis alone.
     """
     angles = [(0.0, 0.0)]
     if width > 0.0:

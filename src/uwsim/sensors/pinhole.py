@@ -1,4 +1,4 @@
-"""The shared parts of colour and depth cameras: CameraInfo, and ray casting."""
+"""The CameraInfo of pinhole cameras, and images of depth and of surfaces by ray casting."""
 
 from __future__ import annotations
 
@@ -11,28 +11,28 @@ from ..world import Rays
 
 
 def camera_info(
-    lens: Intrinsics,
+    intrinsics: Intrinsics,
     *,
     time: float,
     frame_id: str,
     principal_point: tuple[float, float] | None = None,
     baseline: float = 0.0,
 ) -> CameraInfo:
-    """Build the CameraInfo of a pinhole, stamped ``time`` [s]: no distortion.
+    """Build the CameraInfo of a pinhole camera without distortion.
 
     Args:
-        lens: the pinhole.
-        time: of the message [s].
-        frame_id: of the message.
-        principal_point: published instead of that of the pinhole [px].
-        baseline: distance to the first camera of a stereo pair: Tx = -fx * baseline [m].
+        intrinsics: the pinhole model.
+        time: the time stamp of the message [s].
+        frame_id: the name of the frame of the message.
+        principal_point: cx and cy to publish instead of those of the pinhole model [px].
+        baseline: the distance to the first camera of a stereo pair: Tx = -fx * baseline [m].
     """
-    fx, fy, skew = lens.fx, lens.fy, -lens.skew  # ROS: y points down
-    cx, cy = principal_point or (lens.cx, lens.cy)
+    fx, fy, skew = intrinsics.fx, intrinsics.fy, -intrinsics.skew  # ROS: y points down
+    cx, cy = principal_point or (intrinsics.cx, intrinsics.cy)
     return CameraInfo(
         header=header(time, frame_id),
-        height=lens.height,
-        width=lens.width,
+        height=intrinsics.height,
+        width=intrinsics.width,
         distortion_model="",
         d=np.zeros(4),
         k=np.array([fx, skew, cx, 0.0, fy, cy, 0.0, 0.0, 1.0]),
@@ -41,38 +41,38 @@ def camera_info(
         binning_x=0,
         binning_y=0,
         roi=RegionOfInterest(
-            x_offset=0, y_offset=0, height=lens.height, width=lens.width, do_rectify=False
+            x_offset=0, y_offset=0, height=intrinsics.height, width=intrinsics.width, do_rectify=False
         ),
     )
 
 
-def cast_depth(rays: Rays, world_from_camera: Pose, lens: Intrinsics) -> Array:
-    """Cast a ray through the centre of each pixel; return the depth along the axis, (h, w) [m].
+def cast_depth(rays: Rays, world_from_camera: Pose, intrinsics: Intrinsics) -> Array:
+    """Cast a ray through the centre of each pixel; return the depth image, (h, w) [m].
 
-    As in an image, surfaces nearer than the near plane do not count; +inf without a hit before the
-    far plane.
+    Depth is the distance along the optical axis. Surfaces nearer than the near plane are invisible.
+    The depth is +inf where there is no surface before the far plane.
     """
-    return _cast(rays, world_from_camera, lens)[0]
+    return _cast(rays, world_from_camera, intrinsics)[0]
 
 
-def cast_surfaces(rays: Rays, world_from_camera: Pose, lens: Intrinsics) -> npt.NDArray[np.uint16]:
-    """Cast a ray through the centre of each pixel; return the surface's number, (h, w); 0: none.
+def cast_surfaces(rays: Rays, world_from_camera: Pose, intrinsics: Intrinsics) -> npt.NDArray[np.uint16]:
+    """Cast a ray through the centre of each pixel; return the numbers of the surfaces, (h, w).
 
-    The hits are those of `cast_depth`.
+    The number is 0 where `cast_depth` finds no surface.
     """
-    depth, surface = _cast(rays, world_from_camera, lens)
+    depth, surface = _cast(rays, world_from_camera, intrinsics)
     return np.where(np.isfinite(depth), surface, 0).astype(np.uint16)
 
 
 def _cast(
-    rays: Rays, world_from_camera: Pose, lens: Intrinsics
+    rays: Rays, world_from_camera: Pose, intrinsics: Intrinsics
 ) -> tuple[Array, npt.NDArray[np.int32]]:
     """Return the depth [m] and the surface of each pixel, (h, w) each."""
-    directions = lens.rays().reshape(-1, 3)
-    stretch = lens.ray_lengths.reshape(-1)
-    reach = lens.far * float(stretch.max(initial=1.0))
-    hits = rays.cast(world_from_camera, directions / stretch[:, None], reach, lens.near * stretch)
-    depth = hits.distance / stretch
-    size = lens.height, lens.width
-    image: Array = np.where(depth < lens.far, depth, np.inf).reshape(size)
+    directions = intrinsics.rays().reshape(-1, 3)
+    ray_lengths = intrinsics.ray_lengths.reshape(-1)
+    reach = intrinsics.far * float(ray_lengths.max(initial=1.0))
+    hits = rays.cast(world_from_camera, directions / ray_lengths[:, None], reach, intrinsics.near * ray_lengths)
+    depth = hits.distance / ray_lengths
+    size = intrinsics.height, intrinsics.width
+    image: Array = np.where(depth < intrinsics.far, depth, np.inf).reshape(size)
     return image, hits.surface.reshape(size)

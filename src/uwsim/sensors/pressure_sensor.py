@@ -11,7 +11,7 @@ r"""Depth, or pressure, at the sensor.
     </pressureSensor>
 
 The pressure is hydrostatic: :math:`p = p_0 + g \int_0^d \rho \, dz` at the depth d below the still
-surface, with the water's density over depth; above the surface it is that of the air, :math:`p_0`.
+surface, with the water's density over depth; above the surface it is the air pressure :math:`p_0`.
 """
 
 from __future__ import annotations
@@ -31,10 +31,10 @@ from ..messages import Pressure, header
 from ..schema import MAX_DISTANCE, element
 from ..world import GRAVITY, Mount, SensorWorld
 from ..world.mounts import MOUNT, read_frame
-from .sensor import Carrier, CompiledSensor, SensorSpec, follow_mount
+from .sensor import Carrier, CompiledSensor, SensorSpec, create_sampler
 
 Quantity = Literal["depth", "pressure", "gauge"]
-"""The depth below the surface [m], absolute pressure [Pa], or gauge pressure [Pa]."""
+"""A measured quantity: depth below the surface [m], absolute pressure or gauge pressure [Pa]."""
 STANDARD_ATMOSPHERE = 101325.0
 """The pressure of the standard atmosphere [Pa]."""
 
@@ -55,7 +55,7 @@ class PressureSensorSpec(SensorSpec):
     """The noise of the measured quantity, standard deviation [m], or [Pa]."""
     measures: Quantity = element(namespaced=True, default="depth")
     """The measured quantity: ``depth`` below the surface [m], absolute ``pressure`` [Pa], or
-    ``gauge`` pressure, above that of the air [Pa]."""
+    ``gauge`` pressure, relative to that of the air [Pa]."""
     atmosphere: float = element(
         namespaced=True, default=STANDARD_ATMOSPHERE, minimum=0, maximum=1e7
     )
@@ -71,19 +71,19 @@ PRESSURE = np.dtype(
     [
         ("mount", MOUNT),
         ("stream", STREAM),
-        ("std", np.float64),
-        ("measures", np.int64),
+        ("std", np.float64),  # of the noise [m or Pa]
+        ("measures", np.int64),  # DEPTH, PRESSURE_ABSOLUTE, PRESSURE_GAUGE or HEIGHT
         ("surface", np.float64),  # height of the water's surface in W [m]
         ("atmosphere", np.float64),  # [Pa]
         ("levels", np.int64),  # the address of depths [m] and densities [kg/m3], (n, 2)
         ("n_levels", np.int64),
-        ("upward", np.float64, 3),  # the z axis of L in W, and z of W's origin in L [m]
-        ("origin", np.float64),
+        ("upward", np.float64, 3),  # the z axis of L in W
+        ("origin", np.float64),  # z of the origin of W in L [m]
     ]
 )
 """The parameters of a pressure sensor, for compiled code."""
 DEPTH, PRESSURE_ABSOLUTE, PRESSURE_GAUGE, HEIGHT = range(4)
-"""The measured quantities; the height is z of L, as in the original."""
+"""The measured quantities; HEIGHT is z in L, which the original UWSim measures (``pressure-z``)."""
 
 
 class PressureSensor(CompiledSensor):
@@ -97,21 +97,21 @@ class PressureSensor(CompiledSensor):
         rng: np.random.Generator,
     ) -> None:
         self.state = RandomState(rng)
-        """The state."""
-        is_original = "pressure-z" in world.compatibility
-        self._frame_id = "world" if is_original else spec.name
+        """The state: the generator of the noise."""
+        measures_height = "pressure-z" in world.compatibility
+        self._frame_id = "world" if measures_height else spec.name
         row, levels = np.zeros(1, PRESSURE), np.array(world.density_levels, dtype=np.float64)
         row["mount"], row["stream"], row["std"] = mount.functions, stream_of(rng), spec.std
         measures = {"depth": DEPTH, "pressure": PRESSURE_ABSOLUTE, "gauge": PRESSURE_GAUGE}[
             spec.measures
         ]
-        row["measures"] = HEIGHT if is_original else measures
+        row["measures"] = HEIGHT if measures_height else measures
         row["surface"], row["atmosphere"] = world.surface_height, spec.atmosphere
         row["levels"], row["n_levels"] = address_of(levels), len(levels)
         localized_from_world = world.world_from_localized.inverse()
         row["upward"] = localized_from_world.rotation[2]
         row["origin"] = localized_from_world.position[2]
-        self.sampler = follow_mount(mount, sample_pressure, row, 1, (self.state, levels))
+        self.sampler = create_sampler(mount, sample_pressure, row, 1, (self.state, levels))
         """The sampler."""
 
     def message(self, time: float, values: Array) -> Pressure:
@@ -122,12 +122,12 @@ class PressureSensor(CompiledSensor):
 def sample_pressure(parameters: int, values: int, time: float) -> None:
     """Take a sample of a pressure sensor; see `uwsim.base.numerics.calls`."""
     sensor = carray(pointer(parameters), (1,), PRESSURE)[0]
-    view_doubles(values, 1)[0] = compute_exact_value(sensor) + sensor.std * normal(sensor.stream)
+    view_doubles(values, 1)[0] = compute_noise_free_value(sensor) + sensor.std * normal(sensor.stream)
 
 
 @njit
-def compute_exact_value(sensor: Any) -> float:
-    """Return the exact value of the measured quantity [m, or Pa]."""
+def compute_noise_free_value(sensor: Any) -> float:
+    """Return the measured quantity without noise [m, or Pa]."""
     frame = np.empty(12)
     read_frame(sensor.mount, frame)
     if sensor.measures == HEIGHT:
@@ -145,11 +145,12 @@ def compute_exact_value(sensor: Any) -> float:
 
 @njit
 def column_mass(levels: Array, depth: float) -> float:
-    """Return the mass of the water above a depth [m], of a square metre [kg/m2].
+    """Return the mass of the water column from the surface to a depth, per area [kg/m2].
 
     Args:
-        levels: depth [m] and density [kg/m3], rising; linear between them, constant beyond, (n, 2).
-        depth: at least 0.
+        levels: rising depths [m] and the densities there [kg/m3], (n, 2); the density is linear
+            between levels, and constant above the first and below the last.
+        depth: the depth below the surface, at least 0 [m].
     """
     total, n = 0.0, len(levels)
     for i in range(n + 1):

@@ -1,4 +1,4 @@
-"""One ray along +x: the distance to the first surface.
+"""The distance to the first surface along +x, by one ray or by the rays of a narrow beam.
 
 .. code-block:: xml
 
@@ -43,7 +43,7 @@ class RangeSensorSpec(SensorSpec):
     message_type: ClassVar[type] = Range
 
     range: float = element(minimum=0, maximum=MAX_DISTANCE)
-    """The length of the ray; the value without a hit [m]."""
+    """The length of the ray, which is also the measured value without a hit [m]."""
     visible: bool = False
     """True if the viewer draws the ray."""
     position: tuple[float, float, float] = element(
@@ -56,7 +56,7 @@ class RangeSensorSpec(SensorSpec):
     """The viewing target at the start, instead of ``orientation``: a point in L [m], or a direction
     of the vehicle. The sensor stays fixed to its link."""
     beam_width: float = element(namespaced=True, default=0.0, minimum=0, maximum=120)
-    """The width of the beam between its points of half power [deg]; 0 is a ray."""
+    """The width of the beam at -3 dB [deg]; 0: a single ray."""
     std: float = element(namespaced=True, default=0.0, minimum=0, maximum=1000)
     """The noise of the distance, standard deviation [m]."""
 
@@ -71,10 +71,10 @@ RANGE = np.dtype(
         ("mount", MOUNT),
         ("rays", RAYS),
         ("stream", STREAM),
-        ("std", np.float64),
-        ("reach", np.float64),  # [m]
-        ("directions", np.int64),  # the address of those of the rays in the sensor, (n, 3)
-        ("n", np.int64),
+        ("std", np.float64),  # of the noise [m]
+        ("reach", np.float64),  # the length of the rays [m]
+        ("directions", np.int64),  # the address of the rays' unit vectors, sensor frame, (n, 3)
+        ("n", np.int64),  # the number of rays
     ]
 )
 """The parameters of a range sensor, for compiled code."""
@@ -88,7 +88,7 @@ class RangeSensor(CompiledSensor):
     ) -> None:
         self._spec = spec
         self.state = RandomState(rng)
-        """The state."""
+        """The state: the generator of the noise."""
         self._width = math.radians(spec.beam_width)
         x, y = np.array([[1.0, 0.0, 0.0]]), np.array([[0.0, 1.0, 0.0]])
         directions = np.ascontiguousarray(pencil_rays(x, y, self._width)[0][0])  # (n, 3)
@@ -137,7 +137,7 @@ def sample_range(parameters: int, values: int, time: float) -> None:
 
 @njit
 def nearest_hit(sensor: Any) -> float:
-    """Return the distance to the first surface in the beam; infinite if there is none [m]."""
+    """Return the distance to the first surface in the beam [m]; infinite if there is none."""
     n = sensor.n
     frame, starts = np.empty(12), np.zeros(n)
     hits = Hits(np.empty(n), np.empty((n, 3)), np.empty(n, np.int32))

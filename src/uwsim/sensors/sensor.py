@@ -1,4 +1,4 @@
-"""The interface of sensors: name, link, pose on the link."""
+"""The protocols and base classes of sensors: specs, mounts on links, samples and messages."""
 
 from __future__ import annotations
 
@@ -19,15 +19,17 @@ from ..schema import Spec
 from ..world import CompiledVehicle, Mount, MovingBody, SensorWorld
 
 Direction = Literal["forward", "aft", "starboard", "port", "down", "up"]
-"""The directions of a vehicle, at its pose in the file."""
+"""A direction relative to a vehicle at its pose in the scene file."""
 LookAt = tuple[float, float, float] | Direction | None
 """The content of ``<u:lookAt>``: a point in L [m], a direction of the vehicle, or nothing."""
 
 
 OPTICAL_AXES = (math.pi, 0.0, 0.0)
-"""The ROS frame's axes of a sensor that looks along -z: z ahead, x to the right, y down [rad]."""
+"""The roll, pitch, yaw of a ROS optical frame (z ahead, x right, y down) in the frame of a sensor
+that looks along -z [rad]."""
 SCAN_AXES = (0.0, 0.5 * math.pi, 0.0)
-"""The ROS frame's axes of a fan about x with its zero along -z: x ahead, angles about z [rad]."""
+"""The roll, pitch, yaw of a ROS scan frame (x ahead, beam angles about z) in the frame of a sensor
+whose beams are in the y-z plane, with the angle 0 along -z [rad]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,15 +37,16 @@ class SensorSpec(Spec):
     """A sensor of a vehicle."""
 
     frame_rpy: ClassVar[tuple[float, float, float]] = (0.0, 0.0, 0.0)
-    """The axes of its ROS frame, in the sensor's: fixed-axis roll, pitch, yaw [rad]."""
+    """The fixed-axis roll, pitch, yaw of the sensor's ROS frame in the sensor's own frame [rad]."""
     is_pure: ClassVar[bool] = False
-    """True if a sample changes nothing in the sensor, so that it is not taken without
-    subscribers."""
+    """True if a sample does not change the sensor's state. Without subscribers, no samples are then
+    taken."""
 
     name: str
-    """The name, which interfaces and benchmarks refer to."""
+    """The name by which interfaces and benchmarks refer to the sensor."""
     relative_to: str
-    """The link on which it is mounted; its pose is given in the kinematic frame of that link."""
+    """The link on which the sensor is mounted; its pose is relative to the link's kinematic
+    frame."""
 
 
 class MountedPart(Protocol):
@@ -51,7 +54,7 @@ class MountedPart(Protocol):
 
     @property
     def relative_to(self) -> str:
-        """The link."""
+        """The name of the link."""
 
     @property
     def position(self) -> tuple[float, float, float]:
@@ -59,7 +62,7 @@ class MountedPart(Protocol):
 
     @property
     def orientation(self) -> tuple[float, float, float]:
-        """The orientation, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
+        """The orientation in the link's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
 
 
 @runtime_checkable
@@ -67,11 +70,11 @@ class MountedSensor(MountedPart, Protocol):
     """The spec of a mounted sensor."""
 
     frame_rpy: ClassVar[tuple[float, float, float]]
-    """The axes of its ROS frame, in the sensor's: fixed-axis roll, pitch, yaw [rad]."""
+    """The fixed-axis roll, pitch, yaw of the sensor's ROS frame in the sensor's own frame [rad]."""
 
     @property
     def name(self) -> str:
-        """The name."""
+        """The name in the scene."""
 
 
 @runtime_checkable
@@ -92,7 +95,7 @@ class Carrier(Protocol):
 
     @property
     def compiled_vehicle(self) -> CompiledVehicle:
-        """The vehicle for compiled code."""
+        """The interface of the vehicle for compiled code."""
 
     def mount(self, spec: MountedPart, *, visual: bool = False) -> Mount:
         """Fix a part to its link, or to the link's visual frame; return a frame that moves with it.
@@ -102,7 +105,7 @@ class Carrier(Protocol):
         """
 
     def moving_mount(self, spec: MountedPart, *, visual: bool = False) -> MovingBody:
-        """Fix a part to its link, or to the link's visual frame; return a body with its motion.
+        """Fix a part to its link, or to the link's visual frame; return a body that has a motion.
 
         Raises:
             UnknownName: the vehicle has no such link.
@@ -111,29 +114,29 @@ class Carrier(Protocol):
 
 @runtime_checkable
 class Sensor(Protocol):
-    """A bound sensor."""
+    """A sensor that is bound to a scene."""
 
     @property
     def state(self) -> Record:
         """The part of the sensor that changes with time; `Simulation.save` stores it."""
 
     def sample(self, time: float) -> object:
-        """Measure at ``time`` [s]; return a message of its spec's ``message_type``, or None."""
+        """Measure at ``time`` [s]; return a message of the spec's ``message_type``, or None."""
 
 
 class CompiledSensor(abc.ABC):
-    """A bound sensor that compiled code samples; messages are built from the values."""
+    """A sensor whose samples are taken by compiled code; `message` builds messages from them."""
 
     sampler: Sampler
-    """The sampler."""
+    """The sampler that takes samples in compiled code."""
 
     @abc.abstractmethod
     def message(self, time: float, values: Array) -> object:
         """Return the message of a sample at ``time`` [s], or None.
 
         Args:
-            time: when it was taken [s].
-            values: the numbers of the sample, (n,); they are overwritten by the next.
+            time: the time of the sample [s].
+            values: the numbers of the sample, (n,); the next sample overwrites them.
         """
 
     def sample(self, time: float) -> Any:
@@ -141,21 +144,21 @@ class CompiledSensor(abc.ABC):
         return self.message(time, self.sampler.take(time))
 
 
-def follow_mount(
+def create_sampler(
     mount: Mount,
     function: Callable[[int, int, float], None],
     parameters: npt.NDArray[np.void],
     n_values: int,
     memory_owners: tuple[object, ...],
 ) -> Sampler:
-    """Return the sampler of a sensor that depends on no other motion than its mount's.
+    """Create the sampler of a sensor that depends on no motion except that of its mount.
 
     Args:
-        mount: mount of the sensor.
-        function: function of a module that takes a sample; see `uwsim.base.numerics.calls`.
-        parameters: input of the function, (1,).
-        n_values: number of values that it writes.
-        memory_owners: objects whose addresses the parameters contain, besides the mount.
+        mount: the frame of the sensor.
+        function: the module's function that takes a sample; see `uwsim.base.numerics.calls`.
+        parameters: the parameters of the function, a record, (1,).
+        n_values: the number of values that the function writes.
+        memory_owners: the objects whose addresses the parameters contain, besides the mount.
     """
     return Sampler(
         function=function_address(function),
@@ -169,7 +172,7 @@ def follow_mount(
 
 @runtime_checkable
 class BindsSensor(Protocol):
-    """The spec of a simulated sensor; one without ``bind`` is read and not simulated."""
+    """The spec of a sensor that is simulated; other specs have no ``bind``."""
 
     message_type: ClassVar[type]
     """The type of its messages."""
@@ -179,9 +182,9 @@ class BindsSensor(Protocol):
         """The name in the scene."""
 
     def bind(self, world: SensorWorld, vehicle: Carrier) -> Sensor:
-        """Mount it on its vehicle; raise UnknownName if there is no such link."""
+        """Mount the sensor on its vehicle; raise UnknownName if there is no such link."""
 
 
 def find_message_type(spec: type) -> type | None:
-    """Return the type of the messages of a sensor or device; None if it is not simulated."""
+    """Return the message type of the spec of a sensor or device; None if it is not simulated."""
     return getattr(spec, "message_type", None) if hasattr(spec, "bind") else None
