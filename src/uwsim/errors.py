@@ -50,7 +50,7 @@ class UwsimError(Exception):
 
     def __init__(self, message: str = "", *, name: str = "") -> None:
         self.name = name
-        """The name in a file to which the error refers, by which its line is found; may be empty."""
+        """The name in a file to which the error refers, and which gives its line; may be empty."""
         super().__init__(message)
 
     def __reduce__(self) -> tuple[Any, ...]:

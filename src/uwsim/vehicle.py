@@ -88,7 +88,7 @@ class Vehicle(Protocol):
 
     @property
     def velocity(self) -> Array:
-        """The linear [m/s] and angular [rad/s] velocity of the base over ground, base axes, (6,)."""
+        """The linear [m/s] and angular [rad/s] velocity of the base over ground, in base axes."""
 
     @property
     def joints(self) -> Array:

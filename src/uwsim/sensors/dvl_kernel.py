@@ -21,29 +21,29 @@ from .janus import MIN_BEAMS, SIGNS, Flags
 DVL = np.dtype(
     [
         ("mount", MOUNT),
-        ("base", MOUNT),  # of the vehicle
+        ("base", MOUNT),  # the base of the vehicle
         ("rays", RAYS),
         ("stream", STREAM),
-        ("is_own", np.int64),  # the address of a byte for each surface: of this vehicle or not
-        ("directions", np.float64, (4, 3)),  # of the beams in the sensor
-        ("cosine", np.float64),  # of their angle to its z axis
-        ("error_share", np.float64),  # of the error velocity in the sum of the beams
-        ("scale", np.int64),  # the address of the scale of each beam, (4,) [1]
-        ("std", np.float64),  # of each component [m/s]
-        ("beam_std", np.float64),  # along each beam on the bottom [m/s]
-        ("water_std", np.float64),  # and in the water [m/s]
-        ("range_std", np.float64),  # [m]
-        ("dropout", np.float64),
+        ("is_own", np.int64),  # the address of a byte for each surface: 1 if of this vehicle
+        ("directions", np.float64, (4, 3)),  # of the beams, unit vectors in the sensor's frame
+        ("cosine", np.float64),  # of the angle of the beams to the z axis
+        ("error_scale", np.float64),  # see `Janus.error_scale`
+        ("scale", np.int64),  # the address of the scale factor of each beam, (4,) [1]
+        ("std", np.float64),  # noise of each component of a velocity [m/s]
+        ("beam_std", np.float64),  # noise along each beam over the bottom [m/s]
+        ("water_std", np.float64),  # noise along each beam through the water [m/s]
+        ("range_std", np.float64),  # noise of each range [m]
+        ("dropout", np.float64),  # the probability that a beam has no echo
         ("min_altitude", np.float64),  # [m]
         ("max_altitude", np.float64),  # [m]
-        ("water_layer", np.float64),  # [m]
+        ("water_layer", np.float64),  # distance along the z axis [m]
         ("surface", np.float64),  # height of the water's surface in W [m]
-        ("water", FUNCTION),  # what says how the water moves; if there is no function, it is here:
-        ("flow", np.int64),  # the address of its velocity at the beams, in W, (4, 3) [m/s]
-        ("bottom", np.int64),  # addresses of `TrackState.numbers`
-        ("through", np.int64),
-        ("last_sample", np.int64),  # of the time and the place of the original's last sample, (4,)
-        ("is_original", np.int64),  # whether it measures as the original
+        ("water_function", FUNCTION),  # of the water's velocity; 0: use ``flow`` instead
+        ("flow", np.int64),  # the address of the water's velocity on the beams, in W, (4, 3) [m/s]
+        ("bottom_track", np.int64),  # addresses of `TrackState.numbers`
+        ("water_track", np.int64),
+        ("last_sample", np.int64),  # the address of `DvlState.last_sample`
+        ("measures_differences", np.int64),  # 1: as the original UWSim (``dvl-differences``)
     ]
 )
 """The parameters of a Doppler velocity log, for compiled code."""
@@ -53,13 +53,14 @@ N_TRACK = 12
 BASE_VELOCITY = 12
 """The index of the velocity in the base frame, after a track's numbers [m/s]."""
 BOTTOM, WATER, HEIGHT, DEPTH, RANGES, BEAM_VELOCITIES = 0, 15, 30, 31, 32, 36
-"""The indices of a sample's values: tracks, mean height [m], depth [m], beam ranges [m] and beam
-velocities [m/s]."""
+"""The indices of a sample's values: bottom track, water track, mean height above the bottom [m],
+depth [m], beam ranges [m] and beam velocities over the bottom [m/s]."""
 N_VALUES = 40
+"""The number of values of a sample."""
 OWN_SURFACE_GAP = 1e-6
-"""The distance behind a surface of its own vehicle at which a beam continues [m]."""
+"""The distance behind a surface of the sensor's own vehicle at which a beam continues [m]."""
 MAX_OWN_SURFACES = 32
-"""The largest number of surfaces of its own vehicle that a beam passes through."""
+"""The largest number of surfaces of the sensor's own vehicle that a beam passes through."""
 
 Record = Any
 
@@ -75,7 +76,7 @@ def sample_dvl(parameters: int, values: int, time: float) -> None:
     for i in range(4):
         chances[i] = uniform(dvl.stream)
     output = view_doubles(values, N_VALUES)
-    if dvl.is_original != 0:
+    if dvl.measures_differences != 0:
         measure_difference(dvl, time, frame, noise[3], output)
     else:
         ping(dvl, time, frame, noise, chances, output)
@@ -83,9 +84,9 @@ def sample_dvl(parameters: int, values: int, time: float) -> None:
 
 @njit
 def measure_difference(dvl: Record, time: float, frame: Array, noise: Array, output: Array) -> None:
-    """Write the mean velocity since the last sample, sensor frame, as the original sensor does."""
+    """Write the mean velocity since the last sample, sensor's frame, as the original UWSim does."""
     last_sample, velocity = view_doubles(dvl.last_sample, 4), np.zeros(3)
-    if time > last_sample[0]:  # not before the first: NaN
+    if time > last_sample[0]:  # false in the first sample: the last time is NaN
         world_velocity = (frame[:3] - last_sample[1:]) / (time - last_sample[0])
         velocity = rotate_back(frame[3:].reshape((3, 3)), world_velocity)
     last_sample[0], last_sample[1:] = time, frame[:3]
@@ -97,7 +98,17 @@ def measure_difference(dvl: Record, time: float, frame: Array, noise: Array, out
 def ping(
     dvl: Record, time: float, frame: Array, normals: Array, chances: Array, output: Array
 ) -> None:
-    """Measure with the given random numbers, (4, 4) and (4,)."""
+    """Write the values of a ping.
+
+    Args:
+        dvl: a record of `DVL`.
+        time: the time of the ping [s].
+        frame: the sensor's position and axes in W, (12,).
+        normals: standard normal numbers, a row each for the bottom velocities, water velocities
+            and ranges of the beams, and for the components of the velocity, (4, 4).
+        chances: uniform numbers that decide which beams have no echo, (4,).
+        output: the values, (N_VALUES,).
+    """
     axes, motion, base = frame[3:].reshape((3, 3)), np.empty(12), np.empty(12)
     directions = dvl.directions
     beams = rotate_rows(axes, directions)
@@ -120,29 +131,37 @@ def ping(
         bottom[i] = scale[i] * over_ground + dvl.beam_std * normals[0, i]
         water_part = beam[0] * flow[i, 0] + beam[1] * flow[i, 1] + beam[2] * flow[i, 2]
         water[i] = scale[i] * (over_ground - water_part) + dvl.water_std * normals[1, i]
-        is_heard, axial = chances[i] >= dvl.dropout, ranges[i] * dvl.cosine
-        is_good[i] = is_heard and dvl.min_altitude <= axial <= dvl.max_altitude
-        is_under = frame[2] + reach * beam[2] < dvl.surface
-        is_in_water[i] = is_heard and ranges[i] > reach and is_under
+        has_echo, axial_distance = chances[i] >= dvl.dropout, ranges[i] * dvl.cosine
+        is_good[i] = has_echo and dvl.min_altitude <= axial_distance <= dvl.max_altitude
+        is_under_surface = frame[2] + reach * beam[2] < dvl.surface
+        is_in_water[i] = has_echo and ranges[i] > reach and is_under_surface
         output[RANGES + i] = beam_velocities[i] = math.nan
         if is_good[i]:
             output[RANGES + i] = ranges[i] + dvl.range_std * normals[2, i]
             beam_velocities[i] = bottom[i]
-            drop = -(0.0 + d[0] * axes[2, 0] + d[1] * axes[2, 1] + d[2] * axes[2, 2])
-            height, n_good = height + output[RANGES + i] * drop, n_good + 1
+            height_per_range = -(0.0 + d[0] * axes[2, 0] + d[1] * axes[2, 1] + d[2] * axes[2, 2])
+            height, n_good = height + output[RANGES + i] * height_per_range, n_good + 1
     noise = dvl.std * normals[3, :3]
-    update_track(view_doubles(dvl.bottom, N_TRACK), time, axes, dvl, (bottom, is_good), noise)
-    update_track(view_doubles(dvl.through, N_TRACK), time, axes, dvl, (water, is_in_water), noise)
+    update_track(view_doubles(dvl.bottom_track, N_TRACK), time, axes, dvl, (bottom, is_good), noise)
+    update_track(
+        view_doubles(dvl.water_track, N_TRACK), time, axes, dvl, (water, is_in_water), noise
+    )
     read_frame(dvl.base, base)
-    write_track(view_doubles(dvl.bottom, N_TRACK), base[3:], output[BOTTOM:WATER])
-    write_track(view_doubles(dvl.through, N_TRACK), base[3:], output[WATER:HEIGHT])
+    write_track(view_doubles(dvl.bottom_track, N_TRACK), base[3:], output[BOTTOM:WATER])
+    write_track(view_doubles(dvl.water_track, N_TRACK), base[3:], output[WATER:HEIGHT])
     output[HEIGHT] = height / n_good if n_good else math.nan
     output[DEPTH] = max(0.0, dvl.surface - frame[2])
 
 
 @njit
 def write_track(track: Array, base: Array, output: Array) -> None:
-    """Write a track's numbers, and its velocity in the base frame; its rotation by rows, (9,)."""
+    """Write a track's numbers, and its velocity in the base frame.
+
+    Args:
+        track: the numbers of the track, (N_TRACK,).
+        base: the axes of the base in W, by rows, (9,).
+        output: the array into which the numbers are written, (15,).
+    """
     output[:BASE_VELOCITY] = track
     for i in range(3):
         total = 0.0
@@ -153,21 +172,21 @@ def write_track(track: Array, base: Array, output: Array) -> None:
 
 @njit
 def read_flow(dvl: Record, frame: Array, reach: float, beams: Array, time: float) -> Array:
-    """Return the velocity of the water on the beams, in W, (4, 3) [m/s]."""
-    if dvl.water.function == 0:
+    """Return the water's velocity at a distance ``reach`` [m] on each beam, in W, (4, 3) [m/s]."""
+    if dvl.water_function.function == 0:
         return view_doubles(dvl.flow, 12).reshape((4, 3))
     water = np.empty((2, 4, 3))
     for i in range(4):
         for k in range(3):
             water[0, i, k] = frame[k] + reach * beams[i, k]
-    read_water(dvl.water, water, time)
+    read_water(dvl.water_function, water, time)
     velocities: Array = water[1]
     return velocities
 
 
 @njit
 def find_ranges(dvl: Record, frame: Array, beams: Array) -> Array:
-    """Return the distances along the beams to surfaces of other bodies, (4,) [m]; inf: none."""
+    """Return the distances along the beams to surfaces of other bodies, (4,) [m]; inf for none."""
     reach = dvl.max_altitude / dvl.cosine + 1.0
     ranges, starts, open_beams, n = np.full(4, np.inf), np.zeros(4), np.arange(4), 4
     directions, hits = beams, Hits(np.empty(4), np.empty((4, 3)), np.empty(4, np.int32))
@@ -198,7 +217,16 @@ def update_track(
     measurements: tuple[Array, Flags],
     noise: Array,
 ) -> None:
-    """Compute a ping's velocity at ``time`` [s] from those along the good beams."""
+    """Update a track by a ping.
+
+    Args:
+        track: the numbers of the track, (N_TRACK,).
+        time: the time of the ping [s].
+        axes: the axes of the sensor in W, (3, 3).
+        dvl: a record of `DVL`.
+        measurements: the velocity along each beam, (4,) [m/s], and whether it is valid, (4,).
+        noise: the noise of each component of the velocity, (3,) [m/s].
+    """
     beam_velocities, is_good = measurements
     interval = 0.0 if math.isnan(track[TIME]) else time - track[TIME]
     track[TIME] = time
@@ -217,7 +245,7 @@ def update_track(
         total = SIGNS[0] * beam_velocities[0]
         for i in range(1, 4):
             total += SIGNS[i] * beam_velocities[i]
-        track[ERROR] = dvl.error_share * total
+        track[ERROR] = dvl.error_scale * total
     for k in range(3):
         track[MADE_GOOD + k] += track[WORLD + k] * interval
     track[LAST_VALID] = time

@@ -1,4 +1,4 @@
-"""The message of a DVL: velocities in three frames, and distances made good, as RDI's PD6.
+"""The message of a DVL: velocities in three frames, and distances made good, as in RDI's PD6.
 
 An unknown velocity is NaN and its status ``V``; a valid one has the status ``A``.
 """
@@ -29,10 +29,10 @@ def dvl_message(header: Header, values: Array, *, water: SeaWater, water_layer: 
     """Return the message of a ping.
 
     Args:
-        header: its header.
-        values: of the sample, `dvl_kernel.N_VALUES` numbers.
-        water: where the sensor is.
-        water_layer: distance to the layer of water along the axis of the sensor [m].
+        header: the header of the message.
+        values: the values of a sample, see `dvl_kernel.N_VALUES`.
+        water: the acoustic properties of the water.
+        water_layer: the distance to the tracked layer of water along the z axis of the sensor [m].
     """
     numbers = values.tolist()
     depth = numbers[k.DEPTH]
@@ -50,7 +50,13 @@ def dvl_message(header: Header, values: Array, *, water: SeaWater, water_layer: 
 
 
 def _track_fields(letter: str, numbers: Sequence[float], distance: float) -> dict[str, Any]:
-    """Return the fields of a track, whose names begin with a letter; distance to its layer [m]."""
+    """Return the message fields of a track.
+
+    Args:
+        letter: the first letter of the fields: b for the bottom track, w for the water track.
+        numbers: the numbers of the track, and the velocity in the base frame.
+        distance: the mean height above the bottom, or the distance to the layer of water [m].
+    """
     status = STATUS_INVALID if math.isnan(numbers[k.INSTRUMENT]) else STATUS_VALID
     age = numbers[k.TIME] - numbers[k.LAST_VALID]
     values: tuple[float | str, ...] = (

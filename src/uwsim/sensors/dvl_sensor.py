@@ -7,9 +7,9 @@
       <u:beamStd>0.005</u:beamStd> <u:rangeStd>0.02</u:rangeStd> <u:dropout>0.01</u:dropout>
     </dvlSensor>
 
-The z axis of the sensor is the middle of its beams and points down. A beam measures the first
-surface on its axis, except those of its own vehicle. See `uwsim.sensors.janus` for its geometry,
-and `uwsim.sensors.dvl_message` for the message.
+The z axis of the sensor is the middle of its beams and points down. A beam measures on the first
+surface along its axis that is not a part of its own vehicle. See `uwsim.sensors.janus` for the
+geometry of the beams, and `uwsim.sensors.dvl_message` for the message.
 """
 
 from __future__ import annotations
@@ -50,10 +50,10 @@ class DvlSensorSpec(SensorSpec):
     """The orientation of the sensor in the link's frame, roll, pitch, yaw (Rz Ry Rx) [rad]."""
     look_at: LookAt = element(namespaced=True, default=None)
     """The target of the z axis at the start, instead of ``orientation``: a point in L [m], or a
-    direction of the vehicle. The x axis is the top of a camera's image: forward for ``down``. The
-    sensor stays fixed to its link."""
+    direction of the vehicle. The x axis points where the top of a camera's image does: forward for
+    ``down``. The sensor stays fixed to its link."""
     std: float = element(default=0.0, minimum=0, maximum=10)
-    """The noise of each component, standard deviation [m/s]."""
+    """The standard deviation of the noise of each component of a velocity [m/s]."""
     beam_angle: float = element(namespaced=True, default=30.0, exclusive_minimum=0, maximum=60)
     """The angle from the z axis of the sensor to each beam [deg]."""
     min_altitude: float = element(namespaced=True, default=0.5, minimum=0, maximum=MAX_DISTANCE)
@@ -63,13 +63,14 @@ class DvlSensorSpec(SensorSpec):
     )
     """The greatest distance to the bottom, along the z axis of the sensor [m]."""
     beam_std: float = element(namespaced=True, default=0.0, minimum=0, maximum=10)
-    """The noise along each beam on the bottom, standard deviation [m/s]."""
+    """The standard deviation of the noise of the velocity over the bottom along each beam [m/s]."""
     scale_std: float = element(namespaced=True, default=0.0, minimum=0, maximum=1)
-    """The constant scale error of each beam's velocity in a run, standard deviation [1]."""
+    """The standard deviation of the constant scale error of each beam's velocity in a run [1]."""
     water_std: float | None = element(namespaced=True, default=None, minimum=0, maximum=10)
-    """The noise along each beam in the water [m/s]; by default three times that on the bottom."""
+    """The standard deviation of the noise of the velocity through the water along each beam [m/s];
+    by default three times ``beamStd``."""
     range_std: float = element(namespaced=True, default=0.0, minimum=0, maximum=1000)
-    """The noise of each range, standard deviation [m]."""
+    """The standard deviation of the noise of each range [m]."""
     dropout: float = element(namespaced=True, default=0.0, minimum=0, maximum=1)
     """The probability that a beam receives no echo of a ping [1]."""
     water_layer: float = element(
@@ -77,10 +78,10 @@ class DvlSensorSpec(SensorSpec):
     )
     """The distance to the tracked layer of water, along the z axis of the sensor [m]."""
 
-    def is_bottom(self, axial: Array) -> Flags:
-        """Return True for beams that reach the bottom, by the distance along the z axis [m]."""
-        is_in_range: Flags = (axial >= self.min_altitude) & (axial <= self.max_altitude)
-        return is_in_range
+    def is_bottom(self, axial_distances: Array) -> Flags:
+        """Return True for beams that detect the bottom at distances along the z axis [m]."""
+        is_far_enough: Flags = axial_distances >= self.min_altitude
+        return is_far_enough & (axial_distances <= self.max_altitude)
 
     def bind(self, world: SensorWorld, vehicle: Carrier) -> Dvl:
         """Mount it on its link; raise UnknownName if the vehicle has no such link."""
@@ -89,16 +90,16 @@ class DvlSensorSpec(SensorSpec):
 
 @dataclass(slots=True)
 class TrackState(Record):
-    """The measured velocity over the bottom or through the water."""
+    """A bottom track or a water track: the velocity over the bottom, or through the water."""
 
     numbers: Array
-    """The velocity in the sensor's frame and in W [m/s], the error velocity [m/s], the distance
-    made good east, north and up [m], the time of the last ping, NaN before the first, and that of
-    the last velocity [s], (12,)."""
+    """The velocity in the sensor's frame (3) and in W (3) [m/s], the error velocity [m/s], the
+    distance made good along x, y and z of W (3) [m], the time of the last ping [s], NaN before the
+    first, and the time of the last valid velocity [s], (12,)."""
 
     @staticmethod
     def create() -> TrackState:
-        """Return the state of a sensor before its first ping."""
+        """Return the state before the first ping."""
         numbers = np.full(kernel.N_TRACK, math.nan)
         numbers[kernel.MADE_GOOD : kernel.TIME], numbers[kernel.LAST_VALID] = 0.0, 0.0
         return TrackState(numbers)
@@ -109,16 +110,16 @@ class DvlState(Record):
     """The state of a Doppler velocity log."""
 
     rng: np.random.Generator
-    """The generator of its noise."""
+    """The generator of the noise."""
     scale: Array
-    """The scale of each beam, drawn once, (4,) [1]."""
+    """The scale factor of each beam's velocity, drawn once, (4,) [1]."""
     bottom: TrackState
-    """The velocity over the bottom."""
+    """The bottom track."""
     water: TrackState
-    """The velocity through the water."""
+    """The water track."""
     last_sample: Array
-    """The time of the original's last sample, NaN before the first [s], and its position in W
-    [m]."""
+    """The time of the last sample [s], NaN before the first, and the position of the sensor in W at
+    that time (3) [m], (4,); written only with the quirk ``dvl-differences``."""
 
 
 class Dvl(CompiledSensor):
@@ -134,12 +135,12 @@ class Dvl(CompiledSensor):
         scale = 1.0 + spec.scale_std * rng.standard_normal(4)
         bottom, water = TrackState.create(), TrackState.create()
         self.state = DvlState(rng, scale, bottom, water, np.full(4, math.nan))
-        """The state."""
-        self._is_original = "dvl-differences" in world.compatibility
-        self._flow = np.zeros((4, 3))  # of the water at the beams, in W, if Python is asked [m/s]
+        """The state: the tracks, the scale factors, and the generator of the noise."""
+        self._measures_differences = "dvl-differences" in world.compatibility
+        self._flow = np.zeros((4, 3))  # water velocity on the beams in W, set by `_prepare` [m/s]
         self._is_own = np.array([name == vehicle.name for name in world.rays.vehicles], np.uint8)
         self._row = self._create_parameters()
-        self._water: CompiledFunction | None = None  # what the row has the addresses of
+        self._water: CompiledFunction | None = None  # whose addresses `_row` has
         self.sampler = Sampler(
             function=function_address(kernel.sample_dvl),
             parameters=self._row,
@@ -150,44 +151,53 @@ class Dvl(CompiledSensor):
         """The sampler."""
 
     def _create_parameters(self) -> npt.NDArray[np.void]:
-        """Return its parameters for compiled code, a record of `dvl_kernel.DVL`, (1,)."""
+        """Return the parameters for compiled code, a record of `dvl_kernel.DVL`, (1,)."""
         spec, janus, state, row = self._spec, self._janus, self.state, np.zeros(1, kernel.DVL)
         row["mount"], row["base"] = self._mount.functions, self._base.functions
         row["rays"], row["stream"] = self._world.rays.functions, stream_of(state.rng)
         row["directions"], row["cosine"] = janus.directions, janus.cosine
-        row["error_share"] = janus.error_share
+        row["error_scale"] = janus.error_scale
         row["std"], row["beam_std"], row["range_std"] = spec.std, spec.beam_std, spec.range_std
         row["water_std"] = 3.0 * spec.beam_std if spec.water_std is None else spec.water_std
         row["dropout"], row["water_layer"] = spec.dropout, spec.water_layer
         row["min_altitude"], row["max_altitude"] = spec.min_altitude, spec.max_altitude
-        row["surface"], row["is_original"] = self._world.surface_height, self._is_original
+        row["surface"], row["measures_differences"] = (
+            self._world.surface_height,
+            self._measures_differences,
+        )
         row["is_own"], row["flow"] = address_of(self._is_own), address_of(self._flow)
         row["scale"], row["last_sample"] = address_of(state.scale), address_of(state.last_sample)
-        row["bottom"] = address_of(state.bottom.numbers)
-        row["through"] = address_of(state.water.numbers)
+        row["bottom_track"] = address_of(state.bottom.numbers)
+        row["water_track"] = address_of(state.water.numbers)
         return row
 
     def _is_alone(self, end_time: float) -> bool:
         """Return True if samples until a time [s] need no preparation."""
         if not (self._mount.is_compiled and self._base.is_compiled):
             return False
-        return self._is_original or (self._world.rays.is_compiled and self._prepare_water(end_time))
+        return self._measures_differences or (
+            self._world.rays.is_compiled and self._prepare_water(end_time)
+        )
 
     def _prepare_water(self, end_time: float) -> bool:
-        """Give compiled code the water's motion until a time [s]; return True if there is one."""
+        """Prepare the compiled function of the water's velocity until a time [s], if there is one.
+
+        Returns:
+            True if there is such a function; otherwise `_prepare` sets the velocities.
+        """
         water = self._world.compiled_water(self._vehicle.name, len(self._flow))
         if water is not self._water:
             self._water = water
-            self._row["water"] = (0, 0) if water is None else water.addresses
+            self._row["water_function"] = (0, 0) if water is None else water.addresses
         if water is not None:
             water.prepare(end_time)
         return water is not None
 
     def _prepare(self, time: float) -> None:
-        """Read the poses, and the water's velocity at ``time`` [s]."""
+        """Update the poses, and the water's velocity at ``time`` [s], for compiled code."""
         self._mount.prepare()
         self._base.prepare()
-        if self._is_original:
+        if self._measures_differences:
             return
         self._world.rays.prepare()
         if not self._prepare_water(time):
@@ -197,7 +207,7 @@ class Dvl(CompiledSensor):
 
     def message(self, time: float, values: Array) -> DVL:
         """Return the message of a sample at ``time`` [s]."""
-        if self._is_original:
+        if self._measures_differences:
             x, y, z = values[:3].tolist()
             return DVL(bi_x_axis=x, bi_y_axis=y, bi_z_axis=z)
         spec = self._spec

@@ -100,7 +100,7 @@ class GpsSensor(CompiledSensor):
         )
 
     def _coordinates(self, position: Array, noise: Array) -> tuple[float, float, float]:
-        """Return latitude, longitude [deg] and altitude [m] of a position in W; or x, y in L, 0 [m]."""
+        """Return latitude, longitude [deg] and altitude [m]; or x and y in L [m], and 0."""
         origin = self._world.earth_origin
         if origin is None or self._publishes_metres:
             x, y, _ = self._world.world_from_localized.inverse().transform(position[None])[0]

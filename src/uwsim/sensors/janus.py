@@ -44,4 +44,4 @@ class Janus:
         self.cosine = cosine
         """The cosine of the angle: the distance along the z axis per distance along a beam [1]."""
         self.error_scale = 1.0 / (2.0 * math.sqrt(2.0) * sine)
-        """The factor from the sum of the beam velocities, signed by `SIGNS`, to the error velocity."""
+        """The factor from the sum of beam velocities, signed by `SIGNS`, to the error velocity."""

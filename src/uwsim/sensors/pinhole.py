@@ -41,7 +41,11 @@ def camera_info(
         binning_x=0,
         binning_y=0,
         roi=RegionOfInterest(
-            x_offset=0, y_offset=0, height=intrinsics.height, width=intrinsics.width, do_rectify=False
+            x_offset=0,
+            y_offset=0,
+            height=intrinsics.height,
+            width=intrinsics.width,
+            do_rectify=False,
         ),
     )
 
@@ -55,7 +59,9 @@ def cast_depth(rays: Rays, world_from_camera: Pose, intrinsics: Intrinsics) -> A
     return _cast(rays, world_from_camera, intrinsics)[0]
 
 
-def cast_surfaces(rays: Rays, world_from_camera: Pose, intrinsics: Intrinsics) -> npt.NDArray[np.uint16]:
+def cast_surfaces(
+    rays: Rays, world_from_camera: Pose, intrinsics: Intrinsics
+) -> npt.NDArray[np.uint16]:
     """Cast a ray through the centre of each pixel; return the numbers of the surfaces, (h, w).
 
     The number is 0 where `cast_depth` finds no surface.
@@ -71,7 +77,9 @@ def _cast(
     directions = intrinsics.rays().reshape(-1, 3)
     ray_lengths = intrinsics.ray_lengths.reshape(-1)
     reach = intrinsics.far * float(ray_lengths.max(initial=1.0))
-    hits = rays.cast(world_from_camera, directions / ray_lengths[:, None], reach, intrinsics.near * ray_lengths)
+    hits = rays.cast(
+        world_from_camera, directions / ray_lengths[:, None], reach, intrinsics.near * ray_lengths
+    )
     depth = hits.distance / ray_lengths
     size = intrinsics.height, intrinsics.width
     image: Array = np.where(depth < intrinsics.far, depth, np.inf).reshape(size)

@@ -122,7 +122,9 @@ class PressureSensor(CompiledSensor):
 def sample_pressure(parameters: int, values: int, time: float) -> None:
     """Take a sample of a pressure sensor; see `uwsim.base.numerics.calls`."""
     sensor = carray(pointer(parameters), (1,), PRESSURE)[0]
-    view_doubles(values, 1)[0] = compute_noise_free_value(sensor) + sensor.std * normal(sensor.stream)
+    view_doubles(values, 1)[0] = compute_noise_free_value(sensor) + sensor.std * normal(
+        sensor.stream
+    )
 
 
 @njit

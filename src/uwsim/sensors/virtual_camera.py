@@ -32,18 +32,18 @@ Quality = Literal["plain", "polished"]
 
 @dataclass(frozen=True, kw_only=True)
 class CameraParametersSpec(Spec):
-    """The pinhole of a camera from a calibration; overrides ``fovy``."""
+    """The pinhole model of a calibrated camera; it overrides ``fovy``."""
 
     fx: float = element(exclusive_minimum=0, maximum=MAX_DISTANCE)
     """The focal length along the columns [px]."""
     fy: float = element(exclusive_minimum=0, maximum=MAX_DISTANCE)
     """The focal length along the rows [px]."""
     x0: float
-    """The principal point from the centre of the first column [px], as in ROS and OpenCV; the
-    original counts it from the left edge."""
+    """The column of the principal point, from the centre of the first column [px], as in ROS and
+    OpenCV; the original UWSim measures it from the left edge."""
     y0: float
-    """The principal point from the centre of the first row [px], as in ROS and OpenCV; the original
-    counts it from the bottom edge."""
+    """The row of the principal point, from the centre of the first row [px], as in ROS and OpenCV;
+    the original UWSim measures it from the bottom edge."""
     f: float = element(exclusive_minimum=0, maximum=MAX_DISTANCE)
     """The far plane [m]."""
     n: float = element(exclusive_minimum=0, maximum=MAX_DISTANCE)
@@ -52,10 +52,10 @@ class CameraParametersSpec(Spec):
     """The skew [px]."""
 
     def intrinsics(self, width: int, height: int, compatibility: frozenset[str]) -> Intrinsics:
-        """Return the pinhole for an image of ``width`` by ``height`` pixels.
+        """Return the pinhole model for an image of ``width`` by ``height`` pixels.
 
-        With the compatibility ``y0``, x0 and y0 count from the left and the bottom edge, as in the
-        original.
+        With the compatibility quirk ``y0``, x0 and y0 are measured from the left and the bottom
+        edge, as in the original UWSim.
         """
         from_edges = "y0" in compatibility
         return Intrinsics(
@@ -74,7 +74,7 @@ class CameraParametersSpec(Spec):
 def written_principal_point(
     parameters: CameraParametersSpec | None, compatibility: frozenset[str]
 ) -> tuple[float, float] | None:
-    """Return x0 and y0 with the compatibility ``y0``, in which CameraInfo has them unchanged."""
+    """Return x0 and y0 as written in the file, which CameraInfo has with the quirk ``y0``."""
     if parameters is None or "y0" not in compatibility:
         return None
     return parameters.x0, parameters.y0
@@ -106,24 +106,24 @@ class VirtualCameraSpec(SensorSpec):
     baseline: float = element(default=0.0, minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE)
     """The distance to the first camera of a stereo pair [m]; Tx = -fx * baseline in CameraInfo."""
     frame_id: str = ""
-    """The name of the frame in the headers of image and info."""
+    """The name of the frame in the headers of Image and CameraInfo."""
     fovy: float = element(default=50.0, exclusive_minimum=0, exclusive_maximum=180)
     """The vertical field of view [deg]; ignored if there are parameters."""
     parameters: CameraParametersSpec | None = None
-    """The pinhole from a calibration."""
+    """The pinhole model from a calibration."""
     showpath: float = 0.0
     """The period at which the viewer marks the outline of the camera's view [s]; 0 is off."""
     grayscale: bool = False
     """True if its images are mono8 instead of rgb8."""
     std: float = element(default=0.005, minimum=0, maximum=10)
-    """The noise of each channel of each pixel, standard deviation [1: full scale]."""
+    """The standard deviation of the noise of each channel of each pixel [1: full scale]."""
     quality: Quality = element(namespaced=True, default="plain")
     """The quality of its images; ``polished`` ones have soft shadows in the hue of the water,
     highlights on wet surfaces and smooth edges, like views for people, and take three to four times
     the time."""
 
     def intrinsics(self, compatibility: frozenset[str] = frozenset()) -> Intrinsics:
-        """Return the pinhole; for ``y0`` see `CameraParametersSpec.intrinsics`."""
+        """Return the pinhole model; for ``y0`` see `CameraParametersSpec.intrinsics`."""
         if self.parameters is not None:
             return self.parameters.intrinsics(self.resw, self.resh, compatibility)
         return Intrinsics.from_fovy(self.resw, self.resh, math.radians(self.fovy))
@@ -131,7 +131,7 @@ class VirtualCameraSpec(SensorSpec):
     def bind(self, world: SensorWorld, vehicle: Carrier) -> VirtualCamera:
         """Mount it on its link; raise UnknownName if the vehicle has no such link.
 
-        With the compatibility ``visual-frames`` it is fixed to the link's visual frame.
+        With the compatibility quirk ``visual-frames`` it is fixed to the link's visual frame.
         """
         mount = vehicle.mount(self, visual="visual-frames" in world.compatibility)
         return VirtualCamera(self, mount, world, world.stream(f"{vehicle.name}/{self.name}/noise"))
@@ -142,15 +142,17 @@ class CameraState(Record):
     """The state of a camera."""
 
     std: float
-    """The noise of each channel, 0..1; scene updaters may set it."""
+    """The standard deviation of the noise of each channel [1: full scale], which scene updaters
+    may set."""
     n_images: int | None
-    """The number of images due on its topics so far, read or not; None if it has no topic."""
+    """The number of images due on its topics so far, whether or not they are subscribed to;
+    None if it has no topic."""
     rng: np.random.Generator
-    """The generator of its noise."""
+    """The generator of the noise."""
 
 
 class VirtualCamera:
-    """A bound camera: its pose, its images, its CameraInfo.
+    """A colour camera on a vehicle: its pose, its images, its CameraInfo.
 
     Not modelled: exposure, motion blur, rolling shutter, lens distortion, refraction.
     """
@@ -160,7 +162,7 @@ class VirtualCamera:
     ) -> None:
         self._mount, self._world = mount, world
         self.state = CameraState(spec.std, None, rng)
-        """The state."""
+        """The state: the noise, and the number of images."""
         self._baseline = spec.baseline
         self._intrinsics = spec.intrinsics(world.compatibility)
         self._principal_point = written_principal_point(spec.parameters, world.compatibility)
@@ -175,25 +177,25 @@ class VirtualCamera:
 
     @property
     def n_images(self) -> int | None:
-        """The number of images due on its topics so far, read or not; None if it has no topic."""
+        """The number of images due on the camera's topics so far; None if it has no topic."""
         return self.state.n_images
 
     @property
     def intrinsics(self) -> Intrinsics:
-        """The pinhole."""
+        """The pinhole model."""
         return self._intrinsics
 
     @property
     def world_from_camera(self) -> Pose:
-        """The current pose; OpenGL axes."""
+        """The present pose in W; OpenGL axes (x right, y up, looking along -z)."""
         return self._mount.world_from_body
 
     def resize(self, intrinsics: Intrinsics) -> None:
-        """Replace its pinhole; interfaces that publish its images keep the old size."""
+        """Replace the pinhole model; interfaces that publish images keep the old size."""
         self._intrinsics = intrinsics
 
     def capture(self) -> npt.NDArray[np.uint8]:
-        """Take an image, (h, w, 3), or (h, w) when it is grey; row 0 is the top."""
+        """Take an image, (h, w, 3), or (h, w) if it is grey; row 0 is the top."""
         return self._world.render(
             self.world_from_camera,
             self._intrinsics,
@@ -213,11 +215,11 @@ class VirtualCamera:
             self.state.rng.integers(2**63)
 
     def depth(self, time: float) -> Array:
-        """Return the distance along the optical axis of each pixel, (h, w) [m]; +inf: nothing."""
+        """Return the distance along the optical axis of each pixel, (h, w) [m]; +inf: no hit."""
         return self._world.depth(self.world_from_camera, self._intrinsics)
 
     def info(self, time: float) -> CameraInfo:
-        """Build its CameraInfo, stamped ``time`` [s]: no distortion, Tx = -fx * baseline."""
+        """Build the CameraInfo, stamped ``time`` [s]: no distortion, Tx = -fx * baseline."""
         return camera_info(
             self._intrinsics,
             time=time,

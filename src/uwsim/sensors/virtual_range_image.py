@@ -28,7 +28,7 @@ from .virtual_camera import CameraParametersSpec, written_principal_point
 
 @dataclass(frozen=True, kw_only=True)
 class VirtualRangeImageSpec(SensorSpec):
-    """A ``<virtualRangeImage>``; its geometry is that of a `VirtualCameraSpec`."""
+    """A ``<virtualRangeImage>``: a depth camera with the axes of a `VirtualCameraSpec`."""
 
     message_type: ClassVar[type] = Image
     is_pure: ClassVar[bool] = True
@@ -48,18 +48,18 @@ class VirtualRangeImageSpec(SensorSpec):
     """The viewing target at the start, instead of ``orientation``: a point in L [m], or a direction
     of the vehicle. The camera stays fixed to its link."""
     frame_id: str = ""
-    """The name of the frame in the headers of image and info."""
+    """The name of the frame in the headers of Image and CameraInfo."""
     fovy: float = element(default=50.0, exclusive_minimum=0, exclusive_maximum=180)
     """The vertical field of view [deg]; ignored if there are parameters."""
     parameters: CameraParametersSpec | None = None
-    """The pinhole from a calibration."""
+    """The pinhole model from a calibration."""
     underwater_particles: bool = element(attribute=True, default=False)
     """An attribute that is read and not used: there are no particles in the water."""
     std: float = element(namespaced=True, default=0.0, minimum=0, maximum=1000)
-    """The noise of each pixel's depth, standard deviation [m]."""
+    """The standard deviation of the noise of each pixel's depth [m]."""
 
     def intrinsics(self, compatibility: frozenset[str] = frozenset()) -> Intrinsics:
-        """Return the pinhole; for ``y0`` see `CameraParametersSpec.intrinsics`."""
+        """Return the pinhole model; for ``y0`` see `CameraParametersSpec.intrinsics`."""
         if self.parameters is not None:
             return self.parameters.intrinsics(self.resw, self.resh, compatibility)
         return Intrinsics.from_fovy(self.resw, self.resh, math.radians(self.fovy))
@@ -67,17 +67,17 @@ class VirtualRangeImageSpec(SensorSpec):
     def bind(self, world: SensorWorld, vehicle: Carrier) -> VirtualRangeImage:
         """Mount it on its link; raise UnknownName if the vehicle has no such link.
 
-        With the compatibility ``visual-frames`` it is fixed to the link's visual frame.
+        With the compatibility quirk ``visual-frames`` it is fixed to the link's visual frame.
         """
         mount = vehicle.mount(self, visual="visual-frames" in world.compatibility)
         return VirtualRangeImage(self, mount, world, f"{vehicle.name}/{self.name}/noise")
 
 
 class VirtualRangeImage:
-    """A bound depth camera: its depth image, as in REP 118, and its CameraInfo.
+    """A depth camera on a vehicle: its depth images, as in REP 118, and its CameraInfo.
 
-    The noise of an image depends on its time alone: all readers at one time get the same image.
-    Not modelled: occlusion between projector and camera, mixed pixels, lens distortion,
+    The noise of an image depends on the simulation time alone: two samples at one time are equal.
+    Not modelled: occlusion between projector and camera, mixed pixels, intrinsics distortion,
     refraction, particles.
     """
 
@@ -86,9 +86,9 @@ class VirtualRangeImage:
     ) -> None:
         self._std, self._mount, self._world, self._stream = spec.std, mount, world, stream
         self.state = NoState()
-        """The state, which is empty: noise depends on the time alone."""
+        """The state, which is empty, as the noise depends on the time alone."""
         self.intrinsics = spec.intrinsics(world.compatibility)
-        """The pinhole."""
+        """The pinhole model."""
         self._principal_point = written_principal_point(spec.parameters, world.compatibility)
         self.name = spec.name
         """The name in the scene."""
@@ -97,29 +97,31 @@ class VirtualRangeImage:
 
     @property
     def world_from_camera(self) -> Pose:
-        """The current pose; OpenGL axes."""
+        """The present pose in W; OpenGL axes (x right, y up, looking along -z)."""
         return self._mount.world_from_body
 
     def depth(self, time: float) -> Array:
         """Measure at ``time`` [s]: distance along the optical axis, (h, w) [m].
 
-        As in REP 117 and 118, +inf where no surface is nearer than the far plane, and -inf where
-        noise makes it nearer than the near plane.
+        As in REP 117 and 118, the value is +inf where no surface is nearer than the far plane, and
+        -inf where noise makes the depth less than that of the near plane.
         """
-        lens = self.intrinsics
-        depth = self._world.depth(self.world_from_camera, lens)
+        intrinsics = self.intrinsics
+        depth = self._world.depth(self.world_from_camera, intrinsics)
         if self._std > 0.0:
             rng = self._world.stream(f"{self._stream}/{round(time * 1e9)}")
             depth += self._std * rng.standard_normal(depth.shape)
-            depth = np.where(depth < lens.near, -np.inf, np.where(depth < lens.far, depth, np.inf))
+            depth = np.where(
+                depth < intrinsics.near, -np.inf, np.where(depth < intrinsics.far, depth, np.inf)
+            )
         return depth
 
     def sample(self, time: float) -> Image:
-        """Measure at ``time`` [s]."""
+        """Return the depth image at ``time`` [s] as a message."""
         return depth_image(self.depth(time), time=time, frame_id=self.frame_id)
 
     def info(self, time: float) -> CameraInfo:
-        """Build its CameraInfo, stamped ``time`` [s]: no distortion."""
+        """Build the CameraInfo, stamped ``time`` [s]: no distortion."""
         return camera_info(
             self.intrinsics,
             time=time,

@@ -1,16 +1,17 @@
 r"""A ping: rays in the sonar's beam pattern, their echoes in range bins, speckle and noise.
 
-The echo level of a surface element of the target strength TS is that of the sonar equation,
+The echo level EL of a surface element follows from the sonar equation,
 
 .. math:: EL = SL - 2 (20 \log r + \alpha r) + TS + D ,
 
-D the two-way pattern of the beam: a uniform line, :math:`(\sin u / u)^4`, over the height, a
-Gaussian over the width. Echoes of a bin and beam come from many scatterers with random phases: the
-amplitude has a Rayleigh distribution around the root of the mean power, which is the sum of all
-echoes and of the noise.
+with the source level SL, the range r, the absorption :math:`\alpha`, the target strength TS and the
+two-way beam pattern D: vertically that of a uniform line array, :math:`(\sin u / u)^4`,
+horizontally a Gaussian. The echoes in a bin of a beam come from many scatterers with random phases:
+their amplitude has a Rayleigh distribution around the root of the mean power, which is the sum of
+the powers of all echoes and of the noise.
 
 With ``multipath``, rays also reach targets by reflection at the water's surface, and their echoes
-return on the same path. They are rays from the mirror image of the sonar.
+return on the same path. They are cast from the mirror image of the sonar.
 """
 
 from __future__ import annotations
@@ -33,8 +34,9 @@ from .ray_grid import RayGrid
 from .small_targets import Discs, Fan, add_small_echoes, create_lattice, drop_hits, find_discs
 from .spec import SonarSpec
 
-SURFACE_LOSS = 0.631
-"""The loss of power at the water's surface [1]: 2 dB, of small waves."""
+SURFACE_REFLECTION = 0.631
+"""The share of the power that a reflection at the water's surface retains [1]: -2 dB, for small
+waves."""
 MICROPASCAL = -120.0
 """The level of one micropascal [dB re 1 Pa]."""
 
@@ -43,10 +45,10 @@ class Power(NamedTuple):
     """The mean power of the echoes of a ping."""
 
     columns: Singles
-    """The power of each bin and column of rays, which beams weight by their patterns, (bins, m)
-    [Pa2]."""
+    """The power in each range bin of each column of rays, (bins, m) [Pa2]; beams are sums of
+    columns, weighted by their patterns."""
     small_targets: Singles
-    """The power of small targets in each bin and beam, (bins, n); (0, 0) without any [Pa2]."""
+    """The power of small targets in each bin and beam, (bins, n) [Pa2]; (0, 0) without any."""
 
 
 class Ping(NamedTuple):
@@ -57,21 +59,22 @@ class Ping(NamedTuple):
     level: float
     """The power at 1 m on the axis of a beam [Pa2 m2]."""
     materials: Array
-    """The material of each surface, as for `add_echoes`; the last is the water's surface, (m,
-    3)."""
+    """The material of each surface, as for `add_echoes`, (m, 3); the last is the water's
+    surface."""
     bins: tuple[float, float, float]
-    """The least range and bin size [m], and the two-way absorption [1/m, neper of power]."""
+    """The least range [m], the bin size [m], and the two-way absorption [1/m, neper of power]."""
 
 
 class Echoes:
     """The echoes of a sonar's pings.
 
     Args:
-        spec: spec of the sonar.
+        spec: the spec of the sonar.
         world: the world.
-        azimuths: azimuths of its beams at equal steps, positive to port, (n,) [rad].
-        step: between beams, positive; of a single beam any [rad].
-        max_elevation: elevation of the highest ray [rad]; None for the first null of the beam.
+        azimuths: the azimuths of its beams, at equal steps, positive to port, (n,) [rad].
+        step: the angle between beams, positive [rad]; for a single beam, the greatest spacing of
+            its rays.
+        max_elevation: the elevation of the highest ray [rad]; None for the first null of the beam.
     """
 
     def __init__(
@@ -84,7 +87,7 @@ class Echoes:
     ) -> None:
         self._spec, self._world = spec, world
         self.grid = _ray_grid(spec, tuple(azimuths.tolist()), step, max_elevation)
-        """The rays of its pings."""
+        """The rays of the pings."""
         self._fan = Fan(
             float(azimuths[0]),
             step,
@@ -98,7 +101,7 @@ class Echoes:
 
     @property
     def ranges(self) -> Array:
-        """The middles of the bins, (bins,) [m]."""
+        """The middles of the range bins, (bins,) [m]."""
         starts: Array = self.bin_size * np.arange(self._spec.bins, dtype=np.float64)
         return self._spec.min_range + 0.5 * self.bin_size + starts
 
@@ -106,29 +109,29 @@ class Echoes:
         """Return the speed of sound at the sonar [m/s]."""
         return self._world.sea_water.sound_speed(self._depth(world_from_sonar))
 
-    def losses(self, world_from_sonar: Pose) -> float:
-        """Return the absorption at the sonar [dB/m]."""
+    def absorption(self, world_from_sonar: Pose) -> float:
+        """Return the absorption of sound at the sonar [dB/m]."""
         depth = self._depth(world_from_sonar)
         return self._world.sea_water.absorption(self._spec.frequency, depth)
 
-    def ping(self, world_from_sonar: Pose, key: int) -> Singles:
+    def ping(self, world_from_sonar: Pose, seed: int) -> Singles:
         """Return the amplitudes of all bins and beams, (bins, n) [Pa].
 
         Args:
-            world_from_sonar: pose of the sonar.
-            key: seed of the speckle and the noise of this ping.
+            world_from_sonar: the pose of the sonar.
+            seed: the seed of the speckle and the noise of this ping.
         """
         spec = self._spec
         power = self.power(world_from_sonar)
         noise = 10.0 ** (0.1 * (spec.noise_level + MICROPASCAL))
-        draws = _draw_integers(key, (spec.bins, self._fan.n))
+        draws = _draw_integers(seed, (spec.bins, self._fan.n))
         grid = self.grid
         return compute_amplitudes(*power, grid.patterns, grid.stride, noise, draws, self._rayleigh)
 
     def power(self, world_from_sonar: Pose) -> Power:
         """Return the mean power of the echoes of a ping."""
         spec, grid, rays = self._spec, self.grid, self._world.rays
-        loss = 0.2 * math.log(10.0) * self.losses(world_from_sonar)
+        loss = 0.2 * math.log(10.0) * self.absorption(world_from_sonar)
         ping = Ping(
             world_from_sonar,
             10.0 ** (0.1 * (spec.source_level + MICROPASCAL)),
@@ -151,10 +154,10 @@ class Echoes:
         return Power(power, small_targets)
 
     def _cast(self, ping: Ping, directions: Array) -> tuple[Hits, Array]:
-        """Return the first hits of rays, the water's surface included, and their distance to it.
+        """Return the first hits of rays, and their distances to the water's surface.
 
-        Normals are in the sonar's frame. The distance of a ray that does not
-        reach the water's surface is infinite, (n,) [m].
+        Hits include the water's surface; their normals are in the sonar's frame. The distance of a
+        ray that does not hit the water's surface is infinite, (n,) [m].
         """
         pose, reach = ping.world_from_sonar, self._spec.range
         hits = self._world.rays.cast(pose, directions, reach)
@@ -172,13 +175,13 @@ class Echoes:
         return Hits(hits.distance, normal, hits.surface), to_surface
 
     def _add_small(self, power: Singles, ping: Ping, discs: Discs) -> None:
-        """Add the echoes of small targets to those of the beams."""
+        """Add the echoes of small targets to the power of each bin and beam."""
         rays = create_lattice(discs, self._fan, self.grid.max_elevation)
         hits, _ = self._cast(ping, rays.directions)
         add_small_echoes(power, hits, rays, self._fan, ping.level, ping.materials, ping.bins)
 
     def _add_multipath(self, power: Singles, ping: Ping, to_surface: Array) -> None:
-        """Add echoes by way of the water's surface, in both directions."""
+        """Add echoes that are reflected at the water's surface on the way there and back."""
         grid, world_from_sonar = self.grid, ping.world_from_sonar
         mirror = np.diag([1.0, 1.0, -1.0])
         position = world_from_sonar.position.copy()
@@ -190,7 +193,7 @@ class Echoes:
         )
         hits.distance[~np.isfinite(to_surface)] = np.inf
         normal = product(hits.normal, rotation)
-        rows = grid.rows * (SURFACE_LOSS**2 * ping.level, 1.0)
+        rows = grid.rows * (SURFACE_REFLECTION**2 * ping.level, 1.0)
         sonar_hits = Hits(hits.distance, normal, hits.surface)
         add_echoes(power, sonar_hits, grid.directions, rows, ping.materials, ping.bins)
 
@@ -202,12 +205,12 @@ class Echoes:
 def _ray_grid(
     spec: SonarSpec, azimuths: tuple[float, ...], step: float, max_elevation: float | None
 ) -> RayGrid:
-    """Return the rays of a sonar's pings; equal arguments share one grid."""
+    """Return the rays of the pings of a sonar; calls with equal arguments return one object."""
     return RayGrid(spec, np.array(azimuths), step, max_elevation)
 
 
 def _material_numbers(materials: list[Material]) -> Array:
-    """Return the numbers of materials for `add_echoes`, (m, 3)."""
+    """Return the parameters of materials for `add_echoes`, (m, 3)."""
     return np.array(
         [
             (
@@ -220,9 +223,9 @@ def _material_numbers(materials: list[Material]) -> Array:
     )
 
 
-def _draw_integers(key: int, shape: tuple[int, int]) -> npt.NDArray[np.uint16]:
-    """Return random integers from 0 to 65535, four of each 64-bit number."""
-    rng = np.random.Generator(np.random.PCG64DXSM(key))
+def _draw_integers(seed: int, shape: tuple[int, int]) -> npt.NDArray[np.uint16]:
+    """Return random integers from 0 to 65535, four from each 64-bit number."""
+    rng = np.random.Generator(np.random.PCG64DXSM(seed))
     n = shape[0] * shape[1]
     integers = rng.integers(0, 2**64, size=-(-n // 4), dtype=np.uint64)
     return integers.astype("<u8", copy=False).view("<u2")[:n].reshape(shape)

@@ -9,7 +9,7 @@
       <horizontalAperture>90</horizontalAperture> <beams>512</beams>
     </u:imagingSonar>
 
-All beams receive each ping. See `uwsim.sensors.sonar.echoes` for the echoes.
+All beams receive the echoes of each ping; see `uwsim.sensors.sonar.echoes`.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from ...schema import element
 from ...world import Body, SensorWorld
 from ..sensor import Carrier
 from .echoes import Echoes
-from .fan_image import FanImage, Levels
+from .fan_image import FanImage, GreyLevels
 from .message import level_directions, sonar_image
 from .ray_grid import n_columns
 from .spec import SonarSpec
@@ -42,18 +42,18 @@ class ImagingSonarSpec(SonarSpec):
     message_type: ClassVar[type] = ProjectedSonarImage
 
     horizontal_aperture: float = element(default=90.0, exclusive_minimum=0, maximum=360)
-    """The angle from the middle of the first beam to that of the last [deg]."""
+    """The angle from the axis of the first beam to the axis of the last [deg]."""
     beams: int = element(default=512, minimum=2, maximum=4096)
     """The number of beams side by side."""
 
     @property
     def n_cells(self) -> int:
-        """The number of bins of all beams."""
+        """The number of range bins of all beams."""
         return self.bins * self.beams
 
     @property
     def n_rays(self) -> int:
-        """The number of rays of a ping, except those beside the fan and to small targets."""
+        """The number of rays of a ping, without rays outside the fan or to small targets."""
         n = n_columns(math.radians(self.beam_width), self._step, self.beams)
         return self.rows * max(n, self.beams)
 
@@ -64,7 +64,7 @@ class ImagingSonarSpec(SonarSpec):
 
     @property
     def azimuths(self) -> Array:
-        """The azimuths of the beams from starboard to port, positive to port, (n,) [rad]."""
+        """The azimuths of the beams, positive to port, from starboard to port, (n,) [rad]."""
         half = 0.5 * math.radians(self.horizontal_aperture)
         return np.linspace(-half, half, self.beams)
 
@@ -79,9 +79,9 @@ class ImagingState(Record):
     """The state of an imaging sonar."""
 
     rng: np.random.Generator
-    """The generator of its speckle."""
+    """The generator of the speckle and the noise."""
     last_ping: npt.NDArray[np.float32]
-    """The amplitudes of the last ping, (bins, beams)."""
+    """The amplitudes of the last ping, (bins, beams) [Pa]."""
 
 
 class ImagingSonar:
@@ -94,9 +94,9 @@ class ImagingSonar:
         azimuths = spec.azimuths
         self._echoes = Echoes(spec, world, azimuths, float(azimuths[1] - azimuths[0]))
         self._ranges, self._directions = self._echoes.ranges, level_directions(azimuths)
-        self._azimuths, self._levels = azimuths, Levels(spec, self._ranges)
+        self._azimuths, self._levels = azimuths, GreyLevels(spec, self._ranges)
         self.state = ImagingState(rng, np.zeros((spec.bins, spec.beams), np.float32))
-        """The state."""
+        """The state: the last ping, and the generator of speckle and noise."""
 
     @cached_property
     def _fan(self) -> FanImage:
@@ -116,7 +116,7 @@ class ImagingSonar:
         )
 
     def image(self, time: float) -> Image:
-        """Return the last ping as a fan, ahead is up, stamped ``time`` [s]."""
-        losses = self._echoes.losses(self._mount.world_from_body)
-        greys = self._levels.to_grey(self.state.last_ping, losses)
+        """Return the last ping as a fan with ahead at the top, stamped ``time`` [s]."""
+        absorption = self._echoes.absorption(self._mount.world_from_body)
+        greys = self._levels.to_grey(self.state.last_ping, absorption)
         return image(self._fan.draw(greys), time=time, frame_id=self._spec.name)

@@ -1,4 +1,4 @@
-"""The echoes of rays in range bins, in compiled code."""
+"""The power of echoes in range bins, and the amplitudes of beams, in compiled code."""
 
 from __future__ import annotations
 
@@ -14,15 +14,16 @@ Array = npt.NDArray[np.float64]
 Singles = npt.NDArray[np.float32]
 Integers = npt.NDArray[np.int32]
 BLOCK = 8
-"""The number of azimuths whose rays are adjacent in memory: neighbours are cast together
-(`uwsim.rays`)."""
+"""The number of azimuths whose rays are adjacent in memory, because neighbouring rays are cast
+together (`uwsim.rays`)."""
 LINES = 16
-"""The number of bins that are read from all azimuths together: a line of the processor's cache."""
+"""The number of bins that are read from all azimuths together: one line of the processor's
+cache."""
 MIN_COSINE = 0.02
-"""The least cosine of an angle of incidence that counts: 88.9 degrees."""
+"""The least cosine of an angle of incidence (88.9 degrees); smaller ones are replaced by it."""
 
 MAX_TILT = 0.9
-"""The largest relative change of the density of power over one ray's surface."""
+"""The largest relative change of the power per range bin from the middle to the end of an echo."""
 
 
 @njit
@@ -34,27 +35,30 @@ def add_echoes(
     materials: Array,
     bins: tuple[float, float, float],
 ) -> None:
-    r"""Add the power of the echo of each ray to the bins of range that it covers.
+    r"""Add the power of the echo of each ray to the range bins that the echo covers.
 
     A ray of the solid angle :math:`d\Omega` that meets a surface at the range r and the angle
     :math:`\theta` to its normal covers :math:`r^2 d\Omega / \cos\theta` of it, and sends back
 
     .. math:: w\, \sigma(\theta)\, \frac{10^{-2 \alpha r / 10}}{r^2 \cos\theta} ,
 
-    w of its row. It covers the ranges from half way to the ray below it to half way to the one
-    above, where these are on the same surface, and likewise from side to side; elsewhere no more
-    than a bin.
+    where w is the weight of the ray's row, :math:`\sigma` the backscattering cross section per area
+    and :math:`\alpha` the absorption. The echo covers the ranges from half way to the hit of the
+    ray below to half way to the hit of the ray above, where these are on the same surface, and
+    likewise from side to side; elsewhere no more than a bin.
 
     Args:
-        power: of each bin and azimuth, (bins, n), an azimuth's bins one after the other; added to
-            [Pa2].
-        hits: distance (n k,), normal in the sonar's frame (n k, 3), surface (n k,); `BLOCK`
-            azimuths side by side, k rows of them one above the other, then the next azimuths.
-        directions: in the sonar's frame, (n k, 3).
-        rows: weight of each row [Pa2 m2], and the share by which the pattern rises from its middle
-            to its upper end, (k, 2).
-        materials: of each surface glint, sharpness of the glint and diffuse part, (m, 3).
-        bins: least range, size of a bin [m], absorption there and back [1/m, neper of power].
+        power: the power in each bin and azimuth, to which echoes are added, (bins, n) [Pa2]; the
+            bins of an azimuth are adjacent in memory.
+        hits: the distance (n k,), normal in the sonar's frame (n k, 3) and surface (n k,) of the
+            hit of each ray: `BLOCK` azimuths side by side, their k rows one above the other, then
+            the next azimuths.
+        directions: the directions of the rays in the sonar's frame, (n k, 3).
+        rows: the weight of each row [Pa2 m2], and the share by which the pattern rises from the
+            middle of the row to its upper end, (k, 2).
+        materials: the glint, sharpness of the glint and diffuse part of each surface, (m, 3).
+        bins: the least range [m], the size of a bin [m], and the two-way absorption [1/m, neper of
+            power].
     """
     distance, normal, surface = hits
     start, size, loss = bins
@@ -93,13 +97,13 @@ def add_echoes(
 
 @njit
 def backscatter(material: Array, cosine: float) -> tuple[float, float]:
-    """Return the backscattering cross section of a square metre (`uwsim.acoustics.material`) [1].
+    """Return the backscattering cross section per area (`uwsim.acoustics.material`) [1].
 
-    Returns it and its steepness, the derivative of its logarithm by that of the cosine.
+    Also return the derivative of its logarithm by the logarithm of the cosine.
 
     Args:
-        material: glint, sharpness of the glint and diffuse part, (3,).
-        cosine: of the angle of incidence.
+        material: the glint, sharpness of the glint and diffuse part, (3,).
+        cosine: the cosine of the angle of incidence.
     """
     square = cosine * cosine
     glint = material[0] * math.exp(-material[1] * (1.0 / square - 1.0)) / (square * square)
@@ -129,22 +133,22 @@ def _range_to_neighbour(
     reach: float,
     size: float,
 ) -> float:
-    """Return the range from a hit to the end of its ray's surface, towards another ray [m].
+    """Return the range from a hit to the end of the surface that its ray covers [m].
 
     Args:
-        hit: its number k, distance [m] and cosine of the angle of incidence.
-        other: number of the other ray.
-        hits: of all rays.
-        directions: of all rays, (n k, 3).
-        reach: end of the last bin; a surface is taken to go on as a plane beyond it [m].
-        size: of a bin [m].
+        hit: the number k of the ray, its distance [m] and the cosine of the angle of incidence.
+        other: the number of the neighbouring ray, towards which the end is.
+        hits: the hits of all rays.
+        directions: the directions of all rays, (n k, 3).
+        reach: the end of the last bin, beyond which surfaces are assumed to continue as planes [m].
+        size: the size of a bin [m].
     """
     k, r, cosine = hit
     distance, normal, surface = hits
     other_cosine = facing_cosine(normal, directions, k, other)
     if other_cosine <= MIN_COSINE:
         return 0.0
-    expected = r * cosine / other_cosine - r  # if the other were on the same plane
+    expected = r * cosine / other_cosine - r  # if the neighbour hit the same plane
     if surface[other] < 0 and r + expected > reach:
         return 0.5 * expected
     gap = distance[other] - r
@@ -159,12 +163,12 @@ def spread_echo(power: Singles, echo: float, near: float, far: float, tilt: floa
     """Distribute the power of an echo over the bins that it covers.
 
     Args:
-        power: of the bins, (n,); added to [Pa2].
-        echo: power of the echo [Pa2].
-        near: begin of what it covers [bins].
-        far: end of what it covers [bins].
-        tilt: how much of its mean the density of power rises from the middle to ``far``; no more
-            than `MAX_TILT` either way.
+        power: the power in each bin, to which the echo is added, (n,) [Pa2].
+        echo: the power of the echo [Pa2].
+        near: the start of the echo [bins].
+        far: the end of the echo [bins].
+        tilt: the rise of the power per bin from the middle of the echo to ``far``, relative to the
+            mean; limited to `MAX_TILT` either way.
     """
     n_bins = len(power)
     if far <= 0.0 or near >= n_bins:
@@ -199,14 +203,15 @@ def compute_amplitudes(
     """Return the amplitudes of the beams, (bins, beams) [Pa].
 
     Args:
-        power: of each bin and column of rays, (bins, m), a column's bins one after the other [Pa2].
-        small_targets: what the beams receive from small targets, (bins, beams); or (0, 0) [Pa2].
-        patterns: of the beams over neighbouring columns, (s, t): beam ``s q + p`` receives the
-            columns ``stride q`` to ``stride q + t - 1`` by the pattern p.
-        stride: columns from a beam to the next of the same pattern.
-        noise: mean power of what is received without any echo [Pa2].
-        integers: a number for each bin and beam, (bins, beams).
-        speckle: amplitude by random number, (65536,).
+        power: the power in each bin and column of rays, (bins, m) [Pa2]; the bins of a column are
+            adjacent in memory.
+        small_targets: the power from small targets, (bins, beams) [Pa2]; (0, 0) without any.
+        patterns: the patterns of the beams over neighbouring columns, (s, t): beam ``s q + p``
+            receives the columns ``stride q`` to ``stride q + t - 1`` by the pattern p.
+        stride: the number of columns from a beam to the next beam with the same pattern.
+        noise: the mean power of the noise [Pa2].
+        integers: a random integer from 0 to 65535 for each bin and beam, (bins, beams).
+        speckle: the relative amplitude for each random integer, (65536,).
     """
     n_bins, n_beams = integers.shape
     n_phases, n_taps = patterns.shape
@@ -218,8 +223,8 @@ def compute_amplitudes(
     for bin in range(n_bins):
         if bin % LINES == 0:
             for k in range(power.shape[1]):
-                for place in range(min(LINES, n_bins - bin)):
-                    lines[place, k] = power[bin + place, k]
+                for offset in range(min(LINES, n_bins - bin)):
+                    lines[offset, k] = power[bin + offset, k]
         for phase in range(n_phases):
             n = (n_beams - phase + n_phases - 1) // n_phases
             for k in range(n):
@@ -241,7 +246,7 @@ def compute_amplitudes(
 def _add_column(
     beam_power: Singles, n: int, weight: np.float32, columns: Singles, stride: int
 ) -> None:
-    """Add the weighted power of one column to that of each of n beams."""
+    """Add a weighted column to each of n beams; the columns of two beams are a stride apart."""
     if stride == 1:
         for k in range(n):
             beam_power[k] += weight * columns[k]

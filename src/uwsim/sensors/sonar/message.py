@@ -1,4 +1,4 @@
-"""Sonar images as marine_acoustic_msgs/ProjectedSonarImage."""
+"""Echo amplitudes as marine_acoustic_msgs/ProjectedSonarImage."""
 
 from __future__ import annotations
 
@@ -27,12 +27,12 @@ def sonar_image(
     """Build the message of a ping.
 
     Args:
-        amplitude: of each bin and beam, (bins, n) [Pa].
-        spec: of the sonar.
-        directions: of the beams in the sonar's frame, unit vectors (n, 3).
-        ranges: middles of the bins, (bins,) [m].
-        sound_speed: [m/s].
-        time: of the ping [s].
+        amplitude: the amplitude in each bin and beam, (bins, n) [Pa].
+        spec: the spec of the sonar.
+        directions: the directions of the beams in the sonar's frame, unit vectors (n, 3).
+        ranges: the middles of the range bins, (bins,) [m].
+        sound_speed: the speed of sound at the sonar [m/s].
+        time: the time of the ping [s].
     """
     n = len(directions)
     forward, starboard, up = (directions * [1.0, -1.0, 1.0]).T.tolist()
@@ -62,6 +62,6 @@ def level_directions(azimuths: Array) -> Array:
 
 
 def amplitudes(message: ProjectedSonarImage) -> Singles:
-    """Return the amplitudes of a message of a sonar of uwsim, (bins, beams) [Pa]."""
+    """Return the amplitudes in a message that `sonar_image` built, (bins, beams) [Pa]."""
     shape = len(message.ranges), message.image.beam_count
     return np.asarray(message.image.data, dtype=np.uint8).view("<f4").reshape(shape)

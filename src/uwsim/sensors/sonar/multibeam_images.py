@@ -1,6 +1,6 @@
-"""The original's multibeam from depth images: the compatibility quirk ``multibeam-images``.
+"""Multibeam ranges from depth images, as in the original UWSim (``multibeam-images``).
 
-Adjacent cameras, each one pixel wide, cover the fan. Surfaces nearer to a camera than `NEAR` are
+Adjacent cameras, whose images are one pixel wide, cover the fan. Surfaces nearer than `NEAR` are
 clipped. The depth at a beam is interpolated between the two pixels next to it, linearly in the
 angle, and divided by the cosine of the angle to the middle of the camera.
 """
@@ -18,17 +18,17 @@ from ...world import Rays
 NEAR = 0.8
 """The near plane of the cameras [m]."""
 FAR = 1.2
-"""The far plane of the cameras, in ranges of the sensor [1]."""
+"""The far plane of the cameras, as a multiple of the sensor's range [1]."""
 
 
 class DepthImages:
-    """The cameras of a fan of beams.
+    """The depth cameras that cover a fan of beams.
 
     Args:
-        angles: of the beams, (n,) [rad].
-        step: between beams [rad].
-        max_field: a camera sees no more than that [rad].
-        reach: range of the sensor [m].
+        angles: the angles of the beams, (n,) [rad].
+        step: the angle between beams [rad].
+        max_field: the largest field of view of a camera [rad].
+        reach: the greatest range of the sensor [m].
     """
 
     def __init__(self, angles: Array, step: float, max_field: float, reach: float) -> None:
@@ -37,20 +37,20 @@ class DepthImages:
         field = (max_angle - min_angle) / n_cameras
         n_pixels = int(field / abs(step) + 1e-9) + 1
         self._far = FAR * reach
-        rise = (2.0 * np.arange(n_pixels, dtype=np.float64) + 1.0) / n_pixels - 1.0
-        self._pixels = arctan(rise * math.tan(0.5 * field))  # (m,) [rad], from the middle
+        positions = (2.0 * np.arange(n_pixels, dtype=np.float64) + 1.0) / n_pixels - 1.0
+        self._pixels = arctan(positions * math.tan(0.5 * field))  # (m,) [rad], from the middle
         middles = min_angle + field * (np.arange(n_cameras, dtype=np.float64) + 0.5)
         pixel_angles = (middles[:, None] + self._pixels).reshape(-1)
         self._rays = np.stack(
             [np.zeros(len(pixel_angles)), np.sin(pixel_angles), -np.cos(pixel_angles)], axis=1
         )
         self._cosines = np.tile(np.cos(self._pixels), n_cameras)
-        places = (angles - min_angle) / field if field > 0.0 else np.zeros(len(angles))
-        self._cameras = np.minimum(places.astype(np.intp), n_cameras - 1)
+        positions = (angles - min_angle) / field if field > 0.0 else np.zeros(len(angles))
+        self._cameras = np.minimum(positions.astype(np.intp), n_cameras - 1)
         self._offsets = angles - middles[self._cameras]
 
     def ranges(self, rays: Rays, world_from_sensor: Pose) -> Array:
-        """Return the ranges of the beams in these images, (n,) [m]."""
+        """Return the ranges of the beams from the images at a pose, (n,) [m]."""
         reach = self._far / float(self._cosines.min())
         hits = rays.cast(world_from_sensor, self._rays, reach, NEAR / self._cosines)
         depths = np.minimum(hits.distance * self._cosines, self._far)

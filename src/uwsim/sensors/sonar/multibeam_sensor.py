@@ -8,8 +8,8 @@
       <range>10</range>
     </multibeamSensor>
 
-A beam at the angle t points along (0, sin t, -cos t). Its range is exact for the triangles of the
-scene. With a beam width, the range is the mean over the insonified surface, weighted by the beam
+A beam at the angle t points along (0, sin t, -cos t). Its range is that of the first surface. With
+a beam width, the range is the mean over the insonified surface, weighted by the beam
 pattern, as in bottom detection by amplitude. If the beam covers two surfaces, one behind the other,
 the range is that of the surface that covers more of the beam.
 """
@@ -58,20 +58,20 @@ class FanSpec(SensorSpec):
     angle_incr: float = element(exclusive_minimum=0)
     """The angle between beams [deg]."""
     range: float = element(exclusive_minimum=0, maximum=MAX_DISTANCE)
-    """The longest measured distance; the value of a beam without a hit [m]."""
+    """The longest measured distance, which is also the value of a beam without a hit [m]."""
     beam_width: float = element(namespaced=True, default=0.0, minimum=0, maximum=30)
-    """The width of each round beam between its points of half power [deg]; 0 is a ray."""
+    """The width of each round beam at -3 dB [deg]; 0: a single ray."""
     std: float = element(namespaced=True, default=0.0, minimum=0, maximum=1000)
-    """The noise of each range, standard deviation [m]."""
+    """The standard deviation of the noise of each range [m]."""
 
     @property
     def camera_field(self) -> float:
-        """The largest field of view of the original's cameras [deg]."""
+        """The largest field of view of each depth camera of the original UWSim [deg]."""
         return 120.0
 
     @property
     def n_beams(self) -> int:
-        """The number of beams, as the original counts them."""
+        """The number of beams, as in the original UWSim."""
         return int(abs(self.final_angle - self.init_angle) / self.angle_incr) + 1
 
     def bind(self, world: SensorWorld, vehicle: Carrier) -> BeamFan:
@@ -85,7 +85,7 @@ class MultibeamSensorSpec(FanSpec):
     """A ``<multibeamSensor>``."""
 
     underwater_particles: bool = element(attribute=True, default=False)
-    """True if particles drifting in the water are visible."""
+    """An attribute that is read and not used: there are no particles in the water."""
 
 
 class BeamFan:
@@ -96,7 +96,7 @@ class BeamFan:
     ) -> None:
         self._spec, self._mount, self._world = spec, mount, world
         self.state = RandomState(rng)
-        """The state."""
+        """The state: the generator of the noise."""
         sign = 1.0 if spec.final_angle >= spec.init_angle else -1.0
         self._first_angle = math.radians(spec.init_angle)
         self._step = sign * math.radians(spec.angle_incr)
@@ -128,7 +128,7 @@ class BeamFan:
         )
 
     def _ranges(self) -> Array:
-        """Return the ranges without noise, (n,) [m]; that of the sensor without a hit."""
+        """Return the ranges without noise, (n,) [m]; without a hit the greatest range."""
         reach = self._spec.range
         if self._images is not None:
             image_ranges = self._images.ranges(self._world.rays, self._mount.world_from_body)

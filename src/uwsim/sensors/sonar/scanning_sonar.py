@@ -8,7 +8,8 @@
       <initAngle>-180</initAngle> <finalAngle>180</finalAngle> <angleIncr>1.8</angleIncr>
     </u:scanningSonar>
 
-It pings once a sample and then turns by a step: in full circles, or to and fro in a sector. See
+A sample is one ping, after which the head turns by a step: in full circles, or to and fro in a
+sector. See
 `uwsim.sensors.sonar.echoes` for the echoes.
 """
 
@@ -29,12 +30,12 @@ from ...schema import element
 from ...world import Body, SensorWorld
 from ..sensor import Carrier
 from .echoes import Echoes
-from .fan_image import FanImage, Levels
+from .fan_image import FanImage, GreyLevels
 from .message import level_directions, sonar_image
 from .spec import SonarSpec
 
-RAYS_A_WIDTH = 4
-"""The number of rays side by side in the width of the beam."""
+RAYS_PER_BEAM_WIDTH = 4
+"""The number of rays side by side in the width of a beam."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,7 +47,8 @@ class ScanningSonarSpec(SonarSpec):
     init_angle: float = element(default=-180.0, minimum=-360, maximum=360)
     """The azimuth of the first ping, positive to port [deg]."""
     final_angle: float = element(default=180.0, minimum=-360, maximum=360)
-    """The azimuth at which it turns back [deg]; 360 from the first, it continues round."""
+    """The azimuth at which the head turns back [deg]; 360 degrees from ``initAngle``, it does not
+    turn back but continues."""
     angle_incr: float = element(default=1.8, minimum=0.001, maximum=180)
     """The step of the head from ping to ping [deg]."""
 
@@ -54,7 +56,7 @@ class ScanningSonarSpec(SonarSpec):
     def n_pings(self) -> int:
         """The number of pings of a scan."""
         n_steps = round(abs(self.final_angle - self.init_angle) / self.angle_incr)
-        return max(1, n_steps + (not self.is_round))
+        return max(1, n_steps + (not self.is_full_circle))
 
     @property
     def n_cells(self) -> int:
@@ -70,8 +72,8 @@ class ScanningSonarSpec(SonarSpec):
         return azimuths
 
     @property
-    def is_round(self) -> bool:
-        """True if it scans a full circle."""
+    def is_full_circle(self) -> bool:
+        """True if the sonar scans full circles."""
         return abs(self.final_angle - self.init_angle) >= 360.0
 
     def bind(self, world: SensorWorld, vehicle: Carrier) -> ScanningSonar:
@@ -85,26 +87,26 @@ class ScanningState(Record):
     """The state of a scanning sonar."""
 
     rng: np.random.Generator
-    """The generator of its speckle."""
+    """The generator of the speckle and the noise."""
     scan: npt.NDArray[np.float32]
-    """The last ping of each azimuth, (bins, n)."""
+    """The amplitudes of the last ping at each azimuth, (bins, n) [Pa]."""
     n_pings: int = 0
     """The number of pings so far."""
 
 
 class ScanningSonar:
-    """A sonar whose single beam turns from ping to ping."""
+    """A sonar with a single beam, which turns from ping to ping."""
 
     def __init__(
         self, spec: ScanningSonarSpec, mount: Body, world: SensorWorld, rng: np.random.Generator
     ) -> None:
         self._spec, self._mount = spec, mount
-        step = math.radians(spec.beam_width) / RAYS_A_WIDTH
+        step = math.radians(spec.beam_width) / RAYS_PER_BEAM_WIDTH
         self._echoes = Echoes(spec, world, np.zeros(1), step)
         self._azimuths, self._ranges = spec.azimuths, self._echoes.ranges
-        self._levels = Levels(spec, self._ranges)
+        self._levels = GreyLevels(spec, self._ranges)
         self.state = ScanningState(rng, np.zeros((spec.bins, len(self._azimuths)), np.float32))
-        """The state."""
+        """The state: the last scan, and the generator of speckle and noise."""
 
     @cached_property
     def _fan(self) -> FanImage:
@@ -114,19 +116,19 @@ class ScanningSonar:
     def _azimuth_index(self) -> int:
         """The index of the next ping's azimuth."""
         n = len(self._azimuths)
-        if self._spec.is_round or n == 1:
+        if self._spec.is_full_circle or n == 1:
             return self.state.n_pings % n
-        place = self.state.n_pings % (2 * n - 2)
-        return min(place, 2 * n - 2 - place)
+        index = self.state.n_pings % (2 * n - 2)
+        return min(index, 2 * n - 2 - index)
 
     def sample(self, time: float) -> ProjectedSonarImage:
-        """Ping at ``time`` [s], and turn."""
-        place = self._azimuth_index
-        azimuth = float(self._azimuths[place])
+        """Ping at ``time`` [s], and turn the head."""
+        index = self._azimuth_index
+        azimuth = float(self._azimuths[index])
         sonar_from_head = Pose(np.zeros(3), rotation_z(azimuth))
         world_from_head = self._mount.world_from_body @ sonar_from_head
         amplitude = self._echoes.ping(world_from_head, int(self.state.rng.integers(2**63)))
-        self.state.scan[:, place] = amplitude[:, 0]
+        self.state.scan[:, index] = amplitude[:, 0]
         self.state.n_pings += 1
         return sonar_image(
             amplitude,
@@ -138,7 +140,7 @@ class ScanningSonar:
         )
 
     def image(self, time: float) -> Image:
-        """Return the last ping of each azimuth, ahead is up, stamped ``time`` [s]."""
-        losses = self._echoes.losses(self._mount.world_from_body)
-        greys = self._levels.to_grey(self.state.scan, losses)
+        """Return the last scan as a fan with ahead at the top, stamped ``time`` [s]."""
+        absorption = self._echoes.absorption(self._mount.world_from_body)
+        greys = self._levels.to_grey(self.state.scan, absorption)
         return image(self._fan.draw(greys), time=time, frame_id=self._spec.name)

@@ -8,7 +8,7 @@
       <verticalAperture>50</verticalAperture> <tilt>25</tilt> <lines>400</lines>
     </u:sideScanSonar>
 
-It pings to port and to starboard, once a sample. As the vehicle moves, the adjacent pings form an
+A sample is one ping, to port and to starboard. As the vehicle moves, successive pings form an
 image, the waterfall. See `uwsim.sensors.sonar.echoes` for the echoes.
 """
 
@@ -29,9 +29,9 @@ from ...schema import element
 from ...world import Body, SensorWorld
 from ..sensor import Carrier
 from .echoes import Echoes
-from .fan_image import Levels
+from .fan_image import GreyLevels
 from .message import sonar_image
-from .scanning_sonar import RAYS_A_WIDTH
+from .scanning_sonar import RAYS_PER_BEAM_WIDTH
 from .spec import SonarSpec
 
 SIDES = (0.5 * math.pi, -0.5 * math.pi)
@@ -40,25 +40,25 @@ SIDES = (0.5 * math.pi, -0.5 * math.pi)
 
 @dataclass(frozen=True, kw_only=True)
 class SideScanSonarSpec(SonarSpec):
-    """A ``<u:sideScanSonar>``: +x is along its track, +z up."""
+    """A ``<u:sideScanSonar>``: +x is the direction of travel, +z up."""
 
     message_type: ClassVar[type] = ProjectedSonarImage
 
     vertical_aperture: float = element(default=50.0, exclusive_minimum=0, maximum=160)
-    """The height of its beams between the points of half power, one way [deg]."""
+    """The vertical width of each beam at -3 dB of the one-way pattern [deg]."""
     beam_width: float = element(default=0.5, exclusive_minimum=0, maximum=30)
-    """The width of a beam between the points of half power, two-way [deg]."""
+    """The horizontal width of each beam at -3 dB of the two-way pattern [deg]."""
     rows: int = element(default=256, minimum=1, maximum=2048)
-    """The number of rays of a beam one above the other. Small targets get their own rays; a part of
-    a large body that is lower than the distance of two rays may be missed."""
+    """The number of rays of a beam, one above the other. Small targets get additional rays; a part
+    of a large body that is lower than the spacing of the rays may be missed."""
     tilt: float = element(default=25.0, minimum=-90, maximum=90)
-    """The angle of the middle of its beams below the horizontal of the sonar [deg]."""
+    """The angle of the axis of each beam below the x-y plane of the sonar [deg]."""
     lines: int = element(default=400, minimum=1, maximum=10000)
     """The number of pings in the waterfall."""
 
     @property
     def n_cells(self) -> int:
-        """The number of bins of all pings of the waterfall."""
+        """The number of range bins of all pings in the waterfall."""
         return 2 * self.bins * self.lines
 
     def bind(self, world: SensorWorld, vehicle: Carrier) -> SideScanSonar:
@@ -72,9 +72,9 @@ class SideScanState(Record):
     """The state of a side-scan sonar."""
 
     rng: np.random.Generator
-    """The generator of its speckle."""
+    """The generator of the speckle and the noise."""
     waterfall: npt.NDArray[np.uint8]
-    """The lines of its last pings, (lines, 2 * bins)."""
+    """The grey values of the last pings, a ring buffer of lines, (lines, 2 * bins)."""
     n_pings: int = 0
     """The number of pings so far."""
 
@@ -86,38 +86,40 @@ class SideScanSonar:
         self, spec: SideScanSonarSpec, mount: Body, world: SensorWorld, rng: np.random.Generator
     ) -> None:
         self._spec, self._mount = spec, mount
-        step = math.radians(spec.beam_width) / RAYS_A_WIDTH
+        step = math.radians(spec.beam_width) / RAYS_PER_BEAM_WIDTH
         self._echoes = Echoes(spec, world, np.zeros(1), step, max_elevation=0.5 * math.pi)
-        self._ranges, self._levels = self._echoes.ranges, Levels(spec, self._echoes.ranges)
+        self._ranges, self._levels = self._echoes.ranges, GreyLevels(spec, self._echoes.ranges)
         down = rotation_y(math.radians(spec.tilt))
-        self._heads = tuple(Pose(np.zeros(3), product(rotation_z(side), down)) for side in SIDES)
+        self._sonar_from_beams = tuple(
+            Pose(np.zeros(3), product(rotation_z(side), down)) for side in SIDES
+        )
         self.state = SideScanState(rng, np.zeros((spec.lines, 2 * spec.bins), dtype=np.uint8))
-        """The state."""
+        """The state: the waterfall, and the generator of speckle and noise."""
 
     def sample(self, time: float) -> ProjectedSonarImage:
-        """Ping at ``time`` [s]; the first beam is that to port."""
+        """Ping at ``time`` [s]; the first beam of the message points to port."""
         world_from_sonar = self._mount.world_from_body
-        keys = [int(key) for key in self.state.rng.integers(2**63, size=2)]
+        seeds = [int(seed) for seed in self.state.rng.integers(2**63, size=2)]
         beams = [
-            self._echoes.ping(world_from_sonar @ sonar_from_head, key)
-            for sonar_from_head, key in zip(self._heads, keys, strict=True)
+            self._echoes.ping(world_from_sonar @ sonar_from_beam, seed)
+            for sonar_from_beam, seed in zip(self._sonar_from_beams, seeds, strict=True)
         ]
         amplitude = np.concatenate(beams, axis=1)
-        greys = self._levels.to_grey(amplitude, self._echoes.losses(world_from_sonar))
+        greys = self._levels.to_grey(amplitude, self._echoes.absorption(world_from_sonar))
         line = self.state.n_pings % self._spec.lines
         self.state.waterfall[line] = np.concatenate([greys[::-1, 0], greys[:, 1]])
         self.state.n_pings += 1
         return sonar_image(
             amplitude,
             self._spec,
-            directions=np.stack([head.rotation[:, 0] for head in self._heads]),
+            directions=np.stack([beam.rotation[:, 0] for beam in self._sonar_from_beams]),
             ranges=self._ranges,
             sound_speed=self._echoes.sound_speed(world_from_sonar),
             time=time,
         )
 
     def image(self, time: float) -> Image:
-        """Return the waterfall: newest ping at the top, port on the left, stamped ``time`` [s]."""
+        """Return the waterfall, newest ping at the top, port on the left, stamped ``time`` [s]."""
         newest_line = (self.state.n_pings - 1) % self._spec.lines
         rows = np.roll(self.state.waterfall, -1 - newest_line, axis=0)[::-1]
         return image(rows, time=time, frame_id=self._spec.name)

@@ -1,4 +1,4 @@
-r"""Echoes of targets that are small relative to the distance of neighbouring rays.
+r"""Echoes of targets that are small relative to the angle between neighbouring rays.
 
 The rays of the grid may pass beside a small target, or beside the glint on it, which is as wide as
 the slope of its facets times its radius of curvature. Surfaces are therefore covered by balls
@@ -6,10 +6,15 @@ the slope of its facets times its radius of curvature. Surfaces are therefore co
 `N_RAYS_ACROSS` rays over the ball replaces the grid. Each beam weights each ray by its pattern:
 
 .. math:: P_b = \sum_k G(\phi_k - \phi_b)\, L(e_k)\, d\Omega_k\, \sigma_k
-          \frac{10^{-2 \alpha r_k / 10}}{r_k^2 \cos\theta_k} .
+          \frac{10^{-2 \alpha r_k / 10}}{r_k^2 \cos\theta_k} ,
+
+with the azimuth :math:`\phi_k`, the elevation :math:`e_k`, the solid angle :math:`d\Omega_k`, the
+range :math:`r_k` and the angle of incidence :math:`\theta_k` of the ray k, the azimuth
+:math:`\phi_b` of the beam, its horizontal and vertical two-way patterns G and L, the backscattering
+cross section per area :math:`\sigma_k` and the absorption :math:`\alpha`.
 
 The lattice is rotated relative to rows and columns, so that straight edges do not lie between its
-lines. Rays of the grid that meet the surface inside the balls do not count.
+lines. Hits of rays of the grid inside the balls are ignored.
 """
 
 from __future__ import annotations
@@ -28,7 +33,7 @@ from .kernel import MIN_COSINE, Integers, Singles, backscatter, facing_cosine, s
 from .ray_grid import MARGIN, RayGrid, beam_pattern, line_pattern
 
 MAX_RAY_SPACINGS = 8.0
-"""The largest radius of a small target, in distances of rays."""
+"""The largest radius of a small target, relative to the angle between neighbouring rays [1]."""
 N_RAYS_ACROSS = 48
 """The number of rays across a small target."""
 MAX_RADIUS = math.radians(20.0)
@@ -38,9 +43,9 @@ MAX_ELEVATION = math.radians(85.0)
 MAX_RAYS = 4096
 """The largest number of rays to all small targets of a ping; lattices become coarser beyond it."""
 TURN = (0.85, math.sqrt(1.0 - 0.85**2))
-"""The cosine and the sine of the angle between a lattice and the rows."""
+"""The cosine and the sine of the angle between a lattice and the rows of the grid."""
 ANGLE_TOLERANCE = 1e-6
-"""The tolerance for rounding where a whole target is skipped [rad]."""
+"""The tolerance for rounding in tests that accept or skip rays early [rad]."""
 COSINE_TOLERANCE = 1e-14
 """The tolerance for rounding of a cosine."""
 MAX_SLANT = 10.0
@@ -57,22 +62,22 @@ class Fan(NamedTuple):
     n: int
     """The number of beams."""
     width: float
-    """The width of a beam between the points of half power [rad]."""
+    """The horizontal width of a beam at -3 dB of the two-way pattern [rad]."""
     aperture: float
-    """The height of a beam between the points of half power, one way [rad]."""
+    """The vertical width of a beam at -3 dB of the one-way pattern [rad]."""
 
 
 class Discs(NamedTuple):
-    """The small targets in a sonar's view; discs of one surface are neighbours."""
+    """The small targets in a sonar's view; the discs of one surface are adjacent in the arrays."""
 
     azimuth: Array
-    """The azimuths of the middles, (m,) [rad]."""
+    """The azimuths of the centres, (m,) [rad]."""
     elevation: Array
-    """The elevations of the middles, (m,) [rad]."""
+    """The elevations of the centres, (m,) [rad]."""
     radius: Array
     """The angular radii, (m,) [rad]."""
     direction: Array
-    """The directions of the middles, sonar frame, (m, 3)."""
+    """The directions of the centres, unit vectors in the sonar's frame, (m, 3)."""
     surface: Integers
     """The numbers of the surfaces, (m,)."""
 
@@ -81,15 +86,15 @@ class Lattice(NamedTuple):
     """The rays to small targets."""
 
     directions: Array
-    """The directions, sonar frame, (n, 3)."""
+    """The directions of the rays, unit vectors in the sonar's frame, (n, 3)."""
     angles: Array
-    """The azimuth, elevation, distance of neighbouring rays [rad] and solid angle [sr], (n, 4)."""
+    """The azimuth, elevation and angle to neighbours [rad], and the solid angle [sr], (n, 4)."""
     surface: Integers
-    """The number of the surface of each ray, (n,)."""
+    """The number of the surface that each ray is to hit, (n,)."""
 
 
 def find_discs(balls: Balls, world_from_sonar: Pose, reach: float, grid: RayGrid) -> Discs:
-    """Return the balls that are small relative to the distance of the rays near them."""
+    """Return the balls that are small relative to the angle between the grid's rays near them."""
     offset = balls.centre - world_from_sonar.position
     centre = product(offset, world_from_sonar.rotation)
     distance = np.sqrt((centre * centre).sum(axis=1))
@@ -109,12 +114,12 @@ def find_discs(balls: Balls, world_from_sonar: Pose, reach: float, grid: RayGrid
 
 
 def create_lattice(discs: Discs, fan: Fan, max_elevation: float) -> Lattice:
-    """Place rays over discs, where the beams receive anything.
+    """Create rays over discs, in directions from which a beam receives echoes.
 
     Args:
-        discs: discs of the small targets.
+        discs: the small targets.
         fan: the beams.
-        max_elevation: elevation beyond which nothing is received [rad].
+        max_elevation: the elevation beyond which no beam receives echoes [rad].
     """
     spacing = 2.0 / N_RAYS_ACROSS * np.sqrt(discs.radius**2)
     starts = np.flatnonzero(np.diff(discs.surface, prepend=-1))
@@ -136,21 +141,21 @@ _NO_RAYS = Lattice(np.empty((0, 3)), np.empty((0, 4)), np.empty(0, dtype=np.int3
 
 
 class Edge(NamedTuple):
-    """The bounds by which a direction is surely inside a disc or outside it."""
+    """Bounds that decide without exact trigonometry whether a direction is inside a disc."""
 
     max_inside: float
-    """The bound of the squared sine of half its angle to the middle, if it is inside."""
+    """The squared sine of half the angle to the centre, below which a direction is inside."""
     min_outside: float
-    """The same if it is outside."""
+    """The squared sine of half the angle to the centre, above which a direction is outside."""
     max_product: float
-    """The upper bound of the product of the cosines of both elevations."""
+    """The greatest product of the cosines of the elevations of the centre and of a direction."""
     min_product: float
-    """The lower bound of that product."""
+    """The least product of these cosines."""
 
 
 @njit
 def _edge_of(elevation: float, radius: float) -> Edge:
-    """Return the bounds of a disc, by the elevation of its middle and its radius [rad]."""
+    """Return the bounds for a disc, by the elevation of its centre [rad] and its radius [rad]."""
     square, middle = math.sin(0.5 * radius) ** 2, math.cos(elevation)
     return Edge(
         square * (1.0 - ANGLE_TOLERANCE) - COSINE_TOLERANCE,
@@ -162,10 +167,14 @@ def _edge_of(elevation: float, radius: float) -> Edge:
 
 @njit
 def _side(edge: Edge, up: float, right: float) -> int:
-    r"""Return -1 for a direction inside a disc, 1 outside; 0 if that has to be computed.
+    r"""Return -1 for a direction inside a disc, 1 outside; 0 if the bounds do not decide it.
 
-    By :math:`x^2/4\,(1 - x^2/12) \le \sin^2 x/2 \le x^2/4`, with its elevation and its azimuth
-    from the middle [rad].
+    The bounds are :math:`x^2/4\,(1 - x^2/12) \le \sin^2 x/2 \le x^2/4`.
+
+    Args:
+        edge: the bounds for the disc.
+        up: the elevation of the direction relative to the centre [rad].
+        right: the azimuth of the direction relative to the centre [rad].
     """
     u, v = 0.25 * up * up, 0.25 * right * right
     if u * (1.0 - u / 3.0) + edge.min_product * v * (1.0 - v / 3.0) > edge.min_outside:
@@ -202,20 +211,20 @@ def _fill(
         ) + radius < max_elevation - ANGLE_TOLERANCE and _is_all_received(
             discs.azimuth[disc], half_width, fan
         )
-        shrink = math.cos(discs.elevation[begin])
+        parallel_scale = math.cos(discs.elevation[begin])
         min_cosine = math.cos(radius)
-        # the lattice of a surface goes through the middle of its first disc
+        # the lattice of a surface goes through the centre of its first disc
         azimuth_offset = _wrap_angle(discs.azimuth[disc] - discs.azimuth[begin])
-        right = azimuth_offset * shrink
+        right = azimuth_offset * parallel_scale
         up = discs.elevation[disc] - discs.elevation[begin]
         i0 = round((cosine * right + sine * up) / step)
         j0 = round((cosine * up - sine * right) / step)
-        max_width = half_width * shrink
+        max_width = half_width * parallel_scale
         reach = math.ceil(1.5 * max(radius, max_width) / step) + 1
         edge = _edge_of(discs.elevation[disc], radius)
         for i in range(i0 - reach, i0 + reach + 1):
             for j in range(j0 - reach, j0 + reach + 1):
-                azimuth = discs.azimuth[begin] + step * (cosine * i - sine * j) / shrink
+                azimuth = discs.azimuth[begin] + step * (cosine * i - sine * j) / parallel_scale
                 elevation = discs.elevation[begin] + step * (sine * i + cosine * j)
                 azimuth_error = azimuth - discs.azimuth[begin] - azimuth_offset
                 elevation_error = elevation - discs.elevation[disc]
@@ -234,23 +243,30 @@ def _fill(
                 if side < 0 and begin == disc and count >= len(surface):
                     count += 1
                     continue
-                level = math.cos(elevation)
-                x, y, z = level * math.cos(azimuth), level * math.sin(azimuth), math.sin(elevation)
+                horizontal_length = math.cos(elevation)
+                x, y, z = (
+                    horizontal_length * math.cos(azimuth),
+                    horizontal_length * math.sin(azimuth),
+                    math.sin(elevation),
+                )
                 if _disc_cosine(discs.direction, disc, x, y, z) < min_cosine:
                     continue
-                is_taken = False
+                is_in_other_disc = False
                 for other in range(begin, disc):
                     if _disc_cosine(discs.direction, other, x, y, z) >= math.cos(
                         discs.radius[other]
                     ):
-                        is_taken = True
+                        is_in_other_disc = True
                         break
-                if is_taken:
+                if is_in_other_disc:
                     continue
                 if count < len(surface):
                     directions[count, 0], directions[count, 1], directions[count, 2] = x, y, z
                     angles[count, 0], angles[count, 1] = azimuth, elevation
-                    angles[count, 2], angles[count, 3] = step, step * step / shrink * level
+                    angles[count, 2], angles[count, 3] = (
+                        step,
+                        step * step / parallel_scale * horizontal_length,
+                    )
                     surface[count] = discs.surface[disc]
                 count += 1
     return count
@@ -258,26 +274,26 @@ def _fill(
 
 @njit
 def _disc_cosine(direction: Array, disc: int, x: float, y: float, z: float) -> float:
-    """Return the cosine of the angle between a direction and the middle of a disc."""
+    """Return the cosine of the angle between a direction and the centre of a disc."""
     cosine: float = direction[disc, 0] * x + direction[disc, 1] * y + direction[disc, 2] * z
     return cosine
 
 
 @njit
 def _wrap_angle(angle: float) -> float:
-    """Return the angle between -pi and pi [rad]."""
+    """Return an angle between -pi and pi that differs by full turns [rad]."""
     return angle - 2.0 * math.pi * round(angle / (2.0 * math.pi))
 
 
 @njit
 def _may_be_received(azimuth: float, half_width: float, fan: Fan) -> bool:
-    """Return True if any beam may receive anything within an angle from an azimuth [rad]."""
+    """Return True if a beam may receive an echo from within an angle of an azimuth [rad]."""
     return _is_between_beams(azimuth, MARGIN * fan.width + half_width + ANGLE_TOLERANCE, fan)
 
 
 @njit
 def _is_all_received(azimuth: float, half_width: float, fan: Fan) -> bool:
-    """Return True if beams receive everything within an angle from an azimuth [rad]."""
+    """Return True if beams receive all echoes from within an angle of an azimuth [rad]."""
     has_gaps = abs(fan.step) > 2.0 * MARGIN * fan.width
     return not has_gaps and _is_between_beams(
         azimuth, MARGIN * fan.width - half_width - ANGLE_TOLERANCE, fan
@@ -297,7 +313,7 @@ def _is_between_beams(azimuth: float, margin: float, fan: Fan) -> bool:
 
 @njit
 def _is_received(azimuth: float, fan: Fan) -> bool:
-    """Return True if any beam receives anything from an azimuth [rad]."""
+    """Return True if a beam receives echoes from an azimuth [rad]."""
     margin = MARGIN * fan.width
     for turn in (-1.0, 0.0, 1.0):
         first_beam, last_beam = _beam_range(azimuth + 2.0 * math.pi * turn, margin, fan)
@@ -308,7 +324,7 @@ def _is_received(azimuth: float, fan: Fan) -> bool:
 
 @njit
 def _beam_range(azimuth: float, margin: float, fan: Fan) -> tuple[int, int]:
-    """Return the first and last beam within a margin of an azimuth [rad]; last < first: none."""
+    """Return the first and last beam within a margin of an azimuth [rad]; none if last < first."""
     first_beam = math.ceil((azimuth - margin - fan.first_azimuth) / fan.step)
     last_beam = math.floor((azimuth + margin - fan.first_azimuth) / fan.step)
     return max(first_beam, 0), min(last_beam, fan.n - 1)
@@ -348,13 +364,14 @@ def add_small_echoes(
     """Add the power of the echoes of small targets to the bins of each beam.
 
     Args:
-        power: of each bin and beam, (bins, n); added to [Pa2].
-        hits: distance (m,), normal in the sonar's frame (m, 3), surface (m,) of the rays.
-        rays: to the small targets.
+        power: the power in each bin and beam, to which echoes are added, (bins, n) [Pa2].
+        hits: the distance (m,), normal in the sonar's frame (m, 3) and surface (m,) of each hit.
+        rays: the rays to the small targets.
         fan: the beams.
-        level: power of the ping at 1 m on the axis of a beam [Pa2 m2].
-        materials: of each surface glint, sharpness of the glint and diffuse part, (m, 3).
-        bins: least range, size of a bin [m], absorption there and back [1/m, neper of power].
+        level: the power of the ping at 1 m on the axis of a beam [Pa2 m2].
+        materials: the glint, sharpness of the glint and diffuse part of each surface, (m, 3).
+        bins: the least range [m], the size of a bin [m], and the two-way absorption [1/m, neper of
+            power].
     """
     distance, normal, surface = hits
     start, size, loss = bins
