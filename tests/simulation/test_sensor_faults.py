@@ -99,7 +99,7 @@ def test_random_faults_take_their_share_of_the_time() -> None:
     """Rate 0.1 for 2 s each: present for 1 - exp(-0.2) of 20 000 s, within 0.01 (99.9 %)."""
     spec = FaultSpec(sensor="depth", kind="dropout", rate=0.1, duration=2.0)
     times = FaultTimes(spec, rng.stream(0, "test"))
-    share = np.mean([times.acts(0.1 * k) for k in range(200_000)])
+    share = np.mean([times.is_present(0.1 * k) for k in range(200_000)])
     assert share == pytest.approx(1.0 - np.exp(-0.2), abs=0.01)
 
 

@@ -48,8 +48,8 @@ class FakeBody:
         self.motion: Callable[[], BodyMotion] | None = None
         self._numbers = np.zeros(21)
         self.functions = np.zeros(1, MOUNT)
-        self.functions["place"] = function_address(place_fixed)
-        self.functions["move"] = function_address(move_fixed)
+        self.functions["pose"] = function_address(place_fixed)
+        self.functions["motion"] = function_address(move_fixed)
         self.functions["parameters"] = address_of(self._numbers)
         if rotation is not None:
             self.turn(rotation)

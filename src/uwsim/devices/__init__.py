@@ -1,4 +1,4 @@
-"""Devices of vehicles: lamps, faults, grippers, communication; one file each."""
+"""Devices of vehicles, such as lamps, batteries, faults, object pickers, modems; one file each."""
 
 from ..schema import NAMESPACE
 from .battery import BatterySpec
@@ -30,7 +30,6 @@ DEVICES: dict[str, type] = {
     f"{{{NAMESPACE}}}battery": BatterySpec,
     f"{{{NAMESPACE}}}motorCurrents": MotorCurrentsSpec,
 }
-"""The table of elements of a vehicle, each with its spec; extensions are last. A spec without
-``bind`` is read and not simulated."""
+"""The spec of each device element of a vehicle; extensions of UWSim's dialect are last."""
 
 __all__ = ["DEVICES"]

@@ -48,7 +48,7 @@ from .device import Device, DeviceSpec, DeviceVehicle
 RATE = 50.0
 """The rate at which the charge is computed [Hz]."""
 MAX_ITERATIONS = 30
-"""The greatest number of corrections of the thrusts' common factor."""
+"""The greatest number of iterations for the common factor of the thrusts."""
 TOLERANCE = 1e-9
 """The tolerance of the power, as a share of the greatest power."""
 
@@ -74,7 +74,7 @@ class BatterySpec(DeviceSpec):
     """The constant power of computers, sensors and lamps [W]."""
 
     stops_thrusters: bool = False
-    """True if the thrusters of a simulated vehicle stop when the battery is empty."""
+    """True if the thrusters of a vehicle with dynamics stop when the battery is empty."""
 
     @property
     def max_load(self) -> float:
@@ -82,7 +82,7 @@ class BatterySpec(DeviceSpec):
         return self.voltage**2 / (4.0 * self.resistance) if self.resistance > 0.0 else math.inf
 
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> Battery:
-        """Resolve the consumers; a vehicle that is not simulated has the constant load only."""
+        """Resolve the thrusters and joints; a kinematic vehicle has the constant load only."""
         actuators = world.actuators(vehicle.name)
         is_limited = self.stops_thrusters or self.max_load < math.inf
         limited_thrusters = actuators.thrusters if actuators is not None and is_limited else ()
@@ -99,16 +99,16 @@ DRAWN_CHARGE, CURRENT, TIME = range(3)
 """The indices of `BatteryRecord.numbers`."""
 BATTERY = np.dtype(
     [
-        ("powers", FUNCTION),  # of thrusters and joints; 0: there are none
+        ("powers", FUNCTION),  # the function of thrusters' and joints' powers; 0: none
         ("n", np.int64),  # the number of thrusters and joints
-        ("hotel_load", np.float64),  # [W]
-        ("voltage", np.float64),  # open circuit [V]
-        ("resistance", np.float64),  # [ohm]
-        ("full", np.float64),  # charge of the full battery [A s]
+        ("hotel_load", np.float64),  # the constant load [W]
+        ("voltage", np.float64),  # the open-circuit voltage [V]
+        ("resistance", np.float64),  # the internal resistance [ohm]
+        ("full", np.float64),  # the charge of the full battery [A s]
         ("numbers", np.int64),  # the address of `BatteryRecord.numbers`
     ]
 )
-"""The type of a battery in compiled code."""
+"""The parameters of a battery, for compiled code."""
 
 
 @dataclass(slots=True)
@@ -118,7 +118,7 @@ class BatteryRecord(Record):
     numbers: Array
     """The charge drawn so far [A s], the current at the last sample [A] and its time [s], (3,)."""
     sample: Sample
-    """The last sample that compiled code took."""
+    """The last sample of the sampler."""
     is_overloaded: bool = False
     """True if the load exceeds the greatest power of the battery."""
 
@@ -149,7 +149,7 @@ class Battery(Device):
             parameters=row,
             n_values=0,
             prepare=prepare_nothing if powers is None else powers.prepare,
-            is_alone=self._can_feed_until,
+            is_alone=self._lasts_until,
             memory_owners=(powers, numbers),
         )
         """The sampler that integrates the current."""
@@ -162,7 +162,7 @@ class Battery(Device):
         """The charge of the full battery [A s]."""
         return 3600.0 * self._spec.capacity / self._spec.voltage
 
-    def _can_feed_until(self, end_time: float) -> bool:
+    def _lasts_until(self, end_time: float) -> bool:
         """Return whether the battery stops no thruster before a time [s]."""
         spec, numbers = self._spec, self.state.numbers
         if not spec.stops_thrusters:
@@ -177,42 +177,43 @@ class Battery(Device):
         self._set_thrust_loss(1.0)
 
     def must_stop_thrusters(self) -> bool:
-        """Return whether the battery is empty and stops the thrusters then."""
+        """Return whether the battery is empty and has ``<stopsThrusters>``."""
         return bool(
             self._spec.stops_thrusters and self.state.numbers[DRAWN_CHARGE] >= self._full_charge
         )
 
     def idle_until(self, time: float) -> float:
-        """Return the next time [s] at which it checks the load: ``time``, or never."""
+        """Return ``time`` if an overload is possible, which each step checks; otherwise inf."""
         return time if self._can_overload else math.inf
 
     def animate(self, time: float) -> None:
-        """Limit the thrusts, at the end of a step, to the power of the battery."""
+        """Limit the thrusts at the end of a step to the power that the battery can deliver."""
         if self._can_overload and not self.must_stop_thrusters():
             self._limit_thrusts()
 
     def _limit_thrusts(self) -> None:
-        """Find the common factor of the thrusts at which the power suffices.
+        """Reduce the thrusts by a common factor until the battery can deliver the power.
 
-        Power is proportional to the thrust to the power of 1.5: one iteration corrects the factor.
-        Measured polynomials need some more.
+        If power is proportional to thrust to the power of 1.5, one iteration suffices. Measured
+        polynomials need some more.
         """
         assert self._actuators is not None
-        n_thrusters, share = len(self._actuators.thrusters), 1.0
+        n_thrusters, factor = len(self._actuators.thrusters), 1.0
         self._set_thrust_loss(0.0)
         self.state.is_overloaded = False
         for _ in range(MAX_ITERATIONS):
             powers = self._actuators.powers().tolist()
             thruster_power = math.fsum(powers[:n_thrusters])
-            budget = self._spec.max_load - self._spec.hotel_load - math.fsum(powers[n_thrusters:])
-            if thruster_power - budget <= TOLERANCE * self._spec.max_load:
+            joint_power = math.fsum(powers[n_thrusters:])
+            available_power = self._spec.max_load - self._spec.hotel_load - joint_power
+            if thruster_power - available_power <= TOLERANCE * self._spec.max_load:
                 return
             self.state.is_overloaded = True
-            if budget <= 0.0 or thruster_power <= 0.0:
+            if available_power <= 0.0 or thruster_power <= 0.0:
                 self._set_thrust_loss(1.0)
                 return
-            share *= (budget / thruster_power) ** (2.0 / 3.0)
-            self._set_thrust_loss(1.0 - share)
+            factor *= (available_power / thruster_power) ** (2.0 / 3.0)
+            self._set_thrust_loss(1.0 - factor)
 
     def _set_thrust_loss(self, loss: float) -> None:
         for set_loss in self._set_losses:
@@ -250,7 +251,13 @@ class Battery(Device):
 
 @njit
 def compute_current(load: float, voltage: float, resistance: float) -> float:
-    """Return the current that a load [W] draws [A], at most the current at the greatest power."""
+    """Return the current that a load draws [A], at most the current at the greatest power.
+
+    Args:
+        load: the power of the load [W].
+        voltage: the open-circuit voltage [V].
+        resistance: the internal resistance [ohm].
+    """
     root = math.sqrt(max(voltage * voltage - 4.0 * resistance * load, 0.0))
     return 2.0 * load / (voltage + root) if root != 0.0 else 0.5 * voltage / resistance
 

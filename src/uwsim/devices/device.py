@@ -1,4 +1,4 @@
-"""The interface of devices: each is bound to the scene and its vehicle, and acts in each step.
+"""The interface of devices, which are bound to a scene and a vehicle, and act in each step.
 
 .. code-block:: text
 
@@ -21,28 +21,28 @@ from ..world import DeviceWorld
 
 
 class DeviceVehicle(Vehicle, Carrier, Protocol):
-    """A vehicle as an interface for its devices: they are mounted on its links and act on it."""
+    """The interface of a vehicle for the devices that are mounted on its links and act on it."""
 
     def hold(self, object_index: int, link: str) -> None:
-        """Fix an object, by its index, to a link of the vehicle at its present pose."""
+        """Fix an object, given by its index, at its present pose to a link of the vehicle."""
 
     def release(self, object_index: int) -> None:
-        """Release a held object."""
+        """Release the held object with an index."""
 
     def wrench_sampler(
         self, spec: MountedPart, *, at_joint: bool = False, visual: bool = False
     ) -> Sampler:
         """Return a sampler of a wrench at a link, in the frame of a part on the link.
 
-        A sample has 6 numbers: force [N] and torque about the part [N m] in the last step. They are
-        those of the contacts on the link, and 0 if the scene has no physics. At the joint they are
-        the wrench of the link, all beyond it, and the water on these links, on the joint that
-        carries it. They are 0 for a vehicle that is not simulated.
+        A sample has 6 numbers: the force [N] and the torque about the part's origin [N m] in the
+        last step. The wrench is the sum of all contacts on the link. With ``at_joint`` it is the
+        wrench that the link, all links beyond it and the water around these exert on the joint that
+        carries the link. It is 0 for a kinematic vehicle, and in a scene without physics.
 
         Args:
             spec: the spec of the part.
-            at_joint: measure the wrench at the joint instead of that of the contacts.
-            visual: the pose of the part is relative to the link's visual frame.
+            at_joint: True to measure the wrench on the joint instead of that of the contacts.
+            visual: True if the pose of the part is relative to the link's visual frame.
 
         Raises:
             UnknownName: the vehicle has no such link.
@@ -51,51 +51,53 @@ class DeviceVehicle(Vehicle, Carrier, Protocol):
 
 @dataclass(frozen=True, kw_only=True)
 class DeviceTopic:
-    """A topic that a device has without an interface."""
+    """A topic that a device subscribes to or publishes itself, without a ``<rosInterface>``."""
 
     name: str
     """The name of the topic."""
     is_subscribed: bool = False
     """True if the device subscribes to the topic; otherwise it publishes on it."""
     rate: float | None = None
-    """The rate of publication [Hz]; None: at events."""
+    """The rate of publication [Hz]; None: messages are published at events."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class DeviceSpec(Spec, abc.ABC):
-    """The spec of a simulated device; that of a device that is not simulated has no ``bind``."""
+    """The base of the specs of devices."""
 
     is_left_out: ClassVar[bool] = False
-    """True if a device whose names are unknown is left out without an error, as in the original."""
+    """True if the device is left out without an error if `bind` raise UnknownName, as in the
+    original UWSim."""
     is_pure: ClassVar[bool] = False
-    """True if a sample does not change the device, so none is taken without a subscriber."""
+    """True if a sample does not change the device's state. Without subscribers, no samples are then
+    taken."""
 
     @property
     def topics(self) -> tuple[DeviceTopic, ...]:
-        """The topics of the device, besides those of interfaces."""
+        """The topics of the device, besides those of ``<rosInterface>`` elements."""
         return ()
 
     @abc.abstractmethod
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> Device:
-        """Resolve the names of the spec; raises UnknownName if one is unknown."""
+        """Create the device; raise UnknownName if a name in the spec is unknown."""
 
 
 class Device:
-    """A bound device; each kind implements one of these methods."""
+    """A device that is bound to a scene; subclasses override `step` or `animate`, or neither."""
 
     state: Record = NoState()
-    """The record of all that changes with time; `Simulation.save` stores it."""
+    """The state of the device, which `Simulation.save` stores."""
 
     def step(self, time: float) -> None:
-        """Act before the forces, in the step that begins at ``time`` [s]."""
+        """Act before forces are computed, in the step that begins at ``time`` [s]."""
 
     def idle_until(self, time: float) -> float:
         """Return the time until which the device is idle, after the step at ``time`` [s].
 
-        The simulation may run the steps until then together, without another call of the device.
+        The simulation may take all steps until then without another call of `step` or `animate`.
         """
         is_idle = type(self).step is Device.step and type(self).animate is Device.animate
         return math.inf if is_idle else time
 
     def animate(self, time: float) -> None:
-        """Set the poses that the device controls to those at ``time`` [s], the end of the step."""
+        """Set what the device controls at ``time`` [s], the end of the step, such as a pose."""

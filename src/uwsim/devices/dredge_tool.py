@@ -1,4 +1,4 @@
-"""A tool that uncovers buried objects within 0.1 m.
+"""A tool that removes sand within 0.1 m, and so uncovers buried objects.
 
 .. code-block:: xml
 
@@ -20,7 +20,7 @@ from ..world import Body, DeviceWorld
 from .device import Device, DeviceSpec, DeviceVehicle
 
 RATE = 60.0
-"""The rate at which a tool removes sand, which is the original's rate of images [Hz]."""
+"""The rate at which a tool removes sand: the rate of images of the original UWSim [Hz]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,12 +34,12 @@ class DredgeToolSpec(DeviceSpec):
     target: str
     """The link on which the tool is mounted."""
     offsetp: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), original=REQUIRED_BY_DTD)
-    """An offset [m]: read and not used, as in the original."""
+    """A position [m]: read and not used, as in the original UWSim."""
     offsetr: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), original=REQUIRED_BY_DTD)
-    """An offset [rad]: read and not used, as in the original."""
+    """An orientation [rad]: read and not used, as in the original UWSim."""
 
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> DredgeTool:
-        """Mount the tool on its link; raises UnknownName if the vehicle has no such link."""
+        """Mount the tool on its link; raise UnknownName if the vehicle has no such link."""
         tool = DredgeTool(world, vehicle.mount(_LinkOrigin(relative_to=self.target), visual=True))
         world.create_timer(RATE, tool.remove_sand)
         return tool
@@ -59,7 +59,7 @@ class DredgeState(Record):
     """The state of a dredge tool."""
 
     n_lowered: int = 0
-    """The number of columns of sand that were lowered, summed over all samples."""
+    """The number of columns of sand that the tool has lowered; a column counts each time."""
 
 
 class DredgeTool(Device):

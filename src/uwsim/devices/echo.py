@@ -1,4 +1,4 @@
-"""A device that publishes a fixed text: the original's example of a device.
+"""A device that publishes a fixed text: the example of a device of the original UWSim.
 
 .. code-block:: xml
 
@@ -30,7 +30,7 @@ class EchoSpec(DeviceSpec):
     """The text; an empty text disables the device."""
 
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> Echo:
-        """Create the device; raises UnknownName if the text is empty."""
+        """Create the device; raise UnknownName if the text is empty."""
         if not self.info:
             raise UnknownName("echo with a text", self.name, ())
         return Echo(self.info)

@@ -12,10 +12,11 @@ r"""A fault of a thruster or a sensor, at given or at random times; an extension
       </u:fault>
     </vehicle>
 
-The kinds of sensors: ``dropout``, no message; ``freeze``, the last message with a new time stamp;
-``bias``, ``size`` is added; ``latency``, messages arrive ``delay`` later; ``outliers``, a normally
-distributed number of the standard deviation ``size`` is added to each number. The kinds of
-thrusters: ``loss`` of a share of the thrust; ``dropout``, the loss of all of it.
+The kinds of faults of sensors: ``dropout``, no message; ``freeze``, the last message with a new
+time stamp; ``bias``, ``size`` is added to each number; ``latency``, messages arrive ``delay``
+later; ``outliers``, a normally distributed number with the standard deviation ``size`` is added to
+each number. The kinds of faults of thrusters: ``loss``, a share of the thrust is lost; ``dropout``,
+all thrust is lost.
 """
 
 from __future__ import annotations
@@ -33,16 +34,18 @@ from .fault_times import FaultState, FaultTimes
 Kind = Literal["loss", "dropout", "freeze", "bias", "latency", "outliers"]
 """The kind of a fault."""
 THRUSTER_KINDS = ("loss", "dropout")
+"""The kinds of faults of thrusters."""
 SENSOR_KINDS = ("dropout", "freeze", "bias", "latency", "outliers")
+"""The kinds of faults of sensors."""
 NUMERIC_KINDS = ("bias", "outliers")
 """The kinds that change the numbers of messages."""
 SENSOR_FAULT = Device()
-"""The device of a sensor's fault, which acts on messages and does nothing in a step."""
+"""The device of every fault of a sensor: such faults change messages, and do nothing in a step."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class FaultSpec(DeviceSpec):
-    """A ``<u:fault>``: a thruster of a simulated vehicle loses thrust, or a sensor fails."""
+    """A ``<u:fault>``: a thruster of a vehicle with dynamics loses thrust, or a sensor fails."""
 
     thruster: str | None = element(namespaced=True, default=None)
     """The thruster that fails, by its name in the vehicle's hydrodynamics file."""
@@ -59,17 +62,18 @@ class FaultSpec(DeviceSpec):
     """The field of the message that has the bias or the outliers, such as ``angular_velocity.z``;
     without it all numbers outside the header and the covariances."""
     delay: float = element(namespaced=True, default=0.0, minimum=0.0, maximum=3600.0)
-    """The latency [s]."""
+    """The delay of messages of the kind ``latency`` [s]."""
     start: float = element(namespaced=True, default=0.0, minimum=0.0)
-    """The simulation time from which on it may be present [s]."""
+    """The simulation time from which on the fault may be present [s]."""
     end: float | None = element(namespaced=True, default=None, exclusive_minimum=0.0)
-    """The simulation time until which it may be present; without it there is no end [s]."""
+    """The simulation time until which the fault may be present [s]; by default there is no end."""
     rate: float | None = element(
         namespaced=True, default=None, exclusive_minimum=0.0, maximum=1000.0
     )
-    """The rate of random occurrences between these times; without it it is permanent [1/s]."""
+    """The mean rate of random occurrences from ``start`` to ``end`` [1/s]; by default the fault is
+    present all the time."""
     duration: float = element(namespaced=True, default=0.0, minimum=0.0)
-    """The duration of each random occurrence; 0: one sample or step [s]."""
+    """The duration of each random occurrence [s]; 0: one sample or step."""
 
     STREAM: ClassVar[str] = "fault"
 
@@ -96,7 +100,7 @@ class FaultSpec(DeviceSpec):
         return errors
 
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> Device:
-        """Resolve the thruster; raises UnknownName if the vehicle has none of that name."""
+        """Resolve the thruster; raise UnknownName if the vehicle has no thruster of that name."""
         if self.thruster is None:
             return SENSOR_FAULT
         rng = world.stream(f"{vehicle.name}/{self.thruster}/{self.STREAM}")
@@ -104,7 +108,7 @@ class FaultSpec(DeviceSpec):
 
 
 class ThrusterFault(Device):
-    """A thruster that fails at the times given in the scene."""
+    """A fault of a thruster, at the times that the scene gives."""
 
     def __init__(
         self, spec: FaultSpec, set_loss: Callable[[float], None], times: FaultTimes
@@ -115,7 +119,7 @@ class ThrusterFault(Device):
 
     def step(self, time: float) -> None:
         """Set the loss of the step that begins at ``time`` [s]."""
-        self._set_loss(self._loss if self._times.acts(time) else 0.0)
+        self._set_loss(self._loss if self._times.is_present(time) else 0.0)
 
     def idle_until(self, time: float) -> float:
         """Return the next time at which the fault begins or ends [s]."""

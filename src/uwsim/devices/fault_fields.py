@@ -1,4 +1,4 @@
-"""The numeric fields of messages, which a fault of a sensor changes."""
+"""The numeric fields of messages that a fault of a sensor changes."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 
 UNMEASURED_WORDS = ("header", "status", "covariance")
-"""The words of fields that stay unchanged where a fault names no field."""
+"""The words in the paths of fields that remain unchanged if a fault names no field."""
 
 
 def numeric_fields(message: Any, prefix: str = "") -> Iterator[str]:
-    """Yield the paths of the floating-point numbers of a message, and of arrays of them."""
+    """Yield the paths of all floating-point fields of a message, numbers and arrays."""
     for field in dataclasses.fields(message):
         value = getattr(message, field.name)
         path = f"{prefix}{field.name}"
@@ -26,7 +26,7 @@ def numeric_fields(message: Any, prefix: str = "") -> Iterator[str]:
 
 
 def measured_fields(message: Any, field: str | None) -> Iterator[str]:
-    """Yield the paths that a fault changes: the named one, or all that are measured."""
+    """Yield the paths of the fields that a fault changes: the named one, or all measured ones."""
     for path in numeric_fields(message):
         if path == field or (field is None and not any(word in path for word in UNMEASURED_WORDS)):
             yield path

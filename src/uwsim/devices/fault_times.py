@@ -19,19 +19,19 @@ class FaultTiming(Protocol):
 
     @property
     def start(self) -> float:
-        """The time from which on it may be present [s]."""
+        """The time from which on the fault may be present [s]."""
 
     @property
     def end(self) -> float | None:
-        """The time until which it may be present; None: no end [s]."""
+        """The time until which the fault may be present [s]; None: there is no end."""
 
     @property
     def rate(self) -> float | None:
-        """The rate at which it begins, between these times; None: it is permanent [1/s]."""
+        """The mean rate of random occurrences [1/s]; None: the fault is present all the time."""
 
     @property
     def duration(self) -> float:
-        """The duration of each occurrence; 0: one sample [s]."""
+        """The duration of each occurrence [s]; 0: one sample or step."""
 
 
 @dataclass(slots=True)
@@ -47,9 +47,9 @@ class FaultState(Record):
 
 
 class FaultTimes:
-    """The times of one fault; they are requested in ascending order.
+    """The times at which a fault is present; calls must be in ascending order of time.
 
-    With a rate it begins as a Poisson process does: the times between are exponential.
+    With a rate, occurrences are a Poisson process: the intervals between them are exponential.
     """
 
     def __init__(self, spec: FaultTiming, rng: np.random.Generator) -> None:
@@ -63,7 +63,7 @@ class FaultTimes:
         rate = self._spec.rate
         return float(self.state.rng.exponential(1.0 / rate)) if rate else 0.0
 
-    def acts(self, time: float) -> bool:
+    def is_present(self, time: float) -> bool:
         """Return whether the fault is present at ``time`` [s]."""
         spec, time = self._spec, time + TIME_TOLERANCE
         if time < spec.start or (spec.end is not None and time >= spec.end):
@@ -78,6 +78,6 @@ class FaultTimes:
         return has_begun or time < self.state.last_end
 
     def next_change(self, time: float) -> float:
-        """Return the next time after ``time`` at which it may begin or end [s]."""
+        """Return the next time after ``time`` at which the fault may begin or end [s]."""
         changes = (self._spec.start, self._spec.end, self.state.next_start, self.state.last_end)
-        return min((end for end in changes if end is not None and end > time), default=math.inf)
+        return min((t for t in changes if t is not None and t > time), default=math.inf)

@@ -1,11 +1,11 @@
-"""A vehicle that follows a flight dynamics model over UDP: FlightGear's ``net_fdm``.
+"""A vehicle that a flight dynamics model moves by UDP packets, FlightGear's ``net_fdm``.
 
 .. code-block:: xml
 
     <nedOrigin> <lat>41.775</lat> <lon>3.033</lon> </nedOrigin>
     <vehicle> <name>bluerov2</name> <file>bluerov2.urdf</file> <fdm>5503</fdm> </vehicle>
 
-The first bytes of a packet, all big-endian; the rest is not read:
+A packet begins with these big-endian fields; the rest is not read:
 
 ======  ========  =========  ===================================
 offset  type      field      meaning
@@ -46,7 +46,7 @@ VERSION = 24
 NED_FRAME = "local_origin_ned"
 """The ROS frame of the NED axes, if it is on ``/tf``."""
 WORLD_FROM_NED = Pose(np.zeros(3), np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, -1.0]]))
-"""The default NED frame: W is east, north, up."""
+"""The default pose of the NED frame: its axes are y, x and -z of W."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -57,7 +57,7 @@ class FdmSpec(DeviceSpec):
     """The UDP port."""
 
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> FdmInput:
-        """Receive packets from now on, if the simulation receives any."""
+        """Create the input; it receives packets from now on, if the simulation does."""
         return FdmInput(
             vehicle,
             world.datagrams(self.port),
@@ -88,26 +88,28 @@ def read_packet(data: bytes, origin: Geodetic) -> Pose | None:
 
 @dataclass(slots=True)
 class FdmState(Record):
-    """The state of the packets of a flight dynamics model."""
+    """The state of the input of a flight dynamics model."""
 
     frames: HeardState
     """The transforms received on ``/tf``."""
     n_valid: int = 0
-    """The number of valid packets."""
+    """The number of valid packets so far."""
     n_invalid: int = 0
-    """The number of invalid packets."""
+    """The number of invalid packets so far."""
 
 
 class FdmInput(Device):
-    """The input that sets a vehicle's pose from the newest packet; a simulated vehicle moves there.
+    """The input that sets the pose of a vehicle from the newest packet.
+
+    A vehicle with dynamics moves to that pose by its autopilot.
 
     Args:
         vehicle: the vehicle.
-        receive: returns the packets received since the last call, oldest first; None: the
-            simulation receives none.
-        origin: the origin of the NED axes.
+        receive: a function that returns the packets received since its last call, oldest first;
+            None: the simulation receives none.
+        origin: the origin of the NED frame on Earth.
         frames: the transforms received on ``/tf``.
-        world_from_localized: W from L.
+        world_from_localized: the transform of W from L.
     """
 
     def __init__(

@@ -1,4 +1,4 @@
-r"""The wrench of contacts on a link, or that at its joint.
+r"""The wrench of the contacts on a link, or the wrench on its joint.
 
 .. code-block:: xml
 
@@ -8,14 +8,16 @@ r"""The wrench of contacts on a link, or that at its joint.
       <offsetr> <x>-1.57</x> <y>0</y> <z>3.14</z> </offsetr>
     </ForceSensor>
 
-It measures the contact forces of other bodies on the link: for a box of mass m and volume V on it
-the weight :math:`(m - \rho V) g`. The link's own weight, the water and its joints are not measured.
-Without physics there are no contacts, and all is 0.
+The sensor measures the forces of contacts of other bodies with the link: for a box with the mass m
+and the volume V that lies on the link, :math:`(m - \rho V) g`. The weight of the link, and forces
+of the water and of joints are not measured. Without physics there are no contacts, and all values
+are 0.
 
 ``<u:measures>joint</u:measures>`` makes it a force-torque sensor in the joint that carries the
-link, as in a wrist. It measures the wrench on that joint of the link and of all that is beyond it
-or held by it: weight, contacts, inertia, and the water's buoyancy, drag and added mass. The weight
-of a held object points down. Only a vehicle with ``<u:dynamics>`` has such forces.
+link, as in a wrist. It measures the wrench that the link, all links beyond it and held objects
+exert on that joint: by weight, contacts and inertia, and by buoyancy, drag and added mass of the
+water. The weight of a held object points down. Only a vehicle with ``<u:dynamics>`` has such
+forces.
 """
 
 from __future__ import annotations
@@ -36,8 +38,8 @@ from .device import Device, DeviceSpec, DeviceVehicle
 class ForceSensorSpec(DeviceSpec):
     """A ``<ForceSensor>``; it is mounted on the link's visual frame.
 
-    Force [N] and torque about the sensor [N m] of the contacts on the link in the last step, in
-    the sensor's axes.
+    It measures the force [N] and the torque about the sensor's origin [N m] in the last step, in
+    the axes of the sensor.
     """
 
     message_type: ClassVar[type] = WrenchStamped
@@ -50,14 +52,14 @@ class ForceSensorSpec(DeviceSpec):
     offsetp: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), original=REQUIRED_BY_DTD)
     """The position of the sensor in the link's visual frame [m]."""
     offsetr: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), original=REQUIRED_BY_DTD)
-    """The orientation of the sensor in the link's visual frame, about x, y, z: Rz Ry Rx [rad]."""
+    """The roll, pitch, yaw of the sensor in the link's visual frame: Rz Ry Rx [rad]."""
     measures: Literal["contacts", "joint"] = element(namespaced=True, default="contacts")
-    """The measured wrench: that of the ``contacts`` on the link, or that of the link on the
-    ``joint`` that carries it."""
+    """The measured wrench: that of the ``contacts`` on the link, or that on the ``joint`` that
+    carries the link."""
 
     @property
     def relative_to(self) -> str:
-        """The link."""
+        """The name of the link."""
         return self.target
 
     @property
@@ -71,13 +73,13 @@ class ForceSensorSpec(DeviceSpec):
         return self.offsetr
 
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> ForceSensor:
-        """Mount the sensor on its link; raises UnknownName if the vehicle has no such link."""
+        """Mount the sensor on its link; raise UnknownName if the vehicle has no such link."""
         at_joint = self.measures == "joint"
         return ForceSensor(self, vehicle.wrench_sampler(self, at_joint=at_joint, visual=True))
 
 
 class ForceSensor(Device, CompiledSensor):
-    """The force and torque of the contacts on a link, or at its joint."""
+    """The force and torque of the contacts on a link, or on its joint."""
 
     def __init__(self, spec: ForceSensorSpec, sampler: Sampler) -> None:
         self._name = spec.name
@@ -86,6 +88,7 @@ class ForceSensor(Device, CompiledSensor):
 
     def message(self, time: float, values: Array) -> WrenchStamped:
         """Create the message of a sample taken at ``time`` [s]."""
-        x, y, z, roll, pitch, yaw = values.tolist()
-        wrench = Wrench(force=Vector3(x=x, y=y, z=z), torque=Vector3(x=roll, y=pitch, z=yaw))
+        x, y, z, torque_x, torque_y, torque_z = values.tolist()
+        torque = Vector3(x=torque_x, y=torque_y, z=torque_z)
+        wrench = Wrench(force=Vector3(x=x, y=y, z=z), torque=torque)
         return WrenchStamped(header=header(time, self._name), wrench=wrench)

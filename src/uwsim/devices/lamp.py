@@ -1,4 +1,4 @@
-"""A dimmable lamp, in whose light cameras see; an extension of the dialect.
+"""A dimmable lamp that lights the scene for cameras; an extension of the dialect.
 
 .. code-block:: xml
 
@@ -30,11 +30,11 @@ MAX_LAMPS = 4
 
 @dataclass(frozen=True, kw_only=True)
 class LampSpec(DeviceSpec):
-    """A ``<u:lamp>``: a round cone of light along -z, as of a camera; at most four in a scene.
+    """A ``<u:lamp>``: a round cone of light along -z; at most four in a scene.
 
-    Its brightness is 1, the whole ``intensity``, until a std_msgs/Float64 on the topic
-    ``<name>/brightness`` sets it, down to 0 (off). Lamps of one name have one topic. The light rate
-    of the scene does not affect it. The lamp of a ghost (``vr``) is off.
+    The brightness is 1 (the whole ``intensity``) until a std_msgs/Float64 on the topic
+    ``<name>/brightness`` sets it to a value between 0 (off) and 1. Lamps with equal names share a
+    topic. The light rate of the scene does not affect lamps. The lamp of a ghost (``vr``) is off.
     """
 
     name: str = element(namespaced=True)
@@ -48,7 +48,7 @@ class LampSpec(DeviceSpec):
     )
     """The orientation of the lamp in the link's frame, roll, pitch, yaw (Rz Ry Rx) [rad]."""
     look_at: LookAt = element(namespaced=True, default=None)
-    """The target of its light at the start, instead of ``orientation``: a point in L [m], or a
+    """The target of the light at the start, instead of ``orientation``: a point in L [m], or a
     direction of the vehicle. The lamp stays fixed to its link."""
     fov: float = element(namespaced=True, default=60.0, exclusive_minimum=0, maximum=160)
     """The angle of the whole cone [deg]."""
@@ -59,9 +59,9 @@ class LampSpec(DeviceSpec):
     color: tuple[float, float, float] = element(
         namespaced=True, default=(1.0, 1.0, 1.0), parts="rgb"
     )
-    """The colour of its light [0..1]."""
+    """The colour of the light [0..1]."""
     shadow: bool = element(namespaced=True, default=True)
-    """True if bodies in its light cast a shadow."""
+    """True if bodies in the light cast shadows."""
 
     @property
     def brightness_topic(self) -> str:
@@ -70,11 +70,11 @@ class LampSpec(DeviceSpec):
 
     @property
     def topics(self) -> tuple[DeviceTopic, ...]:
-        """The topic of its brightness."""
+        """The topic that commands the brightness."""
         return (DeviceTopic(name=self.brightness_topic, is_subscribed=True),)
 
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> MountedLamp:
-        """Mount the lamp on its link; raises UnknownName if the vehicle has no such link."""
+        """Mount the lamp on its link; raise UnknownName if the vehicle has no such link."""
         lamp = MountedLamp(self, vehicle.mount(self))
         world.bus.subscribe(self.brightness_topic, Float64, lamp.command, remark=check_brightness)
         return lamp
@@ -94,7 +94,7 @@ class LampState(Record):
     """The state of a lamp."""
 
     brightness: float = 1.0
-    """The brightness as a share of the intensity, 0..1."""
+    """The share of the intensity at which the lamp shines, 0..1 [1]."""
 
 
 class MountedLamp(Device):
@@ -113,7 +113,7 @@ class MountedLamp(Device):
 
     @property
     def world_from_lamp(self) -> Pose:
-        """The present pose of the lamp; its light is along -z."""
+        """The present pose of the lamp in W; its light points along -z."""
         return self._mount.world_from_body
 
     @property
@@ -127,6 +127,6 @@ class MountedLamp(Device):
         return self.state.brightness * self.spec.intensity
 
     def command(self, message: Float64) -> None:
-        """Set the brightness, clamped to 0 to 1; ignore nan."""
+        """Set the brightness, clamped to the range 0 to 1; ignore nan."""
         if not math.isnan(message.data):
             self.state.brightness = min(1.0, max(0.0, float(message.data)))

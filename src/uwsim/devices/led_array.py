@@ -27,16 +27,17 @@ from .device import Device, DeviceSpec, DeviceTopic, DeviceVehicle
 from .lamp import LampSpec
 
 INTENSITY = 0.83
-"""The radiance of a white surface that faces a lamp at 1 m, as in the original [1: full scale]."""
+"""The radiance of a white surface that faces a lamp at 1 m, as in UWSim [1: full scale]."""
 COLOURS = {"red": (1.0, 0.0, 0.0), "green": (0.0, 1.0, 0.0)}
-"""The colours of the lamps, in their order; the first is at +y."""
+"""The colours of the lamps by name; the first lamp is at +y."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class LedArraySpec(DeviceSpec):
     """A ``<LedArray>``: two signal lamps; topics ``<name>/red`` and ``<name>/green``.
 
-    A lamp emits light in all directions for the time in an ``underwater_sensor_msgs/LedLight``.
+    After an ``underwater_sensor_msgs/LedLight``, a lamp emits light in all directions for the
+    duration in the message.
     """
 
     OCCURS_ONCE: ClassVar[bool] = True
@@ -57,11 +58,11 @@ class LedArraySpec(DeviceSpec):
     radio: float = element(default=0.02, exclusive_minimum=0)
     """The radius of each lamp [m]."""
     space: float = 0.2
-    """The distance between the lamps, along y [m]."""
+    """The distance between the lamps, along y of the device [m]."""
 
     @property
     def topics(self) -> tuple[DeviceTopic, ...]:
-        """The topics of its lamps."""
+        """The topics that switch the lamps on."""
         return tuple(
             DeviceTopic(name=f"{self.name}/{colour}", is_subscribed=True) for colour in COLOURS
         )
@@ -76,7 +77,7 @@ class LedArraySpec(DeviceSpec):
         return {"red": tuple(red), "green": tuple(green)}
 
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> LedArray:
-        """Mount the lamps on their link; raises UnknownName if the vehicle has no such link."""
+        """Mount the lamps on their link; raise UnknownName if the vehicle has no such link."""
         leds = []
         for colour, position in self.positions.items():
             mount = vehicle.mount(replace(self, position=position))
@@ -128,7 +129,7 @@ class Led:
 
     @property
     def world_from_lamp(self) -> Pose:
-        """The present pose of the lamp."""
+        """The present pose of the lamp in W."""
         return self._mount.world_from_body
 
     @property
@@ -142,7 +143,7 @@ class Led:
         return self.spec.intensity
 
     def command(self, message: LedLight) -> None:
-        """Switch the lamp on for the commanded time; the command replaces the one before."""
+        """Switch the lamp on for the commanded duration, which replaces an earlier one."""
         self.state.end_time = self._clock() + message.duration.sec + 1e-9 * message.duration.nanosec
 
 

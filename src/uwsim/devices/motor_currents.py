@@ -4,10 +4,10 @@ r"""The currents that the motors of a vehicle draw, thrusters first, then joints
 
     <u:motorCurrents> <name>currents</name> <voltage>24</voltage> <std>0.01</std> </u:motorCurrents>
 
-A motor of the power P at a supply of the voltage V draws :math:`I = P / V`. P is that of the
-measure ``<u:energy>``: a function of a thruster's thrust, and of a joint's torque and speed with
-the efficiency and copper loss of its drive in the vehicle's hydrodynamics file. Not modelled:
-currents of the windings, which differ where the electronics lower the voltage.
+A motor with the electric power P at a supply with the voltage V draws :math:`I = P / V`. P is the
+power of the measure ``<u:energy>``: a function of a thruster's thrust, or of a joint's torque and
+speed with the efficiency and copper loss of its drive in the vehicle's hydrodynamics file. Not
+modelled: the currents of the windings, which differ where the electronics lower the voltage.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ class MotorCurrentsSpec(DeviceSpec):
     """The standard deviation of the noise of each current [A]."""
 
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> MotorCurrents:
-        """Resolve the motors; a vehicle that is not simulated has none."""
+        """Resolve the motors; a kinematic vehicle has none."""
         rng = world.stream(f"{vehicle.name}/{self.name}/noise")
         return MotorCurrents(self, world.actuators(vehicle.name), rng)
 

@@ -22,7 +22,7 @@ from ..world import Body, DeviceWorld
 from .device import Device, DeviceSpec, DeviceTopic, DeviceVehicle
 
 RATE = 60.0
-"""The rate of the search for an object, which is the original's rate of images [Hz]."""
+"""The rate of the search for an object: the rate of images of the original UWSim [Hz]."""
 RAY_DIRECTION = np.array([[1.0, 0.0, 0.0]])
 """The direction of the ray in the picker's frame, (1, 3)."""
 
@@ -45,7 +45,7 @@ class ObjectPickerSpec(DeviceSpec):
     range: float = element(minimum=0)
     """The length of the ray [m]."""
     visible: bool = False
-    """True if the ray is visible; read and not used, as it is always drawn."""
+    """True if the ray is visible; read and not used, as the ray is always drawn."""
     position: tuple[float, float, float] = (0.0, 0.0, 0.0)
     """The position of the device in the link's frame [m]."""
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
@@ -61,11 +61,11 @@ class ObjectPickerSpec(DeviceSpec):
 
     @property
     def topics(self) -> tuple[DeviceTopic, ...]:
-        """The topic of its release."""
+        """The topic that commands the release."""
         return (DeviceTopic(name=self.release_topic, is_subscribed=True),)
 
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> ObjectPicker:
-        """Mount the device on its link; raises UnknownName if the vehicle has no such link."""
+        """Mount the device on its link; raise UnknownName if the vehicle has no such link."""
         mount = vehicle.mount(self, visual=True)
         picker = ObjectPicker(self, mount, world, vehicle)
         world.bus.subscribe(self.release_topic, Bool, picker.command)
@@ -78,17 +78,17 @@ class PickerState(Record):
     """The state of an object picker."""
 
     distance: float
-    """The distance at which it picked the object up [m]."""
+    """The distance along the ray at which the picker picked the last object up [m]."""
     held_object: int | None = None
-    """The index of the object that it holds."""
+    """The index of the held object; None without one."""
     is_released: bool = False
-    """True if it picks nothing up."""
+    """True if the picker is commanded to pick nothing up."""
 
 
 class ObjectPicker(Device):
-    """A ray that picks up what it hits; it measures the distance to it, as a range sensor does.
+    """A picker of the first object on a ray, and a sensor of the range along this ray.
 
-    Not modelled: the mechanism of the grip; an object within the range is fixed to the link.
+    Not modelled: the mechanism of the grip. An object within the range is fixed to the link.
     """
 
     def __init__(

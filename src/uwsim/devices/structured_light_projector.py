@@ -22,9 +22,10 @@ from .device import Device, DeviceSpec, DeviceVehicle
 
 @dataclass(frozen=True, kw_only=True)
 class StructuredLightProjectorSpec(DeviceSpec):
-    """A ``<structuredLightProjector>``: a laser or lamp; it projects an image along -z.
+    """A ``<structuredLightProjector>``: a laser or a lamp that projects an image along -z.
 
-    Only the last one of a scene emits light, as in the original; that of a ghost (``vr``) never.
+    Only the last projector of a scene emits light, as in the original UWSim. The projector of a
+    ghost (``vr``) never does.
     """
 
     is_left_out: ClassVar[bool] = True
@@ -33,13 +34,15 @@ class StructuredLightProjectorSpec(DeviceSpec):
     name: str
     """The name of the device."""
     relative_to: str
-    """The link of the device, whose pose is relative to the link's kinematic frame."""
+    """The link on which the device is mounted; its pose is relative to the link's kinematic
+    frame."""
     fov: float = element(exclusive_minimum=0, exclusive_maximum=180)
-    """The vertical field of view [deg]; the aspect ratio is the image's."""
+    """The vertical field of view [deg]; the aspect ratio is that of the image."""
     image_name: str = element("image_name")
-    """The image; transparent pixels emit no light, nor do black and white pixels of a laser."""
+    """The image file; transparent pixels emit no light, and of a laser no black or white ones."""
     laser: bool = True
-    """The kind of light: 1 laser, attenuated by water alone; 0 lamp, falls off with distance."""
+    """The kind of light: 1 is a laser, which water alone attenuates; 0 is a lamp, whose light falls
+    off with distance."""
     position: tuple[float, float, float] = element(
         default=(0.0, 0.0, 0.0), minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE
     )
@@ -51,7 +54,7 @@ class StructuredLightProjectorSpec(DeviceSpec):
     of the vehicle. The device stays fixed to its link."""
 
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> MountedProjector:
-        """Mount the device on its link; raises UnknownName if the vehicle has no such link."""
+        """Mount the device on its link; raise UnknownName if the vehicle has no such link."""
         mount = vehicle.mount(self, visual="visual-frames" in world.compatibility)
         return MountedProjector(self, mount)
 
@@ -71,5 +74,5 @@ class MountedProjector(Device):
 
     @property
     def world_from_projector(self) -> Pose:
-        """The present pose of the projector; its light is along -z."""
+        """The present pose of the projector in W; its light points along -z."""
         return self._mount.world_from_body

@@ -22,14 +22,15 @@ from ..world import DeviceWorld
 from .device import Device, DeviceSpec, DeviceVehicle
 
 AXES = ("x", "y", "z", "roll", "pitch", "yaw")
+"""The axes of displacements, in the order of their indices."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class SwaySpec(DeviceSpec):
-    """A ``<u:sway>``: one sinusoid about the vehicle's pose in its file.
+    """A ``<u:sway>``: a sinusoidal motion of a vehicle about its rest pose, along one axis.
 
-    After a program, a command or a level has set another pose, it oscillates about that. Currents
-    do not move it.
+    The rest pose is the pose in the scene file, or the pose that a program, a command or a level of
+    a benchmark set last. Currents do not move the vehicle.
     """
 
     axis: Literal["x", "y", "z", "roll", "pitch", "yaw"] = element(namespaced=True)
@@ -46,7 +47,7 @@ class SwaySpec(DeviceSpec):
         return self.amplitude * math.sin(2.0 * math.pi * time / self.period + self.phase)
 
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> Sway:
-        """Resolve the axis of the vehicle."""
+        """Create the motion of a vehicle."""
         return Sway(self, vehicle.displacer(AXES.index(self.axis)))
 
 
@@ -57,7 +58,7 @@ class Sway(Device):
         self._spec, self._displace = spec, displace
 
     def animate(self, time: float) -> None:
-        """Set the offset of the vehicle at ``time`` [s]."""
+        """Displace the vehicle to its position in the oscillation at ``time`` [s]."""
         self._displace(self._spec.offset(time))
 
 
@@ -68,8 +69,8 @@ def displace_pose(
 
     Args:
         position: the rest position, in L [m].
-        orientation: the angles of the rest pose, Rx Ry Rz [rad].
-        offsets: pairs of an axis index and an offset [m or rad]; those of one axis are added.
+        orientation: the angles of the rest pose about x, y, z of L, Rx Ry Rz [rad].
+        offsets: pairs of an index in `AXES` and an offset [m or rad]; offsets of one axis add up.
     """
     values = [*position, *orientation]
     for axis, offset in offsets:
@@ -80,7 +81,9 @@ def displace_pose(
 def rest_pose(
     localized_from_base: Pose, offsets: Iterable[tuple[int, float]]
 ) -> tuple[list[float], list[float]]:
-    """Return the rest pose from which `displace_pose` gives a pose: position [m], angles [rad].
+    """Return the position [m] and angles [rad] of the rest pose of a displaced vehicle.
+
+    This is the inverse of `displace_pose`.
 
     Args:
         localized_from_base: the pose of the displaced vehicle.

@@ -25,11 +25,11 @@ from ..world import DeviceWorld
 from .device import Device, DeviceSpec, DeviceVehicle
 
 WORLD = "world"
-"""The ROS frame that is L."""
+"""The name of the ROS frame that coincides with L."""
 MAX_DEPTH = 100
 """The greatest number of transforms between a frame and its ancestor."""
 EXPECTED = f"{EXPECTED_POSE}; it is left out"
-"""The expected content of a transform."""
+"""The expected content of a transform, and what happens to an invalid one."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,7 +37,7 @@ class TfSpec(DeviceSpec):
     """A ``<tf>``: the vehicle follows a ROS frame, if ``/tf`` connects the frame with ``world``."""
 
     tf_id: str
-    """The name of the frame."""
+    """The name of the ROS frame."""
     position: tuple[float, float, float] = element(
         default=(0.0, 0.0, 0.0), minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE
     )
@@ -61,7 +61,7 @@ class HeardState(Record):
     parents: dict[str, tuple[str, Pose]] = field(default_factory=dict)
     """The parent of each frame, and ``parent_from_frame``."""
     n_received: int = 0
-    """The number of transforms so far."""
+    """The number of valid transforms received so far."""
 
 
 @dataclass(slots=True)
@@ -71,7 +71,7 @@ class FollowerState(Record):
     frames: HeardState
     """The transforms received on ``/tf``."""
     n_followed: int = 0
-    """The number of transforms that it has followed."""
+    """The number of received transforms up to which the vehicle's pose is updated."""
 
 
 class ReceivedFrames:
@@ -104,14 +104,16 @@ class ReceivedFrames:
 
 
 class TfFollower(Device):
-    """The device that sets a vehicle's pose from a frame; a simulated vehicle moves there.
+    """The device that sets the pose of a vehicle from a ROS frame.
+
+    A vehicle with dynamics moves to that pose by its autopilot.
 
     Args:
         vehicle: the vehicle.
         frames: the transforms received on ``/tf``.
-        frame: the name of the frame.
+        frame: the name of the ROS frame.
         frame_from_vehicle: the vehicle's pose in the frame.
-        world_from_localized: W from L.
+        world_from_localized: the transform of W from L.
     """
 
     def __init__(

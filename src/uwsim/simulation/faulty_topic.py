@@ -69,7 +69,7 @@ class SensorFault:
 
     def apply(self, message: Any, time: float) -> list[Any]:
         """Return the messages to publish in place of ``message`` at ``time`` [s]."""
-        is_present, kind = self.times.acts(time), self._spec.kind
+        is_present, kind = self.times.is_present(time), self._spec.kind
         if kind == "latency":
             return self._delay(message, time, is_present)
         if not is_present:

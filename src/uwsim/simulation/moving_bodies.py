@@ -50,8 +50,8 @@ class MountedBody:
     def functions(self) -> npt.NDArray[np.void]:
         """The addresses of the functions for compiled code, a record of `MOUNT`, (1,)."""
         functions = np.zeros(1, MOUNT)
-        functions["place"] = function_address(link_kernel.write_mount_frame)
-        functions["move"] = function_address(link_kernel.write_mount_motion)
+        functions["pose"] = function_address(link_kernel.write_mount_frame)
+        functions["motion"] = function_address(link_kernel.write_mount_motion)
         functions["parameters"] = address_of(self._mount)
         return functions
 

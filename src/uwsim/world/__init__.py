@@ -1,7 +1,8 @@
 """Protocols of the simulation for measures, triggers, updaters, sensors, devices and forces.
 
-Positions are in W, the world frame inside (z up); ``world_from_localized`` relates it to L, the
-frame of files, topics and results. All returned arrays are copies.
+Positions are in W, the world frame of the simulation (z up). The transform
+``world_from_localized`` relates it to L, the frame of files, topics and results. All returned
+arrays are copies.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The interface through which compiled code reads frames on vehicles and the water."""
+"""The interface through which compiled code reads frames on vehicles and the water's velocity."""
 
 from __future__ import annotations
 
@@ -10,10 +10,11 @@ from ..base.geometry import Array
 from ..base.numerics.calls import call
 from ..base.numerics.jit import njit
 
-MOUNT = np.dtype([("place", np.int64), ("move", np.int64), ("parameters", np.int64)])
-"""The addresses of the functions that write a frame and its motion, and of their parameters.
+MOUNT = np.dtype([("pose", np.int64), ("motion", np.int64), ("parameters", np.int64)])
+"""A frame on a vehicle: the addresses of the functions that write its pose and its motion, and of
+their parameters.
 
-See `uwsim.base.numerics.calls`; ``move`` is 0 if the motion is not read.
+See `uwsim.base.numerics.calls`; ``motion`` is 0 if the motion is not read.
 """
 
 Record = Any
@@ -21,29 +22,36 @@ Record = Any
 
 @njit
 def read_frame(mount: Record, frame: Array) -> None:
-    """Write the pose of a frame: its origin in W [m], then its axes by rows, into (12,)."""
-    call(mount.place, mount.parameters, frame.ctypes.data, 0.0)
+    """Write the pose of a frame in W.
+
+    Args:
+        mount: a record of `MOUNT`.
+        frame: the array into which the origin (3,) [m] and the rotation by rows (9,) are written.
+    """
+    call(mount.pose, mount.parameters, frame.ctypes.data, 0.0)
 
 
 @njit
 def read_motion(mount: Record, motion: Array) -> None:
-    """Write the motion of a point of a frame, in W, after the point.
+    """Write the motion of a point that is fixed to a frame, in W.
 
     Args:
-        mount: the frame.
-        motion: the point (3,) [m]; then its velocity [m/s], the angular velocity of the frame
-            [rad/s] and the acceleration of the point [m/s2] are written, (12,).
+        mount: a record of `MOUNT`.
+        motion: an array (12,) that begins with the point (3,) [m]; the velocity of the point [m/s],
+            the angular velocity of the frame [rad/s] and the acceleration of the point [m/s2] are
+            written after it.
     """
-    call(mount.move, mount.parameters, motion.ctypes.data, 0.0)
+    call(mount.motion, mount.parameters, motion.ctypes.data, 0.0)
 
 
 @njit
 def read_water(water: Record, points: Array, time: float) -> None:
-    """Write the velocities of the water at points, after them.
+    """Write the velocities of the water at points.
 
     Args:
-        water: a record of `FUNCTION`.
-        points: of W, (n, 3) [m]; then their velocities are written, (2, n, 3) [m/s].
+        water: a record of `uwsim.base.numerics.calls.FUNCTION`.
+        points: an array (2, n, 3) that begins with n points in W (n, 3) [m]; the velocities there
+            (n, 3) [m/s] are written after them.
         time: the simulation time [s].
     """
     call(water.function, water.parameters, points.ctypes.data, time)

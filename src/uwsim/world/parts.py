@@ -1,4 +1,4 @@
-"""Bodies, cameras, contacts, flows and rays, as the views of a scene return them."""
+"""The bodies, cameras, contacts, flows and ray casters that the views of a simulation return."""
 
 from __future__ import annotations
 
@@ -33,25 +33,25 @@ class Box:
     def corners(self) -> npt.NDArray[np.float64]:
         """Return the eight corners, (8, 3) [m]."""
         low, high = np.array(self.lower), np.array(self.upper)
-        picks = np.array([[i & 1, i >> 1 & 1, i >> 2 & 1] for i in range(8)])
-        corners: npt.NDArray[np.float64] = np.where(picks == 1, high, low)
+        is_upper = np.array([[i & 1, i >> 1 & 1, i >> 2 & 1] for i in range(8)])
+        corners: npt.NDArray[np.float64] = np.where(is_upper == 1, high, low)
         return corners
 
 
 class Body(Protocol):
-    """A node with a name and a pose: a vehicle, a link or an object."""
+    """A vehicle, a link or an object, with a name and a pose."""
 
     @property
     def name(self) -> str:
-        """The route that identifies it."""
+        """The name in the scene: ``vehicle``, ``vehicle/link`` or ``object``."""
 
     @property
     def world_from_body(self) -> Pose:
-        """The present pose (objects: the mesh frame; links: the visual frame)."""
+        """The present pose in W: of a base, a link's visual frame or an object's mesh frame."""
 
     @property
     def box(self) -> Box | None:
-        """The local bounding box of its meshes; None if it has none."""
+        """The bounding box of the meshes in the frame of the body; None without meshes."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,15 +67,15 @@ class BodyMotion:
 
 
 class Mount(Body, Protocol):
-    """A frame on a link that compiled code can read, too."""
+    """A frame on a link that compiled code can read as well."""
 
     @property
     def functions(self) -> npt.NDArray[np.void]:
-        """The functions for compiled code: a record of `uwsim.world.mounts.MOUNT`, (1,)."""
+        """The functions that compiled code calls: a record of `uwsim.world.mounts.MOUNT`, (1,)."""
 
     @property
     def is_compiled(self) -> bool:
-        """True if these functions give its pose in compiled steps without `prepare`."""
+        """True if these functions give the pose in compiled steps without a call of `prepare`."""
 
     def prepare(self) -> None:
         """Update the inputs of these functions."""
@@ -87,8 +87,8 @@ class MovingBody(Mount, Protocol):
     def motion(self) -> BodyMotion:
         """Return the present motion.
 
-        The motion of a vehicle with dynamics is the engine's. The poses of a kinematic vehicle are
-        set: the motion spreads each jump evenly over the time since the last
+        The motion of a vehicle with dynamics is that of the physics engine. A kinematic vehicle
+        moves in jumps, each of which is spread evenly over the time since the last jump
         (`uwsim.physics.kinematics.prescribed_motion`).
         """
 
@@ -97,20 +97,20 @@ class CompiledVehicle(Protocol):
     """The interface of a vehicle for compiled code."""
 
     def base_mount(self) -> Mount:
-        """Return the frame of its base."""
+        """Return the frame of the base."""
 
     def base_sampler(self) -> Sampler:
-        """Return the sampler of its base, 18 numbers.
+        """Return the sampler of the base, whose samples have 18 numbers.
 
         The numbers are its position in W [m], its axes in W by rows, its velocity over ground in W
         [m/s], and its angular velocity in base axes [rad/s].
         """
 
     def joint_sampler(self) -> Sampler:
-        """Return the sampler of the n joints of the joint vector, 4 n numbers.
+        """Return the sampler of the n joints of the joint vector, whose samples have 4 n numbers.
 
-        The numbers are positions [rad or m], velocities [rad/s or m/s], and two parts of efforts
-        [N m or N]. For a vehicle that is not simulated, they are the positions alone.
+        The numbers are positions [rad or m], velocities [rad/s or m/s], and the two parts of the
+        efforts [N m or N]. For a kinematic vehicle, they are the positions alone.
         """
 
 
@@ -127,39 +127,39 @@ class Camera(Protocol):
 
     @property
     def world_from_camera(self) -> Pose:
-        """The present pose; OpenGL axes."""
+        """The present pose in W; OpenGL axes (x right, y up, looking along -z)."""
 
     @property
     def n_images(self) -> int | None:
-        """The number of images due on its topics so far, read or not; None if it has no topic."""
+        """The number of images due on the camera's topics so far; None if it has no topic."""
 
 
 @dataclass(frozen=True)
 class Contact:
-    """A contact point of a body with another, at the present step."""
+    """A point of contact of a body with another body, at the present step."""
 
     approach_speed: float
-    """The relative velocity along the normal, positive while they approach [m/s]."""
+    """The relative velocity of the bodies along the normal, positive while they approach [m/s]."""
     own_speed: float
-    """The part of it that is due to the body's own motion [m/s]."""
+    """The part of the approach speed that is due to the body's own motion [m/s]."""
     is_first: bool
     """True if the engine lists the body as the first of the two."""
     other: str = ""
     """The name of the other body."""
     position: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    """The position in W [m]; the origin for contacts that the engine does not simulate."""
+    """The position in W [m]; 0 for contacts that the engine does not simulate."""
 
 
 class Actuators(Protocol):
-    """The actuators of a simulated vehicle: its thrusters, then the motors of its joints."""
+    """The actuators of a vehicle with dynamics: the thrusters, then the motors of the joints."""
 
     @property
     def thrusters(self) -> tuple[str, ...]:
-        """The names of its thrusters."""
+        """The names of the thrusters."""
 
     @property
     def joints(self) -> tuple[str, ...]:
-        """The names of its joints, including mimic joints."""
+        """The names of the joints, including mimic joints."""
 
     @property
     def greatest_power(self) -> float:
@@ -175,7 +175,7 @@ class Actuators(Protocol):
 
 @runtime_checkable
 class Flow(Protocol):
-    """The motion of the water, as in `uwsim.currents`; everything in L."""
+    """The motion of the water (`uwsim.currents`); points, velocities, accelerations are in L."""
 
     @property
     def is_uniform(self) -> bool:
@@ -206,19 +206,19 @@ class Rays(Protocol):
 
     @property
     def vehicles(self) -> Sequence[str]:
-        """The name of the vehicle of each surface, by its number; empty if it has none."""
+        """The name of the vehicle to which each surface belongs, or empty, by number of surface."""
 
     @property
     def materials(self) -> Sequence[Material]:
-        """The acoustic material of each surface, by its number."""
+        """The acoustic material of each surface, by number of surface."""
 
     @property
     def functions(self) -> npt.NDArray[np.void]:
-        """The functions for compiled code: a record of `uwsim.rays.scene_record.RAYS`, (1,)."""
+        """The functions that compiled code calls: a `uwsim.rays.scene_record.RAYS`, (1,)."""
 
     @property
     def is_compiled(self) -> bool:
-        """True if they use present poses in compiled steps without `prepare`."""
+        """True if these functions use present poses in compiled steps without `prepare`."""
 
     def prepare(self) -> None:
         """Update the inputs of these functions."""
@@ -233,14 +233,14 @@ class Rays(Protocol):
         """Cast rays from the origin of a sensor; return the first hit of each.
 
         Args:
-            world_from_sensor: the pose of the sensor.
-            directions: unit vectors in its frame, (n, 3).
+            world_from_sensor: the pose of the sensor in W.
+            directions: the directions of the rays, unit vectors in the sensor's frame, (n, 3).
             reach: the length of the rays [m].
-            starts: the distance from which each ray can hit, (n,) [m]; None: 0.
+            starts: the distance from which on each ray can hit a surface, (n,) [m]; None: 0.
         """
 
     def balls(self) -> Balls:
-        """Return balls that cover each surface at its present pose; heaps of sand have none."""
+        """Return balls that cover the surfaces at their present poses, except heaps of sand."""
 
 
 class Attachment(Protocol):
@@ -252,7 +252,7 @@ class Attachment(Protocol):
 
     @property
     def vehicle(self) -> str:
-        """The name of its vehicle; empty on an object."""
+        """The name of the vehicle; empty on an object."""
 
     @property
     def world_from_body(self) -> Pose:
@@ -261,6 +261,6 @@ class Attachment(Protocol):
     def motion(self) -> BodyMotion:
         """Return the present motion of its origin over ground, in W.
 
-        The motion of a simulated vehicle or loose object is the engine's. Another vehicle moves as
-        in `MovingBody.motion`; another object is at rest.
+        The motion of a vehicle with dynamics or a loose object is that of the physics engine. A
+        kinematic vehicle moves as in `MovingBody.motion`; another object is at rest.
         """

@@ -1,4 +1,4 @@
-"""The views of a scene for measures, updaters, sensors, devices and forces: a Protocol each."""
+"""The views of a simulation for measures, scene updaters, sensors, devices and forces."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from .parts import Actuators, Attachment, Body, Camera, Contact, Flow, Rays
 
 
 class TimedWorld(Protocol):
-    """The clock and the topics of a simulation, which all its parts see."""
+    """The clock and the topics of a simulation, which every view contains."""
 
     @property
     def step(self) -> int:
@@ -44,44 +44,44 @@ class World(TimedWorld, Protocol):
 
     @property
     def world_from_localized(self) -> Pose:
-        """The transform of W from L: the scene's offset."""
+        """The transform from L to W, which the scene file sets as an offset."""
 
     @property
     def compatibility(self) -> frozenset[str]:
         """The names of the active compatibility quirks (`uwsim.base.compatibility`)."""
 
     def body(self, name: str) -> Body:
-        """Return a vehicle, link or object by its route ``a/b``; raise UnknownName if none."""
+        """Return a vehicle ``a``, link ``a/b`` or object ``c``; raise UnknownName if none."""
 
     def contacts(self, name: str) -> Sequence[Contact]:
-        """Return the contacts of a vehicle (all links) or object; raise UnknownName if none."""
+        """Return the contacts of a vehicle's links, or of an object; raise UnknownName if none."""
 
     def contact_forces(self, name: str) -> Mapping[str, npt.NDArray[np.float64]]:
         """Return the contact forces on a vehicle or object; raise UnknownName if there is none.
 
-        Each force is the sum over all contacts with another body in the last step, by its name,
-        (3,) in W [N]. The mapping is empty without contacts, or if the engine does not simulate it.
+        Each force is the sum over all contacts in the last step with another body, by whose name it
+        is found, (3,) in W [N]. The mapping is empty without contacts, and for a kinematic vehicle.
         """
 
     def actuators(self, name: str) -> Actuators | None:
-        """Return the actuators of a vehicle, None if it is not simulated; raise UnknownName."""
+        """Return the actuators of a vehicle; None if it is kinematic; raise UnknownName if none."""
 
     def camera(self, name: str) -> Camera:
         """Return a virtual camera; raise UnknownName if there is none."""
 
     def stream(self, name: str) -> np.random.Generator:
-        """Return the random generator of that name under the run's seed."""
+        """Return the random generator of a name, which the seed of the run determines."""
 
 
 class Stage(TimedWorld, Protocol):
-    """The view of the simulation for scene updaters: setters, and the world of measures."""
+    """The view of the simulation for scene updaters: setters, and the view of measures."""
 
     @property
     def world(self) -> World:
-        """The bodies, cameras, contacts, and the active compatibility quirks."""
+        """The view for measures: bodies, cameras, contacts, and the active compatibility quirks."""
 
     def stream(self, name: str) -> np.random.Generator:
-        """Return the random generator of that name under the run's seed."""
+        """Return the random generator of a name, which the seed of the run determines."""
 
     @property
     def vehicles(self) -> tuple[str, ...]:
@@ -92,19 +92,24 @@ class Stage(TimedWorld, Protocol):
         """The colour of the fog [0..1]."""
 
     def find(self, name: str, *, named_by: str) -> Path:
-        """Find a file that ``named_by`` names; raise AssetNotFound with the searched folders."""
+        """Find a file; raise AssetNotFound, which lists the searched folders, if there is none.
+
+        Args:
+            name: the name of the file.
+            named_by: the element or option that names it, for the message.
+        """
 
     def set_fog(self, density: float) -> None:
-        """Set the fog density [1/m] of the water; its colour stays the scene's."""
+        """Set the fog density of the water [1/m]; its colour remains that of the scene."""
 
     def set_light_rate(self, rate: float) -> None:
-        """Scale the light of the scene; 1 is the normal light."""
+        """Scale the light of the scene by a factor; 1 is the light in the scene file."""
 
     def set_camera_noise(self, std: float) -> None:
-        """Set the noise [0..1] of every colour camera."""
+        """Set the standard deviation of the noise of every colour camera [1: full scale]."""
 
     def set_joints(self, vehicle: str, values: Mapping[int, float]) -> None:
-        """Set joints by their number in the joint vector [rad or m], clamped to limits."""
+        """Set joints, by index in the joint vector, to values [rad or m], clamped to limits."""
 
     def set_current(self, current: Flow | None) -> None:
         """Add a flow to the currents of the scene; None removes it."""
@@ -113,7 +118,7 @@ class Stage(TimedWorld, Protocol):
         """Return a vehicle to its pose in the scene, at rest; raise UnknownName if none."""
 
     def create_timer(self, rate: float, call: Callable[[], None]) -> Callable[[], None]:
-        """Call ``call`` at a ``rate`` [Hz] from now on; return the function that stops it."""
+        """Call a function at a ``rate`` [Hz] from now on; return one that stops the calls."""
 
 
 class DeviceWorld(TimedWorld, Protocol):
@@ -121,21 +126,21 @@ class DeviceWorld(TimedWorld, Protocol):
 
     @property
     def world_from_localized(self) -> Pose:
-        """The transform of W from L: the scene's offset."""
+        """The transform from L to W, which the scene file sets as an offset."""
 
     @property
     def compatibility(self) -> frozenset[str]:
         """The names of the active compatibility quirks (`uwsim.base.compatibility`)."""
 
     def stream(self, name: str) -> np.random.Generator:
-        """Return the random generator of that name under the run's seed."""
+        """Return the random generator of a name, which the seed of the run determines."""
 
     def actuators(self, name: str) -> Actuators | None:
-        """Return the actuators of a vehicle, None if it is not simulated; raise UnknownName."""
+        """Return the actuators of a vehicle; None if it is kinematic; raise UnknownName if none."""
 
     @property
     def rays(self) -> Rays:
-        """The surfaces of the scene at their present poses."""
+        """The ray caster against the surfaces of the scene at their present poses."""
 
     @property
     def network(self) -> Network:
@@ -146,10 +151,10 @@ class DeviceWorld(TimedWorld, Protocol):
         """The position of the origin of W on Earth."""
 
     def dig(self, point: npt.NDArray[np.float64]) -> int:
-        """Remove sand around a point in W (3,) [m]; return the number of columns that lost some."""
+        """Remove sand around a point in W (3,) [m]; return the number of columns that lost sand."""
 
     def pickable_object(self, surface: int) -> int | None:
-        """Return the number of a surface's object; None if no picker can pick it up."""
+        """Return the index of the object of a surface; None if no picker can pick it up."""
 
     def datagrams(self, port: int) -> Callable[[], Sequence[bytes]] | None:
         """Return a function that returns the UDP packets received at a port since its last call.
@@ -165,9 +170,9 @@ class DeviceWorld(TimedWorld, Protocol):
         is_needed: Callable[[], bool] | None = None,
         sampling: Sampling | None = None,
     ) -> Callable[[], None]:
-        """Call ``call`` at a ``rate`` [Hz] from now on; return the function that stops it.
+        """Call a function at a ``rate`` [Hz] from now on; return one that stops the calls.
 
-        With ``is_needed``, it is called only if that returns True. ``sampling`` takes a sample
+        The function is called only if ``is_needed`` returns True. ``sampling`` takes a sample
         before each call.
         """
 
@@ -177,18 +182,18 @@ class SensorWorld(TimedWorld, Protocol):
 
     @property
     def world_from_localized(self) -> Pose:
-        """The transform of W from L: the scene's offset."""
+        """The transform from L to W, which the scene file sets as an offset."""
 
     @property
     def compatibility(self) -> frozenset[str]:
         """The names of the active compatibility quirks (`uwsim.base.compatibility`)."""
 
     def stream(self, name: str) -> np.random.Generator:
-        """Return the random generator of that name under the run's seed."""
+        """Return the random generator of a name, which the seed of the run determines."""
 
     @property
     def rays(self) -> Rays:
-        """The surfaces of the scene at their present poses."""
+        """The ray caster against the surfaces of the scene at their present poses."""
 
     @property
     def sea_water(self) -> SeaWater:
@@ -200,21 +205,21 @@ class SensorWorld(TimedWorld, Protocol):
 
     @property
     def density_levels(self) -> Sequence[tuple[float, float]]:
-        """The depth [m] and density [kg/m3] of the water's levels; uniform water has one."""
+        """The depths [m] at which the water's density [kg/m3] is given; uniform water has one."""
 
     def compiled_water(self, vehicle: str, n: int) -> CompiledFunction | None:
-        """Return the function of the water at ``n`` points for a vehicle; None if it needs Python.
+        """Return the compiled function of the water's velocity at ``n`` points; None without one.
 
-        See `uwsim.world.mounts.read_water`. After a change of the water, call this again.
+        See `uwsim.world.mounts.read_water`. After a change of the currents, call this again.
         """
 
     def water_velocity(
         self, points: npt.NDArray[np.float64], time: float, vehicle: str
     ) -> npt.NDArray[np.float64]:
-        """Return the velocity of the water at points of W, (n, 3) [m/s].
+        """Return the velocity of the water at points, in W, (n, 3) [m/s].
 
         Args:
-            points: the points, (n, 3) [m].
+            points: the points in W, (n, 3) [m].
             time: the simulation time [s].
             vehicle: the name of the vehicle; some currents act on one vehicle alone.
         """
@@ -237,10 +242,11 @@ class SensorWorld(TimedWorld, Protocol):
 
         Args:
             world_from_camera: the pose of the camera; OpenGL axes.
-            intrinsics: its pinhole model.
+            intrinsics: the pinhole model of the camera.
             std: the standard deviation of the noise of each channel, 0..1.
             rng: the camera's random stream.
-            grey: return (h, w), with each term of the sum truncated; else (h, w, 3).
+            grey: return a grey image (h, w), whose weighted channels are truncated before they are
+                added, instead of (h, w, 3).
             is_polished: draw soft shadows, highlights and smooth edges.
         """
 
@@ -251,7 +257,7 @@ class SensorWorld(TimedWorld, Protocol):
 
         Args:
             world_from_camera: the pose of the camera; OpenGL axes.
-            intrinsics: its pinhole model.
+            intrinsics: the pinhole model of the camera.
         """
 
 
@@ -264,7 +270,7 @@ class ForceWorld(Protocol):
 
     @property
     def world_from_localized(self) -> Pose:
-        """The transform of W from L: the scene's offset."""
+        """The transform from L to W, which the scene file sets as an offset."""
 
     @property
     def surface_height(self) -> float:
@@ -276,22 +282,22 @@ class ForceWorld(Protocol):
         Args:
             name: a vehicle (its base), a link ``vehicle/link`` (its kinematic frame), or an object
                 (its mesh frame), as in `World.body`.
-            position: the frame's origin in the body, (3,) [m].
+            position: the origin of the frame in the body, (3,) [m].
         """
 
     def water_velocity(
         self, points: npt.NDArray[np.float64], time: float, vehicle: str
     ) -> npt.NDArray[np.float64]:
-        """Return the velocity of the water at points of W, (n, 3) [m/s].
+        """Return the velocity of the water at points, in W, (n, 3) [m/s].
 
         Args:
-            points: the points, (n, 3) [m].
+            points: the points in W, (n, 3) [m].
             time: the simulation time [s].
             vehicle: the name of the vehicle, or empty; some currents act on one vehicle alone.
         """
 
     def water_density(self, points: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
-        """Return the density of the water at points of W (n, 3) [m], (n,) [kg/m3]; 0 above it."""
+        """Return the density of the water at points in W (n, 3) [m], (n,) [kg/m3]; 0 in air."""
 
     def stream(self, name: str) -> np.random.Generator:
-        """Return the random generator of that name under the run's seed."""
+        """Return the random generator of a name, which the seed of the run determines."""

@@ -1,1 +1,1 @@
-"""Modems: the devices, and the channels they share."""
+"""Communication devices (modems), and the channels on which they send and receive."""

@@ -1,4 +1,4 @@
-"""An acoustic modem.
+"""An acoustic modem, whose packets travel at the speed of sound.
 
 .. code-block:: xml
 
@@ -29,7 +29,7 @@ from .comms_device import CommsDevice, MacProtocolSpec, MeshSpec, PacketBuilderS
 
 @dataclass(frozen=True, kw_only=True)
 class EnergyModelSpec(Spec):
-    """An ``<energyModel>``; a device without energy neither sends nor receives."""
+    """An ``<energyModel>``: the energy of a device, without which it neither sends nor receives."""
 
     energy_level: float = element(minimum=0)
     """The energy at the start [J]."""
@@ -47,7 +47,7 @@ class EnergyModelSpec(Spec):
     """The acoustic power [W]: read and not used; ``u:sourceLevel`` gives the source level."""
 
     def bind(self) -> EnergyModel:
-        """Create the model."""
+        """Create the energy model."""
         return EnergyModel(
             initial_energy=self.energy_level,
             turn_on_energy=self.turn_on_energy,
@@ -59,7 +59,7 @@ class EnergyModelSpec(Spec):
 
 @dataclass(frozen=True, kw_only=True)
 class AcousticCommsDeviceSpec(DeviceSpec):
-    """An ``<AcousticCommsDevice>``; it is half duplex."""
+    """An ``<AcousticCommsDevice>``: an acoustic modem, which is half duplex."""
 
     message_type: ClassVar[type] = Pose
     is_left_out: ClassVar[bool] = True
@@ -67,7 +67,7 @@ class AcousticCommsDeviceSpec(DeviceSpec):
     dccomms_id: str
     """The name of the device, which begins its topics ``/tx``, ``/rx`` and ``/energy``."""
     channel_id: int
-    """The id of its ``<AcousticCommsChannel>``."""
+    """The id of the ``<AcousticCommsChannel>`` of the device."""
     relative_to: str
     """The link on which the device is mounted."""
     mac: int = element(minimum=0, maximum=65535)
@@ -89,13 +89,13 @@ class AcousticCommsDeviceSpec(DeviceSpec):
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
     """The orientation of the device in the link's frame, roll, pitch, yaw (Rz Ry Rx) [rad]."""
     mesh: MeshSpec | None = None
-    """The mesh of the device."""
+    """The mesh that shows the device."""
     range: float = element(default=100.0, minimum=0)
     """The greatest range, whatever the source level [m]."""
     frequency: float = element(default=25.0, minimum=1e-3, maximum=1e4)
     """The carrier frequency [kHz]."""
     l: float = element("L", default=0.0, minimum=-300.0, maximum=300.0)  # noqa: E741  (the dialect's letter)
-    """The constant loss [dB]."""
+    """The constant part of the transmission loss [dB]."""
     k: float = element("K", default=2.0, minimum=0.0, maximum=10.0)
     """The spreading factor: 1 cylindrical, 2 spherical [1]."""
     energy_model: EnergyModelSpec | None = None
@@ -124,13 +124,13 @@ class AcousticCommsDeviceSpec(DeviceSpec):
 
     @property
     def topics(self) -> tuple[DeviceTopic, ...]:
-        """The topics of the device, besides that of its interface."""
+        """The topics of the device, besides those of ``<rosInterface>`` elements."""
         if self.disable:
             return ()
         return packet_topics(self.name, has_energy=self.energy_model is not None)
 
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> CommsDevice:
-        """Mount and connect the device; raises UnknownName if there is no such link."""
+        """Mount the device, and connect it to its channel; raise UnknownName without its link."""
         settings = None if self.disable else self._modem_settings(world, vehicle.name)
         return CommsDevice(self, world, vehicle, settings)
 

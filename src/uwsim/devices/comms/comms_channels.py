@@ -18,7 +18,7 @@ from ...network import DelayChannel, Sea, WaterChannel
 from ...schema import Spec, element
 
 MAX_DELAY_MS = 1e9
-"""The longest delay in a file [ms]."""
+"""The longest delay that a file may contain [ms]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -62,18 +62,18 @@ class AcousticCommsChannelSpec(Spec):
     salinity: float = element(default=35.0, minimum=0.0, maximum=50.0)
     """The salinity of the water, for the speed of sound and the absorption [g/kg]."""
     noise_lvl: float = element(default=0.0, minimum=-300.0, maximum=300.0)
-    """The noise level in 1 Hz, to which that of the sea is added [dB re 1 uPa2/Hz]."""
+    """The spectral noise level, to which the noise of the sea is added [dB re 1 uPa2/Hz]."""
     log_level: str = "off"
     """The log level: read and not used."""
     shipping: float | None = element(namespaced=True, default=None, minimum=0.0, maximum=1.0)
     """The shipping density, from 0 (few ships) to 1 [1]. Without it and ``u:windSpeed`` the sea
     makes no noise."""
     wind_speed: float | None = element(namespaced=True, default=None, minimum=0.0, maximum=100.0)
-    """The wind speed at the surface, for its noise; 0 if only ``u:shipping`` is given [m/s]."""
+    """The wind speed at the surface, for its noise [m/s]; 0 if only ``u:shipping`` is given."""
     absorption: Literal["francoisGarrison", "thorp"] = element(
         namespaced=True, default="francoisGarrison"
     )
-    """The formula of the absorption; Thorp's ignores temperature and salinity."""
+    """The formula of the absorption; that of Thorp ignores temperature and salinity."""
 
     @property
     def name(self) -> str:

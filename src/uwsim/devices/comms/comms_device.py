@@ -36,7 +36,7 @@ from ...world import Body, DeviceWorld
 from ..device import Device, DeviceTopic, DeviceVehicle
 
 SLOT_PACKET_SIZE = 64
-"""The packet size for which a slot is long enough, unless the file sets the slot [byte]."""
+"""The size of the largest packet that fits in a slot, unless the file sets the slot [byte]."""
 MIN_SLOT = 1_000_000
 """The shortest slot [ns]."""
 ENERGY_RATE = 1.0
@@ -54,9 +54,9 @@ class MacProtocolSpec(Spec):
     )
     """The longest distance between two devices, for the length of a slot [m]."""
     max_backoff_slots: int = element(default=4, minimum=0, maximum=1_000_000)
-    """The longest wait of CSMA on a busy channel, at least 1 [slots]."""
+    """The longest waiting time of CSMA while the channel is busy, at least 1 [slots]."""
     slot: float | None = element(namespaced=True, default=None, minimum=0.001, maximum=1e6)
-    """The length of a slot [s]; without it the travel time over ``maxDistance`` and the time of a
+    """The length of a slot [s]; by default the travel time over ``maxDistance`` plus the time of a
     packet of 64 bytes, at least 1 ms."""
 
     def bind(self, channel: Channel, airtime: Callable[[int], int]) -> Mac:
@@ -64,7 +64,7 @@ class MacProtocolSpec(Spec):
 
         Args:
             channel: the channel on which the device sends.
-            airtime: returns the duration of a packet of a number of bytes [ns].
+            airtime: a function that returns the duration [ns] of a packet by its size [byte].
         """
         if self.slot is not None:
             slot = nanoseconds(self.slot)
@@ -77,12 +77,12 @@ class MacProtocolSpec(Spec):
 
 @dataclass(frozen=True, kw_only=True)
 class PacketBuilderSpec(Spec):
-    """A ``<txPacketBuilder>`` or ``<rxPacketBuilder>``: read and not used; there is no framing."""
+    """A ``<txPacketBuilder>`` or ``<rxPacketBuilder>``, which is read and not used."""
 
     class_name: str
-    """The name of the class that packs."""
+    """The name of the C++ class that builds packets."""
     lib_path: str = ""
-    """The library that contains it, if it is not built in."""
+    """The library that contains the class."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -128,13 +128,13 @@ def packet_topics(name: str, *, has_energy: bool = False) -> tuple[DeviceTopic, 
 
 
 class CommsDevice(Device):
-    """A device on a link: it sends the bytes of ``<id>/tx`` and publishes those of ``<id>/rx``.
+    """A device on a link that sends the bytes of ``<id>/tx`` and publishes received bytes.
 
     Args:
         spec: the spec of the device.
         world: the scene.
         vehicle: the vehicle on which the device is mounted.
-        settings: the settings of its modem; None: it is not in the network.
+        settings: the settings of the modem; None: the device does not take part in the network.
     """
 
     def __init__(
@@ -182,7 +182,7 @@ class CommsDevice(Device):
         return self._link.world_from_body.inverse() @ self._mount.world_from_body
 
     def sample(self, time: float) -> PoseMessage:
-        """Return the pose of the link's visual frame in W, as the original does."""
+        """Return the pose of the link's visual frame in W, as the original UWSim does."""
         pose = self._visual.world_from_body
         x, y, z = pose.position.tolist()
         qw, qx, qy, qz = pose.quaternion.tolist()
@@ -201,13 +201,13 @@ def _check_bytes(message: UInt8MultiArray) -> None:
 
 
 def _read_destination(message: UInt8MultiArray) -> int:
-    """Return the address in the size of the dimension ``destination``, or that of everyone."""
+    """Return the size of the dimension ``destination``, which is an address; or broadcast."""
     sizes = [dimension.size for dimension in message.layout.dim if dimension.label == "destination"]
     return sizes[0] if sizes else BROADCAST_ADDRESS
 
 
 def _packet_message(packet: Packet) -> UInt8MultiArray:
-    """Return a packet with its source and, unless it is for everyone, its destination."""
+    """Return a packet as a message, with its source and, unless it is broadcast, destination."""
     dimensions = [MultiArrayDimension(label="source", size=packet.source)]
     if packet.destination != BROADCAST_ADDRESS:
         dimensions.append(MultiArrayDimension(label="destination", size=packet.destination))

@@ -1,4 +1,4 @@
-"""A link with delays and error rates, for example a radio or an optical modem.
+"""A device with a configured delay and error rate, for example a radio or an optical modem.
 
 .. code-block:: xml
 
@@ -41,12 +41,12 @@ class JitterSpec(Spec):
 
 @dataclass(frozen=True, kw_only=True)
 class RateErrorModelSpec(Spec):
-    """A ``<rateErrorModel>``: the probability of damage to a part, and so to the packet."""
+    """A ``<rateErrorModel>``: the probability of an error in each bit, byte or packet."""
 
     error_unit: Unit = element(default="bit", original=REQUIRED_BY_DTD)
-    """The unit to which the rate applies."""
+    """The unit in which errors occur."""
     error_rate_expr: str = element(default="0.01*m", original=REQUIRED_BY_DTD)
-    """The probability as a formula in the distance m [m], in the language of scores."""
+    """The probability as a formula of the distance m [m], in the language of score formulas."""
 
     def parse(self) -> Callable[[float], float]:
         """Return the rate as a function of the distance [m]; 1 where the formula has no value.
@@ -63,13 +63,13 @@ class RateErrorModelSpec(Spec):
         return rate
 
     def bind(self) -> ErrorModel:
-        """Create the model."""
+        """Create the error model."""
         return RateErrors(rate=self.parse(), unit=self.error_unit)
 
 
 @dataclass(frozen=True, kw_only=True)
 class CustomCommsDeviceSpec(DeviceSpec):
-    """A ``<CustomCommsDevice>``; half duplex if it sends and receives on one channel."""
+    """A ``<CustomCommsDevice>``, which is half duplex if it sends and receives on one channel."""
 
     message_type: ClassVar[type] = Pose
     is_left_out: ClassVar[bool] = True
@@ -99,11 +99,11 @@ class CustomCommsDeviceSpec(DeviceSpec):
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
     """The orientation of the device in the link's frame, roll, pitch, yaw (Rz Ry Rx) [rad]."""
     mesh: MeshSpec | None = None
-    """The mesh of the device."""
+    """The mesh that shows the device."""
     intrinsic_delay: float = element(default=0.0, minimum=0, maximum=MAX_DELAY_MS)
-    """The delay between the order to send a packet and its sending [ms]."""
+    """The delay between the command to send a packet and its transmission [ms]."""
     pr_time_inc_per_meter: float = 0.0
-    """A delay per distance [ms/m]: in the grammar, and not read by the original."""
+    """A delay per distance [ms/m]: read and not used, as in the original UWSim."""
     jitter: JitterSpec | None = None
     """The random delays."""
     max_distance: float = element(default=99999999.0, minimum=0)
@@ -111,7 +111,7 @@ class CustomCommsDeviceSpec(DeviceSpec):
     min_distance: float = element(default=0.0, minimum=0)
     """The smallest range [m]."""
     rate_error_model: RateErrorModelSpec | None = None
-    """The probability of damage; without it no packet is damaged."""
+    """The error model; without it no packet has errors."""
     tx_packet_builder: PacketBuilderSpec | None = element(default=None, original=REQUIRED_BY_DTD)
     """The packet builder of the transmitter."""
     rx_packet_builder: PacketBuilderSpec | None = element(default=None, original=REQUIRED_BY_DTD)
@@ -128,11 +128,11 @@ class CustomCommsDeviceSpec(DeviceSpec):
 
     @property
     def topics(self) -> tuple[DeviceTopic, ...]:
-        """The topics of the device, besides that of its interface."""
+        """The topics of the device, besides those of ``<rosInterface>`` elements."""
         return () if self.disable else packet_topics(self.name)
 
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> CommsDevice:
-        """Mount and connect the device; raises UnknownName if there is no such link."""
+        """Mount the device, and connect it to its channels; raise UnknownName without its link."""
         settings = None if self.disable else self._modem_settings(world, vehicle.name)
         return CommsDevice(self, world, vehicle, settings)
 
