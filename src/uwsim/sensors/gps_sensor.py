@@ -52,7 +52,7 @@ class GpsSensorSpec(SensorSpec):
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
     """The orientation of the sensor in the link's frame, roll, pitch, yaw (Rz Ry Rx) [rad]."""
     std: float = element(default=0.0, minimum=0, maximum=1000)
-    """The noise of each coordinate, standard deviation [m]."""
+    """The standard deviation of the noise of each coordinate [m]."""
     max_depth: float = element(namespaced=True, default=0.5, minimum=0, maximum=MAX_DISTANCE)
     """The depth below the surface from which on the receiver has no fix [m]."""
 

@@ -52,7 +52,7 @@ class PressureSensorSpec(SensorSpec):
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")
     """The orientation of the sensor in the link's frame, roll, pitch, yaw (Rz Ry Rx) [rad]."""
     std: float = element(default=0.0, minimum=0, maximum=1e6)
-    """The noise of the measured quantity, standard deviation [m], or [Pa]."""
+    """The standard deviation of the noise of the measured quantity [m], or [Pa]."""
     measures: Quantity = element(namespaced=True, default="depth")
     """The measured quantity: ``depth`` below the surface [m], absolute ``pressure`` [Pa], or
     ``gauge`` pressure, relative to that of the air [Pa]."""

@@ -58,7 +58,7 @@ class RangeSensorSpec(SensorSpec):
     beam_width: float = element(namespaced=True, default=0.0, minimum=0, maximum=120)
     """The width of the beam at -3 dB [deg]; 0: a single ray."""
     std: float = element(namespaced=True, default=0.0, minimum=0, maximum=1000)
-    """The noise of the distance, standard deviation [m]."""
+    """The standard deviation of the noise of the distance [m]."""
 
     def bind(self, world: SensorWorld, vehicle: Carrier) -> RangeSensor:
         """Mount it on its link; raise UnknownName if the vehicle has no such link."""
