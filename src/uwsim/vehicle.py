@@ -21,10 +21,10 @@ class Autopilot(Protocol):
     def go_to(self, world_from_base: Pose) -> None:
         """Move the base to a pose in W, and keep the pose."""
 
-    def command(self, linear: Sequence[float], angular: Sequence[float]) -> None:
+    def set_twist(self, linear: Sequence[float], angular: Sequence[float]) -> None:
         """Move at a linear velocity [m/s] and an angular velocity [rad/s], in base axes."""
 
-    def push(self, force: Array, torque: Array) -> None:
+    def set_wrench(self, force: Array, torque: Array) -> None:
         """Apply a force (3,) [N] and a torque (3,) [N m], in base axes, with the thrusters."""
 
     def set_thrusters(self, commands: Array) -> None:
@@ -42,13 +42,13 @@ class Servos(Protocol):
     def efforts(self) -> Array:
         """The torques or forces at the joints, (n,) [N m or N]."""
 
-    def aim(self, joints: JointIndices, targets: Array) -> None:
+    def set_position_targets(self, joints: JointIndices, targets: Array) -> None:
         """Move joints to target positions (n,) [rad or m], and hold them there."""
 
-    def drive(self, joints: JointIndices, speeds: Array) -> None:
+    def set_velocity_targets(self, joints: JointIndices, speeds: Array) -> None:
         """Move the target positions of joints at velocities (n,) [rad/s or m/s]."""
 
-    def push(self, joints: JointIndices, efforts: Array) -> None:
+    def set_efforts(self, joints: JointIndices, efforts: Array) -> None:
         """Apply efforts (n,) [N m or N] to joints."""
 
 

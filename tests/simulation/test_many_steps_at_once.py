@@ -68,12 +68,14 @@ def with_pilot(simulation: Simulation) -> None:
 
 def driving_an_arm(simulation: Simulation) -> None:
     servos = simulation.world.engine.actuation[0].servos
-    servos.drive(np.array([0, 2]), np.array([0.3, -0.4]))
-    servos.push(np.array([1]), np.array([3.0]))
+    servos.set_velocity_targets(np.array([0, 2]), np.array([0.3, -0.4]))
+    servos.set_efforts(np.array([1]), np.array([3.0]))
 
 
 def adrift(simulation: Simulation) -> None:
-    simulation.world.engine.actuation[0].autopilot.push(np.array([20.0, 3.0, 1.0]), np.zeros(3))
+    simulation.world.engine.actuation[0].autopilot.set_wrench(
+        np.array([20.0, 3.0, 1.0]), np.zeros(3)
+    )
 
 
 def still(simulation: Simulation) -> None:

@@ -62,7 +62,7 @@ def test_a_geared_joint_follows_its_leader_while_it_moves(
     simulation = begin(replace(scene_of(vehicle), path=str(tmp_path / "scene.xml")), is_blind=True)
     servos = simulation.world.vehicles.find("r").servos
     assert servos is not None
-    servos.aim(np.array([0]), np.array([0.8]))
+    servos.set_position_targets(np.array([0]), np.array([0.8]))
     for _ in range(15):
         simulation.advance(0.1)
         world_from_base = simulation.pose("r/base", frame="W").rotation

@@ -85,7 +85,7 @@ def compile_engine_model(inputs: SimulatedScene) -> mujoco.MjModel:
         SceneError: the mass of a loose object is too small, or its buoyancy too great.
     """
     scene, dynamics, shapes = inputs.scene, inputs.dynamics, inputs.shapes
-    _check_step(inputs.timestep, is_simulated=bool(dynamics) or scene.has_uwsim_physics)
+    _check_step(inputs.timestep, has_dynamics=bool(dynamics) or scene.has_uwsim_physics)
     suppress_warnings()
     return cached_model(
         (scene, inputs.robots, dynamics, inputs.timestep, shapes),
@@ -96,7 +96,7 @@ def compile_engine_model(inputs: SimulatedScene) -> mujoco.MjModel:
 
 def _compile(inputs: SimulatedScene) -> mujoco.MjModel:
     scene, dynamics, shapes = inputs.scene, inputs.dynamics, inputs.shapes
-    spec = _make_spec(scene, inputs.timestep, is_simulated=bool(dynamics))
+    spec = _make_spec(scene, inputs.timestep, has_dynamics=bool(dynamics))
     world_from_localized = scene.world_from_localized
     _add_vehicles(spec, inputs)
     loose_physics: dict[str, PhysicsSpec] = {}
@@ -142,7 +142,7 @@ def _compile(inputs: SimulatedScene) -> mujoco.MjModel:
     return model
 
 
-def _make_spec(scene: SceneSpec, timestep: float, *, is_simulated: bool) -> mujoco.MjSpec:
+def _make_spec(scene: SceneSpec, timestep: float, *, has_dynamics: bool) -> mujoco.MjSpec:
     """Return a spec without bodies: step, integrator, contacts and gravity of a scene."""
     spec = mujoco.MjSpec()
     spec.compiler.degree = False
@@ -150,7 +150,7 @@ def _make_spec(scene: SceneSpec, timestep: float, *, is_simulated: bool) -> mujo
     spec.option.integrator = INTEGRATORS[scene.sim_params.integrator]
     if scene.sim_params.contacts == "precise":
         spec.option.noslip_iterations = NOSLIP
-    spec.option.gravity = [0.0, 0.0, -GRAVITY if is_simulated else 0.0]
+    spec.option.gravity = [0.0, 0.0, -GRAVITY if has_dynamics else 0.0]
     if scene.has_uwsim_physics:
         spec.option.gravity = list(scene.sim_params.original_gravity)
     return spec
@@ -172,10 +172,10 @@ def _add_vehicles(spec: mujoco.MjSpec, inputs: SimulatedScene) -> None:
         _add_children(spec, base, robot, robot.root, index, links if is_dynamic else {})
 
 
-def _check_step(timestep: float, *, is_simulated: bool) -> None:
+def _check_step(timestep: float, *, has_dynamics: bool) -> None:
     if not (0.0 < timestep < math.inf):
         raise BadSetting(f"The step is {timestep!r}; expected a time > 0 [s].")
-    if is_simulated and timestep > MAX_STEP:
+    if has_dynamics and timestep > MAX_STEP:
         raise BadSetting(
             f"The step is {timestep:g} s; expected {MAX_STEP:g} s at most where a vehicle is "
             "simulated. Longer steps make the motion unstable (0.002 s is usual)."

@@ -227,7 +227,7 @@ def run_autopilots(plan: Record, o: Ints64, qpos: Array, ctrl: Array) -> None:
     for i in range(plan.n_autopilots):
         numbers = addresses[5 * i : 5 * i + 5]
         state = carray(pointer(numbers[1]), (1,), AUTOPILOT_STATE)[0]
-        if not is_due and state.has_news == 0:
+        if not is_due and state.has_new_command == 0:
             continue
         autopilot = carray(pointer(numbers[0]), (1,), AUTOPILOT)[0]
         thrusters = carray(pointer(numbers[2]), (numbers[4],), THRUSTER)

@@ -81,11 +81,11 @@ class JointCommand(Interface):
 
     def _command_servos(self, servos: Servos, message: JointState) -> None:
         if message.position.size:
-            servos.aim(*self._select_joints(message, message.position))
+            servos.set_position_targets(*self._select_joints(message, message.position))
         elif message.velocity.size:
-            servos.drive(*self._select_joints(message, message.velocity))
+            servos.set_velocity_targets(*self._select_joints(message, message.velocity))
         else:
-            servos.push(*self._select_joints(message, message.effort))
+            servos.set_efforts(*self._select_joints(message, message.effort))
 
     def _select_joints(self, message: JointState, commands: Array) -> tuple[JointIndices, Array]:
         """Return the indices of the joints that a message commands and their values, (n,) each.

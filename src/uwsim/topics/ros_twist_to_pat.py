@@ -79,7 +79,7 @@ class TwistCommand(Interface):
         if not all(map(math.isfinite, numbers)):
             return
         if (autopilot := self._vehicle.autopilot) is not None:
-            autopilot.command(numbers[:3], numbers[3:])
+            autopilot.set_twist(numbers[:3], numbers[3:])
             return
         motion = np.clip(numbers, -MAX_COMMAND, MAX_COMMAND) * interval  # (6,) [m, rad]
         before_from_after = Pose(motion[:3], rotation_from_xyz(*motion[3:].tolist()))

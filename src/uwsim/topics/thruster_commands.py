@@ -172,4 +172,4 @@ class WrenchCommand(Interface):
         f, t = message.wrench.force, message.wrench.torque
         force, torque = np.array([f.x, f.y, f.z]), np.array([t.x, t.y, t.z])
         if np.isfinite(force).all() and np.isfinite(torque).all():
-            self._autopilot.push(force, torque)
+            self._autopilot.set_wrench(force, torque)

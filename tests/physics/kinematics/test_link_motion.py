@@ -95,7 +95,7 @@ def test_joints_that_are_led_move_as_they_are_led() -> None:
     simulation = moving(2)
     engine = simulation.world.engine
     motion = LinkMotion(engine._model, engine._data, engine.poses)
-    speeds, _ = motion.kinematic_motion(0)
+    speeds, _ = motion.joint_rates(0)
     speeds[:] = 2.0 * engine._data.qvel
     body = engine.poses.link_body(0, simulation.world.model.robots[0].links[-1].name)
     led, own = (

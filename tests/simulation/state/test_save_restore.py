@@ -75,7 +75,9 @@ def test_saving_changes_nothing_and_gives_the_same_bytes_twice() -> None:
 def test_servos_that_follow_a_command_go_on() -> None:
     with uwsim.load("currents-scene") as simulation:
         simulation.advance()
-        simulation.world.engine.actuation[0].servos.aim(np.array([0, 1]), np.array([0.4, 0.2]))
+        simulation.world.engine.actuation[0].servos.set_position_targets(
+            np.array([0, 1]), np.array([0.4, 0.2])
+        )
         simulation.advance(0.05)
         saved = simulation.save()
         simulation.advance(0.5)

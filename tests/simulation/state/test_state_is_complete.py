@@ -57,7 +57,7 @@ CACHES = {
     "KinematicContacts._poses": "is compared with the poses when it is used",
     "JointCommand._named": "is compared with the message when it is used",
     "JointCommand._places": "is compared with the message when it is used",
-    "LinkMotion._kinematic_motion": "is written before it is read",
+    "LinkMotion._joint_rates": "is written before it is read",
     "LinkMotion._scratch": "is written before it is read",
     "Motion._numbers": "is written before it is read",
     "PartPoses._bodies": "is compared with the state when it is used",

@@ -63,7 +63,7 @@ def bluerov(current: Current) -> Simulation:
     )
     simulation.advance(0.0)
     simulation.world.water.set(current)
-    simulation.world.engine.actuation[0].autopilot.push(np.zeros(3), np.zeros(3))  # adrift
+    simulation.world.engine.actuation[0].autopilot.set_wrench(np.zeros(3), np.zeros(3))  # adrift
     return simulation
 
 

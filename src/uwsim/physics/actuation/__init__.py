@@ -1,1 +1,1 @@
-"""Actuation of vehicles: thrusters, joint servos, autopilot, electric power."""
+"""Actuation of vehicles with dynamics: autopilot, thrust allocation, servos, electric power."""

@@ -1,8 +1,8 @@
-"""Actuators of a simulated vehicle: present thrusts, efforts and electric power.
+"""The present thrusts, joint efforts and electric power of a vehicle with dynamics.
 
-They are computed from the engine's state after a step, not integrated: the thrust that the rotors
-give at their present speed in the water around them, and the effort of the servos in that step.
-Joints that mimic have a servo and so a motor of their own.
+All are computed from the engine's state after a step: the thrust of each rotor at its present speed
+in the water around it, and the effort of each servo in that step. Mimic joints also have a servo,
+and therefore a motor.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 
 class Actuators:
-    """The thrusters of a vehicle as in its hydrodynamics file, then its joints as in the URDF."""
+    """The thrusters of a vehicle in the order of its hydrodynamics file, then its moving joints."""
 
     def __init__(
         self,
@@ -50,8 +50,8 @@ class Actuators:
             data: the engine's state.
             water: the hydrodynamics of the engine.
             vehicle: the spec of the vehicle's hydrodynamics.
-            robot: the vehicle's links and joints.
-            index: the number of the vehicle.
+            robot: the links and joints of the vehicle.
+            index: the index of the vehicle in the scene.
             refresh: the function that updates the poses in ``data``.
         """
         from . import power_kernel
@@ -61,7 +61,7 @@ class Actuators:
         self.thrusters = tuple(spec.name for spec in vehicle.thrusters)
         """The names of the thrusters."""
         self.joints = tuple(joint.name for joint in moving_joints)
-        """The names of the joints, including those that mimic."""
+        """The names of the joints that move, including mimic joints."""
         powers = [greatest_power(thruster, water.density) for thruster in vehicle.thrusters]
         self.greatest_power = math.fsum(powers)
         """The electric power of all thrusters at their greatest thrusts [W]."""
@@ -84,7 +84,11 @@ class Actuators:
         return self._kernel.thrusts(*self._rotors)
 
     def efforts(self) -> Array:
-        """Compute the servos' efforts; where a servo is off, the commanded one, (m,) [N m or N]."""
+        """Compute the efforts of the servos, or the commanded efforts where servos are off.
+
+        Returns:
+            The efforts, (m,) [N m or N].
+        """
         return self._kernel.efforts(*self._motors)
 
     @cached_property
@@ -103,7 +107,8 @@ class Actuators:
         return self._kernel.powers(self._tables, self._rotors, self._motors)
 
 
-# The kernel's arguments are views into the engine's memory, where servos are switched on and off.
+# The kernel's arguments are views into the engine's memory: they include the gains of the servos,
+# which change when a servo is switched on or off.
 
 
 def _rotors(
@@ -113,7 +118,15 @@ def _rotors(
     rotors: Sequence[int],
     radii: Sequence[float],
 ) -> Rotors:
-    """Return the arguments of `power_kernel.thrusts` for actuators and their radii [m]."""
+    """Return the arguments of `power_kernel.thrusts`.
+
+    Args:
+        model: the engine's model.
+        data: the engine's state.
+        water: the hydrodynamics of the engine.
+        rotors: the actuator ids of the thrusters, n of them.
+        radii: the radius of each propeller [m].
+    """
     sites = model.actuator_trnid[rotors, 0]
     controls = model.actuator_ctrladr[rotors]
     losses = WATER_COLUMNS * model.nbody + np.array(rotors, dtype=np.int64)
@@ -155,5 +168,5 @@ def _motors(
 
 
 def _columns(columns: list[Any], dtype: type) -> npt.NDArray[Any]:
-    """Return the columns side by side, (n, k); n may be 0."""
+    """Return k columns of length n side by side, (n, k); n may be 0."""
     return np.array([np.asarray(column) for column in columns], dtype=dtype).T.copy()

@@ -1,17 +1,18 @@
 r"""Thrust allocation: the axes that a vehicle's thrusters drive, and their limits.
 
-One newton of thruster i along its direction d at the place r gives the force and moment
-:math:`(d, (r - r_0) \times d)` about the reference :math:`r_0`; they are the columns of the matrix
-B (Fossen, *Handbook of Marine Craft*, 2011, section 12.3). An axis is *driven* if thrusts can give
-its force or moment alone, without any along the other driven axes: its row of B differs by more
-than `MIN_LEVER` from every combination of theirs. Of rows that depend on each other, the first in
-the order `AXIS_PRIORITY` is driven, and the others are not.
+One newton of thruster i along its direction d at the position r exerts the force and moment
+:math:`(d, (r - r_0) \times d)` about the reference point :math:`r_0`; these are the columns of the
+matrix B (Fossen, *Handbook of Marine Craft*, 2011, section 12.3). An axis is *driven* if the
+thrusters can exert a force or moment along it without any along the other driven axes: its row of B
+differs by more than `MIN_LEVER` from every linear combination of their rows. Of linearly dependent
+rows, the first in the order `AXIS_PRIORITY` is driven, and the others are not.
 
-Weight and buoyancy alone hold roll and pitch that are not driven. A force that causes a moment
-about them is limited so that the hull tilts by at most `MAX_TILT`. Where less than half of the
-heave force would remain, the thrusters drive pitch instead of heave.
+Roll and pitch that are not driven are held by weight and buoyancy alone. A force whose thrusts also
+exert a moment about roll or pitch is therefore limited, so that the hull tilts by at most
+`MAX_TILT`. If less than half of the heave force would remain, the thrusters drive pitch instead of
+heave.
 
-Not modelled: forces of fins; motion of thrusters on links, which stay where they are at the start.
+Not modelled: forces of fins; motion of thrusters on links, whose initial positions are used.
 """
 
 from __future__ import annotations
@@ -33,51 +34,51 @@ AXES = ("surge", "sway", "heave", "roll", "pitch", "yaw")
 UNITS = ("N", "N", "N", "N m", "N m", "N m")
 SURGE, SWAY, HEAVE, ROLL, PITCH, YAW = range(6)
 AXIS_PRIORITY = (SURGE, YAW, HEAVE, SWAY, PITCH, ROLL)
-"""The order in which axes are driven where the thrusters cannot drive all."""
+"""The axes in order of priority, for thrusters that cannot drive all of them."""
 MIN_LEVER = 0.02
-"""The least force or moment per newton of thrust with which thrusters drive an axis [1, m]."""
+"""The least force [N] or moment [N m] per newton of thrust with which thrusters drive an axis."""
 MAX_TILT = math.radians(20.0)
 """The greatest angle by which thrusters may tilt a hull that rights itself [rad]."""
 MIN_HEAVE_SHARE = 0.5
-"""The least share of the heave force that must remain for heave to be driven."""
+"""The least share of the heave force that must remain for heave to be driven [1]."""
 N_POINTS = 401
-"""The number of points of a thrust curve in the autopilot's table."""
+"""The number of points of a tabulated thrust curve."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Allocation:
-    """The thrust allocation of a vehicle."""
+    """The thrust allocation of a vehicle with n thrusters that drive k axes, in base axes."""
 
     axes: tuple[int, ...]
-    """The driven axes, in rising order."""
+    """The indices of the driven axes, in rising order."""
     wrenches: Array
-    """The force and moment about the reference of one newton of each thruster, (6, n) [1, m]."""
+    """The force and moment about the reference point per newton of each thruster, (6, n) [1, m]."""
     driven_wrenches: Array
-    """The rows of `wrenches` of the driven axes, (k, n)."""
+    """The rows of `wrenches` for the driven axes, (k, n)."""
     allocation_matrix: Array
-    """The thrusts for a unit of each driven axis, (n, k) [N per N or N m]."""
+    """The thrusts per unit of force or moment along each driven axis, (n, k) [1, 1/m]."""
     max_forces: Array
-    """The force along each driven axis that tilts the hull by `MAX_TILT`, (6,) [N]; else inf."""
+    """The force along each axis that tilts the hull by `MAX_TILT`, (6,) [N]; inf if none does."""
     min_thrusts: Array
-    """The greatest thrusts backwards, (n,) [N]."""
+    """The greatest backward thrust of each thruster, negative, (n,) [N]."""
     max_thrusts: Array
-    """The greatest thrusts forwards, (n,) [N]."""
+    """The greatest forward thrust of each thruster, (n,) [N]."""
 
     @property
     def driven_mask(self) -> Array:
-        """The mask of the driven axes: 1 for each of them, 0 for the others, (6,)."""
+        """The mask of the driven axes, (6,): 1 for a driven axis, 0 for the others."""
         flags = np.zeros(6)
         flags[list(self.axes)] = 1.0
         return flags
 
     def force_limits(self, axis: int) -> tuple[float, float]:
-        """Return the limits of the force or moment along a driven axis, both ways [N, N m]."""
+        """Return the lower and upper limit of the force or moment along a driven axis [N, N m]."""
         column = self.allocation_matrix[:, self.axes.index(axis)]
         limits = _thruster_limits(column, self.min_thrusts, self.max_thrusts)
         return -min(-limits[0], self.max_forces[axis]), min(limits[1], self.max_forces[axis])
 
     def thruster_limits(self, axis: int) -> tuple[float, float]:
-        """Return the same without the limit on the tilt of the hull."""
+        """Return the limits of `force_limits` without the limit on the tilt of the hull."""
         column = self.allocation_matrix[:, self.axes.index(axis)]
         return _thruster_limits(column, self.min_thrusts, self.max_thrusts)
 
@@ -88,9 +89,10 @@ def allocate(
     """Compute the allocation of some thrusters.
 
     Args:
-        thrusters: positions and directions in the base's frame.
-        reference: the point that forces and moments are about, (3,) [m].
-        stiffness: the righting stiffness of the hull [N m/rad]; up to 0: it does not right itself.
+        thrusters: the thrusters, with positions and directions in the base's frame.
+        reference: the point about which moments are computed, in the base's frame, (3,) [m].
+        stiffness: the righting stiffness of the hull [N m/rad]; 0 or less if the hull does not
+            right itself.
     """
     columns = [wrench(thruster, reference) for thruster in thrusters]
     wrenches = np.array(columns).reshape(-1, 6).T  # (6, n): N, N m per N
@@ -110,12 +112,12 @@ def allocate(
 def thrusters_on_base(
     robot: RobotSpec, thrusters: Sequence[ThrusterSpec], joint_values: Sequence[float] = ()
 ) -> tuple[ThrusterSpec, ...]:
-    """Return all thrusters as if fixed to the base, with the links where they are at the start.
+    """Return all thrusters in the frame of the base, with the links at their initial poses.
 
     Args:
         robot: the links and joints of the vehicle.
         thrusters: the thrusters, each in the frame of its link.
-        joint_values: the joint vector at the start [rad or m].
+        joint_values: the initial joint vector [rad or m].
     """
     poses = link_poses(robot, joint_values)
     base_thrusters = []
@@ -130,11 +132,13 @@ def thrusters_on_base(
 
 
 def driven_axes(wrenches: Array, order: Sequence[int]) -> tuple[int, ...]:
-    """Return the axes whose rows of (6, n) do not depend on those of earlier axes, in rising order.
+    """Return the driven axes, in rising order.
+
+    An axis is driven if its row is linearly independent of the rows of axes with higher priority.
 
     Args:
-        wrenches: the force and moment of one newton of each thruster.
-        order: the axes to consider, that of the highest priority first.
+        wrenches: the force and moment per newton of each thruster, (6, n) [1, m].
+        order: the axes to consider, the axis with the highest priority first.
     """
     basis: list[Array] = []
     axes = []
@@ -150,7 +154,7 @@ def driven_axes(wrenches: Array, order: Sequence[int]) -> tuple[int, ...]:
 
 
 def wrench(thruster: ThrusterSpec, reference: Array) -> Array:
-    """Return the force and moment about the reference of one newton of a thruster, (6,)."""
+    """Return the force and moment about a reference point per newton of a thruster, (6,) [1, m]."""
     direction = np.array(thruster.direction, dtype=np.float64)
     direction /= length(direction)
     arm = np.array(thruster.position) - reference
@@ -159,7 +163,7 @@ def wrench(thruster: ThrusterSpec, reference: Array) -> Array:
 
 @lru_cache(maxsize=256)
 def thrust_curve(thruster: ThrusterSpec) -> tuple[Array, Array]:
-    """Return the thrusts [N] and the commands that give them [1], both in rising order."""
+    """Return the thrust curve: thrusts [N] and their commands [1], both in rising order."""
     commands = np.linspace(*thruster.limits, N_POINTS)
     backward = thruster.forward if thruster.backward is None else thruster.backward
     thrusts = []
@@ -170,7 +174,7 @@ def thrust_curve(thruster: ThrusterSpec) -> tuple[Array, Array]:
         thrusts.append(math.copysign(force, command))
     curve = np.maximum.accumulate(np.array(thrusts)), commands
     for array in curve:
-        array.flags.writeable = False  # the cache returns the same arrays again
+        array.flags.writeable = False  # all callers receive the same cached arrays
     return curve
 
 
@@ -197,7 +201,10 @@ def _allocation(
 
 
 def _tilting_moments(allocation: Allocation, axis: int) -> Array:
-    """Return the moments about undriven roll and pitch that a force along an axis causes, (6,)."""
+    """Return the moments per unit of force along an axis about undriven roll and pitch, (6,) [m].
+
+    The other elements are 0.
+    """
     thrusts = allocation.allocation_matrix[:, allocation.axes.index(axis)]
     moments = np.abs(product(allocation.wrenches, thrusts))
     for other in range(6):
@@ -207,7 +214,7 @@ def _tilting_moments(allocation: Allocation, axis: int) -> Array:
 
 
 def _thruster_limits(column: Array, min_thrusts: Array, max_thrusts: Array) -> tuple[float, float]:
-    """Return the greatest multiples of thrusts, both ways, before a thruster saturates."""
+    """Return the negative and positive factor of thrusts (n,) at which a thruster saturates."""
     limits = []
     for sign in (-1.0, 1.0):
         thrusts = sign * column

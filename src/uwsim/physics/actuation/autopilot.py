@@ -1,40 +1,42 @@
-r"""Autopilot: the velocity, depth, heading and position loops of a vehicle.
+r"""Autopilot of a vehicle: control loops of velocity, depth, heading and position.
 
-A command holds until the next of any kind. Its loops start at the present depth and heading.
+Each command is in effect until the next command of any kind. A new command takes the present depth
+and heading as setpoints.
 
-*Velocity.* Each of surge, sway, heave and yaw has a loop on the velocity :math:`\nu` relative to
-the water (which a vehicle without bottom lock measures), or to the ground:
+*Velocity.* Surge, sway, heave and yaw each have a loop that controls the velocity :math:`\nu`
+through the water (as a vehicle without bottom lock measures it), or over ground:
 
 .. math:: \tau = M (\dot\nu_r + k_v (\nu_r - \nu) + k_i \int (\nu_r - \nu)\,dt)
     + D(\nu_r) + v \times A v
 
 M is the mass and added mass, D the drag, and the last term cancels the Munk moment of the added
-mass A. The reference :math:`\nu_r` follows the desired twist :math:`\nu_d` with the time constant
-:math:`2.5\,T` (a reference model: Fossen, *Handbook of Marine Craft*, section 12.1), which avoids
-overshoot. T is the time constant of the slowest thruster. The gains :math:`k_v = 0.32/T` and
-:math:`k_i = 0.032/T^2` give the loop :math:`T s^3 + s^2 + k_v s + k_i` the poles
-:math:`0.2/T, 0.4/T, 0.4/T`: it does not oscillate. A faster loop oscillates. Through a camera that
-tilts with the hull it also excites a roll that no thruster damps. Where the thrusters are at their
-limits the integral does not grow (clamping).
+mass A; v is the linear velocity. The reference :math:`\nu_r` follows the desired twist
+:math:`\nu_d` with the time constant :math:`2.5\,T` (a reference model: Fossen, *Handbook of Marine
+Craft*, section 12.1), which avoids overshoot. T is the time constant of the slowest thruster. With
+the gains :math:`k_v = 0.32/T` and :math:`k_i = 0.032/T^2` the characteristic polynomial
+:math:`T s^3 + s^2 + k_v s + k_i` has the poles :math:`-0.2/T, -0.4/T, -0.4/T`, so the loop does not
+oscillate. A faster loop would. If its error came from a camera that tilts with the hull, it would
+also excite a roll that no thruster damps. While thrusters are at their limits the integral does not
+grow (clamping).
 
-*Depth and heading* are held where the last command left them: heave and yaw rate are proportional
-to the error. *Position* hold also makes surge and sway proportional to the error, at most 0.5 m/s,
-over ground: a vehicle with a position has its velocity over ground. *Wrench*: it is allocated, and
-nothing is held. *Thrusters*: their commands are passed on. *Pitch* and, where thrusters drive it
-beside the other axes, *roll* are levelled: the angle is the integral of the rate, with the gain
-:math:`k_i`. Forces are allocated by least squares and converted to commands by the thrusters'
-curves. Where they exceed the limits, surge and sway are reduced.
+*Depth and heading* are held at their setpoints: the desired heave and yaw rate are proportional to
+the error. *Position* hold also makes the desired surge and sway proportional to the error, at most
+0.5 m/s, and controls the velocity over ground. A commanded *wrench* is allocated to the thrusters
+without any control loop. *Thruster* commands are passed on unchanged. *Pitch*, and *roll* where the
+thrusters drive it, are kept level: the angle is the integral of the angular rate, and has the gain
+:math:`k_i`. Forces are allocated to the thrusters by least squares and converted to commands by the
+thrust curves. If thrusts exceed their limits, surge and sway are reduced.
 
-*Axes that are not driven* (`uwsim.physics.actuation.allocation`) get no force, and their integrals
-stay 0. Where pitch is driven and heave is not, depth is held by the pitch :math:`\gamma` of a
-vehicle with the desired climb rate c and the speed u
+*Axes that are not driven* (`uwsim.physics.actuation.allocation`) have no force, and their integrals
+are 0. If pitch is driven and heave is not, depth is controlled by pitch. With the desired climb
+rate c and the forward speed u, the desired pitch is
 
 .. math:: \gamma = c\,u / (u^2 + u_0^2), \qquad |\gamma| \le 0.35
 
-Where pitch is not driven, the desired surge fades out while the tilt grows from `FADE_START` to
+If pitch is not driven, the desired surge decreases to 0 as the tilt grows from `FADE_START` to
 `FADE_END`, so that a tilted vehicle does not reach the surface or the floor.
 
-The autopilot reads the true state. Not modelled: noise and delay of its sensors.
+The autopilot receives the true state. Not modelled: noise and delay of its sensors.
 """
 
 from __future__ import annotations
@@ -54,41 +56,42 @@ from .allocation import ROLL, Allocation, allocate, thrust_curve
 from .records import AUTOPILOT, AUTOPILOT_STATE, POSITION, THRUSTER, THRUSTERS, VELOCITY, WRENCH
 
 WRENCH_AXES_WITHOUT_ROLL = (0, 1, 2, 4, 5)
-"""The axes of a commanded wrench where the thrusters do not drive roll."""
+"""The axes of a commanded wrench that are allocated if the thrusters do not drive roll."""
 WRENCH_AXES = (0, 1, 2, 3, 4, 5)
-"""The axes of a commanded wrench."""
+"""The axes of a commanded wrench that are allocated if the thrusters drive roll."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Gains:
-    """The gains of the control loops."""
+    """The gains of the outer control loops."""
 
     depth: float = 0.4
-    """The desired heave per depth error [1/s]."""
+    """The desired climb rate per depth error [1/s]."""
     position: float = 0.4
-    """The desired surge and sway per position error [1/s]."""
+    """The desired surge and sway velocity per position error [1/s]."""
     heading: float = 0.5
     """The desired yaw rate per heading error [1/s]."""
 
 
 MIN_LAG = 0.08
-"""The least time constant assumed for thrusters: the autopilot runs every 20 ms [s]."""
+"""The least time constant that the gains assume for thrusters, as the autopilot runs every 20 ms
+[s]."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class BaseAddresses:
-    """The addresses in the engine of a vehicle's base and thrusters."""
+    """The indices of a vehicle's base and thrusters in the engine's arrays."""
 
     qpos_address: int
-    """The address of the base's pose in ``qpos``."""
+    """The index of the base's pose in ``qpos``."""
     dof_address: int
-    """The first degree of freedom of the base."""
+    """The index of the first degree of freedom of the base."""
     body: int
-    """The engine's number of the base."""
+    """The index of the base among the engine's bodies."""
     ctrl_addresses: Sequence[int]
-    """The addresses of the thrusters' commands in ``ctrl``."""
+    """The indices of the thrusters' commands in ``ctrl``."""
     is_over_ground: bool
-    """True if the velocity loops use the velocity over ground, not that through the water."""
+    """True if the velocity loops control the velocity over ground, else through the water."""
 
 
 @dataclass(slots=True)
@@ -96,9 +99,9 @@ class AutopilotState(Record):
     """The state of an autopilot."""
 
     loops: npt.NDArray[np.void]
-    """The state of the control loops, (1,) of `records.AUTOPILOT_STATE`."""
+    """The state of the control loops, a record of `records.AUTOPILOT_STATE`, (1,)."""
     commands: Array
-    """The commands that are passed on to the thrusters, (n,) [1]."""
+    """The last thruster commands that were set directly, (n,) [1]."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -106,13 +109,13 @@ class AutopilotModel:
     """The parameters of an autopilot, which do not change while a simulation runs."""
 
     reference: Array
-    """The point that forces and moments are about, in the base's frame, (3,) [m]."""
+    """The point about which moments are computed, in the base's frame, (3,) [m]."""
     allocation: Allocation
-    """The thrust allocation."""
+    """The thrust allocation of the vehicle."""
     loops: npt.NDArray[np.void]
-    """The parameters of the control loops, (1,) of `records.AUTOPILOT`."""
+    """The parameters of the control loops, a record of `records.AUTOPILOT`, (1,)."""
     thrusters: npt.NDArray[np.void]
-    """The parameters of the thrusters, (n,) of `records.THRUSTER`."""
+    """The parameters of the thrusters, records of `records.THRUSTER`, (n,)."""
 
 
 def autopilot_model(
@@ -128,9 +131,9 @@ def autopilot_model(
 
     Args:
         vehicle: the vehicle's hydrodynamics.
-        link: the name of its base.
+        link: the name of the base link.
         mass: the mass of the whole vehicle with its arm [kg].
-        addresses: the addresses in the engine.
+        addresses: the indices of the base and the thrusters in the engine.
         stiffness: the righting stiffness of the hull [N m/rad].
         thrusters: the thrusters in the base's frame.
     """
@@ -149,71 +152,73 @@ def autopilot_model(
 
 
 class Autopilot:
-    """The autopilot of one vehicle: velocity loops; depth, heading and position hold.
+    """The autopilot of one vehicle.
 
-    It receives the commands; `autopilot_kernel.steer` carries them out.
+    This class stores commands in the state; `autopilot_kernel.steer` executes them.
 
     Args:
-        model: its parameters.
+        model: the parameters of the autopilot.
     """
 
     def __init__(self, model: AutopilotModel) -> None:
         self._model = model
         self._state = np.zeros(1, AUTOPILOT_STATE)
-        self._state["heading"] = np.eye(3)
+        self._state["heading_setpoint"] = np.eye(3)
         self._mode: Array = self._state["mode"]
-        self._twist: Array = self._state["wanted"][0]
+        self._twist: Array = self._state["commanded_twist"][0]
         self._integral: Array = self._state["integral"]
         self._commands = np.zeros(len(model.thrusters))
         self.state = AutopilotState(self._state, self._commands)
-        """The state of the autopilot."""
+        """The state of the control loops, and the last thruster commands."""
 
     @property
     def addresses(self) -> tuple[int, int, int, int, int]:
-        """The addresses of parameters, state, thrusters and commands; the number of thrusters."""
+        """The memory addresses of parameters, state, thrusters and commands; their number n."""
         records = (self._model.loops, self._state, self._model.thrusters, self._commands)
         parameters, state, thrusters, commands = (record.ctypes.data for record in records)
         return parameters, state, thrusters, commands, len(self._commands)
 
     def hold(self, world_from_base: Pose) -> None:
-        """Hold the present depth and heading, at rest, and reset the loops."""
+        """Reset the loops, and hold the depth and heading of a pose at zero velocity."""
         state = self._state
-        state["mode"], state["takes_over"] = VELOCITY, False
-        for name in ("wanted", "model", "integral"):
+        state["mode"], state["needs_setpoints"] = VELOCITY, False
+        for name in ("commanded_twist", "reference_twist", "integral"):
             state[name] = 0.0
-        state["target"][:, 2] = world_from_base.position[2]
-        state["heading"] = world_from_base.rotation
+        state["position_setpoint"][:, 2] = world_from_base.position[2]
+        state["heading_setpoint"] = world_from_base.rotation
 
-    def command(self, linear: Sequence[float], angular: Sequence[float]) -> None:
-        """Set the desired twist [m/s, rad/s] in the base frame, until the next command."""
-        self._change_to(VELOCITY, takes_over=True)
+    def set_twist(self, linear: Sequence[float], angular: Sequence[float]) -> None:
+        """Set the desired linear [m/s] and angular [rad/s] velocity in base axes."""
+        self._change_to(VELOCITY, resets_setpoints=True)
         self._twist[:] = [min(max(x, -MAX_COMMAND), MAX_COMMAND) for x in (*linear, *angular)]
 
     def go_to(self, world_from_base: Pose) -> None:
-        """Hold a position and its heading; roll and pitch of the pose have no effect."""
-        self._change_to(POSITION, takes_over=False)
-        self._state["takes_over"] = False
-        self._state["wanted"] = 0.0
-        self._state["target"] = np.clip(world_from_base.position, -MAX_COMMAND, MAX_COMMAND)
-        self._state["heading"] = world_from_base.rotation
+        """Set the position and the heading to hold; roll and pitch of the pose have no effect."""
+        self._change_to(POSITION, resets_setpoints=False)
+        self._state["needs_setpoints"] = False
+        self._state["commanded_twist"] = 0.0
+        self._state["position_setpoint"] = np.clip(
+            world_from_base.position, -MAX_COMMAND, MAX_COMMAND
+        )
+        self._state["heading_setpoint"] = world_from_base.rotation
 
-    def push(self, force: Array, torque: Array) -> None:
-        """Allocate a force [N] and a torque about the base's origin [N m], base axes."""
-        self._state["mode"], self._state["has_news"] = WRENCH, True
+    def set_wrench(self, force: Array, torque: Array) -> None:
+        """Set the force [N] and the torque about the base's origin [N m] to exert, in base axes."""
+        self._state["mode"], self._state["has_new_command"] = WRENCH, True
         force, torque = np.clip([force, torque], -MAX_COMMAND, MAX_COMMAND)
         moment = torque - np.cross(self._model.reference, force)
-        self._state["wrench"] = np.concatenate([force, moment])
+        self._state["commanded_wrench"] = np.concatenate([force, moment])
 
     def set_thrusters(self, commands: Array) -> None:
-        """Pass commands on to the thrusters, (n,) [1]."""
-        self._state["mode"], self._state["has_news"] = THRUSTERS, True
+        """Set the commands of the thrusters directly, (n,) [1]."""
+        self._state["mode"], self._state["has_new_command"] = THRUSTERS, True
         self._commands[:] = commands
 
-    def _change_to(self, mode: int, *, takes_over: bool) -> None:
+    def _change_to(self, mode: int, *, resets_setpoints: bool) -> None:
         if self._mode[0] != mode:
             self._mode[0] = mode
-            if takes_over:
-                self._state["takes_over"] = True
+            if resets_setpoints:
+                self._state["needs_setpoints"] = True
             self._integral[:] = 0.0
 
 
@@ -225,7 +230,7 @@ def _autopilot_record(
     lag = max([MIN_LAG, *(thruster.time_constant for thruster in vehicle.thrusters)])
     added_mass = matrix(body.added_mass) if body else np.zeros((6, 6))
     inertia = body.inertia[:3] if body and body.inertia else (1.0,) * 3
-    # a commanded wrench gets the thrusts of least error, whatever undriven axes add
+    # a commanded wrench is allocated with least error over these axes, driven or not
     wrench_axes = WRENCH_AXES if ROLL in allocation.axes else WRENCH_AXES_WITHOUT_ROLL
     record = np.zeros(1, AUTOPILOT)
     record["time_constant"] = 2.5 * lag

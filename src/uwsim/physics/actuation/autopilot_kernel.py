@@ -1,4 +1,4 @@
-"""Control loops and thrust allocation of an autopilot, compiled (`autopilot`)."""
+"""The compiled control loops and thrust allocation of an autopilot; see `autopilot`."""
 
 from __future__ import annotations
 
@@ -16,25 +16,26 @@ MAX_SPEED = 0.5
 MAX_CLIMB_RATE = 0.3
 """The greatest climb rate that depth hold commands [m/s]."""
 MAX_PITCH = 0.35
-"""The greatest pitch by which a vehicle without heave changes its depth [rad]."""
+"""The greatest pitch with which a vehicle without driven heave changes its depth [rad]."""
 PITCH_SPEED = 0.3
-"""The speed u_0 below which pitch hardly changes the depth [m/s]."""
+"""The speed u_0, below which pitch hardly changes the depth [m/s]."""
 FADE_START, FADE_END = 0.4363, 0.7854
-"""The tilts between which surge fades out where pitch is not driven: 25 and 45 degrees [rad]."""
+"""The tilts between which the desired surge decreases to 0 if pitch is not driven: 25 and 45
+degrees [rad]."""
 
 Record = Any
-"""A record of `records`."""
+"""A record of one of the types in `records`, or an array of records."""
 
 
 class Base(NamedTuple):
-    """The motion of the base that an autopilot controls."""
+    """The motion of the base of a vehicle; W is the world frame."""
 
     position: Array
     """The position in W, (3,) [m]."""
     rotation: Array
-    """``world_from_base``, (3, 3)."""
+    """The rotation matrix ``world_from_base``, (3, 3)."""
     velocity: Array
-    """The velocity relative to water or ground, base axes, (6,) [m/s, rad/s]."""
+    """The twist through the water or over ground, in base axes, (6,) [m/s, rad/s]."""
 
 
 @njit
@@ -47,18 +48,18 @@ def steer(
     base: Base,
     ctrl: Array,
 ) -> None:
-    """Set the commands of the thrusters.
+    """Compute the commands of the thrusters.
 
     Args:
         dt: the time since the last call [s].
         autopilot: a record of `records.AUTOPILOT`.
-        state: a record of `records.AUTOPILOT_STATE`, which is advanced.
+        state: a record of `records.AUTOPILOT_STATE`, which is advanced by ``dt``.
         thrusters: records of `records.THRUSTER`, (n,).
-        thruster_commands: the commands that are passed on, (n,) [1].
+        thruster_commands: the commands for the mode ``THRUSTERS``, (n,) [1].
         base: the motion of the base.
-        ctrl: the engine's controls, which are set.
+        ctrl: the engine's ``ctrl``, which receives the commands.
     """
-    state.has_news = 0
+    state.has_new_command = 0
     if state.mode == THRUSTERS:
         for k in range(len(thrusters)):
             ctrl[thrusters[k].ctrl_address] = thruster_commands[k]
@@ -66,7 +67,7 @@ def steer(
     if state.mode == WRENCH:
         thrusts = distribute_wrench(autopilot, state, thrusters)
     else:
-        if state.takes_over != 0:
+        if state.needs_setpoints != 0:
             set_setpoints(state, base)
         thrusts = run_loops(dt, autopilot, state, thrusters, base)
     for k in range(len(thrusters)):
@@ -75,37 +76,39 @@ def steer(
 
 @njit
 def set_setpoints(state: Record, base: Base) -> None:
-    """Set depth, heading and velocity of the vehicle as setpoints."""
-    state.takes_over = 0
+    """Take the present depth, heading and velocity of the vehicle as setpoints."""
+    state.needs_setpoints = 0
     for i in range(6):
-        state.model[i] = base.velocity[i]
-    state.target[2] = base.position[2]
+        state.reference_twist[i] = base.velocity[i]
+    state.position_setpoint[2] = base.position[2]
     for i in range(3):
         for k in range(3):
-            state.heading[i, k] = base.rotation[i, k]
+            state.heading_setpoint[i, k] = base.rotation[i, k]
 
 
 @njit
 def run_loops(dt: float, autopilot: Record, state: Record, thrusters: Record, base: Base) -> Array:
     """Return the thrusts that the velocity, depth, heading and position loops command, (n,) [N].
 
-    The arguments are those of `steer`. The setpoints of depth and heading advance, and so does the
-    integral of the error, unless thrusters are at their limits.
+    See `steer` for the arguments. The state advances: the setpoints of depth and heading, the
+    reference model, and the integral of the error unless thrusters are at their limits.
     """
     nu_d, climb_rate = desired_twist(dt, autopilot, state, base)
     rotation = base.rotation
     up = rotation[2, 2]
-    # W's z in base axes; -z for a base whose z points down
+    # the z axis of W in base axes, reversed for a base whose z axis points down
     side = 1.0 if up >= 0.0 else -1.0
     x, y, z = side * rotation[2, 0], side * rotation[2, 1], side * rotation[2, 2]
-    pitch = math.atan2(-x, z)  # about the base's y
+    pitch = math.atan2(-x, z)  # about the y axis of the base
     desired_pitch = 0.0
     if autopilot.driven_mask[4] == 0.0:
         nu_d[0] *= min(max((FADE_END - abs(pitch)) / (FADE_END - FADE_START), 0.0), 1.0)
     elif autopilot.driven_mask[2] == 0.0:
-        desired_pitch = -side * climb_pitch(climb_rate, state.wanted[2] * up, base.velocity[0])
-    nu_r_dot = (nu_d - state.model) / max(autopilot.time_constant, dt)
-    nu_r = state.model
+        desired_pitch = -side * climb_pitch(
+            climb_rate, state.commanded_twist[2] * up, base.velocity[0]
+        )
+    nu_r_dot = (nu_d - state.reference_twist) / max(autopilot.time_constant, dt)
+    nu_r = state.reference_twist
     nu_r += nu_r_dot * dt
     error = nu_r - base.velocity
     p, q, r = base.velocity[3], base.velocity[4], base.velocity[5]
@@ -130,10 +133,10 @@ def run_loops(dt: float, autopilot: Record, state: Record, thrusters: Record, ba
 def desired_twist(dt: float, autopilot: Record, state: Record, base: Base) -> tuple[Array, float]:
     """Return the desired twist in base axes, (6,) [m/s, rad/s], and the desired climb rate [m/s].
 
-    The setpoints of depth and heading advance by the commanded twist nu_c.
+    The setpoints of depth and heading advance by the commanded twist over ``dt``.
     """
     rotation, position = base.rotation, base.position
-    nu_c, target, heading = state.wanted, state.target, state.heading
+    nu_c, target, heading = state.commanded_twist, state.position_setpoint, state.heading_setpoint
     nu_d = nu_c.copy()
     if state.mode == POSITION:
         x_error, y_error = 0.0, 0.0  # [m]
@@ -144,12 +147,12 @@ def desired_twist(dt: float, autopilot: Record, state: Record, base: Base) -> tu
         gain = autopilot.position_gain * min(1.0, MAX_SPEED / max(speed, 1e-9))
         nu_d[0] += gain * x_error
         nu_d[1] += gain * y_error
-    up = rotation[2, 2]  # how much of W's z lies along the base's z: +-1 when level
+    up = rotation[2, 2]  # the cosine between the z axes of W and of the base: +-1 when level
     target[2] += nu_c[2] * up * dt
     climb_rate = autopilot.depth_gain * (target[2] - position[2])
     nu_d[2] += min(max(climb_rate, -MAX_CLIMB_RATE), MAX_CLIMB_RATE) * up
     cosine, sine = math.cos(nu_c[5] * dt), math.sin(nu_c[5] * dt)
-    heading_y = heading_x = 0.0  # the desired x axis, in base axes
+    heading_y = heading_x = 0.0  # of the desired x axis, in base axes
     for k in range(3):
         x, y = heading[k, 0], heading[k, 1]
         heading[k, 0], heading[k, 1] = cosine * x + sine * y, cosine * y - sine * x
@@ -161,7 +164,13 @@ def desired_twist(dt: float, autopilot: Record, state: Record, base: Base) -> tu
 
 @njit
 def climb_pitch(climb_rate: float, commanded_rate: float, u: float) -> float:
-    """Return the pitch that gives a vehicle without heave the desired climb rate [rad]."""
+    """Return the pitch for a desired climb rate of a vehicle without driven heave [rad].
+
+    Args:
+        climb_rate: the climb rate that the depth loop desires [m/s].
+        commanded_rate: the commanded climb rate [m/s].
+        u: the surge velocity [m/s].
+    """
     gamma = min(max(climb_rate, -MAX_CLIMB_RATE), MAX_CLIMB_RATE) + commanded_rate
     gamma *= u / (u * u + PITCH_SPEED * PITCH_SPEED)
     return min(max(gamma, -MAX_PITCH), MAX_PITCH)
@@ -171,7 +180,16 @@ def climb_pitch(climb_rate: float, commanded_rate: float, u: float) -> float:
 def control_force(
     autopilot: Record, nu_r_dot: Array, error: Array, integral: Array, nu_r: Array, nu: Array
 ) -> Array:
-    """Return the force and moment that the velocity loops command, (6,) [N, N m]."""
+    """Return the force and moment that the velocity loops command, (6,) [N, N m].
+
+    Args:
+        autopilot: a record of `records.AUTOPILOT`.
+        nu_r_dot: the rate of the reference twist, (6,) [m/s2, rad/s2].
+        error: the reference twist minus the twist, (6,) [m/s, rad/s].
+        integral: the integral of the error, (6,) [m, rad].
+        nu_r: the reference twist, (6,) [m/s, rad/s].
+        nu: the twist, (6,) [m/s, rad/s].
+    """
     tau: Array = autopilot.mass * (
         nu_r_dot + autopilot.velocity_gain * error + autopilot.integral_gain * integral
     )
@@ -188,7 +206,16 @@ def control_force(
 def allocate_thrusts(
     autopilot: Record, thrusters: Record, tau: Array, error: Array, start: Array, integral: Array
 ) -> Array:
-    """Return thrusts for a force and moment, (n,) [N]; integrals that wind up stay at ``start``."""
+    """Return the thrusts for a force and moment, (n,) [N], and prevent windup of the integrals.
+
+    Args:
+        autopilot: a record of `records.AUTOPILOT`.
+        thrusters: records of `records.THRUSTER`, (n,).
+        tau: the desired force and moment, which is limited here, (6,) [N, N m].
+        error: the error of each axis, (6,).
+        start: the integrals before this call of the autopilot, (6,).
+        integral: the integrals, which are reset to ``start`` along saturated axes, (6,).
+    """
     for i in range(3):
         limited_force = min(max(tau[i], -autopilot.max_forces[i]), autopilot.max_forces[i])
         if (tau[i] - limited_force) * error[i] > 0.0:
@@ -197,7 +224,7 @@ def allocate_thrusts(
     optimum = distribute_force(autopilot, thrusters, tau)
     thrusts = reduce_surge_sway(autopilot, thrusters, tau, optimum)
     for i in range(autopilot.n_axes):
-        shortfall = 0.0  # force or moment beyond the thrusters' limits
+        shortfall = 0.0  # the desired force or moment beyond the limits of the thrusters
         for k in range(len(thrusts)):
             thruster = thrusters[k]
             excess = optimum[k] - min(max(thrusts[k], thruster.min_thrust), thruster.max_thrust)
@@ -210,10 +237,10 @@ def allocate_thrusts(
 
 @njit
 def reduce_surge_sway(autopilot: Record, thrusters: Record, tau: Array, optimum: Array) -> Array:
-    """Return the thrusts with surge and sway reduced to what the other axes leave, (n,) [N].
+    """Return thrusts with surge and sway reduced until no thruster exceeds its limit, (n,) [N].
 
-    Attitude, depth and heading come first: clamping each thruster by itself would turn the vehicle
-    over.
+    The forces along the other axes are kept: if each thruster were limited separately, the vehicle
+    would lose attitude, depth and heading.
     """
     other_axes = tau.copy()
     other_axes[0] = other_axes[1] = 0.0
@@ -229,7 +256,7 @@ def reduce_surge_sway(autopilot: Record, thrusters: Record, tau: Array, optimum:
 
 @njit
 def distribute_force(autopilot: Record, thrusters: Record, tau: Array) -> Array:
-    """Return the thrusts, not limited, of least error for a force and moment (6,), (n,) [N]."""
+    """Return the least-squares thrusts for a force and moment (6,), without limits, (n,) [N]."""
     thrusts = np.zeros(len(thrusters))
     for k in range(len(thrusters)):
         for i in range(autopilot.n_axes):
@@ -239,19 +266,21 @@ def distribute_force(autopilot: Record, thrusters: Record, tau: Array) -> Array:
 
 @njit
 def distribute_wrench(autopilot: Record, state: Record, thrusters: Record) -> Array:
-    """Return the thrusts, not limited, of least error for the commanded wrench, (n,) [N]."""
+    """Return the least-squares thrusts for the commanded wrench, without limits, (n,) [N]."""
     thrusts = np.zeros(len(thrusters))
     for k in range(len(thrusters)):
         for i in range(autopilot.n_wrench_axes):
-            thrusts[k] += thrusters[k].wrench_allocation[i] * state.wrench[autopilot.wrench_axes[i]]
+            thrusts[k] += (
+                thrusters[k].wrench_allocation[i] * state.commanded_wrench[autopilot.wrench_axes[i]]
+            )
     return thrusts
 
 
 @njit
 def thruster_command(thruster: Record, force: float) -> float:
-    """Return a thruster's command for a thrust [N], within its limits [1]."""
+    """Return the command of a thruster for a thrust [N], within the thruster's limits [1]."""
     x, y = thruster.thrusts, thruster.commands
-    j, end = -1, len(x)  # the last point that is not beyond the force
+    j, end = -1, len(x)  # bisection for the last point whose thrust is not above the force
     while end - j > 1:
         middle = (j + end) // 2
         if x[middle] > force:

@@ -1,29 +1,31 @@
 r"""Electric power that the thrusters and joints of a vehicle draw from its battery.
 
-*Thruster.* A propeller that does not advance must give the water of its disc the power of momentum
-theory (Rankine and Froude; Carlton, *Marine Propellers and Propulsion*, ch. 8):
+*Thruster.* With the power of a propeller without advance by momentum theory (Rankine and Froude;
+Carlton, *Marine Propellers and Propulsion*, ch. 8), the electric power at the thrust T is
 
 .. math:: P = \frac{|T|^{3/2}}{\eta \sqrt{2 \rho A}}, \qquad A = \pi r^2
 
-where :math:`\eta` is the *efficiency* from the battery to that ideal: motor and its electronics
-times the propeller's figure of merit. A duct may lift the figure of merit up to
-:math:`\sqrt 2`. Instead of the law a file may give measured power as a polynomial of the thrust,
+with the density :math:`\rho` of the water and the radius r of the propeller. The *efficiency*
+:math:`\eta` is that of the motor and its electronics times the propeller's figure of merit, which a
+duct may raise up to :math:`\sqrt 2`. Instead, a file may state measured power as a polynomial of
+the thrust,
 
 .. math:: P = c_1 |T| + c_2 |T|^2 + \dots
 
-T is the present thrust: a dead thruster draws no power. One that lost half of its thrust draws what
-a healthy one draws for that half.
+T is the present thrust: a dead thruster draws no power. A thruster that has lost half of its thrust
+draws the power of a healthy thruster at that reduced thrust.
 
-*Joint.* A motor with a gear draws power for its work and for the current that makes its torque
-(Spong, Hutchinson and Vidyasagar, *Robot Modeling and Control*, ch. 6: copper loss
-:math:`R i^2`, with :math:`i` in proportion to the torque):
+*Joint.* A motor with a gear draws power for its mechanical work and for the current that produces
+its torque (Spong, Hutchinson and Vidyasagar, *Robot Modeling and Control*, ch. 6: copper loss
+:math:`R i^2`, with the current i proportional to the torque). With the effort :math:`\tau`, the
+joint's velocity :math:`\omega`, the efficiency :math:`\eta` and the copper loss k,
 
 .. math:: P = \frac{\max(0, \tau \omega)}{\eta} + k \tau^2
 
-Work of the load on the motor is lost: there is no regeneration.
+There is no regeneration: work of the load on the motor is lost.
 
-Not modelled: inflow (it changes the power of a thruster), idling current, the voltage of the
-battery and its own losses, friction of gears at rest.
+Not modelled: the effect of the inflow on the power of a thruster, idling current, the voltage of
+the battery and its own losses, friction of gears at rest.
 """
 
 from __future__ import annotations
@@ -41,12 +43,12 @@ DEFAULT_EFFICIENCY = 0.4
 
 
 def power_table(thruster: ThrusterSpec, density: float, min_terms: int = 0) -> Array:
-    """Return the coefficients of `power_kernel.thruster_power`, (2, 1 + n).
+    """Return the table of coefficients for `power_kernel.thruster_power`, (2, 1 + n).
 
     Args:
         thruster: the spec of the thruster.
         density: the density of the water [kg/m3].
-        min_terms: the least number of coefficients of the polynomials.
+        min_terms: the least number n of polynomial coefficients, padded with zeros.
     """
     forward, backward = thruster.power, thruster.power_backward or thruster.power
     min_terms = max(min_terms, len(forward or ()), len(backward or ()))

@@ -1,4 +1,4 @@
-"""Thrusts, efforts and electric power, compiled because evaluated at every step (`power`)."""
+"""Thrusts, efforts and electric power, compiled for evaluation in every step; see `power`."""
 
 from __future__ import annotations
 
@@ -15,13 +15,15 @@ from ..hydrodynamics.columns import WATER_COLUMNS
 from ..hydrodynamics.kernel.thrusters import static_thrust
 
 STATE, CONTROL, SITE, BODY, LOSS, INFLOW, ACTUATOR = range(7)
-"""The columns of the rotors' addresses in the engine; a state below 0 is none."""
+"""The columns of the rotors' indices: in ``act`` (below 0 without a state), in ``ctrl``, of the
+site and its body, of thrust loss and inflow loss in ``userdata``, and of the actuator."""
 MIN_COMMAND, MAX_COMMAND, RADIUS = range(3)
 """The columns of the rotors' properties: command limits [1], radius [m]."""
 POSITION, DOF, CONTROL_INPUT, SERVO = range(4)
-"""The columns of the motors' addresses in the engine."""
+"""The columns of the motors' indices: in ``qpos``, in ``qvel``, in ``ctrl``, of the actuator."""
 MAX_EFFORT, EFFICIENCY, COPPER = range(3)
-"""The columns of the motors' properties: effort limit [N m or N], efficiency [1], copper loss."""
+"""The columns of the motors' properties: effort limit [N m or N], efficiency [1], copper loss
+[W/(N m)2 or W/N2]."""
 
 Ints = npt.NDArray[np.int64]
 Rotors = tuple[Ints, Array, Array, float, Array, Array, Array, Array]
@@ -32,11 +34,12 @@ Motors = tuple[float, Ints, Array, Array, Array, Array, Array, Array, Array]
 
 @njit
 def thruster_power(table: Array, thrust: float) -> float:
-    """Return the electric power of a thruster at a thrust [N], in watts.
+    """Return the electric power of a thruster [W].
 
     Args:
-        table: forward and backward (2, 1 + n): the factor of the law [W/N^1.5], the coefficients of
-            the polynomial [W/N, W/N2, ...]; one of them is 0 (`power.power_table`).
+        table: a row for forward and a row for backward thrust, (2, 1 + n): the factor of the
+            momentum theory [W/N^1.5], then the coefficients of the polynomial [W/N, W/N2, ...];
+            the part that is not used is 0 (`power.power_table`).
         thrust: the present thrust [N].
     """
     size = abs(thrust)
@@ -50,7 +53,14 @@ def thruster_power(table: Array, thrust: float) -> float:
 
 @njit
 def joint_power(efficiency: float, copper_loss: float, effort: float, speed: float) -> float:
-    """Return the electric power of a joint's motor [W] at [N m or N] and [rad/s or m/s]."""
+    """Return the electric power of a joint's motor [W].
+
+    Args:
+        efficiency: the efficiency of motor and gear [1].
+        copper_loss: the copper loss [W/(N m)2 or W/N2].
+        effort: the effort of the motor [N m or N].
+        speed: the velocity of the joint [rad/s or m/s].
+    """
     return max(0.0, effort * speed) / efficiency + copper_loss * effort**2
 
 
@@ -68,7 +78,7 @@ def thrusts(
     """Return the thrusts along the thrusters' directions in the present water, (n,) [N].
 
     Args:
-        rotors: the addresses of the rotors, (n, 7).
+        rotors: the indices of the rotors, with the columns `STATE` to `ACTUATOR`, (n, 7).
         properties: the properties of the rotors, (n, 3).
         curves: the engine's ``actuator_user``.
         surface_height: the height of the still water's surface [m].
@@ -109,13 +119,13 @@ def efforts(
 
     Args:
         dt: the length of the step [s].
-        motors: the addresses of the motors, (m, 4).
+        motors: the indices of the motors, with the columns `POSITION` to `SERVO`, (m, 4).
         properties: the properties of the motors, (m, 3).
         gains: the engine's ``actuator_gainprm``.
         biases: the engine's ``actuator_biasprm``.
         controls: the engine's ``ctrl``.
-        qpos: the engine's positions.
-        qvel: the engine's velocities.
+        qpos: the engine's ``qpos``.
+        qvel: the engine's ``qvel``.
         applied: the engine's ``qfrc_applied``.
     """
     joint_efforts = np.empty(len(motors))
@@ -168,7 +178,7 @@ POWERS = np.dtype(
 
 
 def powers_record(tables: Array, thrusters: Rotors, joints: Motors) -> npt.NDArray[np.void]:
-    """Return a record of `POWERS` for these arguments of `powers`, which must live on, (1,)."""
+    """Return a record of `POWERS`, (1,), for the arguments of `powers`, which must outlive it."""
     rotors, rotor_properties, curves, surface_height, controls, states, userdata, sites = thrusters
     dt, motors, motor_properties, gains, biases, _, qpos, qvel, applied = joints
     row = np.zeros(1, POWERS)
@@ -191,9 +201,9 @@ def powers_record(tables: Array, thrusters: Rotors, joints: Motors) -> npt.NDArr
     return row
 
 
-def write_powers(parameters: int, values: int, time: float) -> None:
+def write_powers(record_address: int, values_address: int, time: float) -> None:
     """Write the values of `powers`; see `uwsim.base.numerics.calls`."""
-    p = carray(pointer(parameters), (1,), POWERS)[0]
+    p = carray(pointer(record_address), (1,), POWERS)[0]
     n, m, controls = p.n_rotors, p.n_motors, view_doubles(p.controls, p.nu)
     rotors = (
         view_int64s(p.rotors, 7 * n).reshape((n, 7)),
@@ -217,4 +227,4 @@ def write_powers(parameters: int, values: int, time: float) -> None:
         view_doubles(p.applied, p.nv),
     )
     tables = view_doubles(p.tables, 2 * n * p.n_terms).reshape((n, 2, p.n_terms))
-    view_doubles(values, n + m)[:] = powers(tables, rotors, motors)
+    view_doubles(values_address, n + m)[:] = powers(tables, rotors, motors)

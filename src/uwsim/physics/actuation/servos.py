@@ -1,12 +1,13 @@
-"""Joint servos of a simulated vehicle: position, velocity and effort control.
+"""Joint servos of a vehicle with dynamics: position, velocity and effort control.
 
-A servo moves its joint to a target (`servo_kernel`), with a stiffness and damping that follow from
-its greatest effort, and carries the load on the joint. The URDF states the greatest effort and the
-greatest speed of the target. A position command sets where the target goes. A velocity command
-moves it until the next command. Both apply the URDF's position limits. An effort command switches
-the servo off and acts on the joint alone. The end stops are at the limits where the servo is off,
-and a little beyond where it is on. Joints that mimic follow the target of their leader, or its
-position if it has no servo. Not modelled: backlash, friction of the gear.
+A servo moves its joint to a target and compensates the load on the joint (`servo_kernel`). Its
+stiffness and damping follow from its greatest effort. The URDF states this effort, the position
+limits, and the greatest speed of the target. A position command sets the final position of the
+target. A velocity command moves the target until the next command. An effort command switches the
+servo off, and applies the effort to the joint. The end stops of a joint are at its limits while the
+servo is off, and slightly beyond them while it is on. A mimic joint follows the target of its
+leader, or the position of the leader while its servo is off. Not modelled: backlash, friction of
+the gear.
 """
 
 from __future__ import annotations
@@ -34,16 +35,20 @@ class ServosState(Record):
     """The state of the servos of a vehicle."""
 
     joints: npt.NDArray[np.void]
-    """The state of the servo of each joint that moves, (m,) of `records.JOINT_STATE`."""
+    """The state of the servo of each moving joint, records of `records.JOINT_STATE`, (m,)."""
 
 
 class Servos:
-    """The servos of one vehicle; the joint vector is UWSim's."""
+    """The servos of one vehicle.
+
+    Each of the m moving joints has a servo. The joint vector has the n joints that are not mimic
+    joints, in the order of UWSim; commands refer to joints by their index in it.
+    """
 
     def __init__(
         self, model: mujoco.MjModel, data: mujoco.MjData, robot: RobotSpec, index: int
     ) -> None:
-        """Find the joints and actuators of the vehicle of number ``index``."""
+        """Find the joints and servos of the vehicle ``index`` in the engine's model."""
         from . import servo_kernel
 
         self._kernel = servo_kernel
@@ -58,23 +63,23 @@ class Servos:
         self._records["ctrl_address"] = model.actuator_ctrladr[self._servos]
         self._state = np.zeros(len(moving_joints), JOINT_STATE)
         self.state = ServosState(self._state)
-        """The state of the servos."""
+        """The state of the servo of each moving joint."""
         self._state["is_on"] = True
         self._indices = np.array(
             [names.index(joint.name) for joint in robot.movable_joints], np.int64
         )  # (n,)
-        self._places = self._records["qpos_address"][self._indices]
+        self._qpos_addresses = self._records["qpos_address"][self._indices]
         self._dofs = self._records["dof_address"][self._indices]
 
     @property
     def addresses(self) -> tuple[int, int, int]:
-        """The addresses of the joints' records and of their states; the number of joints."""
+        """The memory addresses of the joints' parameters and states; the number of joints m."""
         return self._records.ctypes.data, self._state.ctypes.data, len(self._records)
 
     @property
     def positions(self) -> Array:
         """The positions of the joints, (n,) [rad or m]."""
-        positions: Array = self._data.qpos[self._places]
+        positions: Array = self._data.qpos[self._qpos_addresses]
         return positions
 
     @property
@@ -85,22 +90,22 @@ class Servos:
 
     @property
     def efforts(self) -> Array:
-        """The forces and torques at the joints, (n,) [N m or N]."""
+        """The efforts at the joints, (n,) [N m or N]."""
         efforts: Array = self._data.qfrc_actuator[self._dofs] + self._data.qfrc_applied[self._dofs]
         return efforts
 
     def set_positions(self, values: Array) -> None:
-        """Set the positions of the joints, at rest, and hold them there."""
+        """Move all joints to positions (n,) [rad or m] at once, at rest, and hold them there."""
         joints = [self._specs[index] for index in self._indices]
         positions = [joint.clamp(value) for joint, value in zip(joints, values, strict=False)]
-        self.aim(np.arange(len(positions)), np.array(positions, dtype=np.float64))
-        self._state["target"] = self._state["aim"]
+        self.set_position_targets(np.arange(len(positions)), np.array(positions, dtype=np.float64))
+        self._state["target"] = self._state["final_target"]
         self._state["integral"] = 0.0
-        self._data.qpos[self._records["qpos_address"]] = self._state["aim"]
+        self._data.qpos[self._records["qpos_address"]] = self._state["final_target"]
         self._data.qvel[self._records["dof_address"]] = 0.0
 
-    def aim(self, joints: JointIndices, targets: Array) -> None:
-        """Move these joints to targets, (n,) [rad or m], and hold them there.
+    def set_position_targets(self, joints: JointIndices, targets: Array) -> None:
+        """Move some joints to target positions (k,) [rad or m], and hold them there.
 
         The other joints are not affected.
         """
@@ -109,34 +114,34 @@ class Servos:
             self._switch(int(joints[off_index]), is_on=True)
         self._kernel.set_targets(self._records, self._state, indices, targets)
 
-    def drive(self, joints: JointIndices, speeds: Array) -> None:
-        """Move the targets of these joints at speeds, (n,) [rad/s or m/s]; the others stay."""
-        self._state["speed"] = 0.0
+    def set_velocity_targets(self, joints: JointIndices, speeds: Array) -> None:
+        """Move the targets of some joints at speeds (k,) [rad/s or m/s]; other targets stop."""
+        self._state["requested_speed"] = 0.0
         for number, speed in zip(joints.tolist(), speeds.tolist(), strict=True):
             self._switch(number, is_on=True)
             index = self._indices[number]
             max_speed = float(self._records["max_speed"][index])
-            self._state["speed"][index] = min(max(speed, -max_speed), max_speed)
+            self._state["requested_speed"][index] = min(max(speed, -max_speed), max_speed)
         states = self._state[self._indices]
         positions = np.where(states["is_on"], states["target"], self.positions)
-        self._state["wanted"][self._indices] = positions
+        self._state["requested_position"][self._indices] = positions
         self._kernel.clamp_targets(self._records, self._state)
 
-    def push(self, joints: JointIndices, efforts: Array) -> None:
-        """Apply efforts, (n,) [N m or N], to these joints, limited to the strength of their servos.
+    def set_efforts(self, joints: JointIndices, efforts: Array) -> None:
+        """Switch the servos of some joints off, and apply efforts (k,) [N m or N] to these joints.
 
-        The other joints are not affected.
+        Efforts are limited to the greatest effort of each servo. Other joints are not affected.
         """
         for number, effort in zip(joints.tolist(), efforts.tolist(), strict=True):
             index = self._indices[number]
-            self._state["speed"][index] = 0.0
+            self._state["requested_speed"][index] = 0.0
             self._switch(number, is_on=False)
             max_effort = float(self._records["max_effort"][index])
             self._data.qfrc_applied[self._dofs[number]] = min(max(effort, -max_effort), max_effort)
         self._kernel.clamp_targets(self._records, self._state)
 
     def _switch(self, number: int, *, is_on: bool) -> None:
-        """Switch a servo on or off; where it is off, the stops are at the limits."""
+        """Switch the servo of a joint, by its index in the joint vector, and move the end stops."""
         index = self._indices[number]
         if is_on and self._state["is_on"][index]:
             return
@@ -148,12 +153,12 @@ class Servos:
         stop = stops(self._specs[index], is_held=is_on)
         self._model.jnt_range[self._joints[index]] = stop
         self._data.qfrc_applied[self._dofs[number]] = 0.0
-        self._state["target"][index] = self._data.qpos[self._places[number]]
+        self._state["target"][index] = self._data.qpos[self._qpos_addresses[number]]
         self._state["integral"][index] = 0.0
 
 
 def _joint_records(joints: list[JointSpec]) -> npt.NDArray[np.void]:
-    """Return the parameters of joints that move, without their addresses in the engine, (m,)."""
+    """Return the records of moving joints, without their addresses in the engine, (m,)."""
     names = [joint.name for joint in joints]
     records = np.zeros(len(joints), JOINT)
     for record, joint in zip(records, joints, strict=True):

@@ -1,4 +1,4 @@
-"""The actuation of one simulated vehicle: autopilot, thrusters, fins and joint servos."""
+"""The actuation of a vehicle with dynamics: autopilot, thrusters, fins and joint servos."""
 
 from __future__ import annotations
 
@@ -32,17 +32,17 @@ class ActuationState(Record):
     autopilot: AutopilotState
     """The state of the autopilot."""
     servos: ServosState
-    """The state of the joints' servos."""
+    """The state of the joint servos."""
 
 
 class VehicleActuation:
-    """The actuation of one simulated vehicle.
+    """The actuation of one vehicle with dynamics.
 
     Args:
-        index: the number of the vehicle in the scene.
-        autopilot: the parameters of its autopilot.
-        robot: its links and joints.
-        dynamics: its hydrodynamics.
+        index: the index of the vehicle in the scene.
+        autopilot: the parameters of the autopilot.
+        robot: the links and joints of the vehicle.
+        dynamics: the hydrodynamics of the vehicle.
         data: the engine's state.
         water: the hydrodynamics of the engine.
         poses: the poses of all bodies.
@@ -61,21 +61,21 @@ class VehicleActuation:
         self._index, self._robot, self._dynamics = index, robot, dynamics
         self._data, self._water, self._refresh = data, water, poses.refresh
         self.thrusters = tuple(thruster.name for thruster in dynamics.thrusters)
-        """The names of its thrusters, in the order of its hydrodynamics file."""
+        """The names of the thrusters, in the order of the hydrodynamics file."""
         self.fins = tuple(fin.name for fin in dynamics.fins)
-        """The names of its fins, in that order."""
+        """The names of the fins, in the order of the hydrodynamics file."""
         self._thrusters = [water.thruster(vehicle_thruster(index, name)) for name in self.thrusters]
         self._fins = [vehicle_fin(index, name) for name in self.fins]
         self.servos = Servos(water.model, data, robot, index)
-        """The servos of its joints."""
+        """The servos of the joints."""
         self.autopilot = Autopilot(autopilot)
         """The autopilot of the vehicle."""
         self.state = ActuationState(self.autopilot.state, self.servos.state)
-        """The state of autopilot and servos."""
+        """The state of the autopilot and of the servos."""
         self.autopilot.hold(poses.vehicle(index))
 
     def hold(self, world_from_base: Pose) -> None:
-        """Stop the thrusters, set the fins to 0, and hold the present depth and heading."""
+        """Stop the thrusters, set the fins to 0, and hold the depth and heading of a pose."""
         for thruster in self._thrusters:
             self._water.stop_thruster(self._data, thruster)
         for fin in self._fins:
@@ -88,9 +88,9 @@ class VehicleActuation:
             self._water.turn_fin(self._data, fin, angle)
 
     def commands(self) -> Array:
-        """Return the commands to its thrusters as shares of the largest, (n,) [-1..1].
+        """Return the commands of the thrusters as shares of the largest command, (n,) [-1..1].
 
-        A command beyond a limit counts as the limit, as for the rotor.
+        A command beyond a limit counts as the limit, as in the engine.
         """
         model = self._water.model
         actuators = [self._water.thrusters[number] for number in self._thrusters]
@@ -101,11 +101,11 @@ class VehicleActuation:
         return shares
 
     def set_loss(self, thruster: int, loss: float) -> None:
-        """Set the share of its thrust that a thruster loses: 0 healthy, 1 dead."""
+        """Set the share of its thrust that a thruster loses, by index: 0 healthy, 1 dead."""
         self._water.set_loss(self._data, self._thrusters[thruster], loss)
 
     def actuators(self) -> Actuators:
-        """Return its actuators: thrusts, efforts and electric power."""
+        """Return the view of the actuators' thrusts, efforts and electric power."""
         return Actuators(
             self._water.model,
             self._data,
@@ -120,7 +120,7 @@ class VehicleActuation:
 def make_actuation(
     scene_model: SceneModel, data: mujoco.MjData, water: Hydrodynamics | None, poses: Poses
 ) -> dict[int, VehicleActuation]:
-    """Return the actuation of every simulated vehicle, by its number; empty without water."""
+    """Return the actuation of each vehicle with dynamics, by index; empty without water."""
     if water is None:
         return {}
     robots, autopilots = scene_model.robots, scene_model.compute_once(_autopilot_models)
@@ -131,7 +131,7 @@ def make_actuation(
 
 
 def _autopilot_models(scene_model: SceneModel) -> dict[int, AutopilotModel]:
-    """Return the parameters of the autopilot of each simulated vehicle, by its number."""
+    """Return the parameters of the autopilot of each vehicle with dynamics, by index."""
     model = scene_model.engine_model
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
@@ -141,7 +141,7 @@ def _autopilot_models(scene_model: SceneModel) -> dict[int, AutopilotModel]:
         base = model.body(vehicle_body(index, robot.root)).id
         free_joint = model.joint(vehicle_joint(index, ""))
         names = [vehicle_thruster(index, thruster.name) for thruster in dynamics.thrusters]
-        up = data.xmat[base, 6:]  # W's z in the base's frame, (3,)
+        up = data.xmat[base, 6:]  # the z axis of W in base axes, (3,)
         models[index] = autopilot_model(
             dynamics,
             robot.root,

@@ -38,7 +38,7 @@ class LinkMotion:
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, poses: Poses) -> None:
         self._model, self._data, self._poses = model, data, poses
         self._scratch = np.zeros(link_kernel.scratch_size(model.nbody, model.nv))
-        self._kinematic_motion: dict[int, tuple[Array, Array]] = {}
+        self._joint_rates: dict[int, tuple[Array, Array]] = {}
         self._chains: dict[tuple[int, int | None], Chain] = {}
         self._dof_arrays: list[npt.NDArray[np.int64]] = []  # chains have their addresses
 
@@ -71,7 +71,7 @@ class LinkMotion:
             addresses += [number_addresses(array, dofs) for array in arrays]
         return np.concatenate(addresses)
 
-    def kinematic_motion(self, index: int) -> tuple[Array, Array]:
+    def joint_rates(self, index: int) -> tuple[Array, Array]:
         """Return the arrays of the joint motion of a kinematic vehicle.
 
         Args:
@@ -80,9 +80,9 @@ class LinkMotion:
         Returns:
             Speeds and accelerations of all degrees of freedom of the scene, (nv,) each.
         """
-        if index not in self._kinematic_motion:
-            self._kinematic_motion[index] = np.zeros(self._model.nv), np.zeros(self._model.nv)
-        return self._kinematic_motion[index]
+        if index not in self._joint_rates:
+            self._joint_rates[index] = np.zeros(self._model.nv), np.zeros(self._model.nv)
+        return self._joint_rates[index]
 
     def point_motion(self, body: int, point: Array, *, vehicle: int | None = None) -> BodyMotion:
         """Return the motion of a point of W, (3,) [m], on a body of the engine.
@@ -90,7 +90,7 @@ class LinkMotion:
         Args:
             body: the engine's number of the body.
             point: the point in W, (3,) [m].
-            vehicle: the vehicle whose `kinematic_motion` moves the joints; None: the
+            vehicle: the vehicle whose `joint_rates` moves the joints; None: the
                 engine moves them.
         """
         self._poses.refresh()
@@ -102,13 +102,13 @@ class LinkMotion:
 
         Args:
             body: the engine's number of the body.
-            vehicle: the vehicle whose `kinematic_motion` moves the joints; None: the
+            vehicle: the vehicle whose `joint_rates` moves the joints; None: the
                 engine moves them.
         """
         if (body, vehicle) in self._chains:
             return self._chains[body, vehicle]
         model, data = self._model, self._data
-        motion = (data.qvel, data.qacc) if vehicle is None else self.kinematic_motion(vehicle)
+        motion = (data.qvel, data.qacc) if vehicle is None else self.joint_rates(vehicle)
         root, rows = int(model.body_rootid[body]), np.array(self._dof_rows(body), np.int64)
         chain = self._chains[body, vehicle] = np.zeros(1, CHAIN)
         chain["root"], chain["n_bodies"] = root, int((model.body_rootid == root).sum())

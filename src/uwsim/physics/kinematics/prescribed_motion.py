@@ -75,7 +75,7 @@ class PrescribedMotion:
         links: LinkMotion,
     ) -> None:
         self._data = data
-        self._speeds, self._accelerations = links.kinematic_motion(index)
+        self._speeds, self._accelerations = links.joint_rates(index)
         free_joint, *other_joints = joints
         place, dof = int(model.jnt_qposadr[free_joint]), int(model.jnt_dofadr[free_joint])
         self._places = np.array([*range(place, place + 7), *model.jnt_qposadr[other_joints]])
