@@ -1,7 +1,14 @@
 """Optics of water: phase functions, media, and what they do to images and lamps."""
 
+from .blur import compute_blur_weights, compute_level_transforms
 from .fournier_forand import FournierForand
 from .henyey_greenstein import HenyeyGreenstein
+from .lamp_light import (
+    Lamp,
+    compute_lamp_irradiance,
+    compute_lamp_veil,
+    compute_target_radiance,
+)
 from .medium import Medium, find_coefficient_errors
 from .named_waters import WATERS, NamedWater, find_water
 from .phase_fit import (
@@ -12,16 +19,34 @@ from .phase_fit import (
 )
 from .phase_function import PhaseFunction
 from .phase_table import PhaseTable
+from .transmission import (
+    compute_ambient_veil,
+    compute_direct,
+    compute_full_field,
+    compute_led_signal,
+    compute_modulation_transfer,
+)
 
 __all__ = [
     "WATERS",
     "FournierForand",
     "HenyeyGreenstein",
+    "Lamp",
     "Medium",
     "NamedWater",
     "PhaseFunction",
     "PhaseTable",
     "SmallAngleTerms",
+    "compute_ambient_veil",
+    "compute_blur_weights",
+    "compute_direct",
+    "compute_full_field",
+    "compute_lamp_irradiance",
+    "compute_lamp_veil",
+    "compute_led_signal",
+    "compute_level_transforms",
+    "compute_modulation_transfer",
+    "compute_target_radiance",
     "find_coefficient_errors",
     "find_water",
     "fit_backward_cubic",
