@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from uwsim.checks.robots import robot_places
+from uwsim.checks.robots import robot_locations
 from uwsim.checks.rule import Need
 from uwsim.checks.scene.models import model_files, projectors
 from uwsim.checks.subjects import CheckedScene
@@ -14,7 +14,7 @@ from uwsim.scene.reader import read_document
 from uwsim.scene.xacro import parse_expanded
 from uwsim.schema import Diagnostics
 
-FILE_RULES = (robot_places, projectors, model_files)
+FILE_RULES = (robot_locations, projectors, model_files)
 
 
 def check_text(path: Path) -> list[Diagnostic]:

@@ -1,7 +1,7 @@
 """The errors and warnings about files: one table of rules for `uwsim check` and every run.
 
-`uwsim.checks.table` lists each rule with its input (`Need`). `check_file` applies those about a
-file, `model_warnings` and `scene_warnings` those that a run reports before it begins.
+`uwsim.checks.table` lists each rule with its input (`Need`). `check_file` applies the rules about a
+file, `model_warnings` and `scene_warnings` the rules whose warnings a run reports before it begins.
 
 Errors that prevent the building of a spec belong to its reader: invalid elements, numbers,
 expressions, sizes beyond a limit (`uwsim.scene.sizes`), variations, hydrodynamics files, elements

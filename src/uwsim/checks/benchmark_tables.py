@@ -1,4 +1,4 @@
-"""The names available to benchmarks: those bundled and those of ``--plugin``."""
+"""The tables of names that benchmarks can use: bundled names, and names from plugins."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def bundled_tables() -> Tables:
-    """Return the tables of the parts that uwsim contains."""
+    """Return the tables of the bundled measures, triggers, updaters and algorithms."""
     from ..algorithms import ALGORITHMS
     from ..benchmark.measures import MEASURES
     from ..benchmark.plugin_tables import Tables
@@ -25,7 +25,7 @@ def bundled_tables() -> Tables:
 
 
 def read_plugins(files: Sequence[Path] | None) -> tuple[tuple[Plugin, ...], Tables]:
-    """Read the plugins; return them and the tables with their additions.
+    """Read plugins; return the plugins, and the tables that contain their additions.
 
     Raises:
         PluginError: a plugin is invalid; with all errors.

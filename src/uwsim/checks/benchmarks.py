@@ -15,7 +15,7 @@ from .subjects import CheckedBenchmark
 
 
 def unknown_algorithm(benchmark: CheckedBenchmark) -> Iterator[Diagnostic]:
-    """Report an algorithm that is in no table; a run imports classes of modules."""
+    """Report an unknown name of an algorithm; a ``module:Class`` is checked only by a run."""
     name = benchmark.spec.algorithm
     if name is not None and ":" not in name:
         try:
@@ -25,12 +25,12 @@ def unknown_algorithm(benchmark: CheckedBenchmark) -> Iterator[Diagnostic]:
 
 
 def names_in_scene(benchmark: CheckedBenchmark) -> Iterable[Diagnostic]:
-    """Report the names that the scene does not have."""
+    """Report the names in a benchmark that its scene does not have."""
     return find_unknown_names(benchmark.spec, benchmark.stage, is_whole=benchmark.is_whole)
 
 
 def arm_positions(benchmark: CheckedBenchmark) -> Iterable[Diagnostic]:
-    """Warn of values of joints that do not exist, or beyond the limits of joints."""
+    """Warn of arm positions with too many values, or with values beyond the limits of joints."""
     if not benchmark.is_whole:
         return ()
     vehicles = [vehicle.name for vehicle in benchmark.model.scene.vehicles]
@@ -57,7 +57,7 @@ def arm_positions(benchmark: CheckedBenchmark) -> Iterable[Diagnostic]:
 
 
 def recorded_truths(benchmark: CheckedBenchmark) -> Iterable[Diagnostic]:
-    """Compare the recorded ground truths with those that measures read."""
+    """Compare the recorded ground truths with the ground truths that measures read."""
     if not benchmark.is_whole:
         return ()
     return truth_diagnostics(benchmark.spec, benchmark.stage)

@@ -1,4 +1,4 @@
-"""Checks of files: reading, and the rules of the table."""
+"""The check of a file: it is read, and the rules of the table are applied to it."""
 
 from __future__ import annotations
 
@@ -40,9 +40,9 @@ def check_file(
 
     Args:
         file: the file.
-        is_strict: True to compare the file with the order of the original's grammar, too.
+        is_strict: True to also check the order of elements in the grammar of the original UWSim.
         data_path: the folders that are searched for files.
-        scene: the scene of a benchmark; None for the one that it names.
+        scene: the scene of a benchmark; None for the scene that the benchmark names.
         plugins: the result of `read_plugins`; None for the bundled tables.
         arguments: the values of xacro arguments, by name.
     """
@@ -120,9 +120,9 @@ def model_warnings(model: SceneModel) -> list[Diagnostic]:
 
 
 def _apply(scene: CheckedScene) -> list[Diagnostic]:
-    """Apply the rules in order, each if its need could be made.
+    """Apply the rules in order, each if the input that it needs could be made.
 
-    Diagnostics about the spec are sorted by line, together with those of the reader.
+    Diagnostics about the spec are sorted by line, together with the diagnostics of the reader.
     """
     from .table import SCENE_RULES
 
@@ -155,7 +155,7 @@ def _check_library(
     data_path: tuple[Path, ...],
     arguments: Mapping[str, str] | None,
 ) -> list[Diagnostic]:
-    """State that a file is a library of macros or properties; with errors of its expansion."""
+    """Report the errors of a library of macros or properties, and that it is only a library."""
     from ..scene.xacro import parse_expanded
 
     try:
@@ -218,7 +218,7 @@ def _apply_in_scene(
     plugins: tuple[Plugin, ...],
     arguments: Mapping[str, str] | None,
 ) -> list[Diagnostic]:
-    """Apply the rules about a benchmark, and those about its names in its scene."""
+    """Apply the rules about a benchmark alone, and then the rules about it in its scene."""
     from ..benchmark.plugin import attribute_errors_to
     from ..physics.compile_scene import compile_scene
     from ..scene.reader import read_scene

@@ -1,4 +1,4 @@
-"""The search for the robot files of a scene, and the folders of a search."""
+"""The search for the robot files of the vehicles in a scene."""
 
 from __future__ import annotations
 
@@ -19,24 +19,32 @@ MAX_FILES = 200
 
 
 class FileSearch(TypedDict):
-    """The arguments of the search for a file."""
+    """The keyword arguments of the functions that search for a file (`uwsim.assets.find`)."""
 
     named_by: Path | None
+    """The file that names the file; None for a spec without a file."""
     data_path: tuple[Path, ...]
+    """The folders that are searched."""
 
 
 class RobotSearch:
-    """The robots of a scene, found and read."""
+    """The robots of a scene, found and read.
+
+    Args:
+        scene: the scene.
+        file_search: the arguments of the search for files that the scene names.
+        diagnostics: the diagnostics of the scene's reader, which limit the number of suggestions.
+    """
 
     def __init__(self, scene: SceneSpec, file_search: FileSearch, diagnostics: Diagnostics) -> None:
         self.robots: dict[int, RobotSpec] = {}
-        """The robot of each vehicle that has one, by its number."""
+        """The robot of each vehicle whose robot file could be read, by index of the vehicle."""
         self.files: list[Path] = []
-        """The files, each once."""
+        """The robot files that were found, each once."""
         self.diagnostics: list[Diagnostic] = []
-        """Errors and warnings about robots that are not found, or at other places than stated."""
+        """Errors and warnings about robot files that are not found, or not at the stated path."""
         self.stand_ins: set[str] = set()
-        """The names of files that bundled robots replace."""
+        """The names of robot files that are not found, and that bundled robots replace."""
         self._file_search, self._diagnostics = file_search, diagnostics
         robots: dict[str, RobotSpec | None] = {}
         for index, vehicle in enumerate(scene.vehicles):

@@ -24,7 +24,7 @@ def check_robot(
     data_path: tuple[Path, ...] = (),
     arguments: Mapping[str, str] | None = None,
 ) -> list[Diagnostic]:
-    """Return the errors and warnings of a robot file: its reader's, and those of the rules."""
+    """Return the errors and warnings about a robot file, from its reader and from the rules."""
     diagnostics = Diagnostics(path)
     try:
         spec = read_robot(path, diagnostics, data_path, arguments)
@@ -66,13 +66,13 @@ def _meshes(robot: RobotSpec) -> dict[str, VisualSpec]:
     return shapes
 
 
-def robot_places(scene: CheckedScene) -> Iterable[Diagnostic]:
-    """Return the diagnostics of robot files that are not found, or at other places than stated."""
+def robot_locations(scene: CheckedScene) -> Iterable[Diagnostic]:
+    """Return the diagnostics of robot files that are not found, or not at the stated path."""
     return scene.robot_search.diagnostics
 
 
 def robot_files(scene: CheckedScene, rules: Iterable[Rule[CheckedRobot]]) -> Iterator[Diagnostic]:
-    """Report the errors in the robot files; if there are none, the arguments that no file has."""
+    """Report the errors in the robot files; if there are none, also the unused arguments."""
     arguments = dict(scene.spec.expansion.arguments)
     has_errors = scene.diagnostics.has_errors
     for path in scene.robot_search.files:
@@ -84,7 +84,7 @@ def robot_files(scene: CheckedScene, rules: Iterable[Rule[CheckedRobot]]) -> Ite
 
 
 def unused_arguments(scene: CheckedScene) -> Iterator[Diagnostic]:
-    """Warn of each xacro argument of the caller that no file of a scene has."""
+    """Warn of each xacro argument of the user that no file of a scene declares."""
     expansions = [scene.spec.expansion, *(robot.expansion for robot in scene.robots.values())]
     names = [name for expansion in expansions for name in expansion.declared_arguments]
     for name, _ in scene.spec.expansion.arguments:
@@ -97,7 +97,7 @@ def unused_arguments(scene: CheckedScene) -> Iterator[Diagnostic]:
 
 
 def macro_warnings(scene: CheckedScene) -> Iterable[Diagnostic]:
-    """Return the warnings of the expansion of macros; in a run those of robots too, each once."""
+    """Return the warnings of the macro expansion of a scene; in a run also of its robots."""
     if not scene.is_run:
         return scene.spec.expansion.warnings
     expansions = [scene.spec.expansion, *(robot.expansion for robot in scene.robots.values())]

@@ -20,13 +20,14 @@ class Need(IntEnum):
     DOCUMENT = 0
     """The document with its macros expanded."""
     SPEC = 1
-    """The spec that the reader made of the document, perhaps with errors; listed by line."""
+    """The spec that the reader made of the document, perhaps with errors. The diagnostics of these
+    rules are sorted by line, together with the diagnostics of the reader."""
     FILES = 2
-    """The spec, and the files that it names; listed after it."""
+    """The spec, and the files that it names."""
     VALID = 3
-    """A spec without errors, of which something is simulated."""
+    """A spec without errors that has anything to simulate, such as a vehicle or a current."""
     MODEL = 4
-    """The model that could be compiled from the spec."""
+    """The model that is compiled from the spec."""
 
 
 @dataclass(frozen=True)
@@ -36,7 +37,7 @@ class Rule(Generic[S]):
     find: Callable[[S], Iterable[Diagnostic]]
     """The function that yields the errors and warnings about a subject."""
     need: Need
-    """The input that it reads of the subject."""
+    """The input that the function needs."""
     in_check: bool = True
     """True if ``uwsim check`` applies the rule."""
     in_runs: bool = False
@@ -54,11 +55,12 @@ class Rule(Generic[S]):
         """Yield the errors and warnings about a subject.
 
         Args:
-            subject: the file that is checked.
-            context: the context in which the rule is applied; it may explain its errors.
+            subject: the file to check.
+            context: a context manager that adds information to errors of the rule.
 
         Raises:
-            UwsimError: the rule raises, or yields another type; names its function.
+            UwsimError: the function raised an exception, or yielded an object that is not a
+                Diagnostic; the message names the function.
         """
         try:
             with context or nullcontext():

@@ -1,4 +1,4 @@
-"""The subjects of rules: a scene, a robot or a benchmark, as far as its files could be read."""
+"""The subjects of rules: a scene, a robot or a benchmark whose files could be read."""
 
 from __future__ import annotations
 
@@ -32,15 +32,15 @@ if TYPE_CHECKING:
 MAX_VEHICLES = 50
 """The greatest number of vehicles of a scene that are checked."""
 MAX_LOOSE_OBJECTS = 200
-"""The greatest number of loose objects that are checked."""
+"""The greatest number of loose objects (which forces can move) that are checked."""
 
 
 class Subject:
-    """One file, with the methods by which rules make diagnostics.
+    """A file that rules check, with methods that make diagnostics about it.
 
     Args:
         path: the path of the file; empty for a spec that a program made.
-        diagnostics: the diagnostics of the reader; receives those of rules by line.
+        diagnostics: the diagnostics of the reader, to which diagnostics of rules are added.
         data_path: the folders that are searched for files.
     """
 
@@ -51,16 +51,22 @@ class Subject:
         self.file_search = FileSearch(named_by=Path(path) if path else None, data_path=data_path)
         """The arguments of the search for the files that the file names."""
 
-    def error(self, place: object, message: str, element: str = "") -> Diagnostic:
-        """Make an error at a line, or at the first ``element`` in a spec, else at the spec."""
-        if isinstance(place, Spec):
-            return diagnostic_at(place, message, element, file=self.diagnostics.file)
-        line = place if isinstance(place, int) else None
+    def error(self, source: object, message: str, element: str = "") -> Diagnostic:
+        """Make an error, which makes the file invalid.
+
+        Args:
+            source: the line of the file, or the spec, that has the error; None for the whole file.
+            message: the message.
+            element: the element in the spec whose line is stated, if it is there.
+        """
+        if isinstance(source, Spec):
+            return diagnostic_at(source, message, element, file=self.diagnostics.file)
+        line = source if isinstance(source, int) else None
         return Diagnostic(file=self.diagnostics.file, line=line, message=message)
 
-    def warning(self, place: object, message: str, element: str = "") -> Diagnostic:
-        """Make a warning at such a place; the file remains valid."""
-        return replace(self.error(place, message, element), severity="warning")
+    def warning(self, source: object, message: str, element: str = "") -> Diagnostic:
+        """Make a warning, with the arguments of `error`; the file remains valid."""
+        return replace(self.error(source, message, element), severity="warning")
 
 
 class CheckedRobot(Subject):
@@ -75,15 +81,16 @@ class CheckedRobot(Subject):
 
 
 class CheckedScene(Subject):
-    """A scene file, or a scene with its settings.
+    """A scene file, or the scene of a run with its settings.
 
     Args:
         spec: the spec of the scene.
         data_path: the folders that are searched for files.
-        document: the document of the file; None for a scene of a run.
-        diagnostics: the diagnostics of the reader; None for a scene of a run.
-        parts: the robots and the hydrodynamics of its vehicles; None to search for them.
-        timestep: the length of a step [s].
+        document: the document of the file; None for the scene of a run.
+        diagnostics: the diagnostics of the reader; None for the scene of a run.
+        parts: the robots and the hydrodynamics of the vehicles, by index of the vehicle; None to
+            search for them.
+        timestep: the length of a physics step [s].
     """
 
     def __init__(
@@ -98,41 +105,41 @@ class CheckedScene(Subject):
     ) -> None:
         super().__init__(spec.path, diagnostics or Diagnostics(spec.path or "the scene"), data_path)
         self.spec, self.document, self.timestep = spec, document, timestep
-        self.is_run, self._given_parts = document is None, parts
+        self.is_run, self._known_parts = document is None, parts
 
     @cached_property
     def robot_search(self) -> RobotSearch:
-        """The files of the robots, found and read."""
+        """The search for the robot files; at the first access the files are found and read."""
         return RobotSearch(self.spec, self.file_search, self.diagnostics)
 
     @property
     def robots(self) -> Mapping[int, RobotSpec]:
-        """The robot of each vehicle that has one, by its number."""
-        return self._given_parts[0] if self._given_parts else self.robot_search.robots
+        """The robot of each vehicle whose robot file could be read, by index of the vehicle."""
+        return self._known_parts[0] if self._known_parts else self.robot_search.robots
 
     @property
     def resolved_scene(self) -> ResolvedScene:
-        """The scene with the robots that it has."""
+        """The scene with the robots that could be read."""
         return ResolvedScene(scene=self.spec, robots=self.robots, data_path=self.data_path)
 
     def has_stand_in(self, index: int) -> bool:
-        """Return whether a bundled robot replaces that of a vehicle, which is not found."""
+        """Return whether a bundled robot replaces a vehicle's robot file, which is not found."""
         name = self.spec.vehicles[index].file
-        return not self._given_parts and name in self.robot_search.stand_ins
+        return not self._known_parts and name in self.robot_search.stand_ins
 
     @cached_property
     def names(self) -> NameResolution:
-        """The resolution of the names in its hydrodynamics."""
+        """The resolution of the names in the hydrodynamics of the scene."""
         return NameResolution(self.resolved_scene, is_thorough=True)
 
     @property
     def dynamics(self) -> Mapping[int, VehicleHydrodynamics]:
-        """The hydrodynamics of each vehicle that is simulated, by its number."""
-        return self._given_parts[1] if self._given_parts else self.names.dynamics
+        """The hydrodynamics of each vehicle with dynamics, by index of the vehicle."""
+        return self._known_parts[1] if self._known_parts else self.names.dynamics
 
     @property
     def is_valid(self) -> bool:
-        """True if the scene has no errors and simulated parts; a scene of a run is valid."""
+        """True if the file has no errors and anything to simulate; the scene of a run is valid."""
         scene = self.spec
         return self.is_run or (
             not self.diagnostics.has_errors
@@ -144,7 +151,7 @@ class CheckedScene(Subject):
         )
 
     def extend(self, diagnostics: Iterable[Diagnostic]) -> None:
-        """Add diagnostics by line; for a run only the warnings."""
+        """Add diagnostics to those of the reader; for a run only warnings."""
         self.diagnostics.extend(
             item for item in diagnostics if not self.is_run or item.severity == "warning"
         )
@@ -159,12 +166,12 @@ class CheckedScene(Subject):
 
     @property
     def checked_vehicles(self) -> list[int]:
-        """The numbers of the first `MAX_VEHICLES` vehicles that have a robot."""
+        """The indices of the first `MAX_VEHICLES` vehicles whose robot could be read."""
         return sorted(self.robots)[:MAX_VEHICLES]
 
     @cached_property
     def loose_objects(self) -> dict[int, PhysicsSpec]:
-        """The first `MAX_LOOSE_OBJECTS` objects that forces move, by number."""
+        """The first `MAX_LOOSE_OBJECTS` loose objects (which forces can move), by index."""
         solids = solid_objects_in_water(self.spec, self.dynamics).items()
         loose_solids = ((index, physics) for index, physics in solids if physics.is_loose)
         return dict(itertools.islice(loose_solids, MAX_LOOSE_OBJECTS))
@@ -175,9 +182,9 @@ class CheckedBenchmark(Subject):
 
     Args:
         spec: the spec of the benchmark.
-        diagnostics: the diagnostics of its file.
-        tables: the available parts and algorithms.
-        is_whole: True if it was read without an error.
+        diagnostics: the diagnostics of the file.
+        tables: the available measures, triggers, updaters and algorithms.
+        is_whole: True if the file was read without an error.
     """
 
     def __init__(
@@ -186,6 +193,6 @@ class CheckedBenchmark(Subject):
         super().__init__(spec.path, diagnostics)
         self.spec, self.tables, self.is_whole = spec, tables, is_whole
         self.model: SceneModel
-        """The compiled scene; for rules that need the model."""
+        """The compiled scene; set for rules with `Need.MODEL`."""
         self.stage: Stage
-        """The stage of the opened scene."""
+        """The access of scene updaters to the opened scene; set for rules with `Need.MODEL`."""

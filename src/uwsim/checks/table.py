@@ -1,11 +1,21 @@
-"""The table of all rules about files, by the kind of file, in the order of their reports."""
+"""The tables of all rules, one for each kind of file, in the order in which they are applied."""
 
 from __future__ import annotations
 
 from functools import partial
 
 from . import benchmarks, robots
-from .model import bottom, meshes, objects, places, simulated, starts, steps, thrust, vehicles
+from .model import (
+    bottom,
+    file_locations,
+    meshes,
+    objects,
+    simulated,
+    starts,
+    steps,
+    thrust,
+    vehicles,
+)
 from .rule import Need, Rule
 from .scene import angles, comms, forces, models, names, not_simulated, shared_names, water
 from .scene import sensor_directions as directions
@@ -20,7 +30,7 @@ VEHICLE_NUMBERS = partial(
     vehicle_checks={
         "buoyancy": vehicles.describe_buoyancy,
         "balance": vehicles.describe_balance,
-        "places": vehicles.describe_places,
+        "places": vehicles.describe_positions,
         "strength": vehicles.describe_strength,
         "inertia": vehicles.describe_inertia,
         "drag": vehicles.describe_drag,
@@ -28,17 +38,17 @@ VEHICLE_NUMBERS = partial(
         "thrust": thrust.describe_thrust,
     },
 )
-"""Rules about each vehicle, by the name in its ``<u:accept>``."""
+"""Checks of each vehicle's numbers, by the name that suppresses them in ``<u:accept>``."""
 OBJECT_NUMBERS = partial(
     objects.object_numbers,
     checks={"places": objects.describe_centre, "buoyancy": objects.describe_volume},
 )
-"""Rules about each loose object, by the name in its ``<u:accept>``."""
+"""Checks of each loose object's numbers, by the name that suppresses them in ``<u:accept>``."""
 
 SCENE_RULES: tuple[Rule[CheckedScene], ...] = (
-    Rule(places.places_of_files, Need.DOCUMENT, in_check=False, in_runs=True),
+    Rule(file_locations.file_locations, Need.DOCUMENT, in_check=False, in_runs=True),
     Rule(robots.macro_warnings, Need.DOCUMENT, in_runs=True),
-    Rule(robots.robot_places, Need.SPEC),
+    Rule(robots.robot_locations, Need.SPEC),
     Rule(names.unknown_links, Need.SPEC, in_runs=True),
     Rule(names.unknown_sources, Need.SPEC, in_runs=True),
     Rule(names.shared_sources, Need.SPEC, in_runs=True),

@@ -115,7 +115,7 @@ class SavedImage:
     """The true corners of the target, x, y, x, y, ... [px], from the centre of the top left pixel;
     None if no measure compares corners."""
     estimate: tuple[float, ...] | None = None
-    """The corners in the algorithm's last estimate, in this order [px]; None without an estimate."""
+    """The corners in the algorithm's last estimate, in this order [px]; None without one."""
 
 
 @dataclass(frozen=True, kw_only=True)

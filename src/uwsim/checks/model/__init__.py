@@ -1,1 +1,1 @@
-"""Checks of a scene for likely mistakes that need its bodies or its thrusters."""
+"""Rules that find likely mistakes from the robots, shapes and hydrodynamics of a scene."""

@@ -63,7 +63,13 @@ class Bottom:
         self._rays = RayScene([[Surface(index, part, True) for index, part in faces.items()]])
 
     def describe_miss(self, spec: DvlSensorSpec, index: int, robot: RobotSpec) -> str:
-        """Describe the bottom that a DVL misses at the start; empty if it detects it."""
+        """Describe why a DVL does not detect the bottom at the start; empty if it does.
+
+        Args:
+            spec: the DVL.
+            index: the index of its vehicle in the scene.
+            robot: the robot of the vehicle.
+        """
         frames = MountFrames(self._scene.vehicles[index], robot, self._scene.world_from_localized)
         janus = Janus(math.radians(spec.beam_angle))
         hits = self._rays.cast(frames.world_from_mounted(spec), janus.directions, MAX_RANGE)
@@ -71,9 +77,9 @@ class Bottom:
         if spec.is_bottom(axial).sum() >= MIN_BEAMS:
             return ""
         ranges = axial[np.isfinite(axial)]
-        place = f"at {ranges.min():.3g} to {ranges.max():.3g} m" if len(ranges) else "nowhere"
+        range_text = f"at {ranges.min():.3g} to {ranges.max():.3g} m" if len(ranges) else "nowhere"
         return (
             f"it has no bottom track at the start. It {describe_direction(spec, frames)}, and its "
-            f"beams hit the bottom {place}; expected {MIN_BEAMS} hits or more at "
+            f"beams hit the bottom {range_text}; expected {MIN_BEAMS} hits or more at "
             f"{spec.min_altitude:g} to {spec.max_altitude:g} m"
         )

@@ -1,4 +1,7 @@
-"""Warnings about large fixed meshes: inexact contact surfaces, and too many plates."""
+"""Warnings about large fixed meshes: simplified contact surfaces, and too many plates.
+
+Contacts with a fixed mesh use a thin plate behind each of its flat faces.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +19,7 @@ MAX_PLATES = 5000
 MAX_LISTED_OBJECTS = 4
 """The greatest number of objects that one warning names."""
 ERROR_FACTOR = 2.0
-"""The error that is recommended, as a multiple of the present one."""
+"""The recommended contact error, as a multiple of the present error [1]."""
 
 
 def fixed_meshes(scene: CheckedScene) -> Iterator[Diagnostic]:

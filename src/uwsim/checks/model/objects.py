@@ -19,17 +19,18 @@ from ..subjects import CheckedScene
 from .vehicles import MAX_VOLUME_RATIO
 
 MAX_OFFSET_SHARE = 0.05
-"""The distance of the centre of mass from the object's box, as a share of its length."""
+"""The greatest expected distance of the centre of mass from the object's bounding box, as a
+fraction of the box's longest edge [1]."""
 
 
 ObjectCheck = Callable[[PhysicsSpec, Sequence[CollisionShape]], str]
-"""A function that describes unlikely values of an object with its shapes; empty if none."""
+"""A function that describes unlikely values of an object, from its shapes; empty if none."""
 
 
 def object_numbers(
     scene: CheckedScene, checks: Mapping[ObjectWarning, ObjectCheck]
 ) -> Iterator[Diagnostic]:
-    """Apply checks to each loose object; the keys are the names of the warnings."""
+    """Apply checks to each loose object; the keys are the names that suppress the warnings."""
     for index, physics in scene.loose_objects.items():
         if physics.centre_of_mass is None and physics.volume is None:
             continue
@@ -46,11 +47,11 @@ def object_numbers(
 def describe_centre(physics: PhysicsSpec, shapes: Sequence[CollisionShape]) -> str:
     """Describe a centre of mass outside the box around an object; empty if inside."""
     box = bounds(shapes)
-    half = np.array(box.size)  # (3,) [m]
+    half = np.array(box.size)  # half the edges, (3,) [m]
     if physics.centre_of_mass is None:
         return ""
-    place: Array = np.array(physics.centre_of_mass) - box.body_from_shape.position
-    distance = length(np.maximum(np.abs(place) - half, 0.0))
+    offset: Array = np.array(physics.centre_of_mass) - box.body_from_shape.position
+    distance = length(np.maximum(np.abs(offset) - half, 0.0))
     if distance <= MAX_OFFSET_SHARE * 2.0 * half.max():
         return ""
     return (
@@ -61,7 +62,7 @@ def describe_centre(physics: PhysicsSpec, shapes: Sequence[CollisionShape]) -> s
 
 def describe_volume(physics: PhysicsSpec, shapes: Sequence[CollisionShape]) -> str:
     """Describe a displaced volume that is too large for the box around an object; empty if not."""
-    half = np.array(bounds(shapes).size)  # (3,) [m]
+    half = np.array(bounds(shapes).size)  # half the edges, (3,) [m]
     box_volume = float(np.prod(2.0 * half))
     if physics.volume is None or physics.volume <= MAX_VOLUME_RATIO * box_volume:
         return ""

@@ -1,4 +1,4 @@
-"""Rules about the simulated parts of a scene: names, shapes and floors."""
+"""Rules about the dynamics of a scene: names in hydrodynamics, collision shapes, floors."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def object_shapes(scene: CheckedScene) -> Iterator[Diagnostic]:
 
 
 def missing_floors(scene: CheckedScene) -> Iterable[Diagnostic]:
-    """Return the errors of bodies that have no floor below them."""
+    """Return the errors about bodies to be placed on a floor that have none below them."""
     try:
         set_on_floor(scene.resolved_scene)
     except SceneError as error:

@@ -1,7 +1,8 @@
 """Warnings about start poses: in or under the ground, or above the water.
 
 The ground consists of the fixed objects that have contacts, each checked separately. Not checked:
-bodies with ``<u:accept>start</u:accept>`` or ``<u:onFloor>``, ghosts, vehicles inside one another.
+bodies with ``<u:accept>start</u:accept>`` or ``<u:onFloor>``, ghosts (``<vr>``), vehicles inside
+one another.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from ..subjects import MAX_LOOSE_OBJECTS, CheckedScene
 
 Body = VehicleSpec | ObjectSpec
 CLEARANCE = 1e-3
-"""The height above the ground of the position that a message names [m]."""
+"""The height above the ground of the position that a message recommends [m]."""
 
 
 def start_poses(scene: CheckedScene) -> Iterator[Diagnostic]:
@@ -87,17 +88,22 @@ class Starts:
         """Describe the ground in or under which a body starts, and a position above it."""
         if depth is None:
             return ""
-        fault = (
+        description = (
             f"it begins {depth.rise:.3g} m deep in {depth.ground!r}"
             if depth.centre_depth is None
             else f"it begins under the surface of {depth.ground!r}, its middle "
             f"{depth.centre_depth:.3g} m deep"
         )
         position = self._clear_position(world_from_body, depth.rise)
-        return f"{fault}; expected above it, at {position}: <u:onFloor/> sets it there"
+        return f"{description}; expected above it, at {position}: <u:onFloor/> sets it there"
 
     def _clear_position(self, world_from_body: Pose, rise: float) -> str:
-        """Return the position in the file's frame at which a body is above the ground."""
+        """Return the position in the file's frame at which a body is above the ground, as text.
+
+        Args:
+            world_from_body: the start pose of the body.
+            rise: the height by which the body must be raised to be on the ground [m].
+        """
         clear_position = world_from_body.position + np.array([0.0, 0.0, rise + CLEARANCE])
         file_from_world = self._scene.world_from_localized.inverse()
         start = file_from_world.transform(world_from_body.position[None])[0]
@@ -106,7 +112,7 @@ class Starts:
         return ", ".join(f"{'xyz'[i]} {end[i]:.3f}" for i in axes)
 
     def _vertical_axis(self) -> str:
-        """Return the vertical axis of the file's frame, upwards."""
+        """Return the axis of the file's frame that points up, such as ``-z``."""
         up = self._scene.world_from_localized.rotation[2]
         axis = int(np.argmax(np.abs(up)))
         return f"{'-' if up[axis] < 0.0 else ''}{'xyz'[axis]}"

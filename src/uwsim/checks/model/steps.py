@@ -42,10 +42,16 @@ def thin_objects(scene: CheckedScene) -> Iterator[Diagnostic]:
 def describe_rotation(
     physics: PhysicsSpec, shapes: Sequence[CollisionShape], density: float, timestep: float
 ) -> str:
-    """Describe an object that may turn by more than `MAX_TURN` in a step; empty if none does.
+    """Describe an object that may turn by more than `MAX_TURN` in a step; empty if it does not.
 
-    It rolls about its longest axis, whose radius is half the middle edge of the box around it, as
-    fast as it sinks on its broadest side.
+    The object is assumed to roll about its longest axis, as fast as it sinks with its broadest side
+    down. The radius of the rolling is half the middle edge of its bounding box.
+
+    Args:
+        physics: the physics of the object.
+        shapes: its collision shapes.
+        density: the density of the water [kg/m3].
+        timestep: the length of a step [s].
     """
     water = loose_hydrodynamics("", physics, shapes, density)
     weight_in_water = GRAVITY * (physics.mass - density * water.volume)
@@ -65,5 +71,5 @@ def describe_rotation(
 
 
 def _round_down_to_digit(time: float) -> float:
-    unit = 10.0 ** math.floor(math.log10(time))
-    return math.floor(time / unit * (1.0 + 1e-9)) * unit
+    power = 10.0 ** math.floor(math.log10(time))
+    return math.floor(time / power * (1.0 + 1e-9)) * power

@@ -1,4 +1,4 @@
-"""Warnings about axes that the autopilots of a scene cannot control."""
+"""Warnings about axes that the thrusters of a vehicle cannot drive, and about lack of power."""
 
 from __future__ import annotations
 
@@ -21,17 +21,17 @@ from ...physics.actuation.allocation import (
     thrusters_on_base,
 )
 from ...physics.actuation.power import greatest_power
-from .vehicles import SimulatedVehicle
+from .vehicles import DynamicVehicle
 
 STATION_AXES = (SURGE, SWAY, HEAVE, YAW)
 """The axes that an autopilot needs for station keeping."""
 AXIS_LABELS = {SWAY: "sway", HEAVE: "depth (heave)", YAW: "heading (yaw)", SURGE: "surge"}
 
 
-def describe_thrust(vehicle: SimulatedVehicle) -> str:
-    """Describe the limits of the thrusters of a simulated vehicle; empty if there are none.
+def describe_thrust(vehicle: DynamicVehicle) -> str:
+    """Describe the limits of the thrusters of a vehicle; empty if there are none.
 
-    Limits are axes that they cannot drive, and power that no battery of the vehicle supplies.
+    Limits are axes that the thrusters cannot drive, and power that a battery cannot supply.
     """
     messages = [describe_limits(allocation_of(vehicle))]
     dynamics = vehicle.dynamics
@@ -46,8 +46,8 @@ def describe_thrust(vehicle: SimulatedVehicle) -> str:
     return "; ".join(filter(None, messages))
 
 
-def allocation_of(vehicle: SimulatedVehicle) -> Allocation:
-    """Compute the thrust allocation of a vehicle at its start."""
+def allocation_of(vehicle: DynamicVehicle) -> Allocation:
+    """Compute the thrust allocation of a vehicle at its start attitude."""
     body = vehicle.dynamics.body(vehicle.robot.root)
     reference = np.array(body.reference if body else (0.0, 0.0, 0.0))
     values = vehicle.spec.joint_values
@@ -96,7 +96,8 @@ def _is_coupled(allocation: Allocation, axis: int) -> bool:
 
 
 def _describe_coupling(allocation: Allocation, axis: int) -> str:
-    shares = product(allocation.wrenches[axis], allocation.allocation_matrix)  # of each driven axis
+    # the force along the axis for a unit wrench of each driven axis
+    shares = product(allocation.wrenches[axis], allocation.allocation_matrix)
     pairs = zip(allocation.axes, shares, strict=True)
     coupled_axes = [AXES[a] for a, share in pairs if abs(share) > 1e-3]
     return f"{AXES[axis]} is driven only together with {' and '.join(coupled_axes)}"

@@ -1,7 +1,7 @@
 """Warnings about a vehicle's numbers: likely mistakes of units, signs and powers of ten.
 
-The values may be intended: a lander sinks, a spar buoy is 60 m long. Checks that a vehicle's
-``<u:accept>`` names are not applied.
+The values may be intended: a lander sinks, a spar buoy is 60 m long. A warning is omitted if the
+``<u:accept>`` of the vehicle names its check.
 """
 
 from __future__ import annotations
@@ -30,28 +30,30 @@ from ...world import TIMESTEP
 from ..subjects import CheckedScene
 
 MAX_IMBALANCE = 0.1
-"""The reported difference of mass and displaced water, as a share of the greater."""
+"""The greatest difference of mass and displaced mass that is not reported, as a fraction of the
+greater of them [1]."""
 MAX_VOLUME_RATIO = 2.0
 """The greatest ratio of displaced volume to the volume of the link boxes [1]."""
 MIN_VOLUME_RATIO = 0.005
 """The least ratio of displaced volume to the volume of the link boxes [1]."""
 MIN_INSTABILITY = 1e-3
-"""The reported height of the centre of mass above the centre of buoyancy [m]."""
+"""The height of the centre of mass above the centre of buoyancy from which it is reported [m]."""
 MAX_SIZE, MIN_SIZE = 50.0, 0.05
 """The limits of a vehicle's length [m]."""
 MAX_HULL_DISTANCE = 0.5
-"""The reported distance of a part from the hull, as a share of the vehicle's length."""
+"""The greatest distance of a part from the hull that is not reported, as a fraction of the
+vehicle's length [1]."""
 MAX_ACCELERATION = 50.0
-"""The greatest acceleration by one thruster [m/s2]."""
+"""The greatest expected acceleration by one thruster [m/s2]."""
 DRAG_SPEED = 1.0
 """The speed at which quadratic drag is checked [m/s]."""
 GYRATION_LIMITS = (0.03, 2.0)
-"""The limits of the radius of gyration, as a share of the link's length."""
+"""The limits of the radius of gyration, as a fraction of the link's length [1]."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class SimulatedVehicle:
-    """A simulated vehicle with its robot, hydrodynamics, balance and hull."""
+class DynamicVehicle:
+    """A vehicle with dynamics (``<u:dynamics>``), with its robot, hydrodynamics and shape."""
 
     spec: VehicleSpec
     """The spec of the vehicle."""
@@ -62,9 +64,9 @@ class SimulatedVehicle:
     balance: Balance
     """The weight and buoyancy."""
     up: Array
-    """The upward direction in the base at the start, (3,)."""
+    """The unit vector in the base frame that points up at the start, (3,)."""
     hull: Hull | None
-    """The extent of the vehicle; None without a shape."""
+    """The boxes around the links; None for a vehicle without a shape."""
 
     @property
     def height(self) -> float:
@@ -88,9 +90,8 @@ def describe_size(hull: Hull, robot: RobotSpec) -> str:
     )
 
 
-Body = BodyHydrodynamics
-VehicleCheck = Callable[[SimulatedVehicle], str]
-"""A function that describes unlikely values of a simulated vehicle; empty if none."""
+VehicleCheck = Callable[[DynamicVehicle], str]
+"""A function that describes unlikely values of a vehicle with dynamics; empty if all are likely."""
 
 
 def vehicle_numbers(
@@ -98,7 +99,13 @@ def vehicle_numbers(
     hull_checks: Mapping[VehicleWarning, Callable[[Hull, RobotSpec], str]],
     vehicle_checks: Mapping[VehicleWarning, VehicleCheck],
 ) -> Iterator[Diagnostic]:
-    """Apply checks to each vehicle; the keys are the names of the warnings."""
+    """Apply checks to each vehicle; the keys are the names that suppress the warnings.
+
+    Args:
+        scene: the scene.
+        hull_checks: checks of the shape of a vehicle, with or without dynamics.
+        vehicle_checks: checks of a vehicle with dynamics.
+    """
     for index in scene.checked_vehicles:
         vehicle, robot = scene.spec.vehicles[index], scene.robots[index]
         hull = None
@@ -109,7 +116,7 @@ def vehicle_numbers(
             texts += [(name, "file", check(hull, robot)) for name, check in hull_checks.items()]
         if index in scene.dynamics:
             dynamics, pose = scene.dynamics[index], vehicle.localized_from_base
-            simulated_vehicle = SimulatedVehicle(
+            dynamic_vehicle = DynamicVehicle(
                 spec=vehicle,
                 robot=robot,
                 dynamics=dynamics,
@@ -118,7 +125,7 @@ def vehicle_numbers(
                 hull=hull,
             )
             texts += [
-                (name, DYNAMICS, check(simulated_vehicle)) for name, check in vehicle_checks.items()
+                (name, DYNAMICS, check(dynamic_vehicle)) for name, check in vehicle_checks.items()
             ]
         for warning, element, text in texts:
             if text and warning not in vehicle.accepts:
@@ -126,8 +133,8 @@ def vehicle_numbers(
                 yield scene.warning(vehicle, message, element)
 
 
-def describe_buoyancy(vehicle: SimulatedVehicle) -> str:
-    """Compare a vehicle's weight with its displacement, and that with its shape."""
+def describe_buoyancy(vehicle: DynamicVehicle) -> str:
+    """Describe a mass that is not balanced, or a displaced volume that does not fit the shape."""
     mass, water_mass = vehicle.balance.mass, vehicle.balance.displaced_mass
     messages = []
     if abs(water_mass - mass) > MAX_IMBALANCE * max(water_mass, mass):
@@ -147,7 +154,7 @@ def describe_buoyancy(vehicle: SimulatedVehicle) -> str:
     return "; ".join(messages)
 
 
-def describe_balance(vehicle: SimulatedVehicle) -> str:
+def describe_balance(vehicle: DynamicVehicle) -> str:
     """Describe a vehicle without static stability; empty if it is stable."""
     if vehicle.height > -MIN_INSTABILITY or not vehicle.balance.displaced_mass > 0.0:
         return ""
@@ -158,25 +165,25 @@ def describe_balance(vehicle: SimulatedVehicle) -> str:
     )
 
 
-def describe_places(vehicle: SimulatedVehicle) -> str:
+def describe_positions(vehicle: DynamicVehicle) -> str:
     """Describe thrusters, fins and centres that are far from the hull; empty if none is."""
     if vehicle.hull is None:
         return ""
     values = vehicle.spec.joint_values
     thrusters = thrusters_on_base(vehicle.robot, vehicle.dynamics.thrusters, values)
-    places = [(f"thruster {unit.name!r}", np.array(unit.position)) for unit in thrusters]
+    positions = [(f"thruster {unit.name!r}", np.array(unit.position)) for unit in thrusters]
     links = link_poses(vehicle.robot, values)
-    places += [
+    positions += [
         (f"fin {fin.name!r}", links[fin.link].transform(np.array([fin.position]))[0])
         for fin in vehicle.dynamics.fins
     ]
-    places.append(("centre of mass", vehicle.balance.centre_of_mass))
-    places.append(("centre of buoyancy", vehicle.balance.centre_of_buoyancy))
+    positions.append(("centre of mass", vehicle.balance.centre_of_mass))
+    positions.append(("centre of buoyancy", vehicle.balance.centre_of_buoyancy))
     size = vehicle.hull.size
     far_parts = [
         f"its {name} {distance:.3g} m"
-        for name, place in places
-        if (distance := vehicle.hull.distance(place)) > MAX_HULL_DISTANCE * size
+        for name, position in positions
+        if (distance := vehicle.hull.distance(position)) > MAX_HULL_DISTANCE * size
     ]
     if not far_parts:
         return ""
@@ -186,7 +193,7 @@ def describe_places(vehicle: SimulatedVehicle) -> str:
     )
 
 
-def describe_strength(vehicle: SimulatedVehicle) -> str:
+def describe_strength(vehicle: DynamicVehicle) -> str:
     """Describe thrusters that are too strong for the vehicle; empty if none is."""
     messages = []
     for thruster in vehicle.dynamics.thrusters:
@@ -204,7 +211,7 @@ def describe_strength(vehicle: SimulatedVehicle) -> str:
     )
 
 
-def describe_inertia(vehicle: SimulatedVehicle) -> str:
+def describe_inertia(vehicle: DynamicVehicle) -> str:
     """Describe links whose inertia does not fit their mass and size; empty if none does."""
     messages = []
     for link, mass, body in _links(vehicle):
@@ -213,23 +220,24 @@ def describe_inertia(vehicle: SimulatedVehicle) -> str:
             continue
         inertia = link.inertia if body is None or body.inertia is None else body.inertia
         moments = inertia[:3]
-        is_given = min(moments) > 0.0
-        max_moment = max(moments) if is_given else MIN_INERTIA
+        has_inertia = min(moments) > 0.0
+        max_moment = max(moments) if has_inertia else MIN_INERTIA
         edges = np.sort(box.extent)
         min_radius, max_radius = (share * edges[2] for share in GYRATION_LIMITS)
         if min_radius <= math.sqrt(max_moment / mass) <= max_radius and min(moments) >= 0.0:
             continue
-        box_moment = mass / 12.0 * float(edges[1] ** 2 + edges[2] ** 2)  # the greatest of its box
+        # the greatest moment of inertia of a homogeneous box of the link's size
+        box_moment = mass / 12.0 * float(edges[1] ** 2 + edges[2] ** 2)
         messages.append(
             f"its link {link.name!r} has {mass:.4g} kg and the inertia {_list(moments)}"
-            + ("" if is_given else f" (it is simulated with {MIN_INERTIA:g})")
+            + ("" if has_inertia else f" (it is simulated with {MIN_INERTIA:g})")
             + f"; a box of its size, {_list(box.extent)} m, has {box_moment:.2g} kg m2 at most"
         )
     return "; ".join(messages[:3])
 
 
-def describe_drag(vehicle: SimulatedVehicle) -> str:
-    """Describe links that are too light for their drag; empty if none is."""
+def describe_drag(vehicle: DynamicVehicle) -> str:
+    """Describe links that are so light that their drag stops them in a step; empty if none is."""
     messages = []
     joints, root = vehicle.robot.joints, vehicle.robot.root
     moving_links = {joint.child for joint in joints if joint.moves} | {root}
@@ -252,7 +260,7 @@ def describe_drag(vehicle: SimulatedVehicle) -> str:
     return "; ".join(messages[:3])
 
 
-def describe_friction(vehicle: SimulatedVehicle) -> str:
+def describe_friction(vehicle: DynamicVehicle) -> str:
     """Describe joints that their servos cannot move; empty if there are none."""
     joints = [
         f"{joint.name!r} ({joint.friction:.3g} of {joint.effort:.3g})"
@@ -267,7 +275,10 @@ def describe_friction(vehicle: SimulatedVehicle) -> str:
     )
 
 
-def _links(vehicle: SimulatedVehicle) -> Iterator[tuple[LinkSpec, float, Body | None]]:
+def _links(
+    vehicle: DynamicVehicle,
+) -> Iterator[tuple[LinkSpec, float, BodyHydrodynamics | None]]:
+    """Yield each link with its mass [kg] and its hydrodynamics, if it has any."""
     for link in vehicle.robot.links:
         body = vehicle.dynamics.body(link.name)
         yield link, link.mass if body is None or body.mass is None else body.mass, body

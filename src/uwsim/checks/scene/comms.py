@@ -1,4 +1,4 @@
-"""Consistency checks of the communication devices of a scene."""
+"""Rules about the communication devices and channels of a scene."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Checks of forces: the bodies that they name exist, and one of them can move."""
+"""The rule that the bodies that a force names exist, and that forces move one of them."""
 
 from __future__ import annotations
 

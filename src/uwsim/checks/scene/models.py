@@ -1,4 +1,4 @@
-"""Checks that the models and images that a scene names exist and can be read."""
+"""Rules about models and images that a scene names: they exist and can be read."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def model_files(scene: CheckedScene) -> Iterator[Diagnostic]:
 
 
 def projectors(scene: CheckedScene) -> Iterator[Diagnostic]:
-    """Report projectors without light: only the last one shines, if its image is found."""
+    """Report projectors without effect: only the last projector emits light, if it has an image."""
     projectors = [
         projector
         for vehicle in scene.spec.vehicles
@@ -63,10 +63,10 @@ def projectors(scene: CheckedScene) -> Iterator[Diagnostic]:
 
 
 def _missing_file(scene: CheckedScene, place: object, message: str, name: str) -> Diagnostic:
-    """Report a missing file: an error, but in a scene of the original a warning.
+    """Report a missing file: an error, or a warning in a scene of the original UWSim.
 
-    The archive with the original's models is no longer available. So models that are missing in a
-    scene with the original's DOCTYPE are not errors.
+    The archive with the models of the original is no longer available. So a missing model is no
+    error in a scene with the DOCTYPE of the original.
     """
     report = scene.warning if scene.spec.is_original else scene.error
     return report(place, f"{message}; {assets.describe_search(name, **scene.file_search)}")

@@ -1,6 +1,7 @@
-"""Checks that names in a scene exist: links, sensors, vehicles.
+"""Rules about names in a scene that refer to nothing: links, sensors, vehicles.
 
-They are errors where the original stops or crashes, too, and warnings where it warns and continues.
+Such a name is an error if the original UWSim stops or crashes, too, and a warning if the original
+warns and continues. Other rules here are about joint values, lamps and bodies without contacts.
 """
 
 from __future__ import annotations
@@ -60,12 +61,12 @@ def joint_values(scene: CheckedScene) -> Iterator[Diagnostic]:
     """Warn of too many joint values, or values beyond the limits of their joints."""
     for index, robot in scene.robots.items():
         vehicle = scene.spec.vehicles[index]
-        place = line_of(vehicle, "jointValues")
+        line = line_of(vehicle, "jointValues")
         n_values, n_joints = len(vehicle.joint_values), len(robot.movable_joints)
         if n_values > n_joints:
             joints = ", ".join(joint.name for joint in robot.movable_joints)
             yield scene.warning(
-                place,
+                line,
                 f"<jointValues> has {n_values} values for {n_joints} joints ({joints}); "
                 "the rest is not used",
             )
@@ -75,7 +76,7 @@ def joint_values(scene: CheckedScene) -> Iterator[Diagnostic]:
                 message = f"joint {joint.name!r} at {value:g} is limited to {limited_value:g}"
                 if joint.kind != "prismatic" and abs(value) > MAX_PLAUSIBLE_ANGLE:
                     message += f" [rad]; {value:g} degrees are {math.radians(value):.5g}"
-                yield scene.warning(place, message)
+                yield scene.warning(line, message)
 
 
 def _names_by_kind(scene: SceneSpec) -> dict[str, dict[str, None]]:
@@ -95,7 +96,7 @@ def unknown_sources(scene: CheckedScene) -> Iterator[Diagnostic]:
     known_names = _names_by_kind(scene.spec)
     for interface in unwrap_interfaces(scene.spec.ros_interfaces):
         if isinstance(interface, SensorToROSSpec):
-            continue  # not ignored as in the original: `NamedSensors.error` reports it
+            continue  # an error, which `NamedSensors.error` reports
         element = element_name(interface)
         source = source_of(interface)
         if source is None:
@@ -121,24 +122,23 @@ def unknown_sources(scene: CheckedScene) -> Iterator[Diagnostic]:
 
 
 def shared_sources(scene: CheckedScene) -> Iterator[Diagnostic]:
-    """Warn of several interfaces on one camera, of which the original serves the last."""
+    """Warn of cameras with several interfaces, and of vehicles with the same name."""
     cameras = [
         interface
         for interface in scene.spec.ros_interfaces
         if isinstance(interface, VirtualCameraToROSImageSpec)
     ]
-    last_of = {interface.camera_name: interface for interface in cameras}
+    last_interfaces = {interface.camera_name: interface for interface in cameras}
     for name in _repeated_names(interface.camera_name for interface in cameras):
-        last_interface = last_of[name]
         yield scene.warning(
-            last_interface,
+            last_interfaces[name],
             f"camera {name!r} has several interfaces; the original serves this last one only",
         )
     vehicles = scene.spec.vehicles
     for name in _repeated_names(vehicle.name for vehicle in vehicles):
-        second = [vehicle for vehicle in vehicles if vehicle.name == name][1]
+        second_vehicle = [vehicle for vehicle in vehicles if vehicle.name == name][1]
         message = f"several vehicles are called {name!r}; searches find the first"
-        yield scene.warning(second, message)
+        yield scene.warning(second_vehicle, message)
 
 
 def excess_lamps(scene: CheckedScene) -> Iterator[Diagnostic]:
@@ -150,7 +150,7 @@ def excess_lamps(scene: CheckedScene) -> Iterator[Diagnostic]:
 
 
 def passable_objects(scene: CheckedScene) -> Iterator[Diagnostic]:
-    """Report the objects that simulated vehicles pass through, unless the file states it."""
+    """Report objects that vehicles with dynamics pass through, unless ``<u:solid>`` is set."""
     specs = [
         spec
         for spec in (scene.spec.objects if scene.spec.is_dynamic else ())
@@ -166,7 +166,7 @@ def passable_objects(scene: CheckedScene) -> Iterator[Diagnostic]:
 
 
 def loose_scenery(scene: CheckedScene) -> Iterator[Diagnostic]:
-    """Report scenery that the original's physics moves beside objects that have ``<physics>``."""
+    """Report objects without ``<physics>`` that fall as loose boxes, as in the original UWSim."""
     objects = scene.spec.objects if scene.spec.requests_uwsim_physics else ()
     specs = [
         spec
@@ -189,7 +189,7 @@ def _list_objects(specs: Sequence[ObjectSpec]) -> str:
 
 
 def passable_vehicles(scene: CheckedScene) -> Iterator[Diagnostic]:
-    """Report vehicles that simulated ones pass through, and those without any shape."""
+    """Report vehicles without dynamics or without shapes, which pass through other vehicles."""
     robots = scene.robots
     for index, vehicle in enumerate(scene.spec.vehicles if scene.spec.is_dynamic else ()):
         if "passable" in vehicle.accepts or vehicle.vr:

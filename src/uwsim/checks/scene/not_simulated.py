@@ -29,16 +29,18 @@ def unsimulated_elements(root: etree._Element) -> Iterator[tuple[int, str]]:
     """Yield a line and a message for each kind of element that is read and not simulated yet."""
     lines: dict[str, list[int]] = {}
     is_dynamic = root.find(f"vehicle/{{{NAMESPACE}}}dynamics") is not None
-    falls = not is_dynamic and (root.findtext("simParams/enablePhysics") or "").strip() == "1"
+    physics_text = (root.findtext("simParams/enablePhysics") or "").strip()
+    has_original_physics = physics_text == "1" and not is_dynamic
+    has_physics = is_dynamic or has_original_physics
     for node in root.iter("*"):
         parent = node.getparent()
         if parent is None:
             continue
-        place = (str(parent.tag), str(node.tag))
-        kind = UNSIMULATED_ELEMENTS.get(place)
-        if place in ORIGINAL_PHYSICS_ELEMENTS and falls:
+        tags = (str(parent.tag), str(node.tag))
+        kind = UNSIMULATED_ELEMENTS.get(tags)
+        if tags in ORIGINAL_PHYSICS_ELEMENTS and has_original_physics:
             kind = None
-        elif (is_dynamic or falls) and parent.tag == "physics" and node.tag in LIMIT_ELEMENTS:
+        elif has_physics and parent.tag == "physics" and node.tag in LIMIT_ELEMENTS:
             kind = "limits of objects"
         if kind is not None and DISABLED_TEXTS.get(str(node.tag)) != (node.text or "").strip():
             lines.setdefault(kind, []).append(_line(node))

@@ -1,4 +1,4 @@
-"""Directions of sensors and lamps in words; names and quality of cameras; old mounts."""
+"""Rules that state the directions of sensors and lamps in words, and rules about cameras."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ from ...sensors.virtual_camera import VirtualCameraSpec
 from ..subjects import CheckedScene
 
 MIN_UPWARD_SINE = 0.5
-"""The sine of the elevation above which a sensor looks up."""
+"""The sine of the elevation of the viewing axis above which a sensor points up [1]."""
 POLISHED_IMAGE_COST = "three to four times the time of"
-"""The cost, measured with a software rasteriser: 16.7 ms instead of 5.4 ms at 320x240, 46 ms
-instead of 13 ms at 640x480."""
+"""The rendering time, measured with a software rasteriser: 16.7 ms instead of 5.4 ms at 320x240,
+46 ms instead of 13 ms at 640x480."""
 
 
 def directions(scene: CheckedScene) -> Iterator[Diagnostic]:
@@ -41,7 +41,7 @@ def directions(scene: CheckedScene) -> Iterator[Diagnostic]:
 
 
 def shared_camera_names(scene: CheckedScene) -> Iterator[Diagnostic]:
-    """Warn of several cameras of one name."""
+    """Warn of several cameras with the same name."""
     cameras = [
         spec
         for index, robot in scene.robots.items()
@@ -70,7 +70,7 @@ def _quoted_name(spec: MountedPart) -> str:
 
 
 def _upward_sensors(scene: CheckedScene, frames: MountFrames) -> Iterator[Diagnostic]:
-    """Warn of old sensors: until July 2014 they were mounted on visual frames."""
+    """Warn of sensors that point up, as their file is for visual frames (used until July 2014)."""
     upward_specs: list[DirectedPart] = []
     n_downward = 0
     for spec in directional_parts(frames.vehicle):

@@ -14,7 +14,7 @@ from ...topics.simulated_device_ros import unwrap_interfaces
 from ..subjects import CheckedScene
 
 TOPIC_NAME = re.compile(r"[A-Za-z]\w*(/\w+)*", re.ASCII)
-"""The valid topic names in ROS, without the slash that may precede them."""
+"""The pattern of a valid topic name in ROS, without the leading slash that it may have."""
 
 
 def shared_object_names(scene: CheckedScene) -> Iterator[Diagnostic]:
@@ -58,7 +58,7 @@ def shared_part_names(scene: CheckedScene) -> Iterator[Diagnostic]:
 
 def shared_topics(scene: CheckedScene) -> Iterator[Diagnostic]:
     """Warn of topics with two publishers, and of invalid topic names."""
-    writers: dict[str, tuple[str, str]] = {}
+    publishers: dict[str, tuple[str, str]] = {}  # topic -> element, name of the source
     for interface in unwrap_interfaces(scene.spec.ros_interfaces):
         element, source = element_name(interface), source_of(interface) or ""
         for field in interface.message_types():
@@ -69,7 +69,7 @@ def shared_topics(scene: CheckedScene) -> Iterator[Diagnostic]:
                 yield scene.warning(interface, f"{format_tag(element)}: {message}")
             if interface.subscribes:
                 continue
-            other = writers.get(key)
+            other = publishers.get(key)
             if other is not None and isinstance(interface, VehiclePublisherSpec):
                 yield scene.warning(
                     interface,
@@ -81,10 +81,10 @@ def shared_topics(scene: CheckedScene) -> Iterator[Diagnostic]:
                     f"{format_tag(element)}: the topic {topic!r} of {source!r} carries "
                     f"{other[1]!r} of {format_tag(other[0])}, too; readers get both",
                 )
-            writers.setdefault(key, (element, source))
+            publishers.setdefault(key, (element, source))
 
 
 def source_of(interface: InterfaceSpec) -> str | None:
-    """Return the vehicle, camera or sensor that an interface publishes; None if it names none."""
+    """Return the name of the vehicle, camera or sensor of an interface; None if it names none."""
     names = (getattr(interface, field, None) for field in ("vehicle_name", "camera_name", "name"))
     return next((str(name) for name in names if name is not None), None)

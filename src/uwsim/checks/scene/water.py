@@ -10,7 +10,7 @@ from ...schema import NAMESPACE, line_of
 from ..subjects import CheckedScene
 
 SOUND_ELEMENTS = ("temperature", "salinity")
-"""The elements from which the speed and the loss of sound are computed, too."""
+"""The elements that also determine the speed and the absorption of sound."""
 MAX_DENSITY_DECREASE = 0.01
 """The greatest decrease of density with depth, for rounded numbers [kg/m3]."""
 

@@ -1,4 +1,4 @@
-"""Warnings about files at other places than the scene or its robots state, or partly broken."""
+"""Warnings about files that are not where the scene or its robots state, or are partly broken."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ from ..robot_search import FileSearch
 from ..subjects import CheckedScene
 
 
-def places_of_files(scene: CheckedScene) -> list[Diagnostic]:
-    """Warn of each file at another place, each missing package, and each partly broken model."""
+def file_locations(scene: CheckedScene) -> list[Diagnostic]:
+    """Warn of each file at another path, each missing package, and each partly broken model."""
     remarks: dict[str, Spec] = {}
     for vehicle in scene.spec.vehicles:
         try:
@@ -38,7 +38,7 @@ def places_of_files(scene: CheckedScene) -> list[Diagnostic]:
 
 
 def _models(scene: CheckedScene) -> Iterator[tuple[Spec, str, Path | None]]:
-    """Yield every model with the element and the file that name it."""
+    """Yield, for every model, the element that names it, its name, and the file of the element."""
     for spec in scene.spec.objects:
         yield spec, spec.file, scene.file_search["named_by"]
     for robot in scene.robots.values():
