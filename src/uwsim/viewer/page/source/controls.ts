@@ -1,14 +1,14 @@
-// The interface of the page for its keys, its buttons and a running simulation.
+// The interface of the page that its keys, its toolbar and the live link use.
 import type { Reading } from "./display/quantities";
 import type { Pack } from "./pack";
 import type { Picture, Switches } from "./picture";
 import type { Player } from "./player";
 import type { Mode, Views } from "./views";
 
-/** The parts that may be shown or hidden. */
+/** The parts of the view that may be shown or hidden. */
 export type Switch = "clear" | "state" | "pictures" | "frames" | "trails" | "sonars" | "labels";
 
-/** The interface of a running simulation for the keys. */
+/** The interface of a running simulation that the keys use. */
 export interface LiveControls {
   /** True if the simulation allows a reset to its initial state. */
   readonly allowsReset: boolean;

@@ -1,9 +1,9 @@
-// Curves of all measures, with a cursor at the displayed time.
+// Charts of curves, one below the other, with a cursor at the displayed time.
 import uPlot from "uplot";
 import type { Samples } from "./player";
 
-const HEIGHT = 96;
-const N_OPEN_CHARTS = 8; // initially open
+const HEIGHT = 96; // of a chart [px]
+const N_OPEN_CHARTS = 8; // number of charts that are unfolded initially
 const COLOURS = [ // readable on light and dark, and of different lightness for colour-blind users
   "#2f8fef", "#e8820c", "#1fa367", "#a45ee5", "#e5484d", "#12a5b8", "#b58900", "#d6409f", "#6e7fd9", "#7a8b3a",
 ];
@@ -32,16 +32,16 @@ export class Curves {
   private time = 0;
 
   constructor(
-    private readonly place: HTMLElement,
+    private readonly container: HTMLElement,
     private readonly seek: (time: number) => void,
   ) {
     this.set([]);
-    new ResizeObserver(() => this.resize()).observe(place);
+    new ResizeObserver(() => this.resize()).observe(container);
   }
 
   set(curves: Samples[]): void {
     for (const { plot } of this.charts) plot.destroy();
-    this.place.replaceChildren();
+    this.container.replaceChildren();
     this.charts = curves.map((curve, i) => this.chart(curve, i));
   }
 
@@ -90,7 +90,7 @@ export class Curves {
     name.style.setProperty("--mark", COLOURS[number % COLOURS.length]);
     caption.append(name, value);
     figure.append(caption);
-    this.place.append(figure);
+    this.container.append(figure);
     const plot = new uPlot(
       this.options(curve, COLOURS[number % COLOURS.length]), [curve.times, curve.values], figure,
     );
@@ -102,7 +102,7 @@ export class Curves {
   }
 
   private options({ names, isShare }: Samples, colour: string): uPlot.Options {
-    const style = (name: string) => getComputedStyle(this.place).getPropertyValue(name).trim();
+    const style = (name: string) => getComputedStyle(this.container).getPropertyValue(name).trim();
     const axis = (): uPlot.Axis => ({
       stroke: () => style("--soft"),
       grid: { stroke: () => style("--line"), width: 1 },
@@ -110,7 +110,7 @@ export class Curves {
       font: "10px system-ui, sans-serif",
     });
     return {
-      width: Math.max(120, this.place.clientWidth - 20),
+      width: Math.max(120, this.container.clientWidth - 20),
       height: HEIGHT,
       legend: { show: false },
       cursor: { y: false, drag: { x: false, y: false }, points: { show: false } },
@@ -133,7 +133,7 @@ export class Curves {
   }
 
   private resize(): void {
-    const width = Math.max(120, this.place.clientWidth - 20);
+    const width = Math.max(120, this.container.clientWidth - 20);
     for (const chart of this.charts) {
       chart.plot.setSize({ width, height: HEIGHT });
       this.point(chart);
@@ -141,7 +141,7 @@ export class Curves {
   }
 }
 
-/** Return the limits of the axis: 0 and 1 of a share, all named values, or those of the samples. */
+/** Return the limits of the y axis: all named values; 0 and 1 of a share; else around the samples. */
 function rangeOf(names?: string[], isShare?: boolean): uPlot.Range.MinMax | uPlot.Scale.Range {
   if (names?.length) return [0, names.length];
   if (isShare) return [0, 1];
@@ -154,14 +154,14 @@ function rangeOf(names?: string[], isShare?: boolean): uPlot.Range.MinMax | uPlo
   };
 }
 
-/** Return the text of a number at an axis. */
+/** Return the text of a tick of an axis, whose ticks have a distance of `step`. */
 function tick(value: number, step: number): string {
   const digits = [0, 1, 2, 3, 4, 5].find((n) => Math.abs(step * 10 ** n - Math.round(step * 10 ** n)) < 1e-6) ?? 9;
   if (Math.abs(value) >= 1e5 || digits > 5) return value === 0 ? "0" : value.toExponential(1);
   return String(Number(value.toFixed(digits)));
 }
 
-/** Return the samples between two gaps, which are drawn as dots, as they have no line. */
+/** Return the indices of samples between two gaps: they have no line and are drawn as dots. */
 function isolatedSamples(plot: uPlot, series: number): number[] {
   const values = plot.data[series] as (number | null)[];
   const isGap = (i: number): boolean => values[i] === null || values[i] === undefined;

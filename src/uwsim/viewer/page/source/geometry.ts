@@ -2,7 +2,7 @@
 
 export type Matrix = Float64Array;
 export type Vector = ArrayLike<number>;
-/** x y z w x y z */
+/** Position [m] and quaternion: x y z w x y z. */
 export type Pose = ArrayLike<number>;
 
 export interface Lens {
@@ -45,7 +45,7 @@ export function fromPose(pose: Pose, offset = 0): Matrix {
   ]);
 }
 
-/** Return x y z w x y z of a rotation and a translation. */
+/** Return the pose of a rigid transform. */
 export function toPose(m: Matrix): number[] {
   const signs = [[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]]; // of w, x, y, z
   const squares = signs.map(([a, b, c]) => Math.max(0, 1 + a * m[0] + b * m[5] + c * m[10]));
@@ -61,7 +61,7 @@ export function toPose(m: Matrix): number[] {
   return [m[3], m[7], m[11], ...q];
 }
 
-/** Return the inverse of a rotation and a translation. */
+/** Return the inverse of a rigid transform. */
 export function inverse(m: Matrix): Matrix {
   const back = (i: number): number => -(m[i] * m[3] + m[4 + i] * m[7] + m[8 + i] * m[11]);
   return matrix([
@@ -120,7 +120,7 @@ export function unit(a: Vector): [number, number, number] {
   return [a[0] / length, a[1] / length, a[2] / length];
 }
 
-/** Return world from a camera (OpenGL axes) at `eye` whose view axis goes through `target`. */
+/** Return world from camera (OpenGL axes) for a camera at `eye` that looks towards `target`. */
 export function lookAt(eye: Vector, target: Vector, up: Vector = [0, 0, 1]): Matrix {
   const back = unit(plus(eye, target, -1));
   let right = cross(up, back);
@@ -133,14 +133,14 @@ export function lookAt(eye: Vector, target: Vector, up: Vector = [0, 0, 1]): Mat
   ]);
 }
 
-/** Return the lens of a vertical field of view; a window narrower than 4:3 has the width of 4:3. */
+/** Return the lens with a vertical field of view; a window narrower than 4:3 keeps the horizontal field of 4:3. */
 export function lensOf(width: number, height: number, fovy: number): Lens {
   const focal = Math.min(height, 0.75 * width) / (2 * Math.tan(fovy / 2));
   const centre = { cx: (width - 1) / 2, cy: (height - 1) / 2 };
   return { width, height, fx: focal, fy: focal, ...centre, skew: 0, near: 0.05, far: 2000 };
 }
 
-/** Return clip space from camera; with `isFlipped`, the first row of pixels is the image's top. */
+/** Return the matrix from camera to clip space; with `isFlipped`, the first row of pixels is the image's top. */
 export function clipFromCamera(lens: Lens, isFlipped: boolean): Matrix {
   const { width: w, height: h, near, far } = lens;
   const span = far - near;
@@ -153,7 +153,7 @@ export function clipFromCamera(lens: Lens, isFlipped: boolean): Matrix {
   ]);
 }
 
-/** Return the numbers column by column, as in OpenGL. */
+/** Return the elements of a matrix in column-major order, as OpenGL expects them. */
 export function columns(m: Matrix): number[] {
   return [0, 1, 2, 3].flatMap((i) => [m[i], m[4 + i], m[8 + i], m[12 + i]]);
 }

@@ -1,7 +1,7 @@
-// The head, in the format of viewer/head.py.
+// Types of the head, whose format and units viewer/head.py describes.
 import type { Lens } from "./geometry";
 
-/** An array of a pack: its first byte, the count of numbers, and their type. */
+/** A reference to an array of a pack: offset of its first byte, number of elements, their type. */
 export type Ref = [number, number, string];
 
 export interface Visual {
@@ -73,7 +73,7 @@ export interface Heap {
   bite: number;
 }
 
-/** A view: the pose of its camera and its centre. */
+/** A view: the pose of its camera, its vertical field of view, and the point around which it turns. */
 export interface ViewSpec {
   pose: number[];
   fovy: number;
@@ -127,7 +127,7 @@ export interface Marker {
   lines: number[][][];
 }
 
-/** A change at a frame: a marker gets a shape, a colour and a pose in W, or is removed. */
+/** A change from a frame on: a marker is removed, or gets a shape (by index), a colour and a pose in W. */
 export type MarkerChange = [number, string] | [number, string, number, string, number[]];
 
 export interface MotionHead {

@@ -1,9 +1,9 @@
-// Keys and the pointer. UWSim's keys have their meaning: 1 2 3, c, f, r, t, y.
+// Keys and the pointer. The keys 1 2 3, c, f, r, t, y have the same functions as in UWSim.
 import type { Controls } from "./controls";
 import { element, fillHelp, toggleHelp } from "./panels";
 
 const SUNS = ["clear", "dusk", "cloudy"];
-const TURN = 0.03; // the drag of a key, as a fraction of the view
+const KEY_DRAG = 0.03; // the drag that one key press stands for, as a fraction of the view
 
 export class Keyboard {
   private dragState: { x: number; y: number; shifts: boolean } | null = null;
@@ -33,7 +33,7 @@ export class Keyboard {
     this.showHelp();
   }
 
-  /** Write the list of keys, again when the pilot's keys arrive. */
+  /** Write the list of keys; called again when the pilot's keys arrive. */
   showHelp(): void {
     fillHelp(this.groups());
   }
@@ -49,7 +49,7 @@ export class Keyboard {
   /** Rotate the view by arrow keys; with Shift, move it. */
   private turnView(event: KeyboardEvent): void {
     const steps: Record<string, [number, number]> = {
-      ArrowLeft: [TURN, 0], ArrowRight: [-TURN, 0], ArrowUp: [0, TURN], ArrowDown: [0, -TURN],
+      ArrowLeft: [KEY_DRAG, 0], ArrowRight: [-KEY_DRAG, 0], ArrowUp: [0, KEY_DRAG], ArrowDown: [0, -KEY_DRAG],
     };
     const step = steps[event.key];
     if (!step || event.ctrlKey || event.altKey || event.metaKey) return;
@@ -67,7 +67,7 @@ export class Keyboard {
     if (event.key === " " && target instanceof HTMLButtonElement) return;
     if (/^(Home|End)$/.test(event.key) && element("help").contains(target)) return; // these scroll the help
     if (page.link?.takeKey(event)) return;
-    // Shift is allowed, as a letter without it may be the pilot's
+    // Shift is allowed, because the same letter without Shift may be a key of the pilot
     const key = event.shiftKey ? event.key.toLowerCase() : event.key;
     const action = this.actions()[key];
     if (!action) return;

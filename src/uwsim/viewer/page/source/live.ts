@@ -1,4 +1,4 @@
-// The live view: the messages of a running simulation and those to it (viewer/head.py).
+// The link to a running simulation: messages from it and to it (their format: viewer/head.py).
 import type { Controls } from "./controls";
 import type { Level, Marker } from "./head";
 import { toPose } from "./geometry";
@@ -10,9 +10,9 @@ import type { Reading } from "./display/quantities";
 import { Topics, type TopicMessage } from "./display/topics";
 import type { ViewCamera } from "./views";
 
-const HEADER = 16;
-const MAX_ROW_WAIT = 100; // of an image for the next row, which is drawn with it [ms]
-const MAX_WIDTH = 640; // of an image that the server draws
+const HEADER = 16; // length of the header of binary messages [byte]
+const MAX_ROW_WAIT = 100; // greatest time that an image waits to be drawn with the next row [ms]
+const MAX_WIDTH = 640; // greatest width of a view that the server draws [px]
 
 type Message =
   | {
@@ -35,7 +35,7 @@ export class Link {
   private page: Controls | null = null;
   private stream: Stream | null = null;
   private lastRequest = "";
-  private readonly numbers: number[] = []; // of the newest image of each camera
+  private readonly imageNumbers: number[] = []; // the number of the newest image of each camera
   /** True if the simulation allows a reset to its initial state. */
   allowsReset = false;
 
@@ -57,7 +57,7 @@ export class Link {
     this.subscribe(page.switches.pictures);
   }
 
-  /** Request the images of the cameras, or none. */
+  /** Request the images of all cameras, or of none. */
   subscribe(isOn: boolean): void {
     const cameras = isOn ? this.pack.head.cameras.map(({ name }) => name) : [];
     this.send({ type: "images", cameras, rate: 10, width: this.page?.picture.pictureWidth() });
@@ -80,7 +80,7 @@ export class Link {
     this.send({ type: "control", action, ...(speed === undefined ? {} : { speed }) });
   }
 
-  /** Apply a key of the pilot; return true if it is one. */
+  /** Apply a key of the pilot; return false if the key is not the pilot's. */
   takeKey(event: KeyboardEvent): boolean {
     return this.pilot.takeKey(event);
   }
@@ -123,10 +123,10 @@ export class Link {
   }
 
   private async showImage(index: number, data: ArrayBuffer, page: Controls, stream: Stream): Promise<void> {
-    const number = (this.numbers[index] ?? 0) + 1;
-    this.numbers[index] = number;
+    const number = (this.imageNumbers[index] ?? 0) + 1;
+    this.imageNumbers[index] = number;
     const image = await createImageBitmap(new Blob([data], { type: "image/jpeg" }));
-    if (this.numbers[index] !== number) return image.close(); // a newer one has arrived
+    if (this.imageNumbers[index] !== number) return image.close(); // a newer one has arrived
     page.picture.show(index, image);
     const { end } = stream;
     setTimeout(() => {

@@ -1,4 +1,4 @@
-// The start of the page, with the replay in it or as a live view.
+// The entry point of the page: it shows the replay that the page contains, or a live view.
 import { connect } from "./live";
 import { fromText, unpack } from "./pack";
 import { Page } from "./page";

@@ -1,4 +1,4 @@
-// Meshes and textures on the GPU, and the instances of them in the scene, piece by piece.
+// Meshes and textures on the GPU, and their instances in the scene, which consist of pieces.
 import type { Head, Visual } from "./head";
 import {
   determinant, dot, fromPose, matrix, normalMatrix, product, transform, rotate, unit,
@@ -8,7 +8,7 @@ import type { Pack } from "./pack";
 import { Sand, type Removal } from "./sand";
 import { ATTRIBUTES } from "./drawing/shaders";
 
-/** A run of triangles, at its present pose in W, as in uwsim.rendering.gpu_model. */
+/** A run of adjacent triangles with its bounds in W, as in uwsim.rendering.gpu_model. */
 export interface Piece {
   instance: Instance;
   firstIndex: number;
@@ -44,14 +44,14 @@ export class Instance {
     }));
   }
 
-  /** Set the pose of its body; return true if that moved it. */
+  /** Set the pose of the instance's body; return true if the pose has changed. */
   place(worldFromBody: Matrix): boolean {
     const worldFromMesh = product(worldFromBody, this.bodyFromMesh);
     if (worldFromMesh.every((value, i) => value === this.worldFromMesh[i])) return false;
     this.worldFromMesh = worldFromMesh;
     this.normals = normalMatrix(worldFromMesh);
     this.isMirrored = determinant(worldFromMesh) < 0;
-    const [stretch, densityScale] = [rowSum(worldFromMesh), rowSum(this.normals)];
+    const [stretch, densityScale] = [stretchBound(worldFromMesh), stretchBound(this.normals)];
     this.pieceRows.forEach((row, i) => {
       const piece = this.pieces[i];
       piece.centre = transform(worldFromMesh, row.slice(2, 5));
@@ -68,8 +68,8 @@ export class Instance {
   }
 }
 
-/** Return the square root of the largest row sum of A'A: a bound of the largest stretch. */
-function rowSum(m: Matrix): number {
+/** Return the square root of the largest row sum of A'A, an upper bound of how A stretches a vector. */
+function stretchBound(m: Matrix): number {
   const columns = [0, 1, 2].map((i) => [m[i], m[4 + i], m[8 + i]]);
   const sums = columns.map((a) => columns.reduce((sum, b) => sum + Math.abs(dot(a, b)), 0));
   return Math.sqrt(Math.max(...sums));
@@ -96,14 +96,14 @@ export class Models {
     if (!gl) return models;
     const { meshes, textures, bodies, projector } = pack.head;
     const images = await Promise.all(
-      textures.map((mount, i) => loadTexture(gl, pack, i, i !== projector?.pattern && mount.repeats)),
+      textures.map(({ repeats }, i) => loadTexture(gl, pack, i, i !== projector?.pattern && repeats)),
     );
     if (projector) models.patterns.push(images[projector.pattern]);
     const gpuMeshes = meshes.map((_, i) => upload(gl, pack, i));
     const arrays = gpuMeshes.map(({ array }) => array);
     for (const heap of pack.head.sand ?? []) {
-      const places = pack.numbers(meshes[heap.mesh].positions) as Float32Array;
-      models.sand.push({ heap: new Sand(heap, places), ...gpuMeshes[heap.mesh] });
+      const positions = pack.numbers(meshes[heap.mesh].positions) as Float32Array;
+      models.sand.push({ heap: new Sand(heap, positions), ...gpuMeshes[heap.mesh] });
     }
     for (const body of bodies)
       for (const visual of body.visuals) {
@@ -120,7 +120,7 @@ export class Models {
     return models;
   }
 
-  /** Set world from body for all bodies; the others get their initial poses. */
+  /** Set the poses of all bodies to world from body; bodies that are not in `poses` to their initial pose. */
   place(poses: Map<string, Matrix>): void {
     for (const body of this.head.bodies)
       this.bodies.set(body.name, poses.get(body.name) ?? fromPose(body.pose));
@@ -136,7 +136,7 @@ export class Models {
     const { gl } = this;
     const { heap, positions, normals } = this.sand[number] ?? {};
     if (!gl || !heap || !positions || !normals) return;
-    if (!(sand instanceof Float32Array ? heap.set(sand) : heap.show(sand))) return;
+    if (!(sand instanceof Float32Array ? heap.set(sand) : heap.apply(sand))) return;
     const surface = heap.surface();
     gl.bindBuffer(gl.ARRAY_BUFFER, positions);
     gl.bufferData(gl.ARRAY_BUFFER, surface.positions, gl.STATIC_DRAW);
@@ -154,7 +154,7 @@ export class Models {
     return this.bodies.get(name) ?? fromPose([0, 0, 0, 1, 0, 0, 0]);
   }
 
-  /** Return world from a part that is mounted on a body. */
+  /** Return the matrix to W from a part that is mounted on a body (null: on W). */
   worldFromMount(mount: { body: string | null; pose: number[] }): Matrix {
     const bodyFromMount = fromPose(mount.pose);
     return mount.body === null ? bodyFromMount : product(this.body(mount.body), bodyFromMount);
@@ -165,6 +165,7 @@ export class Models {
     return this.radii.get(instance.visual.part) ?? 0;
   }
 
+  /** Compute the radii of all models. */
   private measure(): void {
     const boxes = new Map<number, number[]>();
     for (const { visual, pieces } of this.instances) {

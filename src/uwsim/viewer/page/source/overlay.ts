@@ -1,8 +1,8 @@
-// Lines and labels over an image: frames, trails, fans, contacts, currents, quadrangles.
+// Lines and labels over an image: frames, trails, beams, contacts, currents, markers, quadrangles.
 import type { Camera, Head, Sensor } from "./head";
 import { inverse, origin, plus, transform, type Lens, type Matrix } from "./geometry";
 import type { Models } from "./models";
-import type { Moment, Player } from "./player";
+import type { Snapshot, Player } from "./player";
 
 export interface OverlaySwitches {
   frames: boolean;
@@ -11,13 +11,13 @@ export interface OverlaySwitches {
   sonars: boolean;
 }
 
-const AXES = ["#ff5a4f", "#45d96b", "#4aa3ff"];
+const AXIS_COLOURS = ["#ff5a4f", "#45d96b", "#4aa3ff"]; // of x, y, z
 const NEAR_PLANE = 0.02; // [m] ahead of the camera
 
 const LETTER_HEIGHT = 11; // [px]
-const LABEL_LINES = [0, 1, -1, 2, -2, 3, -3, 4, -4, 5, -5]; // of a label below and above its point
+const LABEL_LINES = [0, 1, -1, 2, -2, 3, -3, 4, -4, 5, -5]; // tried offsets of a label from its point, in lines
 
-/** A pen that draws in W on a part of a canvas. */
+/** A pen that draws points and lines in W into the image of a camera. */
 class Pen {
   private readonly labelBoxes: number[][] = []; // left, top, right, bottom [px]
   private readonly cameraFromWorld: Matrix;
@@ -49,7 +49,7 @@ class Pen {
     context.stroke();
   }
 
-  /** Return the pixel of a point; null behind the camera. */
+  /** Return the pixel of a point in W; null if it is behind the camera. */
   project(point: ArrayLike<number>): [number, number] | null {
     const cameraPoint = transform(this.cameraFromWorld, point);
     return cameraPoint[2] < -NEAR_PLANE ? this.pixel(cameraPoint) : null;
@@ -112,7 +112,7 @@ class Pen {
   }
 }
 
-/** Return the first point of a line that is ahead of the camera. */
+/** Return the first point of a line that is ahead of the near plane; points in the camera's frame [m]. */
 function clipLine(start: number[], end: number[]): number[] {
   if (start[2] < -NEAR_PLANE) return start;
   const share = (-NEAR_PLANE - start[2]) / (end[2] - start[2]);
@@ -121,31 +121,31 @@ function clipLine(start: number[], end: number[]): number[] {
 
 export function drawOverlay(
   context: CanvasRenderingContext2D, worldFromCamera: Matrix, lens: Lens, head: Head,
-  models: Models, player: Player, moment: Moment, switches: OverlaySwitches, trailStart: number,
+  models: Models, player: Player, snapshot: Snapshot, switches: OverlaySwitches, trailStart: number,
 ): void {
   const pen = new Pen(context, worldFromCamera, lens);
-  for (const { name, at: position, colour, lines } of player.markers(moment.time)) {
+  for (const { name, at: position, colour, lines } of player.markers(snapshot.time)) {
     for (const line of lines) pen.line(line, colour);
     if (!lines.length) pen.dot(position, colour, 3);
     if (switches.labels || !lines.length) pen.label(position, name);
   }
-  if (switches.trails) drawTrails(pen, head, player, moment, trailStart);
+  if (switches.trails) drawTrails(pen, head, player, snapshot, trailStart);
   if (switches.sonars)
-    for (const sensor of head.sensors) drawSensor(pen, sensor, models.worldFromMount(sensor), moment);
+    for (const sensor of head.sensors) drawSensor(pen, sensor, models.worldFromMount(sensor), snapshot);
   if (switches.frames) drawFrames(pen, head, models, switches.labels);
   else if (switches.labels)
     for (const { name, body } of head.vehicles) pen.label(origin(models.body(body)), name);
-  for (const point of moment.points("contacts", ["x", "y", "z"])) pen.dot(point, "#ffb02e", 4);
-  for (const { name, body } of head.vehicles) drawCurrent(pen, name, models.body(body), moment);
+  for (const point of snapshot.points("contacts", ["x", "y", "z"])) pen.dot(point, "#ffb02e", 4);
+  for (const { name, body } of head.vehicles) drawCurrent(pen, name, models.body(body), snapshot);
 }
 
-function drawTrails(pen: Pen, head: Head, player: Player, moment: Moment, trailStart: number): void {
+function drawTrails(pen: Pen, head: Head, player: Player, snapshot: Snapshot, trailStart: number): void {
   const bases = head.vehicles.map(({ body }) => body);
   const objects = head.bodies.filter((candidate) => candidate.vehicle === null).map(({ name }) => name);
   for (const body of [...bases, ...objects]) {
-    const now = moment.poses.get(body);
+    const now = snapshot.poses.get(body);
     if (!now) continue;
-    const points = player.trail(body, moment.time).slice(trailStart);
+    const points = player.trail(body, snapshot.time).slice(trailStart);
     pen.line([...points, origin(now)], "rgba(255, 214, 92, 0.9)", 1.5);
   }
 }
@@ -154,24 +154,25 @@ function drawFrames(pen: Pen, head: Head, models: Models, hasLabels: boolean): v
   const hasSeveral = head.vehicles.length > 1;
   const owners = new Map(head.bodies.map(({ name, vehicle }) => [name, vehicle ?? ""]));
   for (const { name, body, pose } of head.frames) {
-    const place = models.worldFromMount({ body, pose });
+    const worldFromFrame = models.worldFromMount({ body, pose });
     const length = body === null ? 1 : 0.25;
-    AXES.forEach((colour, i) => {
+    AXIS_COLOURS.forEach((colour, i) => {
       const tip = [0, 1, 2].map((k) => (k === i ? length : 0));
-      pen.line([origin(place), transform(place, tip)], colour, 2);
+      pen.line([origin(worldFromFrame), transform(worldFromFrame, tip)], colour, 2);
     });
     const owner = hasSeveral && body !== null ? `${owners.get(body)} ` : "";
-    if (hasLabels) pen.label(origin(place), owner + name.split("/").at(-1)!);
+    if (hasLabels) pen.label(origin(worldFromFrame), owner + name.split("/").at(-1)!);
   }
 }
 
-function drawSensor(pen: Pen, sensor: Sensor, place: Matrix, moment: Moment): void {
+/** Draw a sensor's beam, up to the measured range, or the fan of its beams. */
+function drawSensor(pen: Pen, sensor: Sensor, worldFromSensor: Matrix, snapshot: Snapshot): void {
   const colour = "rgba(120, 220, 255, 0.8)";
-  const range = moment.signal(`range/${sensor.name}`);
+  const range = snapshot.signal(`range/${sensor.name}`);
   if (sensor.kind === "range") {
     const reach = range ?? sensor.reach;
-    const hit = transform(place, [reach, 0, 0]);
-    pen.line([origin(place), hit], colour, 1.5, range === undefined ? [4, 4] : []);
+    const hit = transform(worldFromSensor, [reach, 0, 0]);
+    pen.line([origin(worldFromSensor), hit], colour, 1.5, range === undefined ? [4, 4] : []);
     if (range !== undefined) pen.dot(hit, "#78dcff", 3);
     if (range !== undefined) pen.label(hit, `${range.toFixed(2)} m`, "#bfeeff");
     return;
@@ -182,13 +183,14 @@ function drawSensor(pen: Pen, sensor: Sensor, place: Matrix, moment: Moment): vo
       : [Math.cos(angle), Math.sin(angle), 0];
   const arc = Array.from({ length: 33 }, (_, i) => {
     const angle = sensor.from + ((sensor.to - sensor.from) * i) / 32;
-    return transform(place, direction(angle).map((value) => value * sensor.reach));
+    return transform(worldFromSensor, direction(angle).map((value) => value * sensor.reach));
   });
-  pen.line([origin(place), ...arc, origin(place)], colour, 1);
+  pen.line([origin(worldFromSensor), ...arc, origin(worldFromSensor)], colour, 1);
 }
 
-function drawCurrent(pen: Pen, vehicle: string, base: Matrix, moment: Moment): void {
-  const flow = ["x", "y", "z"].map((axis) => moment.signal(`water/${vehicle}/${axis}`) ?? 0);
+/** Draw the velocity of the water at a vehicle as an arrow above it. */
+function drawCurrent(pen: Pen, vehicle: string, base: Matrix, snapshot: Snapshot): void {
+  const flow = ["x", "y", "z"].map((axis) => snapshot.signal(`water/${vehicle}/${axis}`) ?? 0);
   const speed = Math.hypot(...flow);
   if (speed < 5e-3) return;
   const start = plus(origin(base), [0, 0, 0.55]);
@@ -200,17 +202,17 @@ function drawCurrent(pen: Pen, vehicle: string, base: Matrix, moment: Moment): v
   pen.label(end, `current ${speed.toFixed(2)} m/s`, "#b9fff1");
 }
 
-/** Draw truth and estimate over a camera's image in a part of the canvas. */
+/** Draw the true and the estimated quadrangle over a camera's image, at (left, top) on the canvas [px]. */
 export function drawQuads(
   context: CanvasRenderingContext2D, camera: Camera, lens: Lens, left: number, top: number,
-  moment: Moment,
+  snapshot: Snapshot,
 ): void {
   const factor = lens.fx / camera.fx;
   for (const [kind, colour, dash] of [
     ["truth", "#45f08b", []],
     ["estimate", "#ff9f43", [6, 4]],
   ] as const) {
-    const points = moment.points(`${kind}/${camera.name}`, ["u", "v"]);
+    const points = snapshot.points(`${kind}/${camera.name}`, ["u", "v"]);
     if (points.length < 2) continue;
     context.strokeStyle = colour;
     context.lineWidth = 2;

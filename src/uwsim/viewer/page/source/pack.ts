@@ -1,4 +1,4 @@
-// Packs and motion, in the formats of viewer/head.py.
+// Readers of packs and of motion, whose formats viewer/head.py describes.
 import type { Head, MotionHead, Ref } from "./head";
 import type { Removal } from "./sand";
 
@@ -34,7 +34,7 @@ export async function gunzip(data: Uint8Array<ArrayBuffer>): Promise<ArrayBuffer
 
 const DIGITS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!#$%/()*+-;,=.?@^_`{|}~";
 
-/** Return the bytes of a text of digits to the base 85, five for four bytes. */
+/** Return the bytes that a text of base 85 encodes, four bytes by five digits. */
 export function fromText(text: string): Uint8Array<ArrayBuffer> {
   const values = new Uint8Array(128);
   for (let i = 0; i < DIGITS.length; ++i) values[DIGITS.charCodeAt(i)] = i;
@@ -60,7 +60,7 @@ export async function unpack(data: Uint8Array<ArrayBuffer>): Promise<Pack> {
 export class Motion {
   constructor(
     readonly head: MotionHead,
-    /** Columns of each row, n_rows x n_columns. */
+    /** The rows, one after the other, n_rows x n_columns. */
     readonly rows: Float64Array,
     /** The removals of sand, in order. */
     readonly removals: Removal[] = [],
@@ -74,19 +74,22 @@ export class Motion {
     return this.head.start + Math.max(0, this.head.n - 1) / this.head.rate;
   }
 
-  /** Return the number of the row at or before a time [s]. */
+  /** Return the index of the row at or before a time [s]. */
   frame(time: number): number {
-    const place = Math.min(Math.max((time - this.head.start) * this.head.rate, 0), this.head.n - 1);
-    return Math.floor(place + 1e-6);
+    return Math.floor(this.rowNumber(time) + 1e-6);
+  }
+
+  /** Return the number of the row at a time [s], a fraction between two rows. */
+  private rowNumber(time: number): number {
+    return Math.min(Math.max((time - this.head.start) * this.head.rate, 0), this.head.n - 1);
   }
 
   /** Return the row at a time [s], with poses interpolated between two rows. */
   row(time: number): Float64Array {
     const m = this.columns;
-    const place = Math.min(Math.max((time - this.head.start) * this.head.rate, 0), this.head.n - 1);
-    const index = Math.floor(place + 1e-6);
+    const index = this.frame(time);
     const out = this.rows.slice(index * m, (index + 1) * m);
-    const share = place - index;
+    const share = this.rowNumber(time) - index;
     if (share < 1e-6 || index + 1 >= this.head.n) return out;
     const nextOffset = (index + 1) * m;
     for (let i = 0; i < 7 * this.head.bodies.length; ++i)
@@ -110,7 +113,7 @@ export async function readMotion(data: Uint8Array<ArrayBuffer>): Promise<Motion>
   return new Motion(head, rows, readRemovals(head, planes.subarray(4 * n * m)));
 }
 
-/** Return the numbers of n rows and m columns, row by row; NaN for no value. */
+/** Decode a table of n rows and m columns in multiples of `step`; row by row, NaN: no value. */
 function table(planes: Uint8Array, n: number, m: number, step: (column: number) => number): Float64Array {
   const rows = new Float64Array(n * m);
   for (let column = 0; column < m; ++column) {
@@ -130,6 +133,6 @@ function readRemovals({ sand }: MotionHead, planes: Uint8Array): Removal[] {
   const numbers = table(planes, sand.n, 5, (column) => (column < 2 ? 1 : sand.grain));
   return Array.from({ length: sand.n }, (_, row) => {
     const [frame, heap, x, y, z] = numbers.subarray(5 * row, 5 * row + 5);
-    return { frame, heap, place: Number.isNaN(x) ? null : [x, y, z] };
+    return { frame, heap, position: Number.isNaN(x) ? null : [x, y, z] };
   });
 }

@@ -140,7 +140,7 @@ export class Page implements Controls {
     this.refresh();
   }
 
-  /** Begin the trails at the present point. */
+  /** Begin all trails at the displayed time. */
   clearTrails(): void {
     const body = this.pack.head.vehicles[0]?.body ?? "";
     this.switches.trailStart = this.player.trail(body, this.time).length;
@@ -156,15 +156,15 @@ export class Page implements Controls {
 
   draw(): void {
     if (this.player.isLive) this.time = this.player.end;
-    const moment = this.player.moment(this.time);
-    this.hud.show(moment, this.views.vehicle, this.switches.state);
-    const viewCamera = this.picture.draw(this.player, moment, this.views, this.switches);
+    const snapshot = this.player.snapshot(this.time);
+    this.hud.show(snapshot, this.views.vehicle, this.switches.state);
+    const viewCamera = this.picture.draw(this.player, snapshot, this.views, this.switches);
     if (viewCamera) this.link?.requestView(viewCamera);
     this.levels.show(this.time);
     this.curves.show(this.time, this.player.curves);
     element("curves-box").hidden = !this.player.curves.length;
     this.link?.topics.show(this.time);
-    this.thrusters.show(moment);
+    this.thrusters.show(snapshot);
     const sections = [...document.querySelectorAll<HTMLElement>("aside > section")];
     document.body.classList.toggle("bare", sections.every(({ hidden }) => hidden));
     element<HTMLInputElement>("time").value = String(this.time);

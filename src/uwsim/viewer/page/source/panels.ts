@@ -1,6 +1,6 @@
-// The parts of the page around the image: levels, timeline, thrusters, keys.
+// The parts of the page around the view: levels, timeline, thrusters, help.
 import type { Head, Level } from "./head";
-import type { Moment, Player } from "./player";
+import type { Snapshot, Player } from "./player";
 
 export function element<T extends HTMLElement = HTMLElement>(id: string): T {
   const node = document.getElementById(id);
@@ -22,7 +22,7 @@ function classOf(status: string): string {
   return status === "lost" || status.includes("error") ? "bad" : "other";
 }
 
-/** Return the index of the level at a time; -1 before the first. */
+/** Return the index of the level of the selected trial at a time [s]; -1 before the first. */
 export function indexAt(player: Player, time: number): number {
   let index = -1;
   player.levels.forEach(({ trial, level }, i) => {
@@ -104,7 +104,7 @@ export class Thrusters {
   private readonly bars: { signal: string; bar: HTMLElement; value: HTMLElement }[] = [];
 
   constructor(head: Head) {
-    const place = element("thrusters");
+    const container = element("thrusters");
     for (const vehicle of head.vehicles)
       for (const name of vehicle.thrusters) {
         const row = make("div");
@@ -112,15 +112,15 @@ export class Thrusters {
         track.append(bar);
         const label = head.vehicles.length > 1 ? `${vehicle.name} ${name}` : name;
         row.append(make("span", label.replaceAll("_", " ")), track, value);
-        place.append(row);
+        container.append(row);
         this.bars.push({ signal: `thrust/${vehicle.name}/${name}`, bar, value });
       }
   }
 
-  show(moment: Moment): void {
+  show(snapshot: Snapshot): void {
     let hasValues = false;
     for (const { signal, bar, value } of this.bars) {
-      const now = moment.signal(signal);
+      const now = snapshot.signal(signal);
       if (now === undefined) continue;
       hasValues = true;
       const share = 50 * Math.min(1, Math.abs(now));

@@ -1,20 +1,20 @@
-// The image: the scene in the present view, with the cameras' images and lines over it.
+// The image of the scene in the selected view, with the cameras' images and the overlay over it.
 import type { Camera, Head, Water } from "./head";
 import type { ActiveLamp } from "./drawing/light";
 import { Models } from "./models";
 import { drawOverlay, drawQuads, type OverlaySwitches } from "./overlay";
 import type { Pack } from "./pack";
 import { element, indexAt, make } from "./panels";
-import type { Moment, Player } from "./player";
+import type { Snapshot, Player } from "./player";
 import { drawCompass } from "./display/compass";
 import { isSoftware, Renderer } from "./drawing/renderer";
 import { fitLens, type ViewCamera, type Views } from "./views";
 import type { Lens } from "./geometry";
 
-const PICTURE_HEIGHT = 150;
-const MAX_DRAWING_TIME = 2000; // after which the drawing has failed without an error [ms]
-const HURRY_TIME = 300; // without rests after an input [ms]
-const MAX_REST = 100; // between two images that software draws [ms]
+const PICTURE_HEIGHT = 150; // of a camera's image on the page [px]
+const MAX_DRAWING_TIME = 2000; // time after which drawing has failed without an error [ms]
+const HURRY_TIME = 300; // time after a pilot's input in which images are drawn without rests [ms]
+const MAX_REST = 100; // greatest rest between two images that software draws [ms]
 
 export interface Switches extends OverlaySwitches {
   clear: boolean;
@@ -35,16 +35,16 @@ export function graphics(canvas: HTMLCanvasElement): WebGL2RenderingContext | nu
   return canvas.getContext("webgl2", { alpha: false, antialias, powerPreference: "high-performance" });
 }
 
-/** The pace of drawing by software, with rests for other processes and no queue of images. */
+/** The pace of drawing by a software renderer: rests leave time for other processes; images do not queue up. */
 class Pace {
   private fence: WebGLSync | null = null;
   private beginTime = 0;
-  private restEnd = 0; // wall time of its end [ms]
-  private hurryEnd = 0; // wall time of its end [ms]
+  private restEnd = 0; // wall time of the end of the rest [ms]
+  private hurryEnd = 0; // wall time from which rests are made again [ms]
 
   constructor(private readonly gl: WebGL2RenderingContext) {}
 
-  /** Note that an image has begun. */
+  /** Record that an image has begun to be drawn. */
   begin(): void {
     if (this.fence) this.gl.deleteSync(this.fence);
     this.fence = this.gl.fenceSync(this.gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
@@ -57,7 +57,7 @@ class Pace {
     this.hurryEnd = performance.now() + HURRY_TIME;
   }
 
-  /** Return true if the last image is complete, and as much time again has passed. */
+  /** Return true if the last image is complete, and a rest as long as its drawing has passed. */
   isReady(now: number): boolean {
     const { gl, fence } = this;
     const isLost = gl.isContextLost() || now - this.beginTime > MAX_DRAWING_TIME;
@@ -75,7 +75,7 @@ export class Picture {
   private readonly overlay = element<HTMLCanvasElement>("overlay");
   private readonly renderer: Renderer | null;
   private readonly frames: HTMLElement[] = [];
-  private readonly images: ImageBitmap[] = []; // of cameras, from a running simulation
+  private readonly images: ImageBitmap[] = []; // the newest image of each camera, from a running simulation
   private readonly pace: Pace | null;
 
   private constructor(
@@ -100,7 +100,7 @@ export class Picture {
   }
 
   /** Draw the image and return its camera; null while the canvas has no size. */
-  draw(player: Player, moment: Moment, views: Views, switches: Switches): ViewCamera | null {
+  draw(player: Player, snapshot: Snapshot, views: Views, switches: Switches): ViewCamera | null {
     const { canvas, head, models } = this;
     const ratio = this.gl && isSoftware(this.gl) ? 1 : Math.min(devicePixelRatio, 2);
     const [w, h] = [canvas.clientWidth, canvas.clientHeight];
@@ -109,12 +109,12 @@ export class Picture {
       const [width, height] = [Math.round(w * ratio), Math.round(h * ratio)];
       if (layer.width !== width || layer.height !== height) [layer.width, layer.height] = [width, height];
     }
-    models.place(moment.poses);
-    head.sand?.forEach((_, i) => models.setSand(i, player.sand(i, moment.time)));
+    models.place(snapshot.poses);
+    head.sand?.forEach((_, i) => models.setSand(i, player.sand(i, snapshot.time)));
     const viewCamera = views.viewCamera(w, h);
-    const water = this.water(player, moment, switches);
+    const water = this.water(player, snapshot, switches);
     const clearWater = switches.clear ? { ...water, fog: 0 } : water;
-    const lamps = this.lamps(moment);
+    const lamps = this.lamps(snapshot);
     const { worldFromCamera, observer } = viewCamera;
     const lens = scaleLens(viewCamera.lens, ratio);
     const grey = viewCamera.camera?.grey;
@@ -122,14 +122,14 @@ export class Picture {
     const context = this.overlay.getContext("2d")!;
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.clearRect(0, 0, w, h);
-    drawOverlay(context, worldFromCamera, viewCamera.lens, head, models, player, moment, switches, switches.trailStart);
-    if (viewCamera.camera) drawQuads(context, viewCamera.camera, viewCamera.lens, 0, 0, moment);
+    drawOverlay(context, worldFromCamera, viewCamera.lens, head, models, player, snapshot, switches, switches.trailStart);
+    if (viewCamera.camera) drawQuads(context, viewCamera.camera, viewCamera.lens, 0, 0, snapshot);
     if (views.mode === "map") {
       const hud = element("hud");
       drawCompass(context, viewCamera.lens, views.height, hud.offsetTop + hud.offsetHeight);
     }
     this.frames.forEach((frame, i) => (frame.hidden = head.cameras[i] === viewCamera.camera));
-    this.drawPictures(context, water, lamps, moment, switches, ratio, h);
+    this.drawPictures(context, water, lamps, snapshot, switches, ratio, h);
     this.pace?.begin();
     return viewCamera;
   }
@@ -144,24 +144,24 @@ export class Picture {
     return this.pace?.isReady(performance.now()) ?? true;
   }
 
-  /** Return a camera's image in its own size, row 0 at the top, RGBA. */
-  image(lens: Lens, worldFromCamera: Float64Array, player: Player, moment: Moment,
+  /** Return an image of the lens's size as RGBA, row 0 at the top. */
+  image(lens: Lens, worldFromCamera: Float64Array, player: Player, snapshot: Snapshot,
         switches: Switches, water: Partial<Water> = {}, observer = false, grey = false): Uint8Array {
     const { gl, models, renderer } = this;
     if (!gl || !renderer) return new Uint8Array();
-    models.place(moment.poses);
+    models.place(snapshot.poses);
     const buffer = gl.createFramebuffer();
     gl.bindFramebuffer(gl.FRAMEBUFFER, buffer);
     const stores = [gl.createRenderbuffer(), gl.createRenderbuffer()];
     [gl.RGBA8, gl.DEPTH_COMPONENT24].forEach((format, i) => {
       gl.bindRenderbuffer(gl.RENDERBUFFER, stores[i]);
       gl.renderbufferStorage(gl.RENDERBUFFER, format, lens.width, lens.height);
-      const place = i ? gl.DEPTH_ATTACHMENT : gl.COLOR_ATTACHMENT0;
-      gl.framebufferRenderbuffer(gl.FRAMEBUFFER, place, gl.RENDERBUFFER, stores[i]);
+      const attachment = i ? gl.DEPTH_ATTACHMENT : gl.COLOR_ATTACHMENT0;
+      gl.framebufferRenderbuffer(gl.FRAMEBUFFER, attachment, gl.RENDERBUFFER, stores[i]);
     });
     const state = {
-      worldFromCamera, lens, lamps: this.lamps(moment), observer,
-      water: { ...this.water(player, moment, switches), ...water },
+      worldFromCamera, lens, lamps: this.lamps(snapshot), observer,
+      water: { ...this.water(player, snapshot, switches), ...water },
       grey,
     };
     renderer.draw(state, buffer, [0, 0], true);
@@ -187,7 +187,7 @@ export class Picture {
   }
 
   private drawPictures(
-    context: CanvasRenderingContext2D, water: Water, lamps: ActiveLamp[], moment: Moment,
+    context: CanvasRenderingContext2D, water: Water, lamps: ActiveLamp[], snapshot: Snapshot,
     switches: Switches, ratio: number, height: number,
   ): void {
     element("pictures").hidden = !switches.pictures;
@@ -195,47 +195,47 @@ export class Picture {
     const origin = this.canvas.getBoundingClientRect();
     this.head.cameras.forEach((camera: Camera, i) => {
       if (this.frames[i].hidden) return;
-      const place = this.frames[i].getBoundingClientRect();
-      const [x, y] = [place.left - origin.left + 1, place.top - origin.top + 1];
-      const lens = fitLens(camera, place.width - 2, place.height - 2);
+      const box = this.frames[i].getBoundingClientRect();
+      const [x, y] = [box.left - origin.left + 1, box.top - origin.top + 1];
+      const lens = fitLens(camera, box.width - 2, box.height - 2);
       // a separate element would cause a new layout of the page for each image
-      if (this.images[i]) context.drawImage(this.images[i], x, y, place.width - 2, place.height - 2);
+      if (this.images[i]) context.drawImage(this.images[i], x, y, box.width - 2, box.height - 2);
       else {
         const worldFromCamera = this.models.worldFromMount(camera);
         const corner: [number, number] = [
-          Math.round(x * ratio), Math.round((height - y - place.height + 2) * ratio),
+          Math.round(x * ratio), Math.round((height - y - box.height + 2) * ratio),
         ];
         const { grey } = camera;
         const state = { worldFromCamera, lens: scaleLens(lens, ratio), water, lamps, observer: false, grey };
         this.renderer?.draw(state, null, corner);
       }
-      drawQuads(context, camera, lens, x, y, moment);
+      drawQuads(context, camera, lens, x, y, snapshot);
     });
   }
 
-  private water(player: Player, moment: Moment, switches: Switches): Water {
-    const values = player.levels[indexAt(player, moment.time)]?.level.values ?? {};
+  private water(player: Player, snapshot: Snapshot, switches: Switches): Water {
+    const values = player.levels[indexAt(player, snapshot.time)]?.level.values ?? {};
     const { fog, light_rate } = this.head.water;
     return {
       ...this.head.water,
-      fog: moment.signal("fog") ?? values.fog ?? fog,
-      light_rate: moment.signal("light_rate") ?? values.light ?? light_rate,
+      fog: snapshot.signal("fog") ?? values.fog ?? fog,
+      light_rate: snapshot.signal("light_rate") ?? values.light ?? light_rate,
       sun: switches.sun || this.head.water.sun,
     };
   }
 
-  private lamps(moment: Moment): ActiveLamp[] {
+  private lamps(snapshot: Snapshot): ActiveLamp[] {
     return this.head.lamps
-      .map((lamp) => ({ lamp, brightness: moment.signal(`lamp/${lamp.name}`) ?? Number(lamp.on) }))
+      .map((lamp) => ({ lamp, brightness: snapshot.signal(`lamp/${lamp.name}`) ?? Number(lamp.on) }))
       .filter(({ brightness }) => brightness > 0)
       .map(({ lamp, brightness }) => ({
         lamp: { ...lamp, intensity: brightness * lamp.intensity },
-        place: this.models.worldFromMount(lamp),
+        worldFromLamp: this.models.worldFromMount(lamp),
       }));
   }
 }
 
-/** Return the lens with the numbers of pixels scaled, and rounded. */
+/** Return the lens of an image whose sides are scaled by a ratio, and rounded. */
 function scaleLens(lens: Lens, ratio: number): Lens {
   const [width, height] = [Math.round(lens.width * ratio), Math.round(lens.height * ratio)];
   return {

@@ -1,8 +1,8 @@
-// A human pilot: keys, the first gamepad, and sticks on the screen.
+// The inputs of a human pilot: keys, the first gamepad, and sticks on the screen.
 import { element, make } from "./panels";
 
-const REPEAT = 100; // between messages while an input is active [ms]
-const POLL = 33; // between two reads of the gamepad [ms]
+const REPEAT = 100; // period of messages while an input is active [ms]
+const POLL = 33; // period of reading the gamepad [ms]
 const SIDES = ["left", "right"];
 /** The words for the positive and the negative direction of the axes. */
 const AXIS_WORDS: Record<string, [string, string]> = {
@@ -10,7 +10,7 @@ const AXIS_WORDS: Record<string, [string, string]> = {
   roll: ["roll right", "left"], pitch: ["pitch up", "down"], lamps: ["lamps brighter", "darker"],
 };
 const STICK_WORDS: Record<string, string> = { yaw: "turn", sway: "left / right" };
-const KEYLINE_TIME = 6000; // the line of keys stays after the first input [ms]
+const KEYLINE_TIME = 6000; // time from the first input until the line of keys disappears [ms]
 
 interface Input {
   keys: string[];
@@ -31,11 +31,11 @@ export interface PilotState {
 
 export class Pilot {
   isOn = false;
-  private mapping: Record<string, string> = {};
+  private mapping: Record<string, string> = {}; // key -> its axes
   private reason = ""; // why no vehicle can be steered
   private names: Record<string, string> = {}; // axis -> name of its joint or thruster
-  private reservedKeys = new Set<string>(); // the pilot's letters for any vehicle
-  private layout = "";
+  private reservedKeys = new Set<string>(); // all letters of the pilot, also those without effect on this vehicle
+  private layout = ""; // what the present elements of the page were made for
   private readonly pressedKeys = new Set<string>();
   private readonly sticks = [0, 0, 0, 0];
   private lastText = "";
@@ -68,7 +68,7 @@ export class Pilot {
     element("pilot").hidden = !state.pilot;
   }
 
-  /** Return true if a letter is the pilot's: the page's own key then needs Shift. */
+  /** Return true if a letter is a key of the pilot: the page's function of that letter needs Shift. */
   isReserved(key: string): boolean {
     return this.isOn && this.reservedKeys.has(key);
   }
@@ -106,7 +106,7 @@ export class Pilot {
     return [...pairs].map(([axes, [plusKeys, minusKeys]]) => ({ axes, plusKeys, minusKeys }));
   }
 
-  /** Return axes with the names of joints and thrusters in the files. */
+  /** Return axes, with joints and thrusters by their names in the vehicle's files. */
   private namesOf(axes: string): string {
     return axes.split(" ").map((axis) => {
       const name = this.names[axis.replace("-", "")];
@@ -206,7 +206,7 @@ export class Pilot {
   }
 }
 
-/** Return the axes of a key for a positive first axis, and 0 if the key is positive, 1 if not. */
+/** Return targets with the sign of the first axis removed from all, and 0 if it was +, 1 if it was -. */
 function splitSign(targets: string): [string, 0 | 1] {
   const parts = targets.trim().split(/\s+/);
   const flips = parts[0].startsWith("-");

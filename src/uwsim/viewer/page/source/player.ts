@@ -1,4 +1,4 @@
-// The state at a time: of the trials of a replay, or of a running simulation.
+// Players: they give the state of a scene at a time, in a trial of a replay or a running simulation.
 import type { Head, Level, Marker, MarkerChange, MotionHead } from "./head";
 import { fromPose, transform, type Matrix } from "./geometry";
 import { readMotion, type Motion, type Pack } from "./pack";
@@ -9,14 +9,14 @@ export interface Samples {
   unit: string;
   times: number[];
   values: (number | null)[];
-  /** The names of the values 1, 2, ..., as those of phases. */
+  /** The names of the values 1, 2, ..., for example of phases. */
   names?: string[];
-  /** True if its range is 0 to 1. */
+  /** True if the range of the values is 0 to 1. */
   isShare?: boolean;
 }
 
-/** The poses and signals at one time. */
-export class Moment {
+/** The poses of bodies (world from body) and the values of signals at one time. */
+export class Snapshot {
   readonly poses = new Map<string, Matrix>();
   private readonly signals = new Map<string, number>();
 
@@ -39,7 +39,7 @@ export class Moment {
     return value === undefined || Number.isNaN(value) ? undefined : value;
   }
 
-  /** Return the existing points of the signals prefix/0/x, prefix/0/y, ... */
+  /** Return the points of the signals prefix/0/x, prefix/0/y, prefix/1/x, ... that have values. */
   points(prefix: string, parts: string[]): number[][] {
     const points: number[][] = [];
     for (let k = 0; ; ++k) {
@@ -58,24 +58,24 @@ export interface Player {
   readonly levels: { trial: number; level: Level }[];
   readonly trial: number;
   title: string;
-  /** The version of the data, which grows with changes that the time does not show. */
+  /** The version of the data, which grows with changes at an unchanged time. */
   readonly version: number;
-  moment(time: number): Moment;
+  snapshot(time: number): Snapshot;
   /** Return the speed of the origin of a body [m/s]; null if it is not known. */
   speed(body: string, time: number): number | null;
-  /** Return the positions of a body until a time, a few times a second. */
+  /** Return the positions of a body in W until a time, at about `TRAIL_RATE`. */
   trail(body: string, endTime: number): number[][];
   /** Return the spawned markers at a time. */
   markers(time: number): Marker[];
-  /** Return the removals of sand of a heap by a time, in order, or the heights of its columns. */
+  /** Return the removals of sand from a heap until a time, in order, or the heights of its columns. */
   sand(heap: number, time: number): Removal[] | Float32Array;
   select(trial: number): Promise<void>;
 }
 
 const TRAIL_RATE = 6; // [Hz]
-const SPEED_SPAN = 0.2; // over which a speed is computed [s]
-const MAX_SPEED = 30; // [m/s]
-const TICKS = 1e4; // of the times of curves, in a second
+const SPEED_SPAN = 0.2; // the time over which a speed is computed [s]
+const MAX_SPEED = 30; // the speed above which a motion is a jump [m/s]
+const TICKS = 1e4; // the number of ticks in a second, the unit of the times of curves
 
 export class Replay implements Player {
   readonly isLive = false;
@@ -121,9 +121,9 @@ export class Replay implements Player {
       this.motion = await readMotion(this.pack.numbers(trialHead.motion) as Uint8Array<ArrayBuffer>);
   }
 
-  moment(time: number): Moment {
+  snapshot(time: number): Snapshot {
     const initialPoses = this.pack.head.trials?.[this.trial]?.poses;
-    return new Moment(time, this.motion?.head ?? null, this.motion?.row(time) ?? null, initialPoses);
+    return new Snapshot(time, this.motion?.head ?? null, this.motion?.row(time) ?? null, initialPoses);
   }
 
   speed(body: string, time: number): number | null {
@@ -147,15 +147,15 @@ export class Replay implements Player {
       else changes.delete(change[1]);
     }
     return [...changes.values()].map(([, name, shape, colour, pose]) => {
-      const place = fromPose(pose!);
-      const lines = markerLog.shapes[shape!].map((line) => line.map((point) => transform(place, point)));
+      const worldFromMarker = fromPose(pose!);
+      const lines = markerLog.shapes[shape!].map((line) => line.map((point) => transform(worldFromMarker, point)));
       return { name, at: pose!.slice(0, 3), colour: colour!, lines };
     });
   }
 
   sand(heap: number, time: number): Removal[] {
     const frame = this.motion?.frame(time) ?? -1;
-    return this.motion?.removals.filter((setSand) => setSand.heap === heap && setSand.frame <= frame) ?? [];
+    return this.motion?.removals.filter((removal) => removal.heap === heap && removal.frame <= frame) ?? [];
   }
 
   trail(body: string, endTime: number): number[][] {
@@ -237,8 +237,8 @@ export class Stream implements Player {
 
   async select(): Promise<void> {}
 
-  moment(): Moment {
-    return new Moment(this.end, this.head.motion ?? null, this.row);
+  snapshot(): Snapshot {
+    return new Snapshot(this.end, this.head.motion ?? null, this.row);
   }
 
   setMarkers(markers: Marker[]): void {

@@ -1,12 +1,12 @@
-// Heaps of sand, and the removals by a dredge, as in uwsim.simulation.scenery.sand.
+// Heaps of sand, and the removal of sand by a dredge, as in uwsim.simulation.scenery.sand.
 import type { Heap } from "./head";
 
-/** A removal of sand at a place, from a frame on. */
+/** A removal of sand at a position, from a frame on. */
 export interface Removal {
   frame: number;
   heap: number;
-  /** The place from the heap's corner [m]; null: all its sand is restored. */
-  place: [number, number, number] | null;
+  /** The position of the dredge from the heap's corner [m]; null: the whole heap is restored. */
+  position: [number, number, number] | null;
 }
 
 export class Sand {
@@ -26,7 +26,7 @@ export class Sand {
     this.heights = this.initialHeights.slice();
   }
 
-  /** Set the heights of its columns; return true if they have changed. */
+  /** Set the heights of the columns [m]; return true if they have changed. */
   set(heights: Float32Array): boolean {
     if (heights === this.lastHeights) return false;
     this.lastHeights = heights;
@@ -34,20 +34,22 @@ export class Sand {
     return true;
   }
 
-  /** Apply removals, in order; return true if they changed the heap. */
-  show(digs: Removal[]): boolean {
-    const isContinuation = digs.length >= this.removals.length && this.removals.every((dig, i) => dig === digs[i]);
-    if (isContinuation && digs.length === this.removals.length) return false;
+  /** Show the heap after some removals, in order; return true if it has changed. */
+  apply(removals: Removal[]): boolean {
+    const oldRemovals = this.removals;
+    const isContinuation =
+      removals.length >= oldRemovals.length && oldRemovals.every((removal, i) => removal === removals[i]);
+    if (isContinuation && removals.length === oldRemovals.length) return false;
     if (!isContinuation) this.heights.set(this.initialHeights);
-    for (const { place } of isContinuation ? digs.slice(this.removals.length) : digs) {
-      if (place) this.remove(place);
+    for (const { position } of isContinuation ? removals.slice(oldRemovals.length) : removals) {
+      if (position) this.remove(position);
       else this.heights.set(this.initialHeights);
     }
-    this.removals = digs;
+    this.removals = removals;
     return true;
   }
 
-  /** Return the positions and normals of its vertices: 32767 is 1. */
+  /** Return the positions [m] and normals (32767 is 1) of the heap's vertices. */
   surface(): { positions: Float32Array<ArrayBuffer>; normals: Int16Array<ArrayBuffer> } {
     const { heap, heights } = this;
     const [nx, ny] = heap.columns;

@@ -23,10 +23,10 @@ export function expose(page: Controls): void {
       /** A camera's image in its own size, RGBA, base64. */
       image: (name: string, water = {}) => {
         const camera = page.pack.head.cameras.find((candidate) => candidate.name === name)!;
-        const moment = player.moment(page.time);
-        picture.models.place(moment.poses);
-        const place = picture.models.worldFromMount(camera);
-        const pixels = picture.image(camera, place, player, moment, page.switches, water, false, camera.grey);
+        const snapshot = player.snapshot(page.time);
+        picture.models.place(snapshot.poses);
+        const worldFromCamera = picture.models.worldFromMount(camera);
+        const pixels = picture.image(camera, worldFromCamera, player, snapshot, page.switches, water, false, camera.grey);
         let text = "";
         for (let i = 0; i < pixels.length; i += 8192)
           text += String.fromCharCode(...pixels.subarray(i, i + 8192));

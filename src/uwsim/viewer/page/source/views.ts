@@ -1,4 +1,4 @@
-// The views of the page: orbit, chase, camera, map and that of the scene file.
+// The views of the page: orbit, chase, camera, map, and the view of the scene file.
 import type { Camera, Head, ViewSpec } from "./head";
 import {
   fromPose, lensOf, lookAt, origin, plus, transform, unit, type Lens, type Matrix,
@@ -8,7 +8,7 @@ import type { Rays } from "./display/rays";
 
 export type Mode = "orbit" | "chase" | "camera" | "map" | "file";
 export const MODES: Mode[] = ["orbit", "chase", "camera", "map", "file"];
-const CLEARANCE = 0.9; // fraction of the distance to an obstacle before the vehicle [1]
+const CLEARANCE = 0.9; // distance of the chase view, as a fraction of the distance to an obstacle [1]
 const MIN_CHASE_DISTANCE = 0.4; // [m]
 
 export interface ViewCamera {
@@ -25,13 +25,13 @@ export class Views {
   version = 0;
   /** The number of the vehicle that the view follows. */
   vehicle = 0;
-  private holdOffset: number[] | null = null; // displacement of the vehicle at which the orbit stays
+  private holdOffset: number[] | null = null; // where the orbit stopped following the vehicle; null: it follows [m]
   private orbit: OrbitView; // for the vehicle at its initial position
   private file: OrbitView | null = null; // the view of the scene file
-  private turn = 0; // of the chase view from the stern [rad]
+  private chaseAzimuth = 0; // of the camera of the chase view, 0 behind the stern [rad]
   /** The height of the eye above the centre of the map [m]. */
   height = 12;
-  private readonly shift = [0, 0]; // of the map
+  private readonly shift = [0, 0]; // of the map's centre from the vehicle, along x and y of W [m]
 
   constructor(
     private readonly head: Head,
@@ -49,19 +49,19 @@ export class Views {
     this.version += 1;
   }
 
-  /** Fix the orbit at its place, or follow the vehicle again. */
+  /** Let the orbit stop following the vehicle, or follow it again. */
   hold(): void {
     this.holdOffset = this.holdOffset ? null : this.displacement();
     this.version += 1;
   }
 
-  /** Restore the first view. */
+  /** Restore the initial views. */
   home(): void {
     this.version += 1;
     this.holdOffset = null;
     this.orbit = toOrbit(this.head.view);
     this.file = this.head.file_view && toOrbit(this.head.file_view);
-    this.turn = 0;
+    this.chaseAzimuth = 0;
     this.shift.fill(0);
     this.height = Math.max(6, 2 * this.orbit.distance);
   }
@@ -74,24 +74,27 @@ export class Views {
       const cameraLens = fitLens(camera, width, height);
       return { worldFromCamera: this.models.worldFromMount(camera), lens: cameraLens, observer: false, camera };
     }
-    let place: Matrix;
+    let worldFromCamera: Matrix;
     if (this.mode === "map") {
       const [x, y] = plus(this.centre(), [...this.shift, 0]);
-      place = lookAt([x, y, this.centre()[2] + this.height], [x, y, this.centre()[2]], [0, 1, 0]);
+      worldFromCamera = lookAt([x, y, this.centre()[2] + this.height], [x, y, this.centre()[2]], [0, 1, 0]);
     } else if (this.mode === "chase" && this.base()) {
       const base = this.base()!;
-      const heading = Math.atan2(base[4], base[0]) + Math.PI + this.turn;
-      place = this.chasePose(heading, Math.max(0.15, this.orbit.elevation));
-    } else if (this.mode === "file" && this.file) place = orbitPose(this.file);
-    else place = orbitPose({ ...this.orbit, target: plus(this.orbit.target, this.holdOffset ?? this.displacement()) });
-    return { worldFromCamera: place, lens, observer: true, camera: null };
+      const azimuth = Math.atan2(base[4], base[0]) + Math.PI + this.chaseAzimuth;
+      worldFromCamera = this.chasePose(azimuth, Math.max(0.15, this.orbit.elevation));
+    } else if (this.mode === "file" && this.file) worldFromCamera = orbitPose(this.file);
+    else {
+      const target = plus(this.orbit.target, this.holdOffset ?? this.displacement());
+      worldFromCamera = orbitPose({ ...this.orbit, target });
+    }
+    return { worldFromCamera, lens, observer: true, camera: null };
   }
 
-  /** Rotate the view by a drag over a fraction of its size. */
+  /** Rotate the view by a drag, in fractions of its height; with `shifts`, move it. */
   drag(dx: number, dy: number, shifts: boolean): void {
     this.version += 1;
     if (this.mode === "map" || shifts) return this.move(dx, dy);
-    if (this.mode === "chase") this.turn -= 4 * dx;
+    if (this.mode === "chase") this.chaseAzimuth -= 4 * dx;
     else this.activeView().azimuth -= 4 * dx;
     const activeView = this.activeView();
     activeView.elevation = clamp(activeView.elevation + 3 * dy, -1.55, 1.55);
@@ -121,16 +124,16 @@ export class Views {
     return this.mode === "file" && this.file ? this.file : this.orbit;
   }
 
-  /** Return the pose behind the vehicle, nearer if an obstacle is between. */
+  /** Return the camera's pose behind the vehicle; it is nearer if an obstacle is in between. */
   private chasePose(azimuth: number, elevation: number): Matrix {
     const target = this.centre();
     const { distance } = this.orbit;
     const pose = orbitPose({ target, azimuth, elevation, distance });
     const vehicle = this.head.vehicles[this.vehicle].name;
-    const place = (body: string): Matrix => this.models.body(body);
+    const bodyPose = (body: string): Matrix => this.models.body(body);
     const offset = 0.05 * distance;
     const shares = [[0, 0], [offset, 0], [-offset, 0], [0, offset], [0, -offset]].map(([x, y]) =>
-      this.rays.cast(target, transform(pose, [x, y, 0]), place, (body) => body.vehicle === vehicle),
+      this.rays.cast(target, transform(pose, [x, y, 0]), bodyPose, (body) => body.vehicle === vehicle),
     );
     const share = Math.min(...shares);
     if (share >= 1) return pose;
@@ -156,7 +159,7 @@ export class Views {
   }
 }
 
-/** An orbit view around a point. */
+/** A view that turns around a point in W: azimuth from x to y and elevation [rad], distance [m]. */
 interface OrbitView {
   target: number[];
   azimuth: number;
@@ -181,7 +184,7 @@ function orbitPose({ target, azimuth, elevation, distance }: OrbitView): Matrix 
   return lookAt(plus(target, out, distance), target);
 }
 
-/** Return the camera's intrinsics for an image of another size that contains all of its image. */
+/** Return a camera's lens for an image of another size that contains the whole image of the camera. */
 export function fitLens(camera: Lens, width: number, height: number): Lens {
   const factor = Math.min(height / camera.height, width / camera.width);
   return {

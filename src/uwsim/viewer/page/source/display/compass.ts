@@ -1,10 +1,14 @@
-// The north arrow and the scale of a map.
+// The north arrow and the scale bar of the map view.
 import type { Lens } from "../geometry";
 
 const MAX_SCALE_LENGTH = 130; // [px]
-const LEFT = 18; // edge of both [px]
+const LEFT = 18; // left edge of arrow and bar [px]
 
-/** Draw both into the upper left of a view from above, `depth` metres below the eye. */
+/**
+ * Draw arrow and bar at the upper left of a view from above.
+ *
+ * The bar has the scale of the plane `depth` metres below the camera; `top` is the first free row [px].
+ */
 export function drawCompass(context: CanvasRenderingContext2D, lens: Lens, depth: number, top: number): void {
   const [x, y] = [LEFT + 10, top + 22];
   const metres = roundedDown((MAX_SCALE_LENGTH * depth) / lens.fx);
@@ -36,7 +40,7 @@ export function drawCompass(context: CanvasRenderingContext2D, lens: Lens, depth
   context.restore();
 }
 
-/** Return the greatest of 1, 2 and 5 times a power of ten that is not above a number. */
+/** Return the greatest number of the form 1, 2 or 5 times a power of ten that is at most `value`. */
 function roundedDown(value: number): number {
   const power = 10 ** Math.floor(Math.log10(value));
   const digit = [5, 2, 1].find((candidate) => candidate * power <= value * (1 + 1e-9)) ?? 1;

@@ -1,11 +1,11 @@
-// The head-up display: the state of the vehicle in a line over the view, each number with a curve.
+// The head-up display: numbers of the vehicle's state over the view; a click on one shows its curve.
 import { Curves } from "../curves";
 import { element, make } from "../panels";
-import type { Moment, Player, Samples } from "../player";
+import type { Snapshot, Player, Samples } from "../player";
 import { titleOf, type Quantities, type Quantity } from "./quantities";
 
-const DISPLAY_PERIOD = 100; // between two displays [ms]
-const INITIAL_CURVES = ["depth", "speed"]; // of a page without measures
+const DISPLAY_PERIOD = 100; // between two updates [ms]
+const INITIAL_CURVES = ["depth", "speed"]; // shown initially in a live view without measures
 const UNITS: Record<string, string> = { deg: "°", "1": "×" };
 
 interface Cell {
@@ -17,10 +17,10 @@ export class Hud {
   private readonly cells = new Map<string, Cell>();
   private readonly selection = new Set<string>();
   private readonly curves: Curves;
-  private hasSelection = false; // by the user, or initially
-  private displayTime = 0;
-  private isLate = false;
-  private lastState: [Moment, number, boolean] | null = null;
+  private hasSelection = false; // true after the initial selection, or one by the user
+  private displayTime = 0; // of the last update [ms]
+  private isUpdatePending = false;
+  private lastState: [Snapshot, number, boolean] | null = null;
   private values: Quantity[] = [];
 
   constructor(
@@ -32,21 +32,21 @@ export class Hud {
     this.curves = new Curves(element("state"), seek);
   }
 
-  /** Show a moment; `vehicle` is the number of the vehicle. */
-  show(moment: Moment, vehicle: number, isOn: boolean): void {
-    this.lastState = [moment, vehicle, isOn];
+  /** Show the state of a vehicle, by its index, in a snapshot. */
+  show(snapshot: Snapshot, vehicle: number, isOn: boolean): void {
+    this.lastState = [snapshot, vehicle, isOn];
     const now = performance.now();
     const isDue = now - this.displayTime >= DISPLAY_PERIOD || !this.player.isLive;
     if (isDue) {
       this.displayTime = now;
-      this.values = this.quantities.compute(moment, this.player, vehicle);
-      if (this.player.isLive) this.quantities.store(moment.time, this.values);
+      this.values = this.quantities.compute(snapshot, this.player, vehicle);
+      if (this.player.isLive) this.quantities.store(snapshot.time, this.values);
       this.values.forEach((quantity) => this.fill(quantity));
     }
-    else if (!this.isLate) {
-      this.isLate = true; // show it later, even if no other state follows
+    else if (!this.isUpdatePending) {
+      this.isUpdatePending = true; // show it later, even if no other state follows
       setTimeout(() => {
-        this.isLate = false;
+        this.isUpdatePending = false;
         this.show(...this.lastState!);
       }, DISPLAY_PERIOD);
     }
@@ -54,7 +54,7 @@ export class Hud {
     if (!this.hasSelection && this.values.length) this.selectInitial();
     const curves = this.selectedCurves();
     element("state-box").hidden = !curves.length;
-    if (curves.length) this.curves.show(moment.time, curves);
+    if (curves.length) this.curves.show(snapshot.time, curves);
   }
 
   /** Draw the curves again, in the present colours. */
@@ -104,7 +104,7 @@ export class Hud {
   }
 }
 
-/** Return a value with as many digits as its unit needs. */
+/** Return the text of a value, with a number of digits that depends on its unit. */
 export function textOf(value: number | null, unit: string): string {
   if (value === null) return "–";
   const digits = { deg: 1, m: 2, "m/s": 2, N: 1, "%": 0 }[unit] ?? 2;

@@ -1,25 +1,25 @@
-// Rays against the surfaces of the scene, for the altitude and for the view from behind a vehicle.
+// Ray casting against the surfaces of the scene, for the altitude and for the chase view.
 import type { Head, Visual } from "../head";
 import {
   cross, dot, matrix, plus, product, transform, type Matrix, type Vector,
 } from "../geometry";
 import type { Pack } from "../pack";
 
-const MIN_OPACITY = 0.5; // of a surface that stops a ray [1]
+const MIN_OPACITY = 0.5; // least opacity of a surface that stops a ray [1]
 
 export class Rays {
   constructor(private readonly pack: Pack) {}
 
   /**
-   * Return the fraction of the way between two points at the first surface; 1 if there is none.
+   * Return the fraction of the way from `start` to `end` (in W) at the first surface; 1: no surface.
    *
-   * `place` returns world from body; rays pass through the bodies for which `isSkipped` is true.
+   * `bodyPose` returns world from body; rays pass through bodies for which `isSkipped` returns true.
    */
-  cast(start: Vector, end: Vector, place: (body: string) => Matrix, isSkipped: (body: Head["bodies"][0]) => boolean): number {
+  cast(start: Vector, end: Vector, bodyPose: (body: string) => Matrix, isSkipped: (body: Head["bodies"][0]) => boolean): number {
     let nearestShare = 1;
     for (const body of this.pack.head.bodies) {
       if (!body.visuals.length || isSkipped(body)) continue;
-      const worldFromBody = place(body.name);
+      const worldFromBody = bodyPose(body.name);
       for (const visual of body.visuals) {
         if (visual.hidden || visual.opacity < MIN_OPACITY) continue;
         const meshFromWorld = inverseOf(product(worldFromBody, matrix(visual.matrix)));
@@ -50,7 +50,7 @@ export class Rays {
 }
 
 /**
- * Return the fraction of a ray at a triangle (Moeller and Trumbore, 1997); Infinity: no hit.
+ * Return the fraction of a ray at which it hits a triangle (Moeller and Trumbore, 1997); Infinity: no hit.
  *
  * Written without vectors, so that it allocates no memory for each triangle near the ray.
  */
@@ -75,7 +75,7 @@ function hitTriangle(
   return share >= 0 ? share : Infinity;
 }
 
-/** Return the inverse of an affine matrix with any scale; null without an inverse. */
+/** Return the inverse of an affine matrix with any scale; null if it has none. */
 function inverseOf(m: Matrix): Matrix | null {
   const rows = [0, 1, 2].map((i) => [m[4 * i], m[4 * i + 1], m[4 * i + 2]]);
   const columns = [cross(rows[1], rows[2]), cross(rows[2], rows[0]), cross(rows[0], rows[1])];

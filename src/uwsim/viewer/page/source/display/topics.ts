@@ -1,10 +1,10 @@
-// Requested topics of a running simulation: the values of the newest message, and their curves.
+// Topics of a running simulation that the user has selected: the newest values, and their curves.
 import { Curves } from "../curves";
 import { element, make } from "../panels";
 import type { Samples } from "../player";
 
-const MAX_SAMPLES = 3000; // samples of a curve
-const MAX_TOPICS = 16; // topics at once, the limit of the server
+const MAX_SAMPLES = 3000; // greatest number of samples of a curve
+const MAX_TOPICS = 16; // greatest number of topics at once, the limit of the server
 
 export interface TopicMessage {
   type: "topic";
@@ -18,7 +18,7 @@ export class Topics {
   private readonly cards = new Map<string, Card>();
   private types: Record<string, string> = {};
 
-  /** `request` sends the requested topics to the simulation. */
+  /** `request` sends the names of the selected topics to the simulation. */
   constructor(private readonly request: (names: string[]) => void) {
     const choice = element<HTMLSelectElement>("topic");
     choice.addEventListener("change", () => {

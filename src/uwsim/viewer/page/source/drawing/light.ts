@@ -1,4 +1,4 @@
-// The maps of shadows: of the sun, of the lamps and of a projector, as in uwsim.rendering.
+// Lamps, a projector, and the shadow maps of them and of the sun, as in uwsim.rendering.lights.
 import type { Lamp, Projector } from "../head";
 import {
   clipFromCamera, columns, inverse, origin, product, type Lens, type Matrix, matrix,
@@ -8,19 +8,21 @@ import { Programs } from "./shaders";
 import type { Slots } from "./slots";
 import { fit, findVisible, TO_TEXTURE } from "./visibility";
 
-const SMALL_MAP = 512;
-const LARGE_MAP = 1024;
-const FINE_TEXEL = 0.008;
-const TILE = 512;
-const MAX_HALF_ANGLE = (80 * Math.PI) / 180;
-const LAMP_MARGIN = 1.02;
-const MAX_SIDE = 1024;
+const SMALL_MAP = 512; // edge of the sun's shadow map [texel]
+const LARGE_MAP = 1024; // its edge if texels of the small map are too large [texel]
+const FINE_TEXEL = 0.008; // largest texel of the small map [m]
+const TILE = 512; // edge of a lamp's shadow map [texel]
+const MAX_HALF_ANGLE = (80 * Math.PI) / 180; // of a lamp with a shadow map [rad]
+const LAMP_MARGIN = 1.02; // ratio of the field of a lamp's map to the lamp's cone
+const MAX_SIDE = 1024; // longest side of a projector's shadow map [texel]
 
+/** A lamp that is on; its intensity is the present one. */
 export interface ActiveLamp {
   lamp: Lamp;
-  place: Matrix;
+  worldFromLamp: Matrix;
 }
 
+/** A depth texture with its framebuffer. */
 export class DepthMap {
   readonly texture: WebGLTexture;
   private readonly buffer: WebGLFramebuffer;
@@ -63,7 +65,7 @@ export class DepthMap {
   }
 }
 
-/** The depth maps of shadow casters, and the numbers that the shaders need of them. */
+/** The shadow maps of sun, lamps and projector, and the values with which shaders read them. */
 export class Shadows {
   private readonly suns: Record<number, DepthMap>;
   sunMap: DepthMap;
@@ -99,25 +101,25 @@ export class Shadows {
 
   castLamps(lamps: ActiveLamp[], pieces: Piece[], version: number): void {
     this.lampMaps ??= new DepthMap(this.gl, 2 * TILE, 2 * TILE);
-    lamps.forEach(({ lamp, place }, tile) => {
-      const key = lamp.shadow ? `${version} ${lamp.half_angle} ${place}` : "none";
+    lamps.forEach(({ lamp, worldFromLamp }, tile) => {
+      const key = lamp.shadow ? `${version} ${lamp.half_angle} ${worldFromLamp}` : "none";
       if (key === this.lampKeys[tile]) return;
       this.lampKeys[tile] = key;
       this.lampMaps!.begin(TILE * (tile % 2), TILE * (tile >> 1), TILE, TILE);
-      if (lamp.shadow) this.castFrom(place, lampLens(lamp), pieces);
+      if (lamp.shadow) this.castFrom(worldFromLamp, lampLens(lamp), pieces);
     });
   }
 
-  castProjector(place: Matrix, lens: Lens, pieces: Piece[]): void {
+  castProjector(worldFromProjector: Matrix, lens: Lens, pieces: Piece[]): void {
     this.projectorMap ??= new DepthMap(this.gl, lens.width, lens.height);
     this.projectorMap.begin(0, 0, lens.width, lens.height);
-    this.castFrom(place, lens, pieces);
+    this.castFrom(worldFromProjector, lens, pieces);
   }
 
-  private castFrom(place: Matrix, lens: Lens, pieces: Piece[]): void {
+  private castFrom(worldFromLight: Matrix, lens: Lens, pieces: Piece[]): void {
     const clip = clipFromCamera(lens, true);
-    const casters = findVisible(pieces, { worldFromCamera: place, clip, lens });
-    this.draw(casters.filter(isOpaque), product(clip, inverse(place)), true);
+    const casters = findVisible(pieces, { worldFromCamera: worldFromLight, clip, lens });
+    this.draw(casters.filter(isOpaque), product(clip, inverse(worldFromLight)), true);
   }
 
   private draw(casters: Piece[], clipFromWorld: Matrix, isFlipped = false): void {
@@ -154,16 +156,16 @@ export function projectorLens(projector: Projector, columns: number, rows: numbe
   };
 }
 
-/** Return the uniform block Lamps, for four lamps. */
+/** Return the values of the uniform block Lamps (lamps.glsl), for at most four lamps. */
 export function lampBlock(lamps: ActiveLamp[], worldFromCamera: Matrix): Float32Array<ArrayBuffer> {
   const block = new Float32Array(4 * 16 + 3 * 16);
   const cameraFromWorld = inverse(worldFromCamera);
-  lamps.forEach(({ lamp, place }, tile) => {
+  lamps.forEach(({ lamp, worldFromLamp }, tile) => {
     const [x, y] = [0.25 + 0.5 * (tile % 2), 0.25 + 0.5 * (tile >> 1)];
     const tileFromClip = matrix([0.25, 0, 0, x, 0, 0.25, 0, y, 0, 0, 0.5, 0.5, 0, 0, 0, 1]);
     const map = product(tileFromClip, clipFromCamera(lampLens(lamp), true));
-    block.set(columns(product(product(map, inverse(place)), worldFromCamera)), 16 * tile);
-    const cameraFromLamp = product(cameraFromWorld, place);
+    block.set(columns(product(product(map, inverse(worldFromLamp)), worldFromCamera)), 16 * tile);
+    const cameraFromLamp = product(cameraFromWorld, worldFromLamp);
     const cosOuter = Math.cos(lamp.half_angle);
     const cosInner = Math.cos((1 - lamp.softness) * lamp.half_angle);
     const texel = (2 * LAMP_MARGIN * Math.tan(lamp.half_angle)) / TILE;
@@ -175,11 +177,11 @@ export function lampBlock(lamps: ActiveLamp[], worldFromCamera: Matrix): Float32
   return block;
 }
 
-/** Return the uniform block Projector. */
+/** Return the values of the uniform block Projector (projector.glsl). */
 export function projectorBlock(
-  projector: Projector, place: Matrix, lens: Lens, worldFromCamera: Matrix,
+  projector: Projector, worldFromProjector: Matrix, lens: Lens, worldFromCamera: Matrix,
 ): Float32Array<ArrayBuffer> {
-  const projectorFromCamera = product(inverse(place), worldFromCamera);
+  const projectorFromCamera = product(inverse(worldFromProjector), worldFromCamera);
   const map = product(TO_TEXTURE, clipFromCamera(lens, true));
   const m = inverse(projectorFromCamera);
   return Float32Array.from([

@@ -1,4 +1,4 @@
-// Draws a scene through its water as uwsim.rendering.renderer does, with the same shaders.
+// The renderer: it draws a scene through its water with the shaders of uwsim.rendering.renderer.
 import type { Head, Water } from "../head";
 import {
   clipFromCamera, columns, inverse, matrix, origin, product, rotateBack, unit, type Lens, type Matrix,
@@ -9,12 +9,12 @@ import {
 import type { Models, Piece } from "../models";
 import { BLOCKS, Programs, UNITS, type Switches } from "./shaders";
 import { Slots } from "./slots";
-import { findVisible, needsNoMipmaps, reachingCasters, type Eye } from "./visibility";
+import { findVisible, canSkipMipmaps, reachingCasters, type Eye } from "./visibility";
 
-const MAX_CASTER_RADIUS = 5;
+const MAX_CASTER_RADIUS = 5; // radius above which a model casts no shadow of the sun [m]
 const MAX_LAMPS = 4;
 
-/** Return true if the CPU draws, and no GPU. */
+/** Return true if WebGL is drawn by software on the CPU. */
 export function isSoftware(gl: WebGL2RenderingContext): boolean {
   const name = gl.getExtension("WEBGL_debug_renderer_info");
   const renderer = name ? String(gl.getParameter(name.UNMASKED_RENDERER_WEBGL)) : "";
@@ -27,9 +27,9 @@ export interface RenderState {
   lens: Lens;
   water: Water;
   lamps: ActiveLamp[];
-  /** The view of an observer: it has air above the water, and ghosts are visible. */
+  /** True for a view from outside: there is air above the water, and hidden parts are visible. */
   observer: boolean;
-  /** The image is that of a grey camera. */
+  /** True if the image is in grey, as a grey camera gives it. */
   grey?: boolean;
 }
 
@@ -61,7 +61,7 @@ export class Renderer {
   }
 
   /** Draw into a part of a framebuffer (null: the canvas), x and y from its lower left [px]. */
-  draw(state: RenderState, target: WebGLFramebuffer | null, place: [number, number], isFlipped = false): void {
+  draw(state: RenderState, target: WebGLFramebuffer | null, corner: [number, number], isFlipped = false): void {
     const { gl, models } = this;
     const { worldFromCamera, lens, water } = state;
     const clip = clipFromCamera(lens, isFlipped);
@@ -83,9 +83,9 @@ export class Renderer {
     this.fillFrame(state, clip, sun);
     this.slots.fill(inverse(worldFromCamera), rotationOf(worldFromCamera));
     gl.bindFramebuffer(gl.FRAMEBUFFER, target);
-    gl.viewport(place[0], place[1], lens.width, lens.height);
+    gl.viewport(corner[0], corner[1], lens.width, lens.height);
     gl.enable(gl.SCISSOR_TEST);
-    gl.scissor(place[0], place[1], lens.width, lens.height);
+    gl.scissor(corner[0], corner[1], lens.width, lens.height);
     gl.depthMask(true);
     gl.clear(gl.DEPTH_BUFFER_BIT);
     gl.enable(gl.DEPTH_TEST);
@@ -128,11 +128,12 @@ export class Renderer {
     if (!projector) return;
     switches.PROJECTOR = 1;
     const { width, height } = this.head.textures[projector.pattern];
-    const [place, lens] = [this.models.worldFromMount(projector), projectorLens(projector, width, height)];
-    this.shadows.castProjector(place, lens, pieces);
+    const worldFromProjector = this.models.worldFromMount(projector);
+    const lens = projectorLens(projector, width, height);
+    this.shadows.castProjector(worldFromProjector, lens, pieces);
     this.bind(UNITS.projector_map, this.shadows.projectorMap!.texture);
     this.bind(UNITS.projector_pattern, this.models.patterns[0]);
-    this.fill("Projector", projectorBlock(projector, place, lens, state.worldFromCamera));
+    this.fill("Projector", projectorBlock(projector, worldFromProjector, lens, state.worldFromCamera));
   }
 
   private drawPiece(piece: Piece, eye: Eye, switches: Switches, isFlipped: boolean): void {
@@ -140,7 +141,7 @@ export class Renderer {
     const { texture, repeats } = piece.instance;
     if (texture) {
       this.bind(UNITS.base_map, texture);
-      gl.bindSampler(UNITS.base_map, needsNoMipmaps(piece, eye) ? this.samplers[Number(repeats)] : null);
+      gl.bindSampler(UNITS.base_map, canSkipMipmaps(piece, eye) ? this.samplers[Number(repeats)] : null);
     }
     gl.useProgram(this.programs.get("surface", texture ? { ...switches, TEXTURED: 1 } : switches));
     this.slots.drawPiece(piece, isFlipped);

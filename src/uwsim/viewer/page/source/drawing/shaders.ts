@@ -93,7 +93,7 @@ function build(gl: WebGL2RenderingContext, effect: string, switches: Switches): 
     gl.compileShader(shader);
     gl.attachShader(program, shader);
   }
-  for (const [name, place] of Object.entries(ATTRIBUTES)) gl.bindAttribLocation(program, place, name);
+  for (const [name, location] of Object.entries(ATTRIBUTES)) gl.bindAttribLocation(program, location, name);
   gl.linkProgram(program);
   if (!gl.getProgramParameter(program, gl.LINK_STATUS)) {
     const logs = (gl.getAttachedShaders(program) ?? []).map((shader) => gl.getShaderInfoLog(shader));

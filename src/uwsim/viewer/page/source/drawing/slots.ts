@@ -3,7 +3,7 @@ import { columns, product, type Matrix } from "../geometry";
 import type { Models, Piece } from "../models";
 import { BLOCKS } from "./shaders";
 
-const STRIDE = 256;
+const STRIDE = 256; // distance between the blocks of two instances [byte]
 
 /** The uniform blocks of all instances, for one camera at a time. */
 export class Slots {

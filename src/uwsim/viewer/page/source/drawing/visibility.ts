@@ -1,19 +1,20 @@
-// The pieces that a camera sees and those that cast a shadow on them, as in
-// uwsim.rendering.instance, sun_shadow and minification.
+// The selection of pieces that are in view, and of those that may cast the sun's shadow on them, as in
+// uwsim.rendering.instance, lights.sun_shadow and minification.
 import {
   cross, dot, matrix, origin, plus, transform, rotateBack, unit, inverse, type Lens, type Matrix,
 } from "../geometry";
 import type { Piece } from "../models";
 
+/** A camera: its pose, the matrix from camera to clip space, and its lens. */
 export interface Eye {
   worldFromCamera: Matrix;
   clip: Matrix;
   lens: Lens;
 }
 
-const LOW_SUN = 0.3;
-const MARGIN = 0.05;
-const MAX_TEXELS = Math.SQRT2;
+const LOW_SUN = 0.3; // sine of the elevation below which the sun is low [1]
+const MARGIN = 0.05; // distance by which shadows may reach beyond boxes [m]
+const MAX_TEXELS = Math.SQRT2; // greatest number of texels along a pixel without mipmaps
 const TO_TEXTURE = matrix([0.5, 0, 0, 0.5, 0, 0.5, 0, 0.5, 0, 0, 0.5, 0.5, 0, 0, 0, 1]);
 export { TO_TEXTURE };
 
@@ -44,16 +45,16 @@ export function findVisible(pieces: Piece[], eye: Eye): Piece[] {
   return visiblePieces.sort((a, b) => a[0] - b[0]).map(([, piece]) => piece);
 }
 
-/** Return the casters that may cast a shadow on a visible piece. */
-export function reachingCasters(casters: Piece[], entries: Piece[], sun: number[], eye: Eye): Piece[] {
+/** Return the casters that may cast a shadow on a receiver; `sun` is the unit vector towards the sun in W. */
+export function reachingCasters(casters: Piece[], receivers: Piece[], sun: number[], eye: Eye): Piece[] {
   const frame = shadowAxes(sun);
-  const place = origin(eye.worldFromCamera);
+  const position = origin(eye.worldFromCamera);
   const back = [eye.worldFromCamera[2], eye.worldFromCamera[6], eye.worldFromCamera[10]];
   const rays = cornerRays(eye);
-  const litBoxes = entries.map((piece) => {
-    const depths = piece.corners.map((corner) => dot(plus(place, corner, -1), back));
+  const litBoxes = receivers.map((piece) => {
+    const depths = piece.corners.map((corner) => dot(plus(position, corner, -1), back));
     const ends = [Math.max(0, Math.min(...depths)), Math.max(0, Math.max(...depths))];
-    const slice = ends.flatMap((end) => rays.map((ray) => plus(place, ray, end)));
+    const slice = ends.flatMap((end) => rays.map((ray) => plus(position, ray, end)));
     const [box, cut] = [bounds(piece.corners, frame), bounds(slice, frame)];
     return box.map(([low, high], i) => [Math.max(low, cut[i][0]), Math.min(high, cut[i][1])]);
   });
@@ -67,6 +68,7 @@ export function reachingCasters(casters: Piece[], entries: Piece[], sun: number[
   });
 }
 
+/** Return the axes of coordinates of W whose first two are constant along a sunbeam. */
 function shadowAxes(sun: number[]): number[][] {
   if (sun[2] < LOW_SUN) return [...axesOf(sun), sun];
   return [[1, 0, -sun[0] / sun[2]], [0, 1, -sun[1] / sun[2]], sun];
@@ -95,7 +97,7 @@ function axesOf(sun: number[]): [number[], number[]] {
   return [sideAxis, cross(sideAxis, down)];
 }
 
-/** Return the sun's orthographic camera round all casters, and the edge of its view [m]. */
+/** Return the matrix from W to clip space of the sun's view of all casters, and the edge of that view [m]. */
 export function fit(casters: Piece[], sun: number[]): [Matrix, number] {
   const axes = [...axesOf(sun), [-sun[0], -sun[1], -sun[2]]];
   const low = [Infinity, Infinity, Infinity];
@@ -106,7 +108,7 @@ export function fit(casters: Piece[], sun: number[]): [Matrix, number] {
       high[i] = Math.max(high[i], dot(axis, centre) + radius);
     });
   const half = Math.max(high[0] - low[0], high[1] - low[1]) / 2;
-  const reach = 20; // of shadows below the casters [m]
+  const reach = 20; // distance below the casters up to which shadows fall [m]
   const scale = [1 / half, 1 / half, 2 / (high[2] + reach - low[2])];
   const middle = [(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (high[2] + reach + low[2]) / 2];
   const rows = axes.flatMap((axis, i) => [
@@ -115,8 +117,8 @@ export function fit(casters: Piece[], sun: number[]): [Matrix, number] {
   return [matrix([...rows, 0, 0, 0, 1]), 2 * half];
 }
 
-/** Return true if a piece needs no mipmaps of its texture at this distance. */
-export function needsNoMipmaps(piece: Piece, eye: Eye): boolean {
+/** Return true if a pixel of a flat piece covers too few texels for mipmaps to have an effect. */
+export function canSkipMipmaps(piece: Piece, eye: Eye): boolean {
   if (!(piece.density > 0) || dot(piece.normal, piece.normal) === 0) return false;
   const cameraFromWorld = inverse(eye.worldFromCamera);
   const points = piece.corners.map((corner) => transform(cameraFromWorld, corner));
