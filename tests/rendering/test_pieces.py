@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from uwsim.base.geometry import Array, Intrinsics, Pose, rotation_from_rpy
-from uwsim.rendering.minification import MAX_TEXELS, needs_no_mipmaps
+from uwsim.rendering.minification import MAX_TEXELS, can_skip_mipmaps
 from uwsim.rendering.pieces import (
     compute_normals,
     compute_texel_densities,
@@ -100,7 +100,7 @@ def test_no_pixel_covers_more_texels_than_was_promised(tilt: float) -> None:
     largest = footprint(normal, centre)
 
     def is_close(texels: float) -> bool:
-        chosen = needs_no_mipmaps(
+        chosen = can_skip_mipmaps(
             np.array([texels]), normal[None], corners[None], Pose.identity(), CAMERA
         )
         return bool(chosen[0])
@@ -114,7 +114,7 @@ def test_no_pixel_covers_more_texels_than_was_promised(tilt: float) -> None:
 def test_what_is_bent_or_behind_or_bare_keeps_its_copies() -> None:
     corners = np.array([[x, y, -2.0] for x in (-1, 1) for y in (-1, 1)] * 2, float)
     up, none = np.array([0.0, 0.0, 1.0]), np.zeros(3)
-    chosen = needs_no_mipmaps(
+    chosen = can_skip_mipmaps(
         np.array([1.0, 1.0, 1.0, 0.0]),
         np.array([up, none, up, up]),
         np.array([corners, corners, -corners, corners]),

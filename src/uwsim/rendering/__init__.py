@@ -1,7 +1,7 @@
 """Rendering: images of models seen through water.
 
-`renderer` draws, with the programs in ``shaders/``; `water` has the law of attenuation and fog, as
-``shaders/water.glsl`` computes it for each pixel; `frame` hands its numbers to the shaders; `noise`
-and `grey` come after the image. The modules are imported where they are used: `renderer` needs
-OpenGL, `noise` and `grey` numba, `water` only numpy.
+`renderer` draws images with the programs in ``shaders/``. `water` defines the model of attenuation
+and fog, which ``shaders/water.glsl`` computes for each pixel; `frame` passes its parameters to the
+shaders. `noise` and `grey` process a rendered image. Import the modules where they are used:
+`renderer` needs OpenGL, `noise` and `grey` need numba, `water` only numpy.
 """

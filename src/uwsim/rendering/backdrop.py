@@ -1,10 +1,10 @@
-"""The backdrop: what is at rest behind all moving instances, for a camera at rest.
+"""The backdrop: the part of a scene at rest behind all moving instances, for a camera at rest.
 
-The batches that are drawn last, above all terrain, cover most of an image. While they and the
-camera are at rest, their colours are stored without shadows, and only what is in front is shaded.
-The backdrop's depths are drawn, which takes little time, and its colours in the rectangle where
-shadows may fall. Pixels in which nothing was shaded get the colours of the backdrop: the image has
-the same bytes as one that is drawn as a whole.
+The batches that are drawn last, mainly terrain, cover most of an image. While they and the camera
+are at rest, their colours without shadows are stored, and only the batches in front are shaded in
+each image. Of the backdrop, the depths are drawn, which takes little time, and the colours in the
+rectangle where shadows may fall. Pixels in which nothing was shaded get the stored colours: the
+image has the same bytes as one in which all batches are drawn.
 """
 
 from __future__ import annotations
@@ -21,25 +21,27 @@ Colours = npt.NDArray[np.uint8] | npt.NDArray[np.uint16]
 
 
 class Backdrop:
-    """The backdrop of a camera at rest; all that it depends on, except poses, is constant."""
+    """The backdrop of one view: the camera, water, light and hidden instances do not change."""
 
     def __init__(self) -> None:
         self.colours: Colours | None = None
         """The colours of the backdrop; None before they are drawn."""
         self.tiles: Array = np.zeros((0, 0, 2, 3))
         """The bounds of the surfaces in the tiles of the image (`shadow_region`)."""
-        self._arrangement = self._version = -1  # of the instances in the last image
-        self._members_key = b"", -1  # numbers of its batches in order, and version of the instances
+        self._arrangement = (
+            self._version
+        ) = -1  # `Instances.arrangement`, `version` at the last image
+        self._members_key = b"", -1  # numbers of its batches in order, and `Instances.version`
 
     def find(self, instances: Instances, visible_batches: Numbers) -> Numbers:
-        """Return the batches of the backdrop, the last of those in view.
+        """Return the numbers of the batches of the backdrop: the last of those in view.
 
-        Without colours these are batches that did not move since the last image; they are to be
-        drawn. All batches in view must be opaque, else the backdrop has none.
+        If `colours` is None then, these are batches that did not move since the last image, and the
+        caller draws and stores them. The result is empty if a batch in view is transparent.
 
         Args:
             instances: all instances.
-            visible_batches: numbers of the batches in view, in the order of drawing.
+            visible_batches: the numbers of the batches in view, in the order of drawing.
         """
         last_version, self._version = self._version, instances.version
         if instances.arrangement != self._arrangement or not instances.are_opaque(visible_batches):
@@ -56,14 +58,14 @@ class Backdrop:
         return visible_batches[moving_rows[-1] + 1 if len(moving_rows) else 0 :]
 
     def store(self, colours: Colours, tiles: Array, members: Numbers) -> None:
-        """Store the colours and tiles that were drawn of some batches."""
+        """Store the colours and the tiles of the backdrop, and the numbers of its batches."""
         self.colours, self.tiles = colours, tiles
         self._members_key = members.tobytes(), self._version
 
 
 @njit
 def fill(colours: Colours, background: Colours) -> None:
-    """Copy the colours of the backdrop to pixels where alpha is 0, (h, w, 4) each."""
+    """Copy a background into the pixels of an image whose alpha is 0; both are (h, w, 4)."""
     height, width, _ = colours.shape
     for row in range(height):
         for column in range(width):

@@ -1,7 +1,7 @@
-"""Compute the bounds of batches in W, and which of them reach into an image.
+"""Bounds of batches in the world frame W, and the selection of the batches in view.
 
-The loops visit a scene's few dozen batches for every image: calls of numpy would take longer than
-to draw the batches.
+The loops are compiled: for the few dozen batches of a scene, calls of numpy functions would take
+longer than drawing. Functions write their results into the last argument, unless stated otherwise.
 """
 
 from __future__ import annotations
@@ -19,9 +19,13 @@ Numbers = npt.NDArray[np.intp]
 
 @njit
 def compute_stretch_bounds(matrices: Array, factors: Array) -> None:
-    """Bound the factor by which each matrix, (n, 3, 3), stretches a vector, into (n,) [1].
+    """Compute an upper bound of the factor by which each matrix stretches a vector.
 
     The largest row sum of A'A bounds the square of the largest stretch; exact without shear.
+
+    Args:
+        matrices: the matrices A, (n, 3, 3).
+        factors: the output, (n,) [1].
     """
     for n in range(len(matrices)):
         max_row_sum = 0.0
@@ -47,11 +51,11 @@ def set_poses(
     """Set the poses of some instances; return True if a pose changed.
 
     Args:
-        poses: the poses, (k, 4, 4).
-        rows: of the instances, (k,).
-        version: noted for those that were elsewhere.
-        world_from_model: of all instances, (n, 4, 4), which is written.
-        moved_versions: the version at which each last moved, (n,), which is written.
+        poses: the new poses, (k, 4, 4).
+        rows: the rows of these instances, (k,).
+        version: the version that is recorded for the instances whose pose changes.
+        world_from_model: the poses of all instances, (n, 4, 4), which are written.
+        moved_versions: the version at which each instance last moved, (n,), which is written.
     """
     has_moved = False
     for k in range(len(rows)):
@@ -74,14 +78,14 @@ def transform_to_camera(
     camera_from_model: npt.NDArray[np.float32],
     camera_normals: npt.NDArray[np.float32],
 ) -> None:
-    """Write the poses and normals of models in a camera's frame, column by column for OpenGL.
+    """Transform poses and normal matrices to a camera's frame, in OpenGL's column-major order.
 
     Args:
-        camera_from_world: (4, 4); it may project, too.
-        world_from_model: of each instance, (n, 4, 4).
-        world_normals: world normals from model normals, (n, 3, 3).
-        camera_from_model: which is written, (n, 4, 4).
-        camera_normals: which is written, (n, 4, 4), but for its last row and column.
+        camera_from_world: the matrix from W to the camera, (4, 4); it may include a projection.
+        world_from_model: the pose of each instance, (n, 4, 4).
+        world_normals: the matrix from model normals to world normals of each instance, (n, 3, 3).
+        camera_from_model: the first output, (n, 4, 4).
+        camera_normals: the second output, (n, 4, 4); its last row and column are not written.
     """
     for n in range(len(world_from_model)):
         for i in range(4):
@@ -102,14 +106,14 @@ def transform_to_camera(
 def transform_spheres(
     world_from_model: Array, stretch: Array, owners: Numbers, model_spheres: Array, spheres: Array
 ) -> None:
-    """Transform bounding spheres to W: centre and radius, into (m, 4) [m].
+    """Transform bounding spheres to W.
 
     Args:
-        world_from_model: of each instance, (n, 4, 4).
-        stretch: of each instance, (n,) [1].
-        owners: the instance of each sphere, (m,).
+        world_from_model: the pose of each instance, (n, 4, 4).
+        stretch: the factor by which each instance stretches its model at most, (n,) [1].
+        owners: the row of the instance of each sphere, (m,).
         model_spheres: centre and radius in the frame of the model, (m, 4) [m].
-        spheres: into which they are written.
+        spheres: the output, centre and radius in W, (m, 4) [m].
     """
     for m in range(len(owners)):
         n = owners[m]
@@ -121,13 +125,13 @@ def transform_spheres(
 def transform_corners(
     world_from_model: Array, owners: Numbers, model_corners: Array, corners: Array
 ) -> None:
-    """Transform the corners of bounding boxes to W, into (m, 8, 3) [m].
+    """Transform the corners of bounding boxes to W.
 
     Args:
-        world_from_model: of each instance, (n, 4, 4).
-        owners: the instance of each box, (m,).
-        model_corners: in the frame of the model, (m, 8, 3) [m].
-        corners: into which they are written.
+        world_from_model: the pose of each instance, (n, 4, 4).
+        owners: the row of the instance of each box, (m,).
+        model_corners: the corners in the frame of the model, (m, 8, 3) [m].
+        corners: the output, the corners in W, (m, 8, 3) [m].
     """
     for m in range(len(owners)):
         for c in range(8):
@@ -148,13 +152,14 @@ def _transform_point(point: Array, world_from_model: Array, world_point: Array) 
 def transform_normals(
     normals: Array, owners: Numbers, model_normals: Array, world_normals: Array
 ) -> None:
-    """Transform the unit normals of flat batches to W, into (m, 3); 0 for bent batches.
+    """Transform the unit normals of batches to W.
 
     Args:
-        normals: world normals from model normals, of each instance, (n, 3, 3).
-        owners: the instance of each batch, (m,).
-        model_normals: in the frame of the model, (m, 3).
-        world_normals: into which they are written.
+        normals: the matrix from model normals to world normals of each instance, (n, 3, 3).
+        owners: the row of the instance of each batch, (m,).
+        model_normals: the normals in the frame of the model, (m, 3); 0 for batches that are not
+            flat.
+        world_normals: the output, unit normals in W, or 0, (m, 3).
     """
     for m in range(len(owners)):
         n, squares = owners[m], 0.0
@@ -172,7 +177,13 @@ def transform_normals(
 
 @njit
 def compute_half_extents(owners: Numbers, spheres: Array, extents: Array) -> None:
-    """Compute half the longest side of the box around each instance's spheres, into (n,) [m]."""
+    """Compute half the longest side of the box around the bounding spheres of each instance.
+
+    Args:
+        owners: the row of the instance of each sphere, (m,).
+        spheres: centre and radius of the spheres in W, (m, 4) [m].
+        extents: the output, (n,) [m].
+    """
     low, high = np.full((len(extents), 3), np.inf), np.full((len(extents), 3), -np.inf)
     for m in range(len(owners)):
         n = owners[m]
@@ -196,16 +207,16 @@ def find_far_distances(
     planes: Array,
     distances: Array,
 ) -> None:
-    """Compute the distance to the far side of each batch in a frustum, else inf, into (m,) [m].
+    """Compute the distance from a camera to the far side of each batch in its frustum.
 
     Args:
-        numbers: which batches, (m,).
-        spheres: of all batches in W, (k, 4) [m].
-        corners: of their boxes in W, (k, 8, 3) [m].
-        position: of the camera in W, (3,) [m].
-        rotation: its axes in W as columns, (3, 3).
-        planes: of the frustum, camera frame, (6, 4).
-        distances: into which it is written.
+        numbers: the numbers of the batches to check, (m,).
+        spheres: the bounding spheres of all batches in W, (k, 4) [m].
+        corners: the corners of the bounding boxes of all batches in W, (k, 8, 3) [m].
+        position: the position of the camera in W, (3,) [m].
+        rotation: the axes of the camera in W as columns, (3, 3).
+        planes: the planes of the frustum in the camera's frame, (6, 4).
+        distances: the output, (m,) [m]; inf for batches outside of the frustum.
     """
     centre, points = np.empty(3), np.empty((8, 3))
     for i in range(len(numbers)):
@@ -225,7 +236,7 @@ def find_far_distances(
 def transform_from_world(
     point: Array, position: Array, rotation: Array, camera_point: Array
 ) -> None:
-    """Transform a point of W to the frame of the camera."""
+    """Transform a point, (3,) [m], from W to the frame of the camera (`find_far_distances`)."""
     x, y, z = point[0] - position[0], point[1] - position[1], point[2] - position[2]
     for k in range(3):
         camera_point[k] = 0.0 + x * rotation[0, k] + y * rotation[1, k] + z * rotation[2, k]
@@ -233,7 +244,7 @@ def transform_from_world(
 
 @njit
 def transform_to_world(point: Array, position: Array, rotation: Array, world_point: Array) -> None:
-    """Transform a point of the frame of the camera to W: the inverse of `transform_from_world`."""
+    """Transform a point from the camera's frame to W: the inverse of `transform_from_world`."""
     for k in range(3):
         total = position[k]
         for j in range(3):

@@ -14,9 +14,9 @@ ENVIRONMENT = {
     "LP_NUM_THREADS": str(min(4, 2 * (os.cpu_count() or 1))),
     "EGL_LOG_LEVEL": "fatal",
 }
-"""The variables of Mesa, set where the user has not: camera images are too small for more than
-a few threads of the software rasteriser, and `NoGraphics` reports errors once. They do not change
-a byte of an image."""
+"""The environment variables of Mesa that are set, unless the user has set them. Camera images are
+too small for more than a few threads of the software rasteriser, and `NoGraphics` reports errors
+once. The variables do not change a byte of an image."""
 
 N_DEVICES = 4
 """The number of EGL devices that are tried, in EGL's order: graphics cards precede llvmpipe."""

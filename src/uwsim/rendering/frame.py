@@ -1,4 +1,4 @@
-"""The uniform block of values that hold for a whole image."""
+"""The uniform block ``Frame``: camera, water and sunlight, which are constant in an image."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ FRAME = Block(
         "up": "vec4",
         "sun": "vec4",
         "sunlight": "vec4",
-        "sky": "vec4",
+        "ambient_specular": "vec4",
         "water_colour": "vec4",
         "attenuation": "vec4",
         "fog": "vec4",
@@ -31,7 +31,7 @@ FRAME = Block(
 
 
 class Frame:
-    """The buffer of the uniform block."""
+    """The buffer of the uniform block ``Frame`` (``shaders/frame.glsl``)."""
 
     def __init__(self, context: moderngl.Context) -> None:
         self._values = np.zeros((), dtype=FRAME.dtype)
@@ -46,7 +46,16 @@ class Frame:
         light: Light,
         shadow: SunShadow,
     ) -> None:
-        """Write everything and bind it."""
+        """Write the values of an image and bind the buffer.
+
+        Args:
+            world_from_camera: the pose of the camera; OpenGL axes.
+            intrinsics: the pinhole of the camera.
+            clip_from_camera: the projection matrix, (4, 4).
+            water: the water between surfaces and camera.
+            light: the light of the scene.
+            shadow: the shadow map of the sun.
+        """
         values, rotation = self._values, world_from_camera.rotation
         water = water.scale_by_light(light)
         near, far = intrinsics.near, intrinsics.far
@@ -58,7 +67,10 @@ class Frame:
         values["up"] = *rotation[2], height
         values["sun"] = *rotate_back(rotation, sun_direction(light.sun)), shadow.lift
         values["sunlight"][:3] = [light.rate * colour for colour in SUN_COLOURS[light.sun]]
-        values["sky"][:2] = light.rate * AMBIENT_SHARE, light.rate * SPECULAR_BRIGHTNESS
+        values["ambient_specular"][:2] = (
+            light.rate * AMBIENT_SHARE,
+            light.rate * SPECULAR_BRIGHTNESS,
+        )
         values["water_colour"][:3] = water.colour
         values["attenuation"][:3] = water.attenuation
         values["fog"] = *water.fog_colour, water.fog**2

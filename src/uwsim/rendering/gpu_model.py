@@ -1,4 +1,4 @@
-"""Models on the GPU: merged by texture, in pieces, uploaded once."""
+"""Models and textures on the GPU; the meshes of a model are merged and divided into batches."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .merged import VERTEX, MergedMesh, merge_model
 
 
 class Buffers:
-    """The merged meshes on the GPU, and a vertex array for each program that draws them."""
+    """A merged mesh on the GPU, with a vertex array for each program that draws it."""
 
     def __init__(self, context: moderngl.Context, mesh: MergedMesh) -> None:
         self._context = context
@@ -45,9 +45,10 @@ class Buffers:
             buffer.release()
 
     def _upload_positions(self) -> tuple[moderngl.Buffer, moderngl.Buffer]:
-        """Return the positions alone, each once, for shadow maps.
+        """Return buffers of the vertices' unique positions and of indices, for shadow maps.
 
-        Edges have a vertex for each normal and colour; vertices take most of a shadow map's time.
+        A position may have several vertices with different normals and colours. The time to draw a
+        shadow map depends mainly on the number of vertices.
         """
         if self._position_buffers is None:
             vertices, triangles = self._merged_buffers
@@ -64,70 +65,71 @@ class Buffers:
 
 @dataclass(frozen=True, eq=False)
 class Batch:
-    """A set of adjacent triangles with the same texture, sides and opacity; one draw call."""
+    """A set of adjacent triangles with one texture and one opacity, drawn by one call."""
 
     buffers: Buffers
-    """The buffers, shared by the pieces of a model."""
+    """The buffers of the merged mesh, which its batches share."""
     first_index: int
     """The position of the batch's first index."""
     size: int
-    """The number of its indices."""
+    """The number of the batch's indices, three per triangle."""
     texture: Texture | None
-    """The texture, uploaded when first drawn: `GpuModels.use`."""
+    """The texture; it is uploaded when it is first drawn (`GpuModels.use`)."""
     two_sided: bool
+    """True if the triangles are visible from both sides."""
     opacity: float
     """The opacity: 1 hides what is behind the batch, 0 is invisible."""
     centre: npt.NDArray[np.float64]
-    """The centre of the bounding sphere, model frame, (3,) [m]."""
+    """The centre of the bounding sphere in the model's frame, (3,) [m]."""
     radius: float
     """The radius of the bounding sphere [m]."""
     corners: npt.NDArray[np.float64]
-    """The corners of the bounding box, model frame, (8, 3) [m]."""
+    """The corners of the bounding box in the model's frame, (8, 3) [m]."""
     normal: npt.NDArray[np.float64]
-    """The normal of the batch's plane, model frame, (3,); 0 if it is bent."""
+    """The unit normal of a flat batch in the model's frame, (3,); 0 if it is not flat."""
     density: float
-    """The largest number of texels along a metre [1/m]; 0 without a texture."""
+    """The largest number of texels per metre on a triangle [1/m]; 0 without a texture."""
 
     def draw(self, program: moderngl.Program) -> None:
-        """Draw all triangles with the current state of OpenGL (`brush`)."""
+        """Draw all triangles with the current state of OpenGL (`batch_drawer`)."""
         array = self.buffers.array(program)
         array.render(moderngl.TRIANGLES, vertices=self.size, first=self.first_index)
 
 
 def _layout(attributes: list[str]) -> str:
-    """Return the format of VERTEX in which members that the program does not read are skipped."""
+    """Return the buffer format of `VERTEX`, with padding for members that the program lacks."""
     sizes = {"vertex": 3, "vertex_normal": 3, "uv": 2, "tint": 3}
     return " ".join(f"{n}f" if name in attributes else f"{4 * n}x" for name, n in sizes.items())
 
 
 MAX_UNUSED_SCENES = 4
-"""The number of scenes after which an unused model or texture is removed from the GPU."""
+"""The number of consecutive scenes without a model or texture after which the GPU discards it."""
 
 
 class GpuModels:
     """The models and textures on the GPU, each uploaded once.
 
-    A model is uploaded when it is added to a scene, a texture when it is first drawn: of a tank
-    with its house, a camera that looks down needs one of nine. Those that the last
-    `MAX_UNUSED_SCENES` did not use are removed: varied scenes have other models for each seed.
+    A model is uploaded when it is added to a scene, a texture when it is first drawn: a camera that
+    looks down sees few textures of a scene. Models and textures that were not used in the last
+    `MAX_UNUSED_SCENES` are removed: scenes that are varied by a seed have other models.
     """
 
     def __init__(self, context: moderngl.Context) -> None:
         self._context = context
         self._models: dict[int, tuple[Model, tuple[Batch, ...]]] = {}
-        self._close = {
+        self._plain_samplers = {
             repeats: context.sampler(repeats, repeats, filter=(moderngl.LINEAR, moderngl.LINEAR))
             for repeats in (False, True)
         }
         self._textures: dict[tuple[str, int], tuple[Texture, moderngl.Texture]] = {}
-        self._mipmapped_textures: set[int] = set()  # numbers of the textures that have mipmaps
-        self._bound: tuple[Texture, bool] | None = None  # of this pass; True: without mipmaps
+        self._mipmapped_textures: set[int] = set()  # OpenGL names of the textures with mipmaps
+        self._bound: tuple[Texture, bool] | None = None  # bound texture; True: without mipmaps
         self._n_scenes = 0  # number of scenes that have ended
-        self._models_used: dict[int, int] = {}  # number of the last scene that used it
+        self._models_used: dict[int, int] = {}  # number of the last scene that used a model
         self._textures_used: dict[tuple[str, int], int] = {}
 
     def upload(self, model: Model) -> tuple[Batch, ...]:
-        """Return the model's batches; the same object is uploaded only once."""
+        """Return the batches of a model, which is uploaded at the first call."""
         entry = self._models.get(id(model))
         if entry is None:
             batch_lists = [self._upload_batches(mesh) for mesh in merge_model(model)]
@@ -159,7 +161,7 @@ class GpuModels:
             buffers.release()
 
     def _upload_batches(self, mesh: MergedMesh) -> list[Batch]:
-        """Upload merged meshes, and return a batch for each of their pieces."""
+        """Upload a merged mesh, and return a batch for each of its pieces."""
         buffers = Buffers(self._context, mesh)
         return [
             Batch(
@@ -178,19 +180,23 @@ class GpuModels:
             for piece in mesh.pieces
         ]
 
-    def use(self, texture: Texture, unit: int, *, is_close: bool) -> None:
-        """Bind a texture until `release`; a close surface is sampled without mipmaps."""
-        if self._bound is not None and self._bound[0] is texture and self._bound[1] == is_close:
+    def use(self, texture: Texture, unit: int, *, skips_mipmaps: bool) -> None:
+        """Bind a texture to a unit until `release`; it is sampled with or without mipmaps."""
+        if (
+            self._bound is not None
+            and self._bound[0] is texture
+            and self._bound[1] == skips_mipmaps
+        ):
             return
         gpu_texture = self._upload_texture(texture)
         gpu_texture.use(unit)
-        if is_close:
-            self._close[texture.repeats].use(unit)
+        if skips_mipmaps:
+            self._plain_samplers[texture.repeats].use(unit)
             self._bound = texture, True
             return
         self.release(unit)
         self._bound = texture, False
-        # Their creation takes longer than an image.
+        # Mipmaps are created only when needed: that takes longer than to draw an image.
         if gpu_texture.glo not in self._mipmapped_textures:
             gpu_texture.build_mipmaps()
             gpu_texture.filter = (moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR)
@@ -198,7 +204,7 @@ class GpuModels:
 
     def release(self, unit: int) -> None:
         """Unbind the sampler, so that the next texture is sampled by its own filter."""
-        self._close[True].clear(unit)
+        self._plain_samplers[True].clear(unit)
         self._bound = None
 
     def _upload_texture(self, texture: Texture) -> moderngl.Texture:

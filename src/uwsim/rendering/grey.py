@@ -1,4 +1,4 @@
-"""Grey images as the original makes them."""
+"""Grey images, computed as in UWSim."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Instances of models: their poses, their bounds, and which of them are in view."""
+"""Instances of models: their poses and bounds, and the selection of batches in view."""
 
 from __future__ import annotations
 
@@ -13,27 +13,28 @@ from ..base.numerics.linear import determinants, inverse
 from ..errors import UnknownName
 from . import bounds
 from .gpu_model import Batch
-from .minification import needs_no_mipmaps
+from .minification import can_skip_mipmaps
 from .program import Block
 
 INSTANCE = Block(
     "Instance", 1, {"camera_from_model": "mat4", "camera_normals": "mat4", "identity": "uvec4"}
 )
 STRIDE = 256
-"""The distance between slots in the buffer of instances [bytes]; every driver's alignment divides
-it."""
+"""The distance between the blocks of two instances in the buffer [bytes], a multiple of the
+alignment of every driver."""
 Numbers = npt.NDArray[np.intp]
 
 
 class Instances:
     """The instances of models in W; bounds and normals are computed for all of them at once.
 
-    Each is identified by a handle; arrays have a row for each, in the order of adding.
+    An instance is identified by its handle. Arrays have one row for each instance, in the order in
+    which they were added. Batches are numbered through all instances in this order.
     """
 
     def __init__(self) -> None:
         self.version = 0
-        """The number of changes of anything that may cast a shadow."""
+        """The number of times that an instance was added, moved or removed."""
         self.arrangement = 0
         """The version at which an instance was last added or removed; batch numbers change then."""
         self._next_handle = 1
@@ -49,7 +50,7 @@ class Instances:
         self.batches: list[tuple[Batch, ...]] = []
         """The batches of each instance."""
         self.world_from_model: Array = np.zeros((0, 4, 4))
-        """The poses, (n, 4, 4); they may include scale, uneven or mirroring."""
+        """The poses, (n, 4, 4); they may include scale, also uneven or mirroring."""
         self.moved_versions: npt.NDArray[np.int64] = np.zeros(0, dtype=np.int64)
         """The version at which each instance last moved, (n,)."""
 
@@ -84,7 +85,7 @@ class Instances:
         self.moved_versions = np.delete(self.moved_versions, row)
 
     def find_shown(self, hidden_ids: frozenset[int]) -> Numbers:
-        """Return the numbers of the batches of instances whose ids are not hidden, (m,)."""
+        """Return the numbers of the batches of all instances whose id is not hidden, (m,)."""
         self._update_bounds()
         if hidden_ids not in self._shown_by_hidden:
             is_shown = np.array([id not in hidden_ids for id in self.ids], dtype=bool)
@@ -110,13 +111,13 @@ class Instances:
         return self._owners
 
     def find_casters(self, numbers: Numbers, max_radius: float) -> Numbers:
-        """Return the batches that cast the sun's shadow.
+        """Return the numbers of the batches that cast the sun's shadow.
 
-        Transparent batches cast none, nor do those of instances with a larger bounding box.
+        Transparent batches cast no shadow, nor do batches of large instances.
 
         Args:
-            numbers: of the batches.
-            max_radius: half the longest side of the box, at most [m].
+            numbers: the numbers of the batches to check.
+            max_radius: half the longest side of the largest bounding box that casts a shadow [m].
         """
         self._update_bounds()
         is_small = self._radii[self._owners[numbers]] <= max_radius
@@ -124,7 +125,7 @@ class Instances:
         return casters
 
     def are_opaque(self, numbers: Numbers) -> bool:
-        """Return True if all given batches are opaque."""
+        """Return True if all batches with these numbers are opaque."""
         self._update_bounds()
         return bool(self._is_opaque[numbers].all())
 
@@ -140,12 +141,12 @@ class Instances:
         self._update_bounds()
         return self._corners
 
-    def needs_no_mipmaps(
+    def can_skip_mipmaps(
         self, numbers: Numbers, world_from_camera: Pose, intrinsics: Intrinsics
     ) -> list[bool]:
-        """Return for each batch True if its texture needs no mipmaps (`minification`)."""
+        """Return for each batch True if it can be drawn without mipmaps (`minification`)."""
         self._update_bounds()
-        flags: list[bool] = needs_no_mipmaps(
+        flags: list[bool] = can_skip_mipmaps(
             self._densities[numbers],
             self._flat_normals[numbers],
             self._corners[numbers],
@@ -203,7 +204,7 @@ class Instances:
         world_from_model, owners = self.world_from_model, self._owners
         stretch, shrinkage = np.empty(n), np.empty(n)
         bounds.compute_stretch_bounds(np.ascontiguousarray(linear), stretch)
-        # The normals' matrix bounds the factor by which texel density grows when a model shrinks.
+        # The bound of the normals' matrix is the factor by which shrinking increases texel density.
         bounds.compute_stretch_bounds(self._normals, shrinkage)
         self._densities: Array = self._model_densities * shrinkage[owners]
         self._spheres, self._corners = np.empty((m, 4)), np.empty((m, 8, 3))
@@ -218,7 +219,10 @@ class Instances:
 
 
 class Slots:
-    """The buffer of the uniform blocks of all instances: poses in the camera's frame."""
+    """The buffer of the uniform blocks ``Instance``, one slot for each instance.
+
+    A block has the instance's pose in the frame of the camera or light, and its id.
+    """
 
     _DTYPE = np.dtype(
         {
@@ -234,7 +238,7 @@ class Slots:
         self._buffer = context.buffer(reserve=self._values.nbytes, dynamic=True)
 
     def fill(self, instances: Instances, camera_from_world: Array) -> None:
-        """Write the block of every instance into the slot of its row."""
+        """Write the blocks of all instances; ``camera_from_world`` is as in `bounds`, (4, 4)."""
         n = len(instances.ids)
         if not n:
             return
@@ -253,7 +257,7 @@ class Slots:
         self._buffer.write(values)
 
     def bind(self, slot: int) -> None:
-        """Bind the block of a slot for the next draw call."""
+        """Bind the block of an instance, by its row, for the next draw calls."""
         self._buffer.bind_to_uniform_block(
             INSTANCE.binding, offset=slot * STRIDE, size=INSTANCE.dtype.itemsize
         )
@@ -264,16 +268,15 @@ def find_visible(
 ) -> Numbers:
     """Return the numbers of the batches whose bounds reach into the frustum, near ones first.
 
-    Bounds are sphere and box, because the sphere of a wall is much larger than the wall.
-
-    The order is that of the spheres' far sides: small objects precede the tank around them, and
-    the tank's pixels behind them are never shaded.
+    Both the bounding sphere and the box are checked: the sphere of a wall is much larger than the
+    wall. Batches are sorted by the distance to the far side of their spheres: small objects precede
+    the tank around them, so that the tank's pixels behind them are never shaded.
 
     Args:
-        instances: All instances.
-        numbers: The numbers of the batches to check.
-        world_from_camera: The pose of the camera.
-        planes: The planes of the frustum, camera frame, (6, 4).
+        instances: all instances.
+        numbers: the numbers of the batches to check.
+        world_from_camera: the pose of the camera.
+        planes: the planes of the frustum in the camera's frame, (6, 4).
     """
     distances = np.empty(len(numbers))
     bounds.find_far_distances(

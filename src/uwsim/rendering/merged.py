@@ -1,4 +1,4 @@
-"""Meshes of the same appearance, merged and cut into pieces that are drawn with one call each."""
+"""Merging of a model's meshes by appearance, and their division into pieces of one draw call."""
 
 from __future__ import annotations
 
@@ -15,46 +15,49 @@ from .pieces import compute_normals, compute_texel_densities, flat_normal, split
 
 VERTEX = np.dtype(
     [
-        ("vertex", np.float32, (3,)),
-        ("vertex_normal", np.float32, (3,)),
-        ("uv", np.float32, (2,)),
-        ("tint", np.float32, (3,)),
+        ("vertex", np.float32, (3,)),  # position in the model's frame [m]
+        ("vertex_normal", np.float32, (3,)),  # unit normal in the model's frame
+        ("uv", np.float32, (2,)),  # texture coordinates
+        ("tint", np.float32, (3,)),  # red, green, blue, 0..1
     ]
 )
+"""A vertex, as the shaders read it."""
 
 
 @dataclass(frozen=True, eq=False)
 class Piece:
-    """A run of triangles near each other, that face about the same way."""
+    """A run of triangles that are near each other and face in about the same direction."""
 
     first_index: int
     """The position of the piece's first index."""
     size: int
-    """The number of its indices."""
+    """The number of the piece's indices, three per triangle."""
     centre: Array
-    """The centre of the bounding sphere, model frame, (3,) [m]."""
+    """The centre of the bounding sphere in the model's frame, (3,) [m]."""
     radius: float
     """The radius of the bounding sphere [m]."""
     corners: Array
-    """The corners of the bounding box, model frame, (8, 3) [m]."""
+    """The corners of the bounding box in the model's frame, (8, 3) [m]."""
     normal: Array
-    """The normal of the piece's plane, model frame, (3,); 0 if it is bent."""
+    """The unit normal of a flat piece in the model's frame, (3,); 0 if it is not flat."""
     density: float
-    """The largest number of texels along a metre [1/m]; 0 without a texture."""
+    """The largest number of texels per metre on a triangle [1/m]; 0 without a texture."""
 
 
 @dataclass(frozen=True, eq=False)
 class MergedMesh:
-    """The merged meshes of one texture, one number of sides and one opacity."""
+    """The meshes of a model that have the same texture, opacity and visible sides, merged."""
 
     vertices: npt.NDArray[np.void]
     """The vertices, of the type `VERTEX`, (n,)."""
     triangles: npt.NDArray[np.uint32]
-    """The numbers of the triangles' vertices, piece by piece, (m, 3)."""
+    """The vertex indices of the triangles, piece by piece, (m, 3)."""
     pieces: tuple[Piece, ...]
     texture: Texture | None
     two_sided: bool
+    """True if the triangles are visible from both sides."""
     opacity: float
+    """The opacity: 1 hides what is behind the mesh, 0 is invisible."""
 
 
 def merge_model(model: Model) -> list[MergedMesh]:
@@ -81,17 +84,17 @@ def _merge_meshes(meshes: Sequence[Mesh]) -> MergedMesh:
     points = vertices["vertex"].astype(np.float64)
     normals = compute_normals(points, triangles)
     texture = meshes[0].texture
-    texels = np.zeros(len(triangles))
+    densities = np.zeros(len(triangles))
     if texture is not None:
         height, width = texture.pixels.shape[:2]
-        texels = compute_texel_densities(
+        densities = compute_texel_densities(
             points, triangles, vertices["uv"].astype(np.float64) * [width, height]
         )
     triangle_groups = split_triangles(points, triangles, normals)
     model_pieces, start = [], 0
     for numbers in triangle_groups:
         model_pieces.append(
-            _create_piece(start, points[triangles[numbers]], normals[numbers], texels[numbers])
+            _create_piece(start, points[triangles[numbers]], normals[numbers], densities[numbers])
         )
         start += model_pieces[-1].size
     return MergedMesh(
@@ -104,14 +107,14 @@ def _merge_meshes(meshes: Sequence[Mesh]) -> MergedMesh:
     )
 
 
-def _create_piece(first_index: int, corners: Array, normals: Array, texels: Array) -> Piece:
-    """Compute the bounds of a piece.
+def _create_piece(first_index: int, corners: Array, normals: Array, densities: Array) -> Piece:
+    """Return a piece with its bounds.
 
     Args:
-        first_index: where its indices begin.
-        corners: of its triangles, (k, 3, 3) [m].
-        normals: of its triangles, (k, 3) [m2].
-        texels: along a metre on each, (k,) [1/m].
+        first_index: the position of the piece's first index.
+        corners: the corners of the piece's triangles in the model's frame, (k, 3, 3) [m].
+        normals: the normals of the triangles, as long as twice their areas, (k, 3) [m2].
+        densities: the number of texels per metre on each triangle, (k,) [1/m].
     """
     points = corners.reshape(-1, 3)
     box = np.stack([points.min(axis=0), points.max(axis=0)])  # (2, 3) [m]
@@ -123,5 +126,5 @@ def _create_piece(first_index: int, corners: Array, normals: Array, texels: Arra
         radius=float(np.sqrt(((points - centre) ** 2).sum(axis=1).max())),
         corners=np.array(list(itertools.product(*box.T))),
         normal=flat_normal(normals),
-        density=float(texels.max()),
+        density=float(densities.max()),
     )

@@ -1,8 +1,8 @@
-r"""Noise of a camera: independent Gaussian noise in every channel of every pixel, then 8 bit.
+r"""Noise of a camera: independent Gaussian noise in every channel of every pixel, stored as 8 bit.
 
-One 64-bit key a frame is drawn from the camera's generator; pixel number i then gets the four
-16-bit words of splitmix64(key + i), of which three pick quantiles of the normal distribution.
-So a frame depends on its key alone, and no two frames share a section of the table.
+For each image, one 64-bit key is drawn from the camera's random generator. Three of the four 16-bit
+words of splitmix64(key + i) are the indices, in a table of quantiles of the normal distribution, of
+the noise of pixel i. So the noise of an image depends on its key alone.
 
 Not modelled: shot noise (all grey levels are equally noisy), fixed-pattern noise.
 """
@@ -33,7 +33,10 @@ def gaussian_quantiles() -> npt.NDArray[np.float32]:
 
 
 def frame_key(rng: np.random.Generator) -> int:
-    """Draw the random key of one frame; an unread frame draws it, too, and discards it."""
+    """Draw the random key of one image.
+
+    It is drawn also for an image that nothing reads, so that later images have the same noise.
+    """
     return int(rng.integers(2**63))
 
 
@@ -43,9 +46,9 @@ def add_noise(
     """Add N(0, std) to every channel and store 8 bits, rounded to nearest and clipped.
 
     Args:
-        colour16: Colours as `Renderer.draw` returns them for ``linear16``, (h, w, 4), 0..65535.
-        std: Standard deviation, in units of full scale (0.02 is 5.1 grey levels).
-        rng: The camera's generator; exactly one number is drawn.
+        colour16: the colours as `Renderer.draw` returns them for ``linear16``, (h, w, 4), 0..65535.
+        std: the standard deviation, as a fraction of full scale (0.02 is 5.1 grey levels).
+        rng: the camera's generator; exactly one number is drawn.
 
     Returns:
         The image, (h, w, 3).

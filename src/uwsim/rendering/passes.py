@@ -8,7 +8,7 @@ from collections.abc import Callable, Sequence
 
 import moderngl
 
-from .brush import Brush
+from .batch_drawer import BatchDrawer
 from .frame import FRAME
 from .gpu_model import GpuModels
 from .instance import INSTANCE, Instances, Slots
@@ -32,20 +32,20 @@ Switches = tuple[tuple[str, int], ...]
 """The preprocessor switches of a shader and their values."""
 
 DrawnBatch = tuple[int, bool, bool]
-"""A batch's number, True if it may lie in shadow, and True if it needs no mipmaps."""
+"""A batch's number, True if it may lie in shadow, and True if it is drawn without mipmaps."""
 
 ColourMask = tuple[bool, bool, bool, bool]
 """The flags of red, green, blue and alpha: True if that channel of a target is written."""
 
 
 class Passes:
-    """The passes that draw batches whose poses, lights and shadow map are up to date.
+    """The passes that draw batches; poses, lights and shadow maps must be up to date.
 
     Args:
-        context: context of the renderer.
-        models: models with the textures of the batches.
-        instances: owners of the batches.
-        slots: poses of the instances.
+        context: the context of the renderer.
+        models: the models and textures on the GPU.
+        instances: all instances.
+        slots: the buffer with the poses of the instances.
         shadow: the sun's shadow map.
     """
 
@@ -71,9 +71,9 @@ class Passes:
         """Draw opaque batches in the given order, then the background, then transparent batches.
 
         Args:
-            target: The framebuffer.
-            batches_in_view: The batches in view, near ones first.
-            switches: The switches of all batches.
+            target: the framebuffer.
+            batches_in_view: the batches in view, near ones first.
+            switches: the switches of the shaders for all batches.
         """
         context = self._context
         batches = self._instances.numbered_batches
@@ -108,24 +108,24 @@ class Passes:
         """Draw the batches in front of the backdrop, and the backdrop where shadows may fall on it.
 
         Args:
-            target: The framebuffer; pixels of the backdrop remain clear.
-            front: As in `draw`.
-            back: The batches of the backdrop.
-            region: The rectangle in which shadows may fall on them.
-            switches: The switches of all batches.
+            target: the framebuffer; alpha remains 0 where the backdrop is visible and not drawn.
+            front: the batches in front of the backdrop, near ones first.
+            back: the batches of the backdrop.
+            region: the rectangle in which shadows may fall on the backdrop.
+            switches: the switches of the shaders for all batches.
         """
         self._clear(target)
         draw = self._surface_pass(target, switches)
         for batch in front:
             draw(*batch)
-        depth_brush, program = self._brush(), self._program("behind", target, ())
+        depth_drawer, program = self._create_drawer(), self._program("backdrop", target, ())
         for number, _, _ in back:
-            depth_brush.draw(number, program)
+            depth_drawer.draw(number, program)
         if region[2] > 0 and region[3] > 0:
             target.framebuffer.scissor = region
             target.framebuffer.use()
             draw = self._surface_pass(target, switches)
-            # All after the first in shadow, too: of two at one depth the later is visible.
+            # All batches after the first in shadow, too: at equal depths, the later is visible.
             for batch in itertools.dropwhile(lambda drawn_batch: not drawn_batch[1], back):
                 draw(*batch)
             target.framebuffer.scissor = None  # type: ignore[assignment]  # no limits
@@ -139,16 +139,16 @@ class Passes:
         self._context.depth_func = "<="
         self._shadow.texture.use(SAMPLERS["shadow_map"])
 
-    def _brush(self) -> Brush:
-        # The image is upside down for OpenGL, so outside is clockwise.
-        return Brush(self._context, self._instances, self._slots, winding="cw")
+    def _create_drawer(self) -> BatchDrawer:
+        # The image is upside down for OpenGL, so visible triangles are clockwise.
+        return BatchDrawer(self._context, self._instances, self._slots, winding="cw")
 
     def _surface_pass(
         self, target: Targets, switches: Switches
     ) -> Callable[[int, bool, bool], None]:
         """Return a function that draws a batch; its arguments are those of `DrawnBatch`."""
         batches = self._instances.numbered_batches
-        brush = self._brush()
+        drawer = self._create_drawer()
 
         @functools.cache
         def program(in_shadow: bool, is_textured: bool) -> moderngl.Program:
@@ -156,11 +156,11 @@ class Passes:
             defines = tuple((name, 1) for name, value in flags.items() if value)
             return self._program("surface", target, switches + defines)
 
-        def draw(number: int, in_shadow: bool, is_close: bool) -> None:
+        def draw(number: int, in_shadow: bool, skips_mipmaps: bool) -> None:
             texture = batches[number][1].texture
             if texture is not None:
-                self._models.use(texture, SAMPLERS["base_map"], is_close=is_close)
-            brush.draw(number, program(in_shadow, texture is not None))
+                self._models.use(texture, SAMPLERS["base_map"], skips_mipmaps=skips_mipmaps)
+            drawer.draw(number, program(in_shadow, texture is not None))
 
         return draw
 
@@ -170,7 +170,7 @@ class Passes:
         transparent_batches: Sequence[tuple[DrawnBatch, float]],
         switches: Switches,
     ) -> None:
-        """Blend transparent batches over the colours; range and ids are those of the nearest."""
+        """Blend transparent batches over the colours; range and ids are of the nearest surface."""
         context, buffer, attachments = self._context, target.framebuffer, target.attachments
 
         def write(*, has_colour: bool, has_others: bool) -> None:
@@ -205,7 +205,7 @@ class Passes:
     def _program(self, effect: str, target: Targets, switches: Switches) -> moderngl.Program:
         key = (effect, *target.attachments, *switches)
         if key not in self._programs:
-            defines = {name.upper(): place for name, place in target.attachments.items()}
+            defines = {name.upper(): number for name, number in target.attachments.items()}
             self._programs[key] = build(
                 self._context,
                 effect,

@@ -1,4 +1,4 @@
-"""The division of large models into pieces, so that pieces out of view are not drawn."""
+"""Division of large meshes into pieces, so that pieces out of view are not drawn."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from ..base.numerics.linear import length, product
 MAX_PIECE_LENGTH = 2.0
 """The largest length of a piece, unless `MAX_PIECES` limits their number [m]."""
 MAX_PIECES = 4
-"""The largest number of pieces along an axis."""
+"""The largest number of pieces along an axis of the model's frame."""
 MIN_TRIANGLES = 16
-"""The number of triangles below which a model is not split."""
+"""The number of triangles below which a mesh is not divided."""
 MAX_FLAT_SINE = 0.02
 """The sine of the largest angle between a flat piece's normal and those of its triangles."""
 
@@ -21,11 +21,11 @@ Triangles = npt.NDArray[np.uint32]
 
 
 def compute_normals(points: Array, triangles: Triangles) -> Array:
-    """Compute the normals of triangles; their length is twice the area, (m, 3) [m2].
+    """Compute the normals of triangles; the length of a normal is twice the area, (m, 3) [m2].
 
     Args:
-        points: the vertices, (n, 3) [m].
-        triangles: three vertices each, (m, 3).
+        points: the positions of the vertices, (n, 3) [m].
+        triangles: the vertex indices of the triangles, (m, 3).
     """
     corners = points[triangles]
     a, b = (corners[:, 1] - corners[:, 0]).T, (corners[:, 2] - corners[:, 0]).T
@@ -37,14 +37,14 @@ def compute_normals(points: Array, triangles: Triangles) -> Array:
 def split_triangles(
     points: Array, triangles: Triangles, normals: Array
 ) -> list[npt.NDArray[np.intp]]:
-    """Group triangles by position and direction of their normals; no triangle is cut.
+    """Group triangles by position and by direction of their normals; no triangle is cut.
 
-    Floor and walls are in separate pieces, so that these are flat.
+    The floor and the walls of a tank are in separate pieces, so that these pieces are flat.
 
     Args:
-        points: the vertices, (n, 3) [m].
-        triangles: three vertices each, (m, 3).
-        normals: of the triangles, of any length, (m, 3).
+        points: the positions of the vertices, (n, 3) [m].
+        triangles: the vertex indices of the triangles, (m, 3).
+        normals: the normals of the triangles, of any length, (m, 3).
 
     Returns:
         The numbers of the triangles in each piece.
@@ -69,10 +69,10 @@ def split_triangles(
 
 
 def flat_normal(normals: Array) -> Array:
-    """Return the unit normal of triangles that have one direction, else 0, (3,).
+    """Return the common unit normal of triangles, (3,); 0 if their directions differ.
 
     Args:
-        normals: of the triangles, as long as twice their areas, (m, 3) [m2].
+        normals: the normals of the triangles, as long as twice their areas, (m, 3) [m2].
     """
     total = normals.sum(axis=0)
     size = length(total)
@@ -86,14 +86,15 @@ def flat_normal(normals: Array) -> Array:
 
 
 def compute_texel_densities(points: Array, triangles: Triangles, texture_points: Array) -> Array:
-    """Return the largest number of texels along a metre on each triangle, (m,) [1/m].
+    """Return the largest number of texels per metre on each triangle, (m,) [1/m].
 
-    The larger singular value of its map from its plane to the texture; 0 where it has no area.
+    It is the larger singular value of the map from the triangle's plane to the texture; 0 for a
+    triangle without an area.
 
     Args:
-        points: the vertices, (n, 3) [m].
-        triangles: three vertices each, (m, 3).
-        texture_points: the vertices on the texture, (n, 2) [texel].
+        points: the positions of the vertices, (n, 3) [m].
+        triangles: the vertex indices of the triangles, (m, 3).
+        texture_points: the positions of the vertices on the texture, (n, 2) [texel].
     """
     corners, texels = points[triangles], texture_points[triangles]
     edges, texel_edges = (
@@ -104,11 +105,13 @@ def compute_texel_densities(points: Array, triangles: Triangles, texture_points:
     u, v = (texel_edges[:, i] for i in range(2))
     ee, ef, ff = (e * e).sum(axis=1), (e * f).sum(axis=1), (f * f).sum(axis=1)
     uu, uv, vv = (u * u).sum(axis=1), (u * v).sum(axis=1), (v * v).sum(axis=1)
-    area = ee * ff - ef**2  # squared, times 4
+    squared_area = ee * ff - ef**2  # times 4
     with np.errstate(divide="ignore", invalid="ignore"):
-        # the eigenvalues of (edges edges')^-1 (ways ways') are the singular values squared
-        half = (ff * uu - 2.0 * ef * uv + ee * vv) / area / 2.0
-        rest = (uu * vv - uv**2) / area
-        max_densities = np.sqrt(np.maximum(half + np.sqrt(np.maximum(half**2 - rest, 0.0)), 0.0))
-    texel_densities: Array = np.where(area > 1e-18, max_densities, 0.0)
+        # the eigenvalues of (edges edges')^-1 (texel_edges texel_edges') are the squares of the
+        # singular values
+        half_trace = (ff * uu - 2.0 * ef * uv + ee * vv) / squared_area / 2.0
+        determinant = (uu * vv - uv**2) / squared_area
+        root = np.sqrt(np.maximum(half_trace**2 - determinant, 0.0))
+        max_densities = np.sqrt(np.maximum(half_trace + root, 0.0))
+    texel_densities: Array = np.where(squared_area > 1e-18, max_densities, 0.0)
     return texel_densities

@@ -1,4 +1,4 @@
-"""Compile shader files into programs, with includes, switches and a check of the uniforms."""
+"""Compilation of shader files into programs, with includes, switches and a check of uniforms."""
 
 from __future__ import annotations
 
@@ -26,9 +26,13 @@ _MEMBER = re.compile(r"^\s*([\w\[\]]+) (\w+);", re.MULTILINE)
 
 
 class Block:
-    """The uniform block of a shader: its members in the order of the shader.
+    """A uniform block (std140), as a numpy record that can be copied into its buffer.
 
-    Members are ``vec4``, ``uvec4``, ``mat4`` or four of a kind, so that std140 needs no padding.
+    Args:
+        name: the name of the block in the shaders.
+        binding: the binding point.
+        members: the type of each member, in the order of the shaders: ``vec4``, ``uvec4``, ``mat4``
+            or an array of four, so that std140 needs no padding.
     """
 
     def __init__(self, name: str, binding: int, members: Mapping[str, str]) -> None:
@@ -63,15 +67,15 @@ def build(
     """Compile ``effect.vert.glsl`` and ``effect.frag.glsl`` and connect every uniform.
 
     Args:
-        context: The context of the program.
-        effect: Name of the pair of shader files.
-        defines: Preprocessor switches and their values.
-        blocks: The uniform blocks of the effect; at least those that it uses.
-        samplers: Texture unit of each sampler it may use.
+        context: the context of the program.
+        effect: the name of the pair of shader files.
+        defines: the preprocessor switches and their values.
+        blocks: the uniform blocks that the shaders use; others are allowed.
+        samplers: the texture unit of each sampler that the shaders may use.
 
     Raises:
-        RuntimeError: the shader uses a uniform that no block declares, or declares a block
-            otherwise than the program that fills it.
+        RuntimeError: the shaders use a uniform that is not in ``blocks`` or ``samplers``, or
+            declare a block with other members.
     """
     head = VERSION + "".join(f"#define {name} {value}\n" for name, value in defines.items())
     vertex, fragment = source(f"{effect}.vert.glsl"), source(f"{effect}.frag.glsl")

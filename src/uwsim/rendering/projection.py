@@ -1,4 +1,4 @@
-"""Pinhole cameras as OpenGL matrices, and their visible volumes."""
+"""OpenGL projection matrices of pinhole cameras, and the planes of their frustums."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ from ..base.numerics.linear import solve
 
 @dataclass(frozen=True, eq=False)
 class Projection:
-    """The matrices and planes of a pinhole; the arrays are shared and must not be written."""
+    """The matrix, frustum and corner rays of a pinhole; the arrays are shared and read-only."""
 
     clip_from_camera: Array
     """The projection matrix, (4, 4)."""
     planes: Array
-    """The planes of the visible volume, camera frame, (6, 4); see `frustum`."""
+    """The planes of the frustum in the camera's frame, (6, 4); see `frustum`."""
     corner_rays: Array
-    """The vectors towards the corners of the image, 1 m deep, camera frame, (4, 3) [m]."""
+    """The points at the image's corners at a depth of 1 m in the camera's frame, (4, 3) [m]."""
 
 
 @lru_cache(maxsize=64)
 def projection(intrinsics: Intrinsics) -> Projection:
-    """Return the matrices of a pinhole; the last 64 are cached."""
+    """Return the projection of a pinhole; the last 64 are cached."""
     clip = clip_from_camera(intrinsics)
     return Projection(clip, frustum(clip), _corner_rays(clip))
 
@@ -33,9 +33,9 @@ def projection(intrinsics: Intrinsics) -> Projection:
 def clip_from_camera(intrinsics: Intrinsics) -> Array:
     r"""Return the projection matrix, (4, 4), whose *first* row of pixels is the top of the image.
 
-    With :math:`w_c = -Z`: :math:`x = (2u + 1)/w - 1`, :math:`y = (2v + 1)/h - 1` of
-    `Intrinsics.project`, where the corner of the image is (-0.5, -0.5). Upside down for OpenGL,
-    so that reading back needs no flip; the winding of triangles is reversed.
+    A point with image coordinates :math:`u, v` (`Intrinsics.project`) has the normalised device
+    coordinates :math:`x = (2u + 1)/w - 1`, :math:`y = (2v + 1)/h - 1`. The image is upside down for
+    OpenGL, so that reading it back needs no flip; the winding of triangles is reversed.
     """
     i = intrinsics
     span = i.far - i.near
@@ -50,7 +50,7 @@ def clip_from_camera(intrinsics: Intrinsics) -> Array:
 
 
 def frustum(clip_from_camera: Array) -> Array:
-    """Return the six planes, (6, 4), of the visible volume: ``n . p + d >= 0`` inside, |n| = 1."""
+    """Return the six planes (n, d), (6, 4), of a frustum: ``n . p + d >= 0`` inside, |n| = 1."""
     rows = clip_from_camera
     planes = np.concatenate([rows[3] + rows[:3], rows[3] - rows[:3]])
     unit: Array = planes / np.linalg.norm(planes[:, :3], axis=1, keepdims=True)
@@ -58,7 +58,7 @@ def frustum(clip_from_camera: Array) -> Array:
 
 
 def _corner_rays(clip_from_camera: Array) -> Array:
-    """Return the vectors towards the corners of the image, 1 m deep, camera frame, (4, 3)."""
+    """Return the points at the corners of the image at a depth of 1 m, camera frame, (4, 3) [m]."""
     corners = np.array([[x, y, 1.0] for x in (-1.0, 1.0) for y in (-1.0, 1.0)])
     # With z = -1: x_clip = P00 x + P01 y - P02, y_clip = P11 y - P12, w = 1.
     matrix = clip_from_camera[:2, :3]

@@ -27,19 +27,19 @@ class PixelBox(NamedTuple):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class RenderedImage:
-    """The arrays of one rendered image, row 0 at the top; None for targets not requested."""
+    """The arrays of one rendered image, row 0 at the top; None: the target was not requested."""
 
     intrinsics: Intrinsics
     """The pinhole of the camera."""
     colour: npt.NDArray[np.uint8] | npt.NDArray[np.uint16] | None = None
     """The colours before noise: (h, w, 3) uint8, or (h, w, 4) uint16 for ``linear16``."""
     range: npt.NDArray[np.float32] | None = None
-    """The distance along the ray of each pixel (h, w) [m]; inf: no surface."""
+    """The distance to the surface along the ray of each pixel, (h, w) [m]; inf: no surface."""
     ids: npt.NDArray[np.uint16] | None = None
-    """The number of the visible instance (h, w); 0: no surface."""
+    """The id of the visible link or object in each pixel, (h, w); 0: no surface."""
     names: Mapping[int, str] = field(default_factory=dict)
-    """The names ``vehicle/link`` or object by number in ``ids``, of the whole scene. The second of
-    the same name has the suffix ``#2``, a vehicle after its own name."""
+    """The name of each id in the scene: ``vehicle/link``, or the name of an object. The second
+    vehicle or object of one name has the suffix ``#2`` (``vehicle#2/link``)."""
     world_from_camera: Pose | None = None
     """The pose of the camera in W, with OpenGL axes (x right, y up, looking along -z)."""
 

@@ -1,8 +1,8 @@
-"""The renderer: it draws images of instances of models.
+"""The renderer: it draws images of instances of models, seen through water.
 
-One forward pass draws colour, range and ids, whichever are requested, through UWSim's water
-(`rendering.water`). Transparent batches are blended over the others, the farthest first. Not
-modelled: the water's surface, caustics, reflections, refraction.
+One forward pass draws the requested targets: colour through the water (`rendering.water`), range
+and ids. Transparent surfaces are blended over the others, the farthest first. Not modelled: the
+water's surface, caustics, reflections, refraction.
 """
 
 from __future__ import annotations
@@ -30,15 +30,16 @@ from .lights.sun_shadow import MAX_CASTER_RADIUS, SHADOW_MARGIN, SunShadow, find
 from .passes import SAMPLERS, Passes, Switches
 from .projection import Projection, projection
 from .rendered_image import RenderedImage
-from .targets import STORES, TARGETS, Targets
+from .targets import COLOUR_FORMATS, TARGETS, Targets
 from .water import Light, Water, sun_direction
 
 __all__ = ["RenderedImage", "Renderer"]
 
 N_VIEWS = 4
-"""The number of last views that are stored."""
+"""The number of recent views whose images and backdrops are stored."""
 MAX_SHADED_SHARE = 0.75
-"""The share of a backdrop in shadow above which drawing the whole image takes less time [1]."""
+"""The largest fraction of an image in which the backdrop is drawn again for shadows [1]; above it,
+to draw the whole image takes less time."""
 MAX_STORED_BYTES = 2**24
 """The largest image that is stored for a view that does not change [bytes]."""
 
@@ -48,9 +49,9 @@ class View:
     """The inputs of an image: equal views give equal images."""
 
     pose: bytes
-    """The bytes of the matrix from camera to world."""
+    """The bytes of the matrix ``world_from_camera``."""
     intrinsics: Intrinsics
-    """The camera's pinhole."""
+    """The pinhole of the camera."""
     water: Water
     """The water between surfaces and camera."""
     light: Light
@@ -59,8 +60,8 @@ class View:
     """The requested targets."""
     hidden_ids: frozenset[int]
     """The ids of instances that are not drawn."""
-    store: str
-    """The format in which colour is stored."""
+    colour_format: str
+    """The format of colours (`targets.COLOUR_FORMATS`)."""
     version: int
     """The version of the instances and their poses."""
     lamps: tuple[Lamp, ...]
@@ -89,20 +90,20 @@ class Renderer:
         self._frame = Frame(self._context)
         self._slots = Slots(self._context)
         self._shadow = SunShadow(self._context)
-        self._backdrops: dict[object, Backdrop] = {}  # of the last views, the newest last
+        self._backdrops: dict[object, Backdrop] = {}  # of recent views, the newest last
         self._passes = Passes(
             self._context, self._models, self._instances, self._slots, self._shadow
         )
         self._lamps: Lamps | None = None
         self._projector: ProjectorLight | None = None
-        self._images: dict[View, RenderedImage | None] = {}  # the last views, the newest last
+        self._images: dict[View, RenderedImage | None] = {}  # of recent views, the newest last
 
     def add(self, model: Model, id: int) -> int:
         """Add a model at the origin of W; return the handle for `place` and `remove`.
 
         Args:
-            model: The model; it is uploaded once, however often it is added.
-            id: The number in the id image, 1..65535; several instances may share one.
+            model: the model; it is uploaded once, however often it is added.
+            id: the number in the id image, 1..65535; several instances may have the same.
         """
         if not 1 <= id <= 65535:
             raise ValueError(f"the id {id} is not in 1..65535")
@@ -111,11 +112,11 @@ class Renderer:
         return self._instances.add(batches, id)
 
     def place(self, handle: int, world_from_model: Array) -> None:
-        """Move an instance; the matrix (4, 4) may include scale."""
+        """Set the pose of an instance; the matrix, (4, 4), may include scale."""
         self.place_all((handle,), np.asarray(world_from_model, dtype=np.float64)[None])
 
     def place_all(self, handles: Sequence[int], world_from_model: Array) -> None:
-        """Move several instances; the matrices (n, 4, 4) may include scale."""
+        """Set the poses of several instances; the matrices, (n, 4, 4), may include scale."""
         self._instances.place(handles, world_from_model)
 
     def remove(self, handle: int) -> None:
@@ -151,19 +152,22 @@ class Renderer:
         """Draw one image.
 
         Args:
-            world_from_camera: The pose of the camera; OpenGL axes.
-            intrinsics: The pinhole of the camera.
-            water: The water between surfaces and camera.
-            light: The light of the scene.
-            targets: Some of ``colour``, ``range``, ``ids``; nothing else is computed.
-            hidden_ids: Ids of instances that are not drawn, nor their shadows.
-            colour: ``uint8``, or ``linear16`` for noise to be added before the 8-bit store.
-            lamps: The lamps, at most four.
-            projector: The projector of a pattern.
+            world_from_camera: the pose of the camera; OpenGL axes.
+            intrinsics: the pinhole of the camera.
+            water: the water between surfaces and camera.
+            light: the light of the scene.
+            targets: some of ``colour``, ``range``, ``ids``; nothing else is computed.
+            hidden_ids: the ids of instances that are not drawn and cast no shadows.
+            colour: the format of colours: ``uint8``, or ``linear16`` if noise is added before
+                conversion to 8 bit.
+            lamps: the lamps, at most four.
+            projector: the projector of a pattern, if there is one.
         """
         names = frozenset(targets)
-        if not names or not names <= set(TARGETS) or colour not in STORES:
-            raise ValueError(f"cannot draw {sorted(names)} as {colour!r}: {TARGETS}, {STORES}")
+        if not names or not names <= set(TARGETS) or colour not in COLOUR_FORMATS:
+            raise ValueError(
+                f"cannot draw {sorted(names)} as {colour!r}: {TARGETS}, {COLOUR_FORMATS}"
+            )
         if len(lamps) > MAX_LAMPS:
             raise ValueError(f"{len(lamps)} lamps are more than {MAX_LAMPS}")
         view = View(
@@ -173,7 +177,7 @@ class Renderer:
             light=light,
             targets=names,
             hidden_ids=hidden_ids,
-            store=colour,
+            colour_format=colour,
             version=self._instances.version,
             lamps=tuple(lamps),
             projector=projector,
@@ -188,7 +192,7 @@ class Renderer:
         self._context.release()
 
     def _draw_and_store(self, view: View, world_from_camera: Pose) -> RenderedImage:
-        """Draw an image, and store it if its view was drawn recently: a third request is likely."""
+        """Draw an image, and store it if its view was drawn before: another request is likely."""
         image = self._draw_view(view, world_from_camera)
         is_repeated = view in self._images
         self._images[view] = (
@@ -202,7 +206,7 @@ class Renderer:
         """Draw an image and read it back."""
         with self._context:
             background = self._issue_draw_calls(view, world_from_camera)
-            return self._find_targets(view).image(view.intrinsics, background)
+            return self._find_targets(view).read_image(view.intrinsics, background)
 
     def _issue_draw_calls(self, view: View, world_from_camera: Pose) -> Colours | None:
         """Issue the draw calls without waiting for them; return the backdrop, if there is one."""
@@ -231,16 +235,18 @@ class Renderer:
             self._shadow,
         )
         self._slots.fill(self._instances, world_from_camera.inverse().matrix)
-        is_close = self._instances.needs_no_mipmaps(numbers, world_from_camera, view.intrinsics)
+        skips_mipmaps = self._instances.can_skip_mipmaps(
+            numbers, world_from_camera, view.intrinsics
+        )
         in_shadow = np.any(may_cast, axis=1)
         batches = [
-            (int(n), bool(s), c) for n, s, c in zip(numbers, in_shadow, is_close, strict=True)
+            (int(n), bool(s), c) for n, s, c in zip(numbers, in_shadow, skips_mipmaps, strict=True)
         ]
         target, backdrop = self._find_targets(view), self._find_backdrop(view)
         backdrop_numbers = numbers[:0]
         if backdrop is not None:
             backdrop_numbers = backdrop.find(self._instances, numbers)
-        # Without terrain, a backdrop saves little time.
+        # A backdrop without terrain saves little time.
         n_casters = len(self._instances.find_casters(backdrop_numbers, MAX_CASTER_RADIUS))
         if n_casters < len(backdrop_numbers):
             assert backdrop is not None
@@ -250,8 +256,8 @@ class Renderer:
                 sunlit_batches = [(number, False, close) for number, _, close in back]
                 self._passes.draw(target, sunlit_batches, switches)
                 lens, sun = view.intrinsics, sun_direction(light.sun)
-                tiles = compute_tile_bounds(target.depths(), world_from_camera, lens, sun)
-                backdrop.store(target.colours(), tiles, backdrop_numbers)
+                tiles = compute_tile_bounds(target.read_depths(), world_from_camera, lens, sun)
+                backdrop.store(target.read_colours(), tiles, backdrop_numbers)
             region = self._find_shaded_region(view, backdrop, casters)
             if region is not None:
                 self._passes.draw_over_backdrop(target, front, back, region, switches)
@@ -271,12 +277,12 @@ class Renderer:
         )
 
     def _find_backdrop(self, view: View) -> Backdrop | None:
-        """Return the backdrop of a view; None if the view allows none."""
-        lens, bytes_per_pixel = view.intrinsics, 4 if view.store == "uint8" else 8
+        """Return the backdrop of a view; None if the view cannot have one."""
+        lens, bytes_per_pixel = view.intrinsics, 4 if view.colour_format == "uint8" else 8
         is_small = bytes_per_pixel * lens.width * lens.height <= MAX_STORED_BYTES
         if not is_small or view.targets != {"colour"} or view.lamps or view.projector is not None:
             return None
-        key = view.pose, lens, view.water, view.light, view.hidden_ids, view.store
+        key = view.pose, lens, view.water, view.light, view.hidden_ids, view.colour_format
         backdrop = self._backdrops.pop(key, None) or Backdrop()
         self._backdrops[key] = backdrop
         if len(self._backdrops) > N_VIEWS:
@@ -291,7 +297,7 @@ class Renderer:
         world_from_camera: Pose,
         pinhole: Projection,
     ) -> tuple[Numbers, npt.NDArray[np.bool_]]:
-        """Update the shadow map; return k casters, and on which batches each may cast, (n, k)."""
+        """Update the shadow map; return k casters, and for n receivers which may shade them."""
         instances, sun = self._instances, sun_direction(view.light.sun)
         casters = instances.find_casters(candidates, MAX_CASTER_RADIUS)
         may_cast = find_shadow_pairs(
@@ -335,7 +341,7 @@ class Renderer:
 
     def _find_targets(self, view: View) -> Targets:
         size = view.intrinsics.width, view.intrinsics.height
-        key = size, view.targets, view.store
+        key = size, view.targets, view.colour_format
         if key not in self._targets:
-            self._targets[key] = Targets(self._context, size, view.targets, view.store)
+            self._targets[key] = Targets(self._context, size, view.targets, view.colour_format)
         return self._targets[key]

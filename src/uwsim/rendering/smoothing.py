@@ -1,4 +1,4 @@
-"""Edges without steps: an image is drawn larger, and each pixel is the mean of several."""
+"""Smooth edges by supersampling: each pixel is the mean of several pixels of a larger image."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ Pixels = npt.NDArray[np.uint8] | npt.NDArray[np.uint16]
 
 @njit
 def mean_of_squares(pixels: Pixels, edge: int) -> Pixels:
-    """Return the means of squares of pixels, rounded to nearest, halves up.
+    """Return the mean colour of each square of pixels, rounded to nearest, halves up.
 
     Args:
-        pixels: (h, w, channels) of 8 or 16 bits.
-        edge: edge of a square, which divides h and w [px].
+        pixels: the image, (h, w, channels), of 8 or 16 bits.
+        edge: the edge of a square, which divides h and w [px].
 
     Returns:
         The means, (h / edge, w / edge, channels), with as many bits.

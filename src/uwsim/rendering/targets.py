@@ -1,4 +1,4 @@
-"""The framebuffer of an image, with only the requested targets."""
+"""Framebuffers with the requested render targets: colour, range and ids."""
 
 from __future__ import annotations
 
@@ -16,23 +16,34 @@ from .rendered_image import RenderedImage
 TARGETS = ("colour", "range", "ids")
 """All targets, in the order of their attachments."""
 
-STORES = ("uint8", "linear16")
-"""The formats of colour: 8 bit, or 16 bit for noise that is added before the 8-bit store."""
+COLOUR_FORMATS = ("uint8", "linear16")
+"""The formats of colour: 8 bit, or 16 bit if noise is added before conversion to 8 bit."""
 
 T = TypeVar("T", bound=np.generic)
 
 
 class Targets:
-    """A framebuffer of one size with some of the targets colour, range and ids."""
+    """A framebuffer with the requested targets.
+
+    Args:
+        context: the context of the renderer.
+        size: the width and height [px].
+        targets: some of `TARGETS`.
+        colour_format: one of `COLOUR_FORMATS`.
+    """
 
     def __init__(
-        self, context: moderngl.Context, size: tuple[int, int], targets: frozenset[str], store: str
+        self,
+        context: moderngl.Context,
+        size: tuple[int, int],
+        targets: frozenset[str],
+        colour_format: str,
     ) -> None:
         names = [name for name in TARGETS if name in targets]
         self.attachments = {name: i for i, name in enumerate(names)}
         """The number of each target's attachment."""
         self._formats = {
-            "colour": "f1" if store == "uint8" else "nu2",
+            "colour": "f1" if colour_format == "uint8" else "nu2",
             "range": "f4",
             "ids": "u2",
         }
@@ -46,16 +57,18 @@ class Targets:
         """The framebuffer in which the image is drawn."""
         self._shape = size[1], size[0]
 
-    def image(self, intrinsics: Intrinsics, background: Colours | None = None) -> RenderedImage:
+    def read_image(
+        self, intrinsics: Intrinsics, background: Colours | None = None
+    ) -> RenderedImage:
         """Read all targets back into new arrays.
 
         Args:
-            intrinsics: the pinhole.
-            background: the colours of the backdrop, which fill pixels that are clear.
+            intrinsics: the pinhole of the camera.
+            background: the colours of pixels in which nothing was drawn.
         """
         colour: Colours | None = None
         if "colour" in self.attachments:
-            colour = self.colours()
+            colour = self.read_colours()
             if background is not None:
                 fill(colour, background)
             if colour.dtype == np.uint8:
@@ -67,14 +80,14 @@ class Targets:
             ids = self._read("ids", np.empty(self._shape, np.uint16))
         return RenderedImage(intrinsics=intrinsics, colour=colour, range=range, ids=ids)
 
-    def colours(self) -> Colours:
-        """Read the colours back, with alpha: this is several times faster than without."""
+    def read_colours(self) -> Colours:
+        """Read the colours back, (h, w, 4); with alpha this is several times faster."""
         if self._formats["colour"] == "f1":
             return self._read("colour", np.empty((*self._shape, 4), np.uint8))
         return self._read("colour", np.empty((*self._shape, 4), np.uint16))
 
-    def depths(self) -> npt.NDArray[np.float32]:
-        """Read the depths back as OpenGL stores them, 0..1, (h, w)."""
+    def read_depths(self) -> npt.NDArray[np.float32]:
+        """Read the depth buffer back, (h, w), 0 at the near plane to 1 at the far plane."""
         pixels = np.empty(self._shape, np.float32)
         self.framebuffer.read_into(pixels, components=1, attachment=-1, alignment=1, dtype="f4")
         return pixels
@@ -92,7 +105,7 @@ class Targets:
 
 @njit
 def drop_alpha(rgba: npt.NDArray[np.uint8]) -> npt.NDArray[np.uint8]:
-    """Copy the first three of four channels, (h, w, 4) to (h, w, 3)."""
+    """Return a copy without the alpha channel, (h, w, 4) to (h, w, 3)."""
     height, width, _ = rgba.shape
     rgb = np.empty((height, width, 3), np.uint8)
     for row in range(height):

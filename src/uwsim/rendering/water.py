@@ -1,7 +1,7 @@
 r"""The water between a surface and the camera: attenuation, in-scattering, fog.
 
-For a surface of dry colour :math:`L_c` at range :math:`r` along the ray, :math:`h` below the
-surface of the water, in each channel and on stored values (no gamma):
+For a point whose lit colour without water is :math:`L_c`, at range :math:`r` along the ray and at
+depth :math:`h`, in each channel and on stored values (no gamma):
 
 .. math::
     E_c = e^{-2 a_c r}, \quad
@@ -10,10 +10,11 @@ surface of the water, in each channel and on stored values (no gamma):
     F_c = t C_c + (1 - t) g_c
 
 with attenuation :math:`a`, water colour :math:`w`, fog density :math:`f` and fog colour :math:`g`
-(UWSim's image model). Water and fog scatter the light of the scene: :math:`w` and :math:`g` are the
-colours of the file times the light rate (`Water.scale_by_light`). The fog's distance :math:`s` is
-the range, as in the paper. Not modelled: the path of the light from the surface down, absorption
-apart from scattering, light of lamps that is scattered into the camera, caustics.
+(the image model of UWSim, the C++ simulator whose scene files this program reads). Water and fog
+scatter the light of the scene: :math:`w` and :math:`g` are the colours in the scene file times the
+light rate (`Water.scale_by_light`). The distance :math:`s` in the fog is the range, as in UWSim's
+paper. Not modelled: the path of the light from the water's surface down, absorption apart from
+scattering, light of lamps that is scattered into the camera, caustics.
 """
 
 from __future__ import annotations
@@ -24,20 +25,22 @@ from typing import Literal
 import numpy as np
 import numpy.typing as npt
 
-from ..base.geometry import Intrinsics
+from ..base.geometry import Intrinsics, Triple
 from ..base.numerics.elementwise import exp
 from ..base.numerics.linear import length
 from ..scene.ocean_state import OceanStateSpec
 
 Colour = tuple[float, float, float]
+"""The values of red, green and blue, 0..1; or a coefficient for each of these channels."""
 Sun = Literal["clear", "dusk", "cloudy"]
+"""A state of the sky, which determines the direction and the colour of the sun."""
 
-SUN_DIRECTIONS: dict[Sun, Colour] = {
+SUN_DIRECTIONS: dict[Sun, Triple] = {
     "clear": (326.573, 1212.99, 1275.19),
     "dusk": (520.0, 1900.0, 550.0),
     "cloudy": (-1056.89, -771.886, 1221.18),
 }
-"""The directions towards the sun, in W, not normalised."""
+"""The vectors in W towards the sun, not normalised."""
 
 _UNIT_DIRECTIONS: dict[Sun, npt.NDArray[np.float64]] = {
     sun: np.array(direction) / length(direction) for sun, direction in SUN_DIRECTIONS.items()
@@ -48,13 +51,13 @@ SUN_COLOURS: dict[Sun, Colour] = {
     "dusk": (251 / 255, 251 / 255, 161 / 255),
     "cloudy": (191 / 255, 191 / 255, 191 / 255),
 }
-"""The sun's diffuse light, 0..1."""
+"""The colours of the sun's light, 0..1."""
 
 AMBIENT_SHARE = 0.3
-"""The share of a surface's colour that is visible without the sun."""
+"""The brightness of ambient light, as a fraction of a surface's colour [1]."""
 
 SPECULAR_BRIGHTNESS = 0.1
-"""The brightness of the sun's mirror image, added in all channels."""
+"""The brightness of the sun's specular reflection, added to all channels [1]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -66,19 +69,18 @@ class Water:
     fog_colour: Colour = (0.0, 0.05, 0.3)
     """The colour of thick fog, 0..1."""
     colour: Colour = (0.0, 0.05, 0.3)
-    """The light scattered into the ray, 0..1."""
+    """The colour of the light that the water scatters into a long ray, 0..1."""
     attenuation: Colour = (0.015, 0.0075, 0.005)
     """The attenuation of red, green and blue [1/m]."""
     surface_height: float = 0.0
     """The height z of the water's surface in W [m]."""
     fog_distance: Literal["ray", "clip"] = "ray"
-    """The distance in the fog law: along the ray, or the original's clip-space z."""
+    """The distance in the fog law: along the ray, or clip-space z as in UWSim (C++)."""
     follows_light: bool = True
-    """True if the light rate scales the colours of water and fog; the original does not scale
-    them."""
+    """True if the light rate scales the colours of water and fog; UWSim does not scale them."""
     has_air: bool = False
-    """True if only the path below the surface counts; the original's cameras are always in
-    water."""
+    """True if only the part of a ray below the water's surface is in water; in UWSim the whole ray
+    is."""
 
     @classmethod
     def from_ocean_state(
@@ -107,7 +109,7 @@ class Water:
 
     @property
     def switches(self) -> tuple[tuple[str, int], ...]:
-        """The switches with which the shaders are compiled."""
+        """The preprocessor switches of the shaders for this water, with their values."""
         is_set = {
             "NO_FOG": self.fog == 0.0,
             "FOG_CLIP": self.fog > 0.0 and self.fog_distance == "clip",
@@ -117,7 +119,7 @@ class Water:
 
     @property
     def far_colour(self) -> Colour:
-        """The colour at infinite distance."""
+        """The colour of pixels without a surface: that of the water or fog at infinite distance."""
         return self.fog_colour if self.fog > 0.0 else self.colour
 
 
@@ -126,18 +128,18 @@ class Light:
     """The light of the scene: the sun."""
 
     rate: float = 1.0
-    """The factor of all light; 1 is nominal."""
+    """The light rate: the brightness of all light, 1 is nominal [1]."""
     sun: Sun = "clear"
-    """The sky, which gives the direction and colour of the sun."""
+    """The state of the sky, which determines the direction and the colour of the sun."""
     shadows: bool = True
-    """True if vehicles and objects cast the sun's shadow."""
+    """True if vehicles and objects cast shadows of the sun."""
     is_polished: bool = False
-    """True if images are for presentation: wet surfaces are glossy, shadows soft and tinted by the
-    water."""
+    """True if images are for presentation: surfaces are glossy, shadows are soft and have the
+    water's hue."""
 
     @property
     def switches(self) -> tuple[tuple[str, int], ...]:
-        """The switches with which the shaders are compiled."""
+        """The preprocessor switches of the shaders for this light, with their values."""
         return (("POLISHED", 1), ("SOFT", 1)) if self.is_polished else ()
 
 
@@ -149,7 +151,7 @@ def sun_direction(sun: Sun) -> npt.NDArray[np.float64]:
 def clip_distance(
     depth: npt.NDArray[np.float64], intrinsics: Intrinsics
 ) -> npt.NDArray[np.float64]:
-    """Compute the original's fog distance: clip-space z of a planar depth, any shape [m].
+    """Compute the distance in UWSim's fog: clip-space z of planar depths, any shape [m].
 
     ``((far + near) d - 2 far near) / (far - near)``, which is about ``d - 2 near``.
     """
@@ -163,9 +165,9 @@ def submerged_path_share(
     """Compute the share of the path from the camera to points that is under water, any shape, 0..1.
 
     Args:
-        world_z: z of the points in W [m].
-        eye_z: z of the camera in W [m].
-        water: the water; its surface is flat and bends no light.
+        world_z: the z coordinates of the points in W [m].
+        eye_z: the z coordinate of the camera in W [m].
+        water: the water; its surface is flat and does not refract light.
     """
     depth, eye_depth = water.surface_height - world_z, water.surface_height - eye_z
     max_depth, min_depth = np.maximum(depth, eye_depth), np.minimum(depth, eye_depth)
@@ -181,18 +183,19 @@ def apply_water(
     *,
     fog_range: npt.NDArray[np.float64] | None = None,
 ) -> npt.NDArray[np.float64]:
-    """Apply the law above in numpy: the reference for the shader, and for re-colouring recordings.
+    """Apply the water's image model in numpy: the reference for the shader, and for recordings.
+
+    Where a ray is partly in air, pass both distances times `submerged_path_share`.
 
     Args:
-        dry_colours: Dry colours, (..., 3), 0..1.
-        range: Distance along the ray (...) [m]; inf gives the far colour.
-        world_z: z of the points in W (...) [m].
-        water: The water.
-        fog_range: Distance for the fog (...) [m] when it is not the range (`clip_distance`).
-            Where there is air, both distances are those times `submerged_path_share`.
+        dry_colours: the colours of the lit surfaces without water, (..., 3), 0..1.
+        range: the distance along the ray, (...) [m]; inf gives the far colour.
+        world_z: the z coordinates of the points in W, (...) [m].
+        water: the water.
+        fog_range: the distance in the fog, (...) [m], if it is not the range (`clip_distance`).
 
     Returns:
-        Colours at the camera (..., 3).
+        The colours at the camera, (..., 3).
     """
     is_empty = np.isinf(range)
     distance = np.where(is_empty, 0.0, range)[..., None]

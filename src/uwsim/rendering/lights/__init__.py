@@ -1,1 +1,1 @@
-"""Lights: lamps, projectors, the sun's shadow."""
+"""Lights and their shadow maps: lamps, projectors, the sun."""

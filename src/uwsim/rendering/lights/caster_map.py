@@ -1,4 +1,4 @@
-"""A depth image of shadow casters, in which only casters that moved are drawn again."""
+"""A shadow map of the sun, in which only casters that moved are drawn again."""
 
 from __future__ import annotations
 
@@ -7,24 +7,24 @@ import numpy as np
 import numpy.typing as npt
 
 from ...base.geometry import Array
-from ..brush import Brush
+from ..batch_drawer import BatchDrawer
 from ..instance import Instances, Numbers, Slots
 
 Versions = npt.NDArray[np.int64]
 
 
 class CasterMap:
-    """The depths of casters in a square view, nearest first.
+    """The least depth of the casters in each texel of a square view.
 
-    The second drawing of a view shows which casters are at rest. Their depths are stored in a
-    separate image: to copy it takes less time than to clear the map, and only the other casters
-    are drawn into the copy. The depths equal those of a map that is drawn as a whole, because the
-    least depth does not depend on the order of drawing.
+    When a view is drawn for the second time, the casters that did not move are known. Their depths
+    are stored in a separate image. To copy it into the map takes less time than to clear the map,
+    and only the other casters are drawn into the copy. The depths equal those of a map in which all
+    casters are drawn, because the least depth does not depend on the order of drawing.
 
     Args:
-        context: of the renderer.
-        program: that of shadows.
-        size: edge of the map [texels].
+        context: the context of the renderer.
+        program: the program that draws shadow maps.
+        size: the edge of the map [texels].
     """
 
     def __init__(self, context: moderngl.Context, program: moderngl.Program, size: int) -> None:
@@ -34,18 +34,18 @@ class CasterMap:
         self._framebuffer = context.framebuffer(depth_attachment=self.texture)
         self._slots = Slots(context)
         self._view: object = None  # the content of the map, except poses
-        self._moved_versions: Versions = np.zeros(0, dtype=np.int64)  # of its casters
+        self._moved_versions: Versions = np.zeros(0, dtype=np.int64)  # of the casters, when drawn
         self._static_depths: _StaticDepths | None = None
         self.n_drawn = 0
         """The number of batches drawn so far."""
 
     def update(self, instances: Instances, casters: Numbers, clip_from_world: Array) -> None:
-        """Draw the casters that are out of date.
+        """Draw the casters whose depths are out of date.
 
         Args:
-            instances: All instances.
-            casters: Numbers of the batches that cast shadows, (k,).
-            clip_from_world: The view, (4, 4).
+            instances: all instances.
+            casters: the numbers of the batches that cast shadows, (k,).
+            clip_from_world: the matrix from W to clip space of the view, (4, 4).
         """
         moved_versions = instances.moved_versions[instances.owners[casters]]
         view = instances.arrangement, casters.tobytes(), clip_from_world.tobytes()
@@ -74,9 +74,9 @@ class CasterMap:
         context.enable_only(moderngl.DEPTH_TEST)
         context.depth_func = "<="
         context.polygon_offset = 1.5, 2.0
-        brush = Brush(context, instances, self._slots, winding="ccw")
+        drawer = BatchDrawer(context, instances, self._slots, winding="ccw")
         for number in casters.tolist():
-            brush.draw(number, self._program)
+            drawer.draw(number, self._program)
         context.polygon_offset = 0.0, 0.0
         self.n_drawn += len(casters)
 
@@ -85,8 +85,8 @@ class _StaticDepths:
     """The depths of casters at rest, which are copied into a map.
 
     Args:
-        context: of the renderer.
-        size: edge of the map [texels].
+        context: the context of the renderer.
+        size: the edge of the map [texels].
         texture: the map.
     """
 
@@ -94,36 +94,34 @@ class _StaticDepths:
         self._context = context
         depths = _depth_texture(context, size)
         self._framebuffer = context.framebuffer(depth_attachment=depths)
-        # moderngl copies the depths of framebuffers that have colours, too.
+        # moderngl copies depths only between framebuffers that also have colours.
         self._source, self._target = (
             context.framebuffer([context.texture((size, size), 1)], depth)
             for depth in (depths, texture)
         )
         self.members: npt.NDArray[np.bool_] = np.zeros(0, dtype=bool)
-        """The flags of the casters, (k,): True if it is drawn here."""
+        """The flags of the casters, (k,): True if a caster is in this image."""
         self._view: object = None
         self._moved_versions: Versions = np.zeros(0, dtype=np.int64)
 
     def is_usable(
         self, view: object, moved_versions: Versions, last_moved_versions: Versions
     ) -> bool:
-        """Return True if none of its casters has moved, and few others are at rest.
+        """Return True if no caster in this image has moved, and few other casters are at rest.
 
         Args:
             view: the content of the map, except poses.
-            moved_versions: version at which each caster last moved, (k,).
-            last_moved_versions: the same at the last drawing of the map, (k,).
+            moved_versions: the version at which each caster last moved, (k,).
+            last_moved_versions: ``moved_versions`` when the map was last drawn, (k,).
         """
         if view != self._view or (self._moved_versions != moved_versions)[self.members].any():
             return False
-        n_still, n_moving = (
-            (moved_versions == last_moved_versions).sum() - self.members.sum(),
-            (~self.members).sum(),
-        )
-        return bool(2 * n_still <= n_moving)
+        n_at_rest = (moved_versions == last_moved_versions).sum()
+        n_others = (~self.members).sum()
+        return bool(2 * (n_at_rest - self.members.sum()) <= n_others)
 
     def begin(self, view: object, moved_versions: Versions, members: npt.NDArray[np.bool_]) -> None:
-        """Clear it and bind it as the render target, for the casters that are members, (k,)."""
+        """Clear this image and bind it as the target in which the members, (k,), are drawn."""
         self._view, self._moved_versions, self.members = view, moved_versions, members
         self._framebuffer.use()
         self._framebuffer.clear(depth=1.0)

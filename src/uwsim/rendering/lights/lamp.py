@@ -1,17 +1,18 @@
 r"""A lamp on a vehicle: a cone of light that the water attenuates.
 
-On a surface of colour :math:`L_c` at the distance :math:`d` from the lamp, on stored values (no
-gamma) and before the water between surface and camera (`water`), it adds
+The lamp adds to the light of a surface with the colour :math:`L_c` and the unit normal :math:`N`,
+on stored values (no gamma) and before the water between surface and camera (`water`),
 
 .. math::
-    L_c\,k_c\,I\,\frac{\max(N \cdot L, 0)}{d^2}\,s(\theta)\,e^{-a_c d}\,v
+    L_c\,k_c\,I\,\frac{\max(N \cdot D, 0)}{d^2}\,s(\theta)\,e^{-a_c d}\,v
 
-with the lamp's colour :math:`k` and intensity :math:`I`, the direction :math:`L` to the lamp,
-the water's attenuation :math:`a` along the way from the lamp to the surface, the cone
-:math:`s(\theta)` and :math:`v`, 0 in shadow. The least distance is 1 cm. It does not depend on
-the sun or the light rate of the scene. Not modelled: backscatter of the lamp's own light into the
-camera, scattering and reflection of the light on its path, a loss of the lamp's light to the fog
-(which is a law of the camera's path alone), specular reflection, and an image of the lamp itself.
+with the lamp's colour :math:`k` and intensity :math:`I`, the distance :math:`d` and the unit vector
+:math:`D` from the surface to the lamp, the water's attenuation :math:`a` between them, the share
+:math:`s` of the light at the angle :math:`\theta` from the lamp's axis, and :math:`v`, 0 in shadow
+and 1 in light. Distances below 1 cm count as 1 cm. The light does not depend on the sun or the
+light rate of the scene. Not modelled: backscatter of the lamp's light into the camera, scattering
+and reflection of the light on its path, fog between lamp and surface (it acts between surface and
+camera only), specular reflection, and an image of the lamp itself.
 """
 
 from __future__ import annotations
@@ -44,41 +45,44 @@ class Lamp:
     world_from_lamp: Pose
     """The pose of the lamp; its axes are those of a camera."""
     half_angle: float
-    """The angle between axis and edge of the cone, above 0, at most 80 degrees; pi: a lamp in all
-    directions, without shadows [rad]."""
+    """The angle between axis and edge of the cone, above 0 and at most 80 degrees; or pi for a lamp
+    that shines in all directions and casts no shadows [rad]."""
     softness: float = 0.2
-    """The share of the half angle over which the light fades towards the edge, 0..1."""
+    """The fraction of the half angle over which the light fades towards the edge, 0..1."""
     colour: Colour = (1.0, 1.0, 1.0)
-    """The colour of its light, 0..1."""
+    """The colour of the light, 0..1."""
     intensity: float = 1.0
     """The stored value of a white surface that faces the lamp at 1 m, without water [1]."""
     casts_shadow: bool = True
-    """True if bodies in its light cast a shadow."""
+    """True if bodies in the lamp's light cast shadows."""
 
     def __post_init__(self) -> None:
         is_cone = 0.0 < self.half_angle <= MAX_HALF_ANGLE
         if not (is_cone or (self.half_angle == math.pi and not self.casts_shadow)):
             raise ValueError(f"the half angle {self.half_angle} is not in (0, 80 degrees]")
         if not (0.0 <= self.softness <= 1.0 and self.intensity >= 0.0):
-            raise ValueError(f"softness {self.softness} or intensity {self.intensity} is no such")
+            raise ValueError(
+                f"the softness {self.softness} is not in 0..1, or the intensity {self.intensity} "
+                "is negative"
+            )
 
     @property
     def edge(self) -> tuple[float, float]:
-        """The cosine at the cone's edge, and the factor that maps cosines inside it to 0..1."""
+        """The cosine at the cone's edge, and the factor that maps cosines from there to 0..1."""
         outer_cosine = math.cos(self.half_angle)
         inner_cosine = math.cos((1.0 - self.softness) * self.half_angle)
         return outer_cosine, 1.0 / max(inner_cosine - outer_cosine, 1e-5)
 
     def light(self, points: Array, normals: Array, attenuation: Colour) -> Array:
-        """Apply the law above in numpy, without shadows: the reference for the shader.
+        """Apply the formula above in numpy, without shadows: the reference for the shader.
 
         Args:
-            points: Points on surfaces, in W, (n, 3) [m].
-            normals: Unit normals of the surfaces, (n, 3).
-            attenuation: Attenuation of red, green and blue [1/m].
+            points: points on surfaces in W, (n, 3) [m].
+            normals: the unit normals of the surfaces in W, (n, 3).
+            attenuation: the water's attenuation of red, green and blue [1/m].
 
         Returns:
-            The stored values of white surfaces, (n, 3).
+            The light that the lamp adds to white surfaces, in stored values, (n, 3).
         """
         to_lamp = self.world_from_lamp.position - points
         distance = np.maximum(

@@ -1,7 +1,7 @@
 """The uniform block of the lamps, and their shadow maps.
 
-All maps are tiles of one depth texture, so that the shaders need a single sampler. A tile is drawn
-again only when its lamp or anything in the scene moved, and is used for all cameras.
+All shadow maps are tiles of one depth texture, so that the shaders need a single sampler. A tile is
+drawn again only when its lamp or an instance has moved, and all cameras use it.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import numpy as np
 from ...base.geometry import Array, Intrinsics, Pose, image_centre
 from ...base.numerics.linear import product
 from ...devices.lamp import MAX_LAMPS
-from ..brush import Brush
+from ..batch_drawer import BatchDrawer
 from ..instance import INSTANCE, Instances, Numbers, Slots, find_visible
 from ..program import Block, build
 from ..projection import projection
@@ -25,17 +25,18 @@ TILE = 512
 """The edge of one lamp's shadow map [texels]."""
 
 NEAR, FAR = 0.1, 20.0
-"""The distances from the lamp between which bodies cast shadows; its own housing is nearer [m]."""
+"""The distances from the lamp between which bodies cast shadows [m]; the lamp's own housing is
+nearer."""
 
 MARGIN = 1.02
-"""The ratio of the map's view to the cone's, so that no look-up reaches into the next tile."""
+"""The ratio of a map's width to the cone's, so that no look-up reaches into the next tile."""
 
 LAMPS = Block(
     "Lamps",
     2,
     {
         "lamp_from_camera": "mat4[4]",
-        "lamp_place": "vec4[4]",
+        "lamp_position": "vec4[4]",
         "lamp_axis": "vec4[4]",
         "lamp_light": "vec4[4]",
     },
@@ -43,14 +44,14 @@ LAMPS = Block(
 
 
 class Lamps:
-    """The buffer of the uniform block, and the shadow maps; created for the first lamp."""
+    """The buffer of the uniform block ``Lamps``, and the shadow maps of all lamps."""
 
     def __init__(self, context: moderngl.Context) -> None:
         self._context = context
         self._values = np.zeros((), dtype=LAMPS.dtype)
         self._buffer = context.buffer(reserve=LAMPS.dtype.itemsize, dynamic=True)
         self.texture = context.depth_texture((2 * TILE, 2 * TILE))
-        """The maps, two by two."""
+        """The shadow maps: two by two tiles."""
         self.texture.compare_func = "<="
         self.texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
         self.texture.repeat_x = self.texture.repeat_y = False
@@ -71,10 +72,10 @@ class Lamps:
         """Draw the shadow maps that are out of date.
 
         Args:
-            lamps: The lamps, in the order of the tiles.
-            instances: All instances.
-            casters: Numbers of the batches of possible casters; terrain, too.
-            version: A value that changes when a caster is moved, added or removed.
+            lamps: the lamps, in the order of the tiles.
+            instances: all instances.
+            casters: the numbers of the batches that may cast shadows; terrain is among them.
+            version: a value that changes when a caster is moved, added or removed.
         """
         for tile, lamp in enumerate(lamps):
             pose = lamp.world_from_lamp
@@ -89,7 +90,7 @@ class Lamps:
                 self._draw(tile, lamp, instances, casters if lamp.casts_shadow else casters[:0])
 
     def fill(self, lamps: Sequence[Lamp], world_from_camera: Pose) -> None:
-        """Fill the uniform block and bind it."""
+        """Fill the uniform block for a camera, and bind it."""
         values, camera_from_world = self._values, world_from_camera.inverse()
         for tile, lamp in enumerate(lamps):
             lamp_from_world = lamp.world_from_lamp.inverse()
@@ -102,7 +103,7 @@ class Lamps:
             outer_cosine, steepness = lamp.edge
             texel = 2.0 * MARGIN * math.tan(lamp.half_angle) / TILE  # at 1 m [m]
             values["lamp_from_camera"][tile] = map_from_camera.T  # OpenGL counts columns first
-            values["lamp_place"][tile] = *camera_from_lamp.position, outer_cosine
+            values["lamp_position"][tile] = *camera_from_lamp.position, outer_cosine
             values["lamp_axis"][tile] = *camera_from_lamp.rotation[:, 2], steepness
             strength = [lamp.intensity * channel for channel in lamp.colour]
             values["lamp_light"][tile] = *strength, 1.5 * texel
@@ -111,11 +112,11 @@ class Lamps:
 
     def _draw(self, tile: int, lamp: Lamp, instances: Instances, casters: Numbers) -> None:
         view = _map_camera(lamp)
-        place = TILE * (tile % 2), TILE * (tile // 2), TILE, TILE
+        viewport = TILE * (tile % 2), TILE * (tile // 2), TILE, TILE
         self.n_drawn += 1
-        self._framebuffer.viewport = place
+        self._framebuffer.viewport = viewport
         self._framebuffer.use()
-        self._framebuffer.clear(depth=1.0, viewport=place)
+        self._framebuffer.clear(depth=1.0, viewport=viewport)
         target = self._context, self._program, self._slots[tile]
         draw_casters(*target, instances, casters, lamp.world_from_lamp, view)
 
@@ -129,32 +130,33 @@ def draw_casters(
     world_from_lamp: Pose,
     view: Intrinsics,
 ) -> None:
-    """Draw the depth of shadow casters in a lamp's view, into the framebuffer in use.
+    """Draw the depths of shadow casters as seen from a lamp, into the framebuffer in use.
 
     Args:
-        context: The context of the renderer.
-        program: The program of shadows.
-        slots: The buffer for the poses of the instances.
-        instances: All instances.
-        casters: Numbers of the batches of possible casters.
-        world_from_lamp: The pose of the lamp.
-        view: The pinhole of the lamp.
+        context: the context of the renderer.
+        program: the program that draws shadow maps.
+        slots: the buffer for the poses of the instances.
+        instances: all instances.
+        casters: the numbers of the batches that may cast shadows.
+        world_from_lamp: the pose of the lamp.
+        view: the pinhole of the lamp's shadow map.
     """
     lens = projection(view)
     context.enable_only(moderngl.DEPTH_TEST)
     context.depth_func = "<="
     context.polygon_offset = 1.5, 2.0
     slots.fill(instances, product(lens.clip_from_camera, world_from_lamp.inverse().matrix))
-    brush = Brush(context, instances, slots, winding="cw")
+    drawer = BatchDrawer(context, instances, slots, winding="cw")
     visible_batches = find_visible(instances, casters, world_from_lamp, lens.planes)
     batches = instances.numbered_batches
     for number in visible_batches.tolist():
         if batches[number][1].opacity >= 1.0:  # glass casts no shadow
-            brush.draw(number, program)
+            drawer.draw(number, program)
     context.polygon_offset = 0.0, 0.0
 
 
 def _map_camera(lamp: Lamp) -> Intrinsics:
+    """Return the pinhole of a lamp's shadow map."""
     angle = min(lamp.half_angle, MAX_HALF_ANGLE)
     focal = TILE / 2.0 / (MARGIN * math.tan(angle))
     cx, cy = image_centre(TILE, TILE)

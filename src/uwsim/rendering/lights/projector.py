@@ -1,4 +1,4 @@
-r"""A projector of a pattern: a laser that draws it on surfaces, or a lamp behind it.
+r"""A projector of a pattern: a laser projector, or a lamp with a slide.
 
 The pattern is an image; a point is lit by the pixel in its direction. Nothing is projected where
 the pixel is transparent, the point is in shadow, or the surface faces away. A laser changes the
@@ -6,14 +6,15 @@ colour of the surface to
 
 .. math:: p_c\,e^{-a_c d}
 
-with the pattern's colour :math:`p`, 0 or 1 in each channel (black and pure white draw nothing),
-and the water's attenuation :math:`a` along the path :math:`d` from the projector. A lamp
-adds, with the surface's colour :math:`L`,
+with the pattern's colour :math:`p`, 0 or 1 in each channel (black and pure white draw nothing), the
+distance :math:`d` from the projector, and the water's attenuation :math:`a` along this path. A lamp
+adds to the light of a surface with the colour :math:`L_c` and the unit normal :math:`N`
 
-.. math:: L_c\,p_c\,\frac{\max(N \cdot L, 0)}{d^2}\,e^{-a_c d}
+.. math:: L_c\,p_c\,\frac{\max(N \cdot D, 0)}{d^2}\,e^{-a_c d}
 
-both on stored values and before the water between surface and camera (`water`). Not modelled:
-the growing width of a beam, speckle, scattering of the beam in the water.
+with the unit vector :math:`D` from the surface to the projector. Both are computed on stored values
+and before the water between surface and camera (`water`). Not modelled: the growing width of a
+beam, speckle, scattering of the beam in the water.
 """
 
 from __future__ import annotations
@@ -29,7 +30,8 @@ from ...base.geometry import Intrinsics, Pose, image_centre
 LONGEST_SIDE = 1024
 """The longest side of a projector's shadow map [texels]."""
 NEAR, FAR = 0.1, 20.0
-"""The distances from the projector between which bodies cast shadows; its housing is nearer [m]."""
+"""The distances from the projector between which bodies cast shadows [m]; the projector's own
+housing is nearer."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -43,11 +45,11 @@ class Projector:
     pattern: npt.NDArray[np.uint8]
     """The red, green, blue and opacity values, (h, w, 4); row 0 is at the top."""
     is_laser: bool
-    """True if a laser draws the pattern; else it is a lamp."""
+    """True if a laser projects the pattern, False if a lamp does."""
 
     @property
     def pinhole(self) -> Intrinsics:
-        """The pinhole whose image is the lit region, with the size of the shadow map."""
+        """The pinhole whose image is the lit region; its size is that of the shadow map."""
         rows, columns = self.pattern.shape[:2]
         scale = LONGEST_SIDE / max(rows, columns)
         width, height = max(1, round(scale * columns)), max(1, round(scale * rows))

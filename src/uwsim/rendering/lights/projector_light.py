@@ -16,7 +16,7 @@ from .projector import Projector
 PROJECTOR = Block(
     "Projector",
     3,
-    {"projector_from_camera": "mat4", "projector_place": "vec4", "projector_axis": "vec4"},
+    {"projector_from_camera": "mat4", "projector_position": "vec4", "projector_axis": "vec4"},
 )
 
 TEXTURE_FROM_CLIP = np.array(
@@ -26,7 +26,7 @@ TEXTURE_FROM_CLIP = np.array(
 
 
 class ProjectorLight:
-    """The projector's uniform block, pattern and shadow map; created for the first projector."""
+    """The buffer of the uniform block ``Projector``, the pattern's texture and the shadow map."""
 
     def __init__(self, context: moderngl.Context) -> None:
         self._context = context
@@ -46,13 +46,13 @@ class ProjectorLight:
         casters: Numbers,
         version: object,
     ) -> None:
-        """Draw the shadow map, if it is out of date.
+        """Draw the shadow map if it is out of date.
 
         Args:
-            projector: The projector.
-            instances: All instances.
-            casters: Numbers of the batches of possible casters; terrain, too.
-            version: A value that changes when a caster is moved, added or removed.
+            projector: the projector.
+            instances: all instances.
+            casters: the numbers of the batches that may cast shadows; terrain is among them.
+            version: a value that changes when a caster is moved, added or removed.
         """
         if self._pattern is not projector.pattern:
             self._load(projector)
@@ -63,11 +63,11 @@ class ProjectorLight:
             assert self._framebuffer is not None
             self._framebuffer.use()
             self._framebuffer.clear(depth=1.0)
-            place = self._context, self._program, self._slots
-            draw_casters(*place, instances, casters, pose, projector.pinhole)
+            target = self._context, self._program, self._slots
+            draw_casters(*target, instances, casters, pose, projector.pinhole)
 
     def fill(self, projector: Projector, world_from_camera: Pose) -> None:
-        """Fill the uniform block and bind it."""
+        """Fill the uniform block for a camera, and bind it."""
         values, lens = self._values, projector.pinhole
         projector_from_camera = projector.world_from_projector.inverse() @ world_from_camera
         map_from_projector = product(TEXTURE_FROM_CLIP, projection(lens).clip_from_camera)
@@ -75,7 +75,7 @@ class ProjectorLight:
             map_from_projector, projector_from_camera.matrix
         ).T  # OpenGL counts columns first
         camera_from_projector = projector_from_camera.inverse()
-        values["projector_place"] = *camera_from_projector.position, float(projector.is_laser)
+        values["projector_position"] = *camera_from_projector.position, float(projector.is_laser)
         values["projector_axis"] = (
             *camera_from_projector.rotation[:, 2],
             1.5 / min(lens.fx, lens.fy),
@@ -84,12 +84,12 @@ class ProjectorLight:
         self._buffer.bind_to_uniform_block(PROJECTOR.binding)
 
     def use(self, *, shadow_map: int, pattern: int) -> None:
-        """Bind the textures to their units."""
+        """Bind the shadow map and the pattern to texture units."""
         for texture, unit in zip(self._textures, (shadow_map, pattern), strict=True):
             texture.use(unit)
 
     def _load(self, projector: Projector) -> None:
-        """Create the textures of a pattern."""
+        """Create the texture of the pattern, and an empty shadow map."""
         for texture in self._textures:
             texture.release()
         lens, (rows, columns) = projector.pinhole, projector.pattern.shape[:2]

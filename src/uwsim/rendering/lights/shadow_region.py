@@ -1,4 +1,9 @@
-"""The region of an image in which the sun's shadows may fall on instances at rest."""
+"""The region of an image in which shadows of the sun may fall on the backdrop (`backdrop`).
+
+The image is divided into tiles. For each tile, the bounds of its surfaces are computed in *sunbeam
+coordinates* (`sunbeam_frame`): two coordinates that are constant along a sunbeam, and the distance
+towards the sun. A caster may shade a tile if the bounds overlap and it is nearer to the sun.
+"""
 
 from __future__ import annotations
 
@@ -15,23 +20,23 @@ TILE = 8
 """The edge of a tile of an image [px]."""
 
 Region = tuple[int, int, int, int]
-"""A rectangle of an image: left column, top row, number of columns and of rows [px]."""
+"""A rectangle of an image: left column, top row, number of columns, number of rows [px]."""
 
 
 def compute_tile_bounds(
     depths: npt.NDArray[np.float32], world_from_camera: Pose, intrinsics: Intrinsics, sun: Array
 ) -> Array:
-    """Compute bounds of the surfaces in the tiles of an image, in the sun's coordinates.
+    """Compute the bounds of the surfaces in each tile of an image, in sunbeam coordinates.
 
     Args:
-        depths: depths of the pixels as OpenGL stores them, 0..1, (h, w); 1: no surface.
-        world_from_camera: The pose of the camera.
-        intrinsics: The pinhole of the camera.
-        sun: Unit vector towards the sun in W, (3,).
+        depths: the depth buffer of the image, 0..1, (h, w); 1: no surface.
+        world_from_camera: the pose of the camera.
+        intrinsics: the pinhole of the camera.
+        sun: the unit vector towards the sun in W, (3,).
 
     Returns:
-        Least and greatest coordinates (`sunbeam_frame`) in each tile, (rows, columns, 2, 3) [m];
-        inf and -inf where no surface is.
+        The least and the greatest sunbeam coordinates in each tile, (rows, columns, 2, 3) [m]; inf
+        and -inf if the tile has no surface.
     """
     i = intrinsics
     rows, columns = -(-i.height // TILE), -(-i.width // TILE)
@@ -50,11 +55,11 @@ def find_shaded_region(
     """Return the rectangle around all tiles on which a caster may cast a shadow.
 
     Args:
-        tiles: bounds of the surfaces, as `compute_tile_bounds` returns them.
-        instances: All instances.
-        casters: Numbers of the batches that cast shadows, (k,).
-        sun: Unit vector towards the sun in W, (3,).
-        margin: The distance by which shadows may reach beyond boxes [m].
+        tiles: the bounds of the surfaces in each tile (`compute_tile_bounds`).
+        instances: all instances.
+        casters: the numbers of the batches that cast shadows, (k,).
+        sun: the unit vector towards the sun in W, (3,).
+        margin: the distance by which shadows may reach beyond a caster's bounds [m].
     """
     region = np.array([tiles.shape[1], tiles.shape[0], 0, 0])  # least column, row; greatest + 1
     _write_shaded_tiles(tiles, instances.corners, casters, sunbeam_frame(sun), margin, region)
@@ -71,7 +76,16 @@ def _write_tile_bounds(
     frame: Array,
     tiles: Array,
 ) -> None:
-    """Compute tile bounds into ``tiles``; ``lens``: fx, fy, cx, cy, skew [px], near, far [m]."""
+    """Compute `compute_tile_bounds` into ``tiles``.
+
+    Args:
+        depths: the depth buffer of the image, 0..1, (h, w).
+        lens: fx, fy, cx, cy, skew [px], near, far [m], (7,).
+        position: the position of the camera in W, (3,) [m].
+        rotation: the axes of the camera in W as columns, (3, 3).
+        frame: the matrix from W to sunbeam coordinates, (3, 3).
+        tiles: the output, (rows, columns, 2, 3) [m].
+    """
     tiles[:, :, 0], tiles[:, :, 1] = np.inf, -np.inf
     near, far = lens[5], lens[6]
     point, world = np.empty(3), np.empty(3)
@@ -82,8 +96,8 @@ def _write_tile_bounds(
                 continue
             clip = 2.0 * float(depths[v, u]) - 1.0
             depth = 2.0 * far * near / (far + near - clip * (far - near))
-            # stored depths are rounded to a step of 2^-24
-            step = depth * depth / near * 2.0**-23
+            # the depth buffer has a resolution of 2^-24, which is this error of the depth [m]
+            error = depth * depth / near * 2.0**-23
             point[0], point[1] = depth * (u - lens[2] - lens[4] * y) / lens[0], depth * y
             point[2] = -depth
             transform_to_world(point, position, rotation, world)
@@ -92,7 +106,7 @@ def _write_tile_bounds(
                 total = 0.0
                 for j in range(3):
                     total += frame[k, j] * world[j]
-                box[0, k], box[1, k] = min(box[0, k], total - step), max(box[1, k], total + step)
+                box[0, k], box[1, k] = min(box[0, k], total - error), max(box[1, k], total + error)
 
 
 @njit
@@ -104,7 +118,16 @@ def _write_shaded_tiles(
     margin: float,
     region: npt.NDArray[np.int64],
 ) -> None:
-    """Compute `find_shaded_region` into ``region``: least column and row, greatest and one."""
+    """Compute the region of `find_shaded_region`, in tiles.
+
+    Args:
+        tiles: the bounds of the surfaces in each tile, (rows, columns, 2, 3) [m].
+        corners: the corners of the bounding boxes of all batches in W, (m, 8, 3) [m].
+        casters: the numbers of the batches that cast shadows, (k,).
+        frame: the matrix from W to sunbeam coordinates, (3, 3).
+        margin: the distance by which shadows may reach beyond a caster's bounds [m].
+        region: the output, (4,): the first column and row, the column and row after the last.
+    """
     boxes = np.empty((len(casters), 2, 3))
     for k in range(len(casters)):
         compute_box(corners[casters[k]], frame, boxes[k])

@@ -16,18 +16,18 @@ from ..program import build
 from .caster_map import CasterMap
 
 SMALL_MAP_SIZE, LARGE_MAP_SIZE = 512, 1024
-"""The edges of the map [texels]; drawing the small one takes a third of the time."""
+"""The edges of the two maps [texels]; to draw the small map takes a third of the time."""
 
 MAX_SMALL_MAP_TEXEL = 0.008
 """The largest texel of the small map; above it, the large map is used [m]."""
 
 MAX_CASTER_RADIUS = 5.0
-"""The bounding radius above which a model casts no shadow: tanks and sea floors [m]."""
+"""The radius above which a model, such as a tank or a sea floor, casts no shadow [m]."""
 
 LOW_SUN_SINE = 0.3
 """The sine of the elevation below which the sun is low [1]."""
 SHADOW_MARGIN = 0.05
-"""The distance by which shadows may reach beyond boxes: the map's largest texel [m]."""
+"""The distance by which shadows may reach beyond bounding boxes: the map's largest texel [m]."""
 
 _TO_TEXTURE = np.array(
     [[0.5, 0.0, 0.0, 0.5], [0.0, 0.5, 0.0, 0.5], [0.0, 0.0, 0.5, 0.5], [0.0, 0.0, 0.0, 1.0]]
@@ -37,9 +37,9 @@ _TO_TEXTURE = np.array(
 class SunShadow:
     """The shadow map of the sun.
 
-    Terrain receives shadows and casts none: else a tank's walls would shade all of it, although a
-    real water surface scatters the light inward. Points farther from the casters than their
-    shadows reach are lit. Not modelled: refraction at the surface.
+    Terrain receives shadows and casts none: otherwise the walls of a tank would shade the whole
+    tank, although a real water surface scatters light into it. Points that are more than 20 m below
+    all casters are lit. Not modelled: refraction at the water's surface.
     """
 
     def __init__(self, context: moderngl.Context) -> None:
@@ -50,13 +50,14 @@ class SunShadow:
         self._map = self._maps[SMALL_MAP_SIZE]
         self._map_key: object = None
         self.texture_from_world = np.eye(4)
-        """The matrix from W to texture coordinates and depth of the map, 0..1."""
+        """The matrix from W to texture coordinates and depth of the map, 0..1, (4, 4)."""
         self.lift = 0.0
-        """The offset of a receiver along its normal, against shadows of its own surface [m]."""
+        """The offset of a receiver along its normal, against shadows that a surface casts on itself
+        because of the map's resolution [m]."""
 
     @property
     def texture(self) -> moderngl.Texture:
-        """The map now in use."""
+        """The shadow map in use."""
         return self._map.texture
 
     @property
@@ -68,9 +69,9 @@ class SunShadow:
         """Draw the map again if it is out of date.
 
         Args:
-            instances: All instances.
-            casters: Numbers of the batches that cast shadows, (k,).
-            sun: Unit vector towards the sun in W, (3,).
+            instances: all instances.
+            casters: the numbers of the batches that cast shadows, (k,).
+            sun: the unit vector towards the sun in W, (3,).
         """
         key = instances.version, casters.tobytes(), sun.tobytes()
         if key == self._map_key:
@@ -92,18 +93,19 @@ def find_shadow_pairs(
     world_from_camera: Pose,
     corner_rays: Array,
 ) -> npt.NDArray[np.bool_]:
-    """Return on which visible batches each caster may cast a shadow, (receivers, casters).
+    """Return for each visible batch and each caster whether the caster may shade the batch, (n, k).
 
-    Boxes in the sun's coordinates decide: they must overlap, and the caster's must not be entirely
-    behind. Of a receiver only the part between its least and greatest depth in the image counts.
+    The bounding boxes in sunbeam coordinates (`sunbeam_frame`) must overlap, and the caster's box
+    must not be entirely farther from the sun. Only the part of a batch in the camera's frustum
+    counts.
 
     Args:
-        instances: All instances.
-        casters: Numbers of the batches that cast shadows, k.
-        receivers: Numbers of the batches in view, n.
-        sun: Unit vector towards the sun in W, (3,).
-        world_from_camera: The pose of the camera.
-        corner_rays: The corner rays of its image, 1 m deep, camera frame, (4, 3) [m].
+        instances: all instances.
+        casters: the numbers of the batches that cast shadows, (k,).
+        receivers: the numbers of the batches in view, (n,).
+        sun: the unit vector towards the sun in W, (3,).
+        world_from_camera: the pose of the camera.
+        corner_rays: the corners of the image at a depth of 1 m in the camera's frame, (4, 3) [m].
     """
     rays = product(corner_rays, world_from_camera.rotation.T)  # (4, 3) [m]
     may_cast = np.empty((len(receivers), len(casters)), dtype=bool)
@@ -134,14 +136,14 @@ def _write_shadow_pairs(
     """Compute `find_shadow_pairs` into ``may_cast``.
 
     Args:
-        corners: of the boxes of all batches in W, (m, 8, 3) [m].
-        casters: which cast shadows, (k,).
-        receivers: which are in view, (n,).
-        frame: coordinates as the sun sees them, (3, 3).
-        rays: towards the corners of the image, 1 m deep, in W, (4, 3).
-        position: of the camera in W, (3,) [m].
-        back: its z axis in W, (3,).
-        may_cast: into which it is written, (n, k).
+        corners: the corners of the bounding boxes of all batches in W, (m, 8, 3) [m].
+        casters: the numbers of the batches that cast shadows, (k,).
+        receivers: the numbers of the batches in view, (n,).
+        frame: the matrix from W to sunbeam coordinates, (3, 3).
+        rays: the vectors in W from the camera to the image's corners, 1 m deep, (4, 3) [m].
+        position: the position of the camera in W, (3,) [m].
+        back: the z axis of the camera in W, (3,).
+        may_cast: the output, (n, k).
     """
     slices = np.empty((8, 3))
     boxes, slice_box = np.empty((len(casters), 2, 3)), np.empty((2, 3))
@@ -174,7 +176,13 @@ def _write_shadow_pairs(
 
 @njit
 def compute_box(points: Array, frame: Array, box: Array) -> None:
-    """Compute least and greatest coordinates of points (k, 3) in another frame, into (2, 3)."""
+    """Compute the least and greatest coordinates of points in another frame.
+
+    Args:
+        points: the points in W, (k, 3) [m].
+        frame: the matrix from W to the other coordinates, (3, 3).
+        box: the output: least and greatest coordinates, (2, 3) [m].
+    """
     box[0], box[1] = np.inf, -np.inf
     for i in range(len(points)):
         for k in range(3):
@@ -185,10 +193,11 @@ def compute_box(points: Array, frame: Array, box: Array) -> None:
 
 
 def sunbeam_frame(sun: Array) -> Array:
-    """Return coordinates of W whose first two are constant on a sunbeam, (3, 3).
+    """Return the matrix from W to sunbeam coordinates, (3, 3).
 
-    The first two locate the intersection of a beam with the level of W's origin, or with a plane
-    normal to the beam if the sun is low. The third is the distance towards the sun.
+    The first two coordinates are constant along a sunbeam. They give its intersection with the
+    plane z = 0 of W, or, if the sun is low, with a plane normal to the beam. The third is the
+    distance towards the sun. ``sun`` is the unit vector towards the sun in W, (3,).
     """
     if sun[2] < LOW_SUN_SINE:
         return np.stack([*_sun_axes(sun)[:2], sun])
@@ -197,7 +206,7 @@ def sunbeam_frame(sun: Array) -> Array:
 
 @njit
 def _sun_axes(sun: Array) -> Array:
-    """Return the right, up and forward vectors of a camera that looks from the sun, (3, 3)."""
+    """Return the right, up and forward vectors in W of a camera that looks from the sun, (3, 3)."""
     axes, pole = np.empty((3, 3)), np.zeros(3)
     pole[2 if abs(sun[2]) < 0.9 else 0] = 1.0
     axes[2] = -sun
@@ -212,11 +221,11 @@ def _sun_axes(sun: Array) -> Array:
 
 @njit
 def _fit_sun_camera(spheres: Array, sun: Array) -> tuple[Array, float]:
-    """Return the sun's orthographic view of all casters, (4, 4), and the edge of its view [m].
+    """Return the matrix from W to clip space of the sun's view, (4, 4), and its edge [m].
 
     Args:
-        spheres: round the casters in W: centre and radius, (n, 4) [m].
-        sun: Unit vector towards the sun in W, (3,).
+        spheres: the bounding spheres of the casters in W: centre and radius, (n, 4) [m].
+        sun: the unit vector towards the sun in W, (3,).
     """
     axes = _sun_axes(sun)
     low, high = np.full(3, np.inf), np.full(3, -np.inf)
@@ -226,7 +235,7 @@ def _fit_sun_camera(spheres: Array, sun: Array) -> tuple[Array, float]:
             low[k] = min(low[k], centres[n, k] - spheres[n, 3])
             high[k] = max(high[k], centres[n, k] + spheres[n, 3])
     half = max(high[0] - low[0], high[1] - low[1]) / 2.0
-    reach = 20.0  # [m] below the casters where shadows still fall
+    reach = 20.0  # the distance from the lowest caster to which shadows reach [m]
     middle = (low + high) / 2.0
     middle[2] = (high[2] + reach + low[2]) / 2.0
     scale = np.array([1.0 / half, 1.0 / half, 2.0 / (high[2] + reach - low[2])])

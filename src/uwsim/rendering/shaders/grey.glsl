@@ -1,7 +1,7 @@
-// Provides: as_taken(colour), the colour of a pixel as its camera gives it.
+// Provides: camera_colour(colour), the colour of a pixel in the image of a colour or grey camera.
 // Needs: nothing.
-// The switch GREY: int(0.2989 R) + int(0.5870 G) + int(0.1140 B) of 8-bit values, as grey.py has it. The page alone sets it.
-vec3 as_taken(vec3 colour) {
+// With the switch GREY: int(0.2989 R) + int(0.5870 G) + int(0.1140 B) of 8-bit values, as in grey.py. Only the viewer's page sets it.
+vec3 camera_colour(vec3 colour) {
 #ifdef GREY
     vec3 stored = floor(clamp(colour, 0.0, 1.0) * 255.0 + 0.5);
     vec3 terms = floor(stored * vec3(0.2989, 0.5870, 0.1140) + 5e-5);

@@ -1,4 +1,4 @@
-// Provides: depth only.
+// Provides: depth only, which the rasteriser writes.
 // Needs: nothing.
-// The rasteriser writes it.
+// For all shadow maps.
 void main() {}

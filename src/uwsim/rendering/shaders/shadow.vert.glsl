@@ -1,6 +1,6 @@
-// Provides: the casters as the sun sees them, depth only.
-// Needs: instance.glsl with the sun's clip space in the place of the camera frame.
-// An orthographic camera; filled by sun_shadow.py.
+// Provides: the vertices of a shadow caster in the view of a light.
+// Needs: instance.glsl, filled with matrices to the light's clip space instead of the camera frame.
+// Used for the shadow maps of the sun, the lamps and the projector.
 #include "instance.glsl"
 
 in vec3 vertex;

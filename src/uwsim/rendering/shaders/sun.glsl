@@ -1,8 +1,10 @@
-// Provides: sunlit(colour, facing, mirrored, lit), the light leaving a surface in dry air.
-// Needs: varyings.glsl; facing = N.L; mirrored = R.E; lit = share of the sun that arrives, 0..1.
-// POLISHED, for people: surfaces have a film of water, 0.3 max(R.E, 0)^32, and what the sun does not
-// reach is lit by the water, in its hue.
-// q (Ia C + Id C max(N.L, 0) + Is max(R.E, 0)^2 [N.L > 0]): UWSim's image model, compatibility 3.9.
+// Provides: sunlit(colour, facing, mirrored, lit), the sunlight and ambient light that a surface reflects.
+// Needs: varyings.glsl; facing = N.L; mirrored = R.E; lit = share of the sunlight that arrives, 0..1. N: normal,
+// L: direction to the sun, R: direction of the mirrored sunlight, E: direction to the camera.
+// With the switch POLISHED: surfaces are glossy, 0.3 max(R.E, 0)^32, and in the shade ambient light has the
+// water's hue.
+// Else UWSim's image model: q (Ia C + Id C max(N.L, 0) + Is max(R.E, 0)^2 where N.L > 0), with light rate q, surface
+// colour C, and the ambient, diffuse and specular light Ia, Id, Is.
 vec3 sunlit(vec3 colour, float facing, float mirrored, float lit) {
     float reached = facing > 0.0 ? lit : 0.0;
     float glint = max(mirrored, 0.0);

@@ -1,7 +1,7 @@
 // Provides: colour, range and id of a surface seen through water, whichever are requested.
 // Needs: varyings.glsl, instance.glsl, sun.glsl, water.glsl, grey.glsl, shadow.glsl, lamplight.glsl, projection.glsl, targets.glsl.
-// The switch OPACITY is 1..254 of 255, or not there: opaque; the renderer blends.
-// lit -> attenuation -> fog, on stored values; noise and 8 bit come later (noise.py).
+// The switch OPACITY is 1..254 of 255; without it the surface is opaque. The renderer blends.
+// Light, then attenuation, then fog, on stored values; noise and conversion to 8 bit follow in noise.py.
 #define VARYING in
 #include "varyings.glsl"
 #include "targets.glsl"
@@ -70,7 +70,7 @@ void main() {
 #else
     float opacity = 1.0;
 #endif
-    colour_out = vec4(as_taken(through_water(dry, water_range, fog_range, v_terms.z)), opacity);
+    colour_out = vec4(camera_colour(through_water(dry, water_range, fog_range, v_terms.z)), opacity);
 #endif
 #ifdef RANGE
     range_out = range;

@@ -1,6 +1,6 @@
 // Provides: the vertices of a model, in the camera frame and on the image.
 // Needs: frame.glsl, instance.glsl, varyings.glsl, lamps.glsl, projector.glsl.
-// Whatever is linear in space is computed here and interpolated, exactly.
+// Terms that are linear in space are computed here; their interpolation is exact.
 #define VARYING out
 #include "frame.glsl"
 #include "instance.glsl"
@@ -32,8 +32,8 @@ void main() {
     v_terms.z = -(dot(v_position, up.xyz) + up.w);
     v_terms.w = clip_fog.y - clip_fog.x * v_position.z;
     v_base_colour = tint;
-    v_lights = vec4(sunlight.rgb, sky.x);
-    v_water_colour = vec4(water_colour.rgb, sky.y);
+    v_lights = vec4(sunlight.rgb, ambient_specular.x);
+    v_water_colour = vec4(water_colour.rgb, ambient_specular.y);
     v_attenuation = attenuation.rgb;
     v_fog = fog;
 #ifdef TEXTURED
@@ -44,7 +44,7 @@ void main() {
 #endif
 #ifdef SHADOWS
 #ifdef SOFT
-    float lift = 2.5 * sun.w;  // wider look-ups
+    float lift = 2.5 * sun.w;  // look-ups are wider
 #else
     float lift = sun.w;
 #endif
@@ -54,14 +54,14 @@ void main() {
 #ifdef LAMPS
     vec3 unit_normal = v_normal * inversesqrt(max(dot(v_normal, v_normal), 1e-12));
     for (int i = 0; i < LAMPS; ++i) {
-        vec3 towards = lamp_place[i].xyz - v_position;
+        vec3 towards = lamp_position[i].xyz - v_position;
         float lift = lamp_light[i].w * dot(towards, lamp_axis[i].xyz) * sign(dot(unit_normal, towards));
         v_lamp_uv[i] = lamp_from_camera[i] * vec4(v_position + unit_normal * lift, 1.0);
     }
 #endif
 #ifdef PROJECTOR
     vec3 outwards = v_normal * inversesqrt(max(dot(v_normal, v_normal), 1e-12));
-    vec3 back = projector_place.xyz - v_position;
+    vec3 back = projector_position.xyz - v_position;
     float raise = projector_axis.w * dot(back, projector_axis.xyz) * sign(dot(outwards, back));
     v_projector_uv = projector_from_camera * vec4(v_position + outwards * raise, 1.0);
 #endif

@@ -1,6 +1,6 @@
-// Provides: the requested outputs; COLOUR, RANGE and IDS are their locations, or undefined.
+// Provides: the requested outputs; the switches COLOUR, RANGE and IDS are their locations, or undefined.
 // Needs: nothing.
-// Colour 0..1 stored value; range [m] along the ray, inf = nothing; id 0 = nothing.
+// Colour: stored values 0..1. Range: along the ray [m], inf: no surface. Id 0: no surface.
 #ifdef COLOUR
 layout(location = COLOUR) out vec4 colour_out;
 #endif

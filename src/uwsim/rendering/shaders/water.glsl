@@ -1,6 +1,7 @@
-// Provides: through_water(lit, range, fog_range, depth), a surface's colour as seen by the camera.
-// Needs: varyings.glsl, the switch NO_FOG where the density is 0; range along the ray, distance for the fog, depth below the surface [m].
-// E = exp(-2 a r); lit E + w (1 - E exp(-0.001 depth)); then fog exp(-(f s)^2): compatibility 3.9.
+// Provides: through_water(lit, range, fog_range, depth), the colour of a surface at the camera.
+// Needs: varyings.glsl; the switch NO_FOG if the fog density is 0; range: along the ray in water, fog_range: distance in
+// the fog, depth: below the water's surface [m].
+// lit E + w (1 - E exp(-0.001 depth)) with E = exp(-2 a range), then fog with exp(-(f fog_range)^2): see water.py.
 vec3 through_water(vec3 lit, float range, float fog_range, float depth) {
     vec3 transmission = exp(v_attenuation * (-2.0 * range));
     float dimmed = exp(-0.001 * max(depth, 0.0));

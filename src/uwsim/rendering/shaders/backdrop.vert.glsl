@@ -1,6 +1,6 @@
-// Provides: the vertices of a model on the image, where surface.vert.glsl has them to the last bit.
+// Provides: the vertices of a model on the image, bit for bit as surface.vert.glsl computes them.
 // Needs: frame.glsl, instance.glsl.
-// The same two products, so that depths are equal.
+// The same two matrix products, so that depths are equal.
 #include "frame.glsl"
 #include "instance.glsl"
 

@@ -1,4 +1,4 @@
-"""Draw batches one after another, and set only the state that differs from one to the next."""
+"""Draw calls for a sequence of batches, with as few changes of OpenGL's state as possible."""
 
 from __future__ import annotations
 
@@ -10,23 +10,23 @@ from .gpu_model import Batch
 from .instance import Instances, Slots
 
 Winding = Literal["cw", "ccw"]
-"""The winding, in an image, of triangles whose outside is visible."""
+"""The order of a triangle's vertices in an image if its outside is visible: clockwise or not."""
 
-OTHER: dict[Winding, Winding] = {"cw": "ccw", "ccw": "cw"}
+OPPOSITE: dict[Winding, Winding] = {"cw": "ccw", "ccw": "cw"}
 
 
-class Brush:
-    """A sequence of draw calls for the batches of one pass, with a depth test.
+class BatchDrawer:
+    """The drawer of the batches of one pass; it sets only the state that differs between batches.
 
-    A scene has dozens of batches, most of which have the same sides and instance as the previous
-    one. To set all state for each of them takes as long as to issue the draw calls.
+    A scene has dozens of batches. Most of them belong to the same instance as the previous batch.
+    To set all state for each batch takes as long as to issue the draw calls.
 
     Args:
-        context: with the framebuffer in use.
+        context: the context, with the framebuffer in use.
         instances: all instances.
-        slots: with the poses of the instances.
-        winding: winding of the outside of instances that are not mirrored. It is clockwise
-            in images, which are upside down for OpenGL.
+        slots: the buffer with the poses of the instances.
+        winding: the winding of instances that are not mirrored. It is clockwise in images, which
+            are upside down for OpenGL.
     """
 
     def __init__(
@@ -40,12 +40,12 @@ class Brush:
         self._two_sided: bool | None = None
 
     def draw(self, number: int, program: moderngl.Program) -> None:
-        """Draw all triangles of a batch by its number, from one side or both."""
+        """Draw all triangles of a batch by its number; two-sided batches from both sides."""
         row, batch = self._batches[number]
         if row != self._row:
             self._row = row
             self._slots.bind(row)
-            front = OTHER[self._winding] if self._is_mirrored[row] else self._winding
+            front = OPPOSITE[self._winding] if self._is_mirrored[row] else self._winding
             if front != self._front:
                 self._context.front_face = self._front = front
         if batch.two_sided != self._two_sided:
