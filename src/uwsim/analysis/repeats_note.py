@@ -4,14 +4,14 @@ from __future__ import annotations
 
 
 def repeats_note(n_results: int, n_levels: int, repeats: int) -> str | None:
-    """Return the note of `uwsim bench` at the start; None for one algorithm with one repeat.
+    """Return the note at the start of `uwsim bench`; None for one algorithm with one repeat.
 
-    For one algorithm, the note is on a comparison with one other.
+    For one algorithm, the note is about the comparison of its result with one other result.
 
     Args:
         n_results: the number of algorithms that run together.
         n_levels: the number of levels of the sweep.
-        repeats: the number of seeds of each.
+        repeats: the number of repeats (seeds) of each algorithm.
     """
     is_alone = n_results < 2
     if is_alone and repeats == 1:

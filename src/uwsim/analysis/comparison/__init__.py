@@ -1,4 +1,4 @@
-"""Pairwise comparison of results of one experiment."""
+"""The pairwise statistical comparison of the results of one experiment."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
 """The computation of a comparison: differences, intervals, tests, and the repeats needed.
 
-A repeat is a seed. The levels of one seed share its noise, its template or its history, and are not
-repeats. Each level is therefore tested over the seeds. The sweep as a whole is tested over one
-number a seed: its mean over the levels at which every seed has a value from both.
+A repeat is a seed. The levels of one seed share its noise, its template or its history, so they are
+not repeats. Each level is therefore tested over the seeds. The sweep as a whole is tested over one
+value for each seed: the mean over the levels at which every seed has a value in both results.
 """
 
 from __future__ import annotations
@@ -57,13 +57,14 @@ def compare_files(
 
     Args:
         paths: result directories, or their ``result.json``.
-        column: the name of the column to compare; None: the score.
-        baseline: the index of the path of the result that all others are compared with.
-        higher_is_better: a higher value is better; not so for errors.
-        force: compare results of different experiments, too.
+        column: the name of the column to compare; None for the score.
+        baseline: the index in ``paths`` of the result that all others are compared with; None to
+            compare each result with each.
+        higher_is_better: True if a higher value is better; False for errors.
+        force: True to compare results of different experiments, too.
 
     Raises:
-        ResultError: a result cannot be read, or they are of different experiments.
+        ResultError: a result cannot be read, or the results are of different experiments.
     """
     entries = read_entries(paths)
     compared_column = shared_column(entries, column)
@@ -93,6 +94,14 @@ def compare(
     remarks: tuple[str, ...] = (),
 ) -> Comparison:
     """Compare all results with the ``baseline``, or each with each.
+
+    Args:
+        entries: the results.
+        column: the column to compare.
+        baseline: the result that all others are compared with; None to compare each with each.
+        higher_is_better: True if a higher value is better.
+        experiment_differences: the differences between the experiments, from `differences`.
+        remarks: the remarks on the results, from `remarks`.
 
     Raises:
         ResultError: two results have no seed and level in common.
@@ -249,7 +258,11 @@ def _mean(values: Sequence[tuple[float, float]]) -> tuple[float, float]:
 def _correct_pairs(
     pairs: Sequence[PairComparison], higher_is_better: bool
 ) -> tuple[PairComparison, ...]:
-    """Correct the p-values of four families of tests, and add the verdicts."""
+    """Correct the p-values of four families of tests, and add the verdicts.
+
+    A family has all pairs of results: values at single levels, success at single levels, values
+    over the sweep, and success over the sweep.
+    """
     levels = [stats for pair in pairs for stats in pair.levels]
     values = _correct_family([stats.value for stats in levels], higher_is_better)
     successes = holm(
@@ -284,10 +297,11 @@ def _correct_pairs(
 def _correct_family(
     family: Sequence[PairedDifference], higher_is_better: bool
 ) -> list[PairedDifference]:
-    """Correct one family by Holm, add verdicts, and plan repeats for its strictest step.
+    """Apply Holm's correction to a family of tests; add verdicts and the repeats needed.
 
-    Tests that could not reach `ALPHA` alone are not part of it (Tarone 1990): they can never be
-    significant.
+    Tests that could not reach `ALPHA` without correction are not part of the family (Tarone 1990),
+    because they can never be significant. The repeats needed are planned for the strictest step of
+    the correction.
     """
     alpha, repeats_to_test = ALPHA / family_size(family), min_family_repeats(family)
     p_values = holm([d.p if d.is_tested else None for d in family])

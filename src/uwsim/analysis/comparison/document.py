@@ -6,9 +6,9 @@
     esm,ic,level,0.0,10,10,0.138,0.141,0.003,0.001,0.005,0.0527,...
     esm,ic,sweep,,10,10,0.42,0.48,0.06,0.02,0.11,0.0137,...
 
-There is a line for each level of each pair of results, and one for the sweep as a whole.
-Differences are second minus first. ``docs/statistics.md`` defines every column. An empty field has
-no value.
+There is a line for each level of each pair of results, and a line for the sweep as a whole.
+Differences are second minus first. ``docs/statistics.md`` defines every column. An empty field
+means that there is no value.
 """
 
 from __future__ import annotations
@@ -153,7 +153,7 @@ def _level_fields(stats: LevelStatistics) -> Fields:
 
 
 def _sweep_fields(sweep: SweepStatistics) -> Fields:
-    """Return the fields of `_level_fields` over the sweep; shares are means over the seeds."""
+    """Return the fields of `_level_fields` for the whole sweep; rates are means over the seeds."""
     success = sweep.success
     return {
         "seeds": list(sweep.seeds),

@@ -18,18 +18,18 @@ from ..plots import algorithm_of
 
 @dataclass(frozen=True, kw_only=True)
 class Entry:
-    """One of the results of a comparison."""
+    """A result in a comparison, with its name and source."""
 
     name: str
-    """The name of the algorithm; with the directory where two results are of one algorithm."""
+    """The name of the algorithm; with the directory if two results have the same algorithm."""
     source: str
-    """The result directory, with as many parents as make it unique."""
+    """The result directory, with as many parent directories as make it unique."""
     result: Result
-    """The contents of the result."""
+    """The content of the result."""
     sha256: str
-    """The hash of its ``result.json``."""
+    """The SHA-256 of ``result.json``."""
     check_note: str | None = None
-    """The rows that were not checked against journals, with the reason; None: all were checked."""
+    """A text on the rows not checked against journals, and why; None if all rows were checked."""
 
 
 def read_entries(paths: Sequence[Path]) -> tuple[Entry, ...]:
@@ -47,7 +47,7 @@ def read_entries(paths: Sequence[Path]) -> tuple[Entry, ...]:
     if len(paths) < 2:
         raise ResultError("A comparison needs at least two results.")
     check_notes = [
-        check_rows(result, place) for result, place in zip(results, directories, strict=True)
+        check_rows(result, folder) for result, folder in zip(results, directories, strict=True)
     ]
     sources = _unique_path_ends(directories)
     algorithms = [algorithm_of(result) or "no algorithm" for result in results]
@@ -66,11 +66,12 @@ def read_entries(paths: Sequence[Path]) -> tuple[Entry, ...]:
 
 
 def shared_column(entries: Sequence[Entry], name: str | None) -> Column:
-    """Return the column to compare: ``name``, else the score.
+    """Return the column to compare: ``name``, or by default the score.
 
     Raises:
         UnknownName: a result has no such column.
-        ResultError: it has no numbers, its units differ, or the results sweep other parameters.
+        ResultError: the column has no numbers, its units differ, or the results sweep different
+            parameters.
     """
     first_result = entries[0].result
     if name is None:
@@ -131,9 +132,10 @@ def remarks(entries: Sequence[Entry]) -> tuple[str, ...]:
 
 
 def count_same_images(first_result: Result, second_result: Result) -> tuple[int, int] | None:
-    """Return the number of image streams that both have, and the number of identical ones.
+    """Return the number of image streams that both results have, and how many are identical.
 
-    None where they have none in common: no camera was read, or the seeds differ.
+    Returns:
+        None if the results have no stream in common: no camera was read, or the seeds differ.
     """
     hashes = {(s.seed, s.level, s.topic): s.sha256 for s in first_result.image_streams}
     matches = [
@@ -170,7 +172,7 @@ _EXPERIMENT_CONDITIONS: dict[str, Callable[[Result], str]] = {
     "compatibility": lambda result: _value_text(result.run.compatibility),
     "settings of the scene": _scene_settings,
 }
-"""A condition that is the same in one experiment -> its text in a message."""
+"""The conditions that are the same in all results of an experiment: name -> value as text."""
 
 
 def _file_differences(entries: Sequence[Entry], role: str, file_kind: str) -> list[str]:

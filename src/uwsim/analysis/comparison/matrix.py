@@ -7,9 +7,9 @@
     ecc      93 %  not shown +0.12               better -44.5
     frozen  100 %  worse +44.6    worse +44.5
 
-A cell states whether its row is better than its column after Holm's correction over all pairs of
-results, and the mean difference, row minus column. Rows are sorted by wins minus losses. With a
-baseline there is one column.
+A cell states whether the result of its row is better than the result of its column, after Holm's
+correction over all pairs of results, and the mean difference, row minus column. Rows are sorted by
+wins minus losses. With a baseline, the baseline is the only column.
 """
 
 from __future__ import annotations
@@ -53,7 +53,7 @@ class Cell:
     """The comparison of one result with another."""
 
     verdict: CellVerdict
-    """The verdict on the row against the column."""
+    """The verdict on the result of the row against the result of the column."""
     text: str
     """The verdict with the mean difference, row minus column: ``better -44.6``."""
 
@@ -70,7 +70,7 @@ class MatrixRow:
     name: str
     """The name of the result."""
     ok: str
-    """The share of its rows that ended ``ok``, ``93 %``; a dash where it is not recorded."""
+    """The rate of rows of the result that ended ``ok``, ``93 %``; a dash if it is not recorded."""
     cells: tuple[Cell, ...]
     """The cells, in the order of the matrix's columns."""
 
@@ -143,7 +143,7 @@ def few_repeats_text(d: PairedDifference) -> str:
 def _sorted_indices(
     n: int, pairs: Mapping[tuple[int, int], tuple[PairComparison, bool]]
 ) -> list[int]:
-    """Return the indices of the results by wins minus losses, equal ones in their order."""
+    """Return the indices of the results, sorted by wins minus losses (a stable sort)."""
     scores = [0] * n
     for i, j in pairs:
         verdict = _cell(pairs, i, j).verdict

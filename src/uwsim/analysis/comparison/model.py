@@ -15,48 +15,51 @@ from .repeats import ALPHA
 
 CONFIDENCE = 0.95
 POWER = 0.8
-"""The probability that the repeats needed show an effect of the observed size."""
+"""The probability with which the repeats needed would show an effect of the observed size."""
 
 Verdict = Literal["first", "second", "not shown", "too few", "equal", "one repeat", "no pair"]
-"""The result that is better, or the reason why none is named. ``too few``: with so many repeats no
-values can show a difference (`min_corrected_p`), so nothing was tested."""
+"""The better result, or the reason why there is none. ``too few`` means that no values could show a
+difference with this number of repeats (`min_corrected_p`), so nothing was tested."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class PairedDifference:
-    """The paired differences, second minus first, over the pairs in which both have a value."""
+    """The paired differences of two results, second minus first.
+
+    Only pairs in which both results have a value count.
+    """
 
     first: Interval
-    """The mean of the first over these pairs, with its interval."""
+    """The mean of the first result over these pairs, with its confidence interval."""
     second: Interval
-    """The mean of the second over these pairs, with its interval."""
+    """The mean of the second result over these pairs, with its confidence interval."""
     difference: Interval
-    """The mean of the paired differences, with its interval."""
+    """The mean of the paired differences, with its confidence interval."""
     cohens_d: float | None
-    """The mean difference over the standard deviation of the differences."""
+    """Cohen's d: the mean difference divided by the standard deviation of the differences."""
     hedges_g: float | None
     """The unbiased estimate of `cohens_d` for few repeats."""
     rank_biserial: float | None
     """The rank-biserial correlation of the signed ranks, -1 to 1."""
     superiority: float | None
-    """Vargha and Delaney's A, the probability that a value of the second is better than one of the
-    first; None for fewer than two repeats."""
+    """Vargha and Delaney's A, the probability that a value of the second result is better than a
+    value of the first; None for fewer than two repeats."""
     p: float | None
     """The p-value of the sign-flip test; None for fewer than two repeats."""
     p_signed_rank: float | None
     """The p-value of Wilcoxon's signed-rank test."""
     p_holm: float | None = None
-    """The p-value `p`, corrected over its family; None for too few repeats to reach `ALPHA`."""
+    """The p-value `p` after Holm's correction; None if the repeats are too few to reach `ALPHA`."""
     repeats_needed: int | None = None
     """The number of repeats that would show the observed effect; None without an effect."""
     repeats_to_test: int | None = None
-    """The number of repeats below which no test of its family can show a difference."""
+    """The number of repeats below which no test of the family can show a difference."""
     verdict: Verdict = "no pair"
     """The verdict on the two results."""
 
     @property
     def is_tested(self) -> bool:
-        """True if the repeats are enough for p to reach `ALPHA`."""
+        """True if there are enough repeats for p to reach `ALPHA`."""
         return self.difference.n >= min_pairs(ALPHA)
 
     @property
@@ -74,24 +77,24 @@ class PairedDifference:
 
 @dataclass(frozen=True, kw_only=True)
 class Success:
-    """The rates of success: both, one or neither ended ``ok``."""
+    """The success rates (of ``ok``) of two results at one level, and their comparison."""
 
     first: Rate
-    """The rate of the first."""
+    """The success rate of the first result."""
     second: Rate
-    """The rate of the second."""
+    """The success rate of the second result."""
     first_only: int
-    """The number of pairs in which only the first ended ``ok``."""
+    """The number of pairs in which only the first result ended ``ok``."""
     second_only: int
-    """The number of pairs in which only the second ended ``ok``."""
+    """The number of pairs in which only the second result ended ``ok``."""
     p: float | None
     """The p-value of McNemar's exact test; None for fewer than two repeats."""
     p_holm: float | None = None
-    """The p-value `p`, corrected over its family; None for too few unlike pairs."""
+    """The p-value `p` after Holm's correction; None for too few discordant pairs."""
 
     @property
     def is_tested(self) -> bool:
-        """True if the unlike pairs are enough for p to reach `ALPHA`."""
+        """True if there are enough discordant pairs (one ``ok``, one not) to reach `ALPHA`."""
         return self.first_only + self.second_only >= min_pairs(ALPHA)
 
 
@@ -100,39 +103,40 @@ class LevelStatistics:
     """The comparison of two results at one level, over the seeds."""
 
     level: Level
-    """The swept parameters, outermost first."""
+    """The values of the swept parameters, outermost first."""
     seeds: tuple[int, ...]
     """The seeds of the pairs."""
     n_only_first: int
-    """The number of pairs in which only the first has a value."""
+    """The number of pairs in which only the first result has a value."""
     n_only_second: int
-    """The number of pairs in which only the second has a value."""
+    """The number of pairs in which only the second result has a value."""
     n_neither: int
-    """The number of pairs in which neither has a value."""
+    """The number of pairs in which neither result has a value."""
     value: PairedDifference
-    """The differences of the measure, over the pairs in which both have a value."""
+    """The differences of the compared column, over the pairs in which both results have a value."""
     success: Success | None
-    """The rates of success over all pairs; None where a result has no status."""
+    """The success rates over all pairs; None if a result has no status."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class SweepStatistics:
-    """The comparison of two results over the whole sweep, with one number a seed."""
+    """The comparison of two results over the whole sweep, with one value for each seed."""
 
     seeds: tuple[int, ...]
-    """The seeds that both ran at every shared level."""
+    """The seeds that both results have at every shared level."""
     n_levels: int
     """The number of shared levels."""
     levels: tuple[Level, ...]
-    """The levels at which all these seeds have a value from both."""
+    """The levels at which all these seeds have a value in both results."""
     value: PairedDifference
-    """The differences of the seeds' means over `levels`."""
+    """The differences of the means over `levels`, a mean for each seed."""
     success: PairedDifference | None
-    """The differences of the seeds' shares of levels that ended ``ok``, 0 to 1; more is better."""
+    """The differences of the fraction of levels that ended ``ok`` [1], a fraction for each seed;
+    a higher fraction is better. None if a result has no status."""
     n_first_smaller: int
-    """The number of levels at which the mean of the first is smaller; a description, not a test."""
+    """The number of levels at which the mean of the first result is smaller; this is no test."""
     n_second_smaller: int
-    """The number of levels at which the mean of the second is smaller."""
+    """The number of levels at which the mean of the second result is smaller."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -148,11 +152,12 @@ class PairComparison:
     sweep: SweepStatistics
     """The comparison over the whole sweep."""
     n_only_first: int
-    """The number of rows that only the first has."""
+    """The number of rows that only the first result has."""
     n_only_second: int
-    """The number of rows that only the second has."""
+    """The number of rows that only the second result has."""
     same_images: tuple[int, int] | None
-    """The number of image streams that both have, and of identical ones; None without any."""
+    """The number of image streams that both results have, and how many of them are identical; None
+    if they have none in common."""
 
     @property
     @deprecated_name("sweep")
@@ -168,7 +173,7 @@ class Comparison:
     entries: tuple[Entry, ...]
     """The results, the baseline first if there is one."""
     baseline: Entry | None
-    """The baseline; None: each result is compared with each."""
+    """The baseline; None if each result is compared with each."""
     column: Column
     """The column that is compared."""
     higher_is_better: bool
@@ -226,7 +231,7 @@ class Comparison:
 
 
 def family_size(family: Sequence[PairedDifference]) -> int:
-    """Return the number of tests that Holm counts; without any, the number that may be possible."""
+    """Return the number of tests in Holm's correction; if none is tested, of pairs with a value."""
     n_tested = sum(d.is_tested for d in family)
     return n_tested or sum(d.difference.n > 0 for d in family) or 1
 
@@ -241,9 +246,9 @@ def min_family_repeats(family: Sequence[PairedDifference]) -> int:
 
 
 def min_corrected_p(family: Sequence[PairedDifference]) -> tuple[float | None, ...]:
-    """Return the smallest possible p of each test after Holm's correction; None: not tested.
+    """Return the smallest possible p of each test after Holm's correction; None if not tested.
 
-    A corrected p never falls when the p of another test rises. The smallest one therefore has all
-    tests at their minimum (`min_p_value`), which depends on their numbers of pairs alone.
+    A corrected p never falls when the p of another test rises. So a corrected p is smallest when
+    all tests have their smallest p (`min_p_value`), which depends on their numbers of pairs alone.
     """
     return holm([min_p_value(d.difference.n) if d.is_tested else None for d in family])

@@ -1,4 +1,4 @@
-"""The page of a comparison: one HTML file without scripts, which loads no other file."""
+"""The HTML page of a comparison: one file without scripts, which loads no other file."""
 
 from __future__ import annotations
 

@@ -10,6 +10,7 @@ from ...results.result import Result
 from .inputs import Entry
 
 Level = tuple[float, ...]
+"""The values of the swept parameters, outermost first."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -17,15 +18,15 @@ class RowPair:
     """The rows of two results at one level of one repeat."""
 
     seed: int
-    """The seed of both."""
+    """The seed of both rows."""
     first_value: float | None
-    """The value of the first; None where it is missing."""
+    """The value in the first result; None if it is missing."""
     second_value: float | None
-    """The value of the second; None where it is missing."""
+    """The value in the second result; None if it is missing."""
     first_ok: bool | None
-    """True if the first ended ``ok``; None where its result has no status."""
+    """True if the first row ended ``ok``; None if the first result has no status."""
     second_ok: bool | None
-    """True if the second ended ``ok``; None where its result has no status."""
+    """True if the second row ended ``ok``; None if the second result has no status."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,9 +36,9 @@ class PairedRows:
     levels: dict[Level, tuple[RowPair, ...]]
     """The pairs of each level, in the order of the first result."""
     n_only_first: int
-    """The number of rows of the first that the second does not have."""
+    """The number of rows of the first result without a partner in the second."""
     n_only_second: int
-    """The number of rows of the second that the first does not have."""
+    """The number of rows of the second result without a partner in the first."""
 
 
 def pair_rows(first_entry: Entry, second_entry: Entry, column: str) -> PairedRows:
@@ -76,7 +77,7 @@ def pair_rows(first_entry: Entry, second_entry: Entry, column: str) -> PairedRow
 
 
 def _rows(entry: Entry) -> dict[tuple[int, Level, int], int]:
-    """Return the row number of each seed, level and number of earlier rows of both."""
+    """Return the row number for each key: seed, level, number of earlier rows with these two."""
     seeds = seeds_of(entry.result)
     row_numbers: dict[tuple[int, Level, int], int] = {}
     for level, rows in rows_by_level(entry.result).items():

@@ -1,4 +1,4 @@
-"""The sentences of a comparison: the better result, its certainty, and the repeats needed."""
+"""The conclusions of a comparison in sentences: the better result, the evidence, repeats needed."""
 
 from __future__ import annotations
 
@@ -114,7 +114,7 @@ def _interval_text(interval: Interval, mean: float, unit: str) -> str:
 
 
 def distinct_texts(low: float, high: float) -> tuple[str, str]:
-    """Return two numbers with three digits, or the number up to seven at which they differ."""
+    """Return two numbers with three significant digits, or more (up to seven) until they differ."""
     for digits in range(3, 8):
         texts = f"{low:.{digits}g}", f"{high:.{digits}g}"
         if texts[0] != texts[1]:
@@ -320,7 +320,7 @@ def _range_text(numbers: Sequence[int]) -> str:
 
 
 def _rounded_count(n: int) -> str:
-    """Return a number of repeats in two digits: ``34``, ``290``, ``more than 1000``."""
+    """Return a number of repeats, rounded up to two digits: ``34``, ``290``, ``more than 1000``."""
     if n > 1000:
         return "more than 1000"
     return str(n if n < 100 else math.ceil(n / 10) * 10)

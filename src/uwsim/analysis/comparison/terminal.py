@@ -26,24 +26,24 @@ LEGEND = (
     "See docs/statistics.md."
 )
 OMITTED_COLUMNS = ("a", "g", "ok", "n")
-"""The columns that a narrow terminal omits, in this order, by their field of `ComparisonLine`.
-Headings are not used here: an algorithm may have any name."""
+"""The columns that a narrow terminal omits, in this order, by their field of `ComparisonLine`. They
+are not named by their headings, because a heading may be the name of an algorithm."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class TableColumn:
-    """One column of a table."""
+    """One column of a table, as text."""
 
     kind: str
-    """The field of `ComparisonLine` that it shows."""
+    """The field of `ComparisonLine` that the column shows."""
     heading: str
-    """The heading; two columns may have the same."""
+    """The heading; two columns may have the same heading."""
     cells: tuple[str, ...]
-    """The text of each line."""
+    """The text in each line."""
 
     @property
     def width(self) -> int:
-        """The number of letters of its longest text."""
+        """The width of the longest text [characters]."""
         return max(len(self.heading), *map(len, self.cells))
 
 
@@ -52,15 +52,15 @@ class ComparisonLine:
     """One level of one pair of results, as text."""
 
     level: tuple[str, ...]
-    """The swept parameters."""
+    """The values of the swept parameters, outermost first."""
     n: str
-    """The number of pairs with a value from both."""
+    """The number of pairs with a value in both results."""
     first_mean: str
-    """The mean of the first."""
+    """The mean of the first result."""
     second_mean: str
-    """The mean of the second."""
+    """The mean of the second result."""
     difference: str
-    """The difference, second minus first, with its interval."""
+    """The mean difference, second minus first, with its confidence interval."""
     g: str
     """Hedges' g."""
     a: str
@@ -68,7 +68,7 @@ class ComparisonLine:
     p: str
     """The p-value after Holm's correction."""
     ok: str
-    """The numbers of repeats that ended ok, first and second: ``10 : 8 of 10``."""
+    """The number of repeats that ended ok, in the first and the second: ``10 : 8 of 10``."""
     verdict: str
     """The short verdict."""
     repeats_needed: str
@@ -78,7 +78,7 @@ class ComparisonLine:
 
 
 def lines(comparison: Comparison, pair: PairComparison) -> tuple[ComparisonLine, ...]:
-    """Return the table of one pair of results, a line a level."""
+    """Return the table of one pair of results, with a line for each level."""
     columns = pair.first.result.columns_of_kind("level")
     level_decimals = [
         exact_decimals([stats.level[i] for stats in pair.levels]) for i in range(len(columns))
@@ -117,7 +117,7 @@ def renderables(comparison: Comparison, *, width: int) -> Iterator[RenderableTyp
 
 
 def _matrix_parts(comparison: Comparison, width: int) -> Iterator[RenderableType]:
-    """Yield the matrix in words where the terminal is wide enough, else in symbols."""
+    """Yield the matrix in words if the terminal is wide enough, or else in symbols."""
     verdicts = matrix(comparison)
     yield Text(matrix_title(comparison), style="bold")
     table_width = max(len(row.name) for row in verdicts.rows) + len("  100 %")

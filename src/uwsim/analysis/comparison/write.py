@@ -1,4 +1,4 @@
-"""The files in the directory of a comparison."""
+"""The writing of the files of a comparison into its directory."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from .plots import draw_comparison
 WRITTEN_FILES = re.compile(
     r"(comparison\.(json|csv|html)|plots/(curves|differences|success)\.(png|pdf))"
 )
-"""The files that uwsim writes into the directory of a comparison."""
+"""The paths of the files that uwsim writes into the directory of a comparison."""
 WRITTEN_FOLDERS = ("plots",)
 PAGE = "comparison.html"
 

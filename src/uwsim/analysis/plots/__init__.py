@@ -1,4 +1,4 @@
-"""Plots of results."""
+"""Plots of results: columns over levels, measures over time, tracks from above."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Curves: a column of a result over its levels."""
+"""Curves: the values of a column of a result over its levels."""
 
 from __future__ import annotations
 
@@ -15,22 +15,22 @@ from ...results.table import unit_of
 
 @dataclass(frozen=True, kw_only=True)
 class Curve:
-    """One line of a plot: a column over the innermost level, means over repeats."""
+    """One line of a plot: the means of a column, over repeats, at each innermost level."""
 
     name: str
     """The name in the legend."""
     x: tuple[float, ...]
     """The values of the innermost level."""
     mean: tuple[float, ...]
-    """The mean at each level; NaN, which is not drawn, where there is none."""
+    """The mean at each level; NaN, which is not drawn, if no repeat has a value."""
     low: tuple[float, ...]
-    """The lower limit of the 95 % interval; NaN where there is none."""
+    """The lower limit of the 95 % interval at each level; NaN if there is none."""
     high: tuple[float, ...]
-    """The upper limit of the 95 % interval; NaN where there is none."""
+    """The upper limit of the 95 % interval at each level; NaN if there is none."""
     n_missing: tuple[int, ...]
     """The number of repeats without a value at each level."""
     values: tuple[tuple[float, ...], ...]
-    """The values at each level, one for each repeat that has one."""
+    """The values at each level, one for each repeat that has a value."""
     losses: tuple[tuple[float, str], ...]
     """The level and status of the first level of each repeat that did not end ``ok``."""
     reason: str | None
@@ -43,20 +43,20 @@ class Curve:
 
     @property
     def span(self) -> tuple[float, float] | None:
-        """The least mean, and the greatest mean or limit; None where there is no value."""
+        """The least mean, and the greatest mean or upper limit; None if there is no value."""
         present_means = [v for v in self.mean if not np.isnan(v)]
         limits = [v for v in self.high if not np.isnan(v)]
         return (min(present_means), max(present_means + limits)) if present_means else None
 
     @property
     def mean_text(self) -> str:
-        """The range of its means as text: ``48.6``, or ``32 to 48.6``."""
+        """The range of the means as text: ``48.6``, or ``32 to 48.6``."""
         mean_texts = [f"{v:.3g}" for v in sorted(self.mean) if not np.isnan(v)] or ["nan"]
         return " to ".join(dict.fromkeys([mean_texts[0], mean_texts[-1]]))
 
     @property
     def loss_text(self) -> str:
-        """The text ``lost at 1.2``, over repeats ``lost at 1.15 to 1.25``; empty without a loss."""
+        """The text ``lost at 1.2``, with repeats ``lost at 1.15 to 1.25``; empty without a loss."""
         if not self.losses:
             return ""
         statuses = sorted({status for _, status in self.losses})
@@ -66,7 +66,7 @@ class Curve:
 
 
 def curves_of(result: Result, column: str) -> list[Curve]:
-    """Return one curve, or with nested levels one for each combination of the outer levels."""
+    """Return the curves of a column: one for each combination of the outer levels, if any."""
     outer_columns = result.columns_of_kind("level")[:-1]
     numbers, rows = result.numbers(column), rows_by_level(result)
     level_intervals: dict[tuple[float, ...], list[LevelInterval]] = {}

@@ -1,4 +1,4 @@
-"""The drawing of curves on axes, with their ends, predictions and labels."""
+"""The drawing of curves on axes, with losses, the predicted loss, labels and legends."""
 
 from __future__ import annotations
 
@@ -23,21 +23,21 @@ from .panels import choose_evenly
 from .style import GREY, INK, MARKERS, PALETTE, escape, level_label, shorten_name
 
 CONTROL = "frozen"
-"""The control: the algorithm that repeats its initial corners; dashed in every plot."""
+"""The control, an algorithm that repeats its initial corners; its line is dashed in every plot."""
 MAX_LEGEND_ENTRIES = 18
-"""The greatest number of entries of a legend; of more, the first, the last and some between."""
+"""The greatest number of entries of a legend; of more entries, evenly chosen ones are shown."""
 CONTROL_CLIP_RATIO = 2.5
-"""The control is clipped when it is higher than all other curves by this factor."""
+"""The factor by which the control must be higher than all other curves to be clipped [1]."""
 INTEGER_LEVELS = ("armPosition", "iteration")
 """The levels with integer values."""
 LABEL_WIDTH = 28
-"""The number of letters in a line of an axis label."""
+"""The greatest number of characters in a line of an axis label."""
 MAX_LEVEL_TICKS = 6
 """The greatest number of levels that all have ticks."""
 MIN_BOX_VALUES = 5
-"""The least number of values of a level with a box."""
+"""The least number of values for which a box of quartiles is drawn."""
 MAX_INSIDE = 4
-"""The greatest number of curves with the legend inside the axes."""
+"""The greatest number of curves for which the legend is inside the axes."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,7 +53,7 @@ CONTROL_STYLE = LineStyle(colour=INK, marker="o", dashes=(0, (4, 2)))
 
 
 def curve_style(i: int, n: int) -> LineStyle:
-    """Return the style of curve i of n; many curves have the colours of a scale."""
+    """Return the style of curve i of n; if there are many curves, colours are from a colour map."""
     marker = MARKERS[i % len(MARKERS)]
     if n <= len(PALETTE):
         return LineStyle(colour=PALETTE[i], marker=marker)
@@ -106,13 +106,13 @@ def add_legend(axes: Axes, n_curves: int) -> None:
 
 
 def legend_entries(axes: Axes) -> tuple[list[Artist], list[str]]:
-    """Return handles and names of the legend; of many, the first, the last and some between."""
+    """Return the handles and names in the legend; of many, evenly chosen ones."""
     handles, names = axes.get_legend_handles_labels()
     return choose_evenly(handles, MAX_LEGEND_ENTRIES), choose_evenly(names, MAX_LEGEND_ENTRIES)
 
 
 def draw_curve(axes: Axes, curve: Curve, style: LineStyle, name: str) -> None:
-    """Draw the means with their band; markers are hollow where a repeat has no value."""
+    """Draw the means with the band of their intervals; a level with missing values is hollow."""
     is_control = style is CONTROL_STYLE
     axes.plot(
         curve.x,
@@ -168,7 +168,7 @@ def draw_boxes(
     colour: str,
     **settings: Any,
 ) -> None:
-    """Draw boxes of quartiles with medians and whiskers, behind points; without outliers.
+    """Draw boxes of quartiles with medians and whiskers, but no outliers, behind the points.
 
     Args:
         axes: the axes to draw on.
@@ -176,7 +176,7 @@ def draw_boxes(
         positions: the positions of the boxes along the other axis.
         width: the width of each box, in units of the other axis.
         colour: the colour of the lines.
-        settings: other settings of `Axes.boxplot`.
+        settings: other arguments of `Axes.boxplot`.
     """
     line_settings = {"color": colour, "linewidth": 0.7, "alpha": 0.8}
     axes.boxplot(
@@ -195,7 +195,7 @@ def draw_boxes(
 
 
 def _box_width(levels: Iterable[float]) -> float:
-    """Return the width of a box: 0.36 of the least step, and a tenth of the axis at most."""
+    """Return the width of a box: 0.36 of the least level step, at most a tenth of the axis."""
     xs = sorted(set(levels))
     if len(xs) < 2:
         return 0.3
@@ -203,7 +203,7 @@ def _box_width(levels: Iterable[float]) -> float:
 
 
 def _draw_losses(axes: Axes, curve: Curve, has_label: bool) -> None:
-    """Mark the first level that did not end ok by a line, over repeats by a band."""
+    """Mark the first level that did not end ok with a line; several repeats with a band."""
     if not curve.losses:
         return
     levels = [level for level, _ in curve.losses]
@@ -244,7 +244,7 @@ def draw_prediction(axes: Axes, result: Result, has_label: bool = True) -> None:
 
 
 def _two_decimals(number: float) -> str:
-    """Return a number with two decimals, a large one with three digits."""
+    """Return a number with two decimals, or a large number with three significant digits."""
     return f"{number:.2f}" if abs(number) < 1e4 else f"{number:.3g}"
 
 
@@ -255,7 +255,7 @@ def is_fog_swept(result: Result) -> bool:
 
 
 def _write_above_axes(axes: Axes, x: float, text: str, colour: str, *, line: int) -> None:
-    """Write a text above the axes that ends (on the left half: begins) at a vertical line."""
+    """Write a text above the axes that ends (in the left half: begins) at the vertical line x."""
     low, high = axes.get_xlim()
     axes.annotate(
         text,
@@ -271,7 +271,7 @@ def _write_above_axes(axes: Axes, x: float, text: str, colour: str, *, line: int
 
 
 def label_axes(axes: Axes, result: Result, column: Column, label_width: int = LABEL_WIDTH) -> None:
-    """Label the axes with units; few levels have a tick each."""
+    """Label the axes with units, and set the ticks; a few levels all have a tick."""
     levels = result.columns_of_kind("level")
     if levels:
         axes.set_xlabel(escape(level_label(levels[-1])))
@@ -293,9 +293,10 @@ def label_axes(axes: Axes, result: Result, column: Column, label_width: int = LA
 
 
 def scale_axes(axes: Axes, curves: Sequence[Curve]) -> None:
-    """Begin at 0 without negative values; use a logarithmic axis between 1 : 50 and 1 : 1000.
+    """Set the vertical scale: logarithmic for ratios from 50 to 1000, or else linear from 0.
 
-    Values below a thousandth of the largest one count as zero (a control that repeats the truth).
+    Negative values leave the scale unchanged. Values below a thousandth of the largest value count
+    as zero (as those of a control that repeats the truth).
     """
     values = np.array([v for curve in curves for v in curve.mean if not np.isnan(v)])
     if values.size == 0 or values.min() < 0:
@@ -323,7 +324,7 @@ def _is_far_above(other: Curve, curves: Sequence[Curve]) -> bool:
 
 
 def write_no_data(axes: Axes, reason: str | None) -> None:
-    """Write the reason for a missing curve in its place."""
+    """Write the reason for missing values in the middle of the axes."""
     axes.text(
         0.5,
         0.5,

@@ -1,10 +1,11 @@
 """Plots of a result over its levels.
 
-Every plot is drawn from results alone. Axes have units. A loss is a vertical line with its level;
-where several curves share the axes, it is a cross at the last value before it. Bands are 95 %
-intervals of the mean over repeats; a hollow marker has repeats without a value. The control
-(`frozen`, which reads no image) is a dashed line, or only named when it is far above. A column
-without values has the reason in its place. No plot has a title.
+Every plot is drawn from results alone. Axes have units. A loss (the first level that did not end
+``ok``) is a vertical line with the level; if several curves share the axes, a cross marks the last
+value before the loss. Bands are 95 % intervals of the mean over repeats. A hollow marker means that
+some repeats have no value. The control (`frozen`, which reads no image) is a dashed line, or only
+named in the legend if its values are far above. If a column has no values, the reason is written on
+the axes. No plot has a title.
 """
 
 from __future__ import annotations
@@ -44,7 +45,7 @@ MAX_PANELS_IN_COLUMN = 8
 
 
 def value_plot(result: Result, column: str, *, control: Result | None = None) -> Figure:
-    """Draw one column over the levels; ``control`` is the same benchmark run with `frozen`."""
+    """Draw one column over the levels; ``control`` is the result of the control `frozen`."""
     curves = curves_of(result, column)
     with styled_figure(_widen_for_legend(SIZE, len(curves))) as figure:
         axes = figure.subplots()
@@ -82,12 +83,13 @@ def small_multiples(result: Result, *, control: Result | None = None) -> Figure:
 def compare_plot(
     results: Sequence[Result], column: str, *, names: Sequence[str] | None = None
 ) -> Figure:
-    """Draw one column of several results of the same benchmark, a line a result.
+    """Draw one column of several results of the same benchmark, with a line for each result.
 
     Args:
         results: the results to draw.
         column: the name of the column.
-        names: the names in the legend; None: the algorithms, with the seed where two are equal.
+        names: the names in the legend; None for the names of the algorithms, with the seed if two
+            are equal.
 
     Raises:
         ResultError: the results sweep different levels, or the column has different units.
@@ -132,11 +134,11 @@ def draw_plots(
     Args:
         result: the result to draw.
         directory: the folder for the plots; it is created if it does not exist.
-        control: the same benchmark run with `frozen`.
-        pdf: write each plot as PDF, too, which takes three times as long.
+        control: the result of the control `frozen`; None without a control.
+        pdf: True to write each plot as PDF, too, which takes three times as long.
 
     Returns:
-        The paths of the PNGs, the total first, the overview of all measures last.
+        The paths of the PNG files: the total first, the overview of all measures last.
     """
     directory.mkdir(parents=True, exist_ok=True)
     files: list[Path] = []

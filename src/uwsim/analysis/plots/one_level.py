@@ -1,4 +1,4 @@
-"""The plot of a result of one level: a row for each column, with a point for each repeat."""
+"""The plot of a result with one level: a row for each column, with a point for each repeat."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ MARKS_NOTE = "dots: repeats; circle: mean with its 95 % interval; boxes: quartil
 
 
 def one_level_plot(result: Result) -> Figure | None:
-    """Draw the values of all repeats, a row for each column; None where no column has values."""
+    """Draw the values of all repeats, in a row for each column; None if no column has values."""
     columns = result.columns_of_kind("score") + result.columns_of_kind("measure")
     column_curves = [(column, curves_of(result, column.name)) for column in columns]
     rows = [(column, c[0]) for column, c in column_curves if c and c[0].values[0]]

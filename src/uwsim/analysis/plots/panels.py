@@ -17,7 +17,7 @@ T = TypeVar("T")
 Level = tuple[float, ...]
 
 MAX_PANELS = 6
-"""The greatest number of levels in a figure; of more, the first, the last and some between."""
+"""The greatest number of levels in a figure; of more levels, evenly chosen ones are shown."""
 PANEL_WIDTH, PANEL_HEIGHT = 2.5, 1.9
 """The size of a panel with its title [inch]."""
 SINGLE_PANEL_SIZE = (5.0, 2.7)
@@ -33,7 +33,7 @@ class Panels:
     n_levels: int
     """The number of all levels."""
     is_square: bool = False
-    """True if the panels are as high as wide."""
+    """True if the panels are square."""
 
     @property
     def n_columns(self) -> int:
@@ -56,7 +56,7 @@ class Panels:
 
     @property
     def note(self) -> str:
-        """The note on a choice of levels; empty where all are shown."""
+        """The note on the choice of levels; empty if all levels are shown."""
         n = len(self.levels)
         return f"{n} of {self.n_levels} levels, evenly chosen" if n < self.n_levels else ""
 
@@ -70,7 +70,7 @@ class Panels:
         return list(grid[: len(self.levels)])
 
     def label(self, grid: Sequence[Axes], x: str, y: str) -> None:
-        """Label the axes at the left and at the bottom of the figure."""
+        """Label the axes at the left and at the bottom of the figure with ``x`` and ``y``."""
         layout = grid[0].figure.get_layout_engine()
         if isinstance(layout, ConstrainedLayoutEngine):
             layout.set(wspace=0.07)  # space between the numbers of two panels

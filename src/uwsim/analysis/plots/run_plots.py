@@ -1,4 +1,4 @@
-"""Plots of the time within the levels of a run: measures over time, tracks from above."""
+"""Plots of what happens within the levels of a run: measures over time, tracks from above."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ TIME_PLOT_SUFFIX = "-over-time"
 
 @dataclass(frozen=True, kw_only=True)
 class RunPlot:
-    """A plot of the time within the levels."""
+    """A plot of a run that is not a column over the levels."""
 
     path: Path
-    """The path of the PNG."""
+    """The path of the PNG file."""
     measure: str | None
-    """The measure that it shows over time; None for the tracks."""
+    """The name of the measure that the plot shows over time; None for other plots."""
     caption: str
-    """The caption; that of a measure follows its name and meaning."""
+    """The caption; for a measure, the part that follows the measure's name and meaning."""
 
 
 def draw_run_plots(
@@ -41,9 +41,9 @@ def draw_run_plots(
 
     Args:
         result: the result.
-        directory: the directory of the result, with its logs and motion tracks.
+        directory: the result directory, with its logs and motion tracks.
         folder: the folder for the plots.
-        pdf: write each plot as PDF, too.
+        pdf: True to write each plot as PDF, too.
     """
     plots: list[RunPlot] = []
 

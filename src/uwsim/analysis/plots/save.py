@@ -13,7 +13,7 @@ from .style import DPI, ignore_missing_glyphs
 
 
 def save_plot(figure: Figure, path: Path) -> Path:
-    """Write a plot as PNG with 200 dots an inch, without the date and the name of a program."""
+    """Write a plot as PNG with `DPI` dots per inch, without the date and the name of a program."""
     path.parent.mkdir(parents=True, exist_ok=True)
     FigureCanvasAgg(figure)
     engine, dpi = figure.get_layout_engine(), figure.dpi
@@ -29,7 +29,7 @@ def save_plot(figure: Figure, path: Path) -> Path:
 
 
 def save_pdf(figure: Figure, path: Path) -> Path:
-    """Write a plot as PDF with text as text, without the date and the name of a program."""
+    """Write a plot as PDF whose text can be searched, without date and name of a program."""
     settings = mpl.rc_context({"pdf.fonttype": 42})
     with settings, ignore_missing_glyphs(), atomic_write(path) as draft:
         figure.savefig(

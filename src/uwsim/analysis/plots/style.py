@@ -23,7 +23,7 @@ INK, GREY = "#222222", "#777777"
 DPI = 200
 SIZE = (5.0, 3.1)  # [inch]
 MAX_NAME_LENGTH = 36
-"""The greatest number of letters of a name before it is shortened."""
+"""The number of characters above which a name is shortened."""
 
 LEVEL_WORDS = {
     "armPosition": "arm position",
@@ -36,7 +36,7 @@ LEVEL_WORDS = {
     "none": "",
     "visibilityRange": "visibility range",
 }
-"""The label on an axis of each swept parameter."""
+"""The words for a swept parameter in the label of an axis."""
 
 STYLE: Any = {
     "font.family": "DejaVu Sans",
@@ -80,14 +80,14 @@ def write_note(figure: Figure, *lines: str) -> None:
 
 @contextmanager
 def ignore_missing_glyphs() -> Iterator[None]:
-    """Suppress the warnings about letters that the font lacks, which are drawn as boxes."""
+    """Suppress the warnings about characters that the font lacks, which are drawn as boxes."""
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", r"Glyph \d+ .* missing from", UserWarning)
         yield
 
 
 def escape(text: str) -> str:
-    """Return a text whose dollar signs matplotlib draws, and does not read as mathematics."""
+    """Return a text with escaped dollar signs, so that matplotlib does not read mathematics."""
     return re.sub(r"(?<!\\)\$", r"\\$", text)
 
 

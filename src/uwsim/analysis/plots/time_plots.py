@@ -1,8 +1,9 @@
 """The values of a measure over the time of a level, with quantiles over the seeds.
 
-Each panel is a level. With five seeds or more it has the median, the range of the middle half and
-that of the middle nine tenths; with fewer, the line of each seed and the median. Quantiles are over
-the seeds with a sample at that time: a level that ended before, or a lost target, has none.
+Each panel is a level. With five seeds or more, a panel shows the median and the ranges of the
+middle 50 % and 90 % of the seeds; with fewer seeds, a line for each seed and the median. Quantiles
+at a time are over the seeds that have a sample then: there is no sample after the end of a level or
+while a target is lost.
 """
 
 from __future__ import annotations
@@ -31,19 +32,19 @@ MIN_BAND_SEEDS = 5
 OUTER_QUANTILES, INNER_QUANTILES = (0.05, 0.95), (0.25, 0.75)
 """The quantiles at the edges of the outer and the inner band."""
 MAX_POINTS = 1500
-"""The greatest number of times at which a line has a point."""
+"""The greatest number of points of a line."""
 LOG_SCALE_RATIO = 50.0
-"""The axis is logarithmic where the lines differ by more than this factor."""
+"""The ratio of the medians of two levels above which the axis is logarithmic [1]."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Samples:
-    """The samples of a measure in one level, by seed."""
+    """The samples of a measure in one level, for all seeds."""
 
     times: Array
-    """The times since the start of the measure, (n,) [s]."""
+    """The times since the first sample of a seed, (n,) [s]."""
     values: Array
-    """The value of each seed, (seeds, n); NaN where there is none."""
+    """The values of each seed at these times, (seeds, n); NaN for a missing value."""
 
 
 def samples_of(result: Result, log: Log) -> dict[Level, Samples]:
@@ -71,7 +72,7 @@ def _table(seeds: Mapping[tuple[object, ...], Sequence[tuple[float, float]]]) ->
 
 
 def time_plot(result: Result, log: Log) -> Figure | None:
-    """Draw a measure over the time of each level; None where all samples are 0 or missing.
+    """Draw a measure over the time of each level; None if all samples are 0 or missing.
 
     Args:
         result: the result with the levels and seeds of the log.
@@ -103,7 +104,7 @@ def time_plot(result: Result, log: Log) -> Figure | None:
 
 
 def marks_note(n_seeds: int) -> str:
-    """Return the meaning of the lines and bands of so many seeds."""
+    """Return the meaning of the lines and bands for this number of seeds."""
     if n_seeds == 1:
         return ""
     if n_seeds < MIN_BAND_SEEDS:
@@ -129,7 +130,7 @@ def _draw(axes: Axes, samples: Samples) -> None:
         axes.plot(times, values[0], color=colour, linewidth=1.1)
         return
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore", RuntimeWarning)  # of times at which no seed has a value
+        warnings.simplefilter("ignore", RuntimeWarning)  # at some times no seed has a value
         median = np.nanmedian(values, axis=0)
         edges = [np.nanquantile(values, q, axis=0) for q in (OUTER_QUANTILES, INNER_QUANTILES)]
     if len(values) < MIN_BAND_SEEDS:
@@ -141,7 +142,7 @@ def _draw(axes: Axes, samples: Samples) -> None:
 
 
 def _scale(grid: Sequence[Axes], samples: Sequence[Samples]) -> None:
-    """Begin at 0 without negative values; use a logarithmic axis for very different levels."""
+    """Set the scales: from 0 without negative values, logarithmic for very different levels."""
     finite_values = [s.values[np.isfinite(s.values)] for s in samples]
     values = np.concatenate(finite_values)
     for axes in grid:

@@ -1,7 +1,7 @@
 """The tracks of vehicles and loose objects, seen from above.
 
-Each panel is a level with all of its seeds. The axes are x and y of the world frame, with one
-scale. A circle marks the start of a track in the level, a cross its end.
+Each panel is a level with all seeds. The axes are x and y of the world frame W, with equal scales.
+A circle marks the start of a vehicle's track in the level, a cross its end.
 """
 
 from __future__ import annotations
@@ -28,11 +28,11 @@ Array = npt.NDArray[np.float64]
 Level = tuple[float, ...]
 
 MAX_TRIALS = 120
-"""The greatest number of trials that are read, evenly chosen from more."""
+"""The greatest number of trials that are read; of more trials, evenly chosen ones."""
 MAX_POINTS = 600
 """The greatest number of points of a line."""
 MIN_MOTION = 0.02
-"""The least motion of a vehicle in a level that has a track [m]."""
+"""The least extent of the motion of a vehicle for which tracks are drawn [m]."""
 OBJECT_MARKER = "s"
 
 
@@ -45,7 +45,7 @@ class Track:
     is_vehicle: bool
     """True if the body is a vehicle."""
     points: Array
-    """The positions x and y in W, (n, 2) [m]."""
+    """The positions x and y in the world frame W, (n, 2) [m]."""
 
 
 def read_tracks(result: Result, directory: Path) -> dict[Level, list[Track]]:
@@ -67,7 +67,7 @@ def read_tracks(result: Result, directory: Path) -> dict[Level, list[Track]]:
 
 
 def track_plot(result: Result, tracks: Mapping[Level, Sequence[Track]]) -> Figure | None:
-    """Draw the tracks of each level; None where no vehicle moves."""
+    """Draw the tracks of each level; None if no vehicle moves."""
     vehicle_tracks = [t for group in tracks.values() for t in group if t.is_vehicle]
     if not any(_extent(track) >= MIN_MOTION for track in vehicle_tracks):
         return None
@@ -119,7 +119,7 @@ def _extent(track: Track) -> float:
 
 
 def _limits(tracks: Sequence[Track]) -> tuple[tuple[float, float], tuple[float, float]]:
-    """Return the limits of x and y: a square around all vehicles' tracks and near objects."""
+    """Return the limits of x and y [m]: a square around vehicles' tracks and nearby objects."""
     vehicles = np.concatenate([track.points for track in tracks if track.is_vehicle])
     middle = 0.5 * (vehicles.min(axis=0) + vehicles.max(axis=0))
     reach = max(float(np.ptp(vehicles, axis=0).max()), 0.5)

@@ -10,19 +10,19 @@ from ...results.result import Column, Result
 from ..plots import curves_of, is_fog_swept, label_of, repeats_of
 
 Notes = Mapping[str, MeasureNote]
-"""The note on each measure."""
+"""The description of each measure, by its name."""
 STATISTICS = {
     "mean": "mean over each level",
     "rms": "root mean square over each level",
     "max": "greatest value of each level",
 }
-"""The text in a caption of each detail of a measure."""
+"""The text in a caption for each statistic that can be the value of a measure."""
 
 
 def figure_caption(result: Result, column: Column, notes: Notes) -> str:
-    """Return the caption of a figure.
+    """Return the caption of the figure of a column.
 
-    ``corners [px]: distance between truth g and estimate e; mean over each level``.
+    For example ``corners [px]: distance between truth g and estimate e; mean over each level``.
     """
     if column.kind == "score":
         return f"{label_of(result, column)} = {column.expression}" if column.expression else (
@@ -46,9 +46,10 @@ def caption_over_time(result: Result, measure: str, time_text: str, notes: Notes
 
 
 def statistic_of(result: Result, measure: str, notes: Notes) -> str:
-    """Return the statistic of a measure's values; empty where it is unknown.
+    """Return the statistic that is the value of a measure, as text; empty if it is unknown.
 
-    The benchmark file states it (``u:value``); without `notes` the details show it.
+    The benchmark file states the statistic (``u:value``). Without `notes` it is found by comparing
+    the value with the details.
     """
     if (note := notes.get(measure)) is not None:
         return STATISTICS.get(note.value, "")

@@ -12,16 +12,17 @@ from ..plots import is_fog_swept
 from .outcomes import Ending
 
 PAPER_FOG, PAPER_DISTANCE, PAPER_VISIBILITY = 1.1, 1.36, 0.86
-"""The values in the UWSim benchmarking paper (Perez et al.): [1/m], [m], 1."""
+"""The fog density [1/m], distance [m] and visibility [1] in the paper on UWSim's benchmarks (Perez
+et al.)."""
 MAX_STATIC_SHIFT = 0.05
-"""The motion in the image below which the target is static [px]."""
+"""The motion in the image below which the target counts as static [px]."""
 
 
 def floor_text(result: Result) -> str | None:
-    """Return the score of a perfect tracker, ``corners 2.88 px, centroid 1.63 px``.
+    """Return the errors of a perfect tracker, ``corners 2.88 px, centroid 1.63 px``.
 
-    The run has measured it (facts ``floor_...``). None where a perfect tracker scores zero; an
-    empty text where the result does not record it.
+    The run has measured them (facts ``floor_...``). None if a perfect tracker has no error; an
+    empty text if the result does not record the errors.
     """
     names = {column.name for column in result.columns}
     in_pixels = [column.name for column in result.columns_of_kind("measure") if column.unit == "px"]
@@ -60,7 +61,7 @@ def is_static(result: Result) -> bool:
 def optics_texts(result: Result, endings: Sequence[Ending]) -> dict[str, str] | None:
     """Return texts that compare the paper's fog 1.1 with f*, as density and as transmission.
 
-    None where no fog is swept, or f* is unknown.
+    None if no fog is swept, or f* is unknown.
     """
     star, distance = result.fact("f_star"), result.fact("d")
     if star is None or distance is None or not is_fog_swept(result):

@@ -22,9 +22,9 @@ FACTS = {
     "f_star_grey": "predicted loss f*, with the noise of the grey image",
     "shift": "how far the target moved in the image",
 }
-"""The description of each constant of a scene (`uwsim.runs.trial.visibility`)."""
+"""The description of each image statistic (`uwsim.runs.trial.visibility`)."""
 OMITTED_KEYS = ("notes", "clients", "levels", "settings", "compatibility", "units")
-"""The parts of ``run`` that are in sentences above the table."""
+"""The entries of ``run`` that sentences above the table state."""
 CLIENTS = {
     "own process, grade (b)": "in lock-step, in its own process, by messages only (grade b: the "
     "simulation waits for each call)",
@@ -45,13 +45,13 @@ GRADES = {
 """The meaning of each way in which an external program takes part."""
 MISSING_MESSAGES_TEXT = "messages to it may be lost, so the same numbers are not guaranteed"
 CODE_KEYS = ("code", "code_before")
-"""The parts of the provenance with the code that libraries chose for the processor."""
+"""The entries of the provenance with the code paths that libraries chose for the processor."""
 IRRELEVANT_OPTIONS = {"--out": 1, "--workers": 1, "--resume": 0, "--overwrite": 0}
-"""The options of ``bench`` that do not change the result, with their numbers of words."""
+"""The options of ``bench`` that do not change the result, with their numbers of arguments."""
 
 
 def command(result: Result, provenance: Mapping[str, object]) -> str:
-    """Return the command that gives this result again, as it was typed where that is recorded."""
+    """Return the command that gives this result again, as the user typed it if that is recorded."""
     typed_words = provenance.get("command")
     if isinstance(typed_words, list) and typed_words:
         return shlex.join(["uwsim", *_omit_irrelevant_options([str(w) for w in typed_words])])
@@ -117,13 +117,13 @@ def _participation_phrase(mode: str) -> str:
 
 
 def settings(result: Result) -> list[tuple[str, str]]:
-    """Return all other parts of ``run``, as names and texts."""
+    """Return all other entries of ``run``, as names and texts."""
     run = {name: value for name, value in result.run.as_dict().items() if name not in OMITTED_KEYS}
     return [(_setting_name(name), text) for name, text in flatten(run)]
 
 
 def flatten(mapping: Mapping[str, object], prefix: str = "") -> list[tuple[str, str]]:
-    """Return nested mappings as (dotted name, text); (value, unit) becomes one text.
+    """Return nested mappings as pairs of dotted name and text; (value, unit) becomes one text.
 
     Empty texts are omitted.
     """
@@ -138,7 +138,7 @@ def flatten(mapping: Mapping[str, object], prefix: str = "") -> list[tuple[str, 
 
 
 def provenance_texts(provenance: Mapping[str, object]) -> list[tuple[str, str]]:
-    """Return the provenance, with short numbers and lists of code."""
+    """Return the provenance as names and texts, with rounded numbers and short lists."""
     code = provenance.get("code")
     code_texts = {library: names_text(names) for library, names in _code_lists(code)}
     values = {name: _round_numbers(v) for name, v in provenance.items() if name not in CODE_KEYS}
@@ -146,7 +146,7 @@ def provenance_texts(provenance: Mapping[str, object]) -> list[tuple[str, str]]:
 
 
 def facts(result: Result) -> list[tuple[str, str]]:
-    """Return the constants of the scene with their descriptions and units."""
+    """Return the values measured for the whole run, with their descriptions and units."""
     texts = []
     for name in result.facts:
         fact = result.fact(name)

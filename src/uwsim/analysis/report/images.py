@@ -18,13 +18,13 @@ from .outcomes import result_level_text
 from .overlay import overlay
 
 MAX_IMAGES = 40
-"""The greatest number of images of the first repeat, evenly chosen from more, with a note."""
+"""The greatest number of images of the first repeat; of more images, evenly chosen ones."""
 MAX_OTHER_IMAGES = 8
 """The greatest number of images of the first failures of other repeats."""
 PHASE_CAMERA_PREFIX = "phase "
-"""The beginning of the name of the camera of an image of a task's phase."""
+"""The prefix of the camera name that is stored with the image of a task's phase."""
 MAX_IMAGE_BYTES = 3_000_000
-"""The greatest size of all images together, evenly chosen from more [bytes]."""
+"""The greatest size of all images together [bytes]; of more images, evenly chosen ones."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,9 +34,9 @@ class ShownImage:
     caption: str
     """The level and status; with several repeats, the seed too."""
     data: str | None
-    """The image as a data URL; None when its file cannot be read."""
+    """The image as a data URL; None if its file cannot be read."""
     is_ok: bool
-    """True if its level ended ``ok``."""
+    """True if the level of the image ended ``ok``."""
 
 
 def phase_images(result: Result, directory: Path) -> list[ShownImage]:
@@ -74,7 +74,7 @@ def shown_images(result: Result, directory: Path) -> list[ShownImage]:
 
 
 def images_text(result: Result, n_shown: int) -> str:
-    """Return a note on the choice of images; empty when all are shown."""
+    """Return a note on the choice of images; empty if all images are shown."""
     images = [image for image in result.images if not image.camera.startswith(PHASE_CAMERA_PREFIX)]
     if n_shown >= len(images):
         return ""
@@ -107,7 +107,7 @@ def _statuses(result: Result) -> list[str]:
 
 
 def _draw_image(saved_image: SavedImage, directory: Path) -> str | None:
-    """Read an image inside the directory and draw its quads; None if it cannot be read."""
+    """Read an image inside the directory and draw its corners; None if it cannot be read."""
     file = (directory / saved_image.file).resolve()
     if not file.is_relative_to(directory.resolve()):
         return None

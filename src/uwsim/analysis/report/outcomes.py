@@ -1,4 +1,4 @@
-"""Statistics of the status of levels: numbers, first levels and reasons."""
+"""Statistics of the statuses of rows: their numbers, first levels and reasons."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ MEANINGS = {
 }
 """The meaning of each status of a row (``docs/levels.md``)."""
 RARE_STATUSES = ("simulation error", "not found", "lost target", "missed", "dropped")
-"""The statuses that are listed only where they occur."""
+"""The statuses that are listed only if they occur."""
 MAX_REASONS = 5
-"""The greatest number of reasons listed for a status."""
+"""The greatest number of reasons that are listed for a status."""
 MAX_FIRST_FAILURES = 100
 """The greatest number of repeats whose first failure is listed."""
 
@@ -36,7 +36,7 @@ _NUMBER = re.compile(r"\d+(\.\d+)?([eE][+-]?\d+)?")
 
 @dataclass(frozen=True, kw_only=True)
 class Ending:
-    """The rows that ended with one status."""
+    """The rows that ended with the same status."""
 
     status: str
     """The status: ``ok``, ``lost``, ``timeout``, ..."""
@@ -45,13 +45,14 @@ class Ending:
     n: int
     """The number of rows."""
     share: str
-    """The share of all rows; without interval, because the levels of a repeat are not repeats."""
+    """The share of all rows; without an interval, because the levels of a repeat are no repeats."""
     first_levels: str
-    """The first such level of each repeat: one level, or the lowest to the highest."""
+    """The first level of each repeat with the status: one level, or the lowest to the highest."""
     reasons: tuple[tuple[int, str], ...]
-    """The number of rows and the first reason of each kind; numbers do not make another kind."""
+    """The number of rows and an example for each kind of reason; reasons that differ only in
+    numbers are of one kind."""
     n_others: int
-    """The number of omitted kinds of reasons."""
+    """The number of kinds of reasons that are omitted."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,7 +62,7 @@ class FirstFailure:
     repeat: str
     """The seed."""
     level: str
-    """The level; empty when all ended ``ok``."""
+    """The level; empty if all levels ended ``ok``."""
     status: str
     """The status of the level."""
     reason: str
@@ -69,7 +70,7 @@ class FirstFailure:
 
 
 def endings(result: Result) -> list[Ending]:
-    """Return the rows by status: ok first, then by number, finally those that never occurred."""
+    """Return the rows by status: ok first, then by number of rows, which may be 0."""
     status = result.columns_of_kind("status")
     if not status:
         return []
@@ -100,9 +101,9 @@ def endings(result: Result) -> list[Ending]:
 
 
 def first_failures(result: Result) -> list[FirstFailure]:
-    """Return the first level of each of several repeats that did not end ``ok``.
+    """Return, for each of several repeats, the first level that did not end ``ok``.
 
-    Empty for nested sweeps, in which every outer level has a first one.
+    The list is empty for nested sweeps, which have a first failure for every outer level.
     """
     status, repeats = result.columns_of_kind("status"), repeats_of(result)
     if not status or len(result.columns_of_kind("level")) != 1 or len(set(repeats)) < 2:

@@ -1,8 +1,8 @@
-"""The overlay of truth and estimate on a camera's image.
+"""The overlay of true and estimated corners on a camera's image.
 
-Coordinates are those of `uwsim.base.geometry.Intrinsics`: pixels from the centre of the first one.
-Truth is green and solid, the estimate orange and dashed, so that both can be distinguished in print
-and by colour-blind readers. Lines have a dark rim.
+As in `uwsim.base.geometry.Intrinsics`, image coordinates count from the centre of the top left
+pixel. The truth is green and solid, the estimate orange and dashed, so that both can be
+distinguished in print and by colour-blind readers. Lines have a dark rim.
 """
 
 from __future__ import annotations
@@ -27,14 +27,14 @@ def overlay(
     label: str = "",
     scale: int = 2,
 ) -> npt.NDArray[np.uint8]:
-    """Draw quadrangles and a label on an image, enlarged so that half pixels show.
+    """Draw quadrangles and a label on an image, enlarged so that half pixels are visible.
 
     Args:
-        image: (h, w, 3) or, grey, (h, w).
-        truth: the corners x, y, x, y, ... [px]; None draws none.
-        estimate: the corners, in the same order [px]; None draws none.
+        image: the image, (h, w, 3) RGB or (h, w) grey.
+        truth: the true corners x, y, x, y, ... [px]; None for none.
+        estimate: the estimated corners, in the same order [px]; None for none.
         label: the text in the top left corner, such as ``fog 0.5 1/m``.
-        scale: the factor by which the drawing is larger; pixels are repeated, not blurred.
+        scale: the factor by which the drawing is larger [1]; pixels are repeated, not blurred.
 
     Returns:
         The drawing, (h * scale, w * scale, 3).

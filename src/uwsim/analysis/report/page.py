@@ -1,11 +1,12 @@
 """The page of a report, rendered from its template.
 
-It is made from the result directory alone (``result.json``, logs, images, ``provenance.json``), so
-reports of old runs can be written again. The file contains its images and its style. A content
-security policy forbids scripts and other files, and every name from a file is escaped.
+The page is made from the result directory alone (``result.json``, logs, images,
+``provenance.json``), so reports of old runs can be written again. The file contains its images and
+its style. A content security policy forbids scripts and other files, and every name from a file is
+escaped.
 
-With a directory ``control`` inside it, the same benchmark run with `frozen`, every plot has a
-dashed line.
+If the result directory has a folder ``control``, the same benchmark run with `frozen`, every plot
+shows its values as a dashed line.
 """
 
 from __future__ import annotations
@@ -58,7 +59,7 @@ from .task_section import task_section
 
 MAX_CARDS = 12
 MAX_OPEN_STREAMS = 6
-"""The greatest number of image streams whose list is open."""
+"""The greatest number of image streams for which the list is shown unfolded."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -70,7 +71,7 @@ class Card:
     value: str
     """The number with its unit."""
     note: str = ""
-    """The levels, or the reason."""
+    """The levels of the number, or the reason for it."""
 
 
 def write_report(path: Path, *, pdf: bool = False) -> Path:
@@ -243,7 +244,7 @@ def _mean_text(entry: LevelInterval, other: LevelInterval) -> str:
 
 
 def rounded_text(value: float, reference: float) -> str:
-    """Return a number in three digits, or with the decimals of a much larger reference.
+    """Return a number with three significant digits, or with the decimals of a larger reference.
 
     Integers with an integer reference, such as counts, have no decimals.
     """

@@ -10,13 +10,13 @@ from ..plots import written_unit
 from .outcomes import reason_kind
 
 MAX_LINES = 1000
-"""The greatest number of levels in the table; others are in result.json only, with a note."""
+"""The greatest number of levels in the table; further levels are in result.json only."""
 MAX_CELLS = 15_000
 """The greatest number of cells in the table of all columns."""
 MIN_LONG_REASON = 80
-"""The length above which a reason is not repeated where only numbers differ."""
+"""The number of characters above which a reason that differs only in numbers is not repeated."""
 MAX_REASON_LENGTH = 100
-"""The greatest number of letters of a reason in the table of all columns."""
+"""The greatest number of characters of a reason in the table of all columns."""
 ColumnHead = tuple[str, str]
 """The name and unit of a column."""
 
@@ -30,11 +30,11 @@ class TableRow:
     status: str
     """The status: ``ok``, ``lost``, ... or ``8 of 10 ok``."""
     rate: str
-    """The limits of that rate: ``44 to 97 %``."""
+    """The confidence limits of the rate of ``ok``: ``44 to 97 %``; empty without repeats."""
     is_ok: bool
     """True if every repeat ended ``ok``."""
     reason: str
-    """The reason, or ``as above``; over repeats, the number of each status."""
+    """The reason, or ``as above``; with repeats, the number of each status."""
     begins_outer_level: bool
     """True if an outer level begins with this row."""
     rows: tuple[int, ...]
@@ -89,7 +89,7 @@ def _column_head(result: Result, column: Column) -> ColumnHead:
 
 
 def _shorten_repeated_reason(reason: str, previous_reason: str) -> str:
-    """Replace the reason of the row above, and a long one that differs in numbers alone."""
+    """Replace a reason that equals the reason of the row above, or differs only in numbers."""
     if reason and reason == previous_reason:
         return "as above"
     if len(reason) > MIN_LONG_REASON and reason_kind(reason) == reason_kind(previous_reason):

@@ -20,7 +20,7 @@ from ..templates import data_url
 from .rows import ColumnHead
 
 DETAILS = ("time_lifted", "slip", "excursion", "impulse_on_object")
-"""The details of the judging measure whose medians are in the table."""
+"""The details of the measure that judges the task whose medians are in the table."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -28,17 +28,17 @@ class TaskRow:
     """One level in the table of a task."""
 
     level: tuple[str, ...]
-    """The swept parameters."""
+    """The values of the swept parameters."""
     success: str
     """The number of successes: ``9 of 10``."""
     limits: str
-    """The limits of the success rate: ``55 to 100 %``."""
+    """The confidence limits of the success rate: ``55 to 100 %``."""
     is_at_least_half: bool
     """True if half or more of the episodes succeed."""
     failures: str
     """The failures: ``2 dropped, 1 missed``."""
     medians: tuple[str, ...]
-    """The medians over the successes; a dash where there are none."""
+    """The medians over the successes; a dash if there is none."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,11 +46,11 @@ class TaskSection:
     """The section of a report about a task."""
 
     lead: str
-    """The successes of all episodes."""
+    """The sentence with the number of successes over all episodes."""
     sentences: tuple[str, ...]
-    """The levels at which the rate crosses 50 %."""
+    """The sentences on the levels between which the success rate falls below 50 %."""
     figures: tuple[tuple[str, str], ...]
-    """The captions, and the images as data URLs."""
+    """The caption, and the image as a data URL, of each figure."""
     median_heads: tuple[ColumnHead, ...]
     """The names and units of the medians."""
     level_heads: tuple[ColumnHead, ...]
@@ -60,7 +60,7 @@ class TaskSection:
 
 
 def task_section(result: Result, folder: Path) -> TaskSection | None:
-    """Return the section; None for a result that is not of a task.
+    """Return the section; None if no measure of the result judges a task.
 
     Args:
         result: the result.

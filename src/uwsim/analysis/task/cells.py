@@ -1,4 +1,4 @@
-"""The levels of a task's result: success rates, failures, and medians over the successes."""
+"""The levels of the result of a task: success rates, failures, medians over the successes."""
 
 from __future__ import annotations
 
@@ -12,21 +12,21 @@ from ...results.result import Column, Result
 from ...statistics import Rate, rate
 
 JUDGING_DETAIL = "time_done"
-"""The detail that only the measure that judges a task has."""
+"""The name of the detail by which the measure that judges a task is recognised."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class TaskCell:
-    """One level of a task, over its seeds."""
+    """The outcomes of the episodes (one for each seed) of a task at one level."""
 
     level: tuple[float, ...]
-    """The swept parameters, outermost first."""
+    """The values of the swept parameters, outermost first."""
     success: Rate
     """The rate of episodes that ended ``ok``, with exact 95 % limits."""
     failures: Mapping[str, int]
-    """The number of episodes with each other status, the most frequent first."""
+    """The number of episodes with each other status, the most frequent status first."""
     rows: tuple[int, ...]
-    """The numbers of its rows in the result."""
+    """The numbers of the level's rows in the result."""
 
     def median(self, result: Result, column: str) -> float | None:
         """Return the median of a column over the successes of the level; None without any."""
@@ -49,7 +49,7 @@ def task_measure(result: Result) -> Column | None:
 
 
 def task_cells(result: Result) -> list[TaskCell]:
-    """Return the levels in the order of execution."""
+    """Return the outcomes at each level, in the order of execution."""
     status = [str(cell) for cell in result.values(result.columns_of_kind("status")[0].name)]
     cells = []
     for level, rows in rows_by_level(result).items():

@@ -16,20 +16,20 @@ HALF_RATE = 0.5
 
 @dataclass(frozen=True, kw_only=True)
 class Crossing:
-    """The first level along a parameter at which fewer than half of the episodes succeed."""
+    """The neighbouring levels along a parameter between which the success rate falls below 50 %."""
 
     parameter: int
     """The index of the level column that varies."""
     level: Level
-    """The values of all parameters; that of the varied one is not used."""
+    """The values of all parameters; the value of the varied parameter is not used."""
     last_above: TaskCell | None
-    """The level before `first_below`; None: the first level is below half."""
+    """The level before `first_below`; None if the first level is below 50 %."""
     first_below: TaskCell | None
-    """The first level below half; None: all are at half or above."""
+    """The first level below 50 %; None if no level is."""
 
 
 def cells_along(cells: Sequence[TaskCell], parameter: int, level: Level) -> list[TaskCell]:
-    """Return the cells that differ from ``level`` in one parameter alone, in its order."""
+    """Return the cells that differ from ``level`` in one parameter alone, sorted by it."""
 
     def other_values(values: Level) -> Level:
         return (*values[:parameter], *values[parameter + 1 :])
@@ -39,7 +39,7 @@ def cells_along(cells: Sequence[TaskCell], parameter: int, level: Level) -> list
 
 
 def find_crossing(cells: Sequence[TaskCell], parameter: int, level: Level) -> Crossing:
-    """Return the levels between which the rate falls below half along one parameter."""
+    """Return the levels along one parameter between which the success rate falls below 50 %."""
     last_above = first_below = None
     for cell in cells_along(cells, parameter, level):
         if cell.success.value < HALF_RATE:
@@ -52,7 +52,7 @@ def find_crossing(cells: Sequence[TaskCell], parameter: int, level: Level) -> Cr
 
 
 def find_crossings(result: Result) -> list[Crossing]:
-    """Return a crossing for each parameter that varies, at each value of the others."""
+    """Return a crossing for each parameter that varies, at each combination of the others."""
     cells = task_cells(result)
     columns = result.columns_of_kind("level")
     crossings = []

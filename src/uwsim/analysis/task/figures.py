@@ -1,4 +1,4 @@
-"""The figures of a task: a map of success, rates along each parameter, times of the phases."""
+"""The figures of a task: a map of success rates, rates along each parameter, times of phases."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ def _swept_parameters(cells: Sequence[TaskCell]) -> list[int]:
 
 
 def success_map(result: Result, cells: Sequence[TaskCell]) -> Figure:
-    """Draw success rate and statuses over two parameters."""
+    """Draw maps of the success rate and of the statuses over two parameters."""
     rows = sorted({cell.level[0] for cell in cells})
     columns = sorted({cell.level[1] for cell in cells})
     size = (4.2 + 1.0 * len(columns), 1.5 + 0.55 * len(rows))

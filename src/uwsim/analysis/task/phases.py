@@ -1,4 +1,4 @@
-"""The times of the phases of an algorithm, over the levels of a result."""
+"""The time that an algorithm spends in each phase of a task."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from .cells import TaskCell, task_measure
 
 
 def phase_means(result: Result, cell: TaskCell) -> dict[str, float]:
-    """Return the mean time in each phase over all episodes of a level, in their order [s]."""
+    """Return the mean time in each phase over all episodes of a level, in order of phases [s]."""
     judge = task_measure(result)
     if judge is None:
         return {}
