@@ -11,7 +11,7 @@ import dataclasses
 from typing import Any
 
 from ..errors import BadSetting, did_you_mean
-from ..scene.settings import Place, Step, locate, overlaps
+from ..scene.settings import Step, ValueLocation, locate, overlaps
 from ..scene.spec import SceneSpec
 from ..scene.variation import Draw, apply_variations, draw
 from ..schema import fields_of
@@ -44,7 +44,7 @@ def check_path_start(benchmark: BenchmarkSpec, scene: SceneSpec, path: str, valu
         )
 
 
-def locate_in_benchmark(benchmark: Any, path: str) -> Place:
+def locate_in_benchmark(benchmark: Any, path: str) -> ValueLocation:
     """Find the field of an updater by its path; raises BadSetting for an unknown path."""
     name, _, rest = path.partition(".")
     steps: list[Step] = []
@@ -54,8 +54,10 @@ def locate_in_benchmark(benchmark: Any, path: str) -> Place:
         is_found = updater_element(updater) == name
         steps.append(Step(owner, field, None, name if is_found else ""))
         if is_found:
-            place = locate(updater, rest)
-            return Place((*steps, *place.steps), place.leaf, place.field, place.rest)
+            location = locate(updater, rest)
+            return ValueLocation(
+                (*steps, *location.steps), location.owner, location.field, location.components
+            )
         owner, field, updater = updater, "child", updater.child
     known_names = [*map(updater_element, chain(benchmark.scene_updater))]
     raise BadSetting(

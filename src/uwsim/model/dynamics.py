@@ -19,7 +19,7 @@ from ..errors import BadSetting, Diagnostic, SceneError, UnknownName, UwsimError
 from ..scene.hydrodynamics.spec import VehicleHydrodynamics
 from ..scene.hydrodynamics.vehicle_file import VehicleError, read_vehicle_into, set_errors
 from ..scene.hydrodynamics.vehicle_sets import find_vehicle
-from ..scene.settings import HydrodynamicsPlace, locate
+from ..scene.settings import HydrodynamicsLocation, locate
 from ..scene.urdf.robot import RobotSpec
 from ..scene.vehicle import VehicleSpec
 from ..schema import NAMESPACE, Diagnostics, Spec, diagnostic_at
@@ -134,14 +134,17 @@ class NameResolution:
 
     def _check_varied_numbers(self, index: int, dynamics: VehicleHydrodynamics) -> None:
         for variation in self._scene.vary:
-            place = locate(self._scene, variation.path)
-            if isinstance(place, HydrodynamicsPlace) and place.leaf is self._scene.vehicles[index]:
-                if not is_number_path(dynamics, place.number):
+            location = locate(self._scene, variation.path)
+            if (
+                isinstance(location, HydrodynamicsLocation)
+                and location.owner is self._scene.vehicles[index]
+            ):
+                if not is_number_path(dynamics, location.number):
                     message = f"<u:path> {variation.path}: it is not one number of the set"
                     self._report(message, self._scene.vehicles[index], DYNAMICS)
                     continue
                 for bound in variation.bounds:
-                    self._with_setting(index, dynamics, place.number, repr(bound))
+                    self._with_setting(index, dynamics, location.number, repr(bound))
 
     def _check_weight(self, index: int, name: str, robot: RobotSpec) -> None:
         dynamics, vehicle = self.dynamics[index], self._scene.vehicles[index].name

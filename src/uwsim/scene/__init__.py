@@ -1,4 +1,4 @@
-"""Specs of scenes and robots, and their readers."""
+"""Scene and robot files: their specs, the readers, and the checks of what they contain."""
 
 from .object import ObjectSpec
 from .reader import read_scene

@@ -1,4 +1,4 @@
-"""Warnings of `uwsim check` about values that may be intended, and their acceptance in a file.
+"""Warnings of `uwsim check` about implausible values, and how a scene file accepts such a value.
 
 .. code-block:: xml
 
@@ -14,9 +14,9 @@ VehicleWarning = Literal[
     "balance", "bottom", "buoyancy", "drag", "friction", "inertia", "passable", "places", "size",
     "start", "strength", "thrust",
 ]  # fmt: skip
-"""Warnings about a vehicle."""
+"""The names of warnings about a vehicle."""
 ObjectWarning = Literal["buoyancy", "places", "start"]
-"""Warnings about an object."""
+"""The names of warnings about an object."""
 
 PLAUSIBILITY_WARNINGS: Mapping[VehicleWarning, str] = {
     "balance": "Its centre of buoyancy is below its centre of mass at the start: it turns over.",
@@ -34,9 +34,9 @@ PLAUSIBILITY_WARNINGS: Mapping[VehicleWarning, str] = {
     "strength": "A thruster would accelerate it by more than 50 m/s2.",
     "thrust": "Its thrusters cannot drive surge, sway, heave and yaw.",
 }
-"""The condition of each warning, by its name."""
+"""The condition of each warning, by the name of the warning."""
 
 
 def acceptance_hint(warning: VehicleWarning) -> str:
-    """Describe how a file accepts a value that is intended."""
+    """Return the hint how a scene file accepts a value that is intended."""
     return f"If intended: <u:accept>{warning}</u:accept>"

@@ -1,4 +1,4 @@
-"""Angles of more than a turn: likely degrees instead of radians.
+"""Detection of angles that are likely in degrees instead of radians: angles of more than a turn.
 
 An intended angle of more than a turn can be written as the equal angle within one turn.
 """
@@ -9,11 +9,11 @@ import math
 from collections.abc import Sequence
 
 MAX_PLAUSIBLE_ANGLE = 6.3
-"""The angle above which values are likely degrees: a turn has fewer digits in files [rad]."""
+"""The angle above which a value is likely in degrees: a turn, as files round it [rad]."""
 
 
 def describe_degrees(values: Sequence[float]) -> str:
-    """Describe angles as if they were degrees; empty if none is beyond a turn."""
+    """Return a hint for angles [rad] that may be degrees; empty if none exceeds a turn."""
     if all(abs(value) <= MAX_PLAUSIBLE_ANGLE for value in values):
         return ""
     radians = _list([math.radians(value) for value in values])

@@ -12,24 +12,26 @@ from .urdf.robot import RobotSpec
 
 @dataclass(frozen=True)
 class AttachableBody:
-    """A vehicle's link or an object."""
+    """A body on which a force can act: a link of a vehicle, or an object."""
 
     kind: Literal["vehicle", "object"]
     """The kind of body."""
     index: int
     """The number of the vehicle or object in the scene."""
     link: str = ""
-    """The link; empty for an object."""
+    """The name of the link; empty for an object."""
 
 
 def attachable_bodies(
     scene: SceneSpec, robots: Mapping[int, RobotSpec]
 ) -> dict[str, AttachableBody]:
-    """Return ``vehicle`` (its base), ``vehicle/link`` and objects; the first of equal names.
+    """Return the bodies by name: ``vehicle`` (its base), ``vehicle/link``, or an object.
+
+    A name that several bodies share is that of the first.
 
     Args:
         scene: the scene.
-        robots: the robot of each vehicle that has one, by its number in the scene.
+        robots: the robots by the number of the vehicle in the scene.
     """
     bodies: dict[str, AttachableBody] = {}
     for index, robot in robots.items():
@@ -43,9 +45,9 @@ def attachable_bodies(
 
 
 def is_moved_by_forces(scene: SceneSpec, body: AttachableBody) -> bool:
-    """Return whether a body is simulated: a vehicle with ``u:dynamics``, or a loose object."""
+    """Return whether forces move a body: on a vehicle with dynamics, or a loose object."""
     if body.kind == "vehicle":
         return scene.vehicles[body.index].dynamics is not None
-    is_simulated = scene.is_dynamic or scene.has_uwsim_physics
+    moves_bodies = scene.is_dynamic or scene.has_uwsim_physics
     solid = scene.solid_objects.get(body.index)
-    return is_simulated and solid is not None and solid.is_loose
+    return moves_bodies and solid is not None and solid.is_loose

@@ -1,7 +1,7 @@
-"""Conversion of obsolete elements of existing scene files before they are read.
+"""Conversion of obsolete elements in scene files, before the files are read.
 
-Elements that UWSim renamed or removed since its first years are converted to today's, with a
-warning, so that the specs have one dialect only.
+Elements that the original UWSim has renamed or removed over the years are converted to the present
+ones, with a warning, so that the specs describe only one dialect.
 """
 
 from __future__ import annotations
@@ -15,14 +15,14 @@ from ..schema import NAMESPACE, Diagnostics, parse_number
 
 U = f"{{{NAMESPACE}}}"
 BEAM_RANGE = "10"
-"""The range of the multibeams in the original's scenes; those of March 2013 had none [m]."""
+"""The range for multibeams of March 2013, which have none: that in scenes of UWSim [m]."""
 
 Node = etree._Element
 Rule = Callable[[Node, Node, Diagnostics], None]
 
 
 def upgrade(root: Node, diagnostics: Diagnostics) -> None:
-    """Rewrite every old element below ``root`` in place, with a warning for each."""
+    """Convert every obsolete element below ``root`` in place, with a warning for each."""
     for node in list(root.iter("*")):
         parent = node.getparent()
         if parent is None:
@@ -78,7 +78,7 @@ def _convert_numpixels(node: Node, parent: Node, diagnostics: Diagnostics) -> No
 
 
 def _convert_factor(kind: str) -> Rule:
-    """Return the rule for factors of axes: a factor of 0 locks an axis, with equal limits."""
+    """Return the rule that converts factors of axes to limits: a factor of 0 locks an axis."""
 
     def rule(node: Node, parent: Node, diagnostics: Diagnostics) -> None:
         locks = [parse_number(_text(node.find(axis))) == 0 for axis in "xyz"]
@@ -109,10 +109,13 @@ def _convert_current(node: Node, parent: Node, diagnostics: Diagnostics) -> None
 
 
 def _unwrap(kept_tag: str = "") -> Rule:
-    """Return the rule that moves the elements in a wrapper to its parent.
+    """Return the rule that moves the elements in a wrapper element to its parent.
 
-    The original accepts any device in one, and its interface; the echoes remain in the wrapper of
-    its grammar.
+    The original UWSim accepts any device, or interface, in these wrappers. Only ``<echo>`` and
+    ``<echoROS>`` remain in the wrapper, where the grammar of UWSim allows them.
+
+    Args:
+        kept_tag: the name of the elements that remain in the wrapper.
     """
 
     def rule(node: Node, parent: Node, diagnostics: Diagnostics) -> None:
@@ -136,10 +139,10 @@ def _unwrap(kept_tag: str = "") -> Rule:
 
 
 def _move_to_device(wrapper: Node, diagnostics: Diagnostics) -> None:
-    """Move a name, a topic or a text of a wrapper, as in files of June 2013, into its device.
+    """Move a name, topic or text in a wrapper, as in files of June 2013, into its device.
 
-    Without an element of a device, ``<type>`` gives its kind. Of several devices the first gets
-    the name, unless it has one.
+    If the wrapper contains no device, the text of ``<type>`` names the element of the device. If it
+    contains several, the elements are moved to the first, unless it has them.
     """
     device_elements = [child for child in wrapper if child.tag in DEVICE_ELEMENTS]
     elements = [child for child in wrapper if isinstance(child.tag, str)]
@@ -164,7 +167,7 @@ def _move_to_device(wrapper: Node, diagnostics: Diagnostics) -> None:
 
 
 def _is_kept(child: Node, kept_tag: str) -> bool:
-    """Return whether a child remains in a wrapper: an echo; of the echoes' interfaces the first."""
+    """Return whether a child remains in a wrapper: any ``<echo>``, or the first ``<echoROS>``."""
     wrapper = child.getparent()
     is_only = kept_tag == "echo" or (wrapper is not None and wrapper.find(kept_tag) is child)
     return child.tag == kept_tag and is_only
@@ -252,16 +255,16 @@ SINUSOID_ELEMENTS = {
     "directionPeriod/phi": "phiPeriod",
     "random": "random",
 }
-"""The element of a ``<u:uwsimSinusoid>`` for each element of a ``<current>``."""
+"""The name of an element in ``<u:uwsimSinusoid>``, by its path in an obsolete ``<current>``."""
 
 DEVICE_ELEMENTS = ("name", "type", "info", "topic", "rate")
-"""The elements that files of June 2013 have in a wrapper instead of its device."""
+"""The elements of a device that files of June 2013 have in its wrapper."""
 ELEMENT_NAME = re.compile(r"[A-Za-z]\w{0,40}")
 
 ANY_PARENT_RULES: dict[str, Rule] = {
     "includesFixedAndMimic": _drop("had no effect"),
 }
-"""The conversion of obsolete elements with any parent."""
+"""The rules for obsolete elements in any parent, by element name."""
 
 FORKS: dict[tuple[str, str], Rule] = {
     ("camera", "oculus"): _drop("is of a fork with head-mounted displays"),
@@ -275,7 +278,7 @@ FORKS: dict[tuple[str, str], Rule] = {
     ("vehicle", "vehiclePhysics"): _drop("is of a fork with devices of its own; not simulated"),
     ("vehicle", "vehicleMass"): _drop("is of a fork with devices of its own; not simulated"),
 }
-"""The conversion of (parent, element) of forks of UWSim."""
+"""The rule for each (parent, element) that only forks of UWSim define."""
 
 RULES: dict[tuple[str, str], Rule] = {
     **FORKS,
@@ -301,4 +304,4 @@ RULES: dict[tuple[str, str], Rule] = {
     ("CustomCommsDevice", "macProtocol"): _convert_mac_protocol,
     ("AcousticCommsDevice", "macProtocol"): _convert_mac_protocol,
 }
-"""The conversion of (parent, old element)."""
+"""The rule for each obsolete (parent, element)."""

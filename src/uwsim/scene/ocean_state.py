@@ -14,8 +14,9 @@ from ..schema import MAX_DISTANCE, NAMESPACE, REQUIRED_BY_DTD, Numbers, Original
 from .seawater import sea_water_density
 
 NIGHT_BLUE: Triple = (0.0, 0.05, 0.3)
+"""The default colour of the water, RGB [0..1]."""
 DEFAULT_TEMPERATURE = 15.0
-"""The default temperature of water with a salinity only [degrees Celsius]."""
+"""The temperature of water of which only the salinity is given [degrees Celsius]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,7 +40,7 @@ class ProfileSpec(Spec):
     temperature: Numbers = element(namespaced=True, default=(), minimum=-2.0, maximum=40.0)
     """The temperature at each level instead of the density, for EOS-80 [degrees Celsius]."""
     salinity: Numbers = element(namespaced=True, default=(), minimum=0.0, maximum=42.0)
-    """The salinity at each level, with the temperature; without: 0 [g/kg]."""
+    """The salinity at each level, with the temperature; without it 0 [g/kg]."""
 
     @property
     def levels(self) -> tuple[tuple[float, float], ...]:
@@ -50,7 +51,7 @@ class ProfileSpec(Spec):
         return tuple(zip(self.depth, densities, strict=True))
 
     def errors(self) -> list[str]:
-        """Return the errors of the levels."""
+        """Return the errors in the numbers of the levels."""
         n = len(self.depth)
         if n < 2 or any(b <= a for a, b in pairwise(self.depth)):
             return [f"<u:depth> has {n} depths; expected 2 or more, rising [m]"]
@@ -72,30 +73,30 @@ class ProfileSpec(Spec):
 
 @dataclass(frozen=True, kw_only=True)
 class OceanStateSpec(Spec):
-    """An ``<oceanState>``: the surface and the water."""
+    """An ``<oceanState>``: the water surface and the properties of the water."""
 
     windx: float = element(default=0.04, original=Original(is_window_setting=True))
-    """The wind along x; not normalised, its length scales the waves [1]."""
+    """The wind direction along x; the length of the direction vector scales the waves [1]."""
     windy: float = element(default=0.04, original=Original(is_window_setting=True))
-    """The wind along y; not normalised, its length scales the waves [1]."""
+    """The wind direction along y; the length of the direction vector scales the waves [1]."""
     wind_speed: float = element(default=12.0, original=Original(is_window_setting=True))
     """The wind speed of the wave spectrum [m/s]."""
     depth: float = element(default=1000.0, original=Original(is_window_setting=True))
-    """The depth of the water, for the speed of waves only: it is no floor [m]."""
+    """The depth of the water, only for the speed of waves; it adds no floor [m]."""
     reflection_damping: float = element(default=0.35, original=Original(is_window_setting=True))
-    """The factor on waves that run against the wind [1]."""
+    """The factor on waves that travel against the wind [1]."""
     wave_scale: float = element(default=1e-7, original=Original(is_window_setting=True))
     """The amplitude of the wave spectrum [1]."""
     is_not_choppy: bool = element(
         default=False, original=Original(invalid_flag_value=True, is_window_setting=True)
     )
-    """True if waves move points only up and down."""
+    """True if waves displace points of the surface only vertically."""
     choppy_factor: float = element(default=2.5, original=Original(is_window_setting=True))
-    """The horizontal displacement of points by waves [1]."""
+    """The factor on the horizontal displacement of points of the surface by waves [1]."""
     crest_foam_height: float = element(default=2.2, original=Original(is_window_setting=True))
-    """The height from which crests foam; read and not used, as in the original [m]."""
+    """The height from which wave crests foam; read and not used, as in the original UWSim [m]."""
     ocean_surface_height: float = element(default=0.0, minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE)
-    """The height of the water surface in the world, z up [m]."""
+    """The height of the water surface in the world frame W, z up [m]."""
     fog: FogSpec = element(default=FogSpec())
     """The decrease of visibility with distance."""
     color: Triple = element(default=NIGHT_BLUE, parts="rgb")
@@ -105,23 +106,23 @@ class OceanStateSpec(Spec):
     )
     """The loss of red, green and blue light per distance [1/m]."""
     density: float | None = element(namespaced=True, default=None, minimum=100.0, maximum=20000.0)
-    """The density of the water [kg/m3]; when absent that of temperature and salinity, and without
-    these that of the vehicles' sets."""
+    """The density of the water [kg/m3]; without it the density at the temperature and salinity, and
+    without these the density in the hydrodynamics files of the vehicles."""
     temperature: float | None = element(namespaced=True, default=None, minimum=-2.0, maximum=40.0)
-    """The temperature, for the density by EOS-80 [degrees Celsius]; 15 with salinity only."""
+    """The temperature, for the density by EOS-80 [degrees Celsius]; 15 with salinity alone."""
     salinity: float | None = element(namespaced=True, default=None, minimum=0.0, maximum=42.0)
     """The salinity, for the density by EOS-80 [g/kg]; 0 if only temperature is given, 35 at sea."""
     profile: ProfileSpec | None = element(namespaced=True, default=None)
-    """The density over depth, instead of the three above."""
+    """The density over depth, instead of density, temperature and salinity."""
     currents: tuple[CurrentSpec, ...] = element(
         "current", namespaced=True, default=(),
         choice={f"{{{NAMESPACE}}}{name}": spec for name, spec in CURRENTS.items()},
     )  # fmt: skip
-    """Currents; their velocities add up."""
+    """The currents, whose velocities are added."""
 
     @property
     def sea_water(self) -> SeaWater:
-        """The water as an acoustic medium; sea water where the file gives no salinity."""
+        """The water as an acoustic medium; sea water if the file gives no salinity."""
         temperature = DEFAULT_TEMPERATURE if self.temperature is None else self.temperature
         default_salinity = 0.0 if self.temperature is not None else SeaWater.salinity
         return SeaWater(temperature, default_salinity if self.salinity is None else self.salinity)

@@ -19,17 +19,17 @@ MAX_CLEARANCE = 1e4
 
 @dataclass(frozen=True, kw_only=True)
 class OnFloorSpec(Spec):
-    """A ``<u:onFloor>``: placement on the ground at the x and y of its ``<position>``.
+    """A ``<u:onFloor>``: placement on the ground at the x and y of the body's ``<position>``.
 
-    Of several floors, one over another, the next one below the height of the position is chosen.
-    The ground is `terrain` and other scenery that is solid and fixed. The contacts of a placed body
-    are those of its collision shape, for an object without `<physics>` of the hull of its mesh.
+    The ground is `terrain` and other objects that are solid and fixed. Of several surfaces above
+    one another, the body is placed on the highest below its position. Its collision shape touches
+    the ground; for an object without `<physics>` this is the convex hull of its mesh.
     `<u:onFloor/>` is sufficient.
     """
 
     clearance: float = element(
         namespaced=True, default=0.0, minimum=-MAX_CLEARANCE, maximum=MAX_CLEARANCE
     )
-    """The height above the ground; below 0 it is sunk in [m]."""
+    """The height above the ground; below 0 the body is sunk into the ground [m]."""
     align_to_slope: bool = element(namespaced=True, default=False)
-    """True if it has the slope of the ground under it; else its orientation does not change."""
+    """True if the body is tilted to the slope of the ground; else it keeps its orientation."""

@@ -1,4 +1,4 @@
-"""The directions of sensors and lamps at the start, in words."""
+"""Descriptions in words of the directions of sensors and lamps at the start of a scene."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from .vehicle import VehicleSpec
 
 
 def directional_parts(vehicle: VehicleSpec) -> Iterator[DirectedPart]:
-    """Return every part of a vehicle with a viewing direction."""
+    """Yield every sensor and device of a vehicle that has a viewing direction."""
     return (part for part in vehicle.parts if isinstance(part, DirectedPart))
 
 
@@ -29,7 +29,7 @@ def describe_direction(spec: MountedPart, frames: MountFrames) -> str:
     """Describe the direction of a part, such as ``looks down, 2 deg off``.
 
     Raises:
-        KeyError: its vehicle has no such link.
+        KeyError: the link of the part does not exist.
     """
     direction, top = (describe_axis(axis, frames.directions) for axis in frames.viewing_axes(spec))
     axes = frames.world_axes(spec)
@@ -51,6 +51,6 @@ def describe_direction(spec: MountedPart, frames: MountFrames) -> str:
 
 
 def _side_beams(spec: SideScanSonarSpec, axes: Array) -> Iterator[Array]:
-    """Yield the directions in W of the middle of the beams of a side-scan, (3,) each."""
+    """Yield the directions of the beam centres of a side-scan sonar, in W, (3,) each."""
     tilt_rotation = rotation_y(math.radians(spec.tilt))
     return (product(axes, product(rotation_z(side), tilt_rotation))[:, 0] for side in SIDES)

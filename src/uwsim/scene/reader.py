@@ -1,4 +1,4 @@
-"""Reader of a scene file: a `SceneSpec`, or every error."""
+"""Reader of scene files: it returns a `SceneSpec`, or raises an error with all mistakes."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def read_scene(
         arguments: the values of xacro arguments of the scene and its robots, by name.
 
     Raises:
-        SceneError: with every error of the file.
+        SceneError: the file is invalid; the error has every mistake in it.
     """
     path = Path(path)
     diagnostics = Diagnostics(path)
@@ -43,7 +43,7 @@ def read_scene(
 
 
 def read_document(document: Document, diagnostics: Diagnostics) -> SceneSpec | None:
-    """Read a scene that is already parsed; None if its errors leave no root element."""
+    """Read a parsed scene; None if its root element is wrong or has invalid content."""
     check_head(document, ROOT, diagnostics)
     if document.root.tag != ROOT:
         return None

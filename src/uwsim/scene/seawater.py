@@ -16,7 +16,7 @@ C = 4.8314e-4
 
 
 def sea_water_density(temperature: float, salinity: float) -> float:
-    """Return the density of water [kg/m3].
+    """Return the density of sea water [kg/m3].
 
     Args:
         temperature: the temperature [degrees Celsius].

@@ -1,11 +1,11 @@
 """Settings from the command line: ``--set oceanState.fog.density=0.4`` changes one value of a spec.
 
-A path is element names joined by dots; ``[name]`` chooses among elements of one name, and is
-optional if there is only one: ``vehicle[girona500].virtualCamera[bowtech1].std``. An element
-without a name is chosen by its axis (``sway[x]``), or by its number from 1
+A path consists of element names joined by dots. ``[name]`` selects one of several elements with the
+same tag, and is optional if there is only one: ``vehicle[girona500].virtualCamera[bowtech1].std``.
+An element without a name is selected by its axis (``sway[x]``), or by its number from 1
 (``oceanState.current.gaussMarkov[2]``). The value is read by the same rules as in a file. Three
-numbers are set together (``position=1 2 3``) or one by one (``position.x=1``), a list as a whole
-(``jointValues=0 0 2.2 0 0.8``) or by its numbers from 1 (``jointValues.3=2.2``).
+numbers are set together (``position=1 2 3``) or singly (``position.x=1``); a list is set as a whole
+(``jointValues=0 0 2.2 0 0.8``) or by the number of an entry, from 1 (``jointValues.3=2.2``).
 
 A path below ``vehicle[NAME].hydrodynamics`` refers to the hydrodynamics file of a vehicle:
 ``vehicle[girona500].hydrodynamics.body[base_link].mass``. It is resolved when that file is read.
@@ -26,40 +26,40 @@ from ..errors import BadSetting, UnknownName, did_you_mean
 
 T = TypeVar("T")
 XACRO_PREFIX = "xacro."
-"""The prefix of settings that are xacro arguments, which apply when the file is read."""
+"""The prefix of settings that are xacro arguments; these apply when the file is read."""
 HYDRODYNAMICS = "hydrodynamics"
-"""The name in a path that leads from a vehicle into its hydrodynamics file."""
+"""The name in a path after which it continues in the vehicle's hydrodynamics file."""
 _PART = re.compile(r"([^\[\].=]+)(?:\[([^\]]*)\])?(?:\.|$)")
 
 
 @dataclass(frozen=True)
-class Place:
-    """The value that a path refers to."""
+class ValueLocation:
+    """The location, in a tree of specs, of the value to which a path refers."""
 
     steps: tuple[Step, ...]
     """The steps from the root spec to the spec that has the value."""
-    leaf: Any
-    """The spec that has the value."""
+    owner: Any
+    """The spec that contains the value."""
     field: schema.Field
-    """The field of the value in that spec."""
-    rest: tuple[str, ...]
-    """The names of the path after the field: a letter of a triple."""
+    """The field of `owner` that contains the value."""
+    components: tuple[str, ...]
+    """The rest of the path: ``x`` of a triple, or the number of an entry of a list; often empty."""
 
     @property
     def path(self) -> str:
-        """The path in full: with every name, without ``u:``."""
+        """The full path: with the name of every element, without ``u:``."""
         names = [step.name for step in self.steps if step.name]
-        return ".".join([*names, self.field.label.removeprefix("u:"), *self.rest])
+        return ".".join([*names, self.field.label.removeprefix("u:"), *self.components])
 
     @property
     def is_number(self) -> bool:
         """True if the value is one number."""
         is_scalar = self.field.kind in ("float", "int") and not self.field.is_repeated
-        return (is_scalar and not self.rest) or (self.has_parts and len(self.rest) == 1)
+        return (is_scalar and not self.components) or (self.has_parts and len(self.components) == 1)
 
     @property
     def has_parts(self) -> bool:
-        """True if the value has several numbers, of which one can be chosen."""
+        """True if the value is a triple or a list, of which one number can be selected."""
         return self.field.kind == "triple" or _is_list(self.field)
 
     @property
@@ -85,23 +85,23 @@ class Place:
         return self.field.unit
 
     def with_value(self, text: str) -> Any:
-        """Return a copy of the root spec with another value; BadSetting if it is invalid."""
-        new_spec = _with_value(self.leaf, self.field, list(self.rest), text)
+        """Return a copy of the root spec with another value; raise BadSetting if it is invalid."""
+        new_spec = _with_value(self.owner, self.field, list(self.components), text)
         for step in reversed(self.steps):
             new_spec = step.with_inner(new_spec)
         return new_spec
 
 
 @dataclass(frozen=True)
-class HydrodynamicsPlace(Place):
-    """A number of the hydrodynamics file of a vehicle, which is not read yet."""
+class HydrodynamicsLocation(ValueLocation):
+    """The location of a number in a vehicle's hydrodynamics file, which is read later."""
 
     number: str = ""
-    """The path in the file: ``body[base_link].mass``."""
+    """The path within the file, for example ``body[base_link].mass``."""
 
     @property
     def path(self) -> str:
-        """The path in full."""
+        """The full path."""
         return ".".join([*(s.name for s in self.steps if s.name), HYDRODYNAMICS, self.number])
 
     @property
@@ -121,9 +121,11 @@ class HydrodynamicsPlace(Place):
 
     def with_value(self, text: str) -> Any:
         """Return a copy of the root spec in which the number is set."""
-        other_entries = tuple(entry for entry in self.leaf.hydrodynamics if entry[0] != self.number)
+        other_entries = tuple(
+            entry for entry in self.owner.hydrodynamics if entry[0] != self.number
+        )
         new_spec = dataclasses.replace(
-            self.leaf, hydrodynamics=(*other_entries, (self.number, " ".join(text.split())))
+            self.owner, hydrodynamics=(*other_entries, (self.number, " ".join(text.split())))
         )
         for step in reversed(self.steps):
             new_spec = step.with_inner(new_spec)
@@ -132,16 +134,16 @@ class HydrodynamicsPlace(Place):
 
 @dataclass(frozen=True)
 class Step:
-    """A step from a spec to a nested one."""
+    """A step of a path from a spec to a nested spec."""
 
     spec: Any
     """The outer spec."""
     field: str
-    """The field of the outer spec that has the inner one."""
+    """The name of the field of the outer spec that contains the inner spec."""
     index: int | None
-    """The index in a tuple; None: the field is the inner spec itself."""
+    """The index in the field's tuple; None if the field is the inner spec itself."""
     name: str
-    """The name of the step in a path; empty for none."""
+    """The text of the step in a path; empty for a step that a path does not show."""
 
     def with_inner(self, new_value: Any) -> Any:
         """Return the outer spec with another inner spec."""
@@ -163,33 +165,35 @@ def xacro_arguments(settings: Iterable[tuple[str, object]]) -> dict[str, str]:
 def apply_setting(spec: T, path: str, value: str) -> T:
     """Return a copy of ``spec`` with another value at ``path``.
 
-    Variations (``u:vary``) of that value, of a part of it or of an element around it are removed.
-    A xacro argument (`xacro_arguments`) changes nothing here.
+    Variations (``u:vary``) that overlap with the value are removed. A xacro argument
+    (`xacro_arguments`) changes nothing here.
 
     Raises:
-        BadSetting: an unknown path or an invalid value; names the valid ones.
+        BadSetting: the path is unknown, or the value is invalid; the message lists valid ones.
     """
     if path.startswith(XACRO_PREFIX):
         return spec
     try:
-        place = locate(spec, path)
-        new_spec = place.with_value(value)
+        location = locate(spec, path)
+        new_spec = location.with_value(value)
     except BadSetting as error:
         raise BadSetting(f"--set {path}={value}: {error}") from None
     if variations := getattr(new_spec, "vary", ()):
-        other_variations = tuple(v for v in variations if not overlaps(locate(spec, v.path), place))
+        other_variations = tuple(
+            v for v in variations if not overlaps(locate(spec, v.path), location)
+        )
         new_spec = dataclasses.replace(new_spec, vary=other_variations)
     return cast(T, new_spec)
 
 
-def locate(spec: Any, path: str) -> Place:
-    """Resolve a path in ``spec``; raise BadSetting for an unknown path."""
+def locate(spec: Any, path: str) -> ValueLocation:
+    """Return the location to which a path in ``spec`` refers; raise BadSetting if unknown."""
     parts = _parts(path)
     steps: list[Step] = []
     while True:
         (name, key), parts = parts[0], parts[1:]
         if name == HYDRODYNAMICS and hasattr(spec, HYDRODYNAMICS):
-            return _hydrodynamics_place(tuple(steps), spec, parts)
+            return _hydrodynamics_location(tuple(steps), spec, parts)
         field = _field(type(spec), name)
         current = getattr(spec, field.name)
         index: int | None = None
@@ -213,7 +217,7 @@ def locate(spec: Any, path: str) -> Place:
             if current is None:
                 raise BadSetting(f"the file has no <{name}> here.")
         else:
-            return Place(tuple(steps), spec, field, tuple(name for name, _ in parts))
+            return ValueLocation(tuple(steps), spec, field, tuple(name for name, _ in parts))
         inner_spec = current if index is None else current[index]
         if not parts:
             raise BadSetting(_parts_message(name, type(inner_spec)))
@@ -222,21 +226,21 @@ def locate(spec: Any, path: str) -> Place:
         spec = inner_spec
 
 
-def _hydrodynamics_place(
+def _hydrodynamics_location(
     steps: tuple[Step, ...], vehicle: Any, parts: Sequence[tuple[str, str | None]]
-) -> HydrodynamicsPlace:
+) -> HydrodynamicsLocation:
     if vehicle.dynamics is None:
         raise BadSetting(f"the vehicle {vehicle.name!r} has no <u:dynamics>.")
     if not parts:
         raise BadSetting("<hydrodynamics> is not a value; continue with body[LINK].mass, ...")
     number = ".".join(name if key is None else f"{name}[{key}]" for name, key in parts)
     field = _field(type(vehicle), "dynamics")
-    return HydrodynamicsPlace(steps, vehicle, field, (), number)
+    return HydrodynamicsLocation(steps, vehicle, field, (), number)
 
 
-def overlaps(left: Place, right: Place) -> bool:
-    """Return whether two places share a value."""
-    left_names, right_names = (place.path.split(".") for place in (left, right))
+def overlaps(left: ValueLocation, right: ValueLocation) -> bool:
+    """Return whether two locations share a value: one contains the other, or they are equal."""
+    left_names, right_names = (location.path.split(".") for location in (left, right))
     return all(a == b for a, b in zip(left_names, right_names, strict=False))
 
 
@@ -290,13 +294,13 @@ def _index(entries: Sequence[Any], fits: Sequence[bool], name: str, key: str | N
 
 
 def _name_of(entry: Any) -> str:
-    """Return the key of an entry: its name, or its axis or link."""
+    """Return the name of an entry, else its axis or link; empty without any."""
     names = (getattr(entry, name, None) for name in ("name", "axis", "link"))
     return str(next((name for name in names if name is not None), ""))
 
 
 def _key(entries: Sequence[Any], index: int) -> str:
-    """Return the key of an entry in a full path: its name, or its number among its kind."""
+    """Return the key of an entry in a full path: its name, or its number among equal types."""
     entry = entries[index]
     siblings = [other for other in entries if type(other) is type(entry)]
     name = _name_of(entry)
@@ -304,19 +308,19 @@ def _key(entries: Sequence[Any], index: int) -> str:
     return name if name and is_first else str(1 + [id(o) for o in siblings].index(id(entry)))
 
 
-def _with_value(spec: Any, field: schema.Field, rest: list[str], text: str) -> Any:
-    """Read the value by the schema, as if it were in a file."""
+def _with_value(spec: Any, field: schema.Field, components: list[str], text: str) -> Any:
+    """Return a copy of ``spec`` whose field is read from a text by the schema, as in a file."""
     node = etree.Element(schema.camel_case(type(spec).__name__.removesuffix("Spec")))
-    if field.kind == "triple" and not rest and text in field.words:
+    if field.kind == "triple" and not components and text in field.words:
         etree.SubElement(node, field.tag).text = text
     elif field.kind == "triple":
         _write_triple(
-            etree.SubElement(node, field.tag), getattr(spec, field.name), field, rest, text
+            etree.SubElement(node, field.tag), getattr(spec, field.name), field, components, text
         )
-    elif rest and _is_list(field):
-        text, rest = _with_number(getattr(spec, field.name), field, rest, text), []
+    elif components and _is_list(field):
+        text, components = _with_number(getattr(spec, field.name), field, components, text), []
         _write_list(node, field, text)
-    elif rest:
+    elif components:
         raise BadSetting(f"<{field.label}> is a value; it has no elements.")
     elif field.kind == "numbers":
         _write_list(node, field, text)
@@ -351,15 +355,19 @@ def _is_list(field: schema.Field) -> bool:
     return field.kind == "numbers" or (field.xml.item is not None and field.kind == "float")
 
 
-def _with_number(current: Any, field: schema.Field, rest: list[str], text: str) -> str:
-    """Return the text of a list in which one number, counted from 1, is another."""
+def _with_number(current: Any, field: schema.Field, components: list[str], text: str) -> str:
+    """Return the text of a list in which one number, selected by its number from 1, is replaced."""
     numbers = [repr(float(number)) for number in current or ()]
-    if len(rest) > 1 or not rest[0].isdecimal() or not 1 <= int(rest[0]) <= len(numbers):
+    if (
+        len(components) > 1
+        or not components[0].isdecimal()
+        or not 1 <= int(components[0]) <= len(numbers)
+    ):
         raise BadSetting(
             f"<{field.label}> has {len(numbers)} numbers; expected one of them, from 1, as in "
             f"{field.label}.1."
         )
-    numbers[int(rest[0]) - 1] = text
+    numbers[int(components[0]) - 1] = text
     return " ".join(numbers)
 
 
@@ -376,21 +384,26 @@ def _write_triple(
     node: etree._Element,
     current: tuple[float, float, float] | str | None,
     field: schema.Field,
-    rest: list[str],
+    components: list[str],
     text: str,
 ) -> None:
     letters = list(field.xml.parts)
-    if not rest:
+    if not components:
         words = text.replace(",", " ").split()
         if len(words) != len(letters):
             alternatives = f", or one of {', '.join(field.words)}" if field.words else ""
             count = len(letters)
             raise BadSetting(f"<{field.label}> needs {count} numbers, as in '1 2 3'{alternatives}.")
-    elif len(rest) > 1 or rest[0] not in letters or current is None or isinstance(current, str):
+    elif (
+        len(components) > 1
+        or components[0] not in letters
+        or current is None
+        or isinstance(current, str)
+    ):
         raise BadSetting(f"<{field.label}> has {', '.join(f'<{letter}>' for letter in letters)}.")
     else:
         words = [
-            text if letter == rest[0] else repr(float(number))
+            text if letter == components[0] else repr(float(number))
             for letter, number in zip(letters, current, strict=True)
         ]
     for letter, word in zip(letters, words, strict=True):

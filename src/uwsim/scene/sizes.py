@@ -1,4 +1,4 @@
-"""Limits on the sizes of images, fans of beams and sonars, and on the planes of cameras."""
+"""Limits on the number of pixels, beams, bins and rays of sensors; order of clipping planes."""
 
 from __future__ import annotations
 
@@ -13,20 +13,20 @@ from ..sensors.virtual_range_image import VirtualRangeImageSpec
 from .spec import SceneSpec
 
 MAX_PIXELS = 7680 * 4320
-"""The size of the largest image of a camera [px]: 8K. It needs about 1 GB to draw."""
-MAX_PIXELS_IN_ALL = 4 * MAX_PIXELS
-"""The greatest number of pixels of all cameras of a scene [px]."""
+"""The greatest number of pixels of a camera image: 8K. Rendering it needs about 1 GB of memory."""
+MAX_TOTAL_PIXELS = 4 * MAX_PIXELS
+"""The greatest number of pixels of all cameras of a scene together."""
 MAX_BEAMS = 100_000
-"""The greatest number of beams of one sensor."""
-MAX_CELLS = 20_000_000
-"""The greatest number of bins of all beams of a sonar, or of all pings that it keeps: 80 MB."""
+"""The greatest number of beams of a multibeam or profiling sonar."""
+MAX_BINS = 20_000_000
+"""The greatest number of range bins in all beams, or stored pings, of a sonar: 80 MB of memory."""
 MAX_RAYS = 1_000_000
-"""The greatest number of rays of a ping of a sonar."""
+"""The greatest number of rays that a sonar casts for one ping."""
 
 
 def check_sizes(scene: SceneSpec, diagnostics: Diagnostics) -> None:
-    """Report cameras, fans of beams and sonars that are too large, or have no view."""
-    n_all = 0
+    """Report sensors that exceed these limits, and cameras or sonars with an empty range."""
+    n_total = 0
     for image in _cameras(scene):
         n = image.resw * image.resh
         if n > MAX_PIXELS:
@@ -36,12 +36,12 @@ def check_sizes(scene: SceneSpec, diagnostics: Diagnostics) -> None:
                 f"{MAX_PIXELS / 1e6:.0f} million",
             )
             continue
-        n_all += n
-        if n_all > MAX_PIXELS_IN_ALL:
+        n_total += n
+        if n_total > MAX_TOTAL_PIXELS:
             diagnostics.error(
                 image,
-                f"with this one, the images of the scene have {n_all / 1e6:.0f} million pixels; "
-                f"expected at most {MAX_PIXELS_IN_ALL / 1e6:.0f}",
+                f"with this one, the images of the scene have {n_total / 1e6:.0f} million pixels; "
+                f"expected at most {MAX_TOTAL_PIXELS / 1e6:.0f}",
             )
             break
     for camera in _cameras(scene):
@@ -69,10 +69,10 @@ def check_sizes(scene: SceneSpec, diagnostics: Diagnostics) -> None:
 def _sonar_errors(sonar: SonarSpec) -> Iterator[str]:
     if sonar.min_range >= sonar.range:
         yield f"<minRange> is {sonar.min_range:g}; expected less than <range>, {sonar.range:g} m"
-    if sonar.n_cells > MAX_CELLS:
+    if sonar.n_cells > MAX_BINS:
         yield (
             f"{sonar.bins} bins of {sonar.n_cells // sonar.bins} beams or pings; expected at most "
-            f"{MAX_CELLS / 1e6:.0f} million in all"
+            f"{MAX_BINS / 1e6:.0f} million in all"
         )
     if sonar.n_rays > MAX_RAYS:
         yield (

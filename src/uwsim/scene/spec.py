@@ -10,10 +10,17 @@
       <rosInterfaces> ... </rosInterfaces>
     </UWSimScene>
 
-The fields have the order of the original grammar. Positions and angles have the numbers and the
-frame of the file, L; the properties that return a `Pose` apply the one of UWSim's two Euler orders
-that is valid for the element. For a value that the original leaves uninitialised, the default is
-that of its macro library.
+The format comes from the original UWSim (written in C++), to which this program adds elements with
+the prefix ``u:``. The fields are in the order of UWSim's grammar. Positions and angles are the
+numbers of the file, in its frame L (the localized world), which `SceneSpec.world_from_localized`
+relates to the world frame W. UWSim uses two orders of Euler angles; the properties that return a
+`Pose` apply the order of their element. Where UWSim leaves a value uninitialised, the default here
+is that of its macro library.
+
+Forces move a vehicle with ``u:dynamics``: it *has dynamics*. Without that element a vehicle is
+*kinematic*: only commands and the current move it. An object is *solid* if it has contacts, and
+*loose* if it is also free to move. If no vehicle has dynamics, ``<enablePhysics>`` requests the
+physics of the original UWSim: gravity and contacts move loose objects, without water.
 """
 
 from __future__ import annotations
@@ -58,8 +65,8 @@ class NedOriginSpec(Spec):
     """The longitude [deg]."""
 
     @property
-    def place(self) -> Geodetic:
-        """The position on the ellipsoid."""
+    def geodetic_position(self) -> Geodetic:
+        """The position on the Earth's ellipsoid."""
         return Geodetic(latitude=math.radians(self.lat), longitude=math.radians(self.lon))
 
 
@@ -67,11 +74,11 @@ class NedOriginSpec(Spec):
 class NetTracingScriptSpec(Spec):
     """A ``<netTracingScript>``: the events of each packet are published on ``/network/trace``.
 
-    As std_msgs/String: time [s], device, event, sender and number of the packet, its size.
+    Each event is a std_msgs/String: time [s], device, event, sender, packet number, packet size.
     """
 
     class_name: str = element(default="", original=REQUIRED_BY_DTD)
-    """The name of a plug-in of the original: read and not used."""
+    """The name of a plug-in of the original UWSim: read and not used."""
     lib_path: str = ""
     """The library of the plug-in: read and not used."""
     log_to_file: str = ""
@@ -84,88 +91,90 @@ class NetTracingScriptSpec(Spec):
 
 @dataclass(frozen=True, kw_only=True)
 class SceneSpec(Spec):
-    """A ``<UWSimScene>``."""
+    """A ``<UWSimScene>``: the contents of a scene file."""
 
     ocean_state: OceanStateSpec = element(default=OceanStateSpec())
-    """The surface and the water."""
+    """The water surface and the properties of the water."""
     sim_params: SimParamsSpec = element(default=SimParamsSpec())
-    """Frames, window, physics, light."""
+    """The parameters of the simulation: frame of the file, window, physics, light."""
     camera: ViewerCameraSpec | None = element(
         default=None, original=Original(is_window_setting=True)
     )
-    """The viewer's camera."""
+    """The camera of the viewer."""
     ned_origin: NedOriginSpec | None = None
     """The position of the scene on Earth."""
     net_tracing_script: NetTracingScriptSpec | None = None
-    """The trace of the network simulation."""
+    """The publication of network events; without it events are not published."""
     custom_comms_channels: tuple[CustomCommsChannelSpec, ...] = element(
         "CustomCommsChannel", default=()
     )
-    """The channels with given delays."""
+    """The communication channels with configured delays."""
     acoustic_comms_channels: tuple[AcousticCommsChannelSpec, ...] = element(
         "AcousticCommsChannel", default=()
     )
-    """The acoustic channels."""
+    """The acoustic communication channels."""
     vehicles: tuple[VehicleSpec, ...] = element("vehicle", default=())
-    """The robots."""
+    """The vehicles, each with its robot, sensors and devices."""
     objects: tuple[ObjectSpec, ...] = element("object", default=())
     """The objects in the water."""
     ros_interfaces: tuple[InterfaceSpec, ...] = element(choice=INTERFACES, default=())
-    """The topics in and out."""
+    """The topics on which the scene publishes and receives messages."""
     vary: tuple[VariationSpec, ...] = element(namespaced=True, choice=DISTRIBUTIONS, default=())
-    """The values that are drawn anew for each seed."""
+    """The values that are drawn at random for each seed."""
     forces: tuple[ForceSpec, ...] = element(
         namespaced=True, default=(),
         choice={f"{{{NAMESPACE}}}{name}": spec for name, spec in FORCES.items()},
     )  # fmt: skip
-    """Forces on bodies besides those of the water."""
+    """The forces on bodies besides those of the water."""
     path: str = dataclasses.field(default="", compare=False, metadata={"path": True})
-    """The file from which it was read."""
+    """The path of the file from which the scene was read."""
     is_original: bool = dataclasses.field(default=False, compare=False, metadata={"path": True})
-    """True if it names the original's DTD; labelled boxes then replace missing models."""
+    """True if the file names the DTD of the original UWSim: labelled boxes then replace missing
+    models."""
 
     expansion: Expansion = dataclasses.field(
         default=Expansion(), compare=False, metadata={"path": True}
     )
-    """The xacro expansion; the caller's arguments apply to its robots, too."""
+    """The result of the xacro expansion; its arguments also apply to the robot files."""
 
     @property
     def nominal_scene(self) -> SceneSpec:
-        """The same scene without variations: as in the file, for any seed."""
+        """The scene without variations: with the values of the file for any seed."""
         return dataclasses.replace(self, vary=())
 
     @cached_property
     def world_from_localized(self) -> Pose:
-        """The pose of L in W: the offset in ``simParams``."""
+        """The pose of L in W, from ``offsetp`` and ``offsetr`` of ``simParams``."""
         return Pose.from_xyz(self.sim_params.offsetp, self.sim_params.offsetr)
 
     @property
     def earth_origin(self) -> Geodetic | None:
-        """The position on Earth of W's origin: x east, y north; None if the scene gives none."""
-        return None if self.ned_origin is None else self.ned_origin.place
+        """The position on Earth of the origin of W (x east, y north); None if not given."""
+        return None if self.ned_origin is None else self.ned_origin.geodetic_position
 
     @property
     def is_dynamic(self) -> bool:
-        """True if a vehicle is simulated."""
+        """True if at least one vehicle has dynamics (``u:dynamics``)."""
         return any(vehicle.dynamics is not None for vehicle in self.vehicles)
 
     @property
     def requests_uwsim_physics(self) -> bool:
-        """True if the original's physics is requested: ``enablePhysics``, nothing in water."""
+        """True if ``enablePhysics`` requests the physics of UWSim, and no vehicle has dynamics."""
         return self.sim_params.enable_physics and not self.is_dynamic
 
     @property
     def has_uwsim_physics(self) -> bool:
-        """True if objects move by the original's physics."""
+        """True if the physics of the original UWSim moves at least one object."""
         return self.requests_uwsim_physics and any(
             physics.is_loose for physics in self.solid_objects.values()
         )
 
     @property
     def solid_objects_in_water(self) -> dict[int, PhysicsSpec]:
-        """The solid objects in simulated water, by number.
+        """The objects that vehicles with dynamics have contacts with, by number.
 
-        Objects with ``<physics>`` or ``u:solid`` 1, and ``terrain``; nothing with ``u:solid`` 0.
+        These are objects with ``<physics>`` or ``u:solid`` 1 and, if a vehicle has dynamics, the
+        object ``terrain``; but not objects with ``u:solid`` 0.
         """
         is_dynamic = self.is_dynamic
         return {
@@ -176,10 +185,11 @@ class SceneSpec(Spec):
 
     @property
     def solid_objects(self) -> dict[int, PhysicsSpec]:
-        """The objects with contacts, by number: `solid_objects_in_water`; all in UWSim's physics.
+        """The objects that can have contacts, by number.
 
-        If nothing is solid, all are, and fixed, as the original ends on a request for contacts.
-        Never those with ``u:solid`` 0.
+        These are the `solid_objects_in_water`. If there are none, or in the physics of the original
+        UWSim, these are all objects without ``u:solid`` 0. If there are none, they are fixed:
+        contacts can be requested, where the original UWSim would crash.
         """
         objects = {i: spec for i, spec in enumerate(self.objects) if spec.is_solid is not False}
         if self.requests_uwsim_physics:
@@ -192,10 +202,10 @@ class SceneSpec(Spec):
 
 
 def with_integrator(scene: SceneSpec, integrator: Integrator | None) -> SceneSpec:
-    """Return the scene with the chosen integrator, if any.
+    """Return the scene with another integrator; None: no change.
 
     Raises:
-        BadSetting: there is none of that name.
+        BadSetting: there is no such integrator.
     """
     if integrator is None:
         return scene
@@ -208,7 +218,7 @@ def with_integrator(scene: SceneSpec, integrator: Integrator | None) -> SceneSpe
 
 
 def has_floor_placement(scene: SceneSpec) -> bool:
-    """Return whether a vehicle or object is to be set on the ground."""
+    """Return whether the scene has a vehicle or object with ``u:onFloor``."""
     floors = [vehicle.on_floor for vehicle in scene.vehicles]
     floors += [spec.on_floor for spec in scene.objects]
     return any(floor is not None for floor in floors)

@@ -1,4 +1,4 @@
-"""Elements that are read and not simulated yet: a warning for each kind."""
+"""The elements of scene files that are read and not simulated yet."""
 
 from __future__ import annotations
 
@@ -24,10 +24,10 @@ FAMILIES: dict[str, dict[str, type]] = {
     "rosInterfaces": {n: spec for n, spec in INTERFACES.items() if n != "SimulatedDeviceROS"},
     "SimulatedDeviceROS": {"echoROS": INTERFACES["echoROS"]},
 }
-"""The parts that an element may contain; those without ``bind`` are not simulated."""
+"""The specs of the parts in each parent element; specs without ``bind`` are not simulated."""
 
 
-def _is_simulated(spec: type) -> bool:
+def _is_implemented(spec: type) -> bool:
     return spec.is_simulated() if issubclass(spec, InterfaceSpec) else hasattr(spec, "bind")
 
 
@@ -44,18 +44,18 @@ UNSIMULATED_ELEMENTS: dict[tuple[str, str], str] = {
         (parent, name): name
         for parent, parts in FAMILIES.items()
         for name, spec in parts.items()
-        if not _is_simulated(spec)
+        if not _is_implemented(spec)
     },
 }
-"""The feature to which (parent, element) belongs."""
+"""The feature, in words, to which each (parent, element) belongs."""
 
 ORIGINAL_PHYSICS_ELEMENTS = (("simParams", "enablePhysics"), ("simParams", "gravity"))
 """The elements that are simulated if ``enablePhysics`` is 1 and no vehicle has ``u:dynamics``."""
 LIMIT_ELEMENTS = ("minLinearLimit", "maxLinearLimit", "minAngularLimit", "maxAngularLimit")
-"""The limits of an object's physics, which are not simulated."""
+"""The limits in ``<physics>`` of an object, which are not simulated."""
 
 DISABLED_TEXTS = {"disableShaders": "0", "enablePhysics": "0", "showpath": "0"}
-"""The text with which an element has no effect."""
+"""The text with which an element has no effect, by element name."""
 
 
 READ_ONLY = "read, not simulated yet"
@@ -63,7 +63,7 @@ ONLY_WITHOUT_DYNAMICS = "simulated where no vehicle has u:dynamics"
 
 
 def describe_limit(parent: str, name: str) -> str:
-    """Describe the part of an element below ``parent`` that is not simulated; empty for none."""
+    """Describe what is not simulated of an element below ``parent``; empty if it is simulated."""
     if (parent, name) in ORIGINAL_PHYSICS_ELEMENTS:
         return ONLY_WITHOUT_DYNAMICS
     return READ_ONLY if (parent, name) in UNSIMULATED_ELEMENTS else ""

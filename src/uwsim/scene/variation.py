@@ -1,4 +1,4 @@
-r"""vary: values that are drawn at random for each seed; an extension of the dialect.
+r"""Variations, ``<u:vary>``: values that are drawn at random for each seed.
 
 .. code-block:: xml
 
@@ -12,10 +12,10 @@ r"""vary: values that are drawn at random for each seed; an extension of the dia
       </u:normal>
     </u:vary>
 
-A path is that of ``--set`` (`uwsim.scene.settings`) to one number; integers are drawn as integers.
-Each number has a separate random stream of the run's seed, ``vary/<path>``: an additional variation
-changes no other, and every level of a seed has the same scene. ``--set`` on a varied value, or on
-an element around it, removes the variation.
+``<u:path>`` is a path as in ``--set`` (`uwsim.scene.settings`) to one number; integers are drawn as
+integers. Each number has its own random stream of the run's seed, ``vary/<path>``: an additional
+variation does not change the others, and all levels of a seed have the same scene. ``--set`` on a
+varied value, or on an element that contains it, removes the variation.
 """
 
 from __future__ import annotations
@@ -30,25 +30,25 @@ from typing import Any, TypeVar, cast
 from ..base.rng import stream
 from ..errors import BadSetting
 from ..schema import NAMESPACE, Diagnostics, Spec, element
-from .settings import Place, locate, overlaps
+from .settings import ValueLocation, locate, overlaps
 
 T = TypeVar("T")
-Find = Callable[[Any, str], Place]
+Find = Callable[[Any, str], ValueLocation]
 N_DEVIATIONS = 3.0
-"""The default bounds of a normal distribution, in deviations."""
+"""The default bounds of a normal distribution, in standard deviations from the mean."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class VariationSpec(Spec, abc.ABC):
-    """The spec of one value that is drawn for each seed."""
+    """The spec of a number that is drawn at random for each seed."""
 
     path: str = element(namespaced=True)
-    """The path of the value, as in ``--set``: ``vehicle[girona500].position.x``."""
+    """The path of the number, as in ``--set``: ``vehicle[girona500].position.x``."""
 
     @property
     @abc.abstractmethod
     def bounds(self) -> tuple[float, float]:
-        """The least and greatest value that can be drawn, in the unit of the value."""
+        """The least and greatest number that can be drawn, in the unit of the varied value."""
 
     @property
     @abc.abstractmethod
@@ -60,7 +60,7 @@ class VariationSpec(Spec, abc.ABC):
         """Return the value below which ``share`` (0..1) of the distribution lies."""
 
     def diagnostic(self) -> str | None:
-        """Return the error of the distribution as a whole; None if it is valid."""
+        """Return the error in the combination of parameters; None if they are valid."""
         low, high = self.bounds
         return None if low < high else f"<u:low> {low:g} is not below <u:high> {high:g}"
 
@@ -70,13 +70,13 @@ class UniformSpec(VariationSpec):
     """A ``<u:uniform>``: a uniform distribution between two bounds, bounds included."""
 
     low: float = element(namespaced=True)
-    """The least value, in the unit of the value that varies."""
+    """The lower bound, in the unit of the varied value."""
     high: float = element(namespaced=True)
-    """The greatest value, in the unit of the value that varies."""
+    """The upper bound, in the unit of the varied value."""
 
     @property
     def bounds(self) -> tuple[float, float]:
-        """The bounds, as given."""
+        """The lower and the upper bound."""
         return self.low, self.high
 
     @property
@@ -97,17 +97,17 @@ class NormalSpec(VariationSpec):
     """
 
     mean: float = element(namespaced=True)
-    """The mean before truncation, in the unit of the value that varies."""
+    """The mean before truncation, in the unit of the varied value."""
     deviation: float = element(namespaced=True, exclusive_minimum=0.0)
-    """The standard deviation before truncation, in the unit of the value that varies."""
+    """The standard deviation before truncation, in the unit of the varied value."""
     low: float | None = element(namespaced=True, default=None)
-    """The least value; without it the mean less three deviations."""
+    """The lower bound; without it the mean minus three standard deviations."""
     high: float | None = element(namespaced=True, default=None)
-    """The greatest value; without it the mean and three deviations."""
+    """The upper bound; without it the mean plus three standard deviations."""
 
     @property
     def bounds(self) -> tuple[float, float]:
-        """The bounds as given, else three deviations from the mean."""
+        """The bounds in the file, by default three standard deviations from the mean."""
         reach = N_DEVIATIONS * self.deviation
         low = self.mean - reach if self.low is None else self.low
         return low, self.mean + reach if self.high is None else self.high
@@ -119,7 +119,7 @@ class NormalSpec(VariationSpec):
         return f"normal {self.mean:g} ± {self.deviation:g}, {low:g} to {high:g}"
 
     def quantile(self, share: float) -> float:
-        """Invert the distribution function between its values at the bounds."""
+        """Return the value below which ``share`` (0..1) of the truncated distribution lies."""
         from scipy.special import ndtr, ndtri
 
         lower_share, upper_share = (float(ndtr(self._score(bound))) for bound in self.bounds)
@@ -130,7 +130,7 @@ class NormalSpec(VariationSpec):
         return min(max(value, low), high)
 
     def diagnostic(self) -> str | None:
-        """Return the error of bounds in the wrong order, or of bounds far from the mean."""
+        """Return the error for bounds in the wrong order or far from the mean; None if valid."""
         if error := super().diagnostic():
             return error
         low, high = map(self._score, self.bounds)
@@ -151,12 +151,12 @@ DISTRIBUTIONS: dict[str, type[VariationSpec]] = {
 
 @dataclass(frozen=True)
 class Draw:
-    """The value of one variation under one seed."""
+    """The value that is drawn for a variation with a seed."""
 
     path: str
-    """The value's full path: `uwsim.scene.settings.Place.path`."""
+    """The full path of the value: `uwsim.scene.settings.ValueLocation.path`."""
     value: float
-    """The drawn value; an integer where the value is one."""
+    """The drawn value; an integer if the field is an integer."""
     unit: str
     """The unit, if the documentation of the field has one."""
     drawn_from: str
@@ -167,36 +167,38 @@ def draw(spec: Any, seed: int, *, find: Find = locate) -> tuple[Draw, ...]:
     """Draw a value for each variation of ``spec``, in their order.
 
     Args:
-        spec: a scene, or a benchmark, with valid variations (`check_variations`).
+        spec: the spec of a scene or benchmark whose variations are valid (`check_variations`).
         seed: the seed of the run.
         find: the function that resolves a path in the spec.
     """
     return tuple(
-        Draw(place.path, value, place.unit, variation.description)
-        for variation, place, value in _values(spec, seed, find)
+        Draw(location.path, value, location.unit, variation.description)
+        for variation, location, value in _values(spec, seed, find)
     )
 
 
 def apply_variations(spec: T, seed: int, *, find: Find = locate) -> T:
-    """Return the scene, or benchmark, of a seed, with its variations drawn and removed."""
+    """Return the scene or benchmark for a seed, in which drawn values replace the variations."""
     if not spec.vary:  # type: ignore[attr-defined]
         return spec
     new_spec: Any = dataclasses.replace(spec, vary=())  # type: ignore[type-var]
-    for _, place, value in _values(spec, seed, find):
-        new_spec = find(new_spec, place.path).with_value(_to_exact_text(value))
+    for _, location, value in _values(spec, seed, find):
+        new_spec = find(new_spec, location.path).with_value(_to_exact_text(value))
     return cast(T, new_spec)
 
 
-def _values(spec: Any, seed: int, find: Find) -> Iterator[tuple[VariationSpec, Place, float]]:
-    """Draw a value for each variation of ``spec``, in their order, with its place."""
+def _values(
+    spec: Any, seed: int, find: Find
+) -> Iterator[tuple[VariationSpec, ValueLocation, float]]:
+    """Yield each variation of ``spec``, in their order, with its location and its drawn value."""
     for variation in spec.vary:
         try:
-            place = find(spec, variation.path)
-        except BadSetting as error:  # of a spec that was changed after it was read
+            location = find(spec, variation.path)
+        except BadSetting as error:  # the spec was changed after it was read
             hint = "The scene without variations is its `nominal_scene`."
             raise BadSetting(f"<u:vary> {variation.path}: {error} {hint}") from None
-        share = float(stream(seed, f"vary/{place.path}").uniform())
-        yield variation, place, _draw_value(variation, place, share)
+        share = float(stream(seed, f"vary/{location.path}").uniform())
+        yield variation, location, _draw_value(variation, location, share)
 
 
 def check_variations(
@@ -206,48 +208,55 @@ def check_variations(
     find: Find = locate,
     check_bound: Callable[[Any], None] = lambda new_spec: None,
 ) -> None:
-    """Report errors in variations: paths, kinds, bounds, and two of one value.
+    """Report variations with an invalid path, value or bound, and two variations of one value.
 
     Args:
-        spec: a scene, or a benchmark.
+        spec: the spec of a scene or benchmark.
         diagnostics: receives the errors.
         find: the function that resolves a path in the spec.
-        check_bound: raises BadSetting if a spec with a value at its bound is invalid.
+        check_bound: raises BadSetting if a spec is invalid whose value is set to a bound.
     """
-    places: list[Place] = []
+    locations: list[ValueLocation] = []
     for variation in spec.vary:
         try:
-            place = find(spec, variation.path)
-            for new_spec in _specs_at_bounds(place, variation):
+            location = find(spec, variation.path)
+            for new_spec in _specs_at_bounds(location, variation):
                 check_bound(new_spec)
             if twin := next(
-                (other_place for other_place in places if overlaps(other_place, place)), None
+                (
+                    other_location
+                    for other_location in locations
+                    if overlaps(other_location, location)
+                ),
+                None,
             ):
                 raise BadSetting(f"{twin.path} varies already.")
         except BadSetting as error:
             diagnostics.error(variation, f"<u:path> {variation.path}: {error}".rstrip("."))
         else:
-            places.append(place)
+            locations.append(location)
 
 
-def _specs_at_bounds(place: Place, variation: VariationSpec) -> list[Any]:
-    """Return the root spec with the value at either bound; BadSetting if it cannot vary."""
-    if place.rest and not place.has_parts:
-        raise BadSetting(f"<{place.field.label}> is a value; it has no elements.")
-    if not place.is_number:
-        raise BadSetting(f"it is {place.kind}; only a number can vary.")
+def _specs_at_bounds(location: ValueLocation, variation: VariationSpec) -> list[Any]:
+    """Return the root specs with the value at each bound; raise BadSetting if it cannot vary."""
+    if location.components and not location.has_parts:
+        raise BadSetting(f"<{location.field.label}> is a value; it has no elements.")
+    if not location.is_number:
+        raise BadSetting(f"it is {location.kind}; only a number can vary.")
     if error := variation.diagnostic():
         raise BadSetting(error + ".")
     specs = []
     for bound in variation.bounds:
-        if place.is_integer and not float(bound).is_integer():
+        if location.is_integer and not float(bound).is_integer():
             raise BadSetting(f"it is an integer, and {bound:g} is not.")
-        specs.append(place.with_value(_to_exact_text(int(bound) if place.is_integer else bound)))
+        specs.append(
+            location.with_value(_to_exact_text(int(bound) if location.is_integer else bound))
+        )
     return specs
 
 
-def _draw_value(variation: VariationSpec, place: Place, share: float) -> float:
-    if not place.is_integer:
+def _draw_value(variation: VariationSpec, location: ValueLocation, share: float) -> float:
+    if not location.is_integer:
         return float(f"{variation.quantile(share):.12g}")  # the same on every processor
     low, high = variation.bounds
     if isinstance(variation, UniformSpec):  # all are equally likely

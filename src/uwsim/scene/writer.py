@@ -1,4 +1,4 @@
-"""Writer of a `SceneSpec` as a scene file; reading it gives an equal spec."""
+"""Writer of a `SceneSpec` as a scene file, from which the reader returns an equal spec."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from .spec import SceneSpec
 
 
 def write_scene(scene: SceneSpec) -> str:
-    """Write a scene as the text of a file; omit what equals its default.
+    """Return a scene as the text of a scene file, without values that equal their defaults.
 
-    It has no DOCTYPE: only the original needs one.
+    The text has no DOCTYPE, which only the original UWSim needs.
     """
     root = write(scene, ROOT)
     etree.indent(root)

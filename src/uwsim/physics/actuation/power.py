@@ -35,7 +35,7 @@ import math
 import numpy as np
 
 from ...base.geometry import Array
-from ...scene.hydrodynamics.power_checks import greatest_thrust, polynomial
+from ...scene.hydrodynamics.power_checks import max_thrust, polynomial
 from ...scene.hydrodynamics.spec import ThrusterSpec
 
 DEFAULT_EFFICIENCY = 0.4
@@ -73,7 +73,7 @@ def greatest_power(thruster: ThrusterSpec, density: float) -> float:
     table = power_table(thruster, density)
     max_powers = []
     for row, forward in enumerate((True, False)):
-        thrusts = np.linspace(0.0, greatest_thrust(thruster, forward=forward), 201)
+        thrusts = np.linspace(0.0, max_thrust(thruster, forward=forward), 201)
         ideal_powers = table[row, 0] * thrusts**1.5
         max_powers.append(float((ideal_powers + polynomial(tuple(table[row, 1:]), thrusts)).max()))
     return max(max_powers)

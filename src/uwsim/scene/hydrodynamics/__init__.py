@@ -1,4 +1,4 @@
-"""The contents of a vehicle's hydrodynamics file: specs, their reader, and their errors."""
+"""The hydrodynamics file of a vehicle: specs, their reader, and checks of their numbers."""
 
 from __future__ import annotations
 

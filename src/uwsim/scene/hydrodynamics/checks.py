@@ -1,4 +1,4 @@
-"""Checks of the numbers of bodies and thrusters."""
+"""Checks of the numbers of bodies and thrusters in hydrodynamics files."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import numpy as np
 from ...base.geometry import Array
 from ...errors import did_you_mean
 from ...schema import Numbers
-from .number_checks import limit_errors, number_errors, text_of, words
+from .number_checks import field_words, limit_errors, number_errors, text_of
 from .passivity import Kind, driving_motion, passive_share
 from .spec import (
     DENSITY_LIMITS,
@@ -23,11 +23,13 @@ from .spec import (
 
 MIN_INERTIA = 1e-12
 """The least moment of inertia that the engine accepts [kg m2]."""
-MAX_SAG_SHARE = 0.02
-"""The share of the greatest thrust by which a measured curve, or its polynomial, may fall."""
+MAX_THRUST_DROP = 0.02
+"""The greatest drop of a thrust curve with rising command, as a share of the greatest thrust [1]:
+fits to measurements are not exactly monotonic."""
 MAX_THRUST = 1e7
 """The greatest thrust of a propeller [N]."""
 DRAG_KINDS: dict[str, Kind] = {"linear_damping": "linear", "quadratic_damping": "quadratic"}
+"""The kind of drag law of each damping field of `BodyHydrodynamics`."""
 
 
 def body_errors(body: BodyHydrodynamics) -> list[str]:
@@ -38,11 +40,13 @@ def body_errors(body: BodyHydrodynamics) -> list[str]:
     for name in ("added_mass", "body_lift", *DRAG_KINDS):
         numbers: Numbers = getattr(body, name)
         if len(numbers) not in (6, 36):
-            errors.append(f"{owner}: {words(name)} has {len(numbers)} numbers; expected 6 or 36")
+            errors.append(
+                f"{owner}: {field_words(name)} has {len(numbers)} numbers; expected 6 or 36"
+            )
         elif name == "body_lift":
             errors += _lift_errors(owner, matrix(numbers))
         elif name == "added_mass":
-            errors += _mass_errors(owner, matrix(numbers))
+            errors += _added_mass_errors(owner, matrix(numbers))
         else:
             errors += _drag_errors(owner, name, matrix(numbers))
     if body.shape not in N_LENGTHS:
@@ -74,7 +78,7 @@ def thruster_errors(thruster: ThrusterSpec) -> list[str]:
     for side in ("forward", "backward", "power", "power_backward"):
         curve = getattr(thruster, side)
         if curve is not None and not 1 <= len(curve) <= MAX_COEFFICIENTS:
-            message = f"{words(side)} has {len(curve)} coefficients"
+            message = f"{field_words(side)} has {len(curve)} coefficients"
             errors.append(f"{owner}: {message}; expected 1 to {MAX_COEFFICIENTS}")
     if thruster.power is None and thruster.power_backward is not None:
         errors.append(f"{owner}: power backward is given without power")
@@ -97,7 +101,7 @@ def thruster_errors(thruster: ThrusterSpec) -> list[str]:
 
 
 def density_errors(density: float) -> list[str]:
-    """Return every error in the density of the water."""
+    """Return the error in the density of the water [kg/m3], if any."""
     low, high = DENSITY_LIMITS
     if low <= density <= high:
         return []
@@ -107,7 +111,7 @@ def density_errors(density: float) -> list[str]:
     ]
 
 
-def _mass_errors(owner: str, added_mass: Array) -> list[str]:
+def _added_mass_errors(owner: str, added_mass: Array) -> list[str]:
     scale = float(np.abs(added_mass).max())
     skew = np.abs(added_mass - added_mass.T)
     if scale and skew.max() > 1e-6 * scale:
@@ -128,7 +132,7 @@ def _mass_errors(owner: str, added_mass: Array) -> list[str]:
 def _drag_errors(owner: str, name: str, drag: Array) -> list[str]:
     if min(np.diag(drag)) < 0.0:
         return [
-            f"{owner}: {words(name)} has the diagonal {text_of(np.diag(drag))}; "
+            f"{owner}: {field_words(name)} has the diagonal {text_of(np.diag(drag))}; "
             "expected none below 0 (drag opposes motion with positive coefficients)"
         ]
     motion_and_power = driving_motion(DRAG_KINDS[name], drag)
@@ -138,7 +142,7 @@ def _drag_errors(owner: str, name: str, drag: Array) -> list[str]:
     share = passive_share(DRAG_KINDS[name], drag)
     limit = f"at most {share:.2f} times as large" if share > 0.0 else "0 where that is 0"
     return [
-        f"{owner}: {words(name)} drives the body with {power:.3g} W at the velocity "
+        f"{owner}: {field_words(name)} drives the body with {power:.3g} W at the velocity "
         f"{text_of(np.round(motion, 3) + 0.0)} [m/s, rad/s]. Expected drag that only takes "
         f"energy: entries off this diagonal {limit}"
     ]
@@ -203,7 +207,7 @@ def _thrust_errors(owner: str, thruster: ThrusterSpec) -> list[str]:
                 f"0. A propeller with reverse thrust needs another direction, one that does not "
                 f"run {side} the limit {zero_limit}"
             )
-        elif peaks[index] - thrusts[index] > MAX_SAG_SHARE * peaks[-1]:
+        elif peaks[index] - thrusts[index] > MAX_THRUST_DROP * peaks[-1]:
             command = sizes[index] + thruster.dead_zone
             errors.append(
                 f"{owner}: {side} falls from {peaks[index]:.4g} N to {thrusts[index]:.4g} N at the "
@@ -215,7 +219,12 @@ def _thrust_errors(owner: str, thruster: ThrusterSpec) -> list[str]:
 
 
 def inertia_errors(owner: str, inertia: Numbers) -> list[str]:
-    """Return the errors of the inertia xx yy zz xy xz yz of an owner [kg m2]."""
+    """Return the errors in an inertia, xx yy zz xy xz yz [kg m2].
+
+    Args:
+        owner: the name of the body in messages.
+        inertia: the six numbers.
+    """
     if len(inertia) != 6:
         return [f"{owner}: inertia has {len(inertia)} numbers; expected xx yy zz xy xz yz"]
     xx, yy, zz, xy, xz, yz = inertia

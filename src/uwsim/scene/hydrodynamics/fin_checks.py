@@ -1,4 +1,4 @@
-"""Checks of the numbers of a fin."""
+"""Checks of the numbers of fins in hydrodynamics files."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .number_checks import limit_errors, number_errors, text_of
 from .spec import MAX_POINTS, FinSpec
 
 MIN_CHORD_ANGLE = 0.1
-"""The angle between chord and axis below which they are parallel [rad]."""
+"""The angle between chord and axis below which they count as parallel [rad]."""
 
 
 def fin_errors(fin: FinSpec) -> list[str]:

@@ -1,15 +1,16 @@
-r"""Passivity of drag: it takes energy from a body in every motion.
+r"""Check of the passivity of drag: drag must take energy from a body in every motion.
 
-Drag :math:`D\nu` of a body that moves with :math:`\nu` takes the power :math:`\nu^T D \nu` from it,
-quadratic drag the power
+Linear drag :math:`D\nu` takes the power :math:`\nu^T D \nu` from a body that moves with the
+velocity :math:`\nu`, and quadratic drag takes the power
 
 .. math:: P(\nu) = \sum_{ij} \nu_i\, Q_{ij}\, |\nu_j|\, \nu_j .
 
-A body can lose energy to still water but not gain any, so neither may be below 0 at any
+A body can lose energy to still water but not gain energy, so neither power may be negative at any
 :math:`\nu` (Fossen, Handbook of Marine Craft Hydrodynamics and Motion Control, 2011, property 6.2:
-:math:`D(\nu) > 0`). For linear drag that is a symmetric part which is positive semi-definite. For
-quadratic drag the condition is different, neither weaker nor stronger: P is of the third degree,
-and gradient descent from many starts searches for its least value on the unit sphere.
+:math:`D(\nu) > 0`). For linear drag this means that the symmetric part of D is positive
+semi-definite. For quadratic drag the condition is different, neither weaker nor stronger: P is a
+polynomial of the third degree, and gradient descent from many starts searches for its least value
+on the unit sphere.
 """
 
 from __future__ import annotations
@@ -22,15 +23,22 @@ from ...base.geometry import Array
 from ...base.rng import stream
 
 TOLERANCE = 1e-6
-"""The tolerance of negative power, with 1 W for each axis alone [W]."""
+"""The tolerance of negative power [W], for motions scaled so that each axis alone takes 1 W."""
 N_STARTS, N_BEST, N_STEPS = 4096, 64, 300
+"""The number of random motions, of the best of them that are improved, and of descent steps."""
 Kind = Literal["linear", "quadratic"]
 
 
 def driving_motion(kind: Kind, drag: Array) -> tuple[Array, float] | None:
-    """Return a motion that the drag (6, 6) drives, and the power that it supplies; or None.
+    """Return a motion that the drag drives instead of damping it; None if the drag is passive.
 
-    The motion has its greatest component 1 [m/s or rad/s]; the power is in W.
+    Args:
+        kind: the drag law.
+        drag: the matrix of its coefficients, (6, 6).
+
+    Returns:
+        The motion (6,), whose greatest component is 1 [m/s or rad/s], and the power that the drag
+        supplies [W].
     """
     scale = _scale(kind, drag)
     if not (drag - np.diag(np.diag(drag))).any() and np.diag(drag).min() >= 0.0:
@@ -52,7 +60,10 @@ def driving_motion(kind: Kind, drag: Array) -> tuple[Array, float] | None:
 
 
 def passive_share(kind: Kind, drag: Array) -> float:
-    """Return the greatest passive share of the entries off the diagonal, in steps of 0.01."""
+    """Return the greatest factor on the off-diagonal entries with which the drag is passive.
+
+    It is computed in steps of 0.01, from 0 to 1.
+    """
     diagonal = np.diag(np.diag(drag))
     lower, upper = 0, 100
     while upper - lower > 1:
@@ -63,7 +74,10 @@ def passive_share(kind: Kind, drag: Array) -> float:
 
 
 def _scale(kind: Kind, drag: Array) -> Array:
-    """Return the speed at which each axis alone takes 1 W, limited for axes without drag, (6,)."""
+    """Return the speed at which drag along each axis alone takes 1 W, (6,) [m/s, rad/s].
+
+    Axes without drag have a large finite speed.
+    """
     floor = max(1e-6 * float(np.abs(drag).max()), 1e-300)
     power = 0.5 if kind == "linear" else 1.0 / 3.0
     scale: Array = np.maximum(np.diag(drag), floor) ** -power
@@ -90,6 +104,6 @@ def _min_power_motion(drag: Array) -> Array:
 
 
 def _powers(drag: Array, motions: Array) -> Array:
-    """Return the power that quadratic drag takes from motions (n, 6), (n,)."""
+    """Return the power [W] that quadratic drag takes from motions (n, 6), as (n,)."""
     powers: Array = np.einsum("ni,ij,nj->n", motions, drag, np.abs(motions) * motions)
     return powers

@@ -1,4 +1,4 @@
-"""Checks of a thruster's power over its range of thrusts."""
+"""Checks of the electric power of thrusters in hydrodynamics files."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from .spec import ThrusterSpec
 
 
 def power_errors(thruster: ThrusterSpec) -> list[str]:
-    """Return the errors of power curves that fall below 0."""
+    """Return the errors for power curves that are negative at some thrust in the range."""
     errors = []
     for name, curve, forward in (
         ("power", thruster.power, True),
@@ -18,7 +18,7 @@ def power_errors(thruster: ThrusterSpec) -> list[str]:
     ):
         if curve is None:
             continue
-        thrusts = np.linspace(0.0, greatest_thrust(thruster, forward=forward), 201)
+        thrusts = np.linspace(0.0, max_thrust(thruster, forward=forward), 201)
         powers = polynomial(curve, thrusts)
         index = int(np.argmin(powers))
         if powers[index] < -1e-9:
@@ -29,8 +29,8 @@ def power_errors(thruster: ThrusterSpec) -> list[str]:
     return errors
 
 
-def greatest_thrust(thruster: ThrusterSpec, *, forward: bool) -> float:
-    """Compute the greatest thrust in a direction [N]."""
+def max_thrust(thruster: ThrusterSpec, *, forward: bool) -> float:
+    """Compute the greatest thrust, forward or backward [N]."""
     backward = thruster.forward if thruster.backward is None else thruster.backward
     end = thruster.limits[1] if forward else -thruster.limits[0]
     commands = np.maximum(np.linspace(0.0, end, 201) - thruster.dead_zone, 0.0)
@@ -41,5 +41,5 @@ def greatest_thrust(thruster: ThrusterSpec, *, forward: bool) -> float:
 
 
 def polynomial(coefficients: Numbers, x: Array) -> Array:
-    """Evaluate ``c1 x + c2 x^2 + ...``."""
+    """Evaluate the polynomial ``c1 x + c2 x^2 + ...`` without a constant term."""
     return np.asarray(np.polynomial.polynomial.polyval(x, (0.0, *coefficients)), dtype=np.float64)

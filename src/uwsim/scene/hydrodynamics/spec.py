@@ -1,7 +1,7 @@
-"""The parameters of a vehicle in water, as in its hydrodynamics file; `checks` checks them.
+"""The hydrodynamic parameters of a vehicle, as its hydrodynamics file contains them.
 
-Every 6x6 matrix is in the literature's order (surge, sway, heave, roll, pitch, yaw) in the axes of
-its body (link), about its reference point. Forces oppose motion with positive coefficients;
+The rows and columns of 6x6 matrices are surge, sway, heave, roll, pitch, yaw (SNAME 1950), in the
+axes of the body (a link), about the reference point. Positive damping coefficients oppose motion;
 published derivatives (``X_udot``, ``X_u``) mostly have the opposite sign.
 """
 
@@ -29,15 +29,15 @@ Shape = Literal["sphere", "ellipsoid", "box", "cylinder", "shrinking-sphere"]
 N_LENGTHS: dict[str, int] = {
     "sphere": 1, "ellipsoid": 3, "box": 3, "cylinder": 2, "shrinking-sphere": 1
 }  # fmt: skip
-"""The number of lengths of each shape."""
+"""The number of lengths that describe each shape."""
 MAX_COEFFICIENTS = 9
-"""The greatest number of coefficients of a curve."""
+"""The greatest number of coefficients of a polynomial."""
 MIN_RADIUS = 0.001
 """The least radius of a propeller [m]."""
 MAX_TIME_CONSTANT = 60.0
-"""The longest lag of a thruster or a fin [s]."""
+"""The greatest time constant of a thruster or a fin [s]."""
 MAX_FIN_AREA = 1000.0
-"""The largest planform of a fin [m2]."""
+"""The greatest planform area of a fin [m2]."""
 MAX_LIFT_SLOPE = 6.29
 """The lift slope of a thin foil of infinite span, 2 pi [1/rad]."""
 DENSITY_LIMITS = (100.0, 20000.0)
@@ -47,7 +47,7 @@ MAX_EFFICIENCY = 1.41
 
 
 class BadHydrodynamics(UwsimError):
-    """Coefficients that are impossible for a body in water; has every error."""
+    """An error for coefficients that are impossible for a body in water; lists all of them."""
 
     def __init__(self, errors: Sequence[str]) -> None:
         self.errors = tuple(errors)
@@ -59,93 +59,99 @@ class BodyHydrodynamics(Spec):
     """The hydrodynamic parameters of one link or object."""
 
     link: str = element(attribute=True)
-    """The link of the URDF that it belongs to."""
+    """The link of the URDF to which the parameters belong."""
     reference: Triple = ZERO
     """The reference point of added mass and damping, in the link's frame [m]."""
     added_mass: Numbers = (0.0,) * 6
-    """6 numbers (the diagonal) or 36, row by row: surge, sway, heave, roll, pitch, yaw; symmetric,
-    positive semi-definite [kg, kg m, kg m2]."""
+    """The added mass: 6 numbers (the diagonal) or 36, row by row: surge, sway, heave, roll, pitch,
+    yaw; symmetric, positive semi-definite [kg, kg m, kg m2]."""
     linear_damping: Numbers = (0.0,) * 6
-    """6 or 36: force per relative velocity [N s/m, N s, N m s]."""
+    """The linear damping, 6 or 36 numbers: force per velocity relative to the water
+    [N s/m, N s, N m s]."""
     quadratic_damping: Numbers = (0.0,) * 6
-    """6 or 36: force = coefficient |v_j| v_j of the column's velocity [N s2/m2, ...]."""
+    """The quadratic damping, 6 or 36 numbers: force = coefficient |v_j| v_j, with the velocity v_j
+    of the column j relative to the water [N s2/m2, ...]."""
     body_lift: Numbers = (0.0,) * 6
-    """6 or 36: force = coefficient |u| v_j with the surge u and the column's velocity; the lift of
-    a slender hull (-Y_uv, -N_uv, ...) without the part of the added mass [kg/m, kg, kg m]."""
+    """The lift of a slender hull, 6 or 36 numbers: force = coefficient |u| v_j, with the surge
+    velocity u and the velocity v_j of the column j; -Y_uv, -N_uv, ... without the contribution of
+    the added mass [kg/m, kg, kg m]."""
     volume: float = element(default=0.0, minimum=0.0)
     """The volume of displaced water when fully submerged [m3]."""
     centre_of_buoyancy: Triple = ZERO
     """The centre of buoyancy in the link's frame [m]."""
     shape: Shape = "sphere"
-    """The shape at the surface: volume as a function of depth and attitude. Its centre is the
-    centre of buoyancy, with the link's axes; a cylinder's axis is z."""
+    """The shape for partial submersion: submerged volume as a function of depth and attitude. The
+    shape is at the centre of buoyancy, with the axes of the link; the axis of a cylinder is z."""
     size: Numbers = element(default=(), exclusive_minimum=0.0)
-    """The size of the shape [m]: radius; half-axes; edges; radius and length. Without: the sphere
-    of that volume. Only the submerged *fraction* is computed from the shape."""
+    """The size of the shape [m]: radius of a sphere; half-axes of an ellipsoid; edges of a box;
+    radius and length of a cylinder. Without it the sphere of that volume. Only the submerged
+    *fraction* is computed from the shape."""
     mass: float | None = element(default=None, exclusive_minimum=0.0)
     """A mass that replaces the URDF's [kg]."""
     centre_of_mass: Triple | None = None
     """A centre of mass that replaces the URDF's, in the link's frame [m]."""
     inertia: Numbers | None = None
-    """An inertia that replaces the URDF's, about the centre of mass, link's axes: xx, yy, zz, xy,
-    xz, yz [kg m2]."""
+    """An inertia that replaces the URDF's, about the centre of mass in the axes of the link: xx,
+    yy, zz, xy, xz, yz [kg m2]."""
     drag_law: DragLaw = "axes"
-    """The speed in the quadratic drag of 6 numbers. ``axes``: each component's own speed, |v_j|
-    v_j, which for a ball would depend on its orientation. ``speed``: that of all three, |v| v, for
-    isotropic bodies. ``x``, ``y`` or ``z``: that of both components across the axis, for a body of
-    revolution. 36 numbers use ``axes``. A file without it: ``speed`` if the first three numbers are
-    equal."""
+    """The speed in a quadratic damping of 6 numbers. ``axes``: each component's own speed, |v_j|
+    v_j; for a ball, this drag would depend on its orientation. ``speed``: the speed of all three
+    components, |v| v_j, for isotropic bodies. ``x``, ``y`` or ``z``: for the two components across
+    that axis, their common speed, for a body of revolution. 36 numbers always use ``axes``.
+    Without this element: ``speed`` if the first three numbers are equal, else ``axes``."""
     implicitness: float = element(default=0.5, minimum=0.0, maximum=1.0)
-    """The share of the drag at the end of a step: 0 explicit, 0.5 the trapezoidal rule, 1 implicit
-    (for light bodies with much drag). Not used by RK4."""
+    """The weight of the drag at the end of a step in the time integration: 0 explicit, 0.5 the
+    trapezoidal rule, 1 implicit (for light bodies with much drag). RK4 does not use it."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class ThrusterSpec(Spec):
-    """A propeller: it converts a command to thrust along its direction at its position."""
+    """A thruster: a propeller that converts a command to thrust."""
 
     name: str = element(attribute=True)
     """The name, also of the actuator."""
     link: str = element(attribute=True)
-    """The link to which it is fixed."""
+    """The link to which the thruster is fixed."""
     position: Triple = ZERO
     """The position in the link's frame [m]."""
     direction: Triple = (1.0, 0.0, 0.0)
     """The direction of the force on the vehicle at a positive command, in the link's frame [1]."""
     forward: Numbers
-    """The thrust = c1 x + c2 x^2 + ... at a command x > 0, up to nine coefficients [N]."""
+    """The coefficients of the thrust c1 x + c2 x^2 + ... at a command x > 0, up to nine [N]."""
     backward: Numbers | None = None
-    """The same for x < 0 (thrust = -(c1 |x| + c2 x^2 + ...)); without: as forward [N]."""
+    """The coefficients of the thrust -(c1 |x| + c2 x^2 + ...) at a command x < 0; without them as
+    forward [N]."""
     dead_zone: float = element(default=0.0, minimum=0.0)
-    """The command up to which there is no thrust; the curve starts there [1]."""
+    """The size of the command up to which there is no thrust; the curve starts there [1]."""
     limits: TwoNumbers = (-1.0, 1.0)
     """The least and greatest command [1]."""
     saturation: TwoNumbers | None = None
     """The least and greatest thrust [N]."""
     time_constant: float = element(default=0.0, minimum=0.0, maximum=MAX_TIME_CONSTANT)
-    """The first-order lag between command and rotor [s]; 0 for none."""
+    """The time constant of the first-order lag between command and rotor [s]; 0: no lag."""
     torque: float = 0.0
-    """The torque about the direction per thrust, positive right-handed [m]."""
+    """The torque about the direction of thrust, per thrust; positive right-handed [m]."""
     radius: float = element(default=0.05, minimum=MIN_RADIUS)
     """The radius of the propeller, for the loss of thrust at the surface and for its power [m]."""
     efficiency: float | None = element(default=None, exclusive_minimum=0.0, maximum=MAX_EFFICIENCY)
     """The efficiency from the battery to the ideal propeller of that radius
     (`uwsim.physics.actuation.power`); without it and without ``power``: 0.4 [1]."""
     advance: Numbers = ()
-    """Pairs of the advance ratio J = V / (n D) and the thrust coefficient KT, from J = 0 on, up to
-    12: thrust falls by KT(J) / KT(0), linear between the pairs and beyond, so that two are a line.
-    Without: thrust is that at rest [1, 1]."""
+    """The pairs, up to 12, of advance ratio J = V / (n D) and thrust coefficient KT, from J = 0 on:
+    the thrust is multiplied by KT(J) / KT(0), linear between the pairs and beyond them. Without
+    this element the thrust does not depend on the inflow velocity [1, 1]."""
     wake: float = element(default=0.0, minimum=0.0, maximum=0.99)
-    """The wake fraction: relative reduction of the water speed at the propeller [1]."""
+    """The wake fraction: the relative reduction of the inflow velocity at the propeller [1]."""
     power: Numbers | None = None
-    """The power instead: c1 |T| + c2 |T|^2 + ... of its thrust T, up to nine [W]."""
+    """The coefficients of the electric power c1 |T| + c2 |T|^2 + ... at the thrust T, up to nine,
+    instead of an efficiency [W]."""
     power_backward: Numbers | None = None
-    """The same for T < 0; without: as forward [W]."""
+    """The coefficients of the electric power for T < 0; without them as for T > 0 [W]."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class FinSpec(Spec):
-    """A control surface: a foil that turns about its span; see `fins`."""
+    """A fin: a control surface that turns about its span, as `kernel.fins` computes it."""
 
     name: str = element(attribute=True)
     """The name, also of the actuator."""
@@ -156,36 +162,36 @@ class FinSpec(Spec):
     axis: Triple = (0.0, 0.0, 1.0)
     """The axis of rotation along the span, right-handed, in the link's frame [1]."""
     chord: Triple = (1.0, 0.0, 0.0)
-    """The direction of the leading edge at the angle 0, in the link's frame [1]."""
+    """The direction to the leading edge at the fin angle 0, in the link's frame [1]."""
     area: float = element(exclusive_minimum=0.0, maximum=MAX_FIN_AREA)
     """The area of the planform [m2]."""
     aspect_ratio: float | None = element(default=None, exclusive_minimum=0.0)
     """The effective aspect ratio, span squared / area, for a missing slope or induced drag [1]."""
     lift_slope: float | None = element(default=None, exclusive_minimum=0.0, maximum=MAX_LIFT_SLOPE)
-    """The slope of the lift coefficient over the angle of attack, below the stall; without: 1 / (1
-    / (1.8 pi) + 1 / (pi AR)) with the aspect ratio AR [1/rad]."""
+    """The slope of the lift coefficient over the angle of attack, below the stall; without it
+    1 / (1 / (1.8 pi) + 1 / (pi AR)) with the aspect ratio AR [1/rad]."""
     stall: float = element(default=0.3, exclusive_minimum=0.0, maximum=1.57)
     """The angle of attack from which the flow separates [rad]."""
     drag: float = element(default=0.01, minimum=0.0)
-    """The drag coefficient without lift [1]."""
+    """The drag coefficient at zero lift [1]."""
     induced_drag: float | None = element(default=None, minimum=0.0)
-    """The drag coefficient per lift coefficient squared, below the stall; without: 1 / (0.9 pi AR),
-    or 0 [1]."""
+    """The drag coefficient per lift coefficient squared, below the stall; without it
+    1 / (0.9 pi AR) with the aspect ratio AR, or 0 without an aspect ratio [1]."""
     plate_drag: float = element(default=1.2, minimum=0.0)
-    """The force coefficient of the separated flow, across the foil [1]."""
+    """The coefficient of the force normal to the foil in separated flow [1]."""
     coefficients: Numbers = ()
-    """The coefficients instead of the formula: rows of angle of attack [rad], lift and drag
-    coefficient, up to 12, rising. A foil with angles from 0 on only is symmetric [rad, 1, 1]."""
+    """A table instead of the formulas: rows of angle of attack [rad], lift and drag coefficient, up
+    to 12, with rising angles. If all angles are 0 or more, the foil is symmetric [rad, 1, 1]."""
     limits: TwoNumbers = (-0.35, 0.35)
-    """The least and greatest angle; 0 0 for a fixed fin [rad]."""
+    """The least and greatest fin angle; 0 0 for a fixed fin [rad]."""
     rate: float | None = element(default=None, exclusive_minimum=0.0)
-    """The greatest speed of the servo; without: any [rad/s]."""
+    """The greatest speed of the servo; without it unlimited [rad/s]."""
     time_constant: float = element(default=0.0, minimum=0.0, maximum=MAX_TIME_CONSTANT)
-    """The first-order lag of the servo [s]."""
+    """The time constant of the first-order lag of the servo [s]; 0: no lag."""
 
     @property
     def slope(self) -> float:
-        """The lift slope, given or from the aspect ratio [1/rad]; 0 without either."""
+        """The lift slope, from the file or from the aspect ratio [1/rad]; 0 without either."""
         if self.lift_slope is not None:
             return self.lift_slope
         ratio = self.aspect_ratio
@@ -193,7 +199,7 @@ class FinSpec(Spec):
 
     @property
     def induced_drag_slope(self) -> float:
-        """The drag coefficient per lift coefficient squared, given or from the aspect ratio [1]."""
+        """The induced drag per lift coefficient squared, from the file or the aspect ratio [1]."""
         if self.induced_drag is not None:
             return self.induced_drag
         return 0.0 if self.aspect_ratio is None else 1.0 / (0.9 * math.pi * self.aspect_ratio)
@@ -206,19 +212,19 @@ class JointDrive(Spec):
     name: str = element(attribute=True)
     """The joint of the URDF."""
     efficiency: float = element(default=0.6, exclusive_minimum=0.0, maximum=1.0)
-    """The mechanical power per electrical power, without copper loss [1]."""
+    """The mechanical power divided by the electric power without copper loss [1]."""
     copper_loss: float = element(default=0.0, minimum=0.0)
-    """The power per effort squared, at rest too [W/(N m)2, W/N2]."""
+    """The copper loss divided by the effort squared; it also occurs at rest [W/(N m)2, W/N2]."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class VehicleHydrodynamics(Spec):
-    """A named set: every link and thruster of a vehicle."""
+    """A hydrodynamics set: the named parameters of all links, thrusters and fins of a vehicle."""
 
     name: str = element(attribute=True)
-    """The name in ``<u:dynamics>`` of scenes."""
+    """The name of the set, to which ``<u:dynamics>`` of scenes refers."""
     source: str = ""
-    """The source of the numbers, and which are estimates."""
+    """The source of the numbers, and a note which numbers are estimates."""
     density: float = element(default=1000.0, minimum=DENSITY_LIMITS[0], maximum=DENSITY_LIMITS[1])
     """The density of the water for which the numbers are valid and the volumes trimmed [kg/m3]."""
     include: tuple[str, ...] = ()
@@ -232,10 +238,10 @@ class VehicleHydrodynamics(Spec):
     joints: tuple[JointDrive, ...] = element("joint", default=())
     """The drives of joints, at most one each; other joints have the defaults of `JointDrive`."""
     files: tuple[Path, ...] = field(default=(), compare=False, metadata={"path": True})
-    """The files from which it was read, the set's own file first."""
+    """The paths of the files from which the set was read, its own file first."""
 
     def body(self, link: str) -> BodyHydrodynamics | None:
-        """Return the entry of a link."""
+        """Return the parameters of a link; None if the set has none."""
         return next((body for body in self.bodies if body.link == link), None)
 
     def scale_to_density(self, density: float) -> VehicleHydrodynamics:
@@ -260,7 +266,7 @@ class VehicleHydrodynamics(Spec):
         return replace(self, bodies=bodies, density=density)
 
     def drive(self, joint: str) -> JointDrive:
-        """Return the drive of a joint."""
+        """Return the drive of a joint, the default drive if the set has none for it."""
         drives = (drive for drive in self.joints if drive.name == joint)
         return next(drives, JointDrive(name=joint))
 

@@ -27,9 +27,9 @@
       <joint name="elbow"> <efficiency>0.5</efficiency> <copperLoss>0.02</copperLoss> </joint>
     </hydrodynamics>
 
-One file is one named set, keyed by the links of the URDF. ``<include>`` adds the bodies, thrusters
-and fins of another file (an arm of several vehicles).
-docs/your-own-vehicle.md has every element.
+A file contains one hydrodynamics set, which refers to links of the URDF by name. ``<include>`` adds
+the bodies, thrusters and fins of another file, such as an arm that several vehicles carry. The
+page docs/your-own-vehicle.md describes every element.
 """
 
 from __future__ import annotations
@@ -60,17 +60,17 @@ from .vehicle_sets import bundled_folder
 
 
 class VehicleError(FileError):
-    """A hydrodynamics file is invalid."""
+    """An error for an invalid hydrodynamics file."""
 
 
 @dataclass
 class _Parts:
-    """The contents of all files read so far."""
+    """The contents of a hydrodynamics file and its included files, as far as they are read."""
 
     links: list[str] | None
-    """The links of the robot; None to accept any."""
+    """The names of the robot's links; None to accept any."""
     movable_joints: list[str] | None
-    """The joints that the robot can move; None to accept any."""
+    """The names of the robot's movable joints; None to accept any."""
     bodies: list[BodyHydrodynamics] = field(default_factory=list)
     thrusters: list[ThrusterSpec] = field(default_factory=list)
     fins: list[FinSpec] = field(default_factory=list)
@@ -114,7 +114,7 @@ class _Parts:
 
 
 def set_errors(vehicle: VehicleHydrodynamics) -> list[str]:
-    """Return the errors in the numbers of a set that was changed after it was read."""
+    """Return the errors in the numbers of a hydrodynamics set that was changed after reading."""
     errors = [message for body in vehicle.bodies for message in body_errors(body)]
     for thruster in vehicle.thrusters:
         errors += thruster_errors(thruster) or power_errors(thruster)
@@ -129,10 +129,10 @@ def read_vehicle(
     Args:
         path: the file.
         links: the names of the robot's links; None to accept any.
-        joints: the names of the joints that it can move; None to accept any.
+        joints: the names of the robot's movable joints; None to accept any.
 
     Raises:
-        VehicleError: with every error of the file.
+        VehicleError: the file is invalid; the error has every mistake in it.
     """
     path = Path(path)
     diagnostics = Diagnostics(path)
@@ -249,7 +249,7 @@ def _check_name(
 
 
 def _with_drag_law(body: BodyHydrodynamics, root: etree._Element) -> BodyHydrodynamics:
-    """Return the body with its drag law, by default that which its numbers imply."""
+    """Return the body with the default drag law for its numbers, if its element has none."""
     line = line_of(body)
     nodes = (node for node in root.iterfind("body") if int(str(node.sourceline)) == line)
     node = next(node for node in nodes if node.get("link", "").strip() == body.link)
@@ -259,6 +259,8 @@ def _with_drag_law(body: BodyHydrodynamics, root: etree._Element) -> BodyHydrody
     is_isotropic = is_equal and coefficients[0] > 0.0
     if is_isotropic and not text["dragLaw"]:
         body = dataclasses.replace(body, drag_law="speed")
-    if text["shape"] and text["shape"] not in N_LENGTHS:  # reported; its lengths are unknown
+    if (
+        text["shape"] and text["shape"] not in N_LENGTHS
+    ):  # an unknown shape, which is reported elsewhere
         body = dataclasses.replace(body, size=())
     return body

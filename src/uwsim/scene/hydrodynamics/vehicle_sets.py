@@ -1,4 +1,4 @@
-"""Hydrodynamics files by name: the bundled ones, and those next to a scene."""
+"""Search for hydrodynamics sets by name: bundled files, and files next to a scene."""
 
 from __future__ import annotations
 
@@ -9,23 +9,27 @@ from pathlib import Path
 from ...errors import UnknownName
 
 MAX_HEAD_BYTES = 65536
-"""The number of bytes of a file in which its root element begins."""
+"""The number of bytes of a file within which its root element must begin."""
 
 
 def vehicle_sets() -> dict[str, Path]:
-    """Return the file of each bundled set, by name."""
+    """Return the path of each bundled hydrodynamics set, by name."""
     return {path.stem: path for path in sorted(bundled_folder().glob("*.xml"))}
 
 
 def find_vehicle(name: str, named_by: Path | None = None) -> Path:
-    """Find the hydrodynamics file of a set: ``name.xml`` next to the scene, or a bundled one.
+    """Return the path of a hydrodynamics set: ``name.xml`` next to a scene, or a bundled file.
+
+    Args:
+        name: the name of the set.
+        named_by: the path of the scene that names the set; None: only bundled sets.
 
     Raises:
-        UnknownName: there is none.
+        UnknownName: there is no such set.
     """
     if named_by is not None and name == Path(name).name:
         path = named_by.parent / f"{name}.xml"
-        with suppress(OSError, ValueError):  # no name of a file
+        with suppress(OSError, ValueError):  # the name is not a valid file name
             if path.is_file():
                 return path
     bundled_sets = vehicle_sets()

@@ -30,7 +30,7 @@ CONSTANTS: dict[str, Value] = {
     "false": False,
     "None": None,
 }
-BINARY: dict[type[ast.AST], Callable[[Any, Any], Any]] = {
+BINARY_OPERATORS: dict[type[ast.AST], Callable[[Any, Any], Any]] = {
     ast.Add: operator.add,
     ast.Sub: operator.sub,
     ast.Mult: operator.mul,
@@ -42,7 +42,7 @@ BINARY: dict[type[ast.AST], Callable[[Any, Any], Any]] = {
 }
 SET_OPERATIONS = ast.Sub | ast.BitOr | ast.BitAnd
 """The operations between sets."""
-COMPARE: dict[type[ast.AST], Callable[[Any, Any], Any]] = {
+COMPARISON_OPERATORS: dict[type[ast.AST], Callable[[Any, Any], Any]] = {
     ast.Eq: operator.eq,
     ast.NotEq: operator.ne,
     ast.Lt: operator.lt,
@@ -221,7 +221,9 @@ class Evaluation:
                 return -number if isinstance(sign, ast.USub) else number
             case ast.BinOp(op=ast.Pow(), left=left, right=right):
                 return check_value(FUNCTIONS["pow"](self.value(left), self.value(right)))
-            case ast.BinOp(op=operation, left=left, right=right) if type(operation) in BINARY:
+            case ast.BinOp(op=operation, left=left, right=right) if (
+                type(operation) in BINARY_OPERATORS
+            ):
                 return _binary(operation, self.value(left), self.value(right))
         raise ExpressionError(f"{ast.unparse(node)[:60]!r} is not supported in expressions")
 
@@ -241,7 +243,7 @@ class Evaluation:
             if isinstance(operation, ast.Is | ast.IsNot):
                 is_true = _is_same(left, right) is isinstance(operation, ast.Is)
             else:
-                is_true = bool(COMPARE[type(operation)](left, right))
+                is_true = bool(COMPARISON_OPERATORS[type(operation)](left, right))
             if not is_true:
                 return False
             left = right
@@ -334,7 +336,7 @@ def _binary(operation: ast.operator, left: Value, right: Value) -> Value:
     if DistinctItems in (type(left), type(right)):
         if type(left) is not type(right) or not isinstance(operation, SET_OPERATIONS):
             raise ExpressionError(f"{left!r} and {right!r}: sets have - & | with sets"[:200])
-        return check_value(BINARY[type(operation)](left, right))
+        return check_value(BINARY_OPERATORS[type(operation)](left, right))
     is_whole = [isinstance(operand, str | list) for operand in (left, right)]
     if isinstance(operation, ast.Mult) and is_whole.count(True) == 1:
         return check_value(repeat(left, right))
@@ -343,7 +345,7 @@ def _binary(operation: ast.operator, left: Value, right: Value) -> Value:
         plural = "lists" if kinds == {list} else "texts"
         message = f"{left!r} and {right!r}: {plural} can only be added to {plural}"
         raise ExpressionError(message[:200])
-    return check_value(BINARY[type(operation)](left, right))
+    return check_value(BINARY_OPERATORS[type(operation)](left, right))
 
 
 def _number(value: Value) -> int | float:
