@@ -1,15 +1,17 @@
 r"""The limit on the energy of loose objects that bounce.
 
-A contact with a restitution is a soft spring (`restitution`). With long steps a body penetrates by
-more than the width of a facet of the relief. It may then be deep behind another facet, whose spring
-would eject it. Here the mechanical energy
+A contact with a coefficient of restitution is a soft spring (`restitution`). In a long step a body
+may penetrate a relief by more than the width of one of its facets. It may then be far behind
+another facet, whose spring would eject it. Therefore the mechanical energy
 
 .. math:: E = \tfrac12 \nu^T (M + M_A)\,\nu - (m - \rho V)\, g \cdot x
 
-of an object that touches only fixed bodies is limited to its value before the contact. For loose
-objects that touch each other, the sum of their energies is limited. Above the limit the velocities
-are reduced. In moving water, the work of the water raises the limit. Objects that touch other
-moving bodies (a gripper, a vehicle) have no limit. Only scenes with a restitution compute it.
+of an object that touches only fixed bodies is limited to its value before the contact: above the
+limit, the velocity is reduced. Here :math:`\nu` is the twist, :math:`M` and :math:`M_A` the rigid
+and added mass, m the mass, :math:`\rho V` the displaced mass, g the gravity and x the position. For
+loose objects that touch each other, the sum of their energies is limited. In moving water, the work
+of the water raises the limit. Objects that touch other moving bodies (a gripper, a vehicle) have no
+limit. The limit is only computed in scenes with a coefficient of restitution.
 """
 
 from __future__ import annotations
@@ -27,7 +29,7 @@ from ..base.record import Record
 from .hydrodynamics import columns as c
 
 FIXED_BODY, MOVING_BODY = -1, -2
-"""Bodies without an energy limit that an object touches."""
+"""The kinds of bodies other than loose objects that an object may touch."""
 
 
 @dataclass(slots=True)
@@ -37,7 +39,7 @@ class BounceState(Record):
     bounds: Array
     """The greatest energy of each object, (n,) [J]."""
     velocities: Array
-    """The velocity of each object before the step, (n, 6) [m/s, rad/s]."""
+    """The velocity of each object before the step, as in ``qvel``, (n, 6) [m/s, rad/s]."""
 
 
 class BounceLimit:
@@ -53,17 +55,17 @@ class BounceLimit:
         self._model, self._data = model, data
         self._objects = [_LooseBody(model, data, body) for body in bodies]
         self.is_on = True
-        """True if the limit applies, as no vehicle holds an object."""
+        """True if the limit applies: while no vehicle holds an object."""
         self._indices = {body.number: i for i, body in enumerate(self._objects)}
         self._fixed = model.body_weldid == 0  # mask of the bodies that never move
         self.state = BounceState(
             np.array([body.energy() for body in self._objects]),
             np.array([body.velocity for body in self._objects]).reshape(-1, 6),
         )
-        """The energy limits."""
+        """The energy limits, and the velocities before the step."""
 
     def apply(self) -> None:
-        """Limit the energy of every object, and of those that touch each other, after a step."""
+        """Limit the energy of each object or group of touching objects; call it after a step."""
         contacts = self._find_contacts()
         energies = np.array([body.energy() for body in self._objects])  # [J]
         for group in self._groups(contacts):
@@ -76,7 +78,7 @@ class BounceLimit:
             self.state.velocities[i] = body.velocity
 
     def _limit_energy(self, group: list[int], energies: Array) -> None:
-        """Limit the sum of the energies of objects that exchange energy."""
+        """Limit the sum of the energies of a group of objects that touch each other."""
         objects = [self._objects[i] for i in group]
         for i, body in zip(group, objects, strict=True):
             self.state.bounds[i] += body.work_of_flow(self.state.velocities[i])
@@ -92,7 +94,7 @@ class BounceLimit:
             self.state.bounds[group] = energies_now + (total - energies_now.sum()) / len(group)
 
     def _groups(self, contacts: Sequence[set[int]]) -> list[list[int]]:
-        """Return the indices of objects in groups that touch each other."""
+        """Return groups of indices of objects that touch each other directly or indirectly."""
         groups: list[list[int]] = []
         known_indices = set[int]()
         for i in range(len(self._objects)):
@@ -110,7 +112,10 @@ class BounceLimit:
         return groups
 
     def _find_contacts(self) -> list[set[int]]:
-        """Return the indices of the objects that each touches, `FIXED_BODY` and `MOVING_BODY`."""
+        """Return, for each object, the indices of the objects that it touches.
+
+        `FIXED_BODY` and `MOVING_BODY` represent all other bodies.
+        """
         contacts: list[set[int]] = [set() for _ in self._objects]
         if self._data.ncon == 0:
             return contacts
@@ -124,7 +129,10 @@ class BounceLimit:
 
 
 class _LooseBody:
-    """A loose object: inertia, rigid and added, and the centres of mass r_g and buoyancy r_b."""
+    """A loose object with its rigid and added inertia, and its centres of mass and buoyancy.
+
+    r_g is the position of the centre of mass, r_b that of the centre of buoyancy, in body axes.
+    """
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, body: int) -> None:
         self.number = body
@@ -144,10 +152,10 @@ class _LooseBody:
             self._r_b = row[c.REFERENCE : c.REFERENCE + 3] + row[c.CENTRE : c.CENTRE + 3]
             start = c.WATER_COLUMNS * body
             self._flow = data.userdata[start : start + 6]
-        self._inertia = inertia  # about its origin, in its axes, linear part first, (6, 6)
+        self._inertia = inertia  # about the body's origin, in its axes, linear part first, (6, 6)
 
     def energy(self) -> float:
-        """Return the kinetic and potential energy in still water [J]."""
+        """Return the sum of kinetic and potential energy in still water [J]."""
         return self._kinetic_energy(self.velocity) + self._potential_energy()
 
     def kinetic_energy(self) -> float:
@@ -159,7 +167,11 @@ class _LooseBody:
         self.velocity *= math.sqrt(max(0.0, 1.0 - share))
 
     def work_of_flow(self, start: Array) -> float:
-        """Return a bound on the work of moving water in the last step [J]; 0 in still water."""
+        """Return an upper bound of the work of moving water in the last step [J]; 0 in still water.
+
+        Args:
+            start: the velocity before the step, (6,) [m/s, rad/s].
+        """
         if not self._flow.any():
             return 0.0
         v_smooth = self.velocity - self._timestep * (self._qacc - self._qacc_smooth)
@@ -182,7 +194,7 @@ class _LooseBody:
 
 
 def _rigid_inertia(model: mujoco.MjModel, body: int) -> Array:
-    """Return the inertia of the rigid body about its origin, in its axes, (6, 6)."""
+    """Return the rigid inertia of a body about its origin, in its axes, linear first, (6, 6)."""
     mass, turn = float(model.body_mass[body]), np.empty(9)
     mujoco.mju_quat2Mat(turn, model.body_iquat[body])
     axes = turn.reshape(3, 3)
@@ -196,8 +208,8 @@ def _rigid_inertia(model: mujoco.MjModel, body: int) -> Array:
 
 
 def _shift_added_mass(added_mass: Array, row: Array) -> Array:
-    """Return the added mass about the origin, from that about the reference point, (6, 6)."""
-    shift = np.eye(6)  # twist at the reference from that at the origin
+    """Return the added mass about the body's origin from that about its reference point, (6, 6)."""
+    shift = np.eye(6)  # from the twist of the origin to the twist of the reference point
     shift[:3, 3:] = -_skew(row[c.REFERENCE : c.REFERENCE + 3])
     return product(shift.T, product(added_mass, shift))
 

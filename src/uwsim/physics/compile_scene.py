@@ -1,4 +1,4 @@
-"""The compilation of a scene: from its spec to the model that its simulations share."""
+"""The compilation of a scene from its spec to the model that all its simulations share."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from ..world import TIMESTEP
 from .engine_model import compile_engine_model
 
 MAX_SHOWN_LETTERS = 60
-"""The number of letters of an invalid argument that an error shows."""
+"""The largest number of letters of an invalid argument in an error message."""
 
 
 def compile_scene(
@@ -36,17 +36,18 @@ def compile_scene(
 
     Args:
         scene: the spec of the scene.
-        seed: the seed of its variations, which are drawn here.
+        seed: the seed of the scene's variations, which are drawn here.
         timestep: the length of a step [s].
         data_path: the folders in which files are searched.
         compatibility: the names of the compatibility quirks that are on.
-        integrator: ``implicitfast`` or ``RK4`` instead of the file's (`SimParamsSpec`).
+        integrator: ``implicitfast`` or ``RK4``; by default the integrator of the scene file.
 
     Raises:
         AssetNotFound: a file is missing; with every folder searched.
         SceneError: a file is invalid, or a name is unknown; with every error.
         BadHydrodynamics: the hydrodynamics are invalid; with every error.
-        BadSetting: the scene is not a spec; the step is not a time, or too long for the physics.
+        BadSetting: the scene is not a spec; the timestep is not positive, or too long for stable
+            dynamics.
     """
     if not isinstance(scene, SceneSpec):
         raise BadSetting(

@@ -1,8 +1,8 @@
-"""The disk cache of compiled models: to compile thousands of shapes takes seconds.
+"""The disk cache of MuJoCo models, as the compilation of thousands of shapes takes seconds.
 
-The key of a model is the hash of all that it is compiled from: the spec of the scene, its robots,
-the hydrodynamics, the step, the shapes, the sources of uwsim and the version of MuJoCo. Models of
-few shapes are not cached.
+The key of a model is the hash of all its inputs: the spec of the scene, its robots, the
+hydrodynamics, the timestep, the shapes, the sources of uwsim and the versions of MuJoCo and other
+packages. Models with few shapes are not cached.
 """
 
 from __future__ import annotations
@@ -28,25 +28,26 @@ from ..model.collision.shapes import CollisionShape
 MIN_SHAPES = 500
 """The least number of shapes of a model that is cached."""
 SOURCES = ("base", "schema", "devices", "scene", "model", "physics", "world")
-"""The parts of this package that models depend on."""
+"""The subpackages of uwsim whose source code models depend on."""
 PACKAGES = ("mujoco", "numpy", "scipy", "numba")
+"""The packages whose versions models depend on."""
 NAME = "scene.mjb"
 EMPTY_ARRAY = np.zeros(0)
 
 
 class NoContent(Exception):
-    """A value whose content cannot be hashed."""
+    """A value of an unsupported type, whose content cannot be hashed."""
 
 
 def cached_model(
     inputs: Sequence[object], n_shapes: int, build: Callable[[], mujoco.MjModel]
 ) -> mujoco.MjModel:
-    """Return what ``build`` compiles, from the cache if possible.
+    """Return the model that ``build`` compiles, from the cache if possible.
 
     Args:
-        inputs: all values that the model depends on, besides code.
-        n_shapes: the number of its shapes.
-        build: compiles the model.
+        inputs: all values that the model depends on, besides source code.
+        n_shapes: the number of shapes of the model.
+        build: the function that compiles the model.
     """
     if n_shapes < MIN_SHAPES:
         return build()
@@ -64,7 +65,7 @@ def cached_model(
 
 
 def content_digest(inputs: Sequence[object]) -> bytes:
-    """Return the hash of values by their content and of the code that compiles models, (32 bytes).
+    """Return a hash of the content of values and of the code that compiles models, (32 bytes).
 
     Raises:
         NoContent: the type of a value is not supported.
@@ -78,7 +79,7 @@ def content_digest(inputs: Sequence[object]) -> bytes:
 
 
 def _add(value: object, parts: list[bytes]) -> None:
-    """Append a value's type, its length and its content: no two values have the same bytes."""
+    """Append the type, length and content of a value, so that different values differ in bytes."""
     if value is None or isinstance(value, bool | int | str | Path | enum.Enum):
         parts.append(_encode(type(value).__name__, f"{value}".encode()))
     elif isinstance(value, float):
@@ -130,5 +131,5 @@ def _encode(kind: str, content: bytes) -> bytes:
 
 @cache
 def _content_fields(kind: Any) -> tuple[str, ...]:
-    """Return the names of the fields of a dataclass, except the line in its file."""
+    """Return the names of the fields of a dataclass, except that of the line in the source file."""
     return tuple(field.name for field in dataclasses.fields(kind) if field.name != "source_line")

@@ -1,4 +1,4 @@
-"""The physics engine of a scene: MuJoCo's model and data, read as copies."""
+"""The physics engine of a scene: MuJoCo's model and data, and the parts that act on them."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ from .engine_state import EngineState, ModelState
 from .engine_warnings import StepCheck
 from .grips import Grips
 from .hydrodynamics.submerged import SubmergedBodies
-from .hydrodynamics.water_function import DriftFunction, WaterFunction, move_placed
+from .hydrodynamics.water_function import DriftFunction, WaterFunction, apply_drift
 from .joint_wrench import JointWrench
 from .kinematics.lift import Lift
 from .kinematics.link_motion import LinkMotion
@@ -41,14 +41,15 @@ if TYPE_CHECKING:
     from .stepper import Stepper
 
 Kind = Literal["vehicle", "object"]
-"""The kinds of elements that have a body."""
+"""The kinds of scene elements that have a body."""
 
 
 class Engine:
     """The physics engine of a scene: state, forces and step.
 
-    Joint vectors have the movable joints that do not mimic, in UWSim's order; mimic joints follow.
-    Vehicles with hydrodynamics are simulated, and the others stay where they are placed.
+    A joint vector has the movable joints that are not mimic joints, in the order of UWSim; mimic
+    joints follow them. Vehicles and objects are identified by their index in the scene. Forces move
+    vehicles with hydrodynamics; kinematic vehicles keep their poses until they are set.
 
     Args:
         scene_model: the model of the scene.
@@ -72,14 +73,14 @@ class Engine:
         self.grips = Grips(model, data, self.poses, dynamics, shapes)
         """The objects that vehicles hold."""
         self.contacts = EngineContacts(scene_model, model, data, self.poses)
-        """The contacts between simulated bodies."""
+        """The contacts of bodies with dynamics."""
         self._check = StepCheck(model, data, names)
-        self._placed_vehicles = [i for i in robots if i not in dynamics]
+        self._kinematic_vehicles = [i for i in robots if i not in dynamics]
         joints = {i: model.joint(vehicle_joint(i, "")).id for i in robots}
         self._base_addresses = {i: int(model.jnt_qposadr[joint]) for i, joint in joints.items()}
         self._base_dofs = {i: int(model.jnt_dofadr[joint]) for i, joint in joints.items()}
-        starts = np.array([self._base_addresses[i] for i in self._placed_vehicles], np.intp)
-        self._placed_addresses = starts[:, None] + np.arange(7)  # (n, 7), of poses in ``qpos``
+        starts = np.array([self._base_addresses[i] for i in self._kinematic_vehicles], np.intp)
+        self._kinematic_addresses = starts[:, None] + np.arange(7)  # (n, 7), of poses in ``qpos``
         self._joint_addresses = {i: joint_addresses(model, robots[i], i) for i in robots}
         self._scaled_links = {
             i: ScaledLinks(model, robots[i], i, vehicle.scale_factor)
@@ -88,14 +89,14 @@ class Engine:
         }
         self._water: Hydrodynamics | None = _attach_water(model) if dynamics else None
         self.joint_wrench = JointWrench(model, data, self.poses)
-        """The wrenches of links on the joints that carry them."""
+        """The wrenches of links on their parent joints."""
         self.actuation = make_actuation(scene_model, data, self._water, self.poses)
-        """The actuation of each simulated vehicle, by its number."""
+        """The actuation of each vehicle with dynamics, by index."""
         self._set_initial_joints(scene)
         self.submerged_bodies = SubmergedBodies(model, self.poses, self._water, dynamics)
         """The bodies that the water acts on."""
         self._bounce_limit = _make_limit(scene, model, data)
-        self._stepper = self._make_stepper([joints[i] for i in self._placed_vehicles])
+        self._stepper = self._make_stepper([joints[i] for i in self._kinematic_vehicles])
         self.lift = Lift(model, data)
         """The bodies that begin in the ground and are lifted out of it."""
         self._uwsim_physics = UwsimPhysics(scene, model, data) if scene.has_uwsim_physics else None
@@ -121,7 +122,7 @@ class Engine:
 
     @property
     def places_bodies(self) -> bool:
-        """True if a body is placed at every step, as it is carried or lifted."""
+        """True if the pose of a body is set in every step, because it is carried or lifted."""
         return self.grips.is_carrying or self.lift.is_active
 
     def has_dynamics(self, index: int) -> bool:
@@ -147,9 +148,10 @@ class Engine:
 
         Args:
             n: the number of steps.
-            water: the motion of the water at the bodies that it acts on; None: it is still.
-            samples: the samples after each step but the last, a record of `sampling.TABLE`, (1,).
-            step: the number of the first step by the clock of the samples.
+            water: the motion of the water at the bodies that it acts on; None in still water.
+            samples: the samples to take after each step but the last, a record of
+                `sampling.TABLE`, (1,).
+            step: the number of the first step, as the timers of the samples count steps.
             samples_last: take samples after the last step, too.
             drift: moves the kinematic vehicles with the water; None: they do not drift.
 
@@ -157,8 +159,8 @@ class Engine:
             True if a timer of the samples was due after the last step, and they were taken.
 
         Raises:
-            SimulationFailed: the engine warned, or a body is faster than its limit: results would
-                be invalid.
+            SimulationFailed: the engine warned, or a body exceeds its speed limit, so that results
+                would be invalid.
         """
         if self._stepper is None:
             return False
@@ -186,11 +188,11 @@ class Engine:
         return is_sampled
 
     def apply_wrenches(self, wrenches: Iterable[tuple[int, Array, Array]]) -> None:
-        """Apply wrenches to bodies in the steps from now on, in place of earlier ones.
+        """Set the external wrenches on bodies, which act in all steps until the next call.
 
         Args:
-            wrenches: the engine's number of a body, a point in its frame (3,) [m], and the force
-                and the torque about this point, in W, (6,) [N, N m].
+            wrenches: for each wrench, the engine's number of the body, a point in the body's frame
+                (3,) [m], and the force and the torque about this point, in W, (6,) [N, N m].
         """
         self.poses.refresh()
         axes, middles = self._data.xmat.reshape(-1, 3, 3), self._model.body_ipos
@@ -201,10 +203,10 @@ class Engine:
             applied[body, 3:] += cross(rotate(axes[body], point - middles[body]), wrench[:3])
 
     def step_uwsim_physics(self) -> None:
-        """Advance the original's physics by one step, if the scene uses it.
+        """Advance the physics of UWSim (`UwsimPhysics`) by one step, if the scene uses it.
 
         Raises:
-            SimulationFailed: the engine warned: results would be invalid.
+            SimulationFailed: the engine warned, so that results would be invalid.
         """
         if self._uwsim_physics is None:
             return
@@ -221,10 +223,10 @@ class Engine:
         self.poses.mark_stale()
 
     def find_deep_bodies(self, depth: float) -> list[tuple[Kind, int]]:
-        """Return the simulated vehicles and loose objects that penetrate a fixed body now.
+        """Return the vehicles with dynamics and loose objects that now penetrate a fixed body.
 
         Args:
-            depth: the least penetration [m], in any direction.
+            depth: the least depth of the penetration along the contact normal [m].
         """
         data = copy.copy(self._data)
         mujoco.mj_kinematics(self._model, data)
@@ -239,14 +241,14 @@ class Engine:
         return [key for key in keys if key in owners]
 
     def begin_lift(self, kind: Kind, index: int, rise: float) -> None:
-        """Lift a simulated vehicle or a loose object from where it is by some height [m]."""
+        """Lift a vehicle with dynamics or a loose object from its present pose by a height [m]."""
         poses = self.poses
         body = poses.base(index) if kind == "vehicle" else poses.loose_body(index)
         if body is not None:
             self.lift.add(body, rise)
 
     def vehicle_velocity(self, index: int) -> Array:
-        """Return the twist of a vehicle's base over ground, base axes, (6,) [m/s, rad/s]."""
+        """Return the twist of a vehicle's base over ground, in base axes, (6,) [m/s, rad/s]."""
         dof = self._base_dofs[index]
         twist: Array = self._data.qvel[dof : dof + 6].copy()
         twist[:3] = rotate_back(self.poses.vehicle(index).rotation, twist[:3])
@@ -265,9 +267,9 @@ class Engine:
 
     def drift(self, drift: DriftFunction, time: float) -> None:
         """Move kinematic vehicles with the water, by a step that ends at ``time`` [s]."""
-        poses: Array = self._data.qpos[self._placed_addresses]
-        move_placed(drift.function, drift.address, poses, time)
-        self._data.qpos[self._placed_addresses] = poses
+        poses: Array = self._data.qpos[self._kinematic_addresses]
+        apply_drift(drift.function, drift.address, poses, time)
+        self._data.qpos[self._kinematic_addresses] = poses
         self.poses.mark_stale()
 
     def prescribed_motion(self, index: int) -> PrescribedMotion:
@@ -284,7 +286,7 @@ class Engine:
     def set_joints(self, index: int, values: Array) -> None:
         """Set the joint vector of a vehicle (n,) [rad or m]; clamped to the limits.
 
-        A simulated vehicle's servos hold the joints there from now on.
+        The servos of a vehicle with dynamics hold the joints there from now on.
         """
         if index in self.actuation:
             self.actuation[index].servos.set_positions(values)
@@ -305,8 +307,8 @@ class Engine:
             values[: len(joint_values)] = joint_values
             self.set_joints(index, values)
 
-    def _make_stepper(self, placed_joints: Sequence[int]) -> Stepper | None:
-        """Return the stepper of a scene with simulated vehicles; ``placed_joints`` do not move."""
+    def _make_stepper(self, kinematic_joints: Sequence[int]) -> Stepper | None:
+        """Return the stepper of a scene with dynamics; None for a scene without."""
         if self._water is None:
             return None
         from .stepper import Stepper
@@ -316,7 +318,7 @@ class Engine:
             self._water,
             [vehicle.autopilot for vehicle in self.actuation.values()],
             [vehicle.servos for vehicle in self.actuation.values()],
-            placed_joints,
+            kinematic_joints,
             self.submerged_bodies.bodies.tolist(),
             self.submerged_bodies.reference_points,
             self._check,
@@ -331,7 +333,7 @@ def joint_addresses(model: mujoco.MjModel, robot: RobotSpec, index: int) -> npt.
 
 
 def _make_limit(scene: SceneSpec, model: mujoco.MjModel, data: mujoco.MjData) -> BounceLimit | None:
-    """Return the limit on the energy of loose objects; None where nothing has a restitution."""
+    """Return the limit on the energy of loose objects; None if no object has a restitution."""
     if all(spec.solid.restitution is None for spec in scene.objects):
         return None
     body_numbers = {model.joint(i).name: int(model.jnt_bodyid[i]) for i in range(model.njnt)}
@@ -341,7 +343,7 @@ def _make_limit(scene: SceneSpec, model: mujoco.MjModel, data: mujoco.MjData) ->
 
 
 def _corrected_model(scene_model: SceneModel) -> mujoco.MjModel:
-    """Return the model that the engines of a scene copy: with added mass in its inverse weights."""
+    """Return the engine's model with added mass in its inverse weights; engines copy it."""
     if not scene_model.dynamics:
         return scene_model.engine_model
     from .hydrodynamics.hydrodynamics import install

@@ -1,12 +1,12 @@
-"""The numbers of MuJoCo's data, read and written as bytes.
+"""The content of MuJoCo's data (``mjData``), read and written as bytes.
 
-They are in three parts of memory: the struct itself; the buffer, which has the arrays of fixed
-length; and the arena, which has contacts and constraints of the last step. `mujoco.mj_copyData`
-copies all of it, but only between two data, each with an arena of megabytes. The used bytes are a
-few kilobytes: thousands of them can be stored, saved and compared. Offsets count from the beginning
-of the arena, so that the bytes fit any data of the same model.
+It is in three parts of memory: the struct itself; the buffer, with the arrays of fixed length; and
+the arena, with the contacts and constraints of the last step. `mujoco.mj_copyData` copies all of
+it, but only between two ``mjData``, each with an arena of megabytes. The bytes that are in use are
+a few kilobytes, so that thousands of copies can be stored, saved and compared. Pointers into the
+arena are stored as offsets from its beginning, so that the bytes fit any data of the same model.
 
-Diagnostics of the solver and its times are not included.
+Diagnostics of the solver and its timers are not included.
 """
 
 from __future__ import annotations
@@ -28,33 +28,34 @@ Bytes = npt.NDArray[np.uint8]
 
 COUNTS = ("parena", "maxuse_stack", "maxuse_arena", "maxuse_con", "maxuse_efc", "solver_niter",
           "solver_nnz", "solver_fwdinv", "warning")  # fmt: skip
-"""The fields of the struct that are kept, besides those from `FIRST_FIELD` to `LAST_FIELD`."""
+"""The fields of the struct that are included, besides those from `FIRST_FIELD` to `LAST_FIELD`."""
 FIRST_FIELD, LAST_FIELD = "ncon", "energy"
 
 
 @dataclass(frozen=True, slots=True)
 class EngineNumbers:
-    """The numbers of MuJoCo's data."""
+    """The content of MuJoCo's data as bytes."""
 
     counts: bytes
     """The counts and scalars of the struct."""
     offsets: bytes
-    """The offsets of the arena's arrays, counted from 1; 0: there is none, (n,) of 64 bits."""
+    """The offsets of the arrays in the arena plus 1, or 0 for an absent array, (n,) of 64 bits."""
     arrays: bytes
     """The arrays of fixed length."""
     arena: bytes = field(compare=False)
-    """The used part of the arena; it follows from the rest, and the engine leaves gaps in it."""
+    """The used part of the arena. It is not compared: it follows from the other fields, and has
+    gaps with arbitrary bytes."""
 
 
 class EngineMemory(ExternalValue):
-    """The memory of one MjData.
+    """The memory of one ``mjData``.
 
     Args:
-        data: the data; it must outlive this object.
-        on_set: called when numbers were set: views into the memory are then invalid.
+        data: the data, which must outlive this object.
+        on_set: called after the content was set; views into the arena are then invalid.
 
     Raises:
-        MujocoChanged: this MuJoCo has another layout.
+        MujocoChanged: the installed MuJoCo has another layout.
     """
 
     def __init__(self, data: mujoco.MjData, on_set: Callable[[], None] = lambda: None) -> None:
@@ -75,7 +76,7 @@ class EngineMemory(ExternalValue):
         self._arena_size = words["parena"]
 
     def value(self) -> EngineNumbers:
-        """Return the present numbers."""
+        """Return the present content."""
         addresses = self._addresses
         offsets = addresses - np.uint64(self._base - 1)
         offsets[addresses == 0] = 0
@@ -87,7 +88,7 @@ class EngineMemory(ExternalValue):
         )
 
     def set(self, value: object) -> None:
-        """Set the numbers; raise UwsimError where they are of another model."""
+        """Set the content; raise UwsimError if it is that of another model."""
         if not isinstance(value, EngineNumbers):
             raise wrong_scene_error()
         offsets = np.frombuffer(value.offsets, np.uint64)
@@ -95,7 +96,7 @@ class EngineMemory(ExternalValue):
         own_lengths = self._n_counts, len(self._addresses), len(self._arrays)
         if lengths != own_lengths or len(value.arena) > len(self._arena):
             raise wrong_scene_error()
-        if offsets.max(initial=0) > len(value.arena) + 1:  # an empty array may begin at its end
+        if offsets.max(initial=0) > len(value.arena) + 1:  # an empty array may begin at the end
             raise wrong_scene_error()
         start = 0
         for part in self._counts:
@@ -110,7 +111,7 @@ class EngineMemory(ExternalValue):
 
 @cache
 def _count_slices() -> tuple[slice, ...]:
-    """Return the bytes of the struct that are kept, as slices without gaps."""
+    """Return the included bytes of the struct as slices; adjacent fields share a slice."""
     fields, _ = data_slices()
     start, end = fields[FIRST_FIELD].start, fields[LAST_FIELD].start
     slices: list[slice] = []

@@ -1,9 +1,10 @@
-"""From a scene to a MuJoCo model: bodies, joints and, for vehicles with ``u:dynamics``, water.
+"""The compilation of a scene to a MuJoCo model: bodies, joints, shapes and hydrodynamics.
 
-Every vehicle becomes a free body with its links as a tree of hinges and slides. A vehicle without
-``u:dynamics`` is placed, not simulated. Servos hold the joints of a simulated vehicle. Objects are
-fixed unless they have a shape and are loose. Contacts have elliptic cones with the friction
-`FRICTION`, and are soft enough to last a few steps.
+Every vehicle becomes a free body with its links as a tree of hinge and slide joints. A vehicle with
+``u:dynamics`` has servos at its joints, thrusters and hydrodynamics. Without ``u:dynamics`` it is
+kinematic: its links have no weight, and its pose is set. Objects are fixed unless they have a shape
+and are loose. Contacts have elliptic friction cones with the friction `FRICTION`, and are soft
+enough to last a few steps.
 """
 
 from __future__ import annotations
@@ -44,19 +45,20 @@ from .joints import add_gear, add_joint, add_servo, is_geared
 from .restitution import contact_spring
 
 MAX_STEP = 0.02
-"""The longest step of a simulated scene, stable in soaks up to 0.01 s, unstable from 0.03 s on
-[s]."""
+"""The longest step of a scene with dynamics [s]. In long tests, steps up to 0.01 s were stable, and
+steps from 0.03 s on unstable."""
 FRICTION = (0.8, 0.005, 0.0001)
-"""The sliding [1], spinning [m] and rolling [m] friction of rubber on metal."""
+"""The sliding [1], torsional [m] and rolling [m] friction coefficients, as of rubber on metal."""
 SOFTNESS = (0.95, 0.99, 0.001, 0.5, 2.0)
-"""MuJoCo's solimp, with half the creep of its default in a grasp."""
+"""The ``solimp`` of contacts; with MuJoCo's default, a grasped object creeps twice as fast."""
 IMPRATIO = 10.0
-"""The ratio of the stiffness of friction to that of the normal force: less creep in a grasp."""
+"""The ``impratio``: the ratio of frictional to normal impedance; reduces creep in a grasp."""
 NOSLIP = 5
-"""The iterations against the creep of friction, where contacts are precise."""
+"""The number of no-slip iterations, which reduce creep, in scenes with precise contacts."""
 OBJECT_BIT = 1
-"""The collision bit of objects; every vehicle has another."""
+"""The collision bit of objects; vehicles have other bits (`vehicle_bit`)."""
 ALL_BITS = 2**31 - 1
+"""All collision bits."""
 GEOM_TYPES = {
     "box": mujoco.mjtGeom.mjGEOM_BOX,
     "sphere": mujoco.mjtGeom.mjGEOM_SPHERE,
@@ -72,7 +74,7 @@ INTEGRATORS = {
 
 
 def vehicle_bit(index: int) -> int:
-    """Return the collision bit of the vehicle of number ``index``."""
+    """Return the collision bit of the vehicle ``index``."""
     return 2 << (index % 29)
 
 
@@ -81,7 +83,7 @@ def compile_engine_model(inputs: SimulatedScene) -> mujoco.MjModel:
 
     Raises:
         BadHydrodynamics: the hydrodynamics are invalid; with every error.
-        BadSetting: the step is not a time, or too long for the physics.
+        BadSetting: the timestep is not positive, or too long for stable dynamics.
         SceneError: the mass of a loose object is too small, or its buoyancy too great.
     """
     scene, dynamics, shapes = inputs.scene, inputs.dynamics, inputs.shapes
@@ -113,7 +115,7 @@ def _compile(inputs: SimulatedScene) -> mujoco.MjModel:
             body = _add_body(spec.worldbody, name, world_from_object, link)
             body.add_freejoint(name=loose_joint(index))
             loose_physics[name] = object_spec.solid
-        else:  # shapes without a body of their own cost the engine nothing
+        else:  # shapes of the world's body take the engine no time in a step
             _add_shapes(spec, spec.worldbody, name, shapes[name], world_from_object)
             _set_surface(spec, name, shapes[name], object_spec.solid)
     for name, parts in shapes.items():
@@ -136,14 +138,14 @@ def _compile(inputs: SimulatedScene) -> mujoco.MjModel:
         ) from error
     rebuild_world_tree(model)
     if model.opt.integrator != mujoco.mjtIntegrator.mjINT_RK4:
-        # fixed shapes are then placed once, and not at every step; no body is to fall asleep
+        # with sleeping enabled, fixed shapes are placed once, not in every step; no body may sleep
         model.opt.enableflags |= int(mujoco.mjtEnableBit.mjENBL_SLEEP)
         model.tree_sleep_policy[:] = int(mujoco.mjtSleepPolicy.mjSLEEP_NEVER)
     return model
 
 
 def _make_spec(scene: SceneSpec, timestep: float, *, has_dynamics: bool) -> mujoco.MjSpec:
-    """Return a spec without bodies: step, integrator, contacts and gravity of a scene."""
+    """Return a spec without bodies, with the timestep, integrator and gravity of a scene."""
     spec = mujoco.MjSpec()
     spec.compiler.degree = False
     spec.option.timestep = timestep
@@ -157,7 +159,7 @@ def _make_spec(scene: SceneSpec, timestep: float, *, has_dynamics: bool) -> mujo
 
 
 def _add_vehicles(spec: mujoco.MjSpec, inputs: SimulatedScene) -> None:
-    """Add every vehicle at its pose in the scene; without dynamics its links have no weight."""
+    """Add every vehicle at its pose in the scene; links of kinematic vehicles have no weight."""
     for index, vehicle in enumerate(inputs.scene.vehicles):
         robot = inputs.robots[index]
         links = {link.name: link for link in robot.links}
@@ -189,7 +191,15 @@ def _add_shapes(
     shapes: Sequence[CollisionShape],
     body_from_owner: Pose,
 ) -> None:
-    """Add the collision shapes of ``name`` to a body; those of one vehicle do not collide."""
+    """Add collision shapes to a body; shapes of the same vehicle do not collide with each other.
+
+    Args:
+        spec: the spec of the scene.
+        body: the body that receives the shapes.
+        name: the name of the vehicle's link or the object that owns the shapes.
+        shapes: the collision shapes, in the frame of their owner.
+        body_from_owner: the pose of the owner in the frame of the body.
+    """
     spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
     spec.option.impratio = IMPRATIO
     kind, owner = name.split("/")[:2]
@@ -211,7 +221,7 @@ def _add_shapes(
 
 
 def set_size(spec: mujoco.MjSpec, geom: mujoco.MjsGeom, name: str, shape: CollisionShape) -> None:
-    """Set the size of an engine's shape; a hull or a height field is added under ``name``."""
+    """Set the size of a geom, and add the mesh or height field that it may need under ``name``."""
     if shape.corners is not None:
         spec.add_mesh(name=name, uservert=shape.corners.ravel().tolist())
         geom.meshname = name
@@ -237,10 +247,10 @@ def _set_surface(
         return
     for i in range(len(shapes)):
         geom = spec.geom(f"{name}/shape/{i}")
-        geom.priority = 1  # else the greater friction of the two counts
+        geom.priority = 1  # else a contact has the greater friction of its two shapes
         if physics.friction is not None:
             geom.friction = [physics.friction, *FRICTION[1:]]
-        if physics.restitution is not None:  # negative: stiffness and damping; of two the greater
+        if physics.restitution is not None:  # negative numbers: stiffness and damping
             stiffness, damping = contact_spring(physics.restitution, spec.option.timestep)
             geom.solref = [-stiffness, -damping]
 
@@ -253,7 +263,16 @@ def _add_children(
     index: int,
     links: Mapping[str, LinkSpec],
 ) -> None:
-    """Add the child links of a link's body; ``links`` is empty for a kinematic vehicle."""
+    """Add the child links of a link recursively.
+
+    Args:
+        spec: the spec of the scene.
+        body: the body of the link.
+        robot: the links and joints of the vehicle.
+        link: the name of the link.
+        index: the index of the vehicle.
+        links: the links by name; empty for a kinematic vehicle.
+    """
     for joint in robot.joints:
         if joint.parent != link:
             continue
@@ -273,7 +292,7 @@ def _add_children(
 
 
 def _add_grips(spec: mujoco.MjSpec, inputs: SimulatedScene, objects: Collection[str]) -> None:
-    """Add a constraint, not active, between each picker's link and each loose object."""
+    """Add an inactive weld constraint between each object picker's link and each loose object."""
     for index in inputs.dynamics:
         pickers = inputs.scene.vehicles[index].parts_of(ObjectPickerSpec)
         for link in dict.fromkeys(picker.relative_to for picker in pickers):
@@ -288,7 +307,7 @@ def _add_grips(spec: mujoco.MjSpec, inputs: SimulatedScene, objects: Collection[
                     name2=name,
                 )
                 weld.active = False
-                weld.data[10] = 1.0  # rotation counts as much as translation
+                weld.data[10] = 1.0  # the ratio of rotational to translational stiffness
 
 
 def _add_water(
@@ -317,7 +336,7 @@ def _add_water(
 def _add_body(
     parent: mujoco.MjsBody, name: str, parent_from_body: Pose, link: LinkSpec | None
 ) -> mujoco.MjsBody:
-    """Add a body, with the URDF's mass if there is a ``link``, else as a frame without weight."""
+    """Add a body with the mass of a ``link``, or without weight if ``link`` is None."""
     mass, inertia = (1.0, 1.0) if link is None else (MIN_MASS, MIN_INERTIA)
     body = parent.add_body(
         name=name,

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 
 class EngineFlags(ExternalValue):
-    """The flags that disable parts of a step: `islands` sets one anew for every step.
+    """The flags that disable parts of a step; `islands` sets one of them before every step.
 
     Args:
         model: the engine's model.
@@ -50,7 +50,7 @@ class ModelState(Record):
     """The numbers of the engine's model that servos, grips, lifts and steps change."""
 
     link_positions: Array
-    """The position of each body on its parent, (nbody, 3) [m]."""
+    """The position of each body in the frame of its parent, (nbody, 3) [m]."""
     stops: Array
     """The end stops of each joint, (njnt, 2) [rad or m]."""
     gains: Array
@@ -58,14 +58,14 @@ class ModelState(Record):
     biases: Array
     """The biases of each actuator, (nactuator, k)."""
     welds: Array
-    """The relative poses of the welds, (neq, k)."""
-    shape_kinds: npt.NDArray[np.int32]
-    """The collision bits of each shape, (ngeom,)."""
-    shape_touches: npt.NDArray[np.int32]
+    """The parameters of each equality constraint, such as the relative pose of a weld, (neq, k)."""
+    geom_contype: npt.NDArray[np.int32]
+    """The collision bits of each shape, ``geom_contype``, (ngeom,)."""
+    geom_conaffinity: npt.NDArray[np.int32]
     """The collision bits that each shape collides with, (ngeom,)."""
-    body_kinds: npt.NDArray[np.int32]
-    """The collision bits of the shapes of each body, (nbody,)."""
-    body_touches: npt.NDArray[np.int32]
+    body_contype: npt.NDArray[np.int32]
+    """The collision bits of all shapes of each body, ``body_contype``, (nbody,)."""
+    body_conaffinity: npt.NDArray[np.int32]
     """The collision bits that the shapes of each body collide with, (nbody,)."""
     flags: EngineFlags
     """The flags that disable parts of a step."""
@@ -79,10 +79,10 @@ class ModelState(Record):
             gains=model.actuator_gainprm,
             biases=model.actuator_biasprm,
             welds=model.eq_data,
-            shape_kinds=model.geom_contype,
-            shape_touches=model.geom_conaffinity,
-            body_kinds=model.body_contype,
-            body_touches=model.body_conaffinity,
+            geom_contype=model.geom_contype,
+            geom_conaffinity=model.geom_conaffinity,
+            body_contype=model.body_contype,
+            body_conaffinity=model.body_conaffinity,
             flags=EngineFlags(model),
         )
 
@@ -98,9 +98,9 @@ class EngineState(Record):
     n_steps: int
     """The number of steps taken, including one that failed."""
     actuation: dict[int, ActuationState]
-    """The actuation of each simulated vehicle, by its number."""
+    """The actuation of each vehicle with dynamics, by index."""
     poses: PosesState
-    """The state of the frames."""
+    """The validity of the computed poses, and the poses of bodies outside the engine."""
     grips: GripsState
     """The objects that are held."""
     contacts: EngineContactsState
@@ -112,4 +112,4 @@ class EngineState(Record):
     stepper: StepperState | None
     """The state of the stepper."""
     uwsim_physics: UwsimPhysicsState | None
-    """The state of the original's physics."""
+    """The state of the physics of UWSim; None if the scene does not use it."""

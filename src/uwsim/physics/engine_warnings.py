@@ -1,8 +1,9 @@
-"""Warnings of the engine: each ends the run with a one-line error, without a log file.
+"""Checks after a step: a warning of the engine or an excessive speed ends the run with an error.
 
-MuJoCo itself prints a warning, appends it to ``MUJOCO_LOG.TXT`` in the working folder, and
-continues: without some contacts, or from the initial state when a number became too large. It also
-counts every warning in the state, where `describe_warning` reads it after each step.
+By default MuJoCo prints a warning, appends it to ``MUJOCO_LOG.TXT`` in the working folder, and
+continues: without some contacts, or from the initial state if a number became too large. Here the
+text is suppressed. MuJoCo also counts the warnings in its data; the counters are checked after each
+step.
 """
 
 from __future__ import annotations
@@ -20,13 +21,14 @@ from ..base.numerics.jit import njit
 from ..errors import SimulationFailed
 
 MAX_SPEED = 100.0
-"""The greatest speed and angular speed of a body in water [m/s, rad/s]; `RIM_SPEED` is for thin
+"""The greatest speed [m/s] and angular speed [rad/s] of a body in water; see `RIM_SPEED` for thin
 loose objects."""
 RIM_SPEED = 1.0
-"""The surface speed of a rotating loose object: small heavy objects sink and roll as fast; a needle
-then exceeds `MAX_SPEED` [m/s]."""
+"""The greatest surface speed of a rotating loose object [m/s]. Small heavy objects sink and roll at
+this speed; the angular speed of a needle then exceeds `MAX_SPEED`."""
 FIRST_UNSTABLE = int(mujoco.mjtWarning.mjWARN_BADQPOS)
-"""The first of the warnings that a position, velocity, acceleration or control is not a number."""
+"""The first of the warnings about a position, velocity, acceleration or control that is not finite.
+"""
 SINGULAR = int(mujoco.mjtWarning.mjWARN_INERTIA)
 
 
@@ -37,7 +39,7 @@ def suppress_warnings() -> None:
 
 
 class StepCheck:
-    """The checks of a step; SimulationFailed names the body and the time.
+    """The checks after a step; the errors name the body and the time.
 
     Args:
         model: the engine's model.
@@ -51,7 +53,7 @@ class StepCheck:
         self.counters = data.warning.number
         """The engine's counters, one for each kind of warning."""
         self.speeds = speed_limits(model)
-        """The degrees of freedom that form one speed, and its limit, (n, 3): `speed_limits`."""
+        """The speed limits, (n, 3); see `speed_limits`."""
 
     def end_if_warned(self, step: int) -> None:
         """Raise SimulationFailed if the engine has warned in a step."""
@@ -59,7 +61,12 @@ class StepCheck:
             self.fail(step, -1)
 
     def fail(self, step: int, dof: int) -> NoReturn:
-        """Raise SimulationFailed: the engine has warned, or a degree of freedom is too fast."""
+        """Raise SimulationFailed for a degree of freedom that is too fast.
+
+        Args:
+            step: the number of the step.
+            dof: the index of the degree of freedom; below 0 if the engine has warned.
+        """
         time = step * self._timestep
         if dof < 0:
             raise SimulationFailed(describe_warning(self._data, time, self._timestep, self._names))
@@ -67,7 +74,7 @@ class StepCheck:
 
 
 def describe_warning(data: mujoco.MjData, time: float, timestep: float, names: list[str]) -> str:
-    """Return why results would be invalid after a warning of the engine.
+    """Return the message about a warning of the engine, after which results would be invalid.
 
     Args:
         data: the engine's state.
@@ -97,7 +104,11 @@ def describe_warning(data: mujoco.MjData, time: float, timestep: float, names: l
 
 
 def speed_limits(model: mujoco.MjModel) -> npt.NDArray[np.int64]:
-    """Return the degrees of freedom of each speed: the first, how many, and the limit, (n, 3)."""
+    """Return the limits of the n speeds of a model, (n, 3).
+
+    Each row is a linear, angular or joint speed: its first degree of freedom, the number of its
+    components, and its limit [m/s or rad/s].
+    """
     parts = {mujoco.mjtJoint.mjJNT_FREE: (3, 3), mujoco.mjtJoint.mjJNT_BALL: (3,)}
     rows = []
     for joint in range(model.njnt):
@@ -110,10 +121,10 @@ def speed_limits(model: mujoco.MjModel) -> npt.NDArray[np.int64]:
 
 
 def _max_angular_speed(model: mujoco.MjModel, body: int) -> int:
-    """Return the greatest angular speed of a body, by `RIM_SPEED` for a loose object [rad/s].
+    """Return the greatest angular speed of a body; that of a loose object follows from `RIM_SPEED`.
 
-    The radius of the object is half the middle edge of its bounding box; of several shapes the
-    thickest counts.
+    The radius of the object is half the second longest edge of its bounding box, of the thickest
+    shape if there are several.
     """
     start, n = int(model.body_geomadr[body]), int(model.body_geomnum[body])
     if not model.body(body).name.startswith("object/") or n == 0:
@@ -124,7 +135,7 @@ def _max_angular_speed(model: mujoco.MjModel, body: int) -> int:
 
 @njit
 def find_excess_speed(velocities: Array, speeds: npt.NDArray[np.int64]) -> int:
-    """Return the first degree of freedom with a speed above its limit or not finite; else -1.
+    """Return the first degree of freedom of a speed that is above its limit or not finite; else -1.
 
     Args:
         velocities: the velocities of all degrees of freedom [m/s, rad/s].
@@ -144,7 +155,7 @@ def find_excess_speed(velocities: Array, speeds: npt.NDArray[np.int64]) -> int:
 def describe_speed(
     velocities: Array, speeds: npt.NDArray[np.int64], dof: int, time: float, names: list[str]
 ) -> str:
-    """Return the report of a body that is too fast, as `describe_warning` does."""
+    """Return the message about a body that is too fast; see `describe_warning`."""
     row = next(i for i, first_dof in enumerate(speeds[:, 0]) if first_dof == dof)
     speed = math.hypot(*velocities[dof : dof + speeds[row, 1]].tolist())
     return (
@@ -156,4 +167,4 @@ def describe_speed(
 
 
 def _ignore(message: str) -> None:
-    """Pass over a warning, which the engine counts."""
+    """Ignore a warning, which the engine counts."""

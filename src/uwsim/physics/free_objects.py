@@ -1,11 +1,11 @@
-r"""Free objects in water: mass, buoyancy and drag from a box.
+r"""Inertia and hydrodynamics of loose objects, from the boxes around their shapes.
 
-The coefficients of an object are those of the box around its shape. The drag is :math:`\tfrac12\rho
-C_d A v|v|` on each pair of faces with :math:`C_d` = 1.05. The added mass is that of plates and
-prisms in DNV-RP-H103 (2011, appendix A), in rotation that of the ellipsoid of the same proportions
-and volume (Lamb). The displaced volume is that of the box unless ``u:volume`` states another. A
-ball has :math:`C_d` = 0.47 in all directions. ``linearDamping`` and ``angularDamping`` are added,
-per mass and inertia.
+The drag is :math:`\tfrac12\rho C_d A v|v|` for each pair of faces of the box, with :math:`C_d` =
+1.05. The added mass in translation is that of plates and prisms in DNV-RP-H103 (2011, appendix A),
+in rotation that of an ellipsoid with the proportions and volume of the box (Lamb). The displaced
+volume is that of the box unless ``u:volume`` states another. An object whose only shape is a sphere
+has :math:`C_d` = 0.47 in all directions. The file's ``linearDamping`` and ``angularDamping``, times
+mass and inertia, are added as linear damping.
 """
 
 from __future__ import annotations
@@ -25,31 +25,33 @@ from ..scene.urdf.robot import LinkSpec
 from ..schema import diagnostic_at
 
 BOX_DRAG = 1.05
-"""The drag coefficient of a cube, face on [1]."""
+"""The drag coefficient of a cube with a face across the flow [1]."""
 BALL_DRAG = 0.47
-"""The drag coefficient of a ball [1]."""
+"""The drag coefficient of a sphere [1]."""
 MIN_INERTIA = 1e-14
-"""The bound that mass [kg] and inertia [kg m2] have to exceed in the engine."""
+"""The limit that mass [kg] and inertia [kg m2] must exceed in the engine."""
 
 BALL_TORQUE = 0.05
-"""The torque on a rotating ball by half the density, the angular speed squared and the fifth power
-of the radius [1] (Sawatzki, Acta Mechanica 9, 1970, at a Reynolds number of 2 10^4)."""
+"""The torque on a rotating sphere, divided by half the density, the square of the angular speed and
+the fifth power of the radius [1] (Sawatzki, Acta Mechanica 9, 1970, at a Reynolds number of
+20 000)."""
 PLATES = (
     (1.0, 1.25, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 8.0, 10.0, 1e3),
     (0.579, 0.642, 0.690, 0.757, 0.801, 0.830, 0.872, 0.897, 0.934, 0.947, 1.0),
 )
-"""The ratio b/a of the sides of a plate, and its added mass relative to the water in the cylinder
-about it, pi/4 a^2 b [1] (DNV-RP-H103, table A-2)."""
+"""The ratio b/a of the sides of a plate, and its added mass divided by the mass of water in a
+cylinder of the diameter a and the length b [1] (DNV-RP-H103, table A-2)."""
 DEPTHS = (
     (0.0, 0.1, 0.2, 0.5, 1.0, 2.0, 4.0, 6.0, 10.0),
     (1.0, 1.14, 1.21, 1.36, 1.495, 1.583, 1.67, 1.715, 1.76),
 )
-"""The length of a box along its motion by the short side of its face, and its added mass by that of
-the face as a plate [1] (up to 0.5 rectangles of table A-1, from 1 square prisms of table A-2)."""
+"""The ratio of a box's length along its motion to the short side of its face, and the ratio of its
+added mass to that of the face as a plate [1] (up to 0.5: rectangles of table A-1; from 1 on: square
+prisms of table A-2)."""
 
 
 def loose_link(name: str, physics: PhysicsSpec, shapes: Sequence[CollisionShape]) -> LinkSpec:
-    """Return mass and inertia of an object about its centre of mass: of its box, or of a ball."""
+    """Return the mass properties of an object; a missing inertia is that of its box or sphere."""
     box = bounds(shapes)
     x, y, z = (2.0 * half for half in box.size)
     inertia = physics.inertia
@@ -70,13 +72,13 @@ def loose_link(name: str, physics: PhysicsSpec, shapes: Sequence[CollisionShape]
 def object_errors(
     spec: ObjectSpec, physics: PhysicsSpec, shapes: Sequence[CollisionShape], density: float | None
 ) -> list[Diagnostic]:
-    """Return the errors in mass, inertia and volume of a loose object that prevent a simulation.
+    """Return the errors in mass, inertia and volume of a loose object.
 
     Args:
         spec: the object.
-        physics: its physics.
-        shapes: its collision shapes.
-        density: the density of the water [kg/m3]; None where there is no buoyancy.
+        physics: the physics of the object.
+        shapes: the collision shapes of the object.
+        density: the density of the water [kg/m3]; None in a scene without buoyancy.
     """
     messages = []
     inertia = min(loose_link(spec.name, physics, shapes).inertia[:3])
@@ -101,12 +103,12 @@ def object_errors(
 def loose_hydrodynamics(
     name: str, physics: PhysicsSpec, shapes: Sequence[CollisionShape], density: float
 ) -> BodyHydrodynamics:
-    """Return the hydrodynamics of an object.
+    """Return the hydrodynamics of a loose object.
 
     Args:
-        name: the name of its body in the model.
-        physics: its physics.
-        shapes: its collision shapes.
+        name: the name of the object's body in the model.
+        physics: the physics of the object.
+        shapes: the collision shapes of the object.
         density: the density of the water [kg/m3].
     """
     box = bounds(shapes)
@@ -138,10 +140,10 @@ def loose_hydrodynamics(
 
 
 def box_drag(edges: Array) -> Array:
-    """Return the quadratic drag of a box per density of the water, (6,) [m2, m5]."""
+    """Return the quadratic drag of a box divided by the density of the water, (6,) [m2, m5]."""
     x, y, z = edges.tolist()
     faces = [y * z, x * z, x * y]
-    # strips of a face at distance r from the axis resist with r^2 at the lever r
+    # drag of a strip of a face at the distance r from the axis: proportional to r^2, lever arm r
     moments = [
         x * (y**4 + z**4) / 32.0,
         y * (x**4 + z**4) / 32.0,
@@ -160,7 +162,7 @@ def _ball_drag(radius: float) -> Array:
 
 
 def box_added_mass(edges: Array) -> Array:
-    """Return the added mass of a box along its three axes, per density, (3,) [m3]."""
+    """Return the added mass of a box along its axes, divided by the density, (3,) [m3]."""
     added_mass = np.empty(3)
     for axis in range(3):
         a, b = sorted(np.delete(edges, axis).tolist())
@@ -170,7 +172,11 @@ def box_added_mass(edges: Array) -> Array:
 
 
 def ellipsoid_added_mass(half: Array) -> Array:
-    """Return the added mass of an ellipsoid by its half-axes, per density, (6,) [m3, m5]."""
+    """Return the added mass of an ellipsoid divided by the density, (6,) [m3, m5].
+
+    Args:
+        half: the semi-axes, (3,) [m].
+    """
     from scipy.special import elliprd
 
     a2, b2, c2 = (half**2).tolist()

@@ -1,8 +1,8 @@
 """Objects that vehicles hold: fixed to a link until they are released.
 
-A constraint welds an object that forces move to a link of a simulated vehicle: its weight and the
-water on it act on the vehicle. All other held objects follow their link as if without mass. A held
-object has no contacts with the vehicle that holds it, as in the original.
+A constraint of the engine welds a loose object to a link of a vehicle with dynamics: its weight and
+the water on it then act on the vehicle. All other held objects follow their link without exerting
+forces on it. As in UWSim (C++), a held object has no contacts with the vehicle that holds it.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ class GripsState(Record):
     """The objects that are held."""
 
     grasps: dict[int, Hold] = field(default_factory=dict)
-    """The hold of each object that is held, by the object's number."""
+    """The hold of each held object, by the number of the object."""
 
 
 class Grips:
@@ -48,7 +48,7 @@ class Grips:
         model: the engine's model.
         data: the engine's state.
         poses: the poses of all bodies.
-        dynamics: the numbers of the simulated vehicles.
+        dynamics: the numbers of the vehicles with dynamics.
         shapes: the engine's collision shapes, by the name of their body.
     """
 
@@ -66,7 +66,7 @@ class Grips:
         """The objects that are held."""
 
     def can_hold(self, index: int) -> bool:
-        """Return whether an object can be held: not if it is solid and fixed, or held."""
+        """Return whether an object can be held: not if it is held already, or fixed and solid."""
         is_loose = index not in self.state.grasps and not self._poses.is_fixed(index)
         return is_loose and (self._is_free(index) or object_body(index) not in self._shapes)
 
@@ -99,7 +99,7 @@ class Grips:
 
     @property
     def is_carrying(self) -> bool:
-        """True if a body of the engine follows a vehicle that is not simulated."""
+        """True if a loose object follows a link without a constraint, so that its pose is set."""
         grasps = self.state.grasps
         return bool(grasps) and any(self._is_carried(index, hold) for index, hold in grasps.items())
 
@@ -109,13 +109,13 @@ class Grips:
         return bool(self.state.grasps)
 
     def follow(self) -> None:
-        """Place the bodies that follow a vehicle at their present poses, before a step."""
+        """Set the poses of loose objects that follow a link; to be called before a step."""
         for index, hold in self.state.grasps.items():
             if self._is_carried(index, hold):
                 self._place(index, self._poses.object(index))
 
     def _is_free(self, index: int) -> bool:
-        """Return whether an object is a body of the engine that forces move."""
+        """Return whether an object is a loose object: a body of the engine that forces move."""
         name = object_body(index)
         return int(mujoco.mj_name2id(self._model, mujoco.mjtObj.mjOBJ_BODY, name)) >= 0
 
@@ -123,7 +123,7 @@ class Grips:
         return self._is_free(index) and self._weld(index, hold) is None
 
     def _weld(self, index: int, hold: Hold) -> int | None:
-        """Return the engine's constraint between an object and a link; None: there is none."""
+        """Return the engine's constraint between an object and a link, or None without one."""
         name = grip_constraint(hold.vehicle, hold.link, index)
         weld = mujoco.mj_name2id(self._model, mujoco.mjtObj.mjOBJ_EQUALITY, name)
         return None if weld < 0 else int(weld)
@@ -139,7 +139,7 @@ class Grips:
             self._model.eq_data[weld, :10] = [0.0, 0.0, 0.0, *pose.position, *turn]
             self._data.eq_active[weld] = 1
         bit = vehicle_bit(hold.vehicle)
-        self._set_bits(index, bit, ALL_BITS & ~bit)  # as the vehicle's own shapes
+        self._set_bits(index, bit, ALL_BITS & ~bit)  # no contacts with the vehicle's shapes
 
     def _detach(self, index: int) -> None:
         weld = self._weld(index, self.state.grasps.pop(index))

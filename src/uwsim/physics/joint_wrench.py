@@ -1,12 +1,12 @@
-r"""The wrench of a link, and of all that is beyond it, on the joint that carries it.
+r"""The wrench that a link and all links beyond it exert on the link's parent joint.
 
-A force-torque sensor in the joint measures it. With the momentum :math:`p` of the links beyond the
-joint, their weight, contacts, the objects they hold, and the water on them (buoyancy, drag, added
-mass),
+This is the wrench that a force-torque sensor in the joint measures. With the momentum p and the
+weight W of these links and of the objects they hold, and the wrenches of contacts and water
+(buoyancy, drag, added mass) on them,
 
 .. math:: w = W + w_{contacts} + w_{water} - \dot p .
 
-Forces and accelerations are those of the last step, positions those at its end.
+Forces and accelerations are those of the last step, positions those at the end of that step.
 """
 
 from __future__ import annotations
@@ -37,10 +37,10 @@ from .kinematics.link_kernel import MOUNT, write_frame
 from .poses import Mount, Poses
 
 FUNCTIONS = ("mj_kinematics", "mj_comPos", "mj_comVel", "mj_rnePostConstraint")
-"""The functions of MuJoCo that compute the forces in joints, in their order."""
+"""The functions of MuJoCo that compute the forces in joints, in the order of their calls."""
 WORKSPACE = np.dtype(
     [
-        ("model", np.int64),  # addresses of MuJoCo's structs, and of the offsets in them
+        ("model", np.int64),  # addresses of MuJoCo's structs, and of the offsets of their fields
         ("data", np.int64),
         ("copy", np.int64),  # the address of the copy of the data; 0 before it is made
         ("offsets", np.int64),
@@ -49,23 +49,23 @@ WORKSPACE = np.dtype(
         ("functions", np.int64, len(FUNCTIONS)),
     ]
 )
-"""The record of the data in which compiled code computes the forces in joints."""
+"""The addresses that compiled code needs to compute the forces in joints in a copy of the data."""
 JOINT_WRENCH = np.dtype(
     [
         ("mount", np.int64),  # the address of a record of `link_kernel.MOUNT`
-        ("body", np.int64),
-        ("workspace", np.int64),  # the address of a record of `WORKSPACE`; 0: not simulated
+        ("body", np.int64),  # the engine's number of the link
+        ("workspace", np.int64),  # the address of a record of `WORKSPACE`; 0 without dynamics
     ]
 )
-"""The record of a joint wrench for compiled code."""
+"""The parameters of `sample_joint`."""
 
 Record = Any
 
 
 class JointWrench:
-    """The wrenches at the joints of simulated vehicles.
+    """The wrenches on the joints of vehicles with dynamics.
 
-    The computation uses a copy of the engine's data, which it does not change.
+    The computation works on a copy of the engine's data, and does not change the data.
 
     Args:
         model: the engine's model.
@@ -79,7 +79,7 @@ class JointWrench:
         self._copy: mujoco.MjData | None = None
 
     def sampler(self, body: int, mount: Mount, *, has_dynamics: bool) -> Sampler:
-        """Return a sampler of the force [N] and the torque [N m], 6 numbers, in a mount's frame.
+        """Return a sampler of the force [N] and the torque [N m] in the frame of a mount, (6,).
 
         Args:
             body: the engine's number of the link.
@@ -120,26 +120,26 @@ class JointWrench:
             self._workspace["copy"] = self._copy._address
 
 
-def sample_joint(parameters: int, values: int, time: float) -> None:
+def sample_joint(record_address: int, values_address: int, time: float) -> None:
     """Compute a joint wrench; see `uwsim.base.numerics.calls`."""
-    joint = carray(pointer(parameters), (1,), JOINT_WRENCH)[0]
+    joint = carray(pointer(record_address), (1,), JOINT_WRENCH)[0]
     frame, wrench = np.empty(12), np.zeros(6)
     write_frame(carray(pointer(joint.mount), (1,), MOUNT)[0], frame)
     if joint.workspace != 0:
         space = carray(pointer(joint.workspace), (1,), WORKSPACE)[0]
         compute_wrench(space, joint.body, frame, wrench)
-    rotate_wrench(frame, wrench, view_doubles(values, 6))
+    rotate_wrench(frame, wrench, view_doubles(values_address, 6))
 
 
 @njit
 def compute_wrench(space: Record, body: int, point: Array, wrench: Array) -> None:
-    """Write the wrench of a body, and of all beyond it, on its joint, in W, into (6,) [N, N m].
+    """Compute the wrench of a body and its subtree on the body's parent joint, in W.
 
     Args:
         space: a record of `WORKSPACE`.
         body: the engine's number of the body.
-        point: the point that the torque is about, in W, (3,) or more [m].
-        wrench: receives force and torque.
+        point: an array that begins with the point of the torque, in W, (3,) or longer [m].
+        wrench: receives the force and the torque, (6,) [N, N m].
     """
     m, d, offsets = space.model, space.copy, view_int64s(space.offsets, space.n_offsets)
     call_three(space.copy_data, d, m, space.data)

@@ -1,4 +1,4 @@
-"""Joints of a MuJoCo model: their losses, servos, and gears between them."""
+"""Joints of the MuJoCo model of a vehicle: damping, friction, servos, gears and end stops."""
 
 from __future__ import annotations
 
@@ -9,26 +9,37 @@ import mujoco
 from ..scene.urdf.robot import JointSpec, MimicSpec, RobotSpec
 
 SERVO = (400.0, 60.0)
-"""The stiffness [N m/rad] and damping [N m s/rad] of the servo of a joint of great effort."""
+"""The stiffness [N m/rad] and damping [N m s/rad] of the servo of a joint with at least the effort
+`FULL_EFFORT`."""
 FULL_EFFORT = 100.0
-"""The effort below which servos are softer in proportion [N m]."""
+"""The greatest effort of a joint below which stiffness and damping of its servo are proportional to
+it [N m]."""
 LEVER = 0.1
-"""The lever that converts stiffness and inertia of joints that turn, in N m/rad and kg m2, to those
-of joints that slide, in N/m and kg [m]."""
+"""The lever arm that converts the stiffness [N m/rad] and inertia [kg m2] of a revolute joint to
+those of a prismatic joint, in N/m and kg [m]."""
 STIFF_FRICTION = [0.9999, 0.9999, 0.001, 0.5, 2.0]
-"""The impedance of the dry friction of joints: with the engine's default a held joint creeps."""
+"""The impedance of the dry friction of joints; with the engine's default a held joint creeps."""
 GEAR = (500.0, 10.0)
-"""The stiffness [N m/rad] and damping between a joint and its leader; a constraint would couple
-them, too, and need a solver at every step."""
+"""The stiffness [N m/rad] and damping [N m s/rad] of the spring between a mimic joint and its
+leader. An equality constraint would need the constraint solver in every step."""
 STOP_MARGIN, STOP_MARGIN_ANGLE = 0.02, 0.1
-"""The distance of the end stops beyond the limits of a joint that slides [m] or turns [rad] while a
-servo holds it: a joint at its limit does not hit them."""
+"""The distance of the end stops beyond the limits of a prismatic joint [m] or revolute joint [rad]
+whose servo is on, so that a joint at its limit does not hit the stops."""
 ROTOR = 0.1
-"""The inertia of a motor behind its gear, such as 1e-5 kg m2 behind 100:1 [kg m2]."""
+"""The inertia of a motor at the output of its gear, such as 1e-5 kg m2 with a ratio of 100:1
+[kg m2]."""
 
 
 def add_joint(body: mujoco.MjsBody, name: str, joint: JointSpec, *, is_driven: bool) -> None:
-    """Add a joint to a link's body; ``is_driven``: with rotor, damping and friction."""
+    """Add a joint to the body of a link.
+
+    Args:
+        body: the body of the child link.
+        name: the name of the joint in the model.
+        joint: the spec of the joint.
+        is_driven: true for a vehicle with dynamics, whose joint has rotor inertia, damping,
+            friction and end stops.
+    """
     is_slide = joint.kind == "prismatic"
     low, high = stops(joint, is_held=True)
     body.add_joint(
@@ -45,9 +56,12 @@ def add_joint(body: mujoco.MjsBody, name: str, joint: JointSpec, *, is_driven: b
 
 
 def stops(joint: JointSpec, *, is_held: bool) -> tuple[float, float]:
-    """Return the end stops of a joint [rad or m]; ``is_held``: a servo holds it.
+    """Return the lower and upper end stop of a joint [rad or m].
 
-    A joint without end stops returns 0 and 0, which the engine does not use.
+    Args:
+        joint: the spec of the joint. Without end stops the result is (0, 0), which the engine does
+            not use.
+        is_held: true if the servo of the joint is on.
     """
     if not joint.has_stops:
         return 0.0, 0.0
@@ -67,7 +81,7 @@ def is_geared(joint: JointSpec, robot: RobotSpec) -> bool:
 def add_gear(
     spec: mujoco.MjSpec, name: str, leader: str, joint: JointSpec, mimic: MimicSpec
 ) -> None:
-    """Couple a joint that mimics to its leader by a stiff spring, as a linkage does."""
+    """Couple a mimic joint to its leader by a stiff spring."""
     stiffness, damping = (gain / _lever(joint) ** 2 for gain in GEAR)
     gear = spec.add_tendon(
         name=f"{name}/gear",
@@ -80,7 +94,7 @@ def add_gear(
 
 
 def servo_gains(joint: JointSpec) -> tuple[float, float]:
-    """Return stiffness [N m/rad or N/m] and damping of a joint's servo, by its greatest effort."""
+    """Return the stiffness [N m/rad or N/m] and the damping of a joint's servo."""
     lever = _lever(joint)
     share = min(1.0, joint.effort * lever / FULL_EFFORT)
     return share * SERVO[0] / lever**2, share * SERVO[1] / lever**2

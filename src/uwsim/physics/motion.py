@@ -1,4 +1,4 @@
-"""Positions and velocities of all movable bodies as one row of numbers, for fingerprints."""
+"""The positions and velocities of all movable bodies as one array, for fingerprints of runs."""
 
 from __future__ import annotations
 
@@ -11,10 +11,11 @@ from ..base.geometry import Array
 
 
 class Motion:
-    """The generalised positions and velocities of every body that has joints, as a copy.
+    """The generalised positions and velocities of each body that has joints, as a copy.
 
-    Generalised coordinates are a position and a quaternion (wxyz) of each free body, and one for
-    each joint; the velocities follow them. The motion of bodies without a joint depends on these.
+    For each body the positions come first: the position in W and the quaternion (wxyz) of a free
+    body, or the position of each joint; then the velocities, as in ``qvel``. A body without joints
+    moves with its parent.
 
     Args:
         model: the engine's model.
@@ -43,15 +44,15 @@ class Motion:
             parts.append((names[body], len(numbers)))
         self._order = np.array(order, dtype=np.intp)
         self.parts = tuple(parts)
-        """The name of each body, and its number of numbers."""
+        """The name of each body, and the number of its positions and velocities."""
 
     @property
     def size(self) -> int:
-        """The length of the row of numbers."""
+        """The number of positions and velocities of all bodies."""
         return len(self._order)
 
     def read(self, row: Array) -> None:
-        """Write the present motion, body by body, into a row (size,) [m, rad, m/s, rad/s]."""
+        """Write the present positions and velocities, body by body, into an array (size,)."""
         self._numbers[: self._n_positions] = self._data.qpos
         self._numbers[self._n_positions :] = self._data.qvel
         np.take(self._numbers, self._order, out=row)

@@ -1,4 +1,4 @@
-"""Poses of vehicles, links, mounts and objects, as copies."""
+"""The poses of vehicles, links, mounts and objects; all methods return copies."""
 
 from __future__ import annotations
 
@@ -22,20 +22,21 @@ Mount = npt.NDArray[np.void]
 
 @dataclass(slots=True)
 class PosesState(Record):
-    """The state of the frames of a scene."""
+    """The state of the poses of a scene."""
 
     version: int = 0
-    """The number of changes of poses."""
+    """The number of changes of poses so far."""
     is_stale: bool = True
-    """True if the frames are out of date."""
+    """True if the engine's frames are out of date."""
     placed_poses: dict[int, Pose] = field(default_factory=dict)
-    """The poses of moved objects that are no bodies of the engine, by number."""
+    """The set poses in W of objects that are not bodies of the engine, by number."""
     carriers: dict[int, tuple[int, str, Pose]] = field(default_factory=dict)
-    """The vehicle, the link and the pose on it of each object that follows a link."""
+    """The vehicle, the link, and the pose in the link's frame of each object that follows a link,
+    by the number of the object."""
 
 
 class Poses:
-    """The frames of a scene, computed from the joints on demand.
+    """The poses of a scene, computed from the positions of joints on demand.
 
     Args:
         scene_model: the model of the scene.
@@ -48,9 +49,9 @@ class Poses:
         self._model, self._data = model, data
         # Views into MuJoCo's memory: access by name takes longer than the step.
         self.origins = data.xpos
-        """The origins of the engine's bodies, as `refresh` computed them, (nbody, 3) [m]."""
+        """The origins of the engine's bodies in W, as `refresh` computed them, (nbody, 3) [m]."""
         self.axes = data.xmat.reshape(-1, 3, 3)
-        """The axes of these bodies, (nbody, 3, 3)."""
+        """The rotation matrices ``world_from_body`` of these bodies, (nbody, 3, 3)."""
         ids = {model.body(i).name: i for i in range(model.nbody)}
         self._bases = {i: ids[vehicle_body(i, robots[i].root)] for i in robots}
         self._links = {
@@ -65,7 +66,7 @@ class Poses:
         scales = {i: vehicle.scale_factor for i, vehicle in enumerate(scene.vehicles)}
         self._scales = {i: scale for i, scale in scales.items() if scale != (1.0, 1.0, 1.0)}
         self.state = PosesState()
-        """The state of the frames."""
+        """The state of the poses."""
 
     @property
     def version(self) -> int:
@@ -92,9 +93,14 @@ class Poses:
         return self._links[index, link]
 
     def engine_body(self, vehicle: int | None, link: str, index: int | None) -> int:
-        """Return the engine's body whose frame is that of a link or an object; -1 for none.
+        """Return the engine's body with the frame of a link or an object; -1 without such a body.
 
-        A link of a scaled vehicle and an object that follows a link have no such body.
+        A link of a scaled vehicle and an object that follows a link have none.
+
+        Args:
+            vehicle: the number of the vehicle; None for an object.
+            link: the name of the link.
+            index: the number of the object; None without one.
         """
         if vehicle is not None:
             return -1 if vehicle in self._scales else self._links[vehicle, link]
@@ -111,7 +117,7 @@ class Poses:
         return self._body(self._links[index, link])
 
     def link_frame(self, index: int, link: str) -> Array:
-        """Return ``world_from_link`` with the vehicle's scale in it, (4, 4) [m]."""
+        """Return ``world_from_link`` including the scale of the vehicle, (4, 4)."""
         pose = self.link(index, link)
         frame = pose.matrix
         if index in self._scales:
@@ -120,12 +126,12 @@ class Poses:
         return frame
 
     def mount(self, index: int, link: str, link_from_part: Pose) -> Mount:
-        """Return the record of a part on a link, for `mount_pose` and for compiled code.
+        """Return the record of a part mounted on a link, for `mount_pose` and for compiled code.
 
         Args:
             index: the number of the vehicle.
             link: the name of the link.
-            link_from_part: the pose of the part on the link.
+            link_from_part: the pose of the part in the frame of the link.
         """
         body, mount = self._links[index, link], np.zeros(1, MOUNT)
         mount["origin"] = address_of(self.origins) + 24 * body
@@ -137,13 +143,13 @@ class Poses:
         return mount
 
     def mount_pose(self, mount: Mount) -> Pose:
-        """Return the pose of a part on a link; a vehicle's scale moves it but does not turn it."""
+        """Return ``world_from_part``; the scale of a vehicle moves the part without turning it."""
         self.refresh()
         frame = compute_frame(mount)
         return Pose(frame[:3], frame[3:].reshape(3, 3))
 
     def object(self, index: int) -> Pose:
-        """Return ``world_from_object`` (before its offsets and its scale)."""
+        """Return ``world_from_object``, without the offset and scale of the object's visual."""
         if index in self.state.carriers:
             vehicle, link, link_from_object = self.state.carriers[index]
             world_from_link = self.link(vehicle, link)
@@ -153,26 +159,27 @@ class Poses:
         return self._body(self._loose_bodies[index])
 
     def place_object(self, index: int, world_from_object: Pose) -> None:
-        """Set the pose of an object that is no body of the engine."""
+        """Set the pose of an object that is not a body of the engine."""
         self.state.placed_poses[index] = world_from_object
 
     def loose_body(self, index: int) -> int | None:
-        """Return the engine's number of an object; None where it is no body of the engine."""
+        """Return the engine's number of an object; None if it is not a body of the engine."""
         return self._loose_bodies.get(index)
 
     def read_frames(self, bodies: npt.NDArray[np.intp]) -> Array:
-        """Return position in W [m] and quaternion (wxyz) of bodies of the engine, (n, 7)."""
+        """Return the position in W [m] and quaternion (wxyz) of bodies of the engine, (n, 7)."""
         self.refresh()
         return np.concatenate([self._data.xpos[bodies], self._data.xquat[bodies]], axis=1)
 
     def set_frames(self, bodies: npt.NDArray[np.intp], rows: Array) -> None:
-        """Set frames to their poses in another run, for images; the engine's state is not changed.
+        """Overwrite the computed frames of bodies, to render poses of another run.
 
-        Bodies fixed to these bodies follow them. The next `mark_stale` undoes it.
+        Child bodies follow these bodies. The engine's state is not changed, and the frames are
+        computed again after the next `mark_stale`.
 
         Args:
             bodies: the engine's numbers of the bodies.
-            rows: position in W [m] and quaternion (wxyz) of each, (n, 7).
+            rows: the position in W [m] and quaternion (wxyz) of each body, (n, 7).
         """
         self.refresh()
         model, axes = self._model, np.zeros(9)
@@ -197,7 +204,12 @@ class Poses:
         return index in self._fixed
 
     def points(self, bodies: npt.NDArray[np.int64], on_bodies: Array) -> Array:
-        """Return the positions in W of points (n, 3) [m] on some bodies, (n, 3) [m]."""
+        """Return the positions in W of points that are fixed to bodies, (n, 3) [m].
+
+        Args:
+            bodies: the engine's number of the body of each point, (n,).
+            on_bodies: the points in the frames of their bodies, (n, 3) [m].
+        """
         self.refresh()
         return world_positions(self.origins, self.axes, bodies, on_bodies)
 

@@ -1,12 +1,13 @@
 r"""A vehicle's ``scaleFactor``: a scale at the root of the tree of links.
 
-The original scales the vehicle as a whole, L_T_B = T R S, so that a point p of a link K is at
+As in UWSim (C++), the scale S applies to the vehicle as a whole. With the world frame W, the base B
+and a link K, a point p of the link is in W at
 
-.. math:: W_T_B\; S\; B_T_K\; p
+.. math:: {}^W T_B\; S\; {}^B T_K\; p
 
 S moves the origins of links, the parts mounted on them and their shapes. It stretches a mesh along
-the axes of the base, which shears it where S is not uniform and the link is not aligned with them.
-It moves a frame and does not rotate it. Joint values do not change.
+the axes of the base, which shears the mesh if S is not uniform and the link is not aligned with the
+base. S moves a frame and does not rotate it. Joint values do not change.
 """
 
 from __future__ import annotations
@@ -22,13 +23,13 @@ from ..scene.urdf.robot import RobotSpec
 
 
 class ScaledLinks:
-    """The link poses of one scaled vehicle in the engine.
+    """The link poses of a scaled vehicle in the engine.
 
     Args:
         model: the engine's model, whose relative link poses are changed here.
         robot: the links and joints of the vehicle.
         index: the number of the vehicle.
-        scale: the scale along the axes of its base [1].
+        scale: the scale along the axes of the base [1].
     """
 
     def __init__(self, model: mujoco.MjModel, robot: RobotSpec, index: int, scale: Triple) -> None:

@@ -32,60 +32,68 @@ from .islands import choose_islands
 
 _MINVAL = 1e-15  # mjMINVAL
 STEP_OK, ENGINE_WARNING, EXCESS_SPEED = range(3)
-"""The outcomes of a step; to that of an excess speed the degree of freedom is added."""
+"""The outcomes of a step; for an excess speed the outcome is `EXCESS_SPEED` plus the index of the
+degree of freedom."""
 
 PLAN = np.dtype(
     [
-        ("model", np.int64),  # addresses of MuJoCo's structs, and of the offsets in them
+        ("model", np.int64),  # addresses of MuJoCo's structs, and of the offsets of their fields
         ("data", np.int64),
         ("offsets", np.int64),
         ("n_offsets", np.int64),
-        ("uses_midpoint", np.int64),  # true if free bodies move half a step before MuJoCo's step
-        ("step", np.int64),  # steps taken
-        ("autopilot_steps", np.int64),  # between two ticks of the autopilots
-        ("timestep", np.float64),  # [s]
-        ("autopilots", np.int64),  # five numbers each: `Autopilot.addresses`
+        ("uses_midpoint", np.int64),  # 1 if free bodies move by half a step before MuJoCo's step
+        ("step", np.int64),  # the number of steps taken
+        ("autopilot_steps", np.int64),  # the period of the autopilots, in steps
+        ("timestep", np.float64),  # the length of a step [s]
+        ("autopilots", np.int64),  # the address of the numbers of `Autopilot.addresses`, 5 each
         ("n_autopilots", np.int64),
-        ("servos", np.int64),  # three numbers a vehicle: `Servos.addresses`
+        ("servos", np.int64),  # the address of the numbers of `Servos.addresses`, 3 for a vehicle
         ("n_servos", np.int64),
-        ("placed_bodies", np.int64),  # addresses in qpos and qvel of bodies that are not simulated
-        ("n_placed_bodies", np.int64),
-        ("poses", np.int64),  # their poses, seven numbers each
+        (
+            "kinematic_bodies",
+            np.int64,
+        ),  # the address of the indices in qpos and qvel of kinematic bodies, 2 each
+        ("n_kinematic_bodies", np.int64),
+        ("poses", np.int64),  # the poses of kinematic bodies in W, 7 numbers each
         ("drift", np.int64),  # the addresses of a `DriftFunction` and its parameters; 0: no drift
         ("drift_parameters", np.int64),
-        ("speeds", np.int64),  # `engine_warnings.speed_limits`
+        ("speeds", np.int64),  # the address of the rows of `engine_warnings.speed_limits`
         ("n_speeds", np.int64),
-        ("warnings", np.int64),  # MuJoCo's counters
+        ("warnings", np.int64),  # the address of MuJoCo's counters of warnings
         ("n_warnings", np.int64),
-        ("warning_stride", np.int64),  # bytes from one to the next
-        ("submerged_bodies", np.int64),  # bodies that the water acts on
+        ("warning_stride", np.int64),  # the number of bytes from one counter to the next
+        ("submerged_bodies", np.int64),  # the address of the numbers of bodies in the water
         ("n_submerged_bodies", np.int64),
-        ("samples", np.int64),  # a record of `sampling.TABLE`; 0: none are taken
-        ("step_offset", np.int64),  # steps of the simulation's clock minus those of this count
-        ("kinematics", np.int64),  # the address of MuJoCo's function
-        ("points", np.int64),  # where it acts, in their axes, three numbers each
-        ("water_rows", np.int64),  # its motion there, `WATER_ROW` numbers each
+        ("samples", np.int64),  # the address of a record of `sampling.TABLE`; 0: no samples
+        ("step_offset", np.int64),  # the simulation's step count minus ``step``
+        ("kinematics", np.int64),  # the address of ``mj_kinematics``
+        ("points", np.int64),  # the address of the bodies' reference points, in body axes [m]
+        ("water_rows", np.int64),  # the address of the water's motion at them, `WATER_ROW` each
         ("flow", np.int64),  # the addresses of a `WaterFunction` and its parameters
         ("flow_parameters", np.int64),
-        ("needs_points", np.int64),  # true if it reads the poses of the bodies
-        ("n_water", np.int64),  # steps in which it is called; afterwards its values are constant
+        ("needs_points", np.int64),  # 1 if this function reads the positions of the points
+        ("n_water", np.int64),  # the number of further steps in which this function is called
     ],
     align=True,
 )
-"""The addresses and numbers of the steps of one engine."""
+"""The parameters of the steps of one engine."""
 
 Record = Any
 
 
 @njit
 def begin_step(plans: Record) -> None:
-    """Set the water, the thrusters and the servos of the step that begins."""
+    """Set the water, the thrusters and the servos for the step that begins.
+
+    Args:
+        plans: a record of `PLAN`, (1,).
+    """
     plan = plans[0]
     m, d = plan.model, plan.data
     o = view_int64s(plan.offsets, plan.n_offsets)
     qpos = view_doubles(read_int64(d + o[f.QPOS]), read_int64(m + o[f.NQ]))
-    if plan.n_placed_bodies > 0:
-        record_placed(plan, qpos)
+    if plan.n_kinematic_bodies > 0:
+        record_kinematic_poses(plan, qpos)
     if plan.n_water > 0:
         set_water(plan, o)
     ctrl = view_doubles(read_int64(d + o[f.CTRL]), read_int64(m + o[f.NU]))
@@ -112,7 +120,7 @@ def begin_step(plans: Record) -> None:
 
 @njit
 def end_step(plans: Record) -> int:
-    """Complete the step after MuJoCo's, and return its outcome."""
+    """Complete a step after MuJoCo's step, and return its outcome."""
     plan = plans[0]
     m, d = plan.model, plan.data
     o = view_int64s(plan.offsets, plan.n_offsets)
@@ -127,9 +135,9 @@ def end_step(plans: Record) -> int:
     if dof >= 0:
         return EXCESS_SPEED + dof
     qpos = view_doubles(read_int64(d + o[f.QPOS]), read_int64(m + o[f.NQ]))
-    addresses = view_int64s(plan.placed_bodies, 2 * plan.n_placed_bodies)
-    poses = view_doubles(plan.poses, 7 * plan.n_placed_bodies)
-    for i in range(plan.n_placed_bodies):
+    addresses = view_int64s(plan.kinematic_bodies, 2 * plan.n_kinematic_bodies)
+    poses = view_doubles(plan.poses, 7 * plan.n_kinematic_bodies)
+    for i in range(plan.n_kinematic_bodies):
         for k in range(7):
             qpos[addresses[2 * i] + k] = poses[7 * i + k]
         for k in range(6):
@@ -141,10 +149,7 @@ def end_step(plans: Record) -> int:
 
 @njit
 def sample(plans: Record) -> bool:
-    """Take the samples that are due after a step, with all bodies at their present poses.
-
-    Returns whether a timer was due.
-    """
+    """Take the samples that are due after a step, with updated poses; return if any was due."""
     plan = plans[0]
     if plan.samples == 0:
         return False
@@ -159,15 +164,15 @@ def sample(plans: Record) -> bool:
 @njit
 def sample_and_begin(plans: Record) -> None:
     """Take the samples that are due after a step, and begin the next."""
-    plan, is_placed = plans[0], sample(plans)
-    if plan.needs_points != 0 and not is_placed:
+    plan, has_current_poses = plans[0], sample(plans)
+    if plan.needs_points != 0 and not has_current_poses:
         call_both(plan.kinematics, plan.model, plan.data)
     begin_step(plans)
 
 
 @njit
 def end_and_begin(plans: Record) -> int:
-    """Complete a step, sample, and begin the next unless the first failed."""
+    """Complete a step, take samples and begin the next step, unless the step failed."""
     outcome = end_step(plans)
     if outcome == STEP_OK:
         sample_and_begin(plans)
@@ -175,25 +180,25 @@ def end_and_begin(plans: Record) -> int:
 
 
 @njit
-def record_placed(plan: Record, qpos: Array) -> None:
-    """Record the poses of placed bodies, after their drift."""
-    addresses = view_int64s(plan.placed_bodies, 2 * plan.n_placed_bodies)
-    poses = view_doubles(plan.poses, 7 * plan.n_placed_bodies)
-    for i in range(plan.n_placed_bodies):
+def record_kinematic_poses(plan: Record, qpos: Array) -> None:
+    """Move the kinematic bodies with the water, and record their poses, which MuJoCo changes."""
+    addresses = view_int64s(plan.kinematic_bodies, 2 * plan.n_kinematic_bodies)
+    poses = view_doubles(plan.poses, 7 * plan.n_kinematic_bodies)
+    for i in range(plan.n_kinematic_bodies):
         for k in range(7):
             poses[7 * i + k] = qpos[addresses[2 * i] + k]
     if plan.drift == 0:
         return
     time = (plan.step + plan.step_offset + 1) * plan.timestep
     call(plan.drift, plan.drift_parameters, plan.poses, time)
-    for i in range(plan.n_placed_bodies):
+    for i in range(plan.n_kinematic_bodies):
         for k in range(7):
             qpos[addresses[2 * i] + k] = poses[7 * i + k]
 
 
 @njit
 def set_water(plan: Record, o: Ints64) -> None:
-    """Set the motion of the water in the step that begins, from its function, at its middle."""
+    """Set the motion of the water for the step that begins, evaluated at the middle of the step."""
     d, n = plan.data, plan.n_submerged_bodies
     bodies = view_int64s(plan.submerged_bodies, n)
     rows = view_doubles(plan.water_rows, WATER_ROW * n).reshape((n, WATER_ROW))
@@ -221,7 +226,7 @@ def set_water(plan: Record, o: Ints64) -> None:
 
 @njit
 def run_autopilots(plan: Record, o: Ints64, qpos: Array, ctrl: Array) -> None:
-    """Run the autopilots that are due or have a new command: they set their thrusters."""
+    """Run the autopilots that are due or have a new command; they set their thruster commands."""
     addresses = view_int64s(plan.autopilots, 5 * plan.n_autopilots)
     is_due = plan.step % plan.autopilot_steps == 0
     for i in range(plan.n_autopilots):
@@ -247,7 +252,14 @@ def run_autopilots(plan: Record, o: Ints64, qpos: Array, ctrl: Array) -> None:
 
 @njit
 def base_motion(qpos: Array, qvel: Array, water: Array, is_over_ground: bool) -> Base:
-    """Return the motion of a free body for its autopilot."""
+    """Return the motion of a vehicle's base for its autopilot.
+
+    Args:
+        qpos: the position in W [m] and quaternion (wxyz) of the base, (7,).
+        qvel: the linear velocity in W [m/s], and the angular velocity in base axes [rad/s], (6,).
+        water: the velocity of the water in W, (3,) [m/s].
+        is_over_ground: true for the velocity over ground, else through the water.
+    """
     rotation = engine_rotation(qpos[3], qpos[4], qpos[5], qpos[6])
     velocity = qvel.copy()
     for i in range(3):
@@ -261,7 +273,7 @@ def base_motion(qpos: Array, qvel: Array, water: Array, is_over_ground: bool) ->
 
 @njit
 def engine_rotation(w: float, x: float, y: float, z: float) -> Array:
-    """Return the matrix of a quaternion, bit for bit as MuJoCo computes it, (3, 3)."""
+    """Return the rotation matrix of a quaternion (3, 3), with exactly the bits of MuJoCo."""
     size = math.sqrt((w * w + x * x) + (y * y + z * z))
     if size < _MINVAL:
         w, x, y, z = 1.0, 0.0, 0.0, 0.0

@@ -1,7 +1,8 @@
-"""The time loop of a scene with simulated vehicles, with compiled code between MuJoCo's steps.
+"""The time loop of a scene with vehicles with dynamics.
 
-MuJoCo's own step is called through its bindings, which turn its errors into exceptions; all else of
-a step is two calls into `step_kernel`, or one between two steps.
+MuJoCo's step is called through its Python bindings, which convert its errors to exceptions. All
+other parts of a step are compiled (`step_kernel`): one call between two steps, one before the first
+and one after the last.
 """
 
 from __future__ import annotations
@@ -33,7 +34,7 @@ Ints = npt.NDArray[np.int64]
 
 
 def _word(name: str) -> int:
-    """Return the number of words of a plan before a field."""
+    """Return the index of a field in a record of `step_kernel.PLAN`, in words of 8 bytes."""
     return int(step_kernel.PLAN.fields[name][1]) // 8  # type: ignore[index]
 
 
@@ -45,25 +46,25 @@ _DRIFT, _DRIFT_PARAMETERS = map(_word, ("drift", "drift_parameters"))
 
 @dataclass(slots=True)
 class StepperState(Record):
-    """The state of a stepper, besides the engine's numbers."""
+    """The state of a stepper, besides the state of the engine."""
 
     has_flow: bool = False
     """True if the water moved in the last step."""
 
 
 class Stepper:
-    """The steps of one engine.
+    """The time loop of one engine.
 
     Args:
         data: the engine's state.
         water: the hydrodynamics of the engine.
-        autopilots: the autopilots of the simulated vehicles.
-        servos: the servos of these vehicles.
-        placed_joints: the free joints of vehicles that are not simulated.
-        submerged_bodies: the bodies that the water acts on.
-        reference_points: the points where it acts on them, in their axes, (n, 3) [m].
+        autopilots: the autopilots of the vehicles with dynamics.
+        servos: the servos of the vehicles with dynamics.
+        kinematic_joints: the free joints of the kinematic vehicles.
+        submerged_bodies: the engine's numbers of the n bodies that the water acts on.
+        reference_points: the points at which the water acts, in body axes, (n, 3) [m].
         check: the checks after a step.
-        bounce_limit: the limit on the energy of objects that bounce; None where none does.
+        bounce_limit: the limit on the energy of objects that bounce; None if no object does.
     """
 
     def __init__(
@@ -72,7 +73,7 @@ class Stepper:
         water: Hydrodynamics,
         autopilots: Sequence[Autopilot],
         servos: Sequence[Servos],
-        placed_joints: Sequence[int],
+        kinematic_joints: Sequence[int],
         submerged_bodies: Sequence[int],
         reference_points: Array,
         check: StepCheck,
@@ -94,13 +95,16 @@ class Stepper:
             "offsets": (callback.offsets(), 1),
             "autopilots": (_flatten([part.addresses for part in autopilots]), 5),
             "servos": (_flatten([part.addresses for part in servos]), 3),
-            "placed_bodies": (_flatten([_addresses(model, joint) for joint in placed_joints]), 2),
+            "kinematic_bodies": (
+                _flatten([_addresses(model, joint) for joint in kinematic_joints]),
+                2,
+            ),
             "speeds": (check.speeds, 3),
             "submerged_bodies": (_flatten([list(submerged_bodies)]), 1),
         }
         for name, (numbers, width) in self._arrays.items():
             plan[name], plan[f"n_{name}"] = numbers.ctypes.data, numbers.size // width
-        self._poses = np.zeros(7 * len(placed_joints))
+        self._poses = np.zeros(7 * len(kinematic_joints))
         plan["poses"] = self._poses.ctypes.data
         counters = check.counters
         plan["warnings"], plan["n_warnings"] = counters.ctypes.data, len(counters)
@@ -139,18 +143,20 @@ class Stepper:
         Args:
             n: the number of steps.
             n_0: the number of steps taken before.
-            water: the motion of the water at the bodies, with current poses; None: it is still.
-            samples: the samples after each step but the last, a record of `sampling.TABLE`, (1,).
-            step: the number of the first step by the clock of the samples.
+            water: the motion of the water at the bodies, whose frames must be up to date; None in
+                still water.
+            samples: the samples to take after each step but the last, a record of
+                `sampling.TABLE`, (1,).
+            step: the number of the first step, as the timers of the samples count steps.
             samples_last: take samples after the last step, too.
-            drift: moves the vehicles that are not simulated; None: they stay.
+            drift: moves the kinematic vehicles with the water; None: they do not drift.
 
         Returns:
             True if a timer of the samples was due after the last step, and they were taken.
 
         Raises:
-            SimulationFailed: MuJoCo warned, or a body is faster than its limit: results would be
-                invalid.
+            SimulationFailed: MuJoCo warned, or a body exceeds its speed limit, so that results
+                would be invalid.
         """
         plan, words, model, data = self._plan, self._words, self._model, self._data
         if samples is not self._table[0]:
@@ -181,7 +187,7 @@ class Stepper:
         return samples_last and bool(step_kernel.sample(plan))
 
     def _set_water(self, water: WaterFunction | None, n: int) -> None:
-        """Set the function of the water in the next steps; None: it is still."""
+        """Set the function of the water's motion for the next n steps; None in still water."""
         words = self._words
         if water is not None:
             self.state.has_flow = True

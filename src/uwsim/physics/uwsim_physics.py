@@ -1,16 +1,16 @@
-r"""UWSim's own physics: objects that fall, roll and are pushed, without hydrodynamics.
+r"""The physics of UWSim (C++): objects that fall, roll and are pushed, without hydrodynamics.
 
-It simulates scenes with ``<enablePhysics> 1`` and no vehicle with ``u:dynamics`` as the original
-does. Gravity is that of ``<gravity>``, or 1 m/s² down where it is all zero. Objects do not
-float, and only their damping d slows them. Before every step it multiplies the velocity of the
-centre of mass, and the angular velocity (Bullet, `applyDamping`), by
+It applies to scenes with ``<enablePhysics> 1`` and no vehicle with ``u:dynamics``. Gravity is that
+of ``<gravity>``, or 1 m/s² down if all its components are zero. Objects do not float. Only their
+damping d slows them: before every step, the velocity of the centre of mass and the angular velocity
+are multiplied by (Bullet, `applyDamping`)
 
 .. math:: (1 - d)^{\Delta t}
 
-Vehicles move as commanded, even through walls, and push free objects: each jump
-(`kinematics.jumps`) is their motion for as long after it as it took. Not modelled: limits of
-objects, Bullet's friction and its solvers (ours is MuJoCo's, with `engine_model.FRICTION`),
-``physicsFrequency`` (the step is the simulation's).
+Vehicles move as commanded, even through walls, and push loose objects. The velocity of a
+displacement (`kinematics.jumps`) lasts for as long after it as the displacement took. Not modelled:
+limits of objects, Bullet's friction and solvers (MuJoCo's are used, with `engine_model.FRICTION`),
+``physicsFrequency`` (the timestep of the simulation is used).
 """
 
 from __future__ import annotations
@@ -28,7 +28,8 @@ from ..scene.spec import SceneSpec
 from .kinematics.jumps import JumpState, JumpTimes, jump_velocity
 
 VEHICLE_MASS = 1e4
-"""The mass and inertia of a vehicle's links: no loose object moves them [kg, kg m2]."""
+"""The mass [kg] and inertia [kg m2] of a vehicle's links, so great that no loose object moves them.
+"""
 
 
 @dataclass(slots=True)
@@ -36,7 +37,7 @@ class DisplacedState(Record):
     """The last displacement of a kinematic vehicle."""
 
     positions: Array
-    """The positions of its joints, (n,)."""
+    """The positions of the vehicle's joints as in ``qpos``, (n,)."""
     velocity: Array
     """The velocity of the last displacement, (n,) [m/s, rad/s]."""
     step: int
@@ -47,18 +48,18 @@ class DisplacedState(Record):
 
 @dataclass(slots=True)
 class UwsimPhysicsState(Record):
-    """The state besides the engine's numbers."""
+    """The state of the physics besides the engine's state."""
 
     vehicles: list[DisplacedState]
-    """The displacements of each vehicle."""
+    """The last displacement of each vehicle."""
 
 
 class UwsimPhysics:
-    """The physics of free objects among kinematic vehicles, as in UWSim.
+    """The physics of loose objects among kinematic vehicles, as in UWSim.
 
     Args:
         scene: the spec of the scene; its ``has_uwsim_physics`` is true.
-        model: the engine's model, which is changed here to that of this physics.
+        model: the engine's model, whose masses and inertias are changed here.
         data: the engine's state.
     """
 
@@ -89,10 +90,10 @@ class UwsimPhysics:
         ]
         self._vehicles = [_KinematicVehicle(model, data, of_vehicle) for of_vehicle in joints]
         self.state = UwsimPhysicsState([vehicle.state for vehicle in self._vehicles])
-        """The state besides the engine's numbers."""
+        """The last displacement of each vehicle."""
 
     def step(self) -> None:
-        """Take a step; vehicles stay where they are."""
+        """Take a step in which only loose objects move."""
         for vehicle in self._vehicles:
             vehicle.set_velocity()
         for damped_object in self._damped_objects:
@@ -103,7 +104,7 @@ class UwsimPhysics:
 
 
 class _DampedObject:
-    """A free object with UWSim's velocity damping and the centre of mass r_g."""
+    """A loose object with UWSim's velocity damping; r_g is its centre of mass in body axes."""
 
     def __init__(
         self, physics: PhysicsSpec, model: mujoco.MjModel, data: mujoco.MjData, joint: int
@@ -112,7 +113,7 @@ class _DampedObject:
         step = model.opt.timestep
         self._factors = tuple((1.0 - min(max(d, 0.0), 1.0)) ** step for d in dampings)
         dof, body = int(model.jnt_dofadr[joint]), int(model.jnt_bodyid[joint])
-        self._velocity = data.qvel[dof : dof + 6]  # linear in W, angular in its axes
+        self._velocity = data.qvel[dof : dof + 6]  # linear in W, angular in body axes
         self._rotation = data.xmat[body]
         self._r_g = model.body_ipos[body].copy()
 
@@ -126,7 +127,7 @@ class _DampedObject:
 
 
 class _KinematicVehicle:
-    """A kinematic vehicle with the speed of its last displacement."""
+    """A kinematic vehicle with the velocity of its last displacement."""
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, joints: list[int]) -> None:
         self._model, self._data = model, data
@@ -138,7 +139,7 @@ class _KinematicVehicle:
         self.state = DisplacedState(q, speed, 0, self._jumps.state)
 
     def set_velocity(self) -> None:
-        """Record the pose, and set the velocity of the last displacement."""
+        """Record the configuration, and set the velocity of the last displacement."""
         data, state, q = self._data, self.state, self._data.qpos[self._q].copy()
         state.step += 1
         if not np.array_equal(q, state.positions):
@@ -155,7 +156,7 @@ class _KinematicVehicle:
     def _jump_velocity(self) -> Array:
         """Return the velocity of the last jump, joint by joint, (n,) [m/s, rad/s].
 
-        It is 0 where a component is that of a placement.
+        It is 0 if the jump is a placement; see `jump_velocity`.
         """
         q = self._data.qpos.copy()
         q_last = q.copy()

@@ -92,14 +92,14 @@ def contact_sampler(
     )
 
 
-def sample_contacts(parameters: int, values: int, time: float) -> None:
+def sample_contacts(record_address: int, values_address: int, time: float) -> None:
     """Compute a contact wrench; see `uwsim.base.numerics.calls`."""
-    wrench = carray(pointer(parameters), (1,), CONTACT_WRENCH)[0]
+    wrench = carray(pointer(record_address), (1,), CONTACT_WRENCH)[0]
     frame, total = np.empty(12), np.zeros(6)
     write_frame(carray(pointer(wrench.mount), (1,), MOUNT)[0], frame)
     if wrench.has_contacts != 0:
         add_contacts(wrench, view_int64s(wrench.offsets, wrench.n_offsets), frame, total)
-    rotate_wrench(frame, total, view_doubles(values, 6))
+    rotate_wrench(frame, total, view_doubles(values_address, 6))
 
 
 @njit

@@ -64,6 +64,6 @@ class DriftFunction:
 
 
 @njit
-def move_placed(function: int, parameters: int, poses: Array, time: float) -> None:
+def apply_drift(function: int, parameters: int, poses: Array, time: float) -> None:
     """Move poses (n, 7) by the `DriftFunction` at these addresses."""
     call(function, parameters, poses.ctypes.data, time)

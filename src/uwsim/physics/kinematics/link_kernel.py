@@ -255,12 +255,12 @@ def cross(left: Array, right: Array, i: int) -> float:
     return component
 
 
-def write_mount_frame(parameters: int, values: int, time: float) -> None:
+def write_mount_frame(record_address: int, values_address: int, time: float) -> None:
     """Write the frame of a part; see `uwsim.base.numerics.calls`."""
-    write_frame(carray(pointer(parameters), (1,), MOUNT)[0], view_doubles(values, 12))
+    write_frame(carray(pointer(record_address), (1,), MOUNT)[0], view_doubles(values_address, 12))
 
 
-def write_mount_motion(parameters: int, values: int, time: float) -> None:
+def write_mount_motion(record_address: int, values_address: int, time: float) -> None:
     """Write the motion of a part's point behind the point, (3,), in the same array, (12,)."""
-    mount = carray(pointer(parameters), (1,), MOUNT)[0]
-    write_motion(mount.chain, view_doubles(values, 3), view_doubles(values + 24, 9))
+    mount = carray(pointer(record_address), (1,), MOUNT)[0]
+    write_motion(mount.chain, view_doubles(values_address, 3), view_doubles(values_address + 24, 9))
