@@ -1,8 +1,9 @@
-"""Rules that decide which external programs may change a scored run, with a count of refusals.
+"""Rules that decide which external programs may take part in a scored run, and count refusals.
 
-All may read. A transport names the ``sender`` of a message, a call and an offer of a service: the
-connection (WebSocket), the node (ROS 1), the participant (ROS 2 by DDS). Where it cannot, the
-name is empty and nothing is refused.
+Every program may read topics. Only a program that takes part may publish messages, call services
+and offer services. The transport gives the name of the ``sender``: a connection (WebSocket), a node
+(ROS 1) or a participant (ROS 2 on DDS). If it cannot distinguish senders, the name is empty and
+nothing is refused.
 """
 
 from __future__ import annotations
@@ -16,24 +17,27 @@ from typing import Literal
 from .queues import LatestQueue
 
 MAX_HELD = 100
-"""The maximum number of messages and offers held of a sender that may take part later."""
+"""The maximum number of messages and offers held for a sender that may be admitted later."""
 MAX_HELD_BYTES = 4 * 2**20
+"""The maximum size of the messages held for one sender [bytes]."""
 MAX_SENDERS = 100
-"""The maximum number of senders of which messages are held."""
+"""The maximum number of senders for which messages are held."""
 MAX_KINDS = 100
-"""The maximum number of senders and topics with a count of their own; the others share one."""
+"""The maximum number of refused pairs of sender and topic that are counted separately."""
 OTHER_KEY = ("other senders", "other topics and services")
+"""The pair under which all further refusals are counted."""
 Decision = Literal["take", "hold", "refuse"]
+"""The decision about a message or an offer; it is held until its sender is admitted."""
 Accept = Callable[[], object]
-"""The function that accepts a held message or offer."""
+"""A function that accepts a held message or offer."""
 Report = Callable[[str, str], None]
-"""The function that is called with sender and text, once for each refused topic or service."""
+"""A function that is called with sender and text, once for each refused topic or service."""
 Refusal = tuple[str, str, int]
 """The sender, the topic or service, and the number of refusals."""
 
 
 class Admission(ABC):
-    """The decisions about each sender; any thread may call it."""
+    """The base class of the rules; any thread may call its methods."""
 
     def __init__(self, report: Report) -> None:
         self._report = report
@@ -45,7 +49,7 @@ class Admission(ABC):
 
     @abstractmethod
     def _on_message(self, topic: str, sender: str) -> Decision:
-        """Decide about a message of a sender that is not admitted."""
+        """Decide about a message."""
 
     @abstractmethod
     def _on_call(self, name: str, sender: str) -> bool:
@@ -53,11 +57,11 @@ class Admission(ABC):
 
     @abstractmethod
     def _on_offer(self, name: str, sender: str) -> Decision:
-        """Decide about a service that is offered by a sender that is not admitted."""
+        """Decide about a sender's offer of a service."""
 
     def admit(self, sender: str) -> None:
-        """Admit a sender to the run, and accept what was held of it."""
-        with self._lock:  # until all is accepted: messages that arrive meanwhile are newer
+        """Admit a sender to the run, and accept the messages and offers held for it."""
+        with self._lock:  # kept until the end, so that newer messages come after the held ones
             self._admitted_senders.add(sender)
             held_messages = self._held_queues.pop(sender, None)
             for accept in held_messages.take() if held_messages is not None else ():
@@ -68,17 +72,23 @@ class Admission(ABC):
         return sender in self._admitted_senders
 
     def remove(self, sender: str) -> None:
-        """Forget what was held of a sender that has left."""
+        """Discard the messages and offers held for a sender that has left."""
         with self._lock:
             self._held_queues.pop(sender, None)
 
     def may_publish(self, topic: str, sender: str, accept: Accept, size: int) -> bool:
-        """Return whether to accept a message of ``size`` bytes now; ``accept`` does so later."""
+        """Return whether to accept a message of ``size`` bytes now.
+
+        If the message is held, ``accept`` is called when the sender is admitted.
+        """
         with self._lock:
             return self._decide(f"/{topic}", sender, self._on_message(topic, sender), accept, size)
 
     def may_offer(self, name: str, sender: str, accept: Accept) -> bool:
-        """Return whether to offer a service of a sender now; ``accept`` does so later."""
+        """Return whether to offer a service of a sender now.
+
+        If the offer is held, ``accept`` is called when the sender is admitted.
+        """
         with self._lock:
             return self._decide(f"/{name}", sender, self._on_offer(name, sender), accept, 0)
 
@@ -99,7 +109,7 @@ class Admission(ABC):
         return is_allowed
 
     def refuse(self, sender: str, name: str) -> None:
-        """Count a refusal; report it the first time."""
+        """Count a refused message, call or offer; report the first of a sender and name."""
         key = (sender or OTHER_KEY[0], name)
         with self._lock:
             is_new = key not in self._known_keys
@@ -118,7 +128,7 @@ class Admission(ABC):
         return tuple((sender, name, n) for (sender, name), n in sorted(counts.items()))
 
     def _takes_part(self, sender: str) -> bool:
-        """Return whether a sender takes part, or cannot be distinguished from those that do."""
+        """Return whether a sender is admitted, or is not known (its name is empty)."""
         return not sender or sender in self._admitted_senders
 
     def _decide(
@@ -140,9 +150,10 @@ class Admission(ABC):
 
 
 class SingleProgram(Admission):
-    """The rule of runs with one program: a sender is admitted when it has joined.
+    """The rule of a run with one program, which is admitted by `admit` when it joins the run.
 
-    Earlier messages and offers of a sender are held until then; calls are refused.
+    Until then, messages and offers are held and calls are refused. Afterwards, all other senders
+    are refused.
     """
 
     def _on_message(self, topic: str, sender: str) -> Decision:
@@ -158,7 +169,7 @@ class SingleProgram(Admission):
 
 
 class FirstCaller(SingleProgram):
-    """The rule of runs with one program: the first that calls a service is admitted."""
+    """The rule of a run with one program: the first that calls a given service is admitted."""
 
     def __init__(self, service: str, report: Report) -> None:
         super().__init__(report)
@@ -175,9 +186,10 @@ class TopicOwners(Admission):
     """The rule that each topic belongs to the program that published it first.
 
     Args:
-        topics: the topics whose owners take part; others may publish nothing, and may call and
-            offer services until each topic has an owner. None: every topic, and all may call.
-        report: the function that reports refusals.
+        topics: the topics whose owners take part. Other programs may publish nothing; they may call
+            and offer services only until each of these topics has an owner. None: all topics, and
+            every program may call services.
+        report: a function that reports refusals.
     """
 
     def __init__(self, topics: Iterable[str] | None, report: Report) -> None:

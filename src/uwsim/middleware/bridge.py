@@ -1,11 +1,11 @@
-"""The base class of all transports: a bus on one side, threads of a transport on the other.
+"""The base class of all transports: it connects a bus to the threads of a transport.
 
-The contract. A transport derives from `Bridge` and implements three methods, which are called in
-the thread of the simulation:
+A transport derives from `Bridge` and implements three methods, which are called in the thread of
+the simulation:
 
 - ``on_topics(topics)``: topics, their types, publishers or subscribers on the bus have changed.
-  Advertise the published topics (`TopicEndpoints.is_published`) and subscribe to those that are
-  read (`TopicEndpoints.is_read`). Late publishers are reported in this way, too.
+  Advertise the published topics (`TopicEndpoints.is_published`) and subscribe to the topics that
+  are read (`TopicEndpoints.is_read`). It is also called for publishers that are added later.
 - ``on_services(services)``: services offered on the bus have changed.
 - ``send(topic, message)``: a message of a topic with an external subscriber. It must not wait:
   put it into a `LatestQueue` and encode it in a thread of the transport. Messages are frozen.
@@ -15,28 +15,29 @@ Any thread of the transport may call:
 - ``subscribers.add(topic)`` and ``.remove(topic)``: an external subscriber came or left.
   The bridge subscribes on the bus while there is at least one, so that cameras render only for
   subscribers.
-- ``put(topic, message, sender)``: a message from outside, with stamps in simulation time
-  (`to_sim_time`), and its sender. The caller must not use the message any more. It waits in
-  a bounded queue, which keeps the newest, for the next step boundary.
+- ``put(topic, message, sender)``: accept a message from outside, with stamps in simulation time
+  (`to_sim_time`), and its sender. The caller must not use the message afterwards. The message waits
+  for the next step boundary in a bounded queue, which keeps the newest messages.
 - ``request(name, request, sender)``: call a service of the bus; returns a Future with the response,
   which comes at the next step boundary.
-- ``external_services.offer(name, service)`` and ``.withdraw(name)``: an external program offers a
-  service. The bus calls it by ``call_external_service``, and the simulation waits for the response.
-  Calls that arrive meanwhile are answered, so that the server may call back.
+- ``external_services.offer(name, service)`` and ``.withdraw(name)``: an external program offers or
+  withdraws a service. The bus calls the service with ``call_external_service``, and the simulation
+  waits for the response. Calls that arrive meanwhile are answered, so that the external program may
+  itself call a service.
 - ``arrivals.tap(topic, receive)``: receive the messages of a topic from outside at once, with
   their senders, in the thread in which they arrive, instead of at a step boundary
   (`uwsim.middleware.lockstep`).
 
-`step` is the boundary: call it at the end of each step (`Simulation.watch(bridge.step)`), and
-before the first. It reads changes of the bus, answers requests in their order, and publishes
-arrived messages: by topic in the order of names, and within a topic in the order of arrival. A
-message from outside is not sent back by the same bridge (unless
+`step` is the step boundary: it is called at the end of each step (`Simulation.watch(bridge.step)`),
+and before the first step. It reads changes of the bus, answers requests in their order, and
+publishes arrived messages: by topic in the order of names, and within a topic in the order of
+arrival. A message from outside is not sent back by the same bridge (unless
 `TransportTraits.relays_between_clients`); other bridges send it. The time of arrival depends on the
 wall clock: a run with a bridge is not repeatable. In a repeatable run, an external program takes
 part in lock-step (`uwsim.middleware.lockstep`).
 
 Topics and services have no leading slash on the bus; transports add it where it is customary.
-Topics that are withheld from algorithms under test are not sent.
+Topics that are hidden from algorithms under test are not sent.
 """
 
 from __future__ import annotations
@@ -66,11 +67,13 @@ from .exposed import exposed_services, exposed_topics
 from .log import Log
 
 LATCHED = ("tf_static", "robot_description", "scene")
-"""The topics whose newest message a late subscriber gets as well."""
+"""The topics whose newest message is also sent to subscribers that join later."""
 DEPTH, LATCHED_DEPTH = 10, 100
-"""The queue depths of ROS 2: messages that are kept for a slow subscriber, and for a late one."""
+"""The queue depths in ROS 2: the number of messages kept for a slow and for a late subscriber."""
 CLOSED_ERROR = "The simulation has ended."
+"""The error of a call after the end of the simulation."""
 NOT_ADMITTED_ERROR = "only the program that takes part in this run may call it."
+"""The error of a call by a program that does not take part."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -78,24 +81,24 @@ class TransportTraits:
     """The capabilities and requirements of a transport."""
 
     relays_between_clients: bool = False
-    """True if messages from external programs are sent out, too, as these do not reach each
-    other."""
+    """True if the bridge also sends messages from one external program to the others, because they
+    are connected only through it."""
     clock_period: float = COARSE_PERIOD
     """The shortest simulation time between two messages on ``/clock`` [s]."""
     needs_discovery: bool = False
-    """True if messages are lost before both ends of a topic have discovered each other."""
+    """True if messages are lost until publisher and subscriber have discovered each other."""
     detects_leaving: bool = False
-    """True if it is known at once that an external subscriber has left, without a message of it."""
+    """True if the transport notices at once when an external subscriber ends without a message."""
     needs_invitation: bool = False
-    """True if a client in lock-step joins on invitation only."""
+    """True if a client in lock-step joins only after the simulation has invited it."""
 
 
 class Bridge(ABC):
-    """The connection of a bus to a transport; the module states who calls what, in which thread.
+    """The connection of a bus to a transport; see the module for callers and threads.
 
     Args:
         bus: the bus of the simulation.
-        clock: returns the simulation time [s].
+        clock: a function that returns the simulation time [s].
         log: the log for events.
     """
 
@@ -145,7 +148,7 @@ class Bridge(ABC):
         """Call a service that an external program offers. In the thread of the simulation."""
         raise UwsimError(f"{type(self).__name__} calls no external services.")
 
-    def read_all(self, topic: str) -> None:  # noqa: B027 - others lose nothing
+    def read_all(self, topic: str) -> None:  # noqa: B027 - most transports lose no messages
         """Read ``topic`` from the first message on, if the transport may lose messages."""
 
     def has_publisher(self, topic: str) -> bool:
@@ -160,7 +163,7 @@ class Bridge(ABC):
         self.send(topic, message)
 
     def report_error(self, sender: str, text: str) -> None:  # noqa: B027 - not every transport can
-        """Report to a program what is invalid in its messages, if the transport can. Any thread.
+        """Report an error in a program's messages to the program, if possible. Any thread.
 
         ``sender`` is the name of the program in its messages.
         """
@@ -168,7 +171,7 @@ class Bridge(ABC):
     def put(self, topic: str, message: object, sender: str = "") -> None:
         """Accept a message from outside for the next step boundary. Any thread.
 
-        ``sender`` is empty if the transport cannot tell it.
+        ``sender`` is empty if the transport cannot distinguish senders.
         """
         name = topic.lstrip("/")
         size = size_of(message)
@@ -209,8 +212,8 @@ class Bridge(ABC):
     def wait_for(self, condition: Callable[[], bool], limit_s: float) -> bool:
         """Wait for a condition, in the thread of the simulation, at most ``limit_s``.
 
-        Meanwhile subscribers are counted and calls of services answered; messages are kept for
-        the next step boundary. Returns whether the condition holds.
+        Meanwhile changes of external subscribers are applied and calls of services are answered;
+        messages are kept for the next step boundary. Returns whether the condition holds.
         """
         deadline = time.monotonic() + limit_s
         while not condition():
@@ -227,7 +230,7 @@ class Bridge(ABC):
         return True
 
     def _tick(self) -> None:
-        """Do what the transport does at each step boundary: publish the time if it is due."""
+        """Do the transport's own work at each step boundary: publish the time if it is due."""
         if self.clock_topic.is_due:
             self.clock_topic.send()
 
@@ -239,7 +242,7 @@ class Bridge(ABC):
         return True
 
     def close(self) -> None:
-        """Leave the bus; waiting calls fail. Transports close their sockets, then call this."""
+        """Disconnect from the bus; waiting calls fail. Transports first close their sockets."""
         with self._signal.lock:
             self._signal.is_closed = True
             requests = self._calls.take()
@@ -264,9 +267,9 @@ class Bridge(ABC):
             previous_topics, self._topics = self._topics, topics
             self.on_topics(topics)
             for name in LATCHED:
-                ends, old_ends = topics.get(name), previous_topics.get(name)
-                was_published = old_ends is not None and old_ends.is_published
-                if ends is not None and ends.is_published and not was_published:
+                endpoints, previous_endpoints = topics.get(name), previous_topics.get(name)
+                was_published = previous_endpoints is not None and previous_endpoints.is_published
+                if endpoints is not None and endpoints.is_published and not was_published:
                     self._follow_latched(name)
         services = exposed_services(self.bus.services)
         if services != self._services:
@@ -307,7 +310,7 @@ class Bridge(ABC):
         if self.deferred_responses.defer(name, request, future):
             return
         try:
-            if name in self.external_services:  # no thread of the simulation waits for it
+            if name in self.external_services:  # the simulation does not wait for the response
                 forward_result(self.call_external_service(name, request), future)
             else:
                 future.set_result(self.bus.services.call(name, request))

@@ -7,12 +7,12 @@ from collections.abc import Callable
 
 COARSE_PERIOD = 0.01
 """The shortest simulation time between two messages on ``/clock`` for web clients, and for nodes
-whose outputs are waited for [s]."""
+for whose outputs the simulation waits [s]."""
 ROS_PERIOD = 0.001
-"""The same for nodes of ROS [s]: every step, unless steps are shorter.
+"""The shortest simulation time between two messages on ``/clock`` for nodes of ROS [s].
 
-A node's ``sleep`` and timers end with a message on ``/clock``; with longer periods, a loop of 1 ms
-would take a whole period.
+A node's ``sleep`` and timers end with a message on ``/clock``; with a longer period, each round of
+a loop of 1 ms would take a whole period.
 """
 
 
@@ -20,9 +20,10 @@ class ClockTopic:
     """The publisher of the simulation time; in the thread of the simulation.
 
     Args:
-        time: returns the simulation time [s].
-        publish: publishes the time, if the topic has a subscriber.
-        is_read: returns whether it has an external one; True if a transport cannot tell.
+        time: a function that returns the simulation time [s].
+        publish: a function that publishes the time, if the topic has a subscriber.
+        is_read: a function that returns whether the topic has an external subscriber; True if the
+            transport cannot know it.
         period: the shortest simulation time between two messages [s].
     """
 

@@ -14,7 +14,7 @@ from .web.options import WebOptions
 
 @dataclass(frozen=True, kw_only=True)
 class ConnectionSpec:
-    """The transports that connect a simulation; `open` binds them to a bus."""
+    """The choice of the transports of a simulation; `open` connects them to a bus."""
 
     ros1: bool = False
     """True if the simulation is a node of ROS 1."""
@@ -23,7 +23,7 @@ class ConnectionSpec:
     ros2: bool = False
     """True if the simulation is a node of ROS 2."""
     domain: int | None = None
-    """The domain of ROS 2; None: that of ``ROS_DOMAIN_ID``."""
+    """The domain of ROS 2; None: the value of ``ROS_DOMAIN_ID``."""
     web: WebOptions | None = None
     """The options of the server for web clients; None: there is no server."""
 
@@ -35,11 +35,11 @@ class ConnectionSpec:
 
     @contextmanager
     def open(self, bus: Bus, clock: Callable[[], float]) -> Iterator[tuple[Bridge, ...]]:
-        """Open all connections within the block; yield a bridge each.
+        """Open all connections within the block; yield the bridge of each.
 
         Args:
             bus: the bus of the simulation.
-            clock: returns the simulation time [s].
+            clock: a function that returns the simulation time [s].
 
         Raises:
             BadSetting: a connection cannot be opened.

@@ -1,9 +1,9 @@
-"""Messages as bytes: CDR of ROS 2, and the encoding of ROS 1.
+"""Messages as bytes: the encoding of ROS 2 (CDR), and that of ROS 1.
 
-rosbags encodes both. This module maps the class on the bus (ROS 2's) to the type of ROS 1, field by
-field: ROS 1's header has ``seq``, its CameraInfo has ``D K R P``, its Range no variance, its Marker
-no texture. Arrays of another dtype than the definition's are converted. Bytes that do not match the
-type raise BadMessage.
+The package rosbags encodes and decodes both. The classes on the bus are those of ROS 2; this module
+maps them to the types of ROS 1, field by field: in ROS 1 a header has ``seq``, CameraInfo has ``D K
+R P``, Range has no variance and Marker no texture. Arrays are converted to the dtype of the
+definition. Bytes that do not match the type raise BadMessage.
 """
 
 from __future__ import annotations
@@ -23,11 +23,12 @@ M = TypeVar("M")
 EMPTY_CDR = b"\x00\x01\x00\x00\x00"
 """The CDR of a type without fields: ROS 2 gives it one byte."""
 DTYPES = {"bool": "bool_", "byte": "uint8", "char": "uint8"}
+"""The names in NumPy of the types of fields, where they differ."""
 HEADER = "std_msgs/msg/Header"
 
 
-class Ros1View:
-    """A message as its fields under their names in ROS 1."""
+class FieldView:
+    """An object with the fields of a message as attributes, which rosbags can encode."""
 
     def __init__(self, values: dict[str, object]) -> None:
         self.__dict__.update(values)
@@ -97,7 +98,11 @@ def _name_of(kind: type) -> str:
 
 @functools.cache
 def inner_type(description: Any) -> tuple[str, str]:
-    """Return ``("list" | "one" | "base" | "array" | "texts", inner type)`` of a field."""
+    """Return the form of a field and its inner type.
+
+    The forms are ``one`` (a message), ``list`` (messages), ``base`` (a number or text), ``array``
+    (numbers) and ``texts``.
+    """
     kind, content = description
     if kind == Nodetype.NAME:
         return "one", content
@@ -123,7 +128,7 @@ def _array_fields(name: str) -> tuple[tuple[str, str, Any], ...]:
 
 
 def _cast(message: Any, name: str) -> Any:
-    """Return the message, or a view of it whose arrays have the dtypes of the definition."""
+    """Return the message or, if arrays have other dtypes than in the definition, a view of it."""
     converted_fields: dict[str, object] = {}
     for field, kind, content in _array_fields(name):
         value = getattr(message, field)
@@ -145,12 +150,12 @@ def _cast(message: Any, name: str) -> Any:
             converted_fields[field] = array
     if not converted_fields:
         return message
-    return Ros1View({**vars(message), **converted_fields})
+    return FieldView({**vars(message), **converted_fields})
 
 
 @functools.cache
 def _field_pairs(name: str) -> tuple[tuple[str, str, str, str], ...] | None:
-    """Return a ROS 1 type's fields: name, name on the bus, kind, inner type; None if all equal."""
+    """Return name, name on the bus, form, inner type of a ROS 1 type's fields; None if equal."""
     bus_fields = {field.lower(): field for field, _ in ros2_store().fielddefs[name][1]}
     pairs: list[tuple[str, str, str, str]] = []
     is_equal = True
@@ -177,12 +182,12 @@ def _to_ros1_view(message: Any, seq: int, name: str) -> Any:
         elif kind == "list":
             value = [_to_ros1_view(element, seq, type_name) for element in value]
         values[field] = value
-    return Ros1View(values)
+    return FieldView(values)
 
 
 @functools.cache
 def _make_reader(name: str) -> Callable[[Any], Any]:
-    """Return the function that converts rosbags' class of ROS 1 to the class of the bus."""
+    """Return a function that converts a message of rosbags' ROS 1 class to the class of the bus."""
     cls = ros2_store().types[name]
     fields = []
     ros1_fields = {field.lower(): field for field, _ in ros1_store().fielddefs[name][1]}
@@ -207,15 +212,15 @@ def _make_reader(name: str) -> Callable[[Any], Any]:
 
 
 def convert_to_class(kind: type[M], message: Any) -> M:
-    """Convert a message of another type store, as of a file, to a class of the bus.
+    """Convert a message of another type store, such as a bag's, to a class of the bus.
 
-    Fields are matched by name, without regard to case; a missing one has its default.
+    Fields are matched by name, without regard to case; a missing field has its default.
 
     Raises:
         BadMessage: a field without a default is missing.
     """
     values: dict[str, Any] = {}
-    # a field (points) follows a constant of its name (POINTS) in this order, and is kept
+    # sorted, so that a field (points) replaces a constant of the same name in capitals (POINTS)
     source_fields = {name.lower(): name for name in sorted(vars(message))}
     for field, description in ros2_store().fielddefs[_name_of(kind)][1]:
         if field.lower() not in source_fields:

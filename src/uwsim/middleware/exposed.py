@@ -1,4 +1,4 @@
-"""Topics and services of a bus that external programs may use: their types have definitions."""
+"""Topics and services of a bus that external programs may use: those with a ROS definition."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from .types import service_of, wire_type
 
 
 def exposed_topics(bus: Bus, *, ignored_owner: object, log: Log) -> dict[str, TopicEndpoints]:
-    """Return the ends of each topic that is not withheld, without those of one owner."""
+    """Return the endpoints of each topic that is not hidden, except those of one owner."""
     topics: dict[str, TopicEndpoints] = {}
     for name in bus.topics:
-        ends = bus.endpoints(name, ignored_owner=ignored_owner)
-        if ends is None or bus.is_hidden(name):
+        endpoints = bus.endpoints(name, ignored_owner=ignored_owner)
+        if endpoints is None or bus.is_hidden(name):
             continue
-        if wire_type(ends.type) is None:
-            log.report(f"/{name} is not sent: {ends.type.__name__} has no definition")
+        if wire_type(endpoints.type) is None:
+            log.report(f"/{name} is not sent: {endpoints.type.__name__} has no definition")
             continue
-        topics[name] = ends
+        topics[name] = endpoints
     return topics
 
 

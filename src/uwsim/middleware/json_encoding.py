@@ -1,8 +1,9 @@
 """Messages as JSON objects, in the form of the rosbridge protocol.
 
 Arrays of bytes are base64 text, numbers that are not finite are null, numbers keep all their
-digits. In a message from a client, missing fields have ROS's default, arrays of bytes may be lists,
-times may have the names of ROS 1 (``secs``, ``nsecs``), and a header may have ROS 1's ``seq``.
+digits. In a message from a client, a missing field has the default of ROS, an array of bytes may be
+a list, a time may have the field names of ROS 1 (``secs``, ``nsecs``), and a header may have the
+field ``seq`` of ROS 1.
 """
 
 from __future__ import annotations
@@ -23,24 +24,26 @@ from .types import PLACEHOLDER, message_class, ros2_store
 
 M = TypeVar("M")
 BYTE_TYPES = ("uint8", "byte", "char")
+"""The types of fields whose arrays are base64 text."""
 DTYPES = {"bool": "bool_", "byte": "uint8", "char": "uint8"}
+"""The names in NumPy of the types of fields, where they differ."""
 INTEGER_TYPES = ("byte", "char", *(f"{sign}int{n}" for sign in ("", "u") for n in (8, 16, 32, 64)))
 LARGEST_FLOATS = {name: float(np.finfo(name).max) for name in ("float32", "float64")}
 """The largest numbers of the float types; JSON can have larger ones."""
 ROS1_NAMES = {"secs": "sec", "nsecs": "nanosec"}
-"""The names of ROS 1 in times."""
+"""The fields of times: their names in ROS 2 by their names in ROS 1."""
 IGNORED_FIELDS = frozenset({"seq"})
-"""The field of ROS 1 headers that is ignored."""
+"""The fields of ROS 1 headers that are ignored."""
 
 
 def to_json(message: object) -> dict[str, Any]:
-    """Return a message as a JSON object; BadMessage if its type has no definition."""
+    """Return a message as a JSON object; raise BadMessage if its type has no definition."""
     fields = _fields(_name(type(message)))
     return {name: _json_value(getattr(message, name), kind) for name, kind, _, _ in fields}
 
 
 def to_plain(message: object) -> dict[str, Any]:
-    """Return a message as nested dicts and lists with its arrays, for encodings that have them."""
+    """Return a message as nested dicts and lists that keep NumPy arrays, for CBOR."""
     fields = _fields(_name(type(message)))
     return {name: _plain_value(getattr(message, name), kind) for name, kind, _, _ in fields}
 
@@ -61,7 +64,7 @@ def from_json(cls: type[M], values: object) -> M:
     """Return the message of a class from a JSON object.
 
     Raises:
-        BadMessage: it has a field that the type lacks, or a field of another type.
+        BadMessage: the object has a field that the message does not have, or of another type.
     """
     return _message(cls, values, "")
 
@@ -163,7 +166,7 @@ def _check_length(values: Any, length: int, path: str) -> Any:
 
 @functools.cache
 def _fields(name: str) -> tuple[tuple[str, str, str, int], ...]:
-    """Return each field's name, kind, inner type, and length of a fixed-size array (else 0)."""
+    """Return name, kind, inner type, and length (0: variable) of each field of a message type."""
     type_fields = []
     for field, (node, content) in ros2_store().fielddefs[name][1]:
         if field == PLACEHOLDER:
@@ -188,7 +191,7 @@ def _fields(name: str) -> tuple[tuple[str, str, str, int], ...]:
 
 @functools.cache
 def _required_fields(cls: type) -> tuple[tuple[str, Any], ...]:
-    """Return the fields for which the class has no default, with ROS's default."""
+    """Return the fields for which the class has no default, with their default in ROS."""
     names = {
         field.name
         for field in fields(cls)

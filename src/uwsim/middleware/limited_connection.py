@@ -1,4 +1,4 @@
-"""WebSocket connections with limits on their number and on the time to read them."""
+"""WebSocket connections with limits on their number and on the time spent reading them."""
 
 from __future__ import annotations
 
@@ -14,21 +14,21 @@ from websockets.server import ServerProtocol
 from .work_budget import WorkBudget
 
 MAX_COST, MAX_SHARED_COST = 1.0, 0.05
-"""The most time that one read counts for its client, and for all clients together [s]: a large
-frame of one client delays reading the others for a moment only."""
+"""The greatest time that one read counts for its client, and for all clients together [s], so that
+a large frame of one client delays reading the others only briefly."""
 FRAME_COST = 5e-5
-"""The time that a frame takes, besides what is measured [s]."""
+"""The time that a frame takes in addition to the measured time [s]."""
 LARGE_FRAME = 2**16
 """The length from which a frame is large [characters]."""
 LARGE_SHARE, LARGE_BURST = 0.02, 0.05
-"""The share of the wall time for the large frames of all clients, and the time at once [s]. Large
-frames wait for each other only, and count in full for every sender: the budget of one connection
-counts its first frame too late."""
+"""The budget for the large frames of all clients: the share of the wall time, and the longest burst
+[s]. It limits also the first large frame of a new connection, for which the connection's own budget
+comes too late. Large frames wait only for each other."""
 MAX_SLEEP = 1.0
 """The longest time between two checks whether a client whose large frame waits has left [s]."""
 PAUSE = 0.1
-"""The pause of a client beyond its share, besides its excess time [s]: each time that the server
-wakes, the simulation waits for Python's lock."""
+"""The pause of a client that has exceeded its share, in addition to the excess [s]. It limits how
+often the server wakes, because the simulation then waits for Python's global lock."""
 
 
 class ConnectionLimits:
@@ -36,7 +36,7 @@ class ConnectionLimits:
 
     Args:
         share: the share of the wall time in which one connection is read.
-        burst: the time at once after a pause [s].
+        burst: the longest time of reading without a pause [s].
         work: the budget of all connections together; None: no limit.
         max_waiting: the maximum number of open connections that are not admitted yet; beyond it,
             the oldest of them is aborted (1 or more).
@@ -72,7 +72,7 @@ class ConnectionLimits:
 class LimitedConnection(ServerConnection):
     """A connection that is not read for a while after it has exceeded its share.
 
-    All that arrives counts: the library answers control frames itself.
+    All data that arrive count, also control frames, which the library answers itself.
 
     Args:
         protocol: the protocol of the connection.
@@ -122,7 +122,7 @@ class LimitedConnection(ServerConnection):
             self._limits.work.spend(min(seconds, MAX_SHARED_COST))
 
     async def handle(self, frame: str | bytes, handler: Callable[[str | bytes], None]) -> None:
-        """Handle a frame when the budget allows it, then wait if the client is beyond its share."""
+        """Handle a frame when the budget allows it, then pause if the client exceeds its share."""
         is_large = len(frame) >= LARGE_FRAME and not self.is_exempt()
         while is_large and (delay := self._limits.large_frames.delay) > 0.0:
             await asyncio.sleep(min(delay + PAUSE, MAX_SLEEP))
@@ -132,7 +132,7 @@ class LimitedConnection(ServerConnection):
         if is_large:
             self._limits.large_frames.spend(duration)
         self.spend(FRAME_COST + duration)
-        if (pause := self.pause) > 0.0:  # a flood waits in the sockets, not here
+        if (pause := self.pause) > 0.0:  # a flood waits in the sockets, not in memory
             self.report_pause()
             await asyncio.sleep(pause)
 
@@ -156,7 +156,7 @@ class LimitedConnection(ServerConnection):
         super().connection_lost(exc)
 
     def data_received(self, data: bytes) -> None:
-        """Read what has arrived, then pause if that took too long."""
+        """Read the data that have arrived, then pause if that took too long."""
         self.spend(_measure_time(partial(super().data_received, data)))
         if (pause := self.pause) > 0.0:
             self.report_pause()

@@ -12,7 +12,7 @@ from ..base.terminal import clean_text, escape_to_one_line
 MAX_LINES_OF_A_KIND = 5
 """The number of lines of one kind that are printed; the next line states that there are more."""
 MAX_KINDS = 1000
-"""The number of kinds that are counted; that there are more is printed once."""
+"""The number of kinds that are counted; a last line states that there are more."""
 
 
 def to_standard_error(line: str) -> None:
@@ -39,7 +39,7 @@ class Log:
     def report(self, line: str, *, kind: str = "") -> None:
         """Report an event; print only a few of one ``kind`` (default: the line itself).
 
-        Line ends in texts of a peer are escaped, so that it cannot write lines of its own.
+        Line ends are escaped, so that a peer's text cannot add lines.
         """
         line = escape_to_one_line(line)
         key = kind or line

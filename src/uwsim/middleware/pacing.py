@@ -1,4 +1,4 @@
-"""The real-time factor of a simulation."""
+"""Pacing of a simulation by a real-time factor."""
 
 from __future__ import annotations
 
@@ -10,43 +10,43 @@ from ..errors import RunFailed
 
 SHORTEST_SLEEP_S = 0.001
 """The shortest sleep at the end of a step [s]."""
-MIN_SPEED = 1e-6
+MIN_REAL_TIME_FACTOR = 1e-6
 """The minimum real-time factor, which bounds the wait between two steps."""
 MAX_CATCH_UP_S = 0.2
-"""The maximum lag that a simulation catches up [s]; the time of a longer lag is lost."""
+"""The longest lag that a simulation catches up [s]; a longer lag is kept."""
 
 
 class Pace:
-    """A limit on the pace of a simulation: its time passes at ``speed`` times real time.
+    """A limit on the speed of a simulation: at most ``real_time_factor`` times real time.
 
-    `step` is called at the end of each step. A simulation that is too slow runs as fast as it can;
-    after a short lag it catches up, after a long one the lost time stays lost.
+    `step` is called at the end of each step. A simulation that is too slow runs as fast as it can.
+    After a short lag it catches up with real time; after a long lag it does not.
 
     Args:
-        clock: returns the simulation time [s].
-        speed: the real-time factor, > 0.
+        clock: a function that returns the simulation time [s].
+        real_time_factor: the simulation time per real time [1], > 0.
         max_lag: the lag behind real time above which the run ends, for hardware in the loop [s];
             None: no limit.
-        now: returns real time [s].
-        sleep: waits for some time [s].
+        now: a function that returns the real time [s].
+        sleep: a function that waits for a time [s].
     """
 
     def __init__(
         self,
         clock: Callable[[], float],
-        speed: float,
+        real_time_factor: float,
         *,
         max_lag: float | None = None,
         now: Callable[[], float] = time.perf_counter,
         sleep: Callable[[float], None] = time.sleep,
     ) -> None:
-        self._clock, self._speed = clock, speed
+        self._clock, self._real_time_factor = clock, real_time_factor
         self._max_lag = math.inf if max_lag is None else max_lag
         self._now, self._sleep = now, sleep
         self._wall_start: float | None = None
         self._start_time = 0.0
         self.lost_time = 0.0
-        """The real time that was not caught up [s]."""
+        """The sum of the lags that were not caught up [s of real time]."""
 
     def step(self) -> None:
         """Wait until the step is due.
@@ -58,7 +58,8 @@ class Pace:
         if self._wall_start is None:
             self._wall_start, self._start_time = now, self._clock()
             return
-        lead = self._wall_start + (self._clock() - self._start_time) / self._speed - now
+        elapsed_time = self._clock() - self._start_time
+        lead = self._wall_start + elapsed_time / self._real_time_factor - now
         if -lead > self._max_lag:
             raise RunFailed(
                 f"At {self._clock():g} s of simulation time the computer is {-lead:.3g} s late; "

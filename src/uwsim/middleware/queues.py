@@ -8,7 +8,9 @@ from typing import Generic, TypeVar
 
 T = TypeVar("T")
 MAX_ITEMS = 1000
+"""The default of the maximum number of items."""
 MAX_BYTES = 64 * 2**20
+"""The default of the maximum size of all items [bytes]."""
 
 
 class LatestQueue(Generic[T]):
@@ -27,7 +29,7 @@ class LatestQueue(Generic[T]):
         """The number of items dropped so far."""
 
     def put(self, item: T, size: int = 0) -> int:
-        """Put an item of ``size`` bytes in; return the number of items dropped for it."""
+        """Add an item of ``size`` bytes; return the number of items dropped for it."""
         with self._condition:
             if self._is_closed:
                 return 0
@@ -43,7 +45,7 @@ class LatestQueue(Generic[T]):
             return self.n_dropped - n_dropped_before
 
     def get(self, timeout: float | None = None) -> T | None:
-        """Take the oldest item out; wait for one. None when closed, or after ``timeout`` [s]."""
+        """Wait for an item, remove and return the oldest; None if closed or after a timeout [s]."""
         with self._condition:
             self._condition.wait_for(lambda: bool(self._items) or self._is_closed, timeout)
             if not self._items:
@@ -53,7 +55,7 @@ class LatestQueue(Generic[T]):
             return item
 
     def take(self) -> list[T]:
-        """Take all items out, oldest first."""
+        """Remove and return all items, oldest first."""
         with self._condition:
             items = [item for item, _ in self._items]
             self._items.clear()
@@ -74,5 +76,5 @@ class LatestQueue(Generic[T]):
         return self._is_closed
 
     def __len__(self) -> int:
-        with self._condition:  # while one is put in there may be one too many
+        with self._condition:  # during `put` there may be one item too many
             return len(self._items)

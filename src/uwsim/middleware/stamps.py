@@ -1,8 +1,9 @@
-"""Stamps on the clock of ROS, which begins at 1 s: ROS interprets 0 as "no clock yet".
+"""Conversion of stamps between simulation time and the time on ``/clock``.
 
-In the simulator, time begins at 0. Adapters publish ``/clock`` with an offset of `CLOCK_START`, add
-it to the stamps of outgoing headers, and subtract it from those of incoming ones. An incoming stamp
-of 0 means "none", and stays.
+In the simulator, time begins at 0; on ``/clock`` it begins at `CLOCK_START`, because ROS interprets
+0 as "no clock yet". Adapters therefore add this offset to the stamps of outgoing headers, and
+subtract it from the stamps of incoming headers. An incoming stamp of 0 means "no stamp" and is not
+changed.
 """
 
 from __future__ import annotations
@@ -28,18 +29,18 @@ def clock_time(time: float) -> Time:
 
 
 def to_ros_time(message: M) -> M:
-    """Return a copy of a message with its stamps on the clock of ROS."""
+    """Return a copy of a message with its stamps in the time of ``/clock``."""
     return shift_stamps(message, CLOCK_START * NANOSECONDS)
 
 
 def to_sim_time(message: M) -> M:
-    """Return a copy of a message with its stamps in simulation time; at least 0, and 0 stays."""
+    """Return a copy of a message with its stamps in simulation time, at least 0; 0 stays 0."""
     return shift_stamps(message, -CLOCK_START * NANOSECONDS)
 
 
 @functools.cache
 def _stamped_fields(name: str) -> tuple[tuple[str, str, str], ...]:
-    """Return the fields that are, or contain, headers: field, ``one`` or ``list``, inner type."""
+    """Return the fields that are or contain headers: name, form (`inner_type`) and inner type."""
     if name not in ros2_store().fielddefs:
         return ()
     fields: list[tuple[str, str, str]] = []
@@ -51,9 +52,9 @@ def _stamped_fields(name: str) -> tuple[tuple[str, str, str], ...]:
 
 
 def shift_stamps(message: M, nanoseconds: int) -> M:
-    """Return a copy of a message with the stamps of its headers shifted; at least 0.
+    """Return a copy of a message with the stamps of its headers shifted, to at least 0.
 
-    On the way back a stamp of 0 stays.
+    If ``nanoseconds`` is negative, a stamp of 0 is not changed.
     """
     name = str(getattr(message, "__msgtype__", ""))
     if name == HEADER:

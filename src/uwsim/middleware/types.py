@@ -1,12 +1,12 @@
 """Names, hashes and definitions of the bus's message and service types in ROS 1 and ROS 2.
 
-The source is text: ROS's own definitions, which rosbags ships, and the files of a folder
-for each package in ``messages``. From it rosbags derives the MD5 sum by which ROS 1 compares types,
-the RIHS01 hash of ROS 2, and the definition in bags.
+The definitions are texts: those of ROS, which rosbags ships, and the ``.msg`` and ``.srv`` files in
+the folders of ``messages``. From these, rosbags derives the MD5 sum by which ROS 1 compares types,
+the RIHS01 hash by which ROS 2 does, and the definition that is stored in bags.
 
-A class of the bus is found by either name, ``geometry_msgs/Twist`` or
-``geometry_msgs/msg/Twist``. Types that `uwsim.messages` lacks (``std_msgs/Int32``) are the classes
-of rosbags (ROS 2 Jazzy).
+A class of the bus is found by its name in ROS 1 or ROS 2, ``geometry_msgs/Twist`` or
+``geometry_msgs/msg/Twist``. For types that `uwsim.messages` lacks, such as ``std_msgs/Int32``, it
+is the class of rosbags (ROS 2 Jazzy).
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ SERVICES: dict[str, Service] = {**OWN_SERVICES, **SIMULATION_SERVICES}
 FOLDER = Path(messages.__file__).parent
 """The folder of the packages, with ``msg/`` and ``srv/``."""
 EVENT_INFO = "service_msgs/msg/ServiceEventInfo"
-"""The type whose ``char`` is ROS 2's uint8; rosbags uses another type in the hash."""
+"""The type with a ``char`` field, which is uint8 in ROS 2; rosbags hashes it as another type."""
 PLACEHOLDER = "structure_needs_at_least_one_member"
 """The field of a ROS 2 type without fields."""
 TF_MESSAGE = "geometry_msgs/TransformStamped[] transforms"
@@ -41,42 +41,42 @@ TF_MESSAGE = "geometry_msgs/TransformStamped[] transforms"
 
 @dataclass(frozen=True, kw_only=True)
 class WireType:
-    """A message type as ROS names and encodes it."""
+    """A message type with its names, hashes and definitions in ROS."""
 
     message: type
     """The class on the bus."""
     ros1_name: str
-    """``package/Name``."""
+    """The name in ROS 1, ``package/Name``."""
     md5: str
-    """The MD5 sum of ROS 1; empty if ROS 1 has no such type."""
+    """The MD5 sum in ROS 1; empty if ROS 1 has no such type."""
     ros1_definition: str
-    """The full text in ROS 1, with the types inside it; empty if it has none."""
+    """The definition in ROS 1, with those of the types of its fields; empty without such a type."""
     ros2_name: str
-    """``package/msg/Name``."""
+    """The name in ROS 2, ``package/msg/Name``."""
     type_hash: str
-    """``RIHS01_`` and 64 hexadecimal digits."""
+    """The hash in ROS 2: ``RIHS01_`` and 64 hexadecimal digits."""
     ros2_definition: str
-    """The full text in ROS 2, with the types inside it."""
+    """The definition in ROS 2, with those of the types of its fields."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class WireService:
-    """A service type as ROS names and encodes it."""
+    """A service type with its names and hashes in ROS."""
 
     service: Service
-    """The classes on the bus."""
+    """The service type on the bus, with its classes."""
     ros1_name: str
-    """``package/Name``."""
+    """The name in ROS 1, ``package/Name``."""
     md5: str
-    """The MD5 sum of ROS 1, over request and response."""
+    """The MD5 sum in ROS 1, over request and response."""
     request: WireType
-    """The request; named ``package/NameRequest`` in ROS 1."""
+    """The type of requests, named ``package/NameRequest`` in ROS 1."""
     response: WireType
-    """The response."""
+    """The type of responses."""
     ros2_name: str
-    """``package/srv/Name``."""
+    """The name in ROS 2, ``package/srv/Name``."""
     type_hash: str
-    """The RIHS01 hash of the service."""
+    """The hash in ROS 2: ``RIHS01_`` and 64 hexadecimal digits."""
 
 
 @functools.cache
@@ -84,7 +84,7 @@ def message_class(name: str) -> type:
     """Return the class of a message type by its ROS 1 or ROS 2 name.
 
     Raises:
-        UnknownName: there is none; the text has the nearest name.
+        UnknownName: there is no such type; the message suggests the nearest name.
     """
     type_name = full_name(name)
     message_type = _classes().get(type_name) or ros2_store().types.get(type_name)
@@ -95,7 +95,7 @@ def message_class(name: str) -> type:
 
 @functools.cache
 def service(name: str) -> Service:
-    """Return a service type by its ROS 1 or ROS 2 name; UnknownName if there is none."""
+    """Return a service type by its ROS 1 or ROS 2 name; raise UnknownName if there is none."""
     package, _, base = name.partition("/")
     type_name = f"{package}/srv/{base.rpartition('/')[2]}"
     if type_name not in SERVICES:
@@ -111,7 +111,7 @@ def service_of(request: type) -> Service | None:
 
 @functools.cache
 def wire_type(message: type) -> WireType | None:
-    """Return the type of a class of the bus; None for a class without a definition."""
+    """Return the ROS type of a class of the bus; None for a class without a definition."""
     name = str(getattr(message, "__msgtype__", ""))
     if name not in ros2_store().fielddefs:
         return None
@@ -151,7 +151,7 @@ def wire_service(service_type: Service) -> WireService:
 
 @functools.cache
 def ros2_store() -> Any:
-    """Return rosbags' types of ROS 2 (Jazzy) and ours; it reads into the classes of the bus."""
+    """Return rosbags' store of ROS 2 (Jazzy) types with ours; it decodes to classes of the bus."""
     store: Any = get_typestore(Stores.ROS2_JAZZY)
     _register_own_types(store)
     constants, fields = store.fielddefs[EVENT_INFO]
@@ -168,7 +168,7 @@ def ros2_store() -> Any:
 
 @functools.cache
 def ros1_store() -> Any:
-    """Return rosbags' types of ROS 1 (Noetic) and ours."""
+    """Return rosbags' store of ROS 1 (Noetic) types, with ours."""
     store = get_typestore(Stores.ROS1_NOETIC)
     store.register(get_types_from_msg(TF_MESSAGE, "tf2_msgs/msg/TFMessage"))
     _register_own_types(store)
@@ -182,7 +182,7 @@ def full_name(name: str) -> str:
 
 
 def is_fieldless(name: str) -> bool:
-    """Return whether a type, by full name, has no fields, as the request of ``std_srvs/Empty``."""
+    """Return whether a type, by full name, has no fields, as ``std_srvs/srv/Empty_Request``."""
     return all(field == PLACEHOLDER for field, _ in ros2_store().fielddefs[name][1])
 
 
@@ -245,9 +245,9 @@ def _md5_of_service(name: str) -> str:
 
 
 def _md5_text(name: str) -> str:
-    """Return the text whose MD5 sum is that of a type in ROS 1: constants, then fields.
+    """Return the text of which ROS 1 computes a type's MD5 sum: constants, then fields.
 
-    A type inside is its own MD5 sum there.
+    In place of the type of a field that is a message, the text has the MD5 sum of that type.
     """
     store = ros1_store()
     constants, fields = store.fielddefs[name]

@@ -1,4 +1,4 @@
-"""A limit on the time that the work for peers takes from a simulation."""
+"""A limit on the time that work for external programs takes from a simulation."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ class WorkBudget:
 
     Args:
         share: the share of the wall time, above 0 and at most 1.
-        burst: the work that may be done at once after a pause [s].
-        clock: returns the wall time [s].
+        burst: the longest work that may be done without a pause [s].
+        clock: a function that returns the wall time [s].
     """
 
     def __init__(

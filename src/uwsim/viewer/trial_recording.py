@@ -53,7 +53,7 @@ class TrialRecording:
         topics = SceneTopics(simulation, is_on_bus=False)
         path = self.path_of(trial).absolute()  # an algorithm may change the folder
         with Recorder(simulation.bus, path, images=self.images) as recorder:
-            recorder.start(lambda: simulation.time, is_unnoticed=True)
+            recorder.start(lambda: simulation.time, is_passive=True)
             topics.record(recorder)
             yield
         if trial.index == 0:

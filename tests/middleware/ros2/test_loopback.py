@@ -14,7 +14,7 @@ pytest.importorskip("cyclonedds", reason="cyclonedds is not installed: pip insta
 from tests.support.ros2_peers import free_domain
 from uwsim.middleware.log import Log
 from uwsim.middleware.ros2.choice import open_node
-from uwsim.middleware.ros2.loopback import bind_to_loopback, open_sockets
+from uwsim.middleware.ros2.loopback import bind_to_loopback, list_sockets
 
 LINES = ("for nodes on this computer", "its ports are open on all addresses")
 
@@ -47,7 +47,7 @@ def test_ports_are_bound_to_the_loopback_interface_when_the_first_line_says_so(
 ) -> None:
     lines: list[str] = []
     with free_domain() as domain:
-        value_before = open_sockets()
+        value_before = list_sockets()
         with closing(open_node({"UWSIM_ROS2": "dds", **user_xml}, domain, Log("", lines.append))):
             actual = list(devices(value_before))
     assert actual
@@ -57,7 +57,7 @@ def test_ports_are_bound_to_the_loopback_interface_when_the_first_line_says_so(
 
 
 def test_a_socket_that_is_bound_to_loopback_still_hears_this_computer() -> None:
-    value_before = open_sockets()
+    value_before = list_sockets()
     with (
         socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as listener,
         socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender,

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated
 
 from ...errors import BadSetting, ErrorCollector
-from ...middleware.pacing import MIN_SPEED
+from ...middleware.pacing import MIN_REAL_TIME_FACTOR
 from .connections import ConnectionOptions, DomainOption, Ros1HostOption, Ros1Option, Ros2Option
 from .help_texts import CONNECTIONS, option
 from .secrets import read_client_secret
@@ -137,8 +137,11 @@ class ClientOptions:
                     "--sync output: add the client's topics, as --output /cmd_vel=10Hz."
                 )
         with errors.collect():
-            if not MIN_SPEED <= (1.0 if self.speed is None else self.speed) < float("inf"):
-                raise BadSetting(f"--speed {self.speed:g}: expected a number >= {MIN_SPEED:g}.")
+            speed = 1.0 if self.speed is None else self.speed
+            if not MIN_REAL_TIME_FACTOR <= speed < float("inf"):
+                raise BadSetting(
+                    f"--speed {speed:g}: expected a number >= {MIN_REAL_TIME_FACTOR:g}."
+                )
         with errors.collect():
             if not 0.0 <= (self.settle or 0.0) < float("inf"):
                 raise BadSetting(f"--settle {self.settle:g}: expected a time >= 0 [s].")

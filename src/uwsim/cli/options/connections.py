@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated
 
 from ...errors import BadSetting, ErrorCollector, RunFailed
-from ...middleware.pacing import MIN_SPEED
+from ...middleware.pacing import MIN_REAL_TIME_FACTOR
 from .help_texts import CONNECTIONS, option
 from .secrets import read_client_secret
 from .web_options import (
@@ -137,8 +137,10 @@ class ConnectionOptions:
             if self.ros1_host is not None and not self.ros1:
                 raise BadSetting("--ros1-host needs --ros1.")
         with errors.collect():
-            if not (self.pace == 0 or MIN_SPEED <= self.pace < float("inf")):
-                raise BadSetting(f"--speed {self.pace:g}: expected 0, or {MIN_SPEED:g} or more.")
+            if not (self.pace == 0 or MIN_REAL_TIME_FACTOR <= self.pace < float("inf")):
+                raise BadSetting(
+                    f"--speed {self.pace:g}: expected 0, or {MIN_REAL_TIME_FACTOR:g} or more."
+                )
         with errors.collect():
             if self.max_lag is not None and not 0.0 < self.max_lag < float("inf"):
                 raise BadSetting(f"--max-lag {self.max_lag:g}: expected a time > 0 [s].")

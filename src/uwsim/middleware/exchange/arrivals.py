@@ -1,4 +1,4 @@
-"""Messages from outside, which wait for the next step boundary or are passed on at once."""
+"""Messages that arrive from outside: they wait for a step boundary, or are passed on at once."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from .work_signal import WorkSignal
 Message = tuple[object, str]
 """A message, and its sender."""
 Tap = Callable[[object, str], None]
-"""The function that is called with a message and its sender."""
+"""A function that is called with a message and its sender."""
 
 
 class Arrivals:
-    """The bounded queues of arrived messages by topic, of which the newest are kept.
+    """A bounded queue of arrived messages for each topic; the newest messages are kept.
 
     Args:
         log: the log for floods of messages.
@@ -31,9 +31,9 @@ class Arrivals:
         """The number of messages that have arrived so far, by topic."""
 
     def tap(self, topic: str, receive: Tap) -> None:
-        """Call ``receive`` with each message of a topic from outside, at once, in its thread.
+        """Call ``receive`` with each message of a topic at once, in the thread of its arrival.
 
-        Messages that wait already come first, in this thread.
+        First, it is called with the messages that wait already, in the calling thread.
         """
         name = topic.lstrip("/")
         with self._signal.lock:

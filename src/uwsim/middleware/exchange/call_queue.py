@@ -1,4 +1,4 @@
-"""Calls of services from outside that wait for the simulation."""
+"""The queue of calls of services from outside."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from ..work_budget import WorkBudget
 MAX_CALLS = 1000
 """The maximum number of calls that wait for the end of a step."""
 FLOOD_SHARE, FLOOD_BURST = 0.01, 0.05
-"""The share of the wall time for a flood of calls, and the time at once [s]."""
+"""The budget for a flood of calls: the share of the wall time, and the longest burst [s]."""
 CALLS_AT_ONCE = 10
-"""The number of calls answered together while the simulation waits; more are a flood later."""
+"""The number of calls answered together while the simulation waits; a longer queue is a flood."""
 Call = tuple[str, object, "Future[object]"]
-"""The service, the request, and the future of the response."""
+"""The name of the service, the request, and the future of the response."""
 
 
 class CallQueue:
@@ -31,7 +31,7 @@ class CallQueue:
         return bool(self._calls)
 
     def add(self, call: Call) -> bool:
-        """Add a call; returns False if too many wait."""
+        """Add a call; return False if too many calls wait."""
         if len(self._calls) >= MAX_CALLS:
             return False
         self._calls.append(call)
@@ -46,8 +46,9 @@ class CallQueue:
 
         Args:
             answer: the function that answers a call.
-            limit: the number of calls that are answered now; None: all, or those that the budget
-                allows if more than `CALLS_AT_ONCE` wait: a flood does not stop the simulation.
+            limit: the number of calls that are answered now. None: all; but if more than
+                `CALLS_AT_ONCE` wait, only as many as the budget allows, so that a flood of calls
+                does not stop the simulation.
         """
         n_waiting = len(self._calls)
         is_flood = limit is None and n_waiting > CALLS_AT_ONCE

@@ -9,14 +9,14 @@ from ...bus import Services
 from ...errors import UwsimError
 
 RequestHandler = Callable[[object, "Future[object]"], None]
-"""The function that is called with a request, and the future of its response."""
+"""A function that is called with a request, and with the future of its response."""
 
 
 class DeferredResponses:
-    """The services with deferred responses; in the thread of the simulation.
+    """The services with deferred responses; used in the thread of the simulation.
 
     Args:
-        services: the services of the bus, which list them.
+        services: the services of the bus, to which the services are added.
     """
 
     def __init__(self, services: Services) -> None:
@@ -28,14 +28,14 @@ class DeferredResponses:
 
         Args:
             name: the name of the service.
-            type: the class of its requests.
-            handler: the handler that is called with each request.
+            type: the class of the requests.
+            handler: the function that is called with each request.
         """
         self._handlers[name] = handler
         self._services.serve(name, type, _refuse_local_call)
 
     def defer(self, name: str, request: object, response: Future[object]) -> bool:
-        """Pass a request on if it is for such a service; return whether it is."""
+        """Pass a request to the handler of its service; return False if the service has none."""
         handler = self._handlers.get(name)
         if handler is not None:
             handler(request, response)
@@ -43,7 +43,7 @@ class DeferredResponses:
 
 
 def forward_result(source: Future[object], target: Future[object]) -> None:
-    """Set the result or exception of one future on another, once it is there."""
+    """Set the result or exception of ``source`` on ``target``, as soon as ``source`` has it."""
 
     def copy_result(future: Future[object]) -> None:
         if (error := future.exception()) is not None:

@@ -15,7 +15,7 @@ from .work_signal import WorkSignal
 CALL_LIMIT = 60.0
 """The time within which an external service must answer [s of wall time]."""
 Offer = tuple[str, Service | None]
-"""The name of a service, and its type; None withdraws it."""
+"""The name of a service and its type; None withdraws the service."""
 
 
 class ExternalServices:
@@ -25,8 +25,9 @@ class ExternalServices:
         services: the services of the bus.
         log: the log for services whose name is in use.
         signal: the work signal of the bridge.
-        call: calls an external service.
-        wait_for: waits until a condition holds, at most a time [s]; returns whether it does.
+        call: a function that calls an external service.
+        wait_for: a function that waits until a condition holds, at most for a time [s]; it returns
+            whether the condition holds.
     """
 
     def __init__(

@@ -10,13 +10,14 @@ from ..log import Log
 
 
 class InboundPublisher:
-    """The publisher of external messages on the bus; in the thread of the simulation.
+    """The publisher of external messages on the bus; used in the thread of the simulation.
 
     Args:
         bus: the bus of the simulation.
         log: the log for invalid messages.
         owner: the owner of the publishers on the bus.
-        publisher_of: returns the external publisher of a topic, if its messages do not state it.
+        publisher_of: a function that returns the external publisher of a topic, for messages
+            without a sender.
     """
 
     def __init__(
@@ -25,7 +26,7 @@ class InboundPublisher:
         self._bus, self._log, self._owner, self._publisher_of = bus, log, owner, publisher_of
         self._publishers: dict[str, Callable[[object], None]] = {}
         self._published_ids: set[int] = set()
-        self._sender = ""  # of the message that is being published
+        self._sender = ""  # the sender of the message that is being published
 
     def publish(self, topic: str, message: object, sender: str) -> None:
         """Publish a message of ``sender``, which is empty if it is not known.
@@ -51,7 +52,7 @@ class InboundPublisher:
         return id(message) in self._published_ids
 
     def forget_messages(self) -> None:
-        """Forget the published messages: they are delivered."""
+        """Forget the published messages, once they are delivered."""
         self._published_ids.clear()
 
     def _report_remark(self, topic: str, text: str) -> None:

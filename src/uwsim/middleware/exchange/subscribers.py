@@ -1,4 +1,4 @@
-"""External subscribers: a bridge subscribes on the bus to their topics only."""
+"""External subscribers: a bridge subscribes on the bus only to the topics that they read."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ class Subscribers:
 
     Args:
         bus: the bus of the simulation.
-        log: the log for topics that are withheld.
+        log: the log for topics that are hidden.
         signal: the work signal of the bridge.
         owner: the owner of the subscriptions on the bus.
-        is_forwarded: returns whether to send a message to external subscribers.
-        send: sends a message of a topic to them.
+        is_forwarded: a function that returns whether to send a message to external subscribers.
+        send: a function that sends a message of a topic to external subscribers.
     """
 
     def __init__(
@@ -48,7 +48,7 @@ class Subscribers:
         self.change(topic, 1)
 
     def remove(self, topic: str) -> None:
-        """Count one subscriber less of ``topic``. Any thread."""
+        """Count one subscriber fewer of ``topic``. Any thread."""
         self.change(topic, -1)
 
     def change(self, topic: str, n: int) -> None:

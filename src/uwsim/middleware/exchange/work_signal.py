@@ -1,4 +1,4 @@
-"""The signal that work of external programs waits for the simulation."""
+"""The signal to the simulation that external programs have sent messages or calls."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ class WorkSignal:
         self.lock = threading.Lock()
         """The lock for adding to a queue, and for taking from it."""
         self.has_work = False
-        """True if work waits for the next step boundary."""
+        """True if messages or calls wait for the next step boundary."""
         self.is_urgent = False
-        """True if work waits that is also done while the simulation waits."""
+        """True if calls or changes wait that are handled even while the simulation waits."""
         self.is_closed = False
-        """True if nothing more is accepted."""
+        """True if no more messages and calls are accepted."""
         self._wake_event = threading.Event()
 
     def mark_urgent(self) -> None:

@@ -1,4 +1,4 @@
-"""An external program as an algorithm of the simulation, which waits for it after each step."""
+"""An external program in lock-step as an algorithm: the simulation waits for it after each step."""
 
 from __future__ import annotations
 
@@ -33,19 +33,20 @@ MAX_LENGTH = 2**20
 MAX_ID_LENGTH = 100
 """The number of characters of an ``id`` that a refusal repeats."""
 SECRET_ERROR = "secret is missing or another; expected that of UWSIM_CLIENT_SECRET"
+"""The error of a join without the secret."""
 MAX_TICKS = 1000
-"""The maximum number of ticks in one step: a client may answer its own messages without end."""
+"""The maximum number of ticks in one step; more come from a client that answers itself."""
 
 
 class LockStepClient:
-    """One client; an algorithm in the sense of `uwsim.bus.Algorithm`.
+    """One client in lock-step; an algorithm in the sense of `uwsim.bus.Algorithm`.
 
     Args:
-        bridge: the bridge of its transport.
-        name: the name under which it joins.
+        bridge: the bridge of the client's transport.
+        name: the name under which the client joins.
         timestep: the step of the simulation [s].
         limit: the time limit for joining, and for answering a tick [s of wall time].
-        secret: the secret that its join must have; None: none.
+        secret: the secret that the join must have; None: no secret.
     """
 
     def __init__(
@@ -54,13 +55,13 @@ class LockStepClient:
         self._bridge, self._name, self._timestep, self._limit = bridge, name, timestep, limit
         self._secret = secret
         self._joins: deque[tuple[dict[str, Any], str]] = deque(maxlen=MAX_WAITING)
-        self._sender = ""  # the sender that has joined, if the transport can tell
-        self._id: object = None  # the id in its join, if it has one
+        self._sender = ""  # the sender that has joined, if the transport distinguishes senders
+        self._id: object = None  # the id in the join, if it has one
         self._has_joined = self._takes_part = False
         self._acks: deque[dict[str, Any]] = deque(maxlen=MAX_WAITING)
         self._replies: dict[int, dict[str, Any]] = {}
         self._n_sent: Counter[str] = Counter()
-        self._order: list[str] = []  # topics of the messages since the last tick
+        self._order: list[str] = []  # the topic of each message since the last tick
         self._other_tick: object = None  # the last answered tick that was not the current one
         self._is_due, self._next_time = False, math.inf
         self._n_ticks = self._n_calls = 0
@@ -72,10 +73,10 @@ class LockStepClient:
         return self._name
 
     def start(self, node: Node) -> None:
-        """Wait until the client has joined, and subscribe for it.
+        """Wait until the client has joined, and subscribe to its topics.
 
         Raises:
-            NeverStarted: it did not join within the limit.
+            NeverStarted: the client did not join within the limit.
         """
         self._node = node
         bridge = self._bridge
@@ -89,10 +90,10 @@ class LockStepClient:
         node.create_timer(self._timestep, self._barrier)
 
     def _wait_for_join(self) -> dict[str, Any]:
-        """Wait for a valid join; refuse others.
+        """Wait for a valid join; refuse invalid joins.
 
         Raises:
-            NeverStarted: there was none within the limit.
+            NeverStarted: there was no valid join within the limit.
         """
         deadline, error = time.monotonic() + self._limit, None
         while self._bridge.wait_for(lambda: bool(self._joins), deadline - time.monotonic()):
@@ -118,8 +119,8 @@ class LockStepClient:
     def _refuse(self, kind: str, error: str, sender: str, client_id: object) -> None:
         """Report a refusal to the sender and to the log.
 
-        If the transport cannot send to one program only, the awaited program reads it, too, and
-        recognizes by the ``id`` that it is for another.
+        If the transport cannot send to one program only, the awaited program receives the refusal,
+        too, and recognizes by the ``id`` that it is for another program.
         """
         text = f"its {kind} was refused: {error}"
         self._bridge.log.report(f"client {self._name!r}{f' ({sender})' if sender else ''}: {text}")
@@ -130,7 +131,7 @@ class LockStepClient:
         self._bridge.report_error(sender, f"client {self._name!r}: {text}")
 
     def _connect(self, join: dict[str, Any]) -> None:
-        """Subscribe for the client, and read the topics that it will publish."""
+        """Subscribe to the topics that the client reads, and to those that it will publish."""
         bridge, topics = self._bridge, names_in(join, "topics")
         publications = object_in(join, "publishes")
         for topic, kind in publications.items():
@@ -140,7 +141,7 @@ class LockStepClient:
             offer = service(kind)
             self._node.serve(name, offer.request, partial(self._call_client, name, offer))
         bridge.step()
-        # the client has its own messages already
+        # the client need not receive the messages that it publishes itself
         own_topics = {topic.lstrip("/") for topic in (*publications, *names_in(join, "own"))}
         read_topics = (topic.lstrip("/") for topic in topics if topic.lstrip("/") not in own_topics)
         awaited_topics = [TICK, *filter(self._is_sent, read_topics)]
@@ -158,16 +159,16 @@ class LockStepClient:
             self._node.subscribe(topic, object, self._make_counter(topic))
 
     def _is_sent(self, topic: str) -> bool:
-        ends = self._bridge.bus.endpoints(topic, ignored_owner=self._bridge)
-        return ends is not None and ends.is_published
+        endpoints = self._bridge.bus.endpoints(topic, ignored_owner=self._bridge)
+        return endpoints is not None and endpoints.is_published
 
     @property
     def parameters(self) -> dict[str, float | str]:
-        """The parameters, which are empty: the client has its own."""
+        """The parameters, which are empty: the client has its own parameters."""
         return {}
 
     def take_refusals(self) -> tuple[Refusal, ...]:
-        """Return the refusals since the last call, of programs that do not take part."""
+        """Return the refusals since the last call: programs that do not take part have tried to."""
         admission = self._bridge.admission
         return () if admission is None else admission.take_refusals()
 
@@ -177,7 +178,7 @@ class LockStepClient:
         Messages of another ``sender`` with the same name, and answers before the join, are ignored.
         """
         if content.get("run", self._run) != self._run:
-            return  # to a simulation before this one
+            return  # a message to an earlier simulation
         if self._is_other(content, sender):
             self._reject_other(topic, content, sender)
         elif topic == JOIN:
@@ -264,11 +265,11 @@ class LockStepClient:
                 self._bridge.log.report(f"client {self._name!r} calls {name}: nobody offers it")
 
     def _call_client(self, name: str, kind: Service, request: object) -> object:
-        """Call a service that the client offers by the topics of lock-step.
+        """Call a service that the client offers over the topics of lock-step.
 
         Raises:
-            ClientLost: it did not answer within the limit.
-            BadMessage: its answer is not a response of that service.
+            ClientLost: the client did not answer within the limit.
+            BadMessage: the answer is not a response of that service.
         """
         self._n_calls += 1
         number = self._n_calls
@@ -301,7 +302,7 @@ class LockStepClient:
             self._check_answer(answer_error(self._acks[0]), "answer")
             if self._acks[0]["tick"] == number:
                 break
-            self._other_tick = self._acks.popleft()["tick"]  # an earlier one
+            self._other_tick = self._acks.popleft()["tick"]  # an ack of an earlier tick
         if self._acks and self._has_arrived(self._acks[0]):
             return True
         self._check_presence()
@@ -329,7 +330,7 @@ class LockStepClient:
             )
 
     def _describe_other(self, number: int) -> str:
-        """Describe what came in place of the answer to a tick."""
+        """Describe which answer came in place of a complete answer to a tick; "" if none."""
         if self._acks:
             counts = object_in(self._acks[0], "published")
             n_arrived = self._bridge.arrivals.n_arrived
@@ -366,14 +367,14 @@ def lockstep_clients(
     limit: float,
     secret: str | None = None,
 ) -> tuple[LockStepClient, ...]:
-    """Make a client for each name, in the order of the names; attach them in this order.
+    """Make a client for each name, in the order in which they must be attached.
 
     Args:
-        bridges: the bridges; exactly one, which the clients use.
+        bridges: the bridges of the simulation: exactly one, which the clients use.
         names: the names of the clients.
         timestep: the step of the simulation [s].
         limit: the time limit for joining, and for answering a tick [s of wall time].
-        secret: the secret that each join must have; None: none.
+        secret: the secret that each join must have; None: no secret.
 
     Raises:
         BadSetting: there is no transport, or more than one.
@@ -411,7 +412,7 @@ def lockstep_clients(
 
 
 def _ignore_message(message: object) -> None:
-    """Ignore a message, which a tap reads."""
+    """Ignore a message, which `Arrivals.tap` has passed on already."""
 
 
 def _read_object(message: object) -> dict[str, Any]:

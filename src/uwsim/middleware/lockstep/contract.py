@@ -1,4 +1,4 @@
-"""The fields of a client's messages on the topics of lock-step; invalid ones are refused."""
+"""Checks of the fields of a client's messages on the topics of lock-step."""
 
 from __future__ import annotations
 
@@ -13,11 +13,11 @@ from ..types import message_class, service, wire_type
 MAX_NAMES = 1000
 """The maximum number of topics and services in one field."""
 Content = dict[str, Any]
-"""The JSON object of a join or an answer."""
+"""The JSON object in a join or an answer."""
 
 
 def join_error(content: Content, bus: Bus) -> str | None:
-    """Return the first invalid field of a join, and what was expected."""
+    """Return the error in the first invalid field of a join; None if all are valid."""
     return (
         _first_error(content, JOIN_FIELDS, required_name="topics")
         or _topic_error(object_in(content, "publishes"), bus)
@@ -26,22 +26,22 @@ def join_error(content: Content, bus: Bus) -> str | None:
 
 
 def answer_error(content: Content) -> str | None:
-    """Return the first invalid field of an answer to a tick."""
+    """Return the error in the first invalid field of an answer to a tick; None if all are valid."""
     return _first_error(content, ANSWER_FIELDS, required_name="tick")
 
 
 def reply_error(content: Content) -> str | None:
-    """Return the first invalid field of an answer to a call."""
+    """Return the error in the first invalid field of an answer to a call; None if all are valid."""
     return _first_error(content, REPLY_FIELDS, required_name="call")
 
 
 def object_in(content: Content, field: str) -> dict[str, Any]:
-    """Return an object; empty if it is missing."""
+    """Return the object in a field; empty if the field is missing."""
     return content.get(field) or {}
 
 
 def names_in(content: Content, field: str) -> list[str]:
-    """Return a list of names, each once; empty if it is missing."""
+    """Return the list of names in a field, each once; empty if the field is missing."""
     return list(dict.fromkeys(content.get(field) or ()))
 
 
@@ -112,10 +112,13 @@ def _excerpt(value: object) -> str:
 
 
 Rule = tuple[Callable[[object], bool], str]
-"""A test of a value, and a text of what is expected."""
+"""A function that checks a value, and the text of what is expected."""
 TIME_RULE: Rule = (_is_time, "a time >= 0 [s], or null for none")
 NAMES_RULE: Rule = (_are_names, f"a list of at most {MAX_NAMES} names")
-TYPES: Rule = (lambda value: _is_map_of(value, _is_name), "an object with a type for each name")
+TYPES_RULE: Rule = (
+    lambda value: _is_map_of(value, _is_name),
+    "an object with a type for each name",
+)
 COUNTS_RULE: Rule = (
     lambda value: _is_map_of(value, _is_count),
     "an object with a whole number >= 0 for each topic",
@@ -127,18 +130,21 @@ JOIN_FIELDS = {
     "topics": NAMES_RULE,
     "next": TIME_RULE,
     "own": NAMES_RULE,
-    "publishes": TYPES,
-    "services": TYPES,
+    "publishes": TYPES_RULE,
+    "services": TYPES_RULE,
 }
+"""The rules for the fields of a join."""
 ANSWER_FIELDS: Mapping[str, Rule] = {
     "tick": (_is_count, "the whole number of the tick"),
     "next": TIME_RULE,
     "published": COUNTS_RULE,
     "calls": NAMES_RULE,
 }
+"""The rules for the fields of an answer to a tick."""
 REPLY_FIELDS: Mapping[str, Rule] = {
     "call": (_is_count, "the whole number of the call"),
     "values": (lambda value: isinstance(value, dict), "an object"),
     "published": COUNTS_RULE,
     "calls": NAMES_RULE,
 }
+"""The rules for the fields of an answer to a call."""

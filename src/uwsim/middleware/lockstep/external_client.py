@@ -16,11 +16,11 @@ from .step_client import SERVICE, StepClient
 
 
 def make_client(spec: ClientSpec, bridges: Sequence[Bridge], *, timestep: float) -> Algorithm:
-    """Make the algorithm that represents the program in the simulation; attach it.
+    """Make the algorithm that represents a program in the simulation; the caller attaches it.
 
     Args:
-        spec: the program, and what is waited for.
-        bridges: the open connections; exactly one, which it uses.
+        spec: the specification of the program and its synchronization.
+        bridges: the bridges of the open connections: exactly one, which the program uses.
         timestep: the step of the simulation [s].
 
     Raises:
@@ -52,6 +52,6 @@ def make_admission(spec: ClientSpec, report: Report) -> Admission:
 
 
 def report_refusal(bridge: Bridge, sender: str, text: str) -> None:
-    """Report a refusal to the log and to its sender."""
+    """Report a refusal to the log and to the refused sender."""
     bridge.log.report(text, kind="refused: does not take part")
     bridge.report_error(sender, text)

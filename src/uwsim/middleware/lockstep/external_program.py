@@ -11,8 +11,8 @@ class ExternalProgram:
     """An algorithm of the simulation that represents an external program.
 
     Args:
-        bridge: the bridge of its transport.
-        spec: the program, and what is waited for.
+        bridge: the bridge of the program's transport.
+        spec: the specification of the program and its synchronization.
     """
 
     def __init__(self, bridge: Bridge, spec: ClientSpec) -> None:
@@ -25,10 +25,10 @@ class ExternalProgram:
 
     @property
     def parameters(self) -> dict[str, float | str]:
-        """The parameters, which are empty: the program has its own."""
+        """The parameters, which are empty: the program has its own parameters."""
         return {}
 
     def take_refusals(self) -> tuple[Refusal, ...]:
-        """Return the refusals since the last call, of programs that do not take part."""
+        """Return the refusals since the last call: programs that do not take part have tried to."""
         admission = self._bridge.admission
         return () if admission is None else admission.take_refusals()

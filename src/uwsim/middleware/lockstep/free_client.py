@@ -1,4 +1,4 @@
-"""Programs that are not waited for: simulation time follows wall time."""
+"""Programs for which the simulation does not wait: simulation time follows wall time."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from .external_program import ExternalProgram
 
 
 class FreeClient(ExternalProgram):
-    """The programs that are connected; an algorithm in the sense of `uwsim.bus.Algorithm`.
+    """All connected programs together, as one algorithm in the sense of `uwsim.bus.Algorithm`.
 
     Messages and calls take effect at the end of the step in which they arrive, so that two runs
     differ.

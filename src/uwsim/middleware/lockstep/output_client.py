@@ -1,15 +1,16 @@
 """A node without support of lock-step: simulation time waits for the outputs that are due.
 
-The node follows the clock of the simulation and its inputs, as any node with ``use_sim_time``. Each
-step ends in two phases, as ROS does not order topics relative to each other. First, published
-messages are sent and have time to arrive. Then ``/clock`` is published, and simulation time does
-not advance until the outputs declared for this step have come. They are published on the bus in
-the same step.
+The node reads its inputs and the clock of the simulation, as any node with ``use_sim_time``. The
+user declares its outputs: the topics on which it publishes at a rate, or once for each message on
+an input topic. Each step ends in two phases, as ROS does not order topics relative to each other.
+First, published messages are sent and given time to arrive. Then ``/clock`` is published, and
+simulation time does not advance until the outputs that are due in this step have come. They are
+published on the bus in the same step.
 
-An output that follows an input is due from its first message on: trackers of the original's kind
-publish nothing until they are initialized.
+An output that follows an input is due only from its first message on, because trackers like those
+for UWSim (C++) publish nothing until they are initialized.
 
-Such a node does not confirm that messages have arrived: over ROS its results are marked as not
+Such a node does not confirm that it has received messages: over ROS, its results are marked as not
 guaranteed.
 """
 
@@ -29,55 +30,56 @@ from .external_program import ExternalProgram
 from .spec import ClientSpec, OutputSpec
 
 READY_WAIT_S = 1.0
-"""The time for a node to become ready, after both ends of all topics are there [s of wall time]."""
+"""The time for a node to become ready after all topics are connected [s of wall time]."""
 FIRST_WAIT_S = 0.2
-"""The time for messages that come with the first one of an output, and for the answer of a node
-that is not initialized yet [s of wall time]."""
+"""The time for messages that come together with the first message of an output, and for the answer
+of a node that may not be initialized yet [s of wall time]."""
 CLOCK_INTERVAL_S = 0.05
-"""The interval of ``/clock`` until a node has come [s of wall time]."""
+"""The interval of ``/clock`` until the node is connected [s of wall time]."""
 
 
 class OutputClient(ExternalProgram):
-    """One node; an algorithm in the sense of `uwsim.bus.Algorithm`.
+    """One node with declared outputs; an algorithm in the sense of `uwsim.bus.Algorithm`.
 
     Args:
-        bridge: the bridge of its transport.
-        spec: the specification of its outputs.
+        bridge: the bridge of the node's transport.
+        spec: the specification of the node and its outputs.
         timestep: the step of the simulation [s].
     """
 
     def __init__(self, bridge: Bridge, spec: ClientSpec, *, timestep: float) -> None:
         super().__init__(bridge, spec)
         self._timestep = timestep
-        self._n_inputs: Counter[str] = Counter()  # messages of the topics that outputs follow
-        self._n_before: Counter[str] = Counter()  # outputs that came before the first step
-        self._n_unanswered: Counter[str] = Counter()  # inputs that an output has not followed
+        self._n_inputs: Counter[str] = Counter()  # messages on each input topic so far
+        self._n_before: Counter[str] = Counter()  # messages of each output that are not counted
+        self._n_unanswered: Counter[str] = Counter()  # inputs without an output, by output
         self._due = {output.topic: 0 for output in spec.outputs}
-        self._begun_outputs: set[str] = set()  # outputs of which one was due already
+        self._begun_outputs: set[str] = set()  # outputs whose first message has come
         self._wait_times: dict[str, float] = dict.fromkeys(self._due, 0.0)  # [s of wall time]
         self._n_called = 0  # calls of external services before the start
         self._n_sent = 0
 
     def start(self, node: Node) -> None:
-        """Wait until the node publishes its outputs and reads their inputs.
+        """Wait until the node has advertised its outputs and subscribed to their inputs.
 
         Raises:
-            NeverStarted: it did not within the limit.
+            NeverStarted: the node has not done so within the limit.
         """
         self._node = node
         bridge, spec = self._bridge, self._spec
         check_outputs(spec.outputs, bridge.bus)
-        bridge.clock_topic.period = COARSE_PERIOD  # each message waits for earlier ones to arrive
+        bridge.clock_topic.period = COARSE_PERIOD  # before each message, others must have arrived
         for output in spec.outputs:
             self._subscribe(output)
         for topic in filter(None, dict.fromkeys(o.input_topic for o in spec.outputs)):
             node.subscribe(topic, object, self._make_counter(topic))
         self._n_called = bridge.external_services.n_called
         bridge.step()
-        if not self._wait_with_clock(spec.limit, condition=lambda: not self._missing_ends()):
+        if not self._wait_with_clock(spec.limit, condition=lambda: not self._missing_connections()):
+            faults = "; ".join(self._missing_connections())
             raise NeverStarted(
-                f"Client {spec.name!r}: {'; '.join(self._missing_ends())}, within {spec.limit:g} s "
-                "of wall time (--client-limit)."
+                f"Client {spec.name!r}: {faults}, within {spec.limit:g} s of wall time "
+                "(--client-limit)."
             )
         self._wait_with_clock(READY_WAIT_S, condition=_return_false)
         self._n_before.update(bridge.arrivals.n_arrived)
@@ -93,11 +95,11 @@ class OutputClient(ExternalProgram):
         return False
 
     def _subscribe(self, output: OutputSpec) -> None:
-        """Subscribe to an output, so that transports read it all the time."""
+        """Subscribe to an output, so that transports always read it."""
         bus = self._bridge.bus
-        ends = bus.endpoints(output.topic)
-        assert ends is not None
-        bus.subscribe(output.topic, ends.type, _ignore_message)
+        endpoints = bus.endpoints(output.topic)
+        assert endpoints is not None
+        bus.subscribe(output.topic, endpoints.type, _ignore_message)
 
     def _make_counter(self, topic: str) -> Callable[[object], None]:
         def count(message: object) -> None:
@@ -105,7 +107,7 @@ class OutputClient(ExternalProgram):
 
         return count
 
-    def _missing_ends(self) -> list[str]:
+    def _missing_connections(self) -> list[str]:
         """Describe the missing publishers and subscribers of the topics."""
         bridge, outputs = self._bridge, self._spec.outputs
         faults = [
@@ -149,9 +151,9 @@ class OutputClient(ExternalProgram):
         )
 
     def _begin(self, topic: str, n_due: int) -> None:
-        """Count all messages that come with the first one of an output as due.
+        """Count all messages that come with the first message of an output as ``n_due`` messages.
 
-        A timer of rospy that was created before the first ``/clock`` fires twice then.
+        A timer of rospy that was created before the first ``/clock`` fires twice at the start.
         """
         self._begun_outputs.add(topic)
         self._bridge.wait_for(_return_false, FIRST_WAIT_S)
@@ -160,17 +162,17 @@ class OutputClient(ExternalProgram):
     def _await_first(self, topic: str, n_inputs: int, *, has_input: bool) -> None:
         """Wait for the first message of an output that follows an input.
 
-        A node may answer only after it is initialized, as the original's trackers by their service
-        ``autoInit``. Until a service of the node is called, the wait for each answer is short;
-        from then on it is as long as for any output.
+        A node may answer only after it is initialized, as trackers for UWSim (C++) are by their
+        service ``autoInit``. Until a service of the node is called, the wait for each answer is
+        short; from then on, it is as long as for any output.
 
         Args:
             topic: the topic of the output.
             n_inputs: the number of inputs so far.
-            has_input: a flag: one of them came since the last barrier.
+            has_input: True if an input came since the last barrier.
 
         Raises:
-            ClientLost: there is still no answer, and the limit has passed.
+            ClientLost: no answer has come within the limit.
         """
         bridge, limit = self._bridge, self._spec.limit
         is_called = bridge.external_services.n_called > self._n_called
@@ -185,7 +187,7 @@ class OutputClient(ExternalProgram):
             raise self._lost_error(topic)
 
     def _accept_first_answers(self, topic: str, n_inputs: int) -> None:
-        """Accept the answers that come now; inputs without one remain unanswered."""
+        """Accept the answers that come now; earlier inputs without an answer stay unanswered."""
         self._begun_outputs.add(topic)
         bridge, start = self._bridge, self._n_before[topic]
         while (n := bridge.arrivals.n_arrived[topic] - start) < n_inputs:

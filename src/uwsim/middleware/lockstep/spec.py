@@ -11,17 +11,18 @@ from ...errors import BadSetting, did_you_mean
 from ..connection import ConnectionSpec
 
 Sync = Literal["ack", "step", "output", "none"]
-"""The synchronization: simulation time waits for an acknowledgement of each tick, a call of
-``step_simulation``, the outputs of a node without lock-step, or nothing (real time)."""
+"""The synchronization: simulation time waits for an acknowledgement of each tick, for a call of
+``step_simulation``, for the outputs of a node without lock-step, or for nothing (real time)."""
 DEFAULT_SETTLE_TIME = 0.005
-"""The default time for a node of ROS to receive what was sent to it [s of wall time]."""
+"""The default time for a node of ROS to receive the messages sent to it [s of wall time]."""
 ORDERED_TRANSPORTS = ("web",)
 """The transports that keep the order of messages on all topics."""
 LOCK_STEP, FREE_RUNNING = "lock-step", "free-running"
-"""The two kinds of participation in a result."""
+"""The two kinds of participation, as they are named in a result."""
 GRADES = {"ack": "(a)", "step": "(b)", "output": "(c)"}
-"""The rule that pairs answers with inputs, as in docs/lock-step.md."""
+"""The grade of each synchronization: how it pairs answers with inputs (docs/lock-step.md)."""
 RATE = re.compile(r"([0-9.eE+-]+) ?Hz", re.ASCII)
+"""The pattern of a rate in ``--output``."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -31,9 +32,10 @@ class OutputSpec:
     topic: str
     """The topic, without a leading slash."""
     rate: float | None = None
-    """The rate of the node's timer, on the clock of the simulation [Hz]."""
+    """The rate at which a timer of the node publishes, in simulation time [Hz]; None: no timer."""
     input_topic: str | None = None
-    """The topic for each message of which the node publishes one; without a leading slash."""
+    """The input topic, without a leading slash, for each message of which the node publishes one
+    output; None: a timer publishes."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,21 +43,21 @@ class ClientSpec:
     """An external program that is the algorithm."""
 
     name: str
-    """The name under which it joins, or in the result."""
+    """The name under which the program joins, and in the result."""
     connection: ConnectionSpec
-    """The connection that it uses."""
+    """The connection that the program uses."""
     limit: float = 60.0
     """The time limit for joining, and for each answer [s of wall time]."""
     sync: Sync = "ack"
     """The synchronization of simulation time."""
     outputs: tuple[OutputSpec, ...] = ()
-    """The outputs that are waited for (``output`` only)."""
+    """The outputs for which simulation time waits (``output`` only)."""
     settle: float = DEFAULT_SETTLE_TIME
     """The time for messages to arrive over ROS (``step`` and ``output`` only) [s of wall time]."""
     speed: float = 1.0
-    """The simulation time per real time (``none`` only)."""
+    """The real-time factor: simulation time per real time (``none`` only) [1]."""
     secret: str | None = field(default=None, repr=False)
-    """The secret of the join, so that no other program joins under the name (``ack`` only)."""
+    """The secret that the join must have, so that no other program joins (``ack`` only)."""
 
     @property
     def transport(self) -> str:
@@ -69,7 +71,7 @@ class ClientSpec:
 
     @property
     def settle_time(self) -> float:
-        """The time to wait for messages to arrive [s of wall time]."""
+        """The time to wait for messages to arrive, 0 over WebSocket [s of wall time]."""
         return 0.0 if self.keeps_order else self.settle
 
     @property
@@ -83,7 +85,7 @@ class ClientSpec:
 
 
 def read_sync(text: str) -> Sync:
-    """Read ``--sync``; raise BadSetting."""
+    """Read ``--sync``; raise BadSetting if it is invalid."""
     for name in get_args(Sync):
         if text == name:
             sync: Sync = name
@@ -94,7 +96,7 @@ def read_sync(text: str) -> Sync:
 
 
 def read_outputs(texts: Sequence[str]) -> tuple[OutputSpec, ...]:
-    """Read every ``--output``; raise BadSetting."""
+    """Read every ``--output``; raise BadSetting if one is invalid, or occurs twice."""
     outputs: dict[str, OutputSpec] = {}
     for text in texts:
         output = read_output(text)
@@ -105,7 +107,7 @@ def read_outputs(texts: Sequence[str]) -> tuple[OutputSpec, ...]:
 
 
 def read_output(text: str) -> OutputSpec:
-    """Read ``TOPIC=10Hz`` or ``TOPIC=INPUT``; raise BadSetting."""
+    """Read ``TOPIC=10Hz`` or ``TOPIC=INPUT``; raise BadSetting if it is invalid."""
     topic, _, schedule = (part.strip() for part in text.partition("="))
     name, input_topic = topic.lstrip("/"), schedule.lstrip("/")
     if not name or not input_topic:

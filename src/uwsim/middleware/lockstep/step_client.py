@@ -1,9 +1,9 @@
-"""A program that controls the steps by the service ``step_simulation``.
+"""A program that controls the steps of the simulation with the service ``step_simulation``.
 
 It calls the service with a number of steps (`simulation_interfaces/srv/StepSimulation`). The
-simulation takes these steps and then waits for the next call. The response comes after them, and
-after all their messages if the transport keeps the order. Messages of the program before a call are
-published on the bus before the first of its steps.
+simulation takes these steps and then waits for the next call. The response is sent after the steps
+and, if the transport keeps the order, after all messages of the steps. Messages that the program
+sends before a call are published on the bus before the first step of the call.
 """
 
 from __future__ import annotations
@@ -19,14 +19,15 @@ from .external_program import ExternalProgram
 from .spec import ClientSpec
 
 SERVICE = "step_simulation"
+"""The name of the service."""
 
 
 class StepClient(ExternalProgram):
-    """One program; an algorithm in the sense of `uwsim.bus.Algorithm`.
+    """One program that controls the steps; an algorithm in the sense of `uwsim.bus.Algorithm`.
 
     Args:
-        bridge: the bridge of its transport.
-        spec: its name and limit.
+        bridge: the bridge of the program's transport.
+        spec: the specification of the program, with its name and time limit.
         timestep: the step of the simulation [s].
     """
 
@@ -41,7 +42,7 @@ class StepClient(ExternalProgram):
         """Wait for the first call.
 
         Raises:
-            NeverStarted: there was none within the limit.
+            NeverStarted: there was no call within the limit.
         """
         self._node = node
         self._bridge.deferred_responses.offer(SERVICE, StepSimulation, self._accept_call)
@@ -51,11 +52,11 @@ class StepClient(ExternalProgram):
                 f"Client {self.name!r} has not called /{SERVICE} within {self._spec.limit:g} s of "
                 "wall time (--client-limit)."
             )
-        self._n_steps_left += 1  # the barrier before the first step ends none
+        self._n_steps_left += 1  # the barrier before the first step ends no step
         node.create_timer(self._timestep, self._barrier)
 
     def _barrier(self) -> None:
-        """End a step; if it was the last of a call, answer it and wait for the next."""
+        """End a step; if it was the last step of a call, respond and wait for the next call."""
         self._n_steps_left -= 1
         if self._n_steps_left > 0:
             return
@@ -69,7 +70,7 @@ class StepClient(ExternalProgram):
             )
 
     def _wait_for_call(self) -> bool:
-        """Wait for a call, then publish the earlier messages; return whether it came."""
+        """Wait for a call, then publish the messages sent before it; return whether it came."""
         bridge = self._bridge
         if not bridge.wait_for(lambda: bool(self._calls), self._spec.limit):
             return False

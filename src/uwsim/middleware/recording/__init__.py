@@ -1,4 +1,4 @@
-"""Recordings of the messages of a running scene, and the rates of its topics.
+"""Recording and playback of the messages on a bus, and measurement of the rates of its topics.
 
 .. code-block:: python
 

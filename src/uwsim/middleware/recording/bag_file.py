@@ -1,6 +1,7 @@
-"""A bag of ROS 1, with the definition of each type inside; read by rosbag, rqt_bag, rosbags.
+"""Writer of ROS 1 bags, for rosbag, rqt_bag and rosbags.
 
-Its chunks are not compressed. It has a temporary name until `BagFile.close`.
+A bag contains the definition of each message type. Its chunks are not compressed. It has a
+temporary name until `BagFile.close`.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from ..encodings import to_ros1
 from ..types import WireType, ros1_store
 
 SUFFIX = ".bag"
+"""The suffix of the files."""
 
 
 class BagFile:
@@ -26,7 +28,7 @@ class BagFile:
         path: the path of the file, which exists after `close`.
 
     Raises:
-        OSError: its folder cannot be written.
+        OSError: the folder of the file cannot be written.
     """
 
     def __init__(self, path: Path) -> None:
@@ -41,7 +43,7 @@ class BagFile:
 
     @staticmethod
     def has_type(kind: WireType) -> bool:
-        """Return whether ROS 1 has a type."""
+        """Return whether ROS 1 has a message type."""
         return bool(kind.md5)
 
     def write(self, topic: str, kind: WireType, time: int, message: object) -> None:
@@ -50,7 +52,7 @@ class BagFile:
         Args:
             topic: the topic of the message.
             kind: the type of the message.
-            time: the simulation time of its delivery [ns].
+            time: the simulation time at which the message is delivered [ns].
             message: the message.
         """
         seq = self._n_written.get(topic, 0)

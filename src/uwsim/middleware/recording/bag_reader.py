@@ -1,7 +1,7 @@
 """Reader of recordings: bags of ROS 1, rosbag2 folders, single ``.mcap`` and ``.db3`` files.
 
-Messages have the classes of the bus for every version of ROS. Times are simulation times; in a
-recording by the wall clock, times and stamps of headers count from its first message.
+Messages are converted to the classes of the bus, for every version of ROS. Times are simulation
+times; in a recording with times of the wall clock, times and stamps count from the first message.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from ..stamps import shift_stamps
 from ..types import message_class
 
 WALL_TIME = 10**8 * NANOSECONDS
-"""The time above which a stamp is one of the wall clock [ns]; no simulation is as long."""
+"""The time above which a stamp is a time of the wall clock [ns]; no simulation is as long."""
 
 
 MAGIC = {".bag": b"#ROSBAG V2.0", ".mcap": b"\x89MCAP0", ".db3": b"SQLite format 3"}
@@ -33,10 +33,10 @@ class BagReader:
     """A recording that is read once, message by message.
 
     Args:
-        path: the recording.
+        path: the file or folder of the recording.
 
     Raises:
-        AssetError: it cannot be read, or has no message.
+        AssetError: the recording cannot be read, or has no message.
     """
 
     def __init__(self, path: Path) -> None:
@@ -49,9 +49,9 @@ class BagReader:
         except Exception as error:  # a damaged bag may raise anything
             raise self._read_error(error) from error
         self.topics: dict[str, type] = {}
-        """The topics, with a leading slash -> the class of their messages."""
+        """The class of the messages of each topic, by topic with a leading slash."""
         self.left_out: dict[str, str] = {}
-        """The topics whose type is not known -> the name of the type."""
+        """The name of the type of each topic whose type is not known."""
         for connection in self._reader.connections:
             topic = f"/{connection.topic.strip('/')}"
             try:
@@ -63,13 +63,15 @@ class BagReader:
             raise AssetError(f"{self._name} has no message.")
         start_time = self._reader.start_time
         self._origin = start_time if start_time > WALL_TIME else 0
-        self.duration = (self._reader.end_time - 1 - self._origin) / NANOSECONDS  # it is the end
+        last_time = self._reader.end_time - 1  # end_time is 1 ns after the last message
+        self.duration = (last_time - self._origin) / NANOSECONDS
         """The time of the last message [s]."""
 
     def messages(self) -> Iterator[tuple[float, str, Any]]:
-        """Yield time [s], topic and message of all messages, by time.
+        """Yield the time [s], topic and content of all messages, in the order of their times.
 
-        Messages of one time are in the order recorded; those of a bag of ROS 1 topic by topic.
+        Messages with equal times are in the order in which they were recorded; in a bag of ROS 1,
+        they are topic by topic.
         """
         connections = [
             c for c in self._reader.connections if f"/{c.topic.strip('/')}" in self.topics
@@ -93,7 +95,7 @@ class BagReader:
 
     def close(self) -> None:
         """Close the files."""
-        with suppress(Exception):  # of a damaged one
+        with suppress(Exception):  # a damaged file may raise anything
             self._reader.close()
 
     def __enter__(self) -> Self:
@@ -117,7 +119,7 @@ class BagReader:
 
 
 def find_suffix(path: Path) -> str | None:
-    """Return the suffix of recordings with the first bytes of a file; None if there is none."""
+    """Return the suffix that fits the first bytes of a file; None if it is not a recording."""
     try:
         with path.open("rb") as stream:
             head = stream.read(16)

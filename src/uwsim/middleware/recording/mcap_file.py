@@ -1,9 +1,9 @@
-"""An MCAP file of ROS 2 messages: CDR, with the definition of each type inside.
+"""Writer of MCAP files with messages of ROS 2, encoded as CDR.
 
-rosbags writes a folder (a rosbag2), of which one file is kept. The folder lies next to the file
-until `McapFile.close`; the next run deletes the folder of a killed one. The channel of a topic has
-the quality of service that the simulator offers over ROS 2, which ``ros2 bag play`` reads: latched
-topics are replayed latched.
+A file contains the definition of each message type. rosbags writes a folder (a rosbag2), of which
+one file is kept. The folder is next to the file until `McapFile.close`; if a run is killed, the
+next run deletes its folder. The channel of a topic has the quality of service that the simulator
+offers over ROS 2, which ``ros2 bag play`` applies: latched topics are replayed latched.
 """
 
 from __future__ import annotations
@@ -29,8 +29,9 @@ from ..encodings import to_cdr
 from ..types import WireType, ros2_store
 
 SUFFIX = ".mcap"
+"""The suffix of the files."""
 BAG = "recording"
-"""The name of the rosbag2 inside; the same for every file, so that equal runs give equal bytes."""
+"""The name of the rosbag2 in the folder, a constant, so that equal runs give equal bytes."""
 INFINITE_TIME = QosTime(9223372036, 854775807)
 """The infinite time, as ROS 2 writes it."""
 
@@ -58,7 +59,7 @@ class McapFile:
         path: the path of the file, which exists after `close`.
 
     Raises:
-        OSError: its folder cannot be written.
+        OSError: the folder of the file cannot be written.
     """
 
     def __init__(self, path: Path) -> None:
@@ -76,7 +77,7 @@ class McapFile:
 
     @staticmethod
     def has_type(kind: WireType) -> bool:
-        """Return whether ROS 2 has a type."""
+        """Return whether ROS 2 has a message type."""
         return bool(kind.type_hash)
 
     def write(self, topic: str, kind: WireType, time: int, message: object) -> None:
@@ -85,7 +86,7 @@ class McapFile:
         Args:
             topic: the topic of the message.
             kind: the type of the message.
-            time: the simulation time of its delivery [ns].
+            time: the simulation time at which the message is delivered [ns].
             message: the message.
         """
         data = to_cdr(message)

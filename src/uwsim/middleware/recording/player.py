@@ -1,4 +1,4 @@
-"""Playback of a recording on a bus, each message at its time."""
+"""Playback of a recording on a bus, each message at the time at which it was recorded."""
 
 from __future__ import annotations
 
@@ -9,22 +9,22 @@ from ...bus import Node
 from .bag_reader import BagReader
 
 PREFIX = "/recorded"
-"""The prefix of recorded topics that the simulation publishes, too."""
+"""The prefix of those recorded topics that the simulation itself publishes."""
 
 
 class Player:
     """An algorithm that publishes the messages of a recording.
 
-    A message is delivered at the first step at or after its time; those of one step in the order
-    of `BagReader.messages`. A recording of a simulation with the same step is thus played at the
-    same steps.
+    A message is delivered at the first step at or after its time; messages of one step are in the
+    order of `BagReader.messages`. The messages of a simulation with an equal time step are thus
+    delivered at the steps at which they were recorded.
 
     Args:
         reader: the recording.
         timestep: the step of the simulation [s].
-        bus_topics: the topics, with a leading slash, that others publish: the recorded messages
-            are published on ``/recorded/TOPIC``.
-        left_out: topics that are not played.
+        bus_topics: the topics, with a leading slash, that the simulation itself publishes; their
+            recorded messages are published on ``/recorded/TOPIC``.
+        left_out: the topics that are not played.
     """
 
     def __init__(
@@ -44,7 +44,7 @@ class Player:
             for topic in reader.topics
             if topic not in left_out
         }
-        """The topics in the recording -> the topics on the bus."""
+        """The topic on the bus of each topic in the recording."""
         self._types = reader.topics
 
     def start(self, node: Node) -> None:

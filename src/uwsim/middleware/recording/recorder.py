@@ -17,17 +17,17 @@ from .bag_file import BagFile
 from .mcap_file import McapFile
 
 FILES: dict[str, type[McapFile] | type[BagFile]] = {".mcap": McapFile, ".bag": BagFile}
-"""The classes of recordings by suffix: ROS 2 in MCAP, a bag of ROS 1."""
+"""The writers by suffix: an MCAP file of ROS 2, a bag of ROS 1."""
 ImageStorage = Literal["raw", "png", "none"]
-"""The storage of images: as they are, as ``TOPIC/compressed`` without loss, or not at all."""
+"""The storage of images: uncompressed, on ``TOPIC/compressed`` without loss, or not at all."""
 RENDERED_TYPES = (Image, PointCloud2)
-"""The messages that are rendered for subscribers only."""
+"""The message types that are rendered only for subscribers."""
 PNG_ENCODINGS = ("rgb8", "mono8")
-"""The encodings of images that PNG stores without conversion; others are stored raw."""
+"""The encodings of images that can be stored as PNG; images with others are stored raw."""
 
 
 def image_storage(text: str) -> ImageStorage:
-    """Read ``--images``; raise BadSetting."""
+    """Read ``--images``; raise BadSetting if it is invalid."""
     names: tuple[ImageStorage, ...] = get_args(ImageStorage)
     for name in names:
         if text == name:
@@ -72,16 +72,17 @@ class Recorder:
         self.n_messages = 0
         """The number of messages recorded so far."""
         self.left_out: dict[str, str] = {}
-        """The topics whose type has no definition -> the name of the type."""
+        """The name of the type of each topic whose type has no ROS definition."""
 
-    def start(self, clock: Callable[[], float], *, is_unnoticed: bool = False) -> None:
+    def start(self, clock: Callable[[], float], *, is_passive: bool = False) -> None:
         """Subscribe to every topic.
 
         Args:
-            clock: returns the simulation time [s].
-            is_unnoticed: a flag: the recording does not affect the run. Images and point clouds
-                are recorded only if they have other subscribers, and messages on topics of
-                programs are not checked for it. Call `start` before programs are attached.
+            clock: a function that returns the simulation time [s].
+            is_passive: True if the recording must not affect the run. Images and point clouds are
+                then recorded only if they have other subscribers, and topics that programs create
+                do not count the recording as a subscriber. Call `start` before programs are
+                attached.
         """
         self._clock = clock
         is_before = True
@@ -97,9 +98,10 @@ class Recorder:
             def receive(message: object) -> None:
                 self._write(f"/{topic}", kind, round(clock() * NANOSECONDS), message)
 
-            counts = not is_unnoticed or (is_before and type not in RENDERED_TYPES)
-            stop = self._bus.subscribe(topic, type, receive, owner=OBSERVER, is_counted=counts)
-            self._stops.append(stop)
+            is_counted = not is_passive or (is_before and type not in RENDERED_TYPES)
+            self._stops.append(
+                self._bus.subscribe(topic, type, receive, owner=OBSERVER, is_counted=is_counted)
+            )
 
         self._stops.append(self._bus.observe(on_topic))
         is_before = False
@@ -129,19 +131,19 @@ class Recorder:
         self.n_messages += 1
 
     def check(self) -> None:
-        """Raise RunFailed if the file cannot be written any more; it is deleted then."""
+        """Raise RunFailed if the file could not be written; it is then deleted."""
         if self._failure:
             raise RunFailed(f"{self._failure} (the recording; nothing of it is kept)")
 
     def keep(self, topic: str, message: object) -> None:
-        """Record a message that is not on the bus; after `start`."""
+        """Record a message that is not published on the bus; call it after `start`."""
         message_type: type = type(message)
         kind = wire_type(message_type)
         if kind is not None and self._file.has_type(kind):
             self._write(topic, kind, round(self._clock() * NANOSECONDS), message)
 
     def close(self) -> None:
-        """Stop, and finish the file.
+        """Stop recording, and finish the file.
 
         Raises:
             RunFailed: the file could not be written.

@@ -11,12 +11,12 @@ from ...bus import OBSERVER, Bus
 
 @dataclass(frozen=True, kw_only=True)
 class TopicRate:
-    """The messages of one topic."""
+    """The number and rate of the messages of one topic."""
 
     topic: str
     """The name of the topic, with a leading slash."""
     message_type: str
-    """``package/msg/Name``."""
+    """The name of the message type, ``package/msg/Name``."""
     is_published: bool
     """True if the process publishes on the topic; else it only has subscribers."""
     n_messages: int | None = None
@@ -36,9 +36,9 @@ class TopicRates:
 
     Args:
         bus: the bus, including topics that are created later.
-        clock: returns the simulation time [s].
-        is_counted: returns whether to subscribe to topics of a message type; others are listed
-            without numbers, and images without other subscribers are not rendered.
+        clock: a function that returns the simulation time [s].
+        is_counted: a function that returns whether to count the messages of a type. Topics of other
+            types are listed without numbers; no image is rendered for them.
     """
 
     def __init__(
@@ -71,7 +71,7 @@ class TopicRates:
 
 
 class _Gaps:
-    """The times between messages of a topic, as sums."""
+    """The statistics of the times between the messages of a topic."""
 
     def __init__(self) -> None:
         self._n, self._first_time, self._last_time = 0, math.nan, math.nan

@@ -1,7 +1,8 @@
-"""A node of ROS 1 without any ROS: XML-RPC and TCPROS, as in the ROS wiki's technical overview.
+"""A node of ROS 1 that needs no ROS installation: XML-RPC and TCPROS, as the ROS wiki defines them.
 
-`Ros1Bridge` connects a bus to a ROS 1 graph: it registers with the master of ``ROS_MASTER_URI``, or
-starts a small one if there is none. All servers listen on loopback by default.
+`Ros1Bridge` connects a bus to a ROS 1 graph. `connect` registers it with the master of
+``ROS_MASTER_URI``, or starts a small master if none answers. All servers listen on loopback by
+default.
 """
 
 from __future__ import annotations

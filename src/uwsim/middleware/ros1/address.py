@@ -12,9 +12,9 @@ class Address(NamedTuple):
     scheme: str
     """The scheme: ``http`` of XML-RPC, ``rosrpc`` of a service."""
     host: str
-    """The name or number of the computer."""
+    """The name or IP address of the computer."""
     port: int
-    """The port; 0 is none that can be called."""
+    """The port; 0 is not the port of a server."""
 
 
 def read_address(uri: str) -> Address | None:

@@ -1,4 +1,4 @@
-"""Checks of the arguments of masters and nodes; an invalid call is answered, as by rosmaster."""
+"""Checks of the arguments of calls to masters and nodes, with the answers of rosmaster."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from .xmlrpc import Answer
 NAME_PATTERN = re.compile(r"[~/A-Za-z][\w/]*")
 """The pattern of a legal name in a graph of ROS 1; it has no two slashes in a row."""
 TYPE_PATTERN = re.compile(r"\*|[A-Za-z]\w*/[A-Za-z]\w*")
-"""The pattern of a message type, or any."""
+"""The pattern of a message type; ``*`` is any type."""
 MAX_LENGTH = 1000
 """The maximum length of a name, type or address [characters]; ROS has no limit."""
 ERROR_CODE, FAILURE_CODE = -1, 0
-"""The codes of answers: an error of the caller; a failed call."""
+"""The codes of answers to an invalid call, and to a call that failed here."""
 Check = Callable[[str, object], "str | None"]
-"""The check of a parameter's value, by its name; returns the error, or None."""
+"""A function that checks a parameter, by name and value, and returns the error or None."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class Parameter:
 
 @dataclass(frozen=True)
 class Method:
-    """The parameters of a method, and the value in its answer to an invalid call."""
+    """The parameters of a remote method, and the value in its answer to an invalid call."""
 
     default_value: Any
     """The value in the answer to an invalid call."""
@@ -69,7 +69,7 @@ def validate(method: Method, call: Callable[..., Answer]) -> Callable[..., Answe
             return [ERROR_CODE, error, method.default_value]
         try:
             return call(*arguments)
-        except Exception:  # the peer learns that it failed, but no details of this program
+        except Exception:  # the answer states the failure, but no details of this program
             return [FAILURE_CODE, "internal failure", method.default_value]
 
     return answer
@@ -160,7 +160,7 @@ PARAMETER_METHODS = {
     "subscribeParam": Method(0, (CALLER_URI, KEY)),
     "unsubscribeParam": Method(0, (CALLER_URI, KEY)),
 }
-"""The methods of its parameters."""
+"""The methods of a master's parameter server."""
 NODE_METHODS = {
     "publisherUpdate": Method(0, (TOPIC, Parameter("publishers", _check_list))),
     "requestTopic": Method([], (TOPIC, Parameter("protocols", _check_list))),
@@ -174,4 +174,4 @@ NODE_METHODS = {
     "getArrived": Method({}),
     "shutdown": Method(0, (Parameter("msg", _check_text, is_optional=True),)),
 }
-"""The methods that every node of ROS 1 serves, and ``getArrived``."""
+"""The methods that every node of ROS 1 serves, and ``getArrived``, which only this node has."""

@@ -1,9 +1,9 @@
-"""A bus in a ROS 1 graph, as one node.
+"""The bridge that makes a bus one node of a ROS 1 graph.
 
-The node advertises the topics that are published on the bus, and subscribes to those that are read.
-It offers the services of the bus, and calls services that only the graph has. It publishes
-``/clock`` 100 times a second, and its log on ``/rosout``. `uwsim.middleware.bridge` documents the
-threads.
+The node advertises the topics that are published on the bus, and subscribes to the topics that are
+read on the bus. It offers the services of the bus, and calls services that only other nodes offer.
+It publishes ``/clock`` at most 1000 times per second of simulation time, and its log on
+``/rosout``. `uwsim.middleware.bridge` documents the threads.
 """
 
 from __future__ import annotations
@@ -37,16 +37,17 @@ from .tcpros import PeerError, node_of
 from .xmlrpc import Answer, XmlRpcServer
 
 NODE_NAME = "/uwsim"
+"""The default name of the node."""
 USE_SIM_TIME = MappingProxyType({"/use_sim_time": True})
-"""The parameter by which nodes read the time from ``/clock``."""
+"""The parameter that makes nodes read the time from ``/clock``."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class PeerTimeouts:
-    """The timeouts of a node for its peers."""
+    """The time limits that a node sets its peers."""
 
     send: float = 30.0
-    """The time limit for a subscriber to read a message; the connection is closed then [s]."""
+    """The time limit for a subscriber to read a message, else the connection is closed [s]."""
     header: float = HEADER_TIMEOUT
     """The time limit for a client to send its header [s]."""
     poll: float = POLL
@@ -58,9 +59,9 @@ class Ros1Bridge(Bridge):
 
     Args:
         bus: the bus of the simulation.
-        clock: returns the simulation time [s].
+        clock: a function that returns the simulation time [s].
         master: the URI of the master.
-        host: the address to listen on, which peers receive.
+        host: the address to listen on, which the master gives to other nodes.
         node: the name of the node in the graph.
         log: the log for events.
         parameters: the parameters on the master while the node exists.
@@ -108,17 +109,17 @@ class Ros1Bridge(Bridge):
         self._registrar = Registrar(
             master, node, self.uri, self.log, self._update, parameters=parameters, poll=limits.poll
         )
-        self._stop_elsewhere = bus.services.add_external_services(
+        self._remove_external_services = bus.services.add_external_services(
             self._is_offered_outside, self.external_services.call_and_wait
         )
         self._register()
 
     def wait(self, timeout: float) -> bool:
-        """Wait until the master has all topics and services; return whether it has in time [s]."""
+        """Wait until the master has all topics and services; return False after a timeout [s]."""
         return self._registrar.wait(timeout)
 
     def n_connected(self, topic: str) -> int:
-        """Return the number of external subscribers and publishers that a topic is connected to."""
+        """Return the number of connected external subscribers and publishers of a topic."""
         publication = self._publications.get(topic)
         subscription = self._subscriptions.get(topic)
         return (publication.n_subscribers if publication else 0) + (
@@ -126,16 +127,16 @@ class Ros1Bridge(Bridge):
         )
 
     def on_topics(self, topics: Mapping[str, TopicEndpoints]) -> None:
-        """Advertise the topics that are published on the bus, subscribe to those that are read."""
+        """Advertise the topics that are published on the bus, subscribe to topics that are read."""
         publications, subscriptions = dict(self._publications), dict(self._subscriptions)
         to_read = _topics_to_read(topics)
-        for name, ends in topics.items():
-            kind = wire_type(ends.type)
+        for name, endpoints in topics.items():
+            kind = wire_type(endpoints.type)
             if kind is None or not kind.md5:
-                self.log.report(f"/{name}: ROS 1 has no type {ends.type.__name__}")
+                self.log.report(f"/{name}: ROS 1 has no type {endpoints.type.__name__}")
                 continue
             topic = f"/{name}"
-            if ends.is_published and topic not in publications:
+            if endpoints.is_published and topic not in publications:
                 publications[topic] = Publication(
                     topic,
                     kind,
@@ -151,7 +152,7 @@ class Ros1Bridge(Bridge):
         old_subscriptions = [
             subscriptions.pop(topic) for topic in self._subscriptions if topic not in to_read
         ]
-        # replaced as a whole, as other nodes request them: all subscriptions precede publications
+        # replaced as a whole, because other threads read them; subscriptions before publications
         self._subscriptions = subscriptions
         self._publications = publications
         for subscription in old_subscriptions:
@@ -189,7 +190,7 @@ class Ros1Bridge(Bridge):
 
     def close(self) -> None:
         """Leave the graph."""
-        self._stop_elsewhere()
+        self._remove_external_services()
         self._registrar.close()
         self._server.close()
         self._listener.close()
@@ -340,11 +341,12 @@ class Ros1Bridge(Bridge):
 def _topics_to_read(topics: Mapping[str, TopicEndpoints]) -> set[str]:
     """Return the topics, with a leading slash, that the bus reads from outside.
 
-    In lock-step also those that it may read, so that a measure of a later level misses no message.
+    In lock-step these are also the topics that it may read later, so that a measure of a later
+    level misses no message.
     """
-    may_read = TICK in topics
+    is_lockstep = TICK in topics
     return {
         f"/{name}"
-        for name, ends in topics.items()
-        if ends.is_read or (may_read and not ends.is_published)
+        for name, endpoints in topics.items()
+        if endpoints.is_read or (is_lockstep and not endpoints.is_published)
     }

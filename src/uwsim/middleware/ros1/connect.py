@@ -1,4 +1,4 @@
-"""The connection to a ROS 1 master, or to one that is started if none runs."""
+"""The connection to a ROS 1 master, which is started if none answers."""
 
 from __future__ import annotations
 
@@ -16,17 +16,19 @@ from .tcpros import PeerError
 from .xmlrpc import call
 
 DEFAULT_MASTER = "http://127.0.0.1:11311"
+"""The URI of the master if neither the options nor ``ROS_MASTER_URI`` give one."""
 LOOPBACK = ("127.0.0.1", "localhost", "::1")
+"""The names and addresses of this computer on the loopback interface."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Ros1Options:
-    """The options by which a simulation joins ROS 1."""
+    """The options with which a simulation joins ROS 1."""
 
     master: str | None = None
-    """The URI of the master; None: that of ``ROS_MASTER_URI``, else port 11311 of this computer."""
+    """The URI of the master; None: ``ROS_MASTER_URI``, else port 11311 of this computer."""
     host: str = "127.0.0.1"
-    """The address at which the node listens, and which other nodes receive."""
+    """The address at which the node listens, which the master gives to other nodes."""
     node: str = NODE_NAME
     """The name of the node."""
 
@@ -36,9 +38,9 @@ class Ros1Connection:
     """A bridge, and the master that was started for it."""
 
     bridge: Ros1Bridge
-    """The node."""
+    """The bridge, which is the node."""
     master: Master | None
-    """The master that was started; None: one was running."""
+    """The master that was started; None if another master was running."""
 
     def close(self) -> None:
         """Leave the graph, and end the master that was started."""
@@ -50,13 +52,13 @@ class Ros1Connection:
 def connect(
     bus: Bus, clock: Callable[[], float], options: Ros1Options, log: Log | None = None
 ) -> Ros1Connection:
-    """Join the graph of a master; start one if none answers on this computer.
+    """Join the graph of a master; start a master if none answers at an address of this computer.
 
-    This computer is 127.0.0.1, and the address at which the node listens.
+    These addresses are those in `LOOPBACK`, and that at which the node listens.
 
     Args:
         bus: the bus of the simulation.
-        clock: returns the simulation time [s].
+        clock: a function that returns the simulation time [s].
         options: the addresses of master and node.
         log: the log for events.
 

@@ -18,13 +18,13 @@ class DeadlineReader(io.RawIOBase):
         limit: the time limit for reading everything [s].
 
     Raises:
-        TimeoutError: while reading, after that time.
+        TimeoutError: while reading, after the time limit.
     """
 
     def __init__(self, connection: socket.socket, limit: float) -> None:
         self._connection, self._old_timeout = connection, connection.gettimeout()
         self._end = time.monotonic() + limit
-        self._open_file = connection.makefile("rb")  # keeps the connection open; not read
+        self._open_file = connection.makefile("rb")  # only keeps the connection open
 
     def readable(self) -> bool:
         """Return True."""
@@ -45,7 +45,7 @@ class DeadlineReader(io.RawIOBase):
 
 
 def time_left(deadline: float) -> float:
-    """Return the time until a moment of the monotonic clock [s]; raise TimeoutError after it."""
+    """Return the time until a deadline on the monotonic clock [s]; raise TimeoutError after it."""
     seconds = deadline - time.monotonic()
     if seconds <= 0.0:
         raise TimeoutError("the deadline has passed")

@@ -13,20 +13,21 @@ from .tcpros import PeerError, close, encode_header, read_header, write
 MAX_CONNECTIONS = 256
 """The maximum number of connections at the same time; further ones are closed."""
 NUMBER_PATTERN = re.compile(r"[0-9a-f]{32}|[0-9]+")
-"""The pattern of MD5 sums and lengths, which do not distinguish kinds of events."""
+"""The pattern of MD5 sums and lengths, which are left out of the kind of an event in the log."""
 HEADER_TIMEOUT = 10.0
 """The time limit for a client to send its whole header [s]."""
 Serve = Callable[[socket.socket, dict[str, str]], None]
-"""The function that serves a connection with its header; may raise PeerError."""
+"""A function that serves a connection, given its header; it may raise PeerError."""
 
 
 class Listener:
-    """A server that listens until `close`.
+    """A TCP server that listens until `close`.
 
     Args:
         host: the address to listen on.
         log: the log for events.
-        find_handler: returns the function that serves a connection header, or a refusal.
+        find_handler: a function that returns, for the header of a connection, the function that
+            serves the connection, or the text of a refusal.
         header_timeout: the time limit for a client to send its header [s].
     """
 
@@ -92,7 +93,7 @@ class Listener:
 
     @property
     def n_connections(self) -> int:
-        """The number of connections."""
+        """The number of open connections."""
         return len(self._connections)
 
     def close(self) -> None:

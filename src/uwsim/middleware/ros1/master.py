@@ -1,8 +1,8 @@
-"""A small master: registrations of publishers, subscribers and services, and the parameters.
+"""A small ROS 1 master: registrations of publishers, subscribers and services, and parameters.
 
 It has the functions of ``rosmaster``: registrations, look-ups, ``publisherUpdate`` to the
-subscribers of a topic, and a parameter server with ``paramUpdate``. It replaces ``roscore`` if none
-runs; log messages on ``/rosout`` are not collected.
+subscribers of a topic, and a parameter server with ``paramUpdate``. It is started if no ``roscore``
+runs. Unlike ``roscore``, it does not collect log messages on ``/rosout``.
 """
 
 from __future__ import annotations
@@ -22,10 +22,11 @@ from .tcpros import PeerError
 from .xmlrpc import MAX_NODE_ANSWER, Answer, XmlRpcServer, call
 
 MAX_ENTRIES = 10_000
-"""The maximum number of registered publishers, of subscribers, of services and of nodes."""
+"""The maximum number of publishers, of subscribers, of services, and of nodes."""
 FULL_ERROR = f"at most {MAX_ENTRIES} entries of a kind are kept"
+"""The error of a registration beyond the limit."""
 Registrations = dict[str, dict[str, str]]
-"""The URIs of nodes, by topic or service and node."""
+"""The URIs of the nodes registered for each topic, by topic and name of the node."""
 
 
 class Master:
@@ -181,7 +182,7 @@ class Master:
         return [1, "", os.getpid()]
 
     def _add_node(self, caller: str, uri: str) -> None:
-        """Store a node; request another node of the same name to shut down, as ROS does."""
+        """Store a node; tell another node of the same name to shut down, as ROS does."""
         old_uri = self._nodes.get(caller)
         if old_uri is not None and old_uri != uri:
             for registrations in (self._publishers, self._subscribers):

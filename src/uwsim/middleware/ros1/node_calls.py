@@ -1,4 +1,4 @@
-"""Calls of many nodes, some of which answer slowly or never."""
+"""Calls to many nodes, some of which answer slowly or never."""
 
 from __future__ import annotations
 
@@ -11,20 +11,21 @@ MAX_THREADS = 32
 
 
 class NodeCalls:
-    """A queue of calls in daemon threads: for each node one at a time, in their order.
+    """A queue of calls in daemon threads; each node is called one call at a time, in order.
 
-    A node that does not answer occupies one thread, and delays neither other nodes nor the exit.
+    A node that does not answer occupies one thread, but delays neither calls to other nodes nor the
+    end of the program.
     """
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
-        self._calls: dict[str, dict[str, Callable[[], None]]] = {}  # of nodes with work, by key
-        self._ready_nodes: SimpleQueue[str | None] = SimpleQueue()  # their next call may begin
+        self._calls: dict[str, dict[str, Callable[[], None]]] = {}  # by node and key
+        self._ready_nodes: SimpleQueue[str | None] = SimpleQueue()  # whose next call may begin
         self._n_threads = 0
         self._is_closed = False
 
     def add(self, node: str, key: str, call: Callable[[], None]) -> None:
-        """Add a call; it replaces one with the same key that has not begun."""
+        """Add a call to a node; it replaces a call with the same key that has not begun."""
         with self._lock:
             if self._is_closed:
                 return

@@ -17,14 +17,14 @@ LOCAL_SUFFIXES = (".local", ".lan", ".localdomain", ".internal", ".home.arpa")
 
 
 def local_names(host: str) -> frozenset[str]:
-    """Return the names of this computer, with that of its server."""
+    """Return the names of this computer, with ``host``, the name at which the server listens."""
     return frozenset(
         name.lower().rstrip(".") for name in (host, "localhost", socket.gethostname()) if name
     )
 
 
 def find_browser_sign(headers: Mapping[str, str], local_names: frozenset[str]) -> str | None:
-    """Return the sign of a page in a browser in the headers of a request; None: there is none.
+    """Return the sign in the headers of a request that a web page sent it; None if there is none.
 
     Args:
         headers: the headers of the request.

@@ -13,14 +13,15 @@ MAX_DEPTH = 50
 MAX_SUBSCRIBERS = 10_000
 """The maximum number of subscriptions, one for each node and key."""
 Updates = list[tuple[str, str, Any]]
-"""The subscriber's URI, the key, and the new value."""
+"""The updates to send: the URI of the subscriber, the key, and the new value of each."""
 Result = tuple[tuple[int, str, Any], Updates]
+"""The answer of a method (code, text and value), and the updates to send."""
 
 
 def resolve(name: str, caller: str) -> str:
-    """Return a name of the graph with a leading slash.
+    """Return a name of the graph in full, with a leading slash.
 
-    A relative one is in the namespace of the node ``caller``, ``~x`` is its own.
+    A relative name is in the namespace of the node ``caller``; ``~x`` is a private name of it.
     """
     if name.startswith("~"):
         return f"{caller.rstrip('/')}/{name[1:].lstrip('/')}"
@@ -35,11 +36,11 @@ def _path(key: str) -> list[str]:
 
 
 class Parameters:
-    """The parameters; each method returns the master's answer and the updates to send."""
+    """The tree of parameters; each method returns the master's answer and the updates to send."""
 
     def __init__(self) -> None:
         self._tree: dict[str, Any] = {}
-        self._n, self._n_bytes = 0, 0  # at most so many values and bytes are kept
+        self._n, self._n_bytes = 0, 0  # upper bounds of the number of values and of their size
         self._subscribers: dict[str, set[str]] = {}
 
     def set_param(self, caller: str, key: str, value: Any) -> Result:
@@ -124,7 +125,7 @@ class Parameters:
         return (1, "Unsubscribed", n), []
 
     def _limit_error(self, path: list[str], value: Any) -> str | None:
-        """Return the limit that all parameters would exceed with a new one; None: none."""
+        """Return the error if all parameters would exceed a limit with a new value; else None."""
         depth, n, n_bytes = measure_value(value)
         old_value = self._find("/" + "/".join(path))
         if old_value is None:

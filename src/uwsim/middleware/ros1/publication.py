@@ -1,4 +1,4 @@
-"""A topic that is published to subscribers of ROS 1, each with a queue and a thread of its own."""
+"""A topic that is published to subscribers in ROS 1, with a queue and a thread for each."""
 
 from __future__ import annotations
 
@@ -17,16 +17,17 @@ from ..types import WireType
 from .tcpros import PeerError, add_length, encode_header, has_left, node_of, write
 
 QUEUE_LENGTH = 100
-"""The number of messages that wait for a slow subscriber; the oldest are dropped."""
+"""The maximum number of messages that wait for a slow subscriber; the oldest are dropped."""
 QUEUE_BYTES = 32 * 2**20
+"""The maximum size of these messages [bytes]."""
 IDLE_CHECK_INTERVAL = 0.5
 """The interval of checks whether a connection without messages has ended [s]."""
 Encode = Callable[[Any, int], memoryview]
-"""The function that encodes a message, with its sequence number."""
+"""A function that encodes a message with its sequence number."""
 
 
 def encode_message(message: object, seq: int) -> memoryview:
-    """Encode a message of the bus for ROS 1, with stamps on the clock of ROS."""
+    """Encode a message of the bus for ROS 1, with stamps in the time of ``/clock``."""
     return to_ros1(to_ros_time(message), seq=seq)
 
 
@@ -41,7 +42,7 @@ class EncodedMessage:
         """The approximate size of the message [bytes]."""
 
     def frame(self) -> bytes:
-        """Return the encoded message with its length in front; raise BadMessage."""
+        """Return the encoded message after its length; raise BadMessage if it is invalid."""
         with self._lock:
             if self._frame is None:
                 self._frame = add_length(self._encode(self._message, self._seq))
@@ -49,16 +50,16 @@ class EncodedMessage:
 
 
 class Publication:
-    """A published topic and its connections.
+    """A published topic, and the connections to its subscribers.
 
     Args:
-        topic: the name with a leading slash.
-        kind: the type of the topic.
+        topic: the name of the topic, with a leading slash.
+        kind: the type of the messages.
         caller: the name of this node.
         log: the log for events.
         send_timeout: the time limit for a subscriber to read a message [s].
-        encode: returns the bytes of a message.
-        is_latched: a flag: new subscribers receive the newest message first.
+        encode: a function that returns the bytes of a message.
+        is_latched: True if new subscribers receive the newest message first.
     """
 
     def __init__(
@@ -77,7 +78,7 @@ class Publication:
         self._encode, self._is_latched = encode, is_latched
         self._latched_message: EncodedMessage | None = None
         self._lock = threading.Lock()
-        self._queues: list[tuple[str, LatestQueue[EncodedMessage]]] = []  # of each node
+        self._queues: list[tuple[str, LatestQueue[EncodedMessage]]] = []  # with the node's name
         self._n_sent = 0
         self._is_closed = False
 
@@ -98,7 +99,7 @@ class Publication:
 
     @property
     def n_subscribers(self) -> int:
-        """The number of connections."""
+        """The number of connected subscribers."""
         return len(self._queues)
 
     def check(self, header: dict[str, str]) -> str | None:
@@ -122,7 +123,8 @@ class Publication:
         Args:
             connection: the connection to the subscriber.
             header: the header of the subscriber.
-            count: called with 1 once messages are kept for the subscriber, and with -1 at its end.
+            count: a function that is called with 1 as soon as messages are queued for the
+                subscriber, and with -1 at the end of the connection.
 
         Raises:
             PeerError: the connection broke, or the subscriber does not read.
@@ -133,7 +135,7 @@ class Publication:
         with self._lock:
             if self._is_closed:
                 return
-            self._queues.append(node_queue)  # before the header, after which no message is missed
+            self._queues.append(node_queue)  # before the header: then no message is missed
             if self._latched_message is not None:
                 queue.put(self._latched_message, self._latched_message.size)
         count(1)

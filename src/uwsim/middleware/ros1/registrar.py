@@ -1,6 +1,7 @@
-"""Registration of a node's publications, subscriptions and services; again after a restart.
+"""Registration of a node's publications, subscriptions and services with its master.
 
-One thread makes all calls of the master, so that a master that hangs delays no other thread.
+It is repeated after a restart of the master. One thread makes all calls to the master, so that a
+master that does not answer delays no other thread.
 """
 
 from __future__ import annotations
@@ -21,11 +22,14 @@ POLL = 1.0
 
 @dataclass
 class Registrations:
-    """The registrations of a node: topic -> type, service -> its ``rosrpc`` URI."""
+    """The registrations of a node."""
 
     publishers: dict[str, str] = field(default_factory=dict)
+    """The types of the published topics, by topic."""
     subscribers: dict[str, str] = field(default_factory=dict)
+    """The types of the subscribed topics, by topic."""
     services: dict[str, str] = field(default_factory=dict)
+    """The ``rosrpc`` URIs of the services, by name."""
 
     def items(self) -> set[tuple[str, str, str]]:
         """Return kind, name and type or URI of each registration."""
@@ -44,7 +48,7 @@ class Registrar:
         caller: the name of the node.
         uri: the URI of the node's own XML-RPC server.
         log: the log for events.
-        publishers: called with a topic and the URIs of its publishers.
+        publishers: a function that is called with a topic and the URIs of its publishers.
         parameters: the parameters to set on the master, and to restore at the end.
         poll: the interval of checks of the master [s].
     """
@@ -76,20 +80,20 @@ class Registrar:
         self._thread.start()
 
     def set_registrations(self, registrations: Registrations) -> None:
-        """Set the registrations; others are removed."""
+        """Set the registrations to keep; all others are removed from the master."""
         with self._lock:
             self._targets = registrations.items()
         self._wake_event.set()
 
     def wait(self, timeout: float) -> bool:
-        """Wait until all is registered, at most ``timeout`` [s]; return whether it is."""
+        """Wait until all is registered; return False after ``timeout`` [s]."""
         with self._condition:
             return self._condition.wait_for(
                 lambda: bool(self._targets) and self._targets == self._entries, timeout
             )
 
     def update(self, topic: str, uris: list[str]) -> None:
-        """Pass on an update of the master: the publishers of a topic. Any thread."""
+        """Pass on an update from the master: the publishers of a topic. Any thread."""
         with self._update_lock:
             self._updated_topics.add(topic)
             self._publishers(topic, uris)
@@ -101,14 +105,14 @@ class Registrar:
         self._thread.join(timeout=20.0)
 
     def give_up(self) -> None:
-        """Register nothing more: the master has given the node's name to another."""
+        """Register nothing more: the master has given the name of the node to another node."""
         with self._lock:
             self._has_given_up = True
             self._entries = set()
             self._old_parameters = {}
 
     def call(self, method: str, *arguments: Any) -> Any:
-        """Call the master; raise PeerError."""
+        """Call the master and return the value of its answer; raise PeerError if that fails."""
         return call(self._master, method, self._caller, *arguments)
 
     def _run(self) -> None:
@@ -177,7 +181,7 @@ class Registrar:
             self._entries.add(item)
 
     def _subscribe(self, topic: str, kind: str) -> None:
-        """Register a subscriber; an update that arrives before the answer is newer."""
+        """Register a subscriber; an update that arrives before the answer is newer than it."""
         with self._update_lock:
             self._updated_topics.discard(topic)
         uris = self.call("registerSubscriber", topic, kind, self._uri)

@@ -13,7 +13,7 @@ from .publication import Publication
 TYPE_NAME = "rosgraph_msgs/msg/Log"
 """The message type, which only ROS 1 has."""
 WARNING = 4
-"""The level of the messages."""
+"""The level of the messages: a warning."""
 
 
 def publish_log(node: str, log: Log, clock: Callable[[], float], timeout: float) -> Publication:
@@ -22,7 +22,7 @@ def publish_log(node: str, log: Log, clock: Callable[[], float], timeout: float)
     Args:
         node: the name of the node.
         log: the log to publish, from now on.
-        clock: returns the simulation time [s].
+        clock: a function that returns the simulation time [s].
         timeout: the time limit for a subscriber to read a message [s].
     """
     store = ros1_store()

@@ -1,4 +1,4 @@
-"""Services over TCPROS: those of the bus for external clients, and calls of external services.
+"""Services over TCPROS: the bus's services for external clients, and calls of external services.
 
 A request is a frame. The answer is a byte, 1 for success, and a frame: the response, or the text of
 the error.
@@ -94,8 +94,8 @@ def serve(
         header: the header of the client.
         kind: the type of the service.
         caller: the name of this node.
-        request: sends a request to the simulation.
-        idle_clients: the clients of all services without a request.
+        request: a function that sends a request to the simulation.
+        idle_clients: the clients, of all services, that have sent no request.
 
     Raises:
         PeerError: the connection broke.
@@ -141,14 +141,14 @@ def _answer(data: bytes, kind: WireService, request: Callable[[Any], Future[obje
 
 @dataclass(frozen=True)
 class ExternalService:
-    """An external service."""
+    """A service of another node."""
 
     name: str
     """The name, with a leading slash."""
     type: WireService
     """The type of the service."""
     may_answer: Callable[[str, str], bool] = lambda name, node: True
-    """The function that returns whether a node, as named by `node_of`, may answer."""
+    """A function that returns whether a node, as named by `node_of`, may answer the service."""
 
 
 def call(uri: str, service: ExternalService, caller: str, request: object) -> object:
@@ -161,7 +161,7 @@ def call(uri: str, service: ExternalService, caller: str, request: object) -> ob
         request: the request, of the type's class.
 
     Raises:
-        PeerError: there is no answer, an error, or the answer of a node that must not.
+        PeerError: there is no answer, it is an error, or it comes from a node that may not answer.
     """
     name, address = service.name, read_address(uri)
     if address is None or not address.port:
@@ -170,7 +170,7 @@ def call(uri: str, service: ExternalService, caller: str, request: object) -> ob
     try:
         fields = {"callerid": caller, "md5sum": service.type.md5, "service": name}
         write(connection, encode_header(fields))
-        header = read_header(connection)  # rospy loses what comes together with the header
+        header = read_header(connection)  # rospy loses a request that comes with the header
         if "callerid" in header and not service.may_answer(name, node_of(header)):
             raise PeerError(f"service {name}: {node_of(header)} does not take part in this run")
         write(connection, add_length(to_ros1(to_ros_time(request))))

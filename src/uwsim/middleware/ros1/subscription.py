@@ -1,4 +1,4 @@
-"""A topic that is read from publishers of ROS 1, with a thread for each publisher."""
+"""A topic that is read from publishers in ROS 1, with a thread for each publisher."""
 
 from __future__ import annotations
 
@@ -28,24 +28,25 @@ from .xmlrpc import MAX_NODE_ANSWER, call
 RETRY_INTERVAL = 1.0
 """The time after which a lost connection is tried again [s]."""
 MAX_PUBLISHERS = 100
-"""The maximum number of publishers of a topic that are read, each in a thread."""
+"""The maximum number of publishers that are read for one topic, each in a thread."""
 CONNECT_TIMEOUT = 10.0
 """The time limit for a publisher to answer [s]."""
 LINK_SHARE, LINK_BURST = 0.05, 0.1
-"""The share of the wall time in which one publisher is read, and the time at once [s]."""
+"""The budget for reading one publisher: the share of the wall time, and the longest burst [s]."""
 ALL_SHARE, ALL_BURST = 0.1, 0.2
-"""The same for all publishers together, except those that a run in lock-step waits for."""
+"""The budget for reading all publishers together, except those for which a run in lock-step
+waits."""
 PAUSE = 0.1
-"""The pause of a publisher beyond its share, besides its excess time [s]: each time that its thread
-wakes, the simulation waits for Python's lock."""
+"""The pause of a publisher that has exceeded its share, in addition to the excess [s]. It limits
+how often its thread wakes, because the simulation then waits for Python's global lock."""
 
 
 class ReadingLimit:
     """A limit on the time that reading publishers takes from the simulation.
 
     Args:
-        is_waited_for: returns whether the run waits for a node, as named by `node_of`; such a node
-            has no limit.
+        is_waited_for: a function that returns whether the run waits for a node, as named by
+            `node_of`; such a node has no limit.
     """
 
     def __init__(self, is_waited_for: Callable[[str], bool] = lambda node: False) -> None:
@@ -54,15 +55,15 @@ class ReadingLimit:
 
 
 class Subscription:
-    """A topic that is read, and its publishers.
+    """A topic that is read, and the connections to its publishers.
 
     Args:
-        topic: the name with a leading slash.
-        kind: the type of the topic.
+        topic: the name of the topic, with a leading slash.
+        kind: the type of the messages.
         caller: the name of this node.
         log: the log for events.
-        receive: called with each message, stamps in simulation time, and the name of its publisher;
-            in a publisher's thread.
+        receive: a function that is called, in the thread of the publisher, with each message, whose
+            stamps are in simulation time, and with the name of the publisher.
         limit: the limit of the time that reading takes.
     """
 
@@ -114,10 +115,13 @@ class Subscription:
             link.close()
 
     def connect(self, uri: str) -> tuple[socket.socket, str]:
-        """Request the topic from a node and connect to it; raise PeerError.
+        """Request the topic from a node and connect to the node.
 
         Returns:
             The connection, and the name of the node.
+
+        Raises:
+            PeerError: the node cannot be reached, or refuses.
         """
         arguments = (self._caller, self.topic, [["TCPROS"]])
         answer = call(uri, "requestTopic", *arguments, max_length=MAX_NODE_ANSWER)
@@ -133,7 +137,7 @@ class Subscription:
             raise
 
     def _exchange_headers(self, connection: socket.socket) -> str:
-        """Exchange headers; return the name of the node."""
+        """Exchange connection headers; return the name of the node."""
         fields = {
             "callerid": self._caller,
             "md5sum": self.kind.md5,
@@ -150,7 +154,7 @@ class Subscription:
         return node_of(header)
 
     def take(self, data: bytes, sender: str) -> None:
-        """Decode a message and pass it on; report an invalid one."""
+        """Decode a message and pass it on; report an invalid message."""
         try:
             message: object = to_sim_time(from_ros1(self.kind.message, data))
         except BadMessage as error:
@@ -169,7 +173,7 @@ class Subscription:
 
 
 class _Link:
-    """The connection to one publisher; tried again until it is closed."""
+    """The connection to one publisher, which is renewed until it is closed."""
 
     def __init__(self, subscription: Subscription, uri: str) -> None:
         self._subscription, self._uri = subscription, uri
@@ -195,7 +199,7 @@ class _Link:
             self._stop_event.wait(RETRY_INTERVAL)
 
     def _read(self, connection: socket.socket, sender: str) -> None:
-        """Pass on messages until the connection ends; a flood waits in the sockets, not here."""
+        """Pass on messages until the connection ends; a flood waits in the sockets."""
         limit = self._subscription.limit
         while not self._stop_event.is_set():
             start_time = time.thread_time()

@@ -1,8 +1,8 @@
 """Frames and connection headers of TCPROS.
 
 A frame is its length as a little-endian uint32, then as many bytes. The first frame of each side
-is the connection header: fields ``name=value``, each with its own length in front. A reply with
-a field ``error`` is a refusal.
+is the connection header: fields ``name=value``, each with its own length in front. A header with a
+field ``error`` is a refusal.
 """
 
 from __future__ import annotations
@@ -18,15 +18,17 @@ from ...errors import UwsimError
 from .deadline import time_left
 
 MAX_HEADER = 256 * 1024
-"""The maximum length of a connection header; that of a point cloud has 4 kB [bytes]."""
+"""The maximum length of a connection header [bytes]; for a point cloud it has 4 kB."""
 MAX_MESSAGE = 64 * 2**20
 """The maximum length of a message [bytes]."""
 CHUNK = 256 * 1024
+"""The maximum number of bytes that are read at once."""
 LENGTH = struct.Struct("<I")
+"""The encoding of a length."""
 
 
 class PeerError(UwsimError):
-    """An error of a peer; its text is one line."""
+    """An error that a peer causes; its text is one line."""
 
 
 def encode_header(fields: Mapping[str, str]) -> bytes:
@@ -37,7 +39,7 @@ def encode_header(fields: Mapping[str, str]) -> bytes:
 
 
 def decode_header(body: bytes) -> dict[str, str]:
-    """Decode a connection header without its length; raise PeerError."""
+    """Decode a connection header without its length; raise PeerError if it is invalid."""
     fields: dict[str, str] = {}
     offset = 0
     while offset < len(body):
@@ -55,7 +57,7 @@ def decode_header(body: bytes) -> dict[str, str]:
 
 
 def node_of(header: Mapping[str, str]) -> str:
-    """Return the name of the node at the other end, from its header."""
+    """Return the name of the node at the other end of a connection, from its header."""
     return f"node {header.get('callerid', 'without a name')[:100]}"
 
 
@@ -139,7 +141,7 @@ def add_length(data: bytes | memoryview) -> bytes:
 def has_left(connection: socket.socket) -> bool:
     """Return whether the peer has closed a connection on which it sends nothing."""
     try:
-        poll = select.poll()  # select.select takes no number of a file above 1023
+        poll = select.poll()  # select.select accepts no file descriptor above 1023
         poll.register(connection, select.POLLIN)
         return bool(poll.poll(0)) and connection.recv(1, socket.MSG_PEEK) == b""
     except (OSError, ValueError):
@@ -147,7 +149,7 @@ def has_left(connection: socket.socket) -> bool:
 
 
 def open_connection(host: str, port: int, timeout: float) -> socket.socket:
-    """Connect without delay of small packets; raise PeerError."""
+    """Connect, without delay of small packets; raise PeerError if that fails."""
     try:
         connection = socket.create_connection((host, port), timeout)
         connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)

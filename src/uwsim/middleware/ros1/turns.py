@@ -1,4 +1,4 @@
-"""Turns of the requests of a server, one at a time and in a share of the wall time."""
+"""A queue of the requests to a server: one at a time, within a share of the wall time."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from contextlib import contextmanager
 from ..work_budget import WorkBudget
 
 SHARE, BURST = 0.1, 0.5
-"""The share of the wall time for requests, and the time at once [s]."""
+"""The budget for requests: the share of the wall time, and the longest burst [s]."""
 REQUEST_COST = 1e-4
-"""The time that a request takes besides what is measured [s]: its thread, its header."""
+"""The time that a request takes in addition to the measured time [s]: its thread, its header."""
 DELAY_PER_BYTE = 1e-4
-"""The delay of the turn of a request [s per byte], so that short requests of nodes do not wait for
-a flood of long ones."""
+"""The delay of the turn of a request [s/byte], so that the short requests of nodes do not wait for
+a flood of long requests."""
 
 
 class Turns:

@@ -1,6 +1,6 @@
 """XML-RPC as ROS 1 uses it: servers and calls with limits of size, number and time.
 
-Every method of ROS returns ``[code, text, value]``: code 1 is success, 0 failure, -1 an error of
+Every method in ROS returns ``[code, text, value]``: code 1 is success, 0 failure, -1 an error of
 the caller.
 """
 
@@ -34,13 +34,15 @@ READ_TIMEOUT = 15.0
 CALL_TIMEOUT = 5.0
 """The time limit for a whole call [s]."""
 Answer = list[Any]
+"""The answer of a method: code, text and value."""
 Methods = Mapping[str, Callable[..., Answer]]
+"""The methods of a server, by name."""
 
 
 class RequestHandler(SimpleXMLRPCRequestHandler):
-    """A handler that reads requests within limits of length and time, except those of browsers."""
+    """A handler of requests with limits of length and time, which refuses those of browsers."""
 
-    rpc_paths = ()  # any path, as ROS's own servers
+    rpc_paths = ()  # accept any path, as the servers of ROS do
     timeout = READ_TIMEOUT
     disable_nagle_algorithm = True
 
@@ -64,7 +66,7 @@ class RequestHandler(SimpleXMLRPCRequestHandler):
             self.close_connection = True
             return
         if self.headers.get("content-encoding", "identity").lower() != "identity":
-            self.send_error(415)  # clients of ROS do not compress; a small file may expand a lot
+            self.send_error(415)  # clients of ROS do not compress, and little data may expand a lot
             self.close_connection = True
             return
         super().do_POST()
@@ -76,7 +78,7 @@ class RequestHandler(SimpleXMLRPCRequestHandler):
             super().send_error(code, message, explain)
 
     def log_message(self, format: str, *args: object) -> None:
-        """Print nothing: errors of a request are the peer's."""
+        """Print nothing: errors in a request are made by the peer."""
 
 
 class XmlRpcServer(ThreadingMixIn, SimpleXMLRPCServer):
@@ -116,13 +118,13 @@ class XmlRpcServer(ThreadingMixIn, SimpleXMLRPCServer):
             return super()._marshaled_dispatch(data, *arguments)
 
     def _dispatch(self, method: str, params: Any) -> Any:
-        """Call a method; a fault states the method, and no details of this program."""
+        """Call a method; the fault for an unknown one has no details of this program."""
         if method not in self.funcs:
             raise xmlrpc.client.Fault(1, f"method {method[:100]!r} is not supported")
         return super()._dispatch(method, params)
 
     def find_refusal(self, headers: Mapping[str, str]) -> str | None:
-        """Return the reason why a request is refused by its headers; None if it is not."""
+        """Return the text with which a request is refused for its headers; None if it is not."""
         if (reason := find_browser_sign(headers, self._hosts)) is not None:
             text = f"{self._name}: a request is refused: {reason}"
             self._log.report(text, kind=f"{self._name} page")
@@ -134,7 +136,7 @@ class XmlRpcServer(ThreadingMixIn, SimpleXMLRPCServer):
         return int(self.server_address[1])
 
     def process_request(self, request: Any, client_address: Any) -> None:
-        """Handle a request in a thread, if there are not too many."""
+        """Handle a request in a thread, if not too many are being handled."""
         if not self._free_slots.acquire(blocking=False):
             text = f"more than {MAX_AT_ONCE} requests at once; one is refused"
             self._log.report(f"{self._name}: {text}")
@@ -243,8 +245,8 @@ def call(
         max_length: the maximum length of an answer [bytes].
 
     Raises:
-        Refused: the answer's code is not 1.
-        PeerError: there is no answer, or it is not one of ROS.
+        RefusedCall: the code of the answer is not 1.
+        PeerError: there is no answer, or it does not have the form of ROS.
     """
     try:
         transport = _Transport(timeout, max_length)
@@ -252,7 +254,7 @@ def call(
             answer = getattr(proxy, method)(*arguments)
     except OSError as error:
         raise PeerError(f"{uri} does not answer: {error.strerror or error}") from error
-    except Exception as error:  # the parser raises much that it does not document
+    except Exception as error:  # the parser may raise exceptions that it does not document
         raise PeerError(f"{uri} does not answer as ROS: {type(error).__name__}") from error
     match answer:
         case [1, _, value]:
@@ -264,4 +266,4 @@ def call(
 
 
 class RefusedCall(PeerError):
-    """An answer of the peer with an error."""
+    """An answer of a peer with the code of an error or a failure."""

@@ -1,8 +1,8 @@
-"""The bus as a node of a ROS 2 graph.
+"""The bridge that makes a bus a node of a ROS 2 graph.
 
-Endpoints follow the bus: a published topic has a writer, a topic that is read has a reader, and
-services are offered. A camera renders while a reader matches its writer. A thread of its own
-(``uwsim-ros2-out``) encodes messages, so that the simulation does not wait for it.
+A topic that is published on the bus has a writer, a topic that is read on the bus has a reader, and
+the services of the bus are offered. A camera renders only while a reader matches its writer. A
+separate thread (``uwsim-ros2-out``) encodes messages, so that the simulation does not wait for it.
 """
 
 from __future__ import annotations
@@ -36,8 +36,8 @@ class Ros2(Bridge):
 
     Args:
         bus: the bus of the simulation.
-        clock: returns the simulation time [s].
-        node: the node in the graph; `close` closes it.
+        clock: a function that returns the simulation time [s].
+        node: the node in the graph, which `close` closes.
         log: the log for events.
     """
 
@@ -56,17 +56,17 @@ class Ros2(Bridge):
         self._n_clocks = 0
         self._add_writer(CLOCK, self._clock_class, self._on_clocks)
         node.announce_endpoints()
-        self._stop_elsewhere = bus.services.add_external_services(
+        self._remove_external_services = bus.services.add_external_services(
             node.offers, self.external_services.call_and_wait
         )
         self._thread = threading.Thread(target=self._write, name="uwsim-ros2-out", daemon=True)
         self._thread.start()
 
     def on_topics(self, topics: Mapping[str, TopicEndpoints]) -> None:
-        """Make writers for the published topics of the bus, readers for those that are read."""
-        legal_topics = {name: ends for name, ends in topics.items() if self._is_legal(name)}
-        writer_topics = {name: ends for name, ends in legal_topics.items() if ends.is_published}
-        reader_topics = {name: ends for name, ends in legal_topics.items() if ends.is_read}
+        """Make a writer for each topic published on the bus, a reader for each topic read there."""
+        legal_topics = {name: topic for name, topic in topics.items() if self._is_legal(name)}
+        writer_topics = {name: topic for name, topic in legal_topics.items() if topic.is_published}
+        reader_topics = {name: topic for name, topic in legal_topics.items() if topic.is_read}
         for name in sorted(set(self._writers) - set(writer_topics) - {CLOCK}):
             self._writers.pop(name).close()
         for name in sorted(set(self._readers) - set(reader_topics)):
@@ -90,7 +90,7 @@ class Ros2(Bridge):
         self._node.announce_endpoints()
 
     def _is_legal(self, name: str) -> bool:
-        """Return whether ROS 2 allows a name; report once that it does not."""
+        """Return whether ROS 2 allows a name; report an illegal name once."""
         if is_legal(name):
             return True
         if name not in self._illegal_names:
@@ -110,10 +110,10 @@ class Ros2(Bridge):
             )
 
     def read_all(self, topic: str) -> None:
-        """Read a topic with its history (transient local), which its publishers then must offer.
+        """Read a topic with its history (transient local), which its publishers must then offer.
 
-        A reader without history misses samples from before it has discovered the writer, and a
-        writer cannot tell when that is.
+        A reader without history misses the samples that were written before it discovered the
+        writer, and the writer does not know when that happens.
         """
         name = topic.lstrip("/")
         self._complete_topics.add(name)
@@ -144,7 +144,7 @@ class Ros2(Bridge):
         self.send("", None)
         self._thread.join(timeout=CLOSE_S)
         self._send_queue.close()
-        self._stop_elsewhere()
+        self._remove_external_services()
         self._node.close()
         super().close()
 
@@ -153,7 +153,7 @@ class Ros2(Bridge):
         return self._node.call(name, request)
 
     def _publisher_of(self, topic: str) -> str:
-        """Return the nodes that publish a topic; a message does not state which of them sent it."""
+        """Return the nodes that publish a topic; a message does not identify its sender."""
         nodes = self._node.publishers(topic)
         return f"node {nodes[0]}" if len(nodes) == 1 else " or ".join(nodes[:3])
 

@@ -1,4 +1,4 @@
-"""The choice of the node: one of rclpy if it can be imported, else one on Cyclone DDS."""
+"""The choice of the node: on rclpy if it can be imported, else on Cyclone DDS."""
 
 from __future__ import annotations
 
@@ -11,25 +11,27 @@ from .node import Ros2Node
 from .settings import settings_from
 
 NODES = ("rclpy", "dds")
+"""The kinds of nodes."""
 VARIABLE = "UWSIM_ROS2"
-"""The variable by which a user selects one of `NODES`; unset or empty: the available one."""
+"""The variable that selects one of `NODES`; unset or empty: the first that is available."""
 REACH = {True: "for nodes on this computer", False: "its ports are open on all addresses"}
 """The texts for a node that only this computer can reach, and for one that others can reach."""
 MISSING_EXTRA = "--ros2: neither rclpy nor Cyclone DDS is installed: source a ROS 2, or "
 MISSING_EXTRA += "pip install uwsim[ros2]"
+"""The error if no kind of node is available."""
 
 
 def open_node(environment: Mapping[str, str], domain: int | None, log: Log) -> Ros2Node:
     """Join a domain of ROS 2, and report the kind of node.
 
     Args:
-        environment: the variables of ROS 2, of Cyclone DDS and ``UWSIM_ROS2``.
-        domain: ``--domain``; None: that of ``ROS_DOMAIN_ID``.
+        environment: the environment variables of ROS 2, of Cyclone DDS and ``UWSIM_ROS2``.
+        domain: the domain (``--domain``); None: the value of ``ROS_DOMAIN_ID``.
         log: the log of the connection.
 
     Raises:
         BadSetting: a variable has an invalid value.
-        MissingExtra: there is neither rclpy nor Cyclone DDS.
+        MissingExtra: neither rclpy nor Cyclone DDS is installed.
         UwsimError: the domain cannot be joined.
     """
     kind = read_choice(environment)
@@ -53,7 +55,7 @@ def open_node(environment: Mapping[str, str], domain: int | None, log: Log) -> R
 
 
 def check(environment: Mapping[str, str], domain: int | None) -> None:
-    """Raise an error if no node is possible; rclpy is not imported for it."""
+    """Raise an error if no kind of node is available; this does not import rclpy."""
     kind = read_choice(environment)
     if kind == "dds" or importlib.util.find_spec("rclpy") is None:
         _check_dds()
@@ -61,7 +63,7 @@ def check(environment: Mapping[str, str], domain: int | None) -> None:
 
 
 def read_choice(environment: Mapping[str, str]) -> str:
-    """Return the node that the user requests: ``rclpy``, ``dds``, or ""."""
+    """Return the kind of node that the user requests: ``rclpy``, ``dds``, or "" for either."""
     kind = environment.get(VARIABLE, "")
     if kind not in ("", *NODES):
         near = did_you_mean(kind, NODES)
@@ -75,7 +77,7 @@ def _open_dds_node(environment: Mapping[str, str], domain: int | None, log: Log)
 
     settings = settings_from(environment, domain)
     node = DdsNode(settings, log, user_xml=environment.get("CYCLONEDDS_URI", ""))
-    log.report(f"a node on Cyclone DDS, without rclpy; {REACH[node.is_closed]}")
+    log.report(f"a node on Cyclone DDS, without rclpy; {REACH[node.is_isolated]}")
     return node
 
 

@@ -1,6 +1,6 @@
-"""A node of ROS 2 without an installation of ROS 2: on Cyclone DDS (the extra ``ros2``).
+"""A node of ROS 2 on Cyclone DDS (the extra ``ros2``), which needs no installation of ROS 2.
 
-`participant` and `presence` make a participant of a domain that ROS 2 recognizes as its own.
+`participant` and `presence` make a DDS participant that ROS 2 recognizes as a node.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from typing import Any, ClassVar
 from ...errors import UwsimError
 from ..log import Log
 from ..types import WireService, ros2_store, wire_type
-from .loopback import bind_to_loopback, open_sockets
+from .loopback import bind_to_loopback, list_sockets
 from .names import topic_name, type_hash_data
 from .node import Call, Receive
 from .participant import READERS_CHANGED, WRITER_REFUSED, Participant, Writer
@@ -37,27 +37,27 @@ class DdsNode:
     """
 
     lease: ClassVar[str] = "for 10 s"
-    """The default of Cyclone DDS."""
+    """The time after which a silent node counts as gone: the default of Cyclone DDS."""
 
     def __init__(self, settings: Ros2Settings, log: Log, *, user_xml: str = "") -> None:
         self._log = log
-        old_sockets = open_sockets()
+        old_sockets = list_sockets()
         self._participant = Participant(settings.domain, settings.configuration(user_xml))
-        keeps_here = settings.is_local and not settings.static_peers and not user_xml
-        self.is_closed = keeps_here and bind_to_loopback(old_sockets)
+        is_local = settings.is_local and not settings.static_peers and not user_xml
+        self.is_isolated = is_local and bind_to_loopback(old_sockets)
         """True if other computers cannot reach the node."""
         self._presence = Presence(self._participant, NODE)
         self._types: dict[type, type[RawSample]] = {}
 
     @property
     def error(self) -> BaseException | None:
-        """The error that ended its thread, if any."""
+        """The error that ended the thread of the node; None if it runs."""
         return self._participant.error
 
     def writer(
         self, topic: str, type: type, quality: Quality, on_readers: Callable[[int], None]
     ) -> DdsWriter:
-        """Make a writer."""
+        """Make a writer; ``on_readers`` is called with the number of its readers."""
 
         def count_readers(entity: Any) -> None:
             on_readers(len(entity.get_matched_subscriptions()))
@@ -78,7 +78,7 @@ class DdsNode:
         receive: Receive,
         on_refused: Callable[[], None],
     ) -> DdsReader:
-        """Make a reader."""
+        """Make a reader; ``on_refused`` is called for a writer with an insufficient quality."""
         kind, user_data = self._sample_type(type)
         senders = Senders()
         entity = self._participant.reader(
@@ -103,15 +103,15 @@ class DdsNode:
         self._presence.announce_endpoints()
 
     def offers(self, name: str) -> bool:
-        """Return False: services of others are not called, as vendors of DDS differ in them."""
+        """Return False: services of other nodes are not called, as DDS vendors differ in them."""
         return False
 
     def call(self, name: str, request: object) -> Future[object]:
-        """Raise UwsimError: services of others are not called."""
+        """Raise UwsimError: services of other nodes are not called."""
         raise UwsimError(f"Service /{name}: without rclpy, services of nodes are not called.")
 
     def publishers(self, topic: str) -> list[str]:
-        """Return an empty list: data of other nodes is not read."""
+        """Return an empty list: the names of other nodes are not read."""
         return []
 
     def close(self) -> None:
@@ -124,7 +124,7 @@ class DdsNode:
         self._participant.forget(entity)
 
     def _sample_type(self, type: type) -> tuple[type[RawSample], bytes]:
-        """Return the type of the samples, and the USER_DATA with its hash."""
+        """Return the DDS type of a message class, and the USER_DATA with the hash of the type."""
         wire = wire_type(type)
         assert wire is not None
         if type not in self._types:
@@ -140,7 +140,7 @@ class DdsReader:
 
     @property
     def n_writers(self) -> int:
-        """The number of writers that match it."""
+        """The number of writers that match the reader."""
         return len(self._entity.get_matched_publications())
 
     def close(self) -> None:

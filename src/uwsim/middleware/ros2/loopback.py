@@ -1,4 +1,4 @@
-"""Restriction of a domain to this computer: Cyclone DDS itself listens on all addresses."""
+"""Restriction of a DDS domain to this computer, as Cyclone DDS itself listens on all addresses."""
 
 from __future__ import annotations
 
@@ -11,11 +11,12 @@ from pathlib import Path
 DEVICE = b"lo"
 """The loopback interface."""
 FILE_DESCRIPTORS = Path("/proc/self/fd")
+"""The folder in which Linux lists the open files of this process."""
 WILDCARD_ADDRESSES = ("0.0.0.0", "::")
 """The addresses of sockets that listen on every interface."""
 
 
-def open_sockets() -> set[str]:
+def list_sockets() -> set[str]:
     """Return the identifiers of the open sockets of this process."""
     names = set()
     with suppress(OSError):
@@ -26,15 +27,15 @@ def open_sockets() -> set[str]:
 
 
 def bind_to_loopback(old_sockets: set[str]) -> bool:
-    """Make the UDP sockets that were opened since receive from the loopback interface only.
+    """Make all new UDP sockets of this process receive from the loopback interface only.
 
     Args:
-        old_sockets: the result of `open_sockets` before they were opened.
+        old_sockets: the result of `list_sockets` before the new sockets were opened.
 
     Returns:
-        True if no other computer can reach them now.
+        True if no other computer can reach the new sockets.
     """
-    is_closed = FILE_DESCRIPTORS.is_dir()
+    is_isolated = FILE_DESCRIPTORS.is_dir()
     for udp_socket in _new_udp_sockets(old_sockets):
         with udp_socket:
             if udp_socket.getsockname()[0] not in WILDCARD_ADDRESSES:
@@ -42,8 +43,8 @@ def bind_to_loopback(old_sockets: set[str]) -> bool:
             try:
                 udp_socket.setsockopt(socket.SOL_SOCKET, socket.SO_BINDTODEVICE, DEVICE)
             except (OSError, AttributeError):  # Linux before 5.7 allows root only
-                is_closed = False
-    return is_closed
+                is_isolated = False
+    return is_isolated
 
 
 def _new_udp_sockets(old_sockets: set[str]) -> Iterator[socket.socket]:

@@ -7,7 +7,7 @@ import re
 LEGAL_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*")
 """The pattern of a name of ROS 2, without its leading slash."""
 MAX_NAME_LENGTH = 240
-"""The maximum length of such a name [characters]; DDS has 255, with the prefix of ROS 2."""
+"""The maximum length of a name [characters]: DDS allows 255, including the prefix of ROS 2."""
 DISCOVERY_TOPIC = "ros_discovery_info"
 """The topic on which each participant announces its nodes and endpoints; it has no prefix."""
 

@@ -1,7 +1,7 @@
-"""The protocol of a node of ROS 2 for the adapter: endpoints for bytes, and services.
+"""The protocol of a node of ROS 2, as the adapter uses it: endpoints for bytes, and services.
 
-There are two: `uwsim.middleware.ros2.rclpy_node`, with ROS 2, and `uwsim.middleware.ros2.dds_node`,
-without. Topics and services have no leading slash here.
+Two classes implement it: `RclpyNode` with ROS 2, and `DdsNode` without. The names of topics and
+services have no leading slash here.
 """
 
 from __future__ import annotations
@@ -15,17 +15,17 @@ from .quality import Quality
 
 
 class Receive(Protocol):
-    """A function that accepts an encoded message, its CDR header included."""
+    """A function that accepts an encoded message, including the CDR header."""
 
     def __call__(self, data: bytes, sender: str = "") -> None:
-        """Accept a message; ``sender`` is empty if the node cannot tell it."""
+        """Accept a message; ``sender`` is empty if the node does not know the sender."""
 
 
 class Call(Protocol):
-    """A function that passes a request to the simulation; returns the future of the response."""
+    """A function that passes a request to the simulation and returns the future of the response."""
 
     def __call__(self, request: object, sender: str = "") -> Future[object]:
-        """Pass on a request; ``sender`` is empty if the node cannot tell it."""
+        """Pass on a request; ``sender`` is empty if the node does not know the sender."""
 
 
 class Endpoint(Protocol):
@@ -40,34 +40,37 @@ class BytesReader(Endpoint, Protocol):
 
     @property
     def n_writers(self) -> int:
-        """The number of external writers that match it."""
+        """The number of external writers that match the reader."""
 
 
 class BytesWriter(Endpoint, Protocol):
-    """A writer of messages that are encoded already."""
+    """A writer of encoded messages."""
 
     def write(self, data: bytes) -> bool:
-        """Write a message, its CDR header included; return whether it was accepted.
+        """Write a message, including the CDR header; return whether it was accepted.
 
         Raises:
-            UwsimError: it cannot be sent.
+            UwsimError: the message cannot be sent.
         """
 
 
 class Ros2Node(Protocol):
-    """A node; its callbacks are called in a thread of its own."""
+    """A node; the callbacks are called in the thread of the node."""
 
     lease: ClassVar[str]
-    """The time after which a silent node counts as gone, as ``for 10 s``."""
+    """The time after which a silent node counts as gone, as text: ``for 10 s``."""
 
     @property
     def error(self) -> BaseException | None:
-        """The error that ended its thread, if any."""
+        """The error that ended the thread of the node; None if it runs."""
 
     def writer(
         self, topic: str, type: type, quality: Quality, on_readers: Callable[[int], None]
     ) -> BytesWriter:
-        """Make a writer of a class of the bus; ``on_readers(n)`` gets the number of readers."""
+        """Make a writer of messages of a class of the bus.
+
+        ``on_readers(n)`` is called with the number of external readers, when it changes.
+        """
 
     def reader(
         self,
@@ -79,21 +82,21 @@ class Ros2Node(Protocol):
     ) -> BytesReader:
         """Make a reader of messages from outside.
 
-        ``receive(data)`` has each with its CDR header. ``on_refused()``: the quality of service of
-        a writer does not suffice.
+        ``receive(data)`` is called with each message. ``on_refused()`` is called if the quality of
+        service of a writer does not suffice.
         """
 
     def server(self, name: str, kind: WireService, call: Call) -> Endpoint:
-        """Offer a service."""
+        """Offer a service; ``call`` passes each request to the simulation."""
 
     def announce_endpoints(self) -> None:
-        """Announce the endpoints; called after some have been made or closed."""
+        """Announce the endpoints of the node; called after some have been made or closed."""
 
     def offers(self, name: str) -> bool:
-        """Return whether another node offers a service that this one can call."""
+        """Return whether another node offers a service that this node can call."""
 
     def call(self, name: str, request: object) -> Future[object]:
-        """Call a service of another node; raise UwsimError."""
+        """Call a service of another node; raise UwsimError if it cannot be called."""
 
     def publishers(self, topic: str) -> list[str]:
         """Return the names of the other nodes that publish a topic, if they are known."""

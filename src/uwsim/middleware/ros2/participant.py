@@ -38,10 +38,11 @@ from .quality import Quality
 from .raw_types import RawSample
 
 Events = Mapping[int, Callable[[Any], None]]
-"""The callbacks by status of an endpoint; they are called with the endpoint when it changes."""
+"""The callbacks for each status of an endpoint, called with the endpoint when it changes."""
 ERROR_MASK = 0b11
 """The mask of log messages of Cyclone DDS: errors and fatal errors."""
 NO_EVENTS: Events = MappingProxyType({})
+"""No callbacks."""
 READERS_CHANGED = DDSStatus.PublicationMatched
 """The status of a writer: readers came or left."""
 WRITERS_CHANGED = DDSStatus.SubscriptionMatched
@@ -51,26 +52,26 @@ WRITER_REFUSED = DDSStatus.RequestedIncompatibleQos
 SAMPLES_AT_ONCE = 100
 """The number of samples that are taken from a reader before the next reader's turn."""
 VARIABLE = "CYCLONEDDS_URI"
+"""The variable from which Cyclone DDS reads its configuration."""
 WAKE_S = 1.0
 """The longest sleep of the thread [s]."""
 
 
 class Writer:
-    """A writer of encoded samples to a topic.
-
-    ``n_dropped`` counts samples that were dropped because a reliable reader was too far behind.
-    """
+    """A writer of encoded samples to a topic."""
 
     def __init__(self, entity: Any, type: type[RawSample]) -> None:
         self.entity = entity
+        """The writer in cyclonedds."""
         self._type = type
         self.n_dropped = 0
+        """The number of samples dropped because a reliable reader was too far behind."""
 
     def write(self, data: bytes) -> bool:
-        """Write a sample, its CDR header included; return whether it was accepted.
+        """Write a sample, including the CDR header; return whether it was accepted.
 
         Raises:
-            UwsimError: the sample is not one of the type.
+            UwsimError: the sample does not match the type.
         """
         try:
             self.entity.write(self._type(data))
@@ -83,23 +84,23 @@ class Writer:
 
     @property
     def n_readers(self) -> int:
-        """The number of readers that match it, in other processes or this one."""
+        """The number of readers that match the writer, in this process and others."""
         return len(self.entity.get_matched_subscriptions())
 
 
 def _print_errors_only() -> None:
-    """Suppress warnings of Cyclone DDS: a peer may cause one with each sample that it sends."""
+    """Suppress warnings of Cyclone DDS, as a peer may cause one with each sample that it sends."""
     library: Any = getattr(DDS, "_dll_handle", None)
     if hasattr(library, "dds_set_log_mask"):
         library.dds_set_log_mask(ERROR_MASK)
 
 
 class Participant:
-    """A participant; `close` ends it.
+    """A participant of a DDS domain; `close` ends it.
 
     Args:
         domain: the DDS domain.
-        configuration: XML for Cyclone DDS; the first one of a process for a domain applies.
+        configuration: XML for Cyclone DDS; the first for a domain in a process applies.
 
     Raises:
         UwsimError: there is no network interface, or no free port.
@@ -125,7 +126,7 @@ class Participant:
         self._waitset.attach(self._wake)
         self._is_open = True
         self.error: BaseException | None = None
-        """The error that ended the thread, if any."""
+        """The error that ended the thread; None if it runs."""
         self._thread = threading.Thread(target=self._run, name="uwsim-ros2", daemon=True)
         self._thread.start()
 
@@ -143,7 +144,7 @@ class Participant:
         user_data: bytes = b"",
         events: Events = NO_EVENTS,
     ) -> Writer:
-        """Make a writer; ``events`` are called in the thread, as `READERS_CHANGED`."""
+        """Make a writer; the callbacks in ``events`` are called in the thread."""
         with self._lock:
             entity = DataWriter(self._entity, self._topic(name, type), policies(quality, user_data))
             self._add_events(entity, events)
@@ -159,7 +160,7 @@ class Participant:
         user_data: bytes = b"",
         events: Events = NO_EVENTS,
     ) -> Any:
-        """Make a reader; ``callback(sample)`` and ``events`` are called in the thread."""
+        """Make a reader; ``callback(sample)`` and those in ``events`` are called in the thread."""
         with self._lock:
             entity = DataReader(self._entity, self._topic(name, type), policies(quality, user_data))
             states = ViewState.Any | SampleState.NotRead | InstanceState.Any
@@ -209,7 +210,7 @@ class Participant:
             while self._is_open:
                 self._waitset.wait(pause)
                 self._take()
-        except BaseException as error:  # the owner reports it; a thread has no caller
+        except BaseException as error:  # reported by the bridge, as a thread has no caller
             self.error = error
 
     def _take(self) -> None:
@@ -240,7 +241,7 @@ def _delete(entity: Any) -> None:
 
 @contextmanager
 def _set_configuration(configuration: str) -> Iterator[None]:
-    """Set the variable that Cyclone DDS reads when a domain begins, in the context."""
+    """Set, in the context, the variable that Cyclone DDS reads when a process joins a domain."""
     old_value = os.environ.get(VARIABLE)
     os.environ[VARIABLE] = configuration
     try:

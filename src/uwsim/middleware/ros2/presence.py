@@ -1,6 +1,6 @@
-"""The sample on ``ros_discovery_info`` that tells ROS 2 nodes which node owns which endpoint.
+"""The announcement of a node and its endpoints to other ROS 2 nodes, on ``ros_discovery_info``.
 
-Without it ``ros2 node list`` does not show the simulator.
+Without it, ``ros2 node list`` does not show the simulator.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ TEXTS = {
 
 
 class Presence:
-    """A node in the graph, and its endpoints."""
+    """The announced node, and its endpoints."""
 
     def __init__(self, participant: Participant, name: str, namespace: str = "/") -> None:
         self._store = get_typestore(Stores.ROS2_JAZZY)

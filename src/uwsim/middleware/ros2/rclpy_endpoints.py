@@ -1,4 +1,4 @@
-"""Endpoints of a node of rclpy, and the recognition of its own messages."""
+"""Endpoints of a node on rclpy, and the recognition of the node's own messages."""
 
 from __future__ import annotations
 
@@ -17,13 +17,14 @@ from ..queues import MAX_ITEMS
 from .quality import Quality
 
 Remove = Callable[[Any], None]
-"""The function that removes an endpoint from the graph."""
+"""A function that removes an endpoint from the graph."""
 
 
 class Echoes:
     """The hashes of messages that this node has sent on a topic that it also reads.
 
-    rclpy returns them to the node. Two equal messages need not be distinguished.
+    rclpy delivers such messages to the node itself, too, which then ignores them. Two equal
+    messages need not be distinguished.
     """
 
     def __init__(self) -> None:
@@ -43,7 +44,7 @@ class Echoes:
             self._hashes.append(hash(data))
 
     def is_own(self, data: bytes) -> bool:
-        """Return whether an arrived message is one of this node, and forget it."""
+        """Return whether an arrived message was sent by this node, and remove its hash."""
         if not self._hashes:
             return False
         with self._lock:
@@ -58,6 +59,7 @@ class NullEndpoint:
     """An endpoint of a type that rclpy does not have."""
 
     n_writers = 0
+    """The number of external writers."""
 
     def write(self, data: bytes) -> bool:
         """Discard a message, which has no readers."""
@@ -87,7 +89,7 @@ class RclpyWriter:
         with self._lock:
             try:
                 n = max(0, self.publisher.get_subscription_count() - self.echoes.n_readers)
-            except (InvalidHandle, AttributeError):  # gone already, or not there yet
+            except (InvalidHandle, AttributeError):  # destroyed already, or not created yet
                 return
             if n != self._n:
                 self._n = n
@@ -99,7 +101,7 @@ class RclpyWriter:
             self.echoes.add(data)
         try:
             self.publisher.publish(data)
-        except InvalidHandle:  # gone meanwhile
+        except InvalidHandle:  # destroyed meanwhile
             return True
         except RuntimeError as error:
             raise UwsimError(f"rclpy refuses a message: {error}") from error
@@ -107,7 +109,7 @@ class RclpyWriter:
 
     def wait(self, limit_s: float) -> None:
         """Wait until readers have acknowledged all messages, at most ``limit_s``."""
-        with suppress(RuntimeError):  # not every middleware can tell
+        with suppress(RuntimeError):  # not every middleware supports it
             self.publisher.wait_for_all_acked(Duration(seconds=max(0.0, limit_s)))
 
     def close(self) -> None:
@@ -127,7 +129,7 @@ class RclpyReader:
 
     @property
     def n_writers(self) -> int:
-        """The number of external writers that match it."""
+        """The number of external writers that match the reader."""
         n_publishers: int = self.subscription.get_publisher_count()
         return max(0, n_publishers - self._n_own())
 
@@ -138,7 +140,7 @@ class RclpyReader:
 
 
 class RclpyServer:
-    """A service."""
+    """A service that the node offers."""
 
     def __init__(self, drop: Remove, service: Any) -> None:
         self._drop, self._service = drop, service

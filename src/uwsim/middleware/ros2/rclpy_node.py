@@ -1,8 +1,9 @@
-"""A node of rclpy, on the middleware of the user's ROS 2, with services.
+"""A node on rclpy, with the middleware of the user's ROS 2 installation.
 
 Messages are sent and received as CDR bytes; only requests and responses of services are converted
 to objects of rclpy. One thread (``uwsim-ros2``) spins the node. Endpoints are made in the thread of
-the simulation and destroyed in that of the node, so that none is destroyed while it is waited for.
+the simulation, and destroyed in the thread of the node, so that no endpoint is destroyed while the
+node waits for it.
 """
 
 from __future__ import annotations
@@ -35,11 +36,11 @@ from .settings import NODE, Ros2Settings
 LINGER_S = 1.0
 """The time limit for the acknowledgement of the last messages at the end [s]."""
 UNKNOWN_NAME = "_NODE_NAME_UNKNOWN_"
-"""The name in rclpy of a node whose endpoints it has discovered, and whose name it has not."""
+"""The name that rclpy gives a node whose name it has not discovered yet."""
 
 
 class RclpyNode:
-    """A node of rclpy.
+    """A node on rclpy.
 
     Args:
         settings: the domain and the network interfaces.
@@ -50,7 +51,7 @@ class RclpyNode:
     """
 
     lease: ClassVar[str] = "for a while"
-    """A text for all middlewares; the lease of Fast DDS is 20 s."""
+    """The time after which a silent node counts as gone, which depends on the middleware."""
 
     def __init__(self, settings: Ros2Settings, log: Log) -> None:
         self._log, self._types = log, RclpyTypes()
@@ -65,7 +66,7 @@ class RclpyNode:
                     enable_rosout=False,
                     start_parameter_services=False,
                 )
-        except Exception as error:  # whatever a middleware raises
+        except Exception as error:  # a middleware may raise anything
             raise UwsimError(
                 f"--ros2: rclpy cannot join domain {settings.domain}: {error} (UWSIM_ROS2=dds does "
                 "without rclpy)"
@@ -75,7 +76,7 @@ class RclpyNode:
         self._writers: list[RclpyWriter] = []
         self._is_open = True
         self.error: BaseException | None = None
-        """The error that ended the thread, if any."""
+        """The error that ended the thread; None if it runs."""
         self._executor: Any = SingleThreadedExecutor(context=self._context)
         self._executor.add_node(self._node)
         self._services = RclpyServices(self._node, self._executor, self._group, self._types, log)
@@ -85,7 +86,7 @@ class RclpyNode:
     def writer(
         self, topic: str, type: type, quality: Quality, on_readers: Callable[[int], None]
     ) -> BytesWriter:
-        """Make a writer."""
+        """Make a writer; ``on_readers`` is called with the number of external readers."""
         message_type = self._types.message(type, topic)
         if message_type is None:
             return NullEndpoint()
@@ -113,7 +114,7 @@ class RclpyNode:
         receive: Receive,
         on_refused: Callable[[], None],
     ) -> BytesReader:
-        """Make a reader."""
+        """Make a reader; ``on_refused`` is called for a writer with an insufficient quality."""
         message_type = self._types.message(type, topic)
         if message_type is None:
             return NullEndpoint()
@@ -152,7 +153,7 @@ class RclpyNode:
         return self._services.offers(name)
 
     def call(self, name: str, request: object) -> Future[object]:
-        """Call a service of another node; raise UwsimError."""
+        """Call a service of another node; raise UwsimError if it cannot be called."""
         return self._services.call(name, request)
 
     def publishers(self, topic: str) -> list[str]:
@@ -161,12 +162,12 @@ class RclpyNode:
         names = {
             f"{publisher.node_namespace.rstrip('/')}/{publisher.node_name}"
             for publisher in publishers
-            if publisher.node_name != UNKNOWN_NAME  # its messages can come before its name
+            if publisher.node_name != UNKNOWN_NAME  # messages can come before the node's name
         }
         return sorted(names - {f"/{NODE}"})
 
     def close(self) -> None:
-        """Leave the graph, when the last messages have been acknowledged."""
+        """Leave the graph, after the last messages have been acknowledged."""
         if not self._is_open:
             return
         end = time.monotonic() + LINGER_S
@@ -215,5 +216,5 @@ class RclpyNode:
                     continue
         except ExternalShutdownException:
             return
-        except BaseException as error:  # the owner reports it; a thread has no caller
+        except BaseException as error:  # reported by the bridge, as a thread has no caller
             self.error = error

@@ -1,4 +1,4 @@
-"""Services of a node of rclpy: those that it offers, and calls of others.
+"""Services of a node on rclpy: those that it offers, and calls of services of other nodes.
 
 Requests and responses are converted between CDR bytes and objects of rclpy.
 """
@@ -29,7 +29,7 @@ CHECK_INTERVAL_S = 0.005
 
 
 class NoAnswer(Exception):
-    """An error of a call without an answer; rclpy has no other way to send none."""
+    """The exception with which a handler sends no answer; rclpy has no other way."""
 
 
 class RclpyServices:
@@ -38,8 +38,8 @@ class RclpyServices:
     Args:
         node: the node of rclpy.
         executor: the executor of the node.
-        group: the group of callbacks that may wait.
-        types: the types that rclpy has.
+        group: the callback group of the services.
+        types: the message and service types that rclpy has.
         log: the log for calls without an answer.
     """
 
@@ -75,7 +75,7 @@ class RclpyServices:
         return answer
 
     def _make_awaitable(self, response: Future[object]) -> Any:
-        """Return an awaitable of the node's thread for a response of the simulation."""
+        """Return an awaitable, for the thread of the node, of a response of the simulation."""
         future: Any = rclpy.task.Future()
 
         def copy_result(_: Future[object]) -> None:

@@ -1,7 +1,8 @@
-"""The types of the bus among those of rclpy, which are compiled packages.
+"""The classes of rclpy for types of the bus; they come from compiled packages of ROS 2.
 
 A message is passed to rclpy as CDR bytes, in the layout of uwsim's own definition. A class of rclpy
-is therefore used only if it has the same fields. Missing types are reported, a line a package.
+is therefore used only if it has the same fields. Missing types are reported in one line for each
+package.
 """
 
 from __future__ import annotations
@@ -22,32 +23,32 @@ OWN_PACKAGE = "underwater_sensor_msgs"
 
 
 class RclpyTypes:
-    """The classes of rclpy for types of the bus, and a list of those that it lacks."""
+    """The classes of rclpy for types of the bus, and a list of the types without a class."""
 
     def __init__(self) -> None:
-        self._missing_types: defaultdict[str, set[str]] = defaultdict(set)  # by reason
+        self._missing_types: defaultdict[str, set[str]] = defaultdict(set)  # endpoints by reason
 
-    def message(self, type: type, place: str) -> Any | None:
-        """Return the class of a message for a topic, ``place``; None if there is none."""
+    def message(self, type: type, topic: str) -> Any | None:
+        """Return the class of the messages on ``topic``; None if rclpy has no such class."""
         wire = wire_type(type)
         assert wire is not None
-        return self._find(wire.ros2_name, (wire.ros2_name,), place)
+        return self._find(wire.ros2_name, (wire.ros2_name,), topic)
 
-    def service(self, kind: WireService, place: str) -> Any | None:
-        """Return the class of a service type for a service, ``place``; None if there is none."""
+    def service(self, kind: WireService, name: str) -> Any | None:
+        """Return the class of the type of the service ``name``; None if rclpy has no such class."""
         halves = (kind.request.ros2_name, kind.response.ros2_name)
-        return self._find(kind.ros2_name, halves, place)
+        return self._find(kind.ros2_name, halves, name)
 
     def faults(self) -> list[str]:
-        """Return a line for each package, or type, that was found missing since the last call."""
+        """Return a line for each package or type that was found missing since the last call."""
         missing_types, self._missing_types = self._missing_types, defaultdict(set)
         return [
-            f"not on the graph: {', '.join(f'/{place}' for place in sorted(places))}. {reason}; or "
+            f"not on the graph: {', '.join(f'/{name}' for name in sorted(names))}. {reason}; or "
             "set UWSIM_ROS2=dds, which does not need rclpy"
-            for reason, places in sorted(missing_types.items())
+            for reason, names in sorted(missing_types.items())
         ]
 
-    def _find(self, name: str, layouts: tuple[str, ...], place: str) -> Any | None:
+    def _find(self, name: str, layouts: tuple[str, ...], endpoint_name: str) -> Any | None:
         package = name.partition("/")[0]
         cls = _class_of(name)
         if cls is not None and all(has_same_fields(layout) for layout in layouts):
@@ -58,7 +59,7 @@ class RclpyTypes:
             reason = f"rclpy's {package} has no {name}"
         else:
             reason = f"rclpy has no {package}: {install_command(package)}"
-        self._missing_types[reason].add(place)
+        self._missing_types[reason].add(endpoint_name)
         return None
 
 
@@ -70,7 +71,7 @@ def install_command(package: str) -> str:
 
 
 def has_same_fields(name: str) -> bool:
-    """Return whether the class of rclpy has the fields of uwsim's definition, also nested."""
+    """Return whether the class of rclpy has the same fields, also nested, as uwsim's definition."""
     cls = _class_of(name)
     if cls is None:
         return False
@@ -86,7 +87,7 @@ def has_same_fields(name: str) -> bool:
 
 
 def _class_of(name: str) -> Any | None:
-    """Return the class of rclpy of ``package/msg/Name``, or ``package/srv/Name_Request``."""
+    """Return rclpy's class of ``package/msg/Name`` or ``package/srv/Name_Request``, else None."""
     package, kind, base = name.split("/")
     service, _, half = base.rpartition("_")
     try:
@@ -99,7 +100,7 @@ def _class_of(name: str) -> Any | None:
 
 
 def _nested_type(description: Any) -> str:
-    """Return the message type inside a field; empty if it has none."""
+    """Return the message type of a field or of its elements; empty if they are no messages."""
     kind, content = description
     if kind in (Nodetype.ARRAY, Nodetype.SEQUENCE):
         kind, content = content[0]

@@ -1,7 +1,7 @@
-"""The participant that has written a sample.
+"""The identification of the participant that has written a sample.
 
-All nodes of a process are one participant, as a rule. Its identity is not verified: a program that
-makes its own packets can send any.
+As a rule, all nodes of a process share one participant. Its identity is not verified: a program
+that makes its own packets can send any identity.
 """
 
 from __future__ import annotations

@@ -1,9 +1,9 @@
 """Services over DDS in the wire format of rmw_cyclonedds: a header of 16 bytes before each sample.
 
-The header of a request or reply has the number of the client and that of its request. Other
-vendors send them in the inline QoS, which cyclonedds for Python does not expose. Requests of nodes
-with Fast DDS therefore arrive without a client, and are ignored. Such clients are reported when
-they connect.
+The header of a request or reply has the number of the client and the number of its request. Other
+vendors of DDS send these in the inline QoS, which cyclonedds for Python does not expose. Requests
+of nodes on Fast DDS therefore do not identify the client, and are ignored; such clients are
+reported when they connect.
 """
 
 from __future__ import annotations
@@ -28,40 +28,48 @@ from .raw_types import CDR_HEADER, RawSample, raw_type
 from .senders import Senders
 
 CALL_HEADER = struct.Struct("<Qq")
-"""The number of the client, and that of its request."""
+"""The encoding of the header: the number of the client, and the number of its request."""
 CALL_FIELDS = {"client": types.uint64, "sequence": types.int64}
+"""The fields of the header, by name."""
 CYCLONE_VENDOR = b"\x01\x10"
 """The first two bytes of the identity of every endpoint of Cyclone DDS."""
 VENDORS = {b"\x01\x0f": "Fast DDS", b"\x01\x01": "Connext", b"\x01\x03": "OpenDDS"}
+"""The names of other vendors, by the first two bytes of the identity of their endpoints."""
 
 
 class ServiceServer:
     """The server of one service.
 
     Args:
-        participant: the participant that offers it.
+        participant: the participant that offers the service.
         name: the name of the service, without a leading slash.
-        kind: the type of the service.
-        call: passes a request to the simulation and returns the future of the response.
+        service_type: the type of the service.
+        pass_request: a function that passes a request to the simulation and returns the future of
+            the response.
         log: the log for calls that cannot be answered.
     """
 
     def __init__(
-        self, participant: Participant, name: str, kind: WireService, call: Call, log: Log
+        self,
+        participant: Participant,
+        name: str,
+        service_type: WireService,
+        pass_request: Call,
+        log: Log,
     ) -> None:
-        self._participant, self._name, self._kind = participant, name, kind
-        self._call, self._log, self._senders = call, log, Senders()
-        hash_data = type_hash_data(kind.type_hash)
+        self._participant, self._name, self._type = participant, name, service_type
+        self._pass_request, self._log, self._senders = pass_request, log, Senders()
+        hash_data = type_hash_data(service_type.type_hash)
         store, quality = ros2_store(), Quality()
         self.writer = participant.writer(
             reply_name(name),
-            raw_type(store, kind.response.ros2_name, prefix=CALL_FIELDS),
+            raw_type(store, service_type.response.ros2_name, prefix=CALL_FIELDS),
             quality,
             user_data=hash_data,
         )
         self.reader = participant.reader(
             request_name(name),
-            raw_type(store, kind.request.ros2_name, prefix=CALL_FIELDS),
+            raw_type(store, service_type.request.ros2_name, prefix=CALL_FIELDS),
             quality,
             self._receive,
             user_data=hash_data,
@@ -90,35 +98,35 @@ class ServiceServer:
         if not self._is_of_cyclone(sample):
             return
         try:
-            call, body = split_call(sample.data)
-            request: object = to_sim_time(from_cdr(self._kind.service.request, body))
+            header, body = split_header(sample.data)
+            request: object = to_sim_time(from_cdr(self._type.service.request, body))
         except (BadMessage, struct.error) as error:
             self._log.report(f"service /{self._name}: a call was refused: {error}", kind=self._name)
             return
         sender = self._senders.sender_of(self.reader, sample)
-        self._call(request, sender).add_done_callback(partial(self._reply, call))
+        self._pass_request(request, sender).add_done_callback(partial(self._reply, header))
 
     def _is_of_cyclone(self, sample: RawSample) -> bool:
         handle = sample.sample_info.publication_handle
         publication = self.reader.get_matched_publication_data(handle)
         return publication is not None and bytes(publication.key.bytes[:2]) == CYCLONE_VENDOR
 
-    def _reply(self, call: bytes, response: Future[object]) -> None:
+    def _reply(self, header: bytes, response: Future[object]) -> None:
         try:
             data = bytes(to_cdr(to_ros_time(response.result())))
         except UwsimError as error:
             self._log.report(f"service /{self._name}: no answer: {error}", kind=self._name)
             return
-        self.writer.write(data[:CDR_HEADER] + call + data[CDR_HEADER:])
+        self.writer.write(data[:CDR_HEADER] + header + data[CDR_HEADER:])
 
 
-def split_call(data: bytes) -> tuple[bytes, bytes]:
-    """Return the 16 bytes of the call, little-endian, and the request as CDR."""
+def split_header(data: bytes) -> tuple[bytes, bytes]:
+    """Return the 16 bytes of the header of a request, little-endian, and the request as CDR."""
     start = CDR_HEADER + CALL_HEADER.size
-    call = data[CDR_HEADER:start]
+    header = data[CDR_HEADER:start]
     is_little = bool(data[1] & 1)
     if not is_little:
-        call = CALL_HEADER.pack(*struct.unpack(">Qq", call))
-    if len(call) < CALL_HEADER.size:
+        header = CALL_HEADER.pack(*struct.unpack(">Qq", header))
+    if len(header) < CALL_HEADER.size:
         raise BadMessage(f"{len(data)} bytes are not a call.")
-    return call, data[:CDR_HEADER] + data[start:]
+    return header, data[:CDR_HEADER] + data[start:]

@@ -19,17 +19,19 @@ NODE = "uwsim"
 MAX_DOMAIN = 232
 """The largest domain whose UDP ports are below 65536."""
 RANGES = ("LOCALHOST", "SUBNET")
+"""The supported values of ``ROS_AUTOMATIC_DISCOVERY_RANGE``."""
 LOOPBACK = "127.0.0.1"
+"""The address of the loopback interface."""
 FRAGMENTS = (
     "<MaxMessageSize>65500B</MaxMessageSize><FragmentSize>65000B</FragmentSize>"
     "<MaxRexmitMessageSize>65500B</MaxRexmitMessageSize>"
 )
-"""The size of datagrams: with fragments of 1.3 kB a reader of Fast DDS loses most images."""
+"""The size of datagrams; with fragments of 1.3 kB, a reader on Fast DDS loses most images."""
 BUFFERS = (
     '<SocketReceiveBufferSize min="default" max="10MB"/>'
     "<Watermarks><WhcHigh>16MB</WhcHigh></Watermarks>"
 )
-"""The size of buffers, for several images that are received and not acknowledged yet."""
+"""The size of buffers, for several images that are received but not acknowledged yet."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,11 +43,11 @@ class Ros2Settings:
     is_local: bool = True
     """True if only the loopback interface is used."""
     static_peers: tuple[str, ...] = ()
-    """The addresses of further participants."""
+    """The addresses of computers with further participants."""
 
     @property
     def variables(self) -> dict[str, str]:
-        """The same settings as variables of ROS 2, for rclpy, where the user has set none."""
+        """The discovery range as an environment variable of ROS 2, for rclpy."""
         return {"ROS_AUTOMATIC_DISCOVERY_RANGE": RANGES[0] if self.is_local else RANGES[1]}
 
     def configuration(self, user_xml: str = "") -> str:

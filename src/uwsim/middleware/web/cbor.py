@@ -1,4 +1,4 @@
-"""CBOR (RFC 8949) of messages, arrays as typed arrays (RFC 8746), as rosbridge sends them."""
+"""Encoding of messages as CBOR (RFC 8949), with typed arrays (RFC 8746), as rosbridge does."""
 
 from __future__ import annotations
 
@@ -8,9 +8,11 @@ from typing import Any
 import numpy as np
 
 TAGS = {"u1": 64, "u2": 69, "u4": 70, "u8": 71, "i1": 72, "i2": 77, "i4": 78, "i8": 79}
-"""The tags of little-endian arrays by their dtype."""
+"""The tags of little-endian arrays of integers, by dtype."""
 FLOAT_TAGS = {"f4": 85, "f8": 86}
+"""The tags of little-endian arrays of floating-point numbers, by dtype."""
 SIMPLE_VALUES = {False: b"\xf4", True: b"\xf5", None: b"\xf6"}
+"""The encodings of truth values and None."""
 _DOUBLE = struct.Struct(">d")
 
 

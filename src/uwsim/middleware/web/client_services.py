@@ -1,4 +1,4 @@
-"""Services that web clients offer."""
+"""Services that web clients advertise."""
 
 from __future__ import annotations
 
@@ -14,40 +14,41 @@ from .contract import Client
 
 
 class ClientServices:
-    """The clients that offer each service; of several, the first is called.
+    """The clients that have advertised each service; if there are several, the first is called.
 
     Args:
         services: the external services of the bus.
-        admission: returns the rule that decides who may offer; None: everybody.
+        admission: a function that returns the rule that decides who may offer services; None:
+            everybody.
     """
 
     def __init__(
         self, services: ExternalServices, admission: Callable[[], Admission | None]
     ) -> None:
         self._services, self._admission = services, admission
-        self._offerers: dict[str, tuple[Client, ...]] = {}
+        self._providers: dict[str, tuple[Client, ...]] = {}
 
-    def offer(self, name: str, service: Service, client: Client) -> None:
-        """Offer a service of a client. Any thread."""
-        accept = partial(self.offer, name, service, client)
+    def advertise(self, name: str, service: Service, client: Client) -> None:
+        """Offer a service of a client on the bus. Any thread."""
+        accept = partial(self.advertise, name, service, client)
         admission = self._admission()
         if admission and not admission.may_offer(name, client.name, accept):
             return
-        self._offerers[name] = (*self._offerers.get(name, ()), client)
+        self._providers[name] = (*self._providers.get(name, ()), client)
         self._services.offer(name, service)
 
-    def withdraw(self, name: str, client: Client) -> None:
+    def unadvertise(self, name: str, client: Client) -> None:
         """Withdraw a service of a client. In the thread of the server."""
-        offerers = self._offerers.pop(name, ())
-        other_offerers = tuple(offerer for offerer in offerers if offerer is not client)
-        if other_offerers:
-            self._offerers[name] = other_offerers
-        elif offerers:
+        providers = self._providers.pop(name, ())
+        other_providers = tuple(provider for provider in providers if provider is not client)
+        if other_providers:
+            self._providers[name] = other_providers
+        elif providers:
             self._services.withdraw(name)
 
     def call(self, name: str, request: object) -> Future[object]:
         """Call a service of a client. In the thread of the simulation."""
-        offerers = self._offerers.get(name)
-        if not offerers:
+        providers = self._providers.get(name)
+        if not providers:
             raise UwsimError(f"Service /{name}: its server has left.")
-        return offerers[0].call(name, request)
+        return providers[0].call(name, request)

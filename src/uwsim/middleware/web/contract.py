@@ -1,4 +1,4 @@
-"""Protocols of the bridge for the session of a web client, and of the session for the bridge."""
+"""The protocol of the bridge as a client's session uses it, and of a session as the bridge does."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ from .queue import Lane
 
 @dataclass(eq=False)
 class Subscription:
-    """A topic that the client reads."""
+    """The subscription of a client to a topic."""
 
     topic: str
     """The topic, without a leading slash."""
     lane: Lane
-    """The messages that wait to be sent."""
+    """The queue of messages to send."""
     throttle: float
     """The shortest time between two messages [s of wall time]."""
     ids: set[str | None] = field(default_factory=set)
@@ -28,7 +28,7 @@ class Subscription:
     last_time: float = -math.inf
     """The time at which the last message was sent [s of wall time]."""
     source: str = ""
-    """The topic of the bus from which its messages are made."""
+    """The topic of the bus from which the messages are made: for compressed images, another one."""
 
     def __post_init__(self) -> None:
         self.source = self.source or self.topic
@@ -42,10 +42,10 @@ class Client(Protocol):
         """The name of the client in the log."""
 
     def has_advertised(self, topic: str) -> bool:
-        """Return whether it has advertised a topic. Any thread."""
+        """Return whether the client has advertised a topic. Any thread."""
 
     def has_subscribed(self, topic: str) -> bool:
-        """Return whether it has subscribed to a topic. Any thread."""
+        """Return whether the client has subscribed to a topic. Any thread."""
 
     def post(self, subscription: Subscription, message: EncodedMessage) -> None:
         """Send a message of a subscription. Any thread."""
@@ -54,14 +54,16 @@ class Client(Protocol):
         """Call a service that the client offers. Any thread."""
 
     def reply(self, content: dict[str, object]) -> None:
-        """Send an object, after all that waits already. Any thread."""
+        """Send a JSON object, after all messages that wait already. Any thread."""
 
 
 class SessionBridge(Protocol):
     """The bridge, as the session of a client uses it. In the thread of the server."""
 
     log: Log
+    """The log of the transport."""
     admission: Admission | None
+    """The rule that decides who may publish and call; None: everybody."""
 
     def put(self, topic: str, message: object, sender: str = "") -> None:
         """Accept a message of a client."""

@@ -1,10 +1,10 @@
 """Transforms between chosen frames, as ``tf2_web_republisher`` publishes them.
 
-Viewers in browsers request transforms by the service ``/republish_tfs``, and receive them on a
-topic of their own (``tf2_web_republisher/TFArray``, with the fields of ``tf2_msgs/TFMessage``). Or
-they send a goal of the action ``/tf2_web_republisher``, which is roslibjs's default, and receive
-them as its feedback. Transforms follow the tree of ``/tf`` and ``/tf_static``; the newest of each
-frame counts, without interpolation in time.
+A viewer in a browser requests transforms with the service ``/republish_tfs``, and receives them on
+its own topic (``tf2_web_republisher/TFArray``, with the fields of ``tf2_msgs/TFMessage``). Or it
+sends a goal of the action ``/tf2_web_republisher``, the default of roslibjs, and receives them as
+feedback of the action. Transforms are computed along the tree of ``/tf`` and ``/tf_static`` from
+the newest transform of each frame, without interpolation in time.
 """
 
 from __future__ import annotations
@@ -22,13 +22,17 @@ from ...messages import TFMessage
 from ...messages.build import transform
 
 SERVICE = "republish_tfs"
+"""The service by which clients request transforms."""
 SOURCES = ("tf", "tf_static")
-"""The topics of the transforms."""
+"""The topics from which transforms are read."""
 ACTION = "tf2_web_republisher"
+"""The action by which clients request transforms."""
 GOAL, CANCEL, FEEDBACK = (f"{ACTION}/{name}" for name in ("goal", "cancel", "feedback"))
-"""The topics of the action."""
+"""The topics of the action that are used."""
 ACTION_TOPICS = frozenset({GOAL, CANCEL, FEEDBACK, f"{ACTION}/status", f"{ACTION}/result"})
+"""All topics of the action."""
 PREFIX = f"{ACTION}/tf_repub_"
+"""The prefix of the topics on which transforms are published."""
 MAX_FRAMES = 200
 """The maximum number of frames in a request."""
 MAX_REQUESTS = 200
@@ -41,14 +45,14 @@ MIN_RATE, MAX_RATE = 0.1, 100.0
 
 @dataclass(eq=False)
 class Republication:
-    """A request, which publishes transforms on a topic."""
+    """A client's request for transforms, which are published on a topic."""
 
     topic: str
     """The topic, without a leading slash."""
     target: str
-    """The frame in which poses are expressed."""
+    """The name of the frame in which poses are expressed."""
     sources: tuple[str, ...]
-    """The frames whose poses are published."""
+    """The names of the frames whose poses are published."""
     period: float
     """The time between two messages [s]."""
     angle: float
@@ -64,7 +68,7 @@ class Republication:
 
 
 class FrameRepublisher:
-    """The newest transforms, and the requests for them."""
+    """The newest transform of each frame, and the requests for transforms."""
 
     def __init__(self) -> None:
         self._frames: dict[str, tuple[str, Pose]] = {}
@@ -106,7 +110,7 @@ class FrameRepublisher:
         self._requests = {key: entry for key, entry in self._requests.items() if key != topic}
 
     def goal_topic(self, goal: str) -> str | None:
-        """Return the topic of the request with a goal; None if there is none."""
+        """Return the topic of the request with a goal's id; None if there is none."""
         return next((key for key, entry in self._requests.items() if entry.goal == goal), None)
 
     def store(self, message: TFMessage) -> None:
@@ -154,7 +158,7 @@ class FrameRepublisher:
         return pose
 
     def _root_pose(self, frame: str) -> tuple[str, Pose] | None:
-        """Return the root of a frame's tree and the frame's pose in it; None in a loop."""
+        """Return the root of a frame's tree and the frame's pose in the root; None in a loop."""
         pose = Pose.identity()
         for _ in range(MAX_DEPTH):
             if frame not in self._frames:

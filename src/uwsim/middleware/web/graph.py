@@ -1,4 +1,4 @@
-"""The topics, services and clients of a WebSocket server, which clients query."""
+"""The topics, services and clients of a WebSocket server, which clients can query."""
 
 from __future__ import annotations
 
@@ -20,23 +20,23 @@ class WebGraph:
     """Topics and services of a bus, and the clients that use them. Any thread.
 
     Args:
-        clock: returns the simulation time [s].
+        clock: a function that returns the simulation time [s].
         clients: the connected clients.
     """
 
     def __init__(self, clock: Callable[[], float], clients: Collection[Client]) -> None:
         self.clock, self._clients = clock, clients
         self.topics: Mapping[str, TopicEndpoints] = {}
-        """The topics of the bus, with their ends; replaced as a whole."""
+        """The endpoints of each topic of the bus; the mapping is replaced as a whole."""
         self.services: Mapping[str, Service] = {}
-        """The services of the bus; replaced as a whole."""
+        """The type of each service of the bus; the mapping is replaced as a whole."""
 
     def type_of(self, topic: str) -> type | None:
         """Return the class of the messages of a topic; None if it is not known."""
-        ends = self.topics.get(topic)
-        if ends is None and self.image_of(topic) is not None:
+        endpoints = self.topics.get(topic)
+        if endpoints is None and self.image_of(topic) is not None:
             return CompressedImage
-        return None if ends is None else ends.type
+        return None if endpoints is None else endpoints.type
 
     def types(self) -> dict[str, str]:
         """Return the name of each topic's type in ROS 2, sorted by topic."""
@@ -51,20 +51,22 @@ class WebGraph:
         return type_names
 
     def image_of(self, topic: str) -> str | None:
-        """Return the topic of images from which one of compressed images is made; None if none."""
+        """Return the topic whose images ``topic`` carries compressed; None if there is none."""
         source = topic.removesuffix(COMPRESSED_SUFFIX)
-        ends = self.topics.get(source) if source != topic else None
-        return source if ends and ends.type is Image and ends.is_published else None
+        endpoints = self.topics.get(source) if source != topic else None
+        has_images = endpoints is not None and endpoints.type is Image and endpoints.is_published
+        return source if has_images else None
 
     def is_published(self, topic: str) -> bool:
         """Return whether a topic is published."""
-        ends = self.topics.get(topic)
-        return self.image_of(topic) is not None or (ends is not None and ends.is_published)
+        endpoints = self.topics.get(topic)
+        is_on_bus = endpoints is not None and endpoints.is_published
+        return is_on_bus or self.image_of(topic) is not None
 
     def is_subscribed(self, topic: str) -> bool:
         """Return whether the simulation subscribes to a topic."""
-        ends = self.topics.get(topic)
-        return ends is not None and ends.is_read
+        endpoints = self.topics.get(topic)
+        return endpoints is not None and endpoints.is_read
 
     def clients_publishing(self, topic: str) -> list[str]:
         """Return the clients that have advertised a topic, as names of nodes."""
@@ -84,5 +86,5 @@ class WebGraph:
 
 
 def _node_name(client: str) -> str:
-    """Return the name of a client as the name of a node: ``/client_127_0_0_1_40312``."""
+    """Return the name of a node for a client: ``/client_127_0_0_1_40312``."""
     return "/" + re.sub(r"[^A-Za-z0-9_]", "_", client)

@@ -9,7 +9,9 @@ from dataclasses import dataclass, field
 from ...errors import BadSetting
 
 ORIGIN = re.compile(r"https?://[^\s/:]+(:[0-9]+)?")
+"""The pattern of the origin of a page."""
 LOOPBACK = ("127.0.0.1", "localhost", "::1")
+"""The names and addresses of this computer on the loopback interface."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -17,13 +19,13 @@ class WebOptions:
     """The address of the server, and the clients that may connect."""
 
     port: int = 9090
-    """The port; 0: one that the system chooses."""
+    """The port; 0: a port that the system chooses."""
     host: str = "127.0.0.1"
-    """The address; another than this computer's own requires a token."""
+    """The address to listen on; an address that other computers can reach requires a token."""
     token: str | None = field(default=None, repr=False)
-    """The token of clients: ``ws://HOST:PORT/?token=...`` or ``Authorization: Bearer``."""
+    """The token that clients send: ``ws://HOST:PORT/?token=...`` or ``Authorization: Bearer``."""
     origins: tuple[str, ...] = ()
-    """The pages that may connect, as ``https://example.org``, besides those of this computer."""
+    """The origins of pages that may connect, as ``https://example.org``; local pages always may."""
 
     def __post_init__(self) -> None:
         if not 0 <= self.port < 2**16:

@@ -17,6 +17,7 @@ from ..stamps import to_ros_time
 from .cbor import encode_cbor
 
 COMPRESSIONS = ("none", "png", "cbor", "cbor-raw")
+"""The encodings of messages that a client may select, as rosbridge names them."""
 
 
 class EncodedMessage:
@@ -26,8 +27,10 @@ class EncodedMessage:
         topic: the name of the topic, without a leading slash.
         message: the message on the bus.
         size: the approximate size of the message [bytes].
-        convert: converts it to the message to send; called once, in the thread that sends.
-        wrap: puts its fields into those of another message; not for ``cbor-raw``.
+        convert: a function that converts the message on the bus to the message to send; it is
+            called once, in the thread that sends.
+        wrap: a function that returns the fields of a message that contains the given fields; not
+            applied for ``cbor-raw``.
     """
 
     def __init__(
@@ -53,7 +56,7 @@ class EncodedMessage:
 
     @property
     def _message(self) -> object:
-        """The message to send, with its stamps on the clock of ROS."""
+        """The message to send, with its stamps in the time of ``/clock``."""
         if self._sent_message is None:
             self._sent_message = to_ros_time(self._convert(self._source))
         return self._sent_message

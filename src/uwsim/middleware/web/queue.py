@@ -1,4 +1,4 @@
-"""The messages that wait to be sent to a client, limited in number and bytes; oldest first."""
+"""The queue of messages to a client, limited in number and bytes; the oldest is sent first."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from dataclasses import dataclass, field
 from .outgoing import EncodedMessage
 
 MAX_BYTES = 64 * 2**20
-"""The maximum size of what waits for one client [bytes]."""
+"""The maximum size of all messages that wait for one client [bytes]."""
 MAX_MESSAGES = 1000
 """The maximum number of waiting messages of one subscription; replies count as one."""
 
 
 @dataclass(eq=False)
 class Lane:
-    """The messages of one subscription, or the replies, that wait to be sent."""
+    """The part of a client's queue with the messages of one subscription, or with the replies."""
 
     compression: str = "none"
     """The encoding of the messages."""
@@ -31,7 +31,7 @@ class OutQueue:
     """A queue of frames in order of arrival; any thread adds frames, the writer takes them.
 
     Args:
-        wake: called when an item comes and nothing waits.
+        wake: a function that is called when an item is added to the empty queue.
     """
 
     def __init__(self, wake: Callable[[], None]) -> None:
@@ -53,7 +53,7 @@ class OutQueue:
                 self._n_bytes > MAX_BYTES and len(lane.items) > 1
             ):
                 self._n_bytes -= size_of(lane.items.popleft())
-                self._order.remove(lane)  # its oldest place
+                self._order.remove(lane)  # the first entry: that of the dropped message
                 self.n_dropped += 1
             n_dropped = self.n_dropped - n_dropped_before
         if was_empty:  # else the writer is awake already
@@ -61,7 +61,7 @@ class OutQueue:
         return n_dropped
 
     def take(self) -> tuple[Lane, EncodedMessage | str] | None:
-        """Take out the oldest item; return None if nothing waits."""
+        """Remove and return the oldest item; None if the queue is empty."""
         with self._lock:
             if not self._order:
                 return None

@@ -1,4 +1,4 @@
-"""The clients that read topics, and the messages to them."""
+"""The web clients that read topics, and the sending of messages to them."""
 
 from __future__ import annotations
 
@@ -13,7 +13,9 @@ from .graph import COMPRESSED_SUFFIX, WebGraph
 from .outgoing import EncodedMessage
 
 CLOCK = "clock"
+"""The topic of the simulation time."""
 Reader = tuple[Client, Subscription]
+"""A client, and its subscription to a topic."""
 
 
 class WebReaders:
@@ -22,7 +24,7 @@ class WebReaders:
     Args:
         graph: the topics of the bus.
         subscribers: the external subscribers of the bridge.
-        clock_topic: the time, which new subscribers receive.
+        clock_topic: the publisher of the simulation time, which new subscribers receive at once.
     """
 
     def __init__(self, graph: WebGraph, subscribers: Subscribers, clock_topic: ClockTopic) -> None:
@@ -66,7 +68,7 @@ class WebReaders:
         is_latched = topic in LATCHED
         if is_latched or topic in self:
             encoded_message = EncodedMessage(topic, message, size_of(message))
-            if is_latched:  # before the readers are read: new ones find the message here
+            if is_latched:  # first stored, so that a reader added meanwhile receives it, too
                 self._latched[topic] = encoded_message
             self.post(topic, encoded_message)
         if isinstance(message, Image) and (image_topic := topic + COMPRESSED_SUFFIX) in self:

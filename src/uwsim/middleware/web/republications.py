@@ -1,4 +1,4 @@
-"""The transforms that web clients have requested, as long as these are connected."""
+"""The requests of connected web clients for transforms."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class Republications:
     Args:
         subscribers: the external subscribers of the bridge.
         readers: the readers of the transforms.
-        clock: returns the simulation time [s].
+        clock: a function that returns the simulation time [s].
     """
 
     def __init__(
@@ -32,7 +32,7 @@ class Republications:
     def begin(self, arguments: object, client: Client, goal: str = "") -> str:
         """Publish transforms for a client; return the topic. In the thread of the server.
 
-        For a goal they are published as its feedback.
+        For the ``goal`` of an action, they are published as its feedback.
 
         Raises:
             BadMessage: the request is not valid.
@@ -62,7 +62,7 @@ class Republications:
                 self._subscribers.remove(source)
 
     def send(self, topic: str, message: object) -> None:
-        """Store transforms of a topic, and send what is due. In the thread of the simulation."""
+        """Store a topic's transforms, send the messages due. In the thread of the simulation."""
         if topic not in SOURCES or not self._topics or not isinstance(message, TFMessage):
             return
         self._republisher.store(message)

@@ -1,8 +1,8 @@
-"""The services of ``rosapi`` by which clients of rosbridge query topics, services and types.
+"""The services of ``rosapi``, with which clients of rosbridge list topics, services and types.
 
-Types are accepted by their names in ROS 1 and ROS 2, and answered by those of ROS 2. There is one
-node, `NODE`; publications and subscriptions of clients are listed under their own names. There are
-no parameters: requests for them are answered as by a server without any.
+Requests may name types as in ROS 1 or ROS 2; answers name them as in ROS 2. The simulation is one
+node, `NODE`; the publications and subscriptions of a client are listed under the client's name.
+There are no parameters: requests for parameters are answered as if none was set.
 """
 
 from __future__ import annotations
@@ -19,9 +19,11 @@ from ..types import PLACEHOLDER, full_name, message_class, ros2_store, service, 
 from .graph import WebGraph
 
 NODE = "/uwsim"
+"""The name of the simulation's node."""
 ROSOUT = "rosout"
-"""The topic by whose type viewers recognize ROS 2."""
+"""The topic whose type makes viewers recognize ROS 2."""
 ROSOUT_TYPE = "rcl_interfaces/msg/Log"
+"""The type of this topic in ROS 2."""
 
 
 def _topic_types(graph: WebGraph) -> dict[str, str]:
@@ -150,7 +152,7 @@ def _no_action_servers(graph: WebGraph, args: Any) -> dict[str, Any]:
 
 
 def typedefs(name: str) -> list[dict[str, Any]]:
-    """Return the fields of a type and of all types inside it, the type itself first.
+    """Return the definitions of a type and of all types of its fields, the type itself first.
 
     Raises:
         BadMessage: there is no such type.
@@ -180,7 +182,7 @@ def typedefs(name: str) -> list[dict[str, Any]]:
 
 
 def _field(name: str, description: Any) -> tuple[str, str, int]:
-    """Return name, type, and length of the array: 0 is any length, -1 is no array."""
+    """Return name, type and array length of a field: 0 is any length, -1 is no array."""
     node, content = description
     length = -1
     if node in (Nodetype.ARRAY, Nodetype.SEQUENCE):
@@ -190,7 +192,7 @@ def _field(name: str, description: Any) -> tuple[str, str, int]:
 
 
 def _example(type: str) -> str:
-    """Return a value of a type as text, in the form of rosapi."""
+    """Return an example of a value of a type as text, in the form of rosapi."""
     if "/" in type:
         return "{}"
     if type in ("string", "wstring"):
@@ -209,7 +211,7 @@ def _name(args: Any, key: str) -> str:
 
 
 def answer(graph: WebGraph, name: str, args: Any) -> tuple[bool, Any]:
-    """Return whether a request of `SERVICES` succeeded, and the values or the reason."""
+    """Answer a request of `SERVICES`: return True and the values, or False and the reason."""
     try:
         return True, SERVICES[name](graph, args)
     except UwsimError as error:
@@ -242,4 +244,4 @@ SERVICES: dict[str, Callable[[Any, Any], dict[str, Any]]] = {
     "rosapi/topics_and_raw_types": _topics_and_raw_types,
     "rosapi/topics_for_type": _topics_for_type,
 }
-"""The functions that answer requests, with the graph and the arguments, by name."""
+"""The functions that answer requests, given the graph and the arguments, by service name."""

@@ -1,4 +1,4 @@
-"""The WebSocket server, in a thread of its own, and the bridge from it to the bus."""
+"""The WebSocket server, in a thread of its own, and the bridge between the server and the bus."""
 
 from __future__ import annotations
 
@@ -38,19 +38,21 @@ from .republications import Republications
 from .session import Session, SessionParts
 
 LOCAL_PAGES = re.compile(r"https?://(localhost|127\.0\.0\.1|\[::1\])(:\d+)?")
-"""The origins of pages on this computer, which may connect unless others are given."""
+"""The pattern of the origins of pages on this computer, which may always connect."""
 MAX_FRAME = 16 * 2**20
 """The maximum length of a client's frame [bytes]."""
 SMALL_FRAME, N_LARGE = 2**20, 8
-"""The maximum frame of clients beyond the first `N_LARGE` [bytes]: unfinished frames are kept."""
+"""The maximum length of a frame [bytes] of clients that connect while `N_LARGE` others are
+connected, which bounds the memory for unfinished frames."""
 MAX_FRAMES = 2
-"""The maximum number of waiting frames of one client; beyond it, no more are read."""
+"""The maximum number of waiting frames of one client; while they wait, no more are read."""
 CLIENT_SHARE, CLIENT_BURST = 0.02, 0.05
-"""The share of the wall time for reading one client, and the time at once [s]."""
+"""The budget for reading one client: the share of the wall time, and the longest burst [s]."""
 ALL_SHARE, ALL_BURST = 0.04, 0.1
-"""The same for all clients together, except large frames and clients that a run in lock-step waits
-for."""
+"""The budget for reading all clients together, except large frames, and except clients for which a
+run in lock-step waits."""
 MAX_CLIENTS = 64
+"""The maximum number of clients."""
 PING_INTERVAL, PING_TIMEOUT = 20.0, 300.0
 """The interval of pings, and the time limit for their answers [s]."""
 CLOSE_TIMEOUT = 2.0
@@ -62,12 +64,12 @@ class WebBridge(Bridge):
 
     Args:
         bus: the bus of the simulation.
-        clock: returns the simulation time [s].
+        clock: a function that returns the simulation time [s].
         options: the address, and the clients that may connect.
         log: the log for events.
 
     Raises:
-        BadSetting: it cannot listen at the address.
+        BadSetting: the server cannot listen at the address.
     """
 
     traits = TransportTraits(relays_between_clients=True)
@@ -79,7 +81,7 @@ class WebBridge(Bridge):
         self._options = options
         self._sessions: set[Session] = set()
         self.graph = WebGraph(clock, self._sessions)
-        """The topics and services that clients may query."""
+        """The topics and services that clients can query."""
         self._readers = WebReaders(self.graph, self.subscribers, self.clock_topic)
         self._client_services = ClientServices(self.external_services, lambda: self.admission)
         self._republications = Republications(self.subscribers, self._readers, clock)
@@ -109,11 +111,11 @@ class WebBridge(Bridge):
         self.log.report(f"listening at ws://{options.host}:{self.port}", kind="listening")
 
     def on_topics(self, topics: Mapping[str, TopicEndpoints]) -> None:
-        """Store the topics, which clients query."""
+        """Store the topics of the bus for the clients."""
         self.graph.topics = dict(topics)
 
     def on_services(self, services: Mapping[str, Service]) -> None:
-        """Store the services, which clients query."""
+        """Store the services of the bus for the clients."""
         self.graph.services = dict(services)
 
     def send(self, topic: str, message: object) -> None:
@@ -127,9 +129,9 @@ class WebBridge(Bridge):
         self._readers.post(topic, content, client_name=sender)
 
     def _tick(self) -> None:
-        """Serve the clients that came before the first step, and publish the time if it is due.
+        """Publish the time if it is due; at the first step boundary, begin to serve clients.
 
-        Until then the topics on the bus are not known.
+        Before that, the topics on the bus are not known.
         """
         if not self._has_begun:
             self._has_begun = True
@@ -149,7 +151,7 @@ class WebBridge(Bridge):
         return any(session.has_advertised(topic) for session in tuple(self._sessions))
 
     def report_error(self, sender: str, text: str) -> None:
-        """Send a status to a client."""
+        """Send an error to a client, as a status message."""
         for session in tuple(self._sessions):
             if session.name == sender:
                 session.reply({"op": "status", "level": "error", "msg": text})
@@ -173,17 +175,17 @@ class WebBridge(Bridge):
         except OSError as error:
             self._port_future.set_exception(error)
         finally:
-            tasks = asyncio.all_tasks(self._loop)  # of clients that do not close
+            tasks = asyncio.all_tasks(self._loop)  # of clients that have not closed the connection
             for task in tasks:
                 task.cancel()
             self._loop.run_until_complete(asyncio.gather(*tasks, return_exceptions=True))
-            self._limits.abort_all()  # of clients that do not read, or sent no request yet
+            self._limits.abort_all()  # clients that do not read, or have sent no request yet
             self._loop.run_until_complete(self._loop.shutdown_asyncgens())
             self._loop.close()
 
     async def _listen(self) -> None:
         self._end_event = asyncio.Event()
-        ros2_store()  # loaded before there are clients, whose work is limited
+        ros2_store()  # loaded now, as later the time would count as work for a client
         options = self._options
         server = await serve(
             self._serve_client,
@@ -204,7 +206,7 @@ class WebBridge(Bridge):
         await self._end_event.wait()
         await _stop_accepting(server)
         server.close(code=1001, reason="the simulation has ended")
-        self._begin_event.set()  # clients from before the first step wait no longer
+        self._begin_event.set()  # release clients that still wait for the first step
         with suppress(TimeoutError):
             await asyncio.wait_for(server.wait_closed(), CLOSE_TIMEOUT)
 
@@ -251,9 +253,9 @@ class WebBridge(Bridge):
 
 
 async def _stop_accepting(server: Server) -> None:
-    """Accept no more clients, and let asyncio make the transports of those just accepted.
+    """Accept no more clients, and let asyncio make the transports of clients just accepted.
 
-    If a server closes before that, asyncio never closes them (python/cpython#109564).
+    If the server closes before that, asyncio never closes these (python/cpython#109564).
     """
     loop = asyncio.get_running_loop()
     for listener in server.sockets:
@@ -268,13 +270,13 @@ async def _write(connection: ServerConnection, session: Session) -> None:
 
 
 def _token_of(request: Request) -> bytes:
-    """Return the token of a request; empty if it has none, or an invalid one."""
+    """Return the token of a request; empty if the token is missing or cannot be read."""
     headers: Headers = request.headers
     try:
         token = parse_qs(urlsplit(request.path).query).get("token", [""])[0]
         token = token or headers.get("Authorization", "").removeprefix("Bearer ").strip()
         return token.encode(errors="surrogateescape")
-    except (ValueError, LookupError):  # an invalid address, two headers of one name
+    except (ValueError, LookupError):  # an invalid address, or two headers with one name
         return b""
 
 

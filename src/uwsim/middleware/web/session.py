@@ -1,4 +1,4 @@
-"""One web client: its publications, subscriptions and services, by the rosbridge protocol."""
+"""The session of one web client: its publications, subscriptions and services (rosbridge)."""
 
 from __future__ import annotations
 
@@ -31,8 +31,8 @@ from .readers import WebReaders
 from .republications import Republications
 
 MAX_KEYS = 200_000
-"""The maximum number of fields in a frame, each of those in lists counted; twice as many opening
-brackets, and four times as many quotation marks."""
+"""The maximum number of fields in a frame, also of objects in lists. A frame may have twice as many
+opening brackets, and four times as many quotation marks."""
 MAX_NAMES = 1000
 """The maximum number of topics, and of services, of one client."""
 
@@ -42,7 +42,7 @@ class SessionParts:
     """The parts of a bridge that its clients share."""
 
     graph: WebGraph
-    """The topics and services that clients may query."""
+    """The topics and services that clients can query."""
     readers: WebReaders
     """The topics that clients read."""
     services: ClientServices
@@ -52,7 +52,7 @@ class SessionParts:
 
 
 class Session:
-    """The handler of one client's operations; in the thread of the server, except `post`.
+    """The handler of one client's operations, in the thread of the server except where stated.
 
     Args:
         bridge: the bridge to the bus.
@@ -127,7 +127,7 @@ class Session:
         return admission is not None and admission.is_waited_for(self._name)
 
     def reply(self, content: dict[str, Any]) -> None:
-        """Send an object, after all that waits already. Any thread."""
+        """Send a JSON object, after all messages that wait already. Any thread."""
         text = json.dumps({key: value for key, value in content.items() if value is not None})
         self._queue.put(self._replies, text)
 
@@ -165,15 +165,15 @@ class Session:
         return topic in self._subscriptions
 
     def close(self) -> None:
-        """Remove all subscriptions and offers of the client, which has left."""
+        """Remove all subscriptions and services of the client, which has left."""
         for topic in list(self._subscriptions):
             self._drop(topic)
         for name in self._services:
-            self._parts.services.withdraw(name, self)
+            self._parts.services.unadvertise(name, self)
         self._services.clear()
         self._parts.republications.end(self)
         with self._lock:
-            self._has_left = True  # from here on, no call waits for it
+            self._has_left = True  # from now on, no call waits for the client
         for future, _ in self._calls.values():
             if not future.done():
                 future.set_exception(UwsimError(f"{self._name} has left."))
@@ -217,7 +217,7 @@ class Session:
         self._bridge.put(topic, message, self._name)
 
     def _republish(self, topic: str, message: Any) -> None:
-        """Handle a goal for transforms, or a cancellation."""
+        """Handle a goal of the action that publishes transforms, or a cancellation."""
         fields = message if isinstance(message, dict) else {}
         if topic == GOAL:
             goal_id = fields.get("goal_id")
@@ -301,13 +301,13 @@ class Session:
         name, service_type = name_in(frame, "service"), service(text_in(frame, "type"))
         self._limit(self._services)
         self._services.add(name)
-        self._parts.services.offer(name, service_type, self)
+        self._parts.services.advertise(name, service_type, self)
 
     def _unadvertise_service(self, frame: dict[str, Any]) -> None:
         name = name_in(frame, "service")
         if name in self._services:
             self._services.discard(name)
-            self._parts.services.withdraw(name, self)
+            self._parts.services.unadvertise(name, self)
 
     def _service_response(self, frame: dict[str, Any]) -> None:
         future, cls = self._calls.pop(str(frame.get("id")), (None, None))
@@ -329,11 +329,11 @@ class Session:
 
 
 def _ignore(frame: dict[str, Any]) -> None:
-    """Do nothing: only errors are reported to clients."""
+    """Ignore the level of status messages: clients receive errors only."""
 
 
 def read_frame(data: str | bytes) -> dict[str, Any]:
-    """Return the object in a frame, which has a text under ``op``.
+    """Parse a frame: a JSON object with the name of an operation under ``op``.
 
     Raises:
         BadMessage: the frame has no such object.
@@ -359,7 +359,7 @@ def read_frame(data: str | bytes) -> dict[str, Any]:
 
 
 def _is_json(value: object) -> bool:
-    """Return whether every JSON parser accepts a value: NaN is not accepted."""
+    """Return whether a value is valid JSON, which has no NaN and no infinite numbers."""
     try:
         json.dumps(value, allow_nan=False)
     except ValueError:
@@ -368,7 +368,7 @@ def _is_json(value: object) -> bool:
 
 
 def text_in(frame: dict[str, Any], key: str) -> str:
-    """Return a text of a frame; raise BadMessage if it is missing."""
+    """Return a text in a frame; raise BadMessage if it is missing or not a name."""
     value = frame.get(key)
     if not isinstance(value, str) or not value.strip("/ ") or len(value) > 500:
         raise BadMessage(f"{frame['op']}: {key} is {value!r:.100}; expected a name.")
@@ -376,7 +376,7 @@ def text_in(frame: dict[str, Any], key: str) -> str:
 
 
 def name_in(frame: dict[str, Any], key: str) -> str:
-    """Return a name of a frame without its leading slash; raise BadMessage if it is invalid."""
+    """Return a name in a frame without its leading slash; raise BadMessage if it is invalid."""
     name = text_in(frame, key).strip().lstrip("/")
     if not name.isprintable():
         raise BadMessage(f"{frame['op']}: {key} {name!r:.100} has characters that no name has.")
@@ -384,7 +384,7 @@ def name_in(frame: dict[str, Any], key: str) -> str:
 
 
 def number_in(frame: dict[str, Any], key: str) -> float:
-    """Return a number >= 0 of a frame, 0 if it is missing; raise BadMessage if it is invalid."""
+    """Return a number >= 0 in a frame, 0 if it is missing; raise BadMessage if it is invalid."""
     value = frame.get(key) or 0
     if isinstance(value, bool) or not isinstance(value, int | float) or not 0 <= value < 1e9:
         raise BadMessage(f"{frame['op']}: {key} is {value!r:.100}; expected a number >= 0.")
