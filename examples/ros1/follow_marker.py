@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Move a vehicle with a marker in RViz, as the original's followMarker.
+"""Move a vehicle with a marker in RViz, as UWSim's followMarker.
 
     follow_marker.py TOPIC [x y z roll pitch yaw [markerScale controlScale [xRot yRot zRot]]]
 

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Move a vehicle to a pose, as the original's gotoAbsolutePose and gotoRelativePose: 30 Hz.
+"""Move a vehicle to a pose, as UWSim's gotoAbsolutePose and gotoRelativePose: 30 Hz.
 
     goto_pose.py absolute|relative ODOMETRY_TOPIC CONTROL_TOPIC x y z roll pitch yaw   m and rad
 

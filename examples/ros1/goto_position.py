@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Move a vehicle to a position, similar to the original's gotoAbsolutePose.
+"""Move a vehicle to a position, similar to UWSim's gotoAbsolutePose.
 
     goto_position.py ODOMETRY_TOPIC POSE_TOPIC x y z        m
 
@@ -38,8 +38,8 @@ def main() -> None:
             continue
         pose = latest_poses[-1]
         latest_poses[:] = [pose]
-        place = (pose.position.x, pose.position.y, pose.position.z)
-        distance = math.dist(goal, place)
+        current_position = (pose.position.x, pose.position.y, pose.position.z)
+        distance = math.dist(goal, current_position)
         if distance < GOAL_TOLERANCE:
             print("goal reached")
             return
@@ -47,7 +47,7 @@ def main() -> None:
         command = Pose(orientation=pose.orientation)
         position = command.position
         position.x, position.y, position.z = (
-            p + step * (g - p) for p, g in zip(place, goal, strict=True)
+            p + step * (g - p) for p, g in zip(current_position, goal, strict=True)
         )
         publisher.publish(command)
 

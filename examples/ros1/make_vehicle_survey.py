@@ -1,10 +1,10 @@
 #!/usr/bin/python3
-"""Move a vehicle along the lanes of a survey, as the original's makeVehicleSurvey: 20 Hz.
+"""Move a vehicle along the lanes of a survey, as UWSim's makeVehicleSurvey: 20 Hz.
 
     make_vehicle_survey.py TOPIC x y z yaw length step       m and rad
 
 At the angle a, 0.01 rad more each time, it is at (x + length sin a, y + step a, z); its yaw is
-(pi/2)(1 - cos a), with the sign of STEP. As in the original, YAW is not used.
+(pi/2)(1 - cos a), with the sign of STEP. As in UWSim, YAW is not used.
 With `uwsim run cirs --ros1`:  make_vehicle_survey.py /dataNavigator 0 0 2 0 2 0.2
 """
 

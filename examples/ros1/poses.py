@@ -16,7 +16,7 @@ def multiply(a, b):
 
 
 def quaternion(roll, pitch, yaw):
-    """Return the quaternion of Rx Ry Rz, the order of the original's programs [rad]."""
+    """Return the quaternion of Rx Ry Rz, the order of UWSim's programs [rad]."""
     x = (math.sin(roll / 2), 0.0, 0.0, math.cos(roll / 2))
     y = (0.0, math.sin(pitch / 2), 0.0, math.cos(pitch / 2))
     z = (0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2))

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Hold the joints of an arm at positions, as the original's setJointPosition: 30 Hz.
+"""Hold the joints of an arm at positions, as UWSim's setJointPosition: 30 Hz.
 
     set_joint_position.py TOPIC q1 q2 q3 q4 q5              rad
 

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Move the joints of an arm at velocities, as the original's setJointVelocity: 30 Hz.
+"""Move the joints of an arm at velocities, as UWSim's setJointVelocity: 30 Hz.
 
     set_joint_velocity.py TOPIC v1 v2 v3 v4 v5              rad/s
 

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Command thrusters by std_msgs/Float64MultiArray, as the original's setVehicleActuators: 5 Hz.
+"""Command thrusters by std_msgs/Float64MultiArray, as UWSim's setVehicleActuators: 5 Hz.
 
     set_vehicle_actuators.py TOPIC u1 ... un                -1 to 1 each
 

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Rock a vehicle about its start pose, as the original's setVehicleDisturbances: 25 Hz.
+"""Rock a vehicle about its start pose, as UWSim's setVehicleDisturbances: 25 Hz.
 
     set_vehicle_disturbances.py ODOMETRY_TOPIC CONTROL_TOPIC ax ay az ar ap ay    m and rad
 

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Hold a vehicle at a pose by geometry_msgs/Pose, as the original's setVehiclePose: 25 Hz.
+"""Hold a vehicle at a pose by geometry_msgs/Pose, as UWSim's setVehiclePose: 25 Hz.
 
     set_vehicle_pose.py TOPIC x y z roll pitch yaw          m and rad; the rotation is Rx Ry Rz
 

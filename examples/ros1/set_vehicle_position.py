@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Hold a vehicle at a pose by nav_msgs/Odometry, as the original's setVehiclePosition: 10 Hz.
+"""Hold a vehicle at a pose by nav_msgs/Odometry, as UWSim's setVehiclePosition: 10 Hz.
 
     set_vehicle_position.py TOPIC x y z roll pitch yaw      m and rad; the rotation is Rx Ry Rz
 

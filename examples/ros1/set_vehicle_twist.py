@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Drive a vehicle by geometry_msgs/TwistStamped, as the original's setVehicleTwist: 25 Hz.
+"""Drive a vehicle by geometry_msgs/TwistStamped, as UWSim's setVehicleTwist: 25 Hz.
 
     set_vehicle_twist.py TOPIC vx vy vz wr wp wy            m/s and rad/s, body frame
 

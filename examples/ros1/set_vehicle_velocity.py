@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Drive a vehicle at a velocity, as the original's setVehicleVelocity: 25 Hz until interrupted.
+"""Drive a vehicle at a velocity, as UWSim's setVehicleVelocity: 25 Hz until interrupted.
 
     set_vehicle_velocity.py TOPIC vx vy vz wr wp wy         m/s and rad/s, body frame
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Add a mesh to the scene, or delete it, as the original's spawnMarker; needs `websockets`.
+"""Add a mesh to the scene, or delete it, as UWSim's spawnMarker; needs `websockets`.
 
     spawn_marker.py add|del NS ID MESH x y z roll pitch yaw [--uri ws://127.0.0.1:9090]   m and rad
 

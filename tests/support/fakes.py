@@ -20,13 +20,13 @@ from uwsim.world import Actuators, Body, BodyMotion, Box, Camera, Contact, Flow
 from uwsim.world.mounts import MOUNT
 
 
-def place_fixed(parameters: int, values: int, time: float) -> None:
-    """Write the frame of the last `FakeBody.prepare`."""
+def write_pose(parameters: int, values: int, time: float) -> None:
+    """Write the pose that the last `FakeBody.prepare` stored."""
     view_doubles(values, 12)[:] = view_doubles(parameters, 12)
 
 
-def move_fixed(parameters: int, values: int, time: float) -> None:
-    """Write the motion of the last `FakeBody.prepare`."""
+def write_motion(parameters: int, values: int, time: float) -> None:
+    """Write the motion that the last `FakeBody.prepare` stored."""
     view_doubles(values + 24, 9)[:] = view_doubles(parameters + 96, 9)
 
 
@@ -48,8 +48,8 @@ class FakeBody:
         self.motion: Callable[[], BodyMotion] | None = None
         self._numbers = np.zeros(21)
         self.functions = np.zeros(1, MOUNT)
-        self.functions["pose"] = function_address(place_fixed)
-        self.functions["motion"] = function_address(move_fixed)
+        self.functions["pose"] = function_address(write_pose)
+        self.functions["motion"] = function_address(write_motion)
         self.functions["parameters"] = address_of(self._numbers)
         if rotation is not None:
             self.turn(rotation)

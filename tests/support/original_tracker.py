@@ -1,4 +1,4 @@
-"""A tracker like those of the original: without lock-step, and with two outputs.
+"""A tracker like those of the original UWSim: without lock-step, and with two outputs.
 
 It subscribes to the images, calls ``startBench`` at the first, and publishes nothing until its
 service ``autoInit`` is called. From then on it publishes corners and centroid for each image: the

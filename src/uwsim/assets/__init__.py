@@ -1,4 +1,4 @@
-"""Assets: models by the names that scene files use, from files or generated.
+"""Assets: find and read the models that scene and robot files name, or generate stand-ins.
 
 `load_model` searches for the file (`find.py`), then for a readable file of the same stem, then for
 the generated replacement of that relative name (`STAND_INS`).
@@ -59,7 +59,7 @@ __all__ = [
 def load_model(
     name: str, *, named_by: Path | None = None, data_path: tuple[Path, ...] = ()
 ) -> Model:
-    """Return the model called ``name``, as a scene or robot file calls it.
+    """Return the model that a scene or robot file names.
 
     Args:
         name: Path, absolute or relative, of a mesh file.
@@ -67,7 +67,7 @@ def load_model(
         data_path: Further folders to search.
 
     Raises:
-        AssetNotFound: There is neither a file nor a stand-in; it lists the folders searched.
+        AssetNotFound: There is neither a file nor a stand-in; the message lists the folders.
         AssetError: The file was found and cannot be read.
     """
     path = _model_path(name, named_by, data_path)
@@ -76,8 +76,8 @@ def load_model(
         in_package = package_of(requested_name)
         if in_package is not None and in_package[0] != UWSIM_PACKAGE:
             name = "/".join(in_package)
-        places = [*roots(named_by=named_by or path, data_path=data_path), *environment_folders()]
-        root = max(places, key=lambda root: len(root.parts) if is_inside(path, [root]) else -1)
+        folders = [*roots(named_by=named_by or path, data_path=data_path), *environment_folders()]
+        root = max(folders, key=lambda root: len(root.parts) if is_inside(path, [root]) else -1)
         allowed_folders = (root.absolute(), *data_path)
         return read_model(path, name=name, allowed_folders=allowed_folders)
     stand_in = _stand_in_of(requested_name, named_by, data_path)
@@ -96,16 +96,16 @@ def load_model(
 
 def has_model(name: str, *, named_by: Path | None = None, data_path: tuple[Path, ...] = ()) -> bool:
     """Return whether `load_model` finds a file or a stand-in."""
-    is_there = _model_path(name, named_by, data_path) is not None
-    return is_there or _stand_in_of(name, named_by, data_path) is not None
+    has_file = _model_path(name, named_by, data_path) is not None
+    return has_file or _stand_in_of(name, named_by, data_path) is not None
 
 
 def model_location_remark(
     name: str, *, named_by: Path | None = None, data_path: tuple[Path, ...] = ()
 ) -> str:
-    """Report that the file of a model is another than its name states; empty if it is that one.
+    """Return a remark if the file of a model is not the one that its name states; otherwise "".
 
-    A file of OpenSceneGraph's formats is silently replaced by its conversion to another format.
+    There is no remark if the name has a format of OpenSceneGraph and another format is read.
     """
     suffix = PurePosixPath(plain_name(name)).suffix.lower()
     if suffix not in MESH_FORMATS and not states_location(name):
@@ -124,7 +124,7 @@ def model_location_remark(
 def model_read_error(
     name: str, *, named_by: Path | None = None, data_path: tuple[Path, ...] = ()
 ) -> str:
-    """Return why the file that `load_model` finds is not readable; empty if it is, or is absent."""
+    """Return why the file that `load_model` finds cannot be read; otherwise ""."""
     try:
         load_model(name, named_by=named_by, data_path=data_path)
     except AssetNotFound:
@@ -137,7 +137,7 @@ def model_read_error(
 def model_remarks(
     name: str, *, named_by: Path | None = None, data_path: tuple[Path, ...] = ()
 ) -> tuple[str, ...]:
-    """Return the defects of the file that `load_model` finds and reads in part."""
+    """Return remarks on the unreadable parts of the file that `load_model` finds."""
     try:
         path = _model_path(name, named_by, data_path)
         if path is None or path.suffix.lower() in (".stl", ".ply"):  # these have no materials
@@ -179,7 +179,7 @@ def unknown_model(name: str) -> Model:
 
 
 def _stand_in_of(name: str, named_by: Path | None, data_path: tuple[Path, ...]) -> str | None:
-    """Return the stand-in for a name; a package that is found has its own files only."""
+    """Return the name of the stand-in for a model; None in another package that is found."""
     in_package = package_of(name)
     if in_package is not None and in_package[0] != UWSIM_PACKAGE:
         folders = package_folders(in_package[0], parent_folders(named_by), data_path)

@@ -1,4 +1,4 @@
-"""Paths of the files named on the command line: as given, or bundled under a bare name."""
+"""Paths of scenes and benchmarks by name: files of the user, or bundled files."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from ..errors import AssetNotFound, did_you_mean
 
 
 def bundled_files(kind: str, suffix: str = ".xml") -> dict[str, Path]:
-    """Return the bundled files of a kind, ``scenes`` or ``benchmarks``: bare name -> path."""
+    """Return the paths of the bundled files in a folder of ``data``, by name without suffix."""
     folder = Path(str(resources.files("uwsim"))) / "data" / kind
     return {
         path.stem: path for path in sorted(folder.glob(f"*{suffix}"), key=lambda file: file.stem)
@@ -17,7 +17,7 @@ def bundled_files(kind: str, suffix: str = ".xml") -> dict[str, Path]:
 
 
 def resolve_bundled(file: Path) -> Path:
-    """Return the bundled scene or benchmark of that bare name, where there is no such file."""
+    """Return a file if it exists, or else the bundled scene or benchmark of that name."""
     if file.exists():
         return file
     return {**bundled_files("scenes"), **bundled_files("benchmarks")}.get(str(file), file)
@@ -31,7 +31,7 @@ def scene_file(
     A scene that a file names (``named_by``) is in a folder that is searched.
 
     Raises:
-        AssetNotFound: there is none; it lists the folders searched and the nearest bundled name.
+        AssetNotFound: there is no such scene; the message lists folders and the nearest name.
     """
     return _resolve_file(name, "scenes", data_path, named_by)
 

@@ -1,6 +1,6 @@
-"""The unit and the vertical axis that a Collada file states of itself.
+"""The unit and the vertical axis that a Collada file states.
 
-Programs differ in what they apply of ``<asset> <unit meter=""/> <up_axis/> </asset>``:
+Programs apply different parts of ``<asset> <unit meter=""/> <up_axis/> </asset>``:
 
 - RViz (``mesh_loader.cpp``, ``getMeshUnitRescale``) and Gazebo (``ColladaLoader.cc``) apply the
   unit, and leave the axes as they are.
@@ -23,7 +23,7 @@ import numpy as np
 from ..base.geometry import Array
 
 MAX_UNIT = 1e6
-"""The greatest unit [m]; greater ones, and those below 1 / `MAX_UNIT`, are mistakes."""
+"""The greatest unit [m]; greater units, and units below 1 / `MAX_UNIT`, are mistakes."""
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""Unit and axes of Collada files, as robot files and scene files apply them.
+"""The unit and axes of Collada files, as they apply in robot files and in scene files.
 
 Robot files apply the unit, as RViz and Gazebo do. Scene files rotate the vertical axis to z, as
 UWSim's OpenSceneGraph does (`collada_asset`). Other formats state neither.
@@ -18,7 +18,7 @@ Scale = tuple[float, float, float]
 
 
 def robot_scale(model: Model, scale: Scale) -> Scale:
-    """Return the scale of a robot's mesh, including that of its unit [m].
+    """Return the scale of a robot's mesh, times the unit of the mesh [m].
 
     Args:
         model: the mesh, in its own unit.

@@ -3,18 +3,18 @@
 The search for a name reads, in this order:
 
 1. the folder of the file that names it and the parent folders below the home folder;
-2. the name as given, every data path, ``~/.uwsim/data`` and ``~/.uwsim``;
-3. for the name without its first folders, the folder of that file and every data path;
-4. the package.
+2. the current folder, every data path, ``~/.uwsim/data`` and ``~/.uwsim``;
+3. for the name without its first folders: the folder of that file and every data path;
+4. the folder of this Python package.
 
-All but step 3 include `SUBFOLDERS`. By step 3, a copied scene finds its files next to it.
+All steps but 3 include `SUBFOLDERS`. By step 3, a copied scene finds the files next to it.
 
 ``package://NAME/PATH`` is the file PATH of the package NAME (`packages`). Where there is no such
 package, and for the package ``uwsim``, the search is for PATH. For an absolute path of another
 computer, it is for the last two or more parts of the path, then for the last one as in step 3.
 
-A file that another file names is under one of these folders, links followed. Any other path is an
-error.
+A file that another file names must be in one of these folders after links are resolved; other paths
+are an error.
 """
 
 from __future__ import annotations
@@ -61,7 +61,7 @@ def roots(*, named_by: Path | None = None, data_path: tuple[Path, ...] = ()) -> 
 
 
 def parent_folders(named_by: Path | None) -> list[Path]:
-    """Return the folder of a file, and those above it that are searched, from the inside."""
+    """Return the folder of a file, and the folders above it that are searched, innermost first."""
     if named_by is None:
         return []
     start = named_by.absolute()
@@ -88,13 +88,13 @@ def find(
     """Return the file called ``name``, or None when it is in none of the folders searched.
 
     Raises:
-        AssetError: it is in another folder, and a file (``named_by``) names it.
+        AssetError: a file (``named_by``) names a file outside of these folders.
     """
     return next(candidates([name], named_by=named_by, data_path=data_path), None)
 
 
 def bundled_robot(name: str) -> Path | None:
-    """Return the bundled robot file of that file name, in any folder; None if there is none."""
+    """Return the bundled robot file with the file name in a path; None if there is none."""
     file_name = plain_name(name).replace("\\", "/").rpartition("/")[2]
     paths = (PACKAGE / folder / file_name for folder in ROBOT_FOLDERS)
     return next((path for path in paths if file_name and _has_kind(path, Path.is_file)), None)
@@ -113,7 +113,7 @@ def candidates(
     """Yield every file that has one of the names, name by name, in the order of search.
 
     Raises:
-        AssetError: all are in other folders, and a file (``named_by``) names them.
+        AssetError: a file (``named_by``) names only files outside of these folders.
     """
     folders = roots(named_by=named_by, data_path=data_path)
     allowed_folders = [*folders, *environment_folders()]
@@ -135,7 +135,7 @@ def candidates(
 def _places(
     names: Sequence[str], roots: Sequence[Path], named_by: Path | None, data_path: tuple[Path, ...]
 ) -> Iterator[tuple[str, Path]]:
-    """Yield the name and the path of every file, in its package or else in the folders."""
+    """Yield the name and the path of every file, in the package or else in the folders."""
     in_package = package_of(names[0]) if names else None
     is_package = False
     if in_package is not None:
@@ -161,20 +161,25 @@ def _near_folders(named_by: Path | None, data_path: tuple[Path, ...]) -> list[Pa
 def _paths(
     names: Sequence[str], roots: Sequence[Path], near_folders: Sequence[Path], *, is_named: bool
 ) -> Iterator[tuple[str, Path]]:
-    """Yield the name and the path of every file; ``is_named`` in a file, not by the user."""
+    """Yield the name and the path of every file in folders.
+
+    Args:
+        names: the names to search.
+        roots: the folders that are searched with their `SUBFOLDERS`.
+        near_folders: the folders that are searched for names without their first folders.
+        is_named: True if a file names the files, and not the user.
+    """
     n_roots = len(roots) - (roots[-1] == PACKAGE)
     groups = {"roots": roots[:n_roots], "near": near_folders, "package": roots[n_roots:]}
     folders: dict[tuple[str, Path], list[Path]] = {}  # by the folder in the name
 
     def files(name: Path, group: str) -> Iterator[Path]:
         if (group, name.parent) not in folders:
-            places = (root / sub / name.parent for root in groups[group] for sub in SUBFOLDERS)
-            folders[group, name.parent] = [
-                place for place in places if _has_kind(place, Path.is_dir)
-            ]
-        for place in folders[group, name.parent]:
-            if _has_kind(place / name.name, Path.is_file):
-                yield place / name.name
+            paths = (root / sub / name.parent for root in groups[group] for sub in SUBFOLDERS)
+            folders[group, name.parent] = [path for path in paths if _has_kind(path, Path.is_dir)]
+        for folder in folders[group, name.parent]:
+            if _has_kind(folder / name.name, Path.is_file):
+                yield folder / name.name
 
     for name in names:
         file_name = plain_name(name)
@@ -194,7 +199,7 @@ def _paths(
 
 
 def _tails(name: str) -> list[tuple[Path, str]]:
-    """Return the last parts of an absolute path, the longest first, each with its folders."""
+    """Return the ends of an absolute path, longest first, each with the group that is searched."""
     parts = [part for part in name.replace("\\", "/").split("/")[1:] if part]
     if not parts or ".." in parts:
         return []

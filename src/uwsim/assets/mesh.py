@@ -21,7 +21,7 @@ class Texture:
     pixels: npt.NDArray[np.uint8]
     """The stored values (no gamma applied), (h, w, 3), row 0 at the top."""
     repeats: bool = True
-    """The wrap mode: True repeats the image outside 0..1, False clamps it."""
+    """True if the image repeats outside the coordinates 0..1; False if its edge continues there."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -38,22 +38,23 @@ class Mesh:
     triangles: npt.NDArray[np.uint32]
     """The vertex indices, (m, 3), counter-clockwise as seen from outside."""
     colour: tuple[float, float, float] = (1.0, 1.0, 1.0)
-    """The factor of the texture's colour, 0..1."""
+    """The colour, by which the texture is multiplied: red, green, blue, 0..1."""
     texture: Texture | None = None
     """The texture; without one, the colour alone is drawn."""
     opacity: float = 1.0
     """The opacity, from 0 (invisible) to 1 (opaque)."""
     two_sided: bool = False
-    """The drawing of back faces: True draws them, too."""
+    """True if back faces are drawn as well."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Model:
-    """A model: meshes in one frame."""
+    """A model: several meshes in one frame."""
 
     name: str
     """The name under which the model was loaded."""
     meshes: tuple[Mesh, ...]
+    """The meshes, each of one material."""
     source: str
     """The origin: ``"file"``, ``"stand-in"`` (modelled) or ``"labelled box"`` (a placeholder)."""
     sha256: str = ""
@@ -61,7 +62,7 @@ class Model:
     files: tuple[InputFile, ...] = ()
     """The file and all files that were read with it: materials, buffers, images."""
     asset: ColladaAsset | None = None
-    """The unit and axes that a Collada file states; its vertices are as in the file."""
+    """The unit and axes that a Collada file states; they are not applied to the vertices."""
     remarks: tuple[str, ...] = ()
     """The parts of the file that are unreadable, and were left out or replaced."""
     box: Box = field(init=False)

@@ -1,4 +1,4 @@
-"""Meshes of robots that are likely not in metres."""
+"""Remarks about meshes of robots that are likely not in metres."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from . import load_model
 from .conventions import robot_scale
 
 MAX_LENGTH = 100.0
-"""The greatest length of a robot [m]; one of 0.1 m in millimetres is as long."""
+"""The greatest length of a mesh in metres [m]; a mesh of 0.1 m in millimetres has this length."""
 
 
 def mesh_unit_remark(
@@ -19,7 +19,7 @@ def mesh_unit_remark(
     named_by: Path | None = None,
     data_path: tuple[Path, ...] = (),
 ) -> str:
-    """Report that the mesh of a robot is likely not in metres; empty if it may be, or is absent.
+    """Return a remark if the mesh of a robot is likely not in metres; otherwise "".
 
     Args:
         name: the name of the mesh in the robot file.

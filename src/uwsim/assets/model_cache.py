@@ -27,12 +27,12 @@ _ARRAYS = ("vertices", "normals", "uvs", "triangles")
 
 
 class CacheMiss(Exception):
-    """The error of a file that the cache lacks, or that is damaged."""
+    """The error if the cache does not contain a file, or contains a damaged one."""
 
 
 @cache
 def generated_model(name: str) -> Model:
-    """Return the generated model of that name in `STAND_INS`, from the cache if possible."""
+    """Return the generated model of a name in `STAND_INS`, from the cache if possible."""
     file = disk_cache.cache_folder("models") / _key() / (name.replace("/", "-") + ".npz")
     try:
         return _read(name, file)

@@ -1,4 +1,4 @@
-"""ROS packages: the folders of a package's name, in ``package://NAME/...``.
+"""Search of the folders of ROS packages, which files name as ``package://NAME/...``.
 
 A package is a folder called NAME, or one whose ``package.xml`` states that name. The search reads
 
@@ -12,7 +12,7 @@ A package is a folder called NAME, or one whose ``package.xml`` states that name
 Folders in another package come after all others: Gazebo's models usually are
 ``PACKAGE/models/NAME/model.config``.
 
-The package ``uwsim`` is that of the original, whose files are also found without its name.
+The package ``uwsim`` is that of the original UWSim, whose files are also found without its name.
 """
 
 from __future__ import annotations
@@ -75,38 +75,41 @@ def package_of(name: str) -> tuple[str, str] | None:
 def package_folders(
     package: str, parents: Iterable[Path], data_path: Iterable[Path] = ()
 ) -> Iterator[Path]:
-    """Yield every folder that a package's name may denote, the likeliest first.
+    """Yield every folder that may be the package of a name, in the order of the search.
 
     Args:
-        package: its name.
-        parents: the folder of the file that names it, and those above it, from the inside.
+        package: the name of the package.
+        parents: the folder of the file that names it, and the folders above, innermost first.
         data_path: the user's folders.
     """
     known_folders: set[Path] = set()
-    for folders in _places(package, list(parents), data_path):
+    for folders in _candidate_groups(package, list(parents), data_path):
         yield from _new_folders(folders, known_folders)
 
 
 def same_named_folders(
     package: str, parents: Iterable[Path], data_path: Iterable[Path] = ()
 ) -> list[Path]:
-    """Return the folders of a package in the first place that has it; several are ambiguous.
+    """Return the folders of a package in the first step of the search that finds any.
+
+    Several folders are ambiguous.
 
     Args:
-        package: its name.
-        parents: the folder of the file that names it, and those above it, from the inside.
+        package: the name of the package.
+        parents: the folder of the file that names it, and the folders above, innermost first.
         data_path: the user's folders.
     """
-    places = (
-        list(_new_folders(place, set())) for place in _places(package, list(parents), data_path)
+    groups = (
+        list(_new_folders(group, set()))
+        for group in _candidate_groups(package, list(parents), data_path)
     )
-    return next((folders for folders in places if folders), [])
+    return next((folders for folders in groups if folders), [])
 
 
-def _places(
+def _candidate_groups(
     package: str, parents: list[Path], data_path: Iterable[Path]
 ) -> Iterator[Iterable[Path]]:
-    """Yield the folders that may be the package, place by place, in the order of search."""
+    """Yield the folders that may be the package, step by step, in the order of the search."""
     if not NAME.fullmatch(package):
         return
     for folder in parents:
@@ -176,7 +179,7 @@ def _declared_name(folder: Path) -> str:
 
 @dataclass(frozen=True)
 class _Index:
-    """The packages below a folder, and the modification times of all that was read for it."""
+    """The packages below a folder, and the modification times of the files and folders read."""
 
     stamps: dict[Path, int]
     packages: dict[str, tuple[Path, ...]]
@@ -189,7 +192,7 @@ _indices: dict[tuple[Path, int], _Index] = {}
 
 
 def _packages_below(root: Path, depth: int) -> dict[str, tuple[Path, ...]]:
-    """Return name -> folders below a root, those with a ``package.xml`` of that name first."""
+    """Return the folders of packages below a root by name, those with a ``package.xml`` first."""
     index = _indices.get((root, depth))
     if index is None or not index.is_current():
         index = _indices[root, depth] = _walk(root, depth)
@@ -251,7 +254,7 @@ def _walk_packages(
 
 
 def _new_children(level: Iterable[Path], stamps: dict[Path, int], limit: int) -> Iterator[Path]:
-    """Yield the folders in those of a level, and stamp them, until there are ``limit``."""
+    """Yield the subfolders of folders, and add their time stamps, until there are ``limit``."""
     for folder in level:
         for child in _children(folder) if len(stamps) < limit else ():
             if child not in stamps:

@@ -1,4 +1,4 @@
-"""Colour of a robot file's material, applied to a mesh in place of its own."""
+"""The colour of a material in a robot file, applied to a mesh in place of its own colour."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ Colour = tuple[float, float, float, float]
 
 @lru_cache(maxsize=1024)
 def paint_model(model: Model, colour: Colour) -> Model:
-    """Return the model in another colour: the same object for the same colour.
+    """Return the model in another colour; calls with equal arguments return one object.
 
     The colour replaces that of the mesh and is multiplied with its texture. (UWSim and RViz prefer
     the mesh's own materials, so that the file's colour shows on meshes without any.)

@@ -1,4 +1,4 @@
-"""Projected images: red, green, blue and opacity."""
+"""The images that structured-light projectors project: red, green, blue and opacity."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def read_pattern(path: Path) -> npt.NDArray[np.uint8]:
     """Read an image, (h, w, 4), row 0 at the top; one without opacity is opaque.
 
     Raises:
-        AssetError: it is not an image of `FORMATS`, or too large.
+        AssetError: the file is not an image in one of `FORMATS`, or is too large.
     """
     from PIL import Image
 

@@ -1,4 +1,4 @@
-"""Remarks on places: of files found elsewhere than their name states, and of missing packages."""
+"""Remarks about files that are found elsewhere than their names state, and missing packages."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .packages import UWSIM_PACKAGE, package_folders, package_of, same_named_fol
 def package_remark(
     name: str, *, named_by: Path | None = None, data_path: tuple[Path, ...] = ()
 ) -> str:
-    """Report that the package of a name is not found, or where it is; empty without a package.
+    """Return a remark that states where the package of a name is, or that it is not found.
 
     Args:
         name: the name of a file that is not found, in a scene or robot file.
@@ -35,21 +35,21 @@ def package_remark(
 def describe_search(
     name: str, *, named_by: Path | None = None, data_path: tuple[Path, ...] = ()
 ) -> str:
-    """Report where a missing file was searched: its package, or the folders that exist."""
+    """Return the text that states where a missing file was searched."""
     remark = package_remark(name, named_by=named_by, data_path=data_path)
     folders = searched_folders(named_by=named_by, data_path=data_path)
     return remark or f"searched: {', '.join(str(path) for path in folders if path.is_dir())}"
 
 
 def states_location(name: str) -> bool:
-    """Return whether a name states a place, so that its file may be found in another."""
+    """Return whether a name states a folder or a package, so that a file may be found elsewhere."""
     return package_of(name) is not None or is_absolute(plain_name(name))
 
 
 def location_remark(
     name: str, path: Path | None, *, named_by: Path | None = None, data_path: tuple[Path, ...] = ()
 ) -> str:
-    """Report that a file was found elsewhere than its name states; empty where it is there.
+    """Return a remark if a file was found elsewhere than its name states; otherwise "".
 
     Args:
         name: the name of the file in a scene or robot file.

@@ -19,12 +19,12 @@ from ..base.numerics.opencv import deterministic_opencv
 from .mesh import Model, Texture
 
 CACHE_SIZE = 16
-"""The number of cached models: each seed of a scene that varies has others."""
+"""The number of cached models; each seed of a scene with variations has other models."""
 
 
 @lru_cache(maxsize=CACHE_SIZE)
 def weather_model(model: Model, pattern: int, strength: float) -> Model:
-    """Return the model with a pattern of clouds on it; pattern 0 or strength 0 is the model."""
+    """Return the model with a pattern of patches; unchanged with the pattern 0 or strength 0."""
     if pattern == 0 or strength == 0.0:
         return model
     textures: dict[int, Texture] = {}  # one for all meshes that share the texture

@@ -1,4 +1,4 @@
-"""The command line: the table of commands, and the handling of errors.
+"""The command line ``uwsim``: the table of commands, and the handling of errors.
 
 A command is a function with typer's annotations in a separate module. `COMMANDS` lists them; only
 the requested one is imported, so that ``uwsim --help`` takes less than 0.3 s.
@@ -26,12 +26,12 @@ from .options.option_groups import flatten_options
 
 @dataclass(frozen=True, kw_only=True)
 class Command:
-    """A command: its module, and its summary in ``uwsim --help``."""
+    """A command of ``uwsim``, which is imported only when it runs."""
 
     module: str
-    """The name of its module in this package."""
+    """The name of the command's module in this package."""
     function: str
-    """The function in that module; its docstring is the command's help."""
+    """The name of the function in that module, whose docstring is the help of the command."""
     summary: str
     """The summary in one line for ``uwsim --help``."""
     examples: tuple[str, ...]
@@ -157,7 +157,7 @@ First steps:
 """
 TRACEBACK = "--traceback"
 CLOSED_OUTPUT = 1
-"""The exit status if the reader closes the output, as in ``uwsim list | head -1``."""
+"""The exit status if the reading program closes the pipe, as in ``uwsim list | head -1``."""
 
 
 COMPILATION_MESSAGE = "uwsim: compiling for this processor (up to a minute, the first time only)"
@@ -177,7 +177,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     except BrokenPipeError:
         sys.stdout = None  # the reader has closed the pipe
         return CLOSED_OUTPUT
-    except SystemExit as error:  # rich, for the same reason; or typer, when it has shown completion
+    except SystemExit as error:  # of rich, for a closed pipe; or of typer, after completion
         return error.code if isinstance(error.code, int) else CLOSED_OUTPUT
     except (Exception, KeyboardInterrupt) as error:
         if TRACEBACK in all_words:
@@ -195,7 +195,7 @@ def report_compilation() -> None:
 
 
 def print_error(error: BaseException) -> int:
-    """Print an error, one line each, and return its exit status."""
+    """Print an error, or several on separate lines; return the exit status."""
     message = format_error(error)
     if message:
         print(message, file=sys.stderr)
@@ -205,7 +205,7 @@ def print_error(error: BaseException) -> int:
 def build_application(arguments: Sequence[str]) -> typer.Typer:
     """Build the application, importing only the command in ``arguments``.
 
-    For completion by the shell, it is the command on the shell's line.
+    During completion by the shell, it is the command on the line that the user is typing.
     """
     words = typed_words() or arguments
     command_name = next((word for word in words if not word.startswith("-")), None)

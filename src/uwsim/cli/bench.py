@@ -112,7 +112,7 @@ class BenchOptions:
     def requests(
         self, levels: Sequence[tuple[str, float]], errors: ErrorCollector
     ) -> list[PlanRequest]:
-        """Return the request of each algorithm; collect errors and return none after an error."""
+        """Return the request of each algorithm; after an error, collect it and return none."""
         with errors.collect():
             request = replace(
                 make_request(self.task, self.changes, self.code),
@@ -130,7 +130,8 @@ def bench(context: typer.Context, options: BenchOptions) -> None:
     """Run a benchmark: score every level and write a table, logs, plots and a report.
 
     It writes to --out: result.json (all numbers, with units, seeds and hashes), result.dat (the
-    original's table), logs as CSV, plots, report.html. Same files and same seed: the same bytes.
+    table of the original UWSim), logs as CSV, plots, report.html. Same files and same seed: the
+    same bytes.
     --resume continues an interrupted run; trials that are run again are recorded anew.
     """
     from ..results.directory import check, prepare_directory
@@ -193,7 +194,7 @@ def plan_recordings(
     """Return the recording of each plan; none without ``--record``.
 
     Raises:
-        BadSetting: nothing can be recorded there.
+        BadSetting: recordings cannot be written.
     """
     from ..middleware.recording import image_storage
     from ..runs.executors.choose import RAY
@@ -214,7 +215,7 @@ def plan_recordings(
 def record_trials(
     runs: Sequence[Run], recordings: Sequence[TrialRecording], *, is_resumed: bool
 ) -> None:
-    """Record the trials to come; of a resumed run, report finished trials without a recording."""
+    """Record the trials of runs; warn about finished trials of resumed runs without a recording."""
     if not recordings:
         return
     for run, recording in zip(runs, recordings, strict=True):
@@ -233,22 +234,22 @@ def check_live(options: BenchOptions, plans: Sequence[Plan]) -> None:
 
 
 def is_piloted(plan: Plan) -> bool:
-    """Return whether a user pilots; not if the inputs of an earlier run are replayed."""
+    """Return whether a user pilots in a plan, instead of recorded inputs of an earlier run."""
     return bool(getattr(plan.algorithm.cls, "IS_PILOTED", False)) and not plan.inputs
 
 
 @contextmanager
 def open_live_view(options: LiveOptions, plans: Sequence[Plan]) -> Iterator[TrialObserver | None]:
-    """Open the live view of the options; a pilot's run is in real time, and waits for a viewer."""
-    pilots = any(map(is_piloted, plans))
+    """Open the requested live view; a piloted run is in real time, and waits for a browser."""
+    has_pilot = any(map(is_piloted, plans))
     title = Path(plans[0].benchmark.path).stem
-    speed = float(pilots)
-    with options.open_session(title, speed=speed, is_piloted=pilots, waits=pilots) as view:
+    speed = float(has_pilot)
+    with options.open_session(title, speed=speed, is_piloted=has_pilot, waits=has_pilot) as view:
         yield view
 
 
 def result_folders(algorithms: Sequence[str]) -> list[str]:
-    """Return the folder of each algorithm's result; none for one algorithm.
+    """Return the folder of the result of each algorithm, if there are several.
 
     Raises:
         BadSetting: an algorithm is given twice.
@@ -276,7 +277,7 @@ class RunOutput:
         self._n_written = 0
 
     def callbacks(self) -> Callbacks:
-        """Return the functions that print."""
+        """Return the functions that a run calls to print its output."""
         from ..runs.execute import Callbacks
 
         return Callbacks(
@@ -295,7 +296,7 @@ class RunOutput:
         console.print(table(result, width=console.width))
 
     def _print_written(self, run: Run, result: Result) -> None:
-        """Print what reduces confidence in a run, and the path of its result."""
+        """Print the remarks and notes about a run as warnings, and the path of its result."""
         from ..results.directory import REPORT
         from ..results.refused_lines import refused_lines
 

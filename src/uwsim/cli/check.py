@@ -43,7 +43,8 @@ def check(
         ),
     ] = None,
     is_strict: Annotated[
-        bool, option(INPUT, "--strict", help="Also compare files with the original's order.")
+        bool,
+        option(INPUT, "--strict", help="Also check the order of elements for the original UWSim."),
     ] = False,
     xacro: XacroOption = None,
     as_json: JsonOption = False,

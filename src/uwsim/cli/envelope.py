@@ -25,11 +25,12 @@ if TYPE_CHECKING:
     from ..runs.execute import Execution
 
 MAX_REPEATS = 1000
+"""The greatest number of seeds of a search."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class SearchOptions:
-    """The search and its criterion."""
+    """The options of the search and its criterion."""
 
     parameter: Annotated[
         str,
@@ -147,7 +148,7 @@ class EnvelopeOptions:
         return tuple(range(self.seed, self.seed + self.repeat))
 
     def plan_requests(self, errors: ErrorCollector) -> list[PlanRequest]:
-        """Return the request of the runs; collect errors and return none after an error."""
+        """Return the request of the runs; after an error, collect it and return none."""
         with errors.collect():
             request = replace(
                 make_request(self.task, self.changes, self.code),
@@ -186,8 +187,10 @@ def envelope(context: typer.Context, options: EnvelopeOptions) -> None:
     with errors.collect():
         check_directory(options.directory, resume=options.resume, overwrite=options.overwrite)
     for plan in plans:
-        ends = (search.range_start, search.range_end, search.tolerance)
-        request = search_request(plan, search.parameter, search.criterion, ends, levels, errors)
+        search_range = (search.range_start, search.range_end, search.tolerance)
+        request = search_request(
+            plan, search.parameter, search.criterion, search_range, levels, errors
+        )
     errors.raise_errors()
     assert request is not None
     execution = prepare_execution(

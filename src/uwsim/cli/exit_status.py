@@ -1,4 +1,4 @@
-"""Error messages and exit statuses of the command line."""
+"""The messages and exit statuses of the command line for errors."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def exit_status(error: BaseException) -> int:
 
 
 def format_error(error: BaseException) -> str:
-    """Return the message of an error; a file has one line for each of its errors."""
+    """Return the message of an error: one line, or one line for each error of a file."""
     if isinstance(error, KeyboardInterrupt | typer.Abort):
         return "uwsim: interrupted; finished results are kept."
     if isinstance(error, SeveralErrors):

@@ -34,9 +34,9 @@ DRAG_LAWS = {
     "z": "by the speed across the z axis",
     "matrix": "by a full matrix",
 }
-"""The descriptions of ``dragLaw`` of a hydrodynamics file."""
+"""The description of each value of ``dragLaw`` in a hydrodynamics file."""
 COLUMNS = 160
-"""The width of standard output that is no terminal [characters]."""
+"""The width of the output if it is not written to a terminal [characters]."""
 Fields = Mapping[str, Any]
 
 
@@ -50,8 +50,8 @@ def info(
     """Show the content of a scene: vehicles, cameras, sensors, topics, services, water, floor.
 
     Positions are in the file's frame, as in the file and on topics, in metres and radians. The
-    floor is that straight below each vehicle's origin. Elements that are read and not simulated are
-    listed last.
+    floor is the surface straight below each vehicle's origin. Elements that are read and not
+    simulated are listed last.
     """
     from ..physics.compile_scene import compile_scene
     from ..scene.reader import read_scene
@@ -87,7 +87,7 @@ def info(
 
 
 def render_parts(content: Fields) -> Iterator[RenderableType]:
-    """Yield the parts of the output."""
+    """Yield the sections and tables of the output."""
     yield Text(clean_text(str(content["file"])), style="bold")
     yield from _section("frame and water", [_frame(content["frame"]), *_water(content["water"])])
     for vehicle in content["vehicles"]:

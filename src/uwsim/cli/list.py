@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from ..benchmark.plugin_tables import Tables
 
 COLUMNS = 200
-"""The width of the tables if standard output is no terminal [characters]."""
+"""The width of the tables if they are not written to a terminal [characters]."""
 
 
 def list_names(
@@ -93,13 +93,13 @@ def benchmarks(tables: Tables) -> dict[str, str]:
 
 
 def vehicles(tables: Tables) -> dict[str, str]:
-    """Return bundled robots, as ``<file>`` names them, with their first sentence."""
+    """Return bundled robots by file name, with the first sentence of their head comment."""
     robots = bundled_files("scenes", ".urdf") | bundled_files("vehicles", ".urdf")
     return {path.name: head_comment(path) for path in robots.values()}
 
 
 def algorithms(tables: Tables) -> dict[str, str]:
-    """Return algorithms under test: those of uwsim, and those of plugins."""
+    """Return the algorithms of uwsim and of plugins."""
     return {name: first_line(algorithm.__doc__) for name, algorithm in tables.algorithms.items()}
 
 
@@ -138,7 +138,7 @@ def devices(tables: Tables) -> dict[str, str]:
 
 
 def interfaces(tables: Tables) -> dict[str, str]:
-    """Return the elements of ``<rosInterfaces>``: topics in and out of a scene."""
+    """Return the elements of ``<rosInterfaces>``, which publish on topics or subscribe to them."""
     from ..schema.names import prefixed_name
     from ..topics import INTERFACES
 
@@ -146,7 +146,7 @@ def interfaces(tables: Tables) -> dict[str, str]:
 
 
 def qualified_name(name: str) -> str:
-    """Return the qualified name of an element: ``u:lamp`` with its namespace written out."""
+    """Return the qualified name of an element such as ``u:lamp``, with its namespace."""
     from ..schema import NAMESPACE
 
     return f"{{{NAMESPACE}}}{name[2:]}" if name.startswith("u:") else name

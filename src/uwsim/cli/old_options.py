@@ -1,4 +1,4 @@
-"""Options of the original UWSim, which its scripts use: the error names the present command.
+"""The error for options of the original UWSim: it names the corresponding command of uwsim.
 
 .. code-block:: text
 
@@ -16,25 +16,25 @@ OCEAN_OPTIONS = (
     *("--windx", "--windy", "--windSpeed", "--reflectionDamping", "--waveScale"),
     *("--choppyFactor", "--crestFoamHeight", "--oceanSurfaceHeight"),
 )
-"""The options whose value ``<oceanState>`` has, too."""
+"""The options whose value is an element of ``<oceanState>``."""
 WINDOW_OPTIONS = ("--resw", "--resh")
-"""The options whose value ``<simParams>`` has, too."""
+"""The options whose value is an element of ``<simParams>``."""
 FLAG_OPTIONS = (
     *("--disableShaders", "--disableTextures", "--freeMotion", "--fullScreen"),
     *("--isNotChoppy", "--debugPhysics"),
 )
-"""The options without a counterpart, mostly of the original's window."""
+"""The options without a counterpart, most of which concern the window of the original UWSim."""
 SCENE, BENCHMARK, FOLDER, DEPTH = "--configfile", "--benchmark", "--dataPath", "--depth"
 DEFAULT_SCENE = "cirs"
-"""The scene that the original opens by default."""
+"""The scene that the original UWSim opens by default."""
 
 
 def reject_old_options(arguments: Sequence[str], commands: Collection[str]) -> None:
-    """Raise BadSetting, which names the present command, for an option of the original.
+    """Raise BadSetting, which names the corresponding command, for an option of the original UWSim.
 
     Args:
         arguments: the words of the command line.
-        commands: the names of the present commands.
+        commands: the names of the commands of uwsim.
     """
     names = [word.partition("=")[0] for word in arguments]
     old_names = (SCENE, FOLDER, *OCEAN_OPTIONS, *WINDOW_OPTIONS, *FLAG_OPTIONS)

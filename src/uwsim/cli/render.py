@@ -1,4 +1,4 @@
-"""``uwsim render``: images of a scene's cameras, or free views of it."""
+"""``uwsim render``: images of the cameras of a scene, or views of it from elsewhere."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class ViewOptions:
-    """The viewpoint of the image."""
+    """The options of the viewpoint."""
 
     camera: Annotated[
         str | None,
@@ -58,7 +58,7 @@ class ViewOptions:
 
 @dataclass(frozen=True, kw_only=True)
 class ImageOptions:
-    """The written files."""
+    """The options of the image files."""
 
     out: Annotated[Path, option(OUTPUT, "--out", "-o", metavar="FILE.png", help="Image file.")]
     size: Annotated[
@@ -154,7 +154,7 @@ def render(
 def load_scene(
     scene: str, folders: tuple[Path, ...], settings: Sequence[str], errors: ErrorCollector
 ) -> SceneSpec | None:
-    """Read the scene and apply every ``--set``; collect errors, and return None after one."""
+    """Read the scene and apply every ``--set``; after an error, collect it and return None."""
     from ..scene.reader import read_scene
     from ..scene.settings import apply_setting, xacro_arguments
 

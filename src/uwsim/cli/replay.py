@@ -32,14 +32,14 @@ WEBP_RATE = 10.0
 RECORDING = ".mcap"
 """The suffix of a recording for 3-D panels."""
 FILM_RATE = 30.0
-"""The default frame rate of the other films [Hz]."""
+"""The default frame rate of films except WebP [Hz]."""
 N_NAMED = 5
-"""The number of files named in a warning."""
+"""The greatest number of files that a warning names."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class TrialOptions:
-    """The trial, and the part of it."""
+    """The options that choose a trial and a part of it."""
 
     trial: Annotated[
         int | None,
@@ -75,7 +75,7 @@ class TrialOptions:
 
 @dataclass(frozen=True, kw_only=True)
 class FilmOptions:
-    """The properties of a film."""
+    """The options of a film."""
 
     view: Annotated[
         str,
@@ -240,7 +240,7 @@ def replay(
 
 
 def write_mcap(trial: RecordedTrial, out: Path, overwrite: bool) -> str:
-    """Write a trial as a recording, showing progress; return a line about it."""
+    """Write a trial as a recording, and show progress; return a line that describes the file."""
     from ..viewer.recording import check_recording_path, write_recording
 
     check_recording_path(out, overwrite=overwrite)
@@ -252,7 +252,7 @@ def write_mcap(trial: RecordedTrial, out: Path, overwrite: bool) -> str:
 def open_replay(
     result: Path, index: int | None, scene: Path | None, folders: tuple[Path, ...]
 ) -> Replay:
-    """Open a result for the page, with all trials or the given one."""
+    """Open a result for the page, with all trials or only the one with an index."""
     from ..verify.recorded_plan import FileOverrides
     from ..viewer.replay import Replay
 
@@ -264,7 +264,7 @@ def open_replay(
 
 
 def warn_missing_tracks(directory: Path, indices: Sequence[int], consequence: str) -> None:
-    """Warn about missing files in one line."""
+    """Warn in one line about trials without a file of poses."""
     from ..results.journal import FOLDER, track_path
 
     if indices:
@@ -298,7 +298,7 @@ def show_page(replay: Replay, out: Path | None, *, overwrite: bool, port: int) -
 def open_trials(
     result: Path, index: int | None, scene: Path | None, folders: tuple[Path, ...]
 ) -> list[RecordedTrial]:
-    """Open a trial of a result, or all of its first seed.
+    """Open the trial of a result with an index, or all trials of its first seed.
 
     The result may be named by its result.json.
     """
@@ -317,7 +317,7 @@ def open_trials(
 
 
 def write_film(trials: list[RecordedTrial], spec: FilmSpec, out: Path) -> str:
-    """Write a film, showing progress; return a line about it."""
+    """Write a film, and show progress; return a line that describes the file."""
     from ..viewer.film.film import Reel, n_frames_of, save_film
     from ..viewer.film.processes import DrawingProcesses, count_processes
 

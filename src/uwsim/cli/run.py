@@ -37,6 +37,7 @@ if TYPE_CHECKING:
     from ..viewer.scene_topics import SceneTopics
 
 UNITS = {"ms": 1e-3, "s": 1.0, "min": 60.0, "h": 3600.0}
+"""The units of durations, in seconds."""
 DURATION = re.compile(r"\s*(\d+\.?\d*|\.\d+)\s*([a-z]*)\s*")
 MAX_DURATION = 1e8
 """The longest simulation time; a longer one is an error [s]."""
@@ -96,19 +97,20 @@ def run(
             from ..viewer.scene_topics import SceneTopics
 
             scene_topics = SceneTopics(simulation, is_on_bus=connections.is_connected)
-        pace = connections if not live_options.view else replace(connections, speed=0.0)
+        # the live view paces the run itself
+        pace_options = replace(connections, speed=0.0) if live_options.view else connections
         with (
-            draw_images_elsewhere(simulation, pace),
-            open_connections(simulation, pace),
+            open_image_process(simulation, pace_options),
+            open_connections(simulation, pace_options),
             open_live_view(simulation, spec, run_settings, live_options, connections),
         ):
             run_and_report(simulation, spec, run_settings, output, scene_topics)
 
 
 @contextmanager
-def draw_images_elsewhere(simulation: Simulation, pace: ConnectionOptions) -> Iterator[None]:
-    """Draw images in a separate process in a real-time run with external programs."""
-    if not pace.is_connected or pace.pace == 0 or pace.client:
+def open_image_process(simulation: Simulation, connections: ConnectionOptions) -> Iterator[None]:
+    """Draw images in a separate process, if the run is in real time with external programs."""
+    if not connections.is_connected or connections.real_time_factor == 0 or connections.client:
         yield
         return
     from ..simulation.scenery.image_process import ImageProcess
@@ -128,7 +130,7 @@ def open_live_view(
     live_options: LiveOptions,
     connections: ConnectionOptions,
 ) -> Iterator[None]:
-    """Open the live view of the options; its viewers pilot if no program runs."""
+    """Open the live view that the options request; its users pilot if no program runs."""
     from ..runs.trial.pilot_inputs import PilotInputs
     from ..runs.trial.pilot_topics import pilot_topics
 
@@ -152,7 +154,7 @@ def open_live_view(
 
 @dataclass(frozen=True, kw_only=True)
 class RunSettings:
-    """The checked values of the options."""
+    """The checked values of the options of a run."""
 
     duration: float
     """The simulation time [s]; inf for no end."""
@@ -161,7 +163,7 @@ class RunSettings:
     parameters: dict[str, float | str]
     """The parameters of the program."""
     images: ImageStorage
-    """The storage of images in a recording."""
+    """The form in which a recording stores images."""
 
 
 def check_run_options(
@@ -207,7 +209,7 @@ def scene_settings(changes: SettingOptions) -> list[str]:
 
 
 def read_duration(text: str) -> float:
-    """Return a duration [s] from text as ``10s``, ``2min``, ``0.5``; raises BadSetting."""
+    """Return a duration [s] from a text such as ``10s``, ``2min``, ``0.5``; raise BadSetting."""
     match = DURATION.fullmatch(text)
     if match is None:
         raise BadSetting(f"--for {text!r}: expected a time, as 10s, 500ms, 2min or 1h.")
@@ -227,7 +229,7 @@ def run_and_report(
     output: RecordOptions,
     scene_topics: SceneTopics | None = None,
 ) -> None:
-    """Run, and print the messages, also of a run that fails or is interrupted."""
+    """Run, and print the table of topics, even if the run fails or is interrupted."""
     from ..middleware.recording import Recorder, TopicRates
 
     node = None
@@ -283,7 +285,7 @@ def report_run(
     *,
     is_stopped: bool,
 ) -> None:
-    """Print the messages, or that the run was stopped before its first step."""
+    """Print the table of topics, or that the run was stopped before its first step."""
     if output.as_json:
         print_json(spec.path, simulation, rates.rates(), output.record)
     elif is_stopped and simulation.step == 0:

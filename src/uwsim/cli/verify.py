@@ -29,14 +29,14 @@ if TYPE_CHECKING:
     from ..verify.verify import Verification
 
 N_SEEDS = 2**32
-"""The number of different samples."""
+"""The number of seeds from which the seed of the sample is drawn."""
 MAX_SHOWN = 20
 """The greatest number of printed differences."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class SampleOptions:
-    """The replayed trials."""
+    """The options that choose the trials to replay."""
 
     sample: Annotated[
         int,
@@ -59,7 +59,7 @@ class SampleOptions:
     def choose(
         self, run: Run, stored_result: Result, words: Sequence[str]
     ) -> tuple[int, tuple[Trial, ...]]:
-        """Choose and print the finished trials to replay; return their number and the trials.
+        """Choose trials to replay, and print which; return how many are finished, and the chosen.
 
         Args:
             run: the run of the result.
@@ -67,7 +67,7 @@ class SampleOptions:
             words: the words of the command line after ``uwsim``.
 
         Raises:
-            ResultError: none is finished.
+            ResultError: no trial is finished.
         """
         from ..results.interrupted import resume_command
         from ..verify.verify import choose_trials, complete_trials
@@ -91,7 +91,7 @@ class SampleOptions:
 
 @dataclass(frozen=True, kw_only=True)
 class FileOptions:
-    """The locations of the files of a result."""
+    """The options that locate the files of a result."""
 
     benchmark: Annotated[
         Path | None,
@@ -111,7 +111,7 @@ class FileOptions:
     code: CodeOptions
 
     def overrides(self) -> FileOverrides:
-        """Return the overrides for the search."""
+        """Return the locations that replace those recorded in the result."""
         return FileOverrides(
             benchmark=self.benchmark,
             scene=self.scene,
@@ -159,7 +159,7 @@ def verify(
     executor = worker_options.executor()
     stored_result, directory = load(result), file_of(result).parent
     run = prepare_replay(stored_result, directory, file_options.overrides())
-    n_whole, trials = sample.choose(run, stored_result, context.obj)
+    n_finished, trials = sample.choose(run, stored_result, context.obj)
     n_levels = sum(len(trial.levels) for trial in trials)
     differences = environment_differences(stored_result, directory, run.info)
     for line in differences.values():
@@ -174,17 +174,17 @@ def verify(
         verification = compare(
             directory, stored_result, run, trials, executor=executor, on_level=on_level
         )
-    for line in describe_outcome(verification, n_whole, differences):
+    for line in describe_outcome(verification, n_finished, differences):
         typer.echo(clean_text(line))
     if verification.differences:
         raise typer.Exit(RUN_FAILED)
 
 
 def prepare_replay(stored_result: Result, directory: Path, overrides: FileOverrides) -> Run:
-    """Return the run of a result, with checked inputs.
+    """Return the run of a result, after a check of its inputs.
 
     Raises:
-        UwsimError: a file does not exist, or has another hash than that of the result.
+        UwsimError: a file does not exist, or its hash differs from the recorded one.
     """
     from ..runs.prepare import prepare_run
 
@@ -196,7 +196,7 @@ def prepare_replay(stored_result: Result, directory: Path, overrides: FileOverri
     return replace(run, inputs=stored_result.inputs, renderer=renderer)
 
 
-def describe_result(stored_result: Result, directory: Path, n_whole: int, n_trials: int) -> str:
+def describe_result(stored_result: Result, directory: Path, n_finished: int, n_trials: int) -> str:
     """Return a description of the result and of the files found."""
     from ..results.per_level import seeds_of
 
@@ -204,8 +204,8 @@ def describe_result(stored_result: Result, directory: Path, n_whole: int, n_tria
     names = [named_input(stored_result, kind)[0] for kind in ("benchmark", "scene")]
     n_others = len(stored_result.inputs.assets or {})
     trials_text = format_count(n_trials, "trial")
-    if n_whole < n_trials:
-        trials_text = f"{n_whole} of {trials_text} finished"
+    if n_finished < n_trials:
+        trials_text = f"{n_finished} of {trials_text} finished"
     seeds = sorted({seed for seed in seeds_of(stored_result) if seed is not None})
     seeds_text = f"seeds {seeds[0]} to {seeds[-1]}" if len(seeds) > 1 else f"seed {run.seed}"
     return clean_text(
@@ -216,9 +216,9 @@ def describe_result(stored_result: Result, directory: Path, n_whole: int, n_tria
 
 
 def describe_outcome(
-    verification: Verification, n_whole: int, environment_lines: Mapping[str, str]
+    verification: Verification, n_finished: int, environment_lines: Mapping[str, str]
 ) -> list[str]:
-    """Return the lines of the outcome, the verdict last."""
+    """Return the lines that describe the outcome; the last one states if the results are equal."""
     from ..verify.environment import likely_cause
 
     messages = [str(difference) for difference in verification.differences[:MAX_SHOWN]]
@@ -227,8 +227,8 @@ def describe_outcome(
     messages += [f"not compared: {subject}" for subject in verification.not_compared]
     n = len(verification.trials)
     n_levels = sum(len(trial.levels) for trial in verification.trials)
-    sample_text = f"{n} of" if n < n_whole else "all of"
-    trials_text = f"{sample_text} {format_count(n_whole if n < n_whole else n, 'trial')}"
+    sample_text = f"{n} of" if n < n_finished else "all of"
+    trials_text = f"{sample_text} {format_count(n_finished if n < n_finished else n, 'trial')}"
     replay_text = f"{trials_text} replayed, {format_count(n_levels, 'level')}"
     if not verification.differences:
         return [*messages, f"the same, byte for byte: {replay_text}"]

@@ -1,4 +1,4 @@
-"""The views of ``uwsim render``: a camera of the scene, or a free view."""
+"""The images of ``uwsim render``: from a camera of the scene, or from elsewhere."""
 
 from __future__ import annotations
 
@@ -29,25 +29,25 @@ FOG_PREFIX = "oceanState.fog"
 
 @dataclass(frozen=True, eq=False)
 class RenderedView:
-    """A rendered image."""
+    """A rendered image, and a function that draws it without noise."""
 
     title: str
     """The description for the user."""
     pixels: npt.NDArray[np.uint8]
     """The pixels, (h, w, 3) or (h, w)."""
     render_clean: Callable[[], RenderedImage]
-    """A function that draws the image without noise, with range and ids."""
+    """A function that draws the image without noise, with depth and body numbers."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class ViewRequest:
-    """The camera or view given by the options; without them, the scene's default."""
+    """The camera or view that the options choose; without such options, the scene's default."""
 
     camera: str | None = None
     """The name of a virtual camera."""
     view: ViewName | None = None
     """The named view."""
-    line: tuple[Array, Array] | None = None
+    sight_line: tuple[Array, Array] | None = None
     """The viewpoint and the target, in L, (3,) each [m]."""
     size: tuple[int, int] | None = None
     """The width and height [px]."""
@@ -65,17 +65,17 @@ class ViewRequest:
         size: str | None,
         settings: Sequence[str],
     ) -> ViewRequest:
-        """Read the options; raises BadSetting."""
+        """Read the options; raise BadSetting for invalid ones."""
         values = {"--camera": camera, "--view": view, "--from": viewpoint or target}
-        given_options = [option for option, value in values.items() if value is not None]
-        if len(given_options) > 1:
-            raise BadSetting(f"{' and '.join(given_options)}: only one image at a time.")
+        chosen_options = [option for option, value in values.items() if value is not None]
+        if len(chosen_options) > 1:
+            raise BadSetting(f"{' and '.join(chosen_options)}: only one image at a time.")
         if (viewpoint is None) != (target is None):
             raise BadSetting("--from needs --at, and --at needs --from: viewpoint and target.")
         return ViewRequest(
             camera=camera,
             view=None if view is None else _read_view_name(view),
-            line=None
+            sight_line=None
             if viewpoint is None or target is None
             else (_read_point("--from", viewpoint), _read_point("--at", target)),
             size=None if size is None else read_size(size),
@@ -83,10 +83,10 @@ class ViewRequest:
         )
 
     def render(self, simulation: Simulation, scene: SceneSpec) -> RenderedView:
-        """Draw the image; raises UnknownName for a camera, BadSetting for an impossible view."""
+        """Draw the image; raise UnknownName for a camera, BadSetting for an impossible view."""
         from ..simulation import views
 
-        is_view = self.line is not None or self.view is not None
+        is_view = self.sight_line is not None or self.view is not None
         cameras = simulation.world.sensors.cameras if self.camera is None else (self.camera,)
         if len(cameras) > 1 and not is_view:
             raise BadSetting(
@@ -97,8 +97,8 @@ class ViewRequest:
             return self._render_camera(simulation, cameras[0])
         params = scene.sim_params
         size = self.size or (params.resw, params.resh)
-        if self.line is not None:
-            view, title = views.view_from(simulation, *self.line, size), "view from there"
+        if self.sight_line is not None:
+            view, title = views.view_from(simulation, *self.sight_line, size), "view from there"
         elif self.view == "top":
             view, title = views.top_view(simulation, size), "view from above"
         elif self.view == "viewer" and scene.camera is None:
@@ -154,7 +154,7 @@ def _read_point(option: str, text: str) -> Array:
 
 
 def read_size(text: str) -> tuple[int, int]:
-    """Return width and height [px] from text as ``800x600``; raises BadSetting."""
+    """Return width and height [px] from a text such as ``800x600``; raise BadSetting."""
     from ..scene.sizes import MAX_PIXELS
 
     match = re.fullmatch(r"(\d{1,6})[xX](\d{1,6})", text.strip())

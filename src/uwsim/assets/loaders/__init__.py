@@ -1,4 +1,4 @@
-"""Readers of mesh files: by trimesh, or converted by `osgconv` first."""
+"""Readers of mesh files, by trimesh or after a conversion by `osgconv`."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ _cache: dict[_Key, tuple[tuple[_Stamp, ...], Model]] = {}
 
 
 def can_read(path: Path) -> bool:
-    """Return whether files of that type can be read with the installed programs."""
+    """Return whether files of this type can be read with the installed programs."""
     suffix = path.suffix.lower()
     return suffix in MESH_FORMATS or (suffix in OSGCONV_FORMATS and has_osgconv())
 
 
 def format_error(path: Path) -> str:
-    """Return why files of that type cannot be read here and now; empty if they can."""
+    """Return why files of this type cannot be read on this computer; "" if they can."""
     suffix = path.suffix.lower()
     if can_read(path):
         return ""
@@ -43,7 +43,7 @@ def read_model(path: Path, *, name: str, allowed_folders: tuple[Path, ...] = ())
     Args:
         path: The file.
         name: The name by which it was looked up.
-        allowed_folders: The folders of its materials and images; its own by default.
+        allowed_folders: The folders of its materials and images; by default the file's folder.
 
     Raises:
         AssetError: It cannot be read.
@@ -65,7 +65,7 @@ def read_model(path: Path, *, name: str, allowed_folders: tuple[Path, ...] = ())
 
 
 def _stamps(model: Model) -> tuple[_Stamp, ...]:
-    """Return the present time and size of the files that a model is made of."""
+    """Return the modification time [ns] and size [byte] of each file of a model."""
     statuses = [file.path.stat() if file.path.exists() else None for file in model.files]
     return tuple(
         (0, 0) if status is None else (status.st_mtime_ns, status.st_size) for status in statuses

@@ -1,4 +1,4 @@
-"""GLB, OBJ, STL, PLY and DAE files as trimesh reads them, with their images."""
+"""The reader of GLB, OBJ, STL, PLY and DAE files by trimesh, with their images."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ STL_HEADER_BYTES = 80
 """The length of the header of a binary STL file [bytes]."""
 
 MAX_COORDINATE = 1e6
-"""The greatest coordinate of a vertex [m]; greater ones are those of a broken file."""
+"""The greatest coordinate of a vertex [m]; only broken files have greater ones."""
 
 
 def read_meshes(
@@ -48,7 +48,7 @@ def read_meshes(
     allowed_folders: tuple[Path, ...] = (),
     original: Path | None = None,
 ) -> tuple[tuple[Mesh, ...], ColladaAsset | None, tuple[str, ...]]:
-    """Return the meshes of a file in its own frame and units, its asset and remarks.
+    """Return the meshes of a file in the file's frame and units, its Collada asset, and remarks.
 
     The remarks are on parts that cannot be read, and were left out or replaced. Normals are
     computed anew from the faces. Colours of vertices become one mean colour a mesh.
@@ -56,8 +56,8 @@ def read_meshes(
     Args:
         path: The file.
         name: The name by which it was looked up.
-        allowed_folders: The folders of its materials and images; its own by default.
-        original: The file before its conversion; images may be next to it, too.
+        allowed_folders: The folders of its materials and images; by default the file's folder.
+        original: The file before its conversion; images may be next to this file as well.
 
     Raises:
         AssetError: The file is broken, empty or too large.
@@ -119,7 +119,7 @@ def _meshes(
 
 
 def _read_checked(path: Path, name: str, original: Path | None) -> bytes:
-    """Return a file of a model; a converted one follows from its original and is not recorded."""
+    """Return the bytes of a file; converted files are not recorded, as the original file is."""
     suffix = path.suffix.lower()
     if original is not None and suffix in (".obj", ".mtl"):
         return path.read_bytes()

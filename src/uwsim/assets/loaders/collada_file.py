@@ -1,4 +1,4 @@
-"""Collada files, read by pycollada; each part that it cannot read gets a remark.
+"""The reader of Collada files by pycollada, with remarks about unreadable parts.
 
 pycollada leaves out a geometry whose material is broken. Here such a material is replaced by its
 diffuse colour, or by grey; a part that is left out for another reason gets a remark.
@@ -47,10 +47,10 @@ def read_parts(
 
     Args:
         data: the file.
-        references: reads its images.
+        references: the reader of the images of the file.
 
     Raises:
-        AssetError: it has no scene, or only broken parts.
+        AssetError: the file has no scene, or only broken parts.
     """
     document = _Document(io.BytesIO(data), ignore=[DaeError])
     remarks = document.remarks()

@@ -9,11 +9,11 @@ from __future__ import annotations
 from xml.etree.ElementTree import Element, ParseError, fromstring
 
 MAX_NODES = 20_000
-"""The greatest number of nodes and geometries, instances counted each."""
+"""The greatest number of nodes and geometries; every instance counts."""
 MAX_DEPTH = 100
-"""The greatest length of a chain of nodes, instances followed."""
+"""The greatest depth of nodes, including nodes of instances."""
 MAX_TEXT = 64 * 2**20
-"""The greatest number of letters of indices in all geometries, instances counted each."""
+"""The greatest number of characters of indices in all geometries; every instance counts."""
 
 
 class _TooDeep(Exception):
@@ -64,7 +64,7 @@ class _Counts:
                 self._texts[element_id] = max(letters, self._texts.get(element_id, 0))
 
     def node_size(self, node: Element, depth: int = 0) -> tuple[int, int, int]:
-        """Return the number of nodes and geometries, of letters of indices, and the depth."""
+        """Return the number of nodes and geometries, of characters of indices, and the depth."""
         if node not in self._sizes:
             if depth > MAX_DEPTH:
                 raise _TooDeep
@@ -85,7 +85,7 @@ class _Counts:
         return self._sizes[node]
 
     def _source_of(self, element_id: str) -> str:
-        """Return the geometry of a controller, also through another; any other id unchanged."""
+        """Return the id of the geometry of a controller; any other id is returned unchanged."""
         for _ in range(2):
             element_id = self._sources.get(element_id, element_id)
         return element_id

@@ -16,11 +16,11 @@ MAX_DEPTH = 100
 MAX_ELEMENTS = 24_000_000
 """The greatest number of elements of an accessor: twice that of 4 million separate triangles."""
 MAX_EMPTY_ELEMENTS = 12_000_000
-"""The greatest number of elements of all accessors without data, which are zeros."""
+"""The greatest number of elements of all accessors without data, whose elements are zeros."""
 MAX_HEADER_BYTES = 32 * 2**20
-"""The greatest header of a .glb [bytes]."""
+"""The greatest size of the JSON header of a .glb [bytes]."""
 GLB_JSON_START = 20
-"""The offset of that header in the file [bytes]."""
+"""The offset of the JSON header of a .glb in the file [bytes]."""
 
 
 def limit_error(data: bytes, suffix: str) -> str:

@@ -1,8 +1,8 @@
-"""Rewrites glTF files in the terms that trimesh reads.
+"""Conversion of glTF files to the subset of glTF that trimesh reads.
 
-Normalised or sparse numbers become plain ones. Texture coordinates are those of the base colour,
-with its transform applied. The colour of a material is multiplied with the mean of its vertices'
-colours. A fan becomes triangles. A file that requires an unsupported extension is an error.
+Normalised and sparse accessors become plain ones. Texture coordinates are those of the base colour
+texture, with its transform applied. The colour of a material is multiplied by the mean colour of
+the vertices. Fans become triangles. A file that requires an unsupported extension is an error.
 """
 
 from __future__ import annotations
@@ -44,16 +44,16 @@ WEBP = "EXT_texture_webp"
 
 
 def rewrite(data: bytes, suffix: str, resolve: Callable[[str], bytes]) -> bytes:
-    """Return a ``.gltf`` or ``.glb`` file in terms that trimesh reads; unchanged if it is so.
+    """Convert a ``.gltf`` or ``.glb`` file for trimesh; return it unchanged if it needs nothing.
 
     Args:
         data: the file.
         suffix: ``.gltf`` or ``.glb``.
-        resolve: returns the bytes of a file next to it.
+        resolve: a function that returns the bytes of a file next to it.
 
     Raises:
-        AssetError: it requires an extension that is not read, or its numbers are too many.
-        Exception: it is not valid glTF (of many kinds).
+        AssetError: the file requires an unsupported extension, or has too many numbers.
+        Exception: the file is not valid glTF; many types of exceptions occur.
     """
     is_binary = suffix == ".glb"
     end = GLB_JSON_START + int.from_bytes(data[12:16], "little") if is_binary else len(data)
@@ -89,9 +89,9 @@ class _Rewriter:
     """A file that is rewritten in place: `run` changes the tree.
 
     Args:
-        tree: its JSON.
+        tree: the JSON of the file.
         chunk: the binary part of a ``.glb``.
-        resolve: returns the bytes of a file next to it.
+        resolve: a function that returns the bytes of a file next to it.
     """
 
     def __init__(self, tree: Tree, chunk: bytes, resolve: Callable[[str], bytes]) -> None:
@@ -103,7 +103,7 @@ class _Rewriter:
         self._has_changed = False
 
     def run(self) -> bool:
-        """Rewrite what trimesh does not read; return whether anything changed."""
+        """Rewrite the parts that trimesh does not read; return whether anything changed."""
         for texture in self._tree.get("textures", []):
             if WEBP in texture.get("extensions", {}) and "source" not in texture:
                 texture["source"] = texture["extensions"][WEBP]["source"]
@@ -146,7 +146,7 @@ class _Rewriter:
             primitive["indices"] = self._add(indices, UNSIGNED_INT, "SCALAR")
 
     def _set_coordinates(self, primitive: Tree, attributes: Tree) -> None:
-        """Make the coordinates of the base colour's texture the only ones, as numbers 0..1."""
+        """Make the texture coordinates of the base colour the first ones, as plain floats."""
         texture = self._base_texture(primitive)
         transform = texture.get("extensions", {}).get(TRANSFORM, {})
         name = f"TEXCOORD_{transform.get('texCoord', texture.get('texCoord', 0))}"
@@ -215,7 +215,7 @@ class _Rewriter:
         return self._accessors[index]
 
     def _values(self, index: int) -> Numbers:
-        """Return the numbers of an accessor, (n, k); the normalised between -1 and 1."""
+        """Return the numbers of an accessor, (n, k); normalised ones are between -1 and 1."""
         accessor = self._accessor(index)
         n, k = accessor["count"], LENGTHS[accessor["type"]]
         self._n_elements += n

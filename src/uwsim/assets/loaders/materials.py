@@ -1,4 +1,4 @@
-"""Materials of a mesh file: colours and textures."""
+"""The materials of a mesh file: colours and textures."""
 
 from __future__ import annotations
 
@@ -15,9 +15,9 @@ from ..mesh import Texture
 MAX_TEXTURE_SIDE = 2048
 """The greatest side of a texture [px]; larger ones are reduced."""
 MAX_PIXELS = 8192 * 8192
-"""The greatest size of an image [px]: it is decoded whole."""
+"""The greatest number of pixels of an image, which is decoded as a whole [px]."""
 MAX_TOTAL_PIXELS = 4 * MAX_PIXELS
-"""The greatest size of all images of a model [px]."""
+"""The greatest number of pixels of all images of a model [px]."""
 FORMATS = ("BMP", "DDS", "GIF", "JPEG", "MPO", "PNG", "PPM", "SGI", "TGA", "TIFF", "WEBP")
 """The image formats that are decoded; Pillow reads others, some of which are programs."""
 
@@ -64,19 +64,19 @@ def is_broken(path: Path, *, is_decoded: bool) -> bool:
 GREY = (0.7, 0.7, 0.7)
 """The colour of a part without a material."""
 WHITE = (1.0, 1.0, 1.0)
-"""The same by the specification of glTF 2.0 (3.7.2.1, "default material")."""
+"""The colour of a part without a material in glTF 2.0 (3.7.2.1, "default material")."""
 
 Appearance = tuple[tuple[float, float, float], Texture | None]
 
 
 class Materials:
-    """The materials of one file; parts of one material share its texture."""
+    """The materials of one file; parts with the same material share one texture."""
 
     def __init__(self, path: Path) -> None:
         self._path, self._is_gltf = path, path.suffix.lower() in (".gltf", ".glb")
         self._n_pixels = 0
         self.has_broken_image = False
-        """The state after decoding: True if an image could not be decoded."""
+        """True if an image could not be decoded."""
         self._appearances: dict[int, tuple[Any, Appearance]] = {}
 
     def appearance(self, visual: Any) -> Appearance:

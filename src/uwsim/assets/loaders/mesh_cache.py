@@ -1,7 +1,7 @@
 """Disk cache of meshes that were read from files: to import trimesh takes a third of a second.
 
-The cache has the meshes of files that name no other file and have no image. The key is the hash of
-all that they depend on: the bytes of the file, the sources and the versions of its readers.
+The cache contains the meshes of files that name no other file and have no image. The key is a hash
+of the bytes of the file, and of the sources and versions of the readers.
 """
 
 from __future__ import annotations

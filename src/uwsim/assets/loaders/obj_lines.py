@@ -1,4 +1,4 @@
-"""Finds the invalid line of an OBJ file that could not be read."""
+"""Search for the invalid line of an OBJ file that could not be read."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ MAX_LINE_LENGTH = 60
 MAX_LINES = 2_000_000
 """The number of lines that are checked."""
 MIN_NUMBERS = {"v": 3, "vt": 1, "vn": 3}
-"""The kinds of numbered lines -> the smallest number of values on each."""
+"""The smallest number of values on a line, by its first word."""
 
 
 def find_invalid_line(data: bytes) -> str:
@@ -68,5 +68,5 @@ def _is_index(text: str) -> bool:
 
 
 def _is_valid_index(index: int, count_before: int, total: int) -> bool:
-    """Return whether an index, from 1 or negative and relative, is valid."""
+    """Return whether an index is valid: from 1 on, or negative and relative to the last vertex."""
     return 1 <= index <= total if index >= 0 else -index <= count_before

@@ -1,4 +1,4 @@
-"""Rewrites OBJ files in the terms that trimesh reads.
+"""Conversion of OBJ files to the subset of OBJ that trimesh reads.
 
 Comments behind numbers are removed, tabs and leading blanks become what trimesh expects, numbers
 relative to the last vertex become absolute, and polygons that are not convex become triangles.
@@ -27,7 +27,7 @@ VERTEX = re.compile(rb"^v +(\S+) +(\S+) +(\S+)", re.M)
 
 
 def rewrite(data: bytes) -> bytes:
-    """Return the text of an OBJ file in terms that trimesh reads; invalid parts are unchanged."""
+    """Convert the text of an OBJ file for trimesh; invalid parts remain unchanged."""
     if b"\n" not in data:
         data = data.replace(b"\r", b"\n")
     if b"#" in data:
@@ -46,11 +46,11 @@ def rewrite(data: bytes) -> bytes:
 
 
 def _with_absolute_numbers(data: bytes) -> bytes:
-    """Number the vertices from the first one on; trimesh counts from the file's last."""
-    places = [[match.start() for match in kind.finditer(data)] for kind in NUMBERED_LINES]
+    """Replace relative vertex numbers, which trimesh would count from the end of the file."""
+    line_starts = [[match.start() for match in kind.finditer(data)] for kind in NUMBERED_LINES]
 
     def rewrite_face(face: re.Match[bytes]) -> bytes:
-        counts_before = [bisect_left(starts, face.start()) for starts in places]
+        counts_before = [bisect_left(starts, face.start()) for starts in line_starts]
         words = face[0].split()[1:]
         return b" ".join([b"f", *(_absolute_corner(word, counts_before) for word in words)])
 
@@ -58,7 +58,7 @@ def _with_absolute_numbers(data: bytes) -> bytes:
 
 
 def _absolute_corner(word: bytes, counts_before: list[int]) -> bytes:
-    """Return a corner, as ``-3/-3/-1``, with numbers from the first."""
+    """Return a corner such as ``-3/-3/-1`` with absolute numbers."""
     parts = word.split(b"/")
     for i, (part, n) in enumerate(zip(parts, counts_before, strict=False)):
         if part.startswith(b"-"):

@@ -1,4 +1,4 @@
-"""OpenSceneGraph, VRML and 3DS files, converted by the program `osgconv`."""
+"""Conversion of OpenSceneGraph, VRML and 3DS files by the program `osgconv`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""PLY files, as text or binary, with polygons of any number of corners.
+"""The reader of PLY files, text or binary, with polygons of any number of corners.
 
 Format: Greg Turk, "The PLY Polygon File Format", 1994; texture coordinates as MeshLab and Blender
 write them: a list ``texcoord`` of each face, or two properties of each vertex.
@@ -26,9 +26,9 @@ TYPES = {
     "int8": "i1", "uint8": "u1", "int16": "i2", "uint16": "u2", "int32": "i4", "uint32": "u4",
     "int64": "i8", "uint64": "u8", "float32": "f4", "float64": "f8",
 }  # fmt: skip
-"""The names of number types, of 1994 and of today."""
+"""The NumPy type of each name of a number type, in old and new files."""
 MAX_RECORDS = 24_000_000
-"""The greatest number of records of a kind, and of numbers in all of its lists."""
+"""The greatest number of records of an element, and of numbers in all of its lists."""
 FORMATS = {"ascii": "", "binary_little_endian": "<", "binary_big_endian": ">"}
 CORNERS = ("vertex_indices", "vertex_index")
 COORDINATES = (("s", "t"), ("u", "v"), ("texture_u", "texture_v"))
@@ -37,17 +37,18 @@ COLOURS = ("red", "green", "blue")
 
 @dataclass
 class Property:
-    """A number of each record, or a list of numbers, with their types as NumPy names them."""
+    """A property of an element: in each record a number, or a list of numbers."""
 
     name: str
     kind: str
+    """The NumPy type of the numbers."""
     count: str | None = None
-    """The type of a list's length."""
+    """The NumPy type of the length of the list; None for a number."""
 
 
 @dataclass
 class Element:
-    """Records of one kind."""
+    """An element of the file: a number of records with equal properties."""
 
     name: str
     length: int
@@ -56,7 +57,7 @@ class Element:
 
 @dataclass
 class Lists:
-    """A list of each record, one after the other."""
+    """The values of a list property: the length of each record's list, and all numbers."""
 
     counts: Array
     values: Array
@@ -69,14 +70,14 @@ Columns = dict[str, Array | Lists]
 def read_parts(
     data: bytes, references: References
 ) -> list[tuple[npt.NDArray[np.float64], trimesh.Trimesh]]:
-    """Return the triangles of a file, a mesh for each of its images, with the identity as pose.
+    """Return the triangles of a file as a mesh for each image, each with the identity as pose.
 
     Args:
         data: the file.
-        references: reads its images.
+        references: the reader of the images of the file.
 
     Raises:
-        ValueError: it is not a PLY file, ends too early, or names a vertex that does not exist.
+        ValueError: the file is not PLY, ends too early, or names a vertex that does not exist.
     """
     elements, body, images = _header(data)
     columns: dict[str, Columns] = {"vertex": {}, "face": {}} | body.read(elements)
@@ -117,7 +118,7 @@ def read_parts(
 
 
 def _polygons(faces: Columns) -> Lists | None:
-    """Return the vertices of each face; the only list is used, whatever its name."""
+    """Return the vertices of each face: the list with a known name, or the only list."""
     lists = {name: column for name, column in faces.items() if isinstance(column, Lists)}
     corner_list = next((lists[name] for name in CORNERS if name in lists), None)
     return next(iter(lists.values())) if corner_list is None and len(lists) == 1 else corner_list
@@ -130,7 +131,7 @@ def _numbers(column: Array | Lists) -> Array:
 
 
 def _uvs(vertices: Columns, faces: Columns, corners: Array, counts: Array) -> Array | None:
-    """Return the texture coordinates of the corners, (n, 2), or 0; None if no face has any."""
+    """Return the texture coordinates of the corners, (n, 2), 0 where missing; None without any."""
     face_lists = faces.get("texcoord")
     if isinstance(face_lists, Lists):
         has_uvs = face_lists.counts == 2 * counts
@@ -195,26 +196,26 @@ def _lines(data: bytes) -> Iterator[tuple[str, int]]:
 
 
 class _Body(abc.ABC):
-    """The part behind the header; its places count bytes, or the numbers of a text."""
+    """The part behind the header; positions in it count bytes, or the numbers of a text."""
 
     start: int
     end: int
 
     @abc.abstractmethod
     def size(self, kind: str) -> int:
-        """Return the number of places that a number takes."""
+        """Return the number of positions that a number takes."""
 
     @abc.abstractmethod
-    def read_numbers(self, places: Array, kind: str) -> Array:
-        """Return the numbers at places."""
+    def read_numbers(self, positions: Array, kind: str) -> Array:
+        """Return the numbers at positions."""
 
-    def read_length(self, place: int, kind: str) -> int:
-        """Return the length of the list at a place; ValueError if there is none."""
-        return int(self.read_lengths(np.array([place]), kind)[0])
+    def read_length(self, position: int, kind: str) -> int:
+        """Return the length of the list at a position; ValueError if there is none."""
+        return int(self.read_lengths(np.array([position]), kind)[0])
 
-    def read_lengths(self, places: Array, kind: str) -> Array:
-        """Return the lengths of the lists at places; ValueError if one is invalid."""
-        lengths = self.read_numbers(places, kind).astype(np.int64)
+    def read_lengths(self, positions: Array, kind: str) -> Array:
+        """Return the lengths of the lists at positions; ValueError if one is invalid."""
+        lengths = self.read_numbers(positions, kind).astype(np.int64)
         if len(lengths) and lengths.min() < 0:
             raise ValueError(f"a list of {lengths.min()} numbers")
         return lengths
@@ -226,62 +227,62 @@ class _Body(abc.ABC):
             ValueError: there are fewer than the header states, or too many.
         """
         columns: dict[str, Columns] = {}
-        place = self.start
+        position = self.start
         for element in elements:
             min_size = sum(self.size(prop.count or prop.kind) for prop in element.properties)
-            if place + min_size * element.length > self.end:
+            if position + min_size * element.length > self.end:
                 raise ValueError(f"it ends before its {element.length} records {element.name!r}")
             if element.length > MAX_RECORDS:
                 raise ValueError(f"{element.length} records; at most {MAX_RECORDS} are read")
             if element.length and min_size:
-                columns[element.name], place = self._columns(element, place)
+                columns[element.name], position = self._columns(element, position)
         return columns
 
-    def _columns(self, element: Element, place: int) -> tuple[Columns, int]:
-        """Return records and the place behind them; step from one to the next if lists differ."""
-        n, length = element.length, self._record_end(element, place) - place
-        if place + n * length <= self.end:
-            columns = self._read_records(element, place + length * np.arange(n), is_equal=True)
+    def _columns(self, element: Element, position: int) -> tuple[Columns, int]:
+        """Return records and the position behind them, one by one if lists have other lengths."""
+        n, length = element.length, self._record_end(element, position) - position
+        if position + n * length <= self.end:
+            columns = self._read_records(element, position + length * np.arange(n), is_equal=True)
             if columns is not None:
-                return columns, place + n * length
-        places = np.empty(n, dtype=np.int64)
+                return columns, position + n * length
+        positions = np.empty(n, dtype=np.int64)
         for i in range(n):
-            places[i] = place
-            place = self._record_end(element, place)
-        return self._read_records(element, places) or {}, place
+            positions[i] = position
+            position = self._record_end(element, position)
+        return self._read_records(element, positions) or {}, position
 
-    def _record_end(self, element: Element, place: int) -> int:
-        """Return the place behind the record that begins at a place."""
+    def _record_end(self, element: Element, position: int) -> int:
+        """Return the position behind the record that begins at a position."""
         for prop in element.properties:
-            if prop.count is not None and place + self.size(prop.count) <= self.end:
-                length = self.read_length(place, prop.count)
-                place += self.size(prop.count) + length * self.size(prop.kind)
+            if prop.count is not None and position + self.size(prop.count) <= self.end:
+                length = self.read_length(position, prop.count)
+                position += self.size(prop.count) + length * self.size(prop.kind)
             else:
-                place += self.size(prop.count or prop.kind)
-        if place > self.end:
+                position += self.size(prop.count or prop.kind)
+        if position > self.end:
             raise ValueError(f"it ends before the last of its records {element.name!r}")
-        return place
+        return position
 
     def _read_records(
-        self, element: Element, places: Array, *, is_equal: bool = False
+        self, element: Element, positions: Array, *, is_equal: bool = False
     ) -> Columns | None:
-        """Return the records that begin at places; None if their lists have to be equally long."""
+        """Return the records that begin at positions; None if lists differ but must be equal."""
         columns: Columns = {}
         for prop in element.properties:
             if prop.count is None:
-                columns[prop.name] = self.read_numbers(places, prop.kind)
-                places = places + self.size(prop.kind)
+                columns[prop.name] = self.read_numbers(positions, prop.kind)
+                positions = positions + self.size(prop.kind)
                 continue
-            counts = self.read_lengths(places, prop.count)
+            counts = self.read_lengths(positions, prop.count)
             if is_equal and (counts != counts[0]).any():
                 return None
             if (total := int(counts.sum())) > MAX_RECORDS:
                 raise ValueError(f"lists of {total} numbers; at most {MAX_RECORDS} are read")
-            places = places + self.size(prop.count)
+            positions = positions + self.size(prop.count)
             offsets = np.arange(total) - np.repeat(np.cumsum(counts) - counts, counts)
-            value_places = np.repeat(places, counts) + offsets * self.size(prop.kind)
-            columns[prop.name] = Lists(counts, self.read_numbers(value_places, prop.kind))
-            places = places + counts * self.size(prop.kind)
+            value_positions = np.repeat(positions, counts) + offsets * self.size(prop.kind)
+            columns[prop.name] = Lists(counts, self.read_numbers(value_positions, prop.kind))
+            positions = positions + counts * self.size(prop.kind)
         return columns
 
 
@@ -301,21 +302,21 @@ class _Text(_Body):
             return super().read(elements)
         columns: dict[str, Columns] = {}
         for element in elements:
-            places = self._lines[first_line : first_line + element.length]
-            columns[element.name] = self._read_records(element, places) or {}
+            positions = self._lines[first_line : first_line + element.length]
+            columns[element.name] = self._read_records(element, positions) or {}
             first_line += element.length
         return columns
 
     def size(self, kind: str) -> int:
         return 1
 
-    def read_numbers(self, places: Array, kind: str) -> Array:
-        if len(places) and places.max() >= self.end:
+    def read_numbers(self, positions: Array, kind: str) -> Array:
+        if len(positions) and positions.max() >= self.end:
             raise ValueError("it ends before the last of its records")
-        return self._values[places].astype(kind)
+        return self._values[positions].astype(kind)
 
-    def read_lengths(self, places: Array, kind: str) -> Array:
-        lengths = self.read_numbers(places, "f8")
+    def read_lengths(self, positions: Array, kind: str) -> Array:
+        lengths = self.read_numbers(positions, "f8")
         if not ((lengths >= 0) & (lengths <= self.end) & (lengths == np.floor(lengths))).all():
             raise ValueError("the length of a list is invalid")
         return lengths.astype(np.int64)
@@ -331,14 +332,14 @@ class _Binary(_Body):
     def size(self, kind: str) -> int:
         return int(kind[1:])
 
-    def read_numbers(self, places: Array, kind: str) -> Array:
-        buffer = np.empty((len(places), self.size(kind)), dtype=np.uint8)
+    def read_numbers(self, positions: Array, kind: str) -> Array:
+        buffer = np.empty((len(positions), self.size(kind)), dtype=np.uint8)
         for i in range(buffer.shape[1]):
-            buffer[:, i] = self._bytes[places + i]
+            buffer[:, i] = self._bytes[positions + i]
         return buffer.view(self._order + kind)[:, 0].astype(kind)
 
-    def read_length(self, place: int, kind: str) -> int:
-        buffer = self._data[place : place + self.size(kind)]
+    def read_length(self, position: int, kind: str) -> int:
+        buffer = self._data[position : position + self.size(kind)]
         length = int.from_bytes(buffer, self._endian, signed=kind[0] == "i")
         if length < 0:
             raise ValueError(f"a list of {length} numbers")

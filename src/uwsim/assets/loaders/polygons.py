@@ -1,4 +1,4 @@
-"""Cuts polygons into triangles, concave ones by their ears.
+"""Triangulation of polygons, of concave ones by ear clipping.
 
 A fan from the first corner covers the notches of a concave polygon. An ear is a corner whose
 triangle is inside and contains no other corner; one is cut off after the other (Meisters,
@@ -26,7 +26,7 @@ def triangulate(points: Points, counts: Indices) -> Indices:
 
     Args:
         points: the corners of all polygons, one polygon after the other, (n, 3).
-        counts: the number of corners of each, (m,).
+        counts: the number of corners of each polygon, (m,).
 
     Returns:
         The indices of corners, (k, 3).
@@ -73,11 +73,11 @@ def cut_ears(points: Points) -> Indices:
     corners = list(range(len(outline)))
     triangles: list[tuple[int, int, int]] = []
     while len(corners) > 3:
-        place = next((k for k in range(len(corners)) if _is_ear(outline, corners, k)), None)
-        if place is None:  # it crosses itself
+        ear = next((k for k in range(len(corners)) if _is_ear(outline, corners, k)), None)
+        if ear is None:  # it crosses itself
             break
-        triangles.append((corners[place - 1], corners[place], corners[(place + 1) % len(corners)]))
-        del corners[place]
+        triangles.append((corners[ear - 1], corners[ear], corners[(ear + 1) % len(corners)]))
+        del corners[ear]
     triangles += [(corners[0], corners[k], corners[k + 1]) for k in range(1, len(corners) - 1)]
     return np.array(triangles, dtype=np.int64).reshape(-1, 3)
 
@@ -101,7 +101,7 @@ def _is_ear(outline: Points, corners: list[int], k: int) -> bool:
     is_inside = np.ones(len(corners), dtype=bool)
     for p, q in ((a, b), (b, c), (c, a)):
         is_inside &= _cross_product(p, q, points.T) >= 0.0
-    for p in (a, b, c):  # corners at the same place are those of an edge to a hole
+    for p in (a, b, c):  # corners at the same ear are those of an edge to a hole
         is_inside &= (points != p).any(axis=1)
     return not is_inside.any()
 

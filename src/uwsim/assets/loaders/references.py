@@ -1,7 +1,8 @@
-"""Files that a mesh file names: materials, images, buffers; only those in its folder are read.
+"""The materials, images and buffers that a mesh file names, if they are in allowed folders.
 
-The search is next to the mesh, for the name and for its last part: exporters write paths of their
-author's machine. A path to a file outside the allowed folders is an error; a missing file is not.
+A file is searched next to the mesh by its name and by the last part of the name, because exporters
+write paths of the author's computer. A path outside the allowed folders is an error; a missing file
+is not.
 """
 
 from __future__ import annotations
@@ -49,7 +50,7 @@ class References:
         self._errors: list[AssetError] = []
         self._images: dict[str, Path] = {}
         self.were_requested = False
-        """The use of the resolver: True after the first request for a file."""
+        """True if a file was requested."""
 
     def get(self, name: str) -> bytes:
         """Return the bytes of a file."""
@@ -63,7 +64,7 @@ class References:
     __getitem__ = get
 
     def image(self, name: str) -> Any:
-        """Return an image before its decoding; None without it, which `check` may report."""
+        """Return an image before its decoding; None if it cannot be opened."""
         try:
             return open_image(self.get(name))
         except Exception:  # Pillow raises whatever its readers raise
@@ -75,7 +76,7 @@ class References:
             raise error
 
     def broken_images(self, *, is_decoded: bool) -> list[str]:
-        """Return the names of the images that were read and cannot be opened, or not decoded."""
+        """Return the names of the images that were read and cannot be opened or decoded."""
         return [
             name for name, path in self._images.items() if is_broken(path, is_decoded=is_decoded)
         ]

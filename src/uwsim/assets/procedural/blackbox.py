@@ -25,8 +25,8 @@ INK = (0.25, 0.23, 0.22)
 WEAR = 0.55
 """The strength of scuffs, dirt and rubbed paint, 0..1.
 
-Contrast is tuned with these four: BAND and INK set that of the large marks, WEAR that of the small
-ones. The top face has a standard deviation of 25 to 35 grey levels at fog 0.
+`BAND` and `INK` set the contrast of the large marks, `WEAR` that of the small ones. Without fog,
+the grey levels of the top face have a standard deviation of 25 to 35.
 """
 
 

@@ -9,7 +9,7 @@ from .shapes import cylinder, lathe, mesh, rotation_to
 from .textures import worn_paint
 
 LENGTH = 2.4
-"""The length from button to muzzle [m]; the original's size is not known."""
+"""The length from button to muzzle [m]; the size of UWSim's model is not known."""
 
 
 def cannon() -> tuple[Mesh, ...]:

@@ -41,7 +41,13 @@ Pixels = npt.NDArray[np.uint8]
 
 
 class Fields(NamedTuple):
-    """The fields that determine the image, one value for each pixel."""
+    """The fields that determine the image, one value for each pixel.
+
+    ``grain`` and ``dunes`` are fine and broad noise of the sand. The heights and shades of cobbles
+    and rocks are from 0 to 1, as are the cover by rocks and their shadow. ``crust``, ``fronds`` and
+    ``beds`` are noise of the crust on rocks, of weed, and of where weed grows. ``exposure`` is the
+    brightness.
+    """
 
     grain: Grey
     dunes: Grey
@@ -125,7 +131,7 @@ def mosaic() -> Texture:
     )))  # fmt: skip
     pixels = np.empty((h, w, 3), dtype=np.uint8)
     for top in range(0, h, BAND_ROWS):
-        # Band by band, so that the layers stay in the processor's cache; a row more each side.
+        # In bands, so that the layers fit in the processor's cache, with a row more on each side.
         first_row, end_row = max(top - 1, 0), min(top + BAND_ROWS + 1, h)
         band = _paint_rows(first_row, Fields(*(values[first_row:end_row] for values in fields)))
         pixels[top : top + BAND_ROWS] = band[top - first_row : top - first_row + BAND_ROWS]

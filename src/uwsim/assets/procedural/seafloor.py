@@ -90,6 +90,6 @@ def desert() -> tuple[Mesh, ...]:
 def flat_sand() -> tuple[Mesh, ...]:
     """A plane of rippled sand through the origin, 24 x 24 m, z up."""
     half = 0.5 * FLAT_SIDE
-    turns = FLAT_SIDE / 4.0  # of the image
+    n_images = FLAT_SIDE / 4.0  # along each edge
     corners = [(-half, -half, 0.0), (half, -half, 0.0), (half, half, 0.0), (-half, half, 0.0)]
-    return (mesh(quad(*corners, uv=(0.0, 0.0, turns, turns), cuts=(10, 10)), texture=sand()),)
+    return (mesh(quad(*corners, uv=(0.0, 0.0, n_images, n_images), cuts=(10, 10)), texture=sand()),)

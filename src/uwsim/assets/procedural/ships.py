@@ -1,6 +1,6 @@
 """Boats and ships: ``objects/boat``, ``objects/ship``; z up, bow at +x, water line at z = 0.
 
-Sizes are ours; those of the originals are not known.
+The sizes are assumed, because the sizes of UWSim's models are not known.
 """
 
 from __future__ import annotations

@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class ClientOptions:
-    """The options of an external algorithm, its connection and its synchronization."""
+    """The options of an external algorithm: its connection and its synchronization."""
 
     client: Annotated[
         str | None,
@@ -149,7 +149,7 @@ class ClientOptions:
             _read_outputs(self.output or ())
 
     def client_spec(self) -> ClientSpec | None:
-        """Return the external program; None without one."""
+        """Return the spec of the external program; None without ``--client``."""
         from ...middleware.lockstep.spec import DEFAULT_SETTLE_TIME, ClientSpec, read_sync
 
         if self.client is None:

@@ -29,17 +29,17 @@ def typed_words() -> list[str] | None:
 
 
 def scene_names(prefix: str) -> list[tuple[str, str]]:
-    """Return bundled scenes, and XML files."""
+    """Return bundled scenes, and XML files in this directory."""
     return [*_bundled_names("scenes", prefix), *_match_files(prefix, ".xml")]
 
 
 def benchmark_names(prefix: str) -> list[tuple[str, str]]:
-    """Return bundled benchmarks, and XML files."""
+    """Return bundled benchmarks, and XML files in this directory."""
     return [*_bundled_names("benchmarks", prefix), *_match_files(prefix, ".xml")]
 
 
 def checked_names(prefix: str) -> list[tuple[str, str]]:
-    """Return bundled scenes and benchmarks, XML files and URDFs."""
+    """Return bundled scenes and benchmarks, and XML and URDF files in this directory."""
     return [*copied_names(prefix), *_match_files(prefix, ".xml", ".urdf")]
 
 
@@ -49,14 +49,14 @@ def copied_names(prefix: str) -> list[tuple[str, str]]:
 
 
 def algorithm_names(prefix: str) -> list[tuple[str, str]]:
-    """Return bundled algorithms; no other names need an import."""
+    """Return bundled algorithms."""
     from ...algorithms import ALGORITHMS, summary
 
     return _match_names({name: summary(kind) for name, kind in ALGORITHMS.items()}, prefix)
 
 
 def complete_names(names: Iterable[str]) -> Callable[[str], list[tuple[str, str]]]:
-    """Return the completion of a word that is one of some names."""
+    """Return a function that completes a word to one of some names."""
     descriptions = {name: "" for name in names}
 
     def complete(prefix: str) -> list[tuple[str, str]]:
@@ -76,7 +76,7 @@ def _match_names(names: Mapping[str, str], prefix: str) -> list[tuple[str, str]]
 
 
 def _match_files(prefix: str, *suffixes: str) -> list[tuple[str, str]]:
-    """Return files with these suffixes in this directory; the shell offers all others."""
+    """Return files with these suffixes in this directory; the shell offers other files."""
     return [
         (path.name, "")
         for path in sorted(Path().glob("*"))

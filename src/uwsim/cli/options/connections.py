@@ -75,7 +75,7 @@ DomainOption = Annotated[
 
 @dataclass(frozen=True, kw_only=True)
 class ConnectionOptions:
-    """The connections of a simulation, and its speed."""
+    """The options of connections to external programs, and of the pace of the simulation."""
 
     ros1: Ros1Option = False
     ros1_host: Ros1HostOption = None
@@ -113,7 +113,7 @@ class ConnectionOptions:
 
     @property
     def is_connected(self) -> bool:
-        """True if there is a connection."""
+        """True if a connection is requested."""
         return bool(self.transports)
 
     @property
@@ -123,7 +123,7 @@ class ConnectionOptions:
         return tuple(name for name, is_requested in requests.items() if is_requested)
 
     @property
-    def pace(self) -> float:
+    def real_time_factor(self) -> float:
         """The simulation time per real time; 0 is as fast as possible."""
         is_free = self.is_connected and not self.client
         return float(is_free) if self.speed is None else self.speed
@@ -137,14 +137,17 @@ class ConnectionOptions:
             if self.ros1_host is not None and not self.ros1:
                 raise BadSetting("--ros1-host needs --ros1.")
         with errors.collect():
-            if not (self.pace == 0 or MIN_REAL_TIME_FACTOR <= self.pace < float("inf")):
+            if not (
+                self.real_time_factor == 0
+                or MIN_REAL_TIME_FACTOR <= self.real_time_factor < float("inf")
+            ):
                 raise BadSetting(
-                    f"--speed {self.pace:g}: expected 0, or {MIN_REAL_TIME_FACTOR:g} or more."
+                    f"--speed {self.real_time_factor:g}: expected 0, or {MIN_REAL_TIME_FACTOR:g} or more."
                 )
         with errors.collect():
             if self.max_lag is not None and not 0.0 < self.max_lag < float("inf"):
                 raise BadSetting(f"--max-lag {self.max_lag:g}: expected a time > 0 [s].")
-            if self.max_lag is not None and self.pace == 0:
+            if self.max_lag is not None and self.real_time_factor == 0:
                 raise BadSetting("--max-lag needs a run in real time; add --speed.")
         with errors.collect():
             if self.ros2:
@@ -162,7 +165,7 @@ class ConnectionOptions:
             read_client_secret(self.client_secret_file)
 
     def spec(self) -> ConnectionSpec:
-        """Return the connections to open; raises BadSetting."""
+        """Return the connections to open; raise BadSetting."""
         from ...middleware.connection import ConnectionSpec
 
         return ConnectionSpec(
@@ -174,7 +177,7 @@ class ConnectionOptions:
         )
 
     def web_options(self) -> WebOptions | None:
-        """Return the settings of the web server; raises BadSetting."""
+        """Return the settings of the web server; raise BadSetting."""
         return WebOptionValues(
             port=self.web,
             host=self.web_host,
@@ -186,9 +189,9 @@ class ConnectionOptions:
 
 @contextmanager
 def open_connections(simulation: Simulation, options: ConnectionOptions) -> Iterator[None]:
-    """Connect a simulation, and pace it, within the block; an external program may end the block.
+    """Connect a simulation to external programs, and pace it, within the block.
 
-    The block begins when all clients in lock-step have joined.
+    The block begins when all clients in lock-step have joined. An external program may end it.
     """
     from ...simulation.control import Quit
 
@@ -197,10 +200,10 @@ def open_connections(simulation: Simulation, options: ConnectionOptions) -> Iter
             _attach_clients(simulation, bridges, options)
         if bridges:
             _connect_bridges(simulation, bridges)
-        if options.pace > 0:
+        if options.real_time_factor > 0:
             from ...middleware.pacing import Pace
 
-            pace = Pace(lambda: simulation.time, options.pace, max_lag=options.max_lag)
+            pace = Pace(lambda: simulation.time, options.real_time_factor, max_lag=options.max_lag)
             simulation.watch(pace.step)
         with suppress(Quit):
             yield

@@ -1,4 +1,4 @@
-"""One-line descriptions of named elements: from a docstring, or a file's head comment."""
+"""One-line descriptions of elements and files, from docstrings and head comments."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from types import ModuleType
 
 
 def describe_family(table: Mapping[str, type]) -> dict[str, str]:
-    """Describe a family by the first line of each member's module.
+    """Return a description of each element: the first line of the docstring of its module.
 
-    A plugin may have several members in its one module, so their own docstrings describe them.
+    A plugin may define several elements in one module, so it is the docstring of the class.
     """
     return {
         name: first_line(spec.__doc__ if is_plugin_class(spec) else find_module(spec).__doc__)
@@ -39,7 +39,7 @@ def remove_title(line: str) -> str:
 
 
 def first_line(doc: str | None) -> str:
-    """Return the first line of a docstring without its code markup."""
+    """Return the first line of a docstring, without the marks of code."""
     return (doc or "").strip().split("\n")[0].replace("``", "")
 
 

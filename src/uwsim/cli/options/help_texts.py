@@ -25,15 +25,16 @@ CONNECTIONS = "Connections"
 FILES = "Your own files and code"
 OUTPUT = "Output"
 OTHER_OPTIONS = "Options"
-"""The groups of options."""
+"""The titles of the groups of options in help texts."""
 GROUP_ORDER = (INPUT, COMPARISON, SEARCH, CONNECTIONS, RUN, OUTPUT, FILES, OTHER_OPTIONS)
+"""The order of the groups in help texts."""
 
 Completion = Callable[[str], list[tuple[str, str]]]
 """A function from an incomplete word to its completions, each with a description."""
 
 
 def option(group: str, *names: str, **arguments: Any) -> Any:
-    """Return an option that help shows in a group; other arguments are those of typer."""
+    """Return an option that help texts show in a group; ``arguments`` are those of typer."""
     return typer.Option(*names, rich_help_panel=group, **arguments)
 
 
@@ -41,13 +42,13 @@ class ErrorCollectingCommand(TyperCommand):
     """A command that reports the errors of all its options at once."""
 
     def parse_args(self, ctx: Any, args: list[str]) -> list[str]:
-        """Read the options; raises SeveralErrors, or typer's own error if there is only one."""
-        given_arguments = list(args)
+        """Read the options; raise SeveralErrors, or the error of typer if there is only one."""
+        all_arguments = list(args)
         try:
             return super().parse_args(ctx, args)
         except typer.TyperException as first_error:
             errors = ErrorCollector()
-            values, rest, _ = self.make_parser(ctx).parse_args(args=given_arguments)
+            values, rest, _ = self.make_parser(ctx).parse_args(args=all_arguments)
             for parameter in self.get_params(ctx):
                 if parameter.is_eager:
                     continue
@@ -56,12 +57,12 @@ class ErrorCollectingCommand(TyperCommand):
                         parameter.handle_parse_result(ctx, values, rest)
                     except typer.TyperException as error:
                         raise BadSetting(error.format_message()) from None
-            with suppress(BadSetting):  # the only one: as typer says it
+            with suppress(BadSetting):  # a single error: raise that of typer instead
                 errors.raise_errors()
             raise first_error
 
     def collect_usage_pieces(self, ctx: Any) -> list[str]:
-        """Return ``[OPTIONS] BENCHMARK``, ``[OPTIONS] RESULT...`` or ``[OPTIONS] [KIND]``."""
+        """Return the words after the command, such as ``[OPTIONS] RESULT...``."""
         return ["[OPTIONS]", *(_usage(argument) for argument in self._arguments(ctx))]
 
     def format_options(self, ctx: Any, formatter: Any) -> None:

@@ -1,4 +1,4 @@
-"""The reader of the values of ``--level``, as ``fog=0.5``."""
+"""Functions that read the values of ``--level``, such as ``fog=0.5``."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from ...runs.planning.option_values import number_or_text, split
 
 
 def read_levels(texts: Sequence[str] | None, errors: ErrorCollector) -> list[tuple[str, float]]:
-    """Read every ``--level``; collect errors."""
+    """Return the name and value of every ``--level``; collect errors."""
     levels = []
     for text in texts or ():
         with errors.collect():
@@ -18,7 +18,7 @@ def read_levels(texts: Sequence[str] | None, errors: ErrorCollector) -> list[tup
 
 
 def read_level(text: str) -> tuple[str, float]:
-    """Read ``fog=0.5``; raises BadSetting."""
+    """Return the name and value of a text such as ``fog=0.5``; raise BadSetting."""
     name, value = split(text, "--level")
     number = number_or_text(value)
     if isinstance(number, str):

@@ -77,9 +77,9 @@ class LiveOptions:
         Args:
             title: the title of the page.
             speed: the simulation time per second; 0: as fast as possible.
-            is_piloted: viewers pilot.
-            waits: the run begins when a viewer has connected.
-            resets: viewers may reset the scene.
+            is_piloted: True if users of the page pilot.
+            waits: True if the run begins only when a browser has connected.
+            resets: True if users of the page may reset the scene.
         """
         if not self.view:
             yield None

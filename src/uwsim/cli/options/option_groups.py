@@ -1,4 +1,4 @@
-"""Options as typed values: a parameter of a command may be a frozen dataclass of options.
+"""Groups of options: a parameter of a command may be a frozen dataclass of options.
 
 Each of its fields has the annotation of a command's parameter (``Annotated[int, option(...)]``);
 a field may be such a dataclass again. Several commands share options, and pass them on, as one
@@ -15,7 +15,7 @@ from typing import Any, get_type_hints
 
 
 def flatten_options(command: Callable[..., object]) -> Callable[..., object]:
-    """Return the command for typer: each field of its dataclasses is a parameter."""
+    """Return the command for typer, with a parameter for each field of its dataclasses."""
     hints = get_type_hints(command, include_extras=True)
     inputs = inspect.signature(command).parameters
     parameters: list[inspect.Parameter] = []
@@ -35,7 +35,7 @@ def flatten_options(command: Callable[..., object]) -> Callable[..., object]:
 
 
 def _flat_parameters(group: Any) -> Iterator[inspect.Parameter]:
-    """Yield the fields of a dataclass, and of those in it, as parameters."""
+    """Yield the fields of a dataclass, and of the dataclasses in it, as parameters."""
     hints = get_type_hints(group, include_extras=True)
     for field in fields(group):
         if is_dataclass(hints[field.name]):
@@ -51,7 +51,7 @@ def _parameter(name: str, annotation: Any, default: Any) -> inspect.Parameter:
 
 
 def _value_of(name: str, kind: Any, values: Mapping[str, Any]) -> Any:
-    """Return the value of a parameter, or its dataclass with the values of the fields."""
+    """Return the value of a parameter; for a dataclass, an instance of it with these values."""
     if not is_dataclass(kind):
         return values[name]
     hints = get_type_hints(kind, include_extras=True)

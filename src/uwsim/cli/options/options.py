@@ -87,7 +87,7 @@ CompatOption = Annotated[
 
 
 def check_folders(folders: list[Path] | None) -> list[Path] | None:
-    """Raise BadSetting if one is no folder."""
+    """Return paths that are all folders; raise BadSetting for the others."""
     errors = ErrorCollector()
     for folder in folders or ():
         if not folder.is_dir():
@@ -178,7 +178,7 @@ CallbackLimitOption = Annotated[
 
 @dataclass(frozen=True, kw_only=True)
 class TaskOptions:
-    """The benchmark and its scene."""
+    """The options that choose the benchmark and its scene."""
 
     benchmark: BenchmarkArgument
     scene: SceneOption = None
@@ -186,7 +186,7 @@ class TaskOptions:
 
 @dataclass(frozen=True, kw_only=True)
 class SettingOptions:
-    """The changes of the files."""
+    """The options that change values of the files."""
 
     settings: SetOption = None
     xacro: XacroOption = None
@@ -194,19 +194,19 @@ class SettingOptions:
 
     @property
     def all_settings(self) -> list[str]:
-        """The settings of ``--set``, and the xacro arguments as settings; raises BadSetting."""
+        """The settings of ``--set``, and the xacro arguments as settings."""
         return [*(self.settings or ()), *xacro_settings(self.xacro)]
 
 
 @dataclass(frozen=True, kw_only=True)
 class WorkerOptions:
-    """The execution of the trials."""
+    """The options of the execution of the trials."""
 
     workers: WorkersOption = "1"
     callback_limit: CallbackLimitOption = CALLBACK_LIMIT
 
     def executor(self) -> Executor:
-        """Return the executor of the trials; raises BadSetting, MissingExtra."""
+        """Return the executor of the trials; raise BadSetting or MissingExtra."""
         return executor_of(self.workers, self.callback_limit)
 
     @property
@@ -217,7 +217,7 @@ class WorkerOptions:
 
 @dataclass(frozen=True, kw_only=True)
 class CodeOptions:
-    """The user's code and data."""
+    """The options for the user's own code and files."""
 
     plugin: PluginOption = None
     no_code: NoCodeOption = False
@@ -231,7 +231,7 @@ class CodeOptions:
 
 
 def xacro_settings(words: Sequence[str] | None) -> list[str]:
-    """Return ``NAME:=VALUE`` of ``--xacro`` as settings ``xacro.NAME=VALUE``; raises BadSetting."""
+    """Return ``NAME:=VALUE`` of ``--xacro`` as settings ``xacro.NAME=VALUE``; raise BadSetting."""
     settings = []
     for word in words or ():
         name, sign, value = word.partition(":=")
@@ -242,7 +242,7 @@ def xacro_settings(words: Sequence[str] | None) -> list[str]:
 
 
 def make_request(task: TaskOptions, changes: SettingOptions, files: CodeOptions) -> PlanRequest:
-    """Return the request of these options; the rest has its defaults."""
+    """Return a request with the values of these options; other fields have their defaults."""
     return PlanRequest(
         benchmark=task.benchmark,
         scene=task.scene,

@@ -1,4 +1,4 @@
-"""The options of ``uwsim run``: duration, program and output."""
+"""The options of runs: duration, program, seed and recording."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .options import JsonOption
 
 @dataclass(frozen=True, kw_only=True)
 class ProgramOptions:
-    """The duration and the program."""
+    """The options of the duration and the program."""
 
     duration: Annotated[
         str | None,
@@ -66,7 +66,7 @@ ImagesOption = Annotated[
 
 @dataclass(frozen=True, kw_only=True)
 class RecordOptions:
-    """The written files."""
+    """The options of the output and the recording."""
 
     hz: Annotated[
         bool,
@@ -93,7 +93,7 @@ class RecordOptions:
 
 @dataclass(frozen=True, kw_only=True)
 class TrialRecordOptions:
-    """The recordings of the trials of a benchmark."""
+    """The options of the recordings of the trials of a benchmark."""
 
     record: Annotated[
         Path | None,

@@ -20,10 +20,10 @@ MAX_BYTES = 4096
 
 
 def read_web_token(command_line_token: str | None, file: Path | None) -> str | None:
-    """Return the token of web clients; None if there is none.
+    """Return the token of web clients, if there is one.
 
     Raises:
-        BadSetting: it is on the command line; or the file cannot be read, or is blank.
+        BadSetting: the token is on the command line, or the file cannot be read or is blank.
     """
     if command_line_token is not None:
         raise BadSetting(
@@ -34,12 +34,12 @@ def read_web_token(command_line_token: str | None, file: Path | None) -> str | N
 
 
 def read_client_secret(file: Path | None) -> str | None:
-    """Return the secret of a client's join; None if there is none. Raises BadSetting."""
+    """Return the secret with which a client joins, if there is one; raise BadSetting."""
     return read_secret(CLIENT_SECRET, file, "--client-secret-file")
 
 
 def read_secret(variable: str, file: Path | None, option: str) -> str | None:
-    """Return a secret: the first line of the file, or else the variable; None without both.
+    """Return a secret from the first line of a file, or else from an environment variable.
 
     Raises:
         BadSetting: the file cannot be read or is too long; or the secret is blank.

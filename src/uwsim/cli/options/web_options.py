@@ -1,4 +1,4 @@
-"""The options of web clients and of clients in lock-step."""
+"""The options of the web server and of clients in lock-step."""
 
 from __future__ import annotations
 
@@ -110,7 +110,7 @@ class WebOptionValues:
     host: str | None = None
     """The value of ``--web-host``."""
     token: str | None = None
-    """The value of ``--web-token``, which is an error."""
+    """The value of ``--web-token``, which is not accepted any more."""
     token_file: Path | None = None
     """The value of ``--web-token-file``."""
     origins: Sequence[str] | None = None
@@ -144,7 +144,7 @@ class WebOptionValues:
 
 
 def check_clients(names: Sequence[str], limit: float, transports: Sequence[str]) -> None:
-    """Raise BadSetting for clients that cannot connect."""
+    """Raise BadSetting if clients in lock-step cannot connect with these options."""
     if not 0.0 < limit <= MAX_LIMIT:
         raise BadSetting(f"--client-limit {limit:g}: expected > 0 and at most {MAX_LIMIT:g} [s].")
     if not all(name.strip() for name in names):

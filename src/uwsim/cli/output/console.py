@@ -1,4 +1,4 @@
-"""The console for tables: control characters from files are escaped."""
+"""A console for tables, which escapes control characters from files."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class Console(rich.console.Console):
     def render(
         self, renderable: RenderableType, options: ConsoleOptions | None = None
     ) -> list[Segment]:
-        """Convert an object to segments of text; control segments of the console stay."""
+        """Convert an object to segments of text; control segments of the console remain."""
         return [
             segment
             if segment.control
@@ -30,5 +30,5 @@ class Console(rich.console.Console):
 
 
 def standard_output(columns: int = UNWRAPPED_WIDTH) -> Console:
-    """Return the console of standard output, ``columns`` wide if that is no terminal."""
+    """Return the console of standard output, which is ``columns`` wide without a terminal."""
     return Console(width=None if sys.stdout.isatty() else columns, highlight=False)

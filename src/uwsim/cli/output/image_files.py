@@ -1,4 +1,4 @@
-"""The image files of ``uwsim render``: colours, depth and segmentation."""
+"""Functions that write the files of ``uwsim render``: colour, depth and segmentation."""
 
 from __future__ import annotations
 
@@ -16,18 +16,18 @@ if TYPE_CHECKING:
 
 MILLIMETRES_PER_METRE = 1000.0
 MAX_DEPTH_MM = 65535
-"""The largest value of a 16-bit depth image [mm]; greater depths have this value, none has 0."""
+"""The largest value of a 16-bit depth image [mm], which greater depths have as well."""
 
 
 def save_image(path: Path, pixels: np.ndarray) -> Path:
-    """Write an image, (h, w, 3) or (h, w), with the 8 or 16 bit of its array."""
+    """Write an image (h, w, 3) or (h, w) with 8 or 16 bits per value, as in the array."""
     with atomic_write(path) as draft:
         Image.fromarray(pixels).save(draft, format="PNG")
     return path
 
 
 def save_depth(out: Path, image: RenderedImage) -> list[Path]:
-    """Write the planar depth: millimetres in an image, metres in an array."""
+    """Write the depth along the optical axis: millimetres in an image, metres in an array."""
     metres = image.depth  # (h, w) [m]
     is_visible = np.isfinite(metres)
     millimetres = np.rint(np.where(is_visible, metres, 0.0) * MILLIMETRES_PER_METRE)
@@ -39,7 +39,7 @@ def save_depth(out: Path, image: RenderedImage) -> list[Path]:
 
 
 def save_ids(out: Path, image: RenderedImage, names: dict[int, str]) -> list[Path]:
-    """Write the number of the body in each pixel, and the names of the numbers."""
+    """Write an image with the number of the body in each pixel, and a table of the names."""
     assert image.ids is not None
     numbers, counts = np.unique(image.ids, return_counts=True)
     legend = sibling_path(out, "-ids.csv")

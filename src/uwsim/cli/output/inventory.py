@@ -38,7 +38,7 @@ Fields = dict[str, Any]
 def inventory(
     scene: SceneSpec, simulation: Simulation, diagnostics: Sequence[Diagnostic]
 ) -> Fields:
-    """Return the named parts of a scene, and the elements that are not simulated."""
+    """Return the content of a scene: its parts, warnings, and elements that are not simulated."""
     warnings = [entry.message for entry in diagnostics if entry.severity == "warning"]
     model_scene = simulation.world.model.scene
     sensors = _sensors(model_scene, simulation.world.model.robots)
@@ -166,7 +166,7 @@ def _joint(joint: JointSpec) -> Fields:
 
 
 def _surfaces_below(scene: SceneSpec, spec: VehicleSpec, simulation: Simulation) -> list[Fields]:
-    """Return the surfaces below the vehicle's origin, the nearest first: the last is the floor."""
+    """Return the surfaces below the vehicle's origin from top to bottom; the last is the floor."""
     origin = simulation.world.bodies.find(spec.name).world_from_body.position
     localized_from_world = scene.world_from_localized.inverse()
     surfaces = []
@@ -184,7 +184,7 @@ def _round(values: npt.NDArray[np.float64]) -> list[float]:
 
 
 def _cameras(scene: SceneSpec, robots: Mapping[int, RobotSpec]) -> list[Fields]:
-    """Return all cameras; of several with one name and a link, interfaces find the last."""
+    """Return all cameras; if several on existing links have one name, the last has the topics."""
     cameras = [
         (index, spec)
         for index, vehicle in enumerate(scene.vehicles)
@@ -206,7 +206,7 @@ def _cameras(scene: SceneSpec, robots: Mapping[int, RobotSpec]) -> list[Fields]:
 
 
 def _sensors(scene: SceneSpec, robots: Mapping[int, RobotSpec]) -> list[Fields]:
-    """Return all sensors and lamps with a direction, on existing links."""
+    """Return all sensors and lamps that have a direction and whose links exist."""
     elements: dict[type, str] = {spec: element for element, spec in (SENSORS | DEVICES).items()}
     sensors = []
     for index, vehicle in enumerate(scene.vehicles):

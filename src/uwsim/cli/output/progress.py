@@ -25,9 +25,9 @@ REPORT_INTERVAL = 10.0
 
 
 class TimeEstimate:
-    r"""An estimate of the remaining time from the pieces done so far.
+    r"""An estimate of the remaining time of a work from its finished pieces.
 
-    Loading and compiling before the first piece occur once, and w workers finish their pieces at
+    Loading and compiling occur once, before the first piece, and w workers finish their pieces at
     about the same time, in waves. The estimate therefore counts waves, from the time :math:`t_w` at
     which the first one ends. With k of n pieces done at t, the rest takes
 
@@ -90,7 +90,7 @@ class TimeLeftColumn(ProgressColumn):
 def progress(
     title: str, total: int, *, n_done: int = 0, unit: str, n_parallel: int = 1
 ) -> Iterator[Callable[[], None]]:
-    """Show the progress; yield the function to call after each piece.
+    """Show the progress of a work; yield the function to call after each piece.
 
     Args:
         title: the name of the work.
@@ -125,7 +125,7 @@ def progress(
 def print_progress(
     title: str, n_done: int, total: int, unit: str, estimate: TimeEstimate
 ) -> Callable[[], None]:
-    """Print the progress on separate lines from time to time."""
+    """Return a function that counts pieces, and prints a line from time to time."""
     report_time = time.monotonic()
 
     def on_piece() -> None:

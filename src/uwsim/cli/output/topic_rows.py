@@ -15,7 +15,7 @@ from ...topics.simulated_device_ros import unwrap_interfaces
 
 Fields = dict[str, Any]
 TOPIC_FIELDS = ("topic", "image_topic", "info_topic")
-"""The fields with topics in an interface that is not simulated."""
+"""The fields of an interface that is not simulated which name topics."""
 
 
 def topic_rows(scene: SceneSpec, simulation: Simulation) -> list[Fields]:
@@ -46,7 +46,7 @@ def topic_rows(scene: SceneSpec, simulation: Simulation) -> list[Fields]:
 
 
 def _further_topics(simulation: Simulation, listed_topics: Collection[str]) -> list[Fields]:
-    """Return the other topics of the scene: subscribed frames, and events of packets."""
+    """Return the other topics of the scene, such as ``/tf`` and the events of packets."""
     return [
         {
             "topic": f"/{topic}",

@@ -23,7 +23,7 @@ NUMBER_COLUMNS = ("messages", "rate [Hz]", "min gap [s]", "max gap [s]", "std [s
 def print_topics(
     scene: str, simulation: Simulation, rates: Sequence[TopicRate], recording: Path | None
 ) -> None:
-    """Print the messages of each topic."""
+    """Print the number and rate of the messages on each topic as a table."""
     console = standard_output()
     console.print(rate_table(rates))
     seconds = f"{simulation.time:g} s of {Path(scene).name or 'the scene'}"
@@ -39,7 +39,7 @@ def print_topics(
 def print_json(
     scene: str, simulation: Simulation, rates: Sequence[TopicRate], recording: Path | None
 ) -> None:
-    """Print the messages of each topic as JSON."""
+    """Print the number and rate of the messages on each topic as JSON."""
     document = {
         "scene": scene,
         "time": simulation.time,
@@ -52,7 +52,7 @@ def print_json(
 
 
 def rate_table(rates: Sequence[TopicRate]) -> Table:
-    """Return a row for each topic."""
+    """Return a table with a row for each topic."""
     is_counted = any(rate.n_messages is not None for rate in rates)
     table = Table(box=None, padding=(0, 2, 0, 0), pad_edge=False)
     table.add_column("topic", no_wrap=True, style="bold")
