@@ -137,12 +137,10 @@ class ConnectionOptions:
             if self.ros1_host is not None and not self.ros1:
                 raise BadSetting("--ros1-host needs --ros1.")
         with errors.collect():
-            if not (
-                self.real_time_factor == 0
-                or MIN_REAL_TIME_FACTOR <= self.real_time_factor < float("inf")
-            ):
+            factor = self.real_time_factor
+            if not (factor == 0 or MIN_REAL_TIME_FACTOR <= factor < float("inf")):
                 raise BadSetting(
-                    f"--speed {self.real_time_factor:g}: expected 0, or {MIN_REAL_TIME_FACTOR:g} or more."
+                    f"--speed {factor:g}: expected 0, or {MIN_REAL_TIME_FACTOR:g} or more."
                 )
         with errors.collect():
             if self.max_lag is not None and not 0.0 < self.max_lag < float("inf"):
