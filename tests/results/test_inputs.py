@@ -18,10 +18,10 @@ from uwsim.base.files.input_files import record_inputs
 from uwsim.errors import ResultError
 from uwsim.results import journal
 from uwsim.results.inputs import Inputs, input_differences
-from uwsim.runs.inputs_read import inputs_of
 from uwsim.runs.planning.make_plan import make_plan
 from uwsim.runs.planning.plan import Plan
 from uwsim.runs.planning.plan_request import PlanRequest
+from uwsim.runs.result_inputs import inputs_of
 from uwsim.runs.run import Run
 from uwsim.verify.recorded_plan import check_inputs
 

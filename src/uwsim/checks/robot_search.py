@@ -54,7 +54,7 @@ class RobotSearch:
                 self.robots[index] = robot
 
     def _read(self, vehicle: VehicleSpec, arguments: dict[str, str]) -> RobotSpec | None:
-        """Read a vehicle's robot, or else the bundled one of the same file name."""
+        """Read a vehicle's robot file, or else the bundled robot with the same file name."""
         name, remark = vehicle.file, ""
         try:
             if path := find(name, **self._file_search):

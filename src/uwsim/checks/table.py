@@ -7,10 +7,10 @@ from functools import partial
 from . import benchmarks, robots
 from .model import (
     bottom,
+    dynamics,
     file_locations,
     meshes,
     objects,
-    simulated,
     starts,
     steps,
     thrust,
@@ -73,15 +73,15 @@ SCENE_RULES: tuple[Rule[CheckedScene], ...] = (
     Rule(not_simulated.not_simulated, Need.SPEC),
     Rule(partial(robots.robot_files, rules=ROBOT_RULES), Need.FILES),
     Rule(robots.unused_arguments, Need.FILES, in_check=False, in_runs=True),
-    Rule(simulated.hydrodynamic_names, Need.VALID),
-    Rule(simulated.object_shapes, Need.VALID),
+    Rule(dynamics.hydrodynamic_names, Need.VALID),
+    Rule(dynamics.object_shapes, Need.VALID),
     Rule(VEHICLE_NUMBERS, Need.MODEL, in_runs=True),
     Rule(bottom.velocity_logs, Need.MODEL, in_runs=True),
     Rule(starts.start_poses, Need.MODEL, in_runs=True),
     Rule(OBJECT_NUMBERS, Need.MODEL, in_runs=True),
     Rule(steps.thin_objects, Need.MODEL, in_runs=True),
     Rule(meshes.fixed_meshes, Need.MODEL, in_runs=True),
-    Rule(simulated.missing_floors, Need.VALID),
+    Rule(dynamics.missing_floors, Need.VALID),
 )
 """Rules about a scene file, and about a scene that is about to run."""
 

@@ -28,7 +28,7 @@ MAX_LINES = 6
 
 @dataclass(frozen=True, kw_only=True)
 class Inputs(StoredRecord):
-    """The names and hashes of the files read; None where a result does not state them."""
+    """The names and hashes of the files read; None for a role that a result does not state."""
 
     KEY: ClassVar[str] = "inputs"
 
@@ -45,7 +45,7 @@ class Inputs(StoredRecord):
 
     @property
     def title(self) -> str:
-        """The name of the benchmark without its suffix; ``benchmark`` where there is none."""
+        """The name of the benchmark file without its suffix; ``benchmark`` if it is unknown."""
         return "benchmark" if self.benchmark is None else self.benchmark[0].removesuffix(".xml")
 
     def files(self) -> Iterator[tuple[str, str, str]]:

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from ..errors import ReplayDiffers, ResultError, name_file_in_errors
-from .chosen_code import code_differences
+from .code_paths import code_differences
 from .inputs import Inputs, input_differences
 from .provenance import codes_of, load_provenance
 from .seal import SEALED_KEY, Seal
@@ -271,7 +271,7 @@ class Journal:
 
 
 def _other_run(*heads: Record) -> str:
-    """Return the differences between the head of another run and that of this run."""
+    """Return the differences between the heads of another run and of this run, as text."""
     messages = input_differences(*(Inputs.from_dict(_part(head, "inputs")) for head in heads))
     old_run, new_run = (
         {**_part(head, "run"), **{k: v for k, v in head.items() if k not in ("inputs", "run")}}

@@ -1,4 +1,4 @@
-"""Logs: the samples of a measure, one CSV file each.
+"""Logs: the samples of a measure over time, in a CSV file for each measure.
 
 .. code-block:: text
 

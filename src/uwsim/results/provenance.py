@@ -15,7 +15,7 @@ from pathlib import Path
 
 from ..errors import ResultError
 from .atomic_file import write_text
-from .chosen_code import chosen_code, code_differences
+from .code_paths import chosen_code, code_differences
 from .stored.stored_shapes import PROVENANCE
 
 EARLIER_CODES = "code_before"

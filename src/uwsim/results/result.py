@@ -204,12 +204,12 @@ class Result:
         return names.index(name)
 
     def values(self, name: str) -> tuple[Cell, ...]:
-        """Return one column's cells, top to bottom."""
+        """Return the cells of a column, in the order of the rows."""
         index = self.index(name)
         return tuple(row[index] for row in self.rows)
 
     def numbers(self, name: str) -> tuple[float | None, ...]:
-        """Return one column's cells as floats; None stays None."""
+        """Return the cells of a column as floats; None for a missing value or a text."""
         return tuple(float(v) if isinstance(v, int | float) else None for v in self.values(name))
 
     def columns_of_kind(self, *kinds: Kind) -> tuple[Column, ...]:

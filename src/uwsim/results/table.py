@@ -165,7 +165,7 @@ def _fit_columns(columns: Sequence[Column], widths: Sequence[int], space: int) -
 
 
 def unit_of(result: Result, column: Column) -> str:
-    """Return the unit of a column; a total that only adds measures of one unit has that unit."""
+    """Return the unit of a column; a sum of measures with the same unit has this unit."""
     if column.unit or column.kind != "score" or not column.expression:
         return column.unit or ""
     units = {measure.name: measure.unit for measure in result.columns_of_kind("measure")}
@@ -190,7 +190,7 @@ def rate_text(success: Rate) -> str:
 
 
 def number_text(value: float, decimals: int) -> str:
-    """Return ``1.83``; ``1e+38`` and ``2.5e-09`` where fixed decimals are too long or show zero."""
+    """Return ``1.83``; or ``1e+38``, ``2.5e-09`` if fixed decimals are too long or show zero."""
     is_small = decimals >= MAX_DECIMALS and 0 < abs(value) < 0.5 * 10**-decimals
     return f"{value:.3g}" if abs(value) >= MAX_FIXED or is_small else f"{value:.{decimals}f}"
 

@@ -15,9 +15,9 @@ from ..results.inputs import Inputs
 from ..simulation import RendererPool, Simulation
 from .bind_all import bind_all
 from .input_watch import unique_files
-from .inputs_read import hash_algorithm, inputs_of
 from .planning.plan import Plan
 from .planning.trial_cache import compile_plan
+from .result_inputs import hash_algorithm, inputs_of
 from .run import Run
 
 

@@ -13,9 +13,9 @@ without an estimate and a `pathFollowing` without a path are in error; other mea
 value have their start value. The original sums the errors of a row, and a missing path counts -1:
 with one missing estimate beside it the row remains, and the two values are -1 and 0.
 
-A measure with ``<log>`` has its own file, and a CSV file of the same samples. Its first column
-has the outermost updater's name and holds, in the original too, the running time; the details of
-the measure follow, and one blank line at the end. Levels are not distinguished.
+A measure with ``<log>`` has its own file, and a CSV file of the same samples. The first column has
+the name of the outermost updater but holds the running time, as in the original; the details of the
+measure follow. The file ends with a blank line. Levels are not distinguished.
 
 .. code-block:: text
 
@@ -56,7 +56,7 @@ LEVEL_NAMES = {
     "light": "Light",
     "noise": "Noise",
 }
-"""The original's name of each updater, by reference."""
+"""The name of each swept parameter in the files of the original UWSim."""
 
 
 def dat_text(
@@ -140,7 +140,7 @@ def _fields(result: Result, specs: Mapping[str, MeasureSpec]) -> Iterator[tuple[
 
 
 def detail_names(spec: MeasureSpec, n_logged: int) -> tuple[str, ...]:
-    """Return the original's names of a measure's details: its log's columns after the time.
+    """Return the names that the original UWSim gives to the values in the log of a measure.
 
     Args:
         spec: the measure; a measure that the original lacks has all values of its log.

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
-from ..results.chosen_code import code_differences
+from ..results.code_paths import code_differences
 from ..results.provenance import codes_of, load_provenance, machine
 from ..results.result import Result
 from ..results.run_info import RunInfo

@@ -65,13 +65,13 @@ class PairedDifference:
     @property
     @deprecated_name("repeats_needed")
     def needed(self) -> int | None:
-        """The repeats needed; its old name."""
+        """The old name of `repeats_needed`."""
         return self.repeats_needed
 
     @property
     @deprecated_name("repeats_to_test")
     def fewest(self) -> int | None:
-        """The repeats to test; its old name."""
+        """The old name of `repeats_to_test`."""
         return self.repeats_to_test
 
 
@@ -162,7 +162,7 @@ class PairComparison:
     @property
     @deprecated_name("sweep")
     def overall(self) -> SweepStatistics:
-        """The comparison over the whole sweep; its old name."""
+        """The old name of `sweep`."""
         return self.sweep
 
 
@@ -208,25 +208,25 @@ class Comparison:
     @property
     @deprecated_name("pairs")
     def versus(self) -> tuple[PairComparison, ...]:
-        """The pairs; their old name."""
+        """The old name of `pairs`."""
         return self.pairs
 
     @property
     @deprecated_name("experiment_differences")
     def forced(self) -> tuple[str, ...]:
-        """The differences between the experiments; their old name."""
+        """The old name of `experiment_differences`."""
         return self.experiment_differences
 
     @property
     @deprecated_name("min_level_repeats")
     def fewest(self) -> int:
-        """The repeats for single levels; their old name."""
+        """The old name of `min_level_repeats`."""
         return self.min_level_repeats
 
     @property
     @deprecated_name("min_sweep_repeats")
     def fewest_for_sweep(self) -> int:
-        """The repeats for the sweep; their old name."""
+        """The old name of `min_sweep_repeats`."""
         return self.min_sweep_repeats
 
 

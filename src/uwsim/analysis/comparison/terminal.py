@@ -70,7 +70,7 @@ class ComparisonLine:
     ok: str
     """The number of repeats that ended ok, in the first and the second: ``10 : 8 of 10``."""
     verdict: str
-    """The short verdict."""
+    """The verdict in a few words (`short_verdict`)."""
     repeats_needed: str
     """The number of repeats that would show a difference."""
     is_shown: bool

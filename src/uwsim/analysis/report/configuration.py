@@ -6,7 +6,7 @@ import shlex
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from ...results.chosen_code import names_text
+from ...results.code_paths import names_text
 from ...results.command import bench_words
 from ...results.refused_lines import refused_lines
 from ...results.result import FLOOR, Result

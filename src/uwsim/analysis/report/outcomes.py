@@ -41,7 +41,7 @@ class Ending:
     status: str
     """The status: ``ok``, ``lost``, ``timeout``, ..."""
     meaning: str
-    """The meaning of the status; empty for an unknown one."""
+    """The meaning of the status; empty for an unknown status."""
     n: int
     """The number of rows."""
     share: str
@@ -60,13 +60,13 @@ class FirstFailure:
     """The first level of a repeat that did not end ``ok``."""
 
     repeat: str
-    """The seed."""
+    """The seed of the repeat."""
     level: str
     """The level; empty if all levels ended ``ok``."""
     status: str
     """The status of the level."""
     reason: str
-    """The reason."""
+    """The reason for the status; empty without a failure."""
 
 
 def endings(result: Result) -> list[Ending]:

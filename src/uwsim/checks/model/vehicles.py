@@ -58,11 +58,11 @@ class DynamicVehicle:
     spec: VehicleSpec
     """The spec of the vehicle."""
     robot: RobotSpec
-    """The robot with its links."""
+    """The robot of the vehicle, with its links and joints."""
     dynamics: VehicleHydrodynamics
     """The hydrodynamics of the links."""
     balance: Balance
-    """The weight and buoyancy."""
+    """The mass, the displaced mass, and the centres of mass and buoyancy in the base frame."""
     up: Array
     """The unit vector in the base frame that points up at the start, (3,)."""
     hull: Hull | None

@@ -61,9 +61,9 @@ class Signal:
     name: str
     """The name, such as ``fog`` or ``current.x``."""
     unit: str = "1"
-    """The unit."""
+    """The unit of the value."""
     step: float = 1e-4
-    """The resolution; stored values are whole multiples of it."""
+    """The resolution, in `unit`; stored values are integer multiples of it."""
 
 
 @dataclass(frozen=True, kw_only=True)

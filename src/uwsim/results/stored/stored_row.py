@@ -40,7 +40,7 @@ class StoredRow:
     details: Mapping[str, ValueWithUnit]
     """The value and unit of each ``measure.detail``."""
     total: float | None
-    """The score."""
+    """The score of the level; None if it is missing."""
     status: str
     """``ok``, or the first status of docs/levels.md that applies."""
     missing: Mapping[str, str]

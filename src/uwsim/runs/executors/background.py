@@ -30,7 +30,7 @@ Reporter = Callable[[], Callable[[Path], object]]
 
 
 class JobRunner:
-    """A runner of jobs in this process; each call of `wait` executes one.
+    """A runner of jobs in this process; each call of `wait` executes one job.
 
     Args:
         reporter: returns the function that draws a report.

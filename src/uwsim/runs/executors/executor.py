@@ -63,7 +63,7 @@ class Executor(Protocol):
     """The protocol of an executor of trials."""
 
     def execute(self, queue: JobQueue) -> None:
-        """Take jobs from the queue until there are none, and report each."""
+        """Take jobs from the queue until it is empty, and report the outcome of each job to it."""
 
 
 class JobQueue:
@@ -201,7 +201,7 @@ class SerialExecutor:
         self._observer, self._limit = observer, callback_limit
 
     def execute(self, queue: JobQueue) -> None:
-        """Execute all jobs."""
+        """Execute all jobs of the queue in this process."""
         cache = TrialCache()
         try:
             while (job := queue.take()) is not None:

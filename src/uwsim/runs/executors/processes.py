@@ -57,7 +57,7 @@ class ProcessExecutor:
 
     Args:
         n: the greatest number of processes.
-        callback_limit: the longest call into an algorithm [s of wall time]; None: no limit.
+        callback_limit: the longest call into an algorithm [s of wall time]; None for no limit.
     """
 
     def __init__(self, n: int, *, callback_limit: float | None = None) -> None:

@@ -71,7 +71,7 @@ class RayExecutor:
         self._cpus = cpus or len(os.sched_getaffinity(0))
 
     def execute(self, queue: JobQueue) -> None:
-        """Execute all jobs."""
+        """Execute all jobs of the queue on the cluster."""
         ray = self._ray
         # Ray prints progress on standard output; the queue reports it better.
         with self._cluster(), redirect_stdout(io.StringIO()):
@@ -167,7 +167,7 @@ class RayExecutor:
 
 
 def address() -> str | None:
-    """Return the address of the cluster; None for one that is started for the run.
+    """Return the address of the cluster; None for a cluster that is started for the run.
 
     Raises:
         BadSetting: invalid address, or no cluster there; Ray itself would retry for minutes.
@@ -192,7 +192,7 @@ class AssignedJob:
     """A job that a worker executes, and the writer of its journal."""
 
     job: Job
-    """The job."""
+    """The job to execute."""
     worker: Any
     """Ray's handle of a `RayWorker`."""
     is_alive: bool = True

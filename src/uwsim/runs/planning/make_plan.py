@@ -245,7 +245,7 @@ def scene_of(
     data_path: tuple[Path, ...],
     arguments: Mapping[str, str],
 ) -> SceneSpec | None:
-    """Read the scene; None where the benchmark that names it could not be read.
+    """Read the scene; return None if the benchmark that names it could not be read.
 
     Raises:
         BadSetting: no scene is named.
@@ -274,7 +274,7 @@ def scene_of(
 def algorithm_of(
     name: str, spec: BenchmarkSpec | None, tables: Tables | None
 ) -> type[Algorithm] | None:
-    """Find the algorithm; None where the file that names it could not be read.
+    """Find the algorithm; return None if the file that names it could not be read.
 
     Raises:
         BadSetting: no algorithm is named, or none has that name.

@@ -68,7 +68,7 @@ def split(setting: str, option: str) -> tuple[str, str]:
 
 
 def number_or_text(text: str) -> float | str:
-    """Return a finite number where the text is one, else the text."""
+    """Return the text as a number if it is a finite number, or else the text itself."""
     try:
         number = float(text)
     except ValueError:

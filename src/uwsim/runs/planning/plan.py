@@ -78,7 +78,7 @@ class Plan:
     """A benchmark with scene, algorithm and options: an immutable value that is sent to workers."""
 
     benchmark: BenchmarkSpec
-    """The benchmark file."""
+    """The content of the benchmark file."""
     scene: SceneSpec
     """The scene, with ``--set`` applied."""
     algorithm: AlgorithmUnderTest

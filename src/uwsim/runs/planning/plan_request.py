@@ -33,7 +33,7 @@ class PlanRequest:
     levels: Sequence[tuple[str, float]] = ()
     """Names and values of swept parameters: only these levels run; empty for all levels."""
     settings: Sequence[str] = ()
-    """``PATH=VALUE`` of each ``--set``."""
+    """The text ``PATH=VALUE`` of each ``--set``."""
     compat: Sequence[str] = ()
     """Names of compatibility quirks: behaviour of the original UWSim to reproduce."""
     data_path: Sequence[Path] = ()

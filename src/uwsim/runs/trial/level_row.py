@@ -23,7 +23,7 @@ class LevelRow:
     details: dict[str, tuple[float | None, str]]
     """The value and unit of each ``measure.detail``."""
     total: float | None
-    """The score."""
+    """The score of the level; None if it is missing."""
     status: str
     """``ok``, or the first status of docs/levels.md that applies."""
     missing_reasons: dict[str, str]

@@ -48,7 +48,7 @@ class PhaseImages:
 
     @property
     def snapshots(self) -> tuple[Snapshot, ...]:
-        """The images, one a phase, in the order of their first occurrence."""
+        """The images, one for each phase, in the order in which the phases first ended."""
         return tuple(
             Snapshot(camera=f"{PREFIX} {i} {name}", pixels=pixels, truth=None, estimate=None)
             for i, (name, pixels) in enumerate(self._images.items(), 1)

@@ -203,7 +203,7 @@ class _Execution:
         )
 
     def _level_rows(self) -> Iterator[LevelRow]:
-        """Run the levels; raise SimulationFailed where no level can follow."""
+        """Run the levels; raise SimulationFailed when no further level can run."""
         plan = self._plan
         self._wait("The benchmark never started")
         if not plan.is_blind:

@@ -15,7 +15,7 @@ from tests.support.stored_rows import stored_row
 from uwsim.analysis.report.configuration import provenance_texts as shown
 from uwsim.errors import ReplayDiffers
 from uwsim.results import journal
-from uwsim.results.chosen_code import chosen_code, code_differences, names_text
+from uwsim.results.code_paths import chosen_code, code_differences, names_text
 from uwsim.results.provenance import (
     codes_of,
     lasting_provenance,
@@ -57,7 +57,7 @@ def test_what_another_processor_had_chosen_is_named() -> None:
 @pytest.mark.skipif(os.uname().machine != "x86_64", reason="switches of x86 processors")
 def test_what_environment_variables_make_libraries_choose_is_seen() -> None:
     program = (
-        "from uwsim.results.chosen_code import *; import json; print(json.dumps(chosen_code()))"
+        "from uwsim.results.code_paths import *; import json; print(json.dumps(chosen_code()))"
     )
     variables = {
         "OPENBLAS_CORETYPE": "Prescott",
