@@ -49,10 +49,7 @@ PLAN = np.dtype(
         ("n_autopilots", np.int64),
         ("servos", np.int64),  # the address of the numbers of `Servos.addresses`, 3 for a vehicle
         ("n_servos", np.int64),
-        (
-            "kinematic_bodies",
-            np.int64,
-        ),  # the address of the indices in qpos and qvel of kinematic bodies, 2 each
+        ("kinematic_bodies", np.int64),  # the address of their indices in qpos and qvel, 2 each
         ("n_kinematic_bodies", np.int64),
         ("poses", np.int64),  # the poses of kinematic bodies in W, 7 numbers each
         ("drift", np.int64),  # the addresses of a `DriftFunction` and its parameters; 0: no drift

@@ -1,1 +1,1 @@
-"""Contacts of simulated and kinematic bodies, and the engine's tree of fixed shapes."""
+"""Contacts of dynamic and kinematic bodies, and the engine's tree of fixed shapes."""

@@ -1,7 +1,7 @@
 r"""The wrench of the contacts on a link, in the frame of a mount on the link.
 
-With the force :math:`f_i` and the torque :math:`t_i` of contact i at :math:`p_i`, in W, and with
-the origin o and the axes R of the mount,
+With the force :math:`f_i` and the torque :math:`t_i` of contact i at the point :math:`p_i` in the
+world frame W, and with the origin o and the rotation R of the mount in W,
 
 .. math:: f = R^T \sum_i f_i, \qquad t = R^T \sum_i (t_i + (p_i - o) \times f_i) .
 
@@ -39,16 +39,16 @@ from ..poses import Mount
 CONTACT_WRENCH = np.dtype(
     [
         ("mount", np.int64),  # the address of a record of `link_kernel.MOUNT`
-        ("body", np.int64),
-        ("model", np.int64),  # addresses of MuJoCo's structs, and of the offsets in them
+        ("body", np.int64),  # the engine's number of the link
+        ("model", np.int64),  # addresses of MuJoCo's structs, and of the offsets of their fields
         ("data", np.int64),
         ("offsets", np.int64),
         ("n_offsets", np.int64),
         ("contact_force", np.int64),  # the address of ``mj_contactForce``
-        ("has_contacts", np.int64),  # true if the contacts are those of the present poses
+        ("has_contacts", np.int64),  # 1 if the engine's contacts are those of the present poses
     ]
 )
-"""The record of a contact wrench for compiled code."""
+"""The parameters of `sample_contacts`."""
 
 Record = Any
 
@@ -60,14 +60,15 @@ def contact_sampler(
     mount: Mount,
     prepare: Callable[[], bool],
 ) -> Sampler:
-    """Return a sampler of the force [N] and the torque [N m], 6 numbers.
+    """Return a sampler of the force [N] and the torque [N m] in the frame of the mount, (6,).
 
     Args:
         model: the engine's model.
         data: the engine's state.
         body: the engine's number of the link.
         mount: the frame on the link.
-        prepare: updates the poses, and returns whether the contacts are those of these poses.
+        prepare: a function that updates the poses, and returns whether the engine's contacts are
+            those of these poses.
     """
     row, offsets = np.zeros(1, CONTACT_WRENCH), callback.offsets()
     row["mount"], row["body"] = address_of(mount), body
@@ -79,7 +80,7 @@ def contact_sampler(
         row["has_contacts"] = prepare()
 
     def is_alone(end_time: float) -> bool:
-        row["has_contacts"] = True  # each step computes them
+        row["has_contacts"] = True  # each step computes the contacts
         return True
 
     return Sampler(
@@ -109,8 +110,8 @@ def add_contacts(wrench: Record, offsets: Ints64, point: Array, total: Array) ->
     Args:
         wrench: a record of `CONTACT_WRENCH`.
         offsets: the offsets of MuJoCo's fields.
-        point: the point that the torque is about, in W, (3,) or more [m].
-        total: the force and torque, in W, (6,) [N, N m].
+        point: an array that begins with the point of the torque, in W, (3,) or longer [m].
+        total: the sum of forces and torques in W, to which the wrenches are added, (6,) [N, N m].
     """
     m, d, body = wrench.model, wrench.data, wrench.body
     bodies, contacts = read_int64(m + offsets[f.GEOM_BODY]), read_int64(d + offsets[f.CONTACTS])
@@ -122,7 +123,7 @@ def add_contacts(wrench: Record, offsets: Ints64, point: Array, total: Array) ->
         if (read_int32(bodies + 4 * geoms[0]) == body) == is_second:
             continue
         call_numbered(wrench.contact_force, m, d, i, contact_force.ctypes.data)
-        axes = view_doubles(contact + offsets[f.CONTACT_AXES], 9).reshape((3, 3))  # rows, in W
+        axes = view_doubles(contact + offsets[f.CONTACT_AXES], 9).reshape((3, 3))  # by rows, in W
         position = view_doubles(contact + offsets[f.CONTACT_POINT], 3)
         sign = 1.0 if is_second else -1.0  # the first body pushes the second
         force, torque = rotate_back(axes, contact_force[:3]), rotate_back(axes, contact_force[3:])
@@ -137,6 +138,12 @@ def add_contacts(wrench: Record, offsets: Ints64, point: Array, total: Array) ->
 
 @njit
 def rotate_wrench(frame: Array, wrench: Array, values: Array) -> None:
-    """Write a wrench in W, (6,), in the axes of a frame, (12,), into ``values``, (6,)."""
+    """Rotate a wrench (6,) from W into the axes of a frame, and write it into ``values``, (6,).
+
+    Args:
+        frame: the position and the rotation of the frame in W, as `write_frame` computes it, (12,).
+        wrench: the force and the torque in W, (6,).
+        values: receives the force and the torque in the axes of the frame, (6,).
+    """
     axes = frame[3:].reshape((3, 3))
     values[:3], values[3:] = rotate_back(axes, wrench[:3]), rotate_back(axes, wrench[3:])

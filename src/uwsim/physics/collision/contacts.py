@@ -1,7 +1,8 @@
 """Contacts between bodies that MuJoCo found at the beginning of the last step.
 
-At the first step of a contact the approach speed is that of the impact. It decreases in the later
-steps while the bodies press into each other.
+In the first step of a contact, the approach speed is the impact speed. It decreases in later steps
+while the bodies press into each other. The *owner* of a shape or body is the vehicle or object to
+which it belongs, such as ``vehicle/0`` or ``object/1``.
 """
 
 from __future__ import annotations
@@ -35,7 +36,7 @@ class EngineContactsState(Record):
     """The validity of the engine's contacts."""
 
     are_current: bool = False
-    """True if the engine's contacts are those of its present poses."""
+    """True if the engine's contacts were computed in the last step, and no pose was set since."""
 
 
 class EngineContacts:
@@ -61,14 +62,14 @@ class EngineContacts:
         self._name_numbers = own_labels[self._owner_numbers]
         self._owners_with_shapes = frozenset(owner_of(name) for name in scene_model.shapes)
         self.state = EngineContactsState()
-        """The validity of the contacts."""
+        """The validity of the engine's contacts."""
         self._arrays: ContactArrays | None = None
 
     def invalidate(self, *, are_current: bool) -> None:
-        """Discard the contacts that were read; to be called after every step.
+        """Discard contacts that were read; to be called after every step and change of a pose.
 
         Args:
-            are_current: true if the engine's contacts are those of the present poses.
+            are_current: true if the engine's contacts are valid for the present poses.
         """
         self.state.are_current = are_current
         self.clear_cache()
@@ -78,7 +79,7 @@ class EngineContacts:
         self._arrays = None
 
     def find_contacts(self, kind: Literal["vehicle", "object"], index: int) -> list[Contact] | None:
-        """Return the contacts of a vehicle or object with others; None if it has no shape."""
+        """Return the contacts of a vehicle or object; None if it has no collision shape."""
         owner = f"{kind}/{index}"
         if owner not in self._owners_with_shapes:
             return None
@@ -88,7 +89,10 @@ class EngineContacts:
         return _find_contacts(self._model, self._data, is_own, self._owner_numbers, self._names)
 
     def forces(self, kind: Literal["vehicle", "object"], index: int) -> dict[str, Array]:
-        """Return the forces on a vehicle or object, by the other's name, (3,) in W [N]."""
+        """Return the contact forces on a vehicle or object in W, (3,) [N].
+
+        They are summed by the name of the vehicle or object that exerts them.
+        """
         forces_by_name: dict[str, Array] = {}
         if not self.state.are_current or self._data.ncon == 0:
             return forces_by_name
@@ -113,7 +117,7 @@ class EngineContacts:
         return forces_by_name
 
     def _read_arrays(self) -> ContactArrays:
-        """Return shapes, addresses, frames and forces of the contacts, read once a step."""
+        """Return the shapes, addresses, frames and forces of the contacts, read once per step."""
         if self._arrays is None:
             contact = self._data.contact
             self._arrays = contact.geom, contact.efc_address, contact.frame, self._data.efc_force
@@ -129,7 +133,7 @@ class EngineContacts:
         return contact_sampler(self._model, self._data, body, mount, self._prepare)
 
     def _prepare(self) -> bool:
-        """Update the poses; return whether the contacts are those of these poses."""
+        """Update the poses; return whether the engine's contacts are valid for them."""
         self._poses.refresh()
         return self.state.are_current
 
@@ -146,18 +150,22 @@ def _sum_forces(
     labels: Numbers,
     forces: Array,
 ) -> int:
-    """Sum the forces on an owner by the names of what it touches, and return the number of names.
+    """Sum the forces of n contacts on an owner by the name of the other owner.
 
     Args:
-        geoms: both shapes of each contact, (n, 2).
-        addresses: the first force of each contact in ``pressures``, (n,); negative: no force.
-        frames: normal and tangents of each contact by rows, in W, (n, 9).
-        pressures: the forces along them, of an elliptic cone.
+        geoms: the indices of both shapes of each contact, (n, 2).
+        addresses: the index of the first force of each contact in ``pressures``, (n,); negative
+            without a force.
+        frames: the normal and the tangents of each contact by rows, in W, (n, 9).
+        pressures: the forces along normal and tangents of all contacts [N]: ``efc_force``.
         owners: the number of the owner of each shape.
         names: the number of the name of each shape's owner.
-        owner: the number of the owner.
+        owner: the number of the owner on which the forces act.
         labels: receives the numbers of the names, (n,).
         forces: receives the forces on the owner, in W, (n, 3) [N].
+
+    Returns:
+        The number of names.
     """
     n = 0
     for i in range(len(geoms)):
@@ -173,7 +181,7 @@ def _sum_forces(
             force = pressures[start] * frames[i, k]
             force = force + pressures[start + 1] * frames[i, 3 + k]
             force = force + pressures[start + 2] * frames[i, 6 + k]
-            if is_first:  # the force is the first's on the second
+            if is_first:  # the force is that of the first shape on the second
                 force = -force
             forces[row, k] = force if row == n else forces[row, k] + force
         if row == n:
@@ -191,7 +199,7 @@ def owner_name(scene: SceneSpec, owner: str) -> str:
 
 
 def body_name(scene: SceneSpec, body: str) -> str:
-    """Return the scene's name of a body of the model: ``girona500/part0``, an object's name."""
+    """Return the name of a body in the scene: ``girona500/part0`` or the name of an object."""
     link = body.split("/")[2:]
     return "/".join([owner_name(scene, owner_of(body)), *link])
 
@@ -203,12 +211,12 @@ def _find_contacts(
     owners: Numbers,
     names: Sequence[str],
 ) -> list[Contact]:
-    """Return the contacts of some bodies with others.
+    """Return the contacts of an owner's bodies with other bodies.
 
     Args:
         model: the engine's model.
-        data: its state after a step.
-        is_own: the mask of the shapes of these bodies, (ngeom,).
+        data: the engine's state after a step.
+        is_own: the mask of the shapes of the owner, (ngeom,).
         owners: the number of the owner of each shape, (ngeom,).
         names: the name of each owner.
     """
@@ -238,7 +246,7 @@ def _find_contacts(
 
 
 def _velocity(model: mujoco.MjModel, data: mujoco.MjData, body: int, point: Array) -> Array:
-    """Return the velocity of a body's point, W, (3,) [m/s]."""
+    """Return the velocity in W of the body-fixed point at ``point`` in W, (3,) [m/s]."""
     twist = data.cvel[body]
     lever = point - data.subtree_com[model.body_rootid[body]]
     velocity: Array = twist[3:] + cross(twist[:3], lever)

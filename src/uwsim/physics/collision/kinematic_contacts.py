@@ -1,7 +1,7 @@
-"""Contacts of kinematic bodies, which have poses instead of forces.
+"""Contacts of kinematic bodies, whose poses are set.
 
-A vehicle without ``u:dynamics`` moves as commanded, even through walls, as in the original. The
-overlaps of its shapes with those of objects are its contacts; nothing is pushed. It moves in jumps
+A vehicle without ``u:dynamics`` moves as commanded, even through walls, as in UWSim (C++). Overlaps
+of its shapes with those of objects count as contacts, which exert no forces. It moves in jumps
 (`uwsim.physics.kinematics.jumps`); the velocity of a jump lasts as long after it as the jump took.
 """
 
@@ -36,24 +36,24 @@ class KinematicBodyState(Record):
 
 @dataclass(slots=True)
 class KinematicContactsState(Record):
-    """The recorded poses of the bodies."""
+    """The recorded poses of kinematic bodies."""
 
     version: int
     """The version of the poses that were last recorded."""
     step: int
-    """The step at which they were recorded."""
+    """The number of the last step."""
     bodies: list[KinematicBodyState]
-    """The displacements of the bodies."""
+    """The last displacement of each body."""
 
 
 class KinematicContacts:
-    """Overlaps of the collision shapes of kinematic bodies.
+    """The overlaps of the collision shapes of kinematic bodies.
 
     Args:
-        shapes: the collision shapes by the name of their body: ``vehicle/0/base_link``.
-        poses: functions that return the present poses of the bodies, by name.
-        names: the scene's names of the bodies' owners: ``vehicle/0``, ``object/1``.
-        version: returns a number that grows whenever a body was moved.
+        shapes: the collision shapes by the name of their body, such as ``vehicle/0/base_link``.
+        poses: functions that return the present poses of the bodies in W, by name.
+        names: the scene's names of the bodies' owners, by owner: ``vehicle/0``, ``object/1``.
+        version: a function that returns a number which grows whenever a pose changes.
         timestep: the length of a step [s].
     """
 
@@ -72,12 +72,12 @@ class KinematicContacts:
         owners = [_owner(self._model.geom(i).name) for i in range(self._model.ngeom)]
         self._owners = np.array(owners)
         self._owners_with_shapes = frozenset(owners)
-        self._poses: list[Pose] = []  # of the bodies at the last update
+        self._poses: list[Pose] = []  # the poses of the bodies at the last search for contacts
         self.state = KinematicContactsState(version(), 0, [body.state for body in self._bodies])
         """The recorded poses of the bodies."""
 
     def record(self, step: int) -> None:
-        """Record the poses of all bodies; to be called at every step."""
+        """Record the poses of all bodies; to be called in every step."""
         self.state.step = step
         if (version := self._version()) == self.state.version:
             return
@@ -86,7 +86,7 @@ class KinematicContacts:
             body.record(step)
 
     def contacts(self, kind: str, index: int) -> list[Contact] | None:
-        """Return the contacts of a vehicle or object with others; None if it has no shape."""
+        """Return the contacts of a vehicle or object; None if it has no collision shape."""
         owner = f"{kind}/{index}"
         if owner not in self._owners_with_shapes:
             return None
@@ -123,7 +123,7 @@ class KinematicContacts:
         self._poses = poses
 
     def _velocity(self, geom: int, point: Array) -> Array:
-        """Return the velocity of a body's point, W, (3,) [m/s]."""
+        """Return the velocity in W of the body-fixed point at ``point`` in W, (3,) [m/s]."""
         body = int(self._model.geom_bodyid[geom])
         return self._bodies[body - 1].velocity(point, self.state.step)
 
@@ -144,7 +144,7 @@ class _KinematicBody:
             self._jumps.add(step)
 
     def velocity(self, point: Array, step: int) -> Array:
-        """Return the velocity of the body's point at ``point``, W, (3,) [m/s]."""
+        """Return the velocity in W of the body-fixed point at ``point`` in W, (3,) [m/s]."""
         if self._jumps.age(step) >= self._jumps.n_steps:
             return np.zeros(3)
         start = (self.state.previous_pose @ self.state.pose.inverse()).transform(point[None])[0]
@@ -153,7 +153,7 @@ class _KinematicBody:
 
 
 def _build_model(shapes: Mapping[str, Sequence[CollisionShape]]) -> mujoco.MjModel:
-    """Build a model of free bodies, one for each name, in their order."""
+    """Build an engine model with a free body for each name, in the order of the names."""
     spec = mujoco.MjSpec()
     for name, parts in shapes.items():
         body = spec.worldbody.add_body(name=name, mass=1.0, inertia=[1.0] * 3)
@@ -176,5 +176,5 @@ def _build_model(shapes: Mapping[str, Sequence[CollisionShape]]) -> mujoco.MjMod
 
 
 def _owner(name: str) -> str:
-    """Return the owner of the body or shape of that name: ``vehicle/1`` or ``object/1``."""
+    """Return the owner of the body or shape with a name, such as ``vehicle/1`` or ``object/1``."""
     return "/".join(name.split("/")[:2])

@@ -1,16 +1,16 @@
 r"""The engine's bounding volume tree over the fixed shapes, rebuilt by the surface area heuristic.
 
-MuJoCo splits its shapes at the median. The shapes of a tank or a wreck are large plates around a
-free volume. The boxes of both halves overlap in that volume, where the vehicles are. Here a node is
-split where the surface area heuristic is least,
+MuJoCo splits nodes of the tree at the median. The shapes of a tank or a wreck are large plates
+around a free volume, where the vehicles are; the boxes of both halves then overlap in this volume.
+Here a node is split where the cost of the surface area heuristic is least,
 
 .. math:: A_{left}\,n_{left} + A_{right}\,n_{right}
 
-with A the area of a half's box and n its number of shapes (MacDonald and Booth, Heuristics for
-ray tracing using space subdivision, The Visual Computer 6, 1990). The tree has the same shapes, and
-a query visits fewer of its boxes.
+with the surface area A of the box of each half, and its number of shapes n (MacDonald and Booth,
+Heuristics for ray tracing using space subdivision, The Visual Computer 6, 1990). The tree has the
+same shapes, and a query visits fewer boxes.
 
-Fixed shapes are placed once: see `place_fixed_shapes`.
+Fixed shapes are placed only once: see `place_fixed_shapes`.
 """
 
 from __future__ import annotations
@@ -22,9 +22,9 @@ import numpy.typing as npt
 from ...base.geometry import Array
 
 WORLD = 0
-"""The engine's number of the body of fixed shapes."""
+"""The engine's number of the world's body, which has all fixed shapes."""
 N_LISTED_SHAPES = 2
-"""The number of fixed shapes that the engine lists; with one it would not use the tree."""
+"""The number of fixed shapes that the engine lists; with one shape it would not use the tree."""
 MAX_DEPTH = 40
 """The depth below which nodes are halved at the median; the engine allows 50."""
 
@@ -32,7 +32,7 @@ Ints = npt.NDArray[np.int64]
 
 
 def rebuild_world_tree(model: mujoco.MjModel) -> None:
-    """Rebuild the tree over the shapes of the world's body, in the place of the engine's."""
+    """Replace the engine's tree over the shapes of the world's body."""
     start, count = int(model.body_bvhadr[WORLD]), int(model.body_bvhnum[WORLD])
     rows = slice(start, start + count)
     leaves = np.flatnonzero(model.bvh_nodeid[rows] >= 0)
@@ -60,12 +60,12 @@ def rebuild_world_tree(model: mujoco.MjModel) -> None:
 
 
 def place_fixed_shapes(model: mujoco.MjModel, data: mujoco.MjData) -> None:
-    """Place the shapes of the world's body once, and list only a few of them in the engine.
+    """Compute the poses of the world's shapes once, and list only a few shapes in the engine.
 
-    For each body at every step, the engine reads the collision bits of all listed shapes. Unless
-    sleeping is enabled, it also places them anew. The tree, in which contacts are searched, keeps
-    them all. Only ``data`` and its copies have their poses: other data of this model find no
-    contacts with them, nor does ``data`` after a reset.
+    In every step, the engine reads the collision bits of all listed shapes for each body, and
+    computes their poses unless sleeping is enabled. The tree, in which the engine searches for
+    contacts, still has all shapes. Only ``data`` and its copies have the poses of the shapes:
+    another ``mjData`` of this model finds no contacts with them, nor does ``data`` after a reset.
     """
     start, count = int(model.body_geomadr[WORLD]), int(model.body_geomnum[WORLD])
     if count <= N_LISTED_SHAPES or model.body_bvhnum[WORLD] == 0:
@@ -97,7 +97,7 @@ def _split(members: Ints, low: Array, high: Array, depth: int) -> tuple[Ints, In
 
 
 def _areas(lows: Array, highs: Array) -> Array:
-    """Return half the surface of the boxes around the first 1, 2, ... rows, (3, n) [m2]."""
+    """Return half the surface area of the boxes around the first 1, 2, ... n rows, (3, n) [m2]."""
     edges = np.maximum.accumulate(highs, axis=1) - np.minimum.accumulate(lows, axis=1)
     x, y, z = edges[..., 0], edges[..., 1], edges[..., 2]
     areas: Array = x * y + y * z + z * x

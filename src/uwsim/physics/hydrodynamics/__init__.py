@@ -1,8 +1,8 @@
-"""Hydrodynamics: added mass in the mass matrix, Coriolis, damping, buoyancy, current, thrust.
+"""Hydrodynamics: added mass, Coriolis forces, damping, buoyancy, currents, thrusters and fins.
 
-`table` prepares the numbers of bodies and thrusters (`uwsim.scene.hydrodynamics`). The water itself
-is in `hydrodynamics.py`, which compiles a kernel when it is imported: scenes without a simulated
-vehicle do not import it.
+`table` writes the parameters of bodies and actuators (`uwsim.scene.hydrodynamics`) into a model
+before it is compiled. `hydrodynamics.py` adds the forces of the water to the steps of the compiled
+model. It compiles a kernel when it is imported, so that scenes without dynamics do not import it.
 """
 
 from __future__ import annotations

@@ -1,12 +1,13 @@
 """The kernel as MuJoCo's callback for passive forces, and a stepping loop without the callback.
 
-MuJoCo calls ``mjcb_passive`` after it has factorised the mass matrix and before it is used for
-accelerations. There the wrapper recomputes M if it has its water already (the callback may run
-twice on one state, as in ``mjd_transitionFD``). It adds the water, factorises again, and projects
-the constraints again where the solver needs it. A process has one slot. The wrapper does not change
-models without our tables, so several models can exist at once, in any number of threads.
+MuJoCo calls ``mjcb_passive`` after it has factorised the mass matrix M, before it computes
+accelerations. The wrapper adds the water to M and to the passive forces, factorises M again, and
+projects the constraints again if the solver needs it. If M contains the water already, as when the
+callback runs twice on one state (``mjd_transitionFD``), M is recomputed first. A process has one
+slot for the callback. The wrapper does not change models without the tables of `columns`, so
+several models can exist at once, in any number of threads.
 
-MuJoCo skips the callback when springs and dampers are both disabled.
+MuJoCo skips the callback if springs and dampers are both disabled.
 """
 
 from __future__ import annotations
@@ -45,7 +46,7 @@ class CallbackTaken(UwsimError):
 
 @functools.cache
 def library() -> ctypes.CDLL:
-    """MuJoCo's own library: the one that the bindings have loaded."""
+    """Load MuJoCo's shared library, which its Python bindings have loaded already."""
     folder = Path(mujoco.__file__).parent
     patterns = ("libmujoco.so*", "libmujoco*.dylib", "mujoco.dll")
     for pattern in patterns:
@@ -56,7 +57,7 @@ def library() -> ctypes.CDLL:
 
 @functools.cache
 def offsets() -> Ints64:
-    """The field offsets of this MuJoCo, checked on a small model once."""
+    """Return the field offsets of the installed MuJoCo, after a check on a small model."""
     model = mujoco.MjModel.from_xml_string(_SMALL_MODEL)
     data = mujoco.MjData(model)
     mujoco.mj_forward(model, data)
@@ -76,15 +77,15 @@ def _add_water(m: int, d: int) -> None:
 
 @functools.cache
 def wrapper() -> Any:
-    """Compile the C function ``void (const mjModel*, mjData*)``, or load it from the disk."""
+    """Compile the C function ``void (const mjModel*, mjData*)``, or load it from the disk cache."""
     offsets()
-    link_library(library()._name)  # it has MuJoCo's functions
+    link_library(library()._name)  # for MuJoCo's functions
     return compile_c_function(_add_water, _SIGNATURE)
 
 
 @functools.cache
 def stepper() -> Callable[[int, int, int], None]:
-    """Compile a loop of ``mj_step1``, water, ``mj_step2``: the steps without the callback."""
+    """Compile a loop of steps without the callback: ``mj_step1``, water, ``mj_step2``."""
     o = offsets()
     step1, step2, make, factor, project = (
         _native_function(name)
@@ -112,7 +113,7 @@ def stepper() -> Callable[[int, int, int], None]:
 
 
 def has_slot() -> bool:
-    """Return whether this MuJoCo exports the slot of the callback."""
+    """Return whether the installed MuJoCo exports the slot of the callback."""
     try:
         _slot()
     except ValueError:
@@ -121,12 +122,12 @@ def has_slot() -> bool:
 
 
 def is_installed() -> bool:
-    """Return whether our function is installed in the slot."""
+    """Return whether the kernel is installed in the slot."""
     return has_slot() and _slot().value == _address()
 
 
 def install() -> None:
-    """Install our function in the slot; again after ``mj_resetCallbacks``.
+    """Install the kernel in the slot; needed again after ``mj_resetCallbacks``.
 
     Raises:
         CallbackTaken: another function is installed.
@@ -144,10 +145,10 @@ def install() -> None:
 
 @functools.cache
 def stop_profiler() -> None:
-    """Remove, once, the timer with which MuJoCo's bindings time every stage of a step.
+    """Remove the clock with which MuJoCo's bindings time every stage of a step.
 
-    It takes a twentieth of a step, and ``data.timer`` has no other reader: a clock that was set
-    with ``mujoco.set_mjcb_time`` stays.
+    The clock takes a twentieth of a step, and uwsim does not read ``data.timer``. A clock that was
+    set with ``mujoco.set_mjcb_time`` is kept.
     """
     if mujoco.get_mjcb_time() is None:
         with contextlib.suppress(ValueError):  # not exported
@@ -155,29 +156,29 @@ def stop_profiler() -> None:
 
 
 def remove() -> None:
-    """Empty the slot, if it is ours."""
+    """Empty the slot if the kernel is installed in it."""
     if is_installed():
         _slot().value = None
 
 
 def add_water(model: mujoco.MjModel, data: mujoco.MjData) -> None:
-    """Call the callback's function once, on ``data`` after ``mj_forward`` without it."""
+    """Add the water once to ``data``, after ``mj_forward`` without the callback."""
     function = ctypes.CFUNCTYPE(None, ctypes.c_void_p, ctypes.c_void_p)(wrapper().address)
     function(model._address, data._address)
 
 
 def move_to_middle(model: mujoco.MjModel, data: mujoco.MjData) -> None:
-    """Carry out the part of the step before MuJoCo's; see `free_bodies`."""
+    """Move free bodies by half a step, before MuJoCo's step; see `free_bodies`."""
     free_bodies.move_to_middle(model._address, data._address, offsets())
 
 
 def move_to_end(model: mujoco.MjModel, data: mujoco.MjData) -> None:
-    """Carry out the part of the step after MuJoCo's; see `free_bodies`."""
+    """Move free bodies to the end of a step, after MuJoCo's step; see `free_bodies`."""
     free_bodies.move_to_end(model._address, data._address, offsets())
 
 
 def water_wrenches(model: mujoco.MjModel, data: mujoco.MjData) -> Floats:
-    """Return torque and force of the water on subtrees, (nbody, 6): `kernel.water_wrenches`."""
+    """Return the wrenches of the water on subtrees, (nbody, 6); see `kernel.water_wrenches`."""
     wrenches = np.zeros((model.nbody, 6))
     kernel.water_wrenches(model._address, data._address, offsets(), wrenches)
     return wrenches
@@ -185,7 +186,7 @@ def water_wrenches(model: mujoco.MjModel, data: mujoco.MjData) -> Floats:
 
 @functools.cache
 def function_address(name: str) -> int:
-    """Return the address of a function of MuJoCo by its name."""
+    """Return the address of a function in MuJoCo's library."""
     return ctypes.cast(getattr(library(), name), ctypes.c_void_p).value or 0
 
 

@@ -1,4 +1,4 @@
-"""Hydrodynamics of one model: installation, currents, thrusters, step."""
+"""The hydrodynamics of a compiled model: installation, water motion, thrusters, fins and steps."""
 
 from __future__ import annotations
 
@@ -17,11 +17,14 @@ from .self_test import self_test
 
 
 class NoWater(UwsimError):
-    """A model that cannot have hydrodynamics."""
+    """A model without hydrodynamics, or with options that exclude them."""
 
 
 class Hydrodynamics:
-    """The hydrodynamics of the bodies of one model; their state is in the given data."""
+    """The hydrodynamics of a compiled model; methods take the state as ``data``.
+
+    A thruster has two numbers: its actuator id in the model, and its index among the thrusters.
+    """
 
     def __init__(self, model: mujoco.MjModel) -> None:
         self.model = model
@@ -53,7 +56,7 @@ class Hydrodynamics:
         return float(self.model.body_user[0, c.DENSITY])
 
     def water(self, data: mujoco.MjData) -> Floats:
-        """Return the water at every body, a live view, (nbody, 12): `columns.WATER_COLUMNS`."""
+        """Return a view of the water's motion at every body, (nbody, `columns.WATER_COLUMNS`)."""
         n = c.WATER_COLUMNS * self.model.nbody
         rows: Floats = data.userdata[:n].reshape(self.model.nbody, c.WATER_COLUMNS)
         return rows
@@ -67,14 +70,16 @@ class Hydrodynamics:
         *,
         body: int | npt.NDArray[np.int64] | None = None,
     ) -> None:
-        """Set the velocity of the water at one or several bodies, or everywhere.
+        """Set the motion of the water at one body, several bodies or all bodies.
+
+        W is the world frame. Vectors for several bodies may be different, (n, 3), or equal, (3,).
 
         Args:
-            data: the state.
-            velocity: the velocity of the water in W, (3,) [m/s]; of several bodies also (n, 3).
-            acceleration: the acceleration of the water in W, the same shapes [m/s2].
+            data: the engine's state.
+            velocity: the velocity of the water in W, (3,) or (n, 3) [m/s].
+            acceleration: the acceleration of the water in W, (3,) or (n, 3) [m/s2].
             rotation: the angular velocity of the water, half its vorticity, in W [rad/s].
-            body: the id in the model, or (n,) ids; None for all.
+            body: the body id in the model, or (n,) ids; None for all bodies.
         """
         rows = self.water(data)
         row = slice(None) if body is None else body
@@ -83,7 +88,10 @@ class Hydrodynamics:
         rows[row, c.OMEGA : c.OMEGA + 3] = rotation
 
     def reference_point(self, body: int) -> Floats:
-        """Return the point at which the water acts on a body, in its axes, (3,) [m]."""
+        """Return the point at which the water acts on a body, in the body's frame, (3,) [m].
+
+        It is the centre of buoyancy, or the reference point of a body that displaces no water.
+        """
         row = self.model.body_user[body]
         point = row[c.REFERENCE : c.REFERENCE + 3].copy()
         if row[c.DISPLACED_MASS] > 0.0:
@@ -91,7 +99,7 @@ class Hydrodynamics:
         return np.asarray(point)
 
     def set_thruster(self, data: mujoco.MjData, index: int, command: float) -> None:
-        """Command a thruster by its number among the thrusters [1]."""
+        """Set the command of a thruster, by its index among the thrusters [1]."""
         data.ctrl[self._controls[index]] = command
 
     def set_thrusters(
@@ -100,26 +108,26 @@ class Hydrodynamics:
         commands: Sequence[float] | npt.NDArray[np.float64],
         indices: slice | Sequence[int] = slice(None),
     ) -> None:
-        """Command all thrusters, or those of some numbers among them, (n,) [1]."""
+        """Set the commands of all thrusters, or of those with some indices, (n,) [1]."""
         data.ctrl[self._controls[indices]] = commands
 
     def stop_thruster(self, data: mujoco.MjData, index: int) -> None:
-        """Stop a thruster at once, by its number among the thrusters."""
+        """Stop a thruster and its rotor at once, by its index among the thrusters."""
         self.set_thruster(data, index, 0.0)
         address = int(self.model.actuator_actadr[self.thrusters[index]])
         if address >= 0:
             data.act[address] = 0.0
 
     def set_loss(self, data: mujoco.MjData, index: int, loss: float) -> None:
-        """Set the share of its thrust that a thruster loses: 0 healthy, 1 dead."""
+        """Set the share of its thrust that a thruster loses, by index: 0 healthy, 1 dead."""
         data.userdata[c.WATER_COLUMNS * self.model.nbody + self.thrusters[index]] = loss
 
     def turn_fin(self, data: mujoco.MjData, name: str, angle: float) -> None:
-        """Command the angle of a fin, by its actuator's name [rad]."""
+        """Set the commanded angle of a fin, by its actuator's name [rad]."""
         data.userdata[c.WATER_COLUMNS * self.model.nbody + self._fin(name)] = angle
 
     def stop_fin(self, data: mujoco.MjData, name: str) -> None:
-        """Set the angle of a fin to 0."""
+        """Set the angle of a fin and its command to 0."""
         self.turn_fin(data, name, 0.0)
         data.act[self.model.actuator_actadr[self._fin(name)]] = 0.0
 
@@ -127,14 +135,14 @@ class Hydrodynamics:
         return int(self.model.actuator(name).id)
 
     def thruster(self, name: str) -> int:
-        """Return the number of a thruster among the thrusters, by its actuator's name."""
+        """Return the index of a thruster among the thrusters, by its actuator's name."""
         names = [self.model.actuator(i).name for i in self.thrusters]
         if name not in names:
             raise UnknownName("thruster", name, names)
         return names.index(name)
 
     def step(self, data: mujoco.MjData, n: int = 1) -> None:
-        """Advance by ``n`` steps, through the callback where there is one."""
+        """Advance by ``n`` steps, with the callback if MuJoCo exports it."""
         if self._uses_callback:
             callback.install()  # mj_resetCallbacks may have emptied the slot
             for _ in range(n):
@@ -145,18 +153,19 @@ class Hydrodynamics:
             self.step_without_callback(data, n)
 
     def step_without_callback(self, data: mujoco.MjData, n: int = 1) -> None:
-        """Advance by ``n`` steps with ``mj_step1``, water, ``mj_step2``; not for RK4."""
+        """Advance by ``n`` steps of ``mj_step1``, water and ``mj_step2``; not possible for RK4."""
         if self.model.opt.integrator == mujoco.mjtIntegrator.mjINT_RK4:
             raise NoWater("RK4 needs MuJoCo's callback; this MuJoCo does not export it.")
         callback.remove()
         callback.stepper()(self.model._address, data._address, n)
 
     def wrenches(self, data: mujoco.MjData) -> Floats:
-        """Return torque [N m] and force [N] of water and thrusters on each subtree, (nbody, 6).
+        """Return the torque [N m] and force [N] of the water on each subtree of bodies, (nbody, 6).
 
-        In world axes, about ``data.subtree_com`` of the tree's root. For the state of the last
-        forward pass; ``data.cacc`` must be fresh: it is when the model has an accelerometer, a
-        force or a torque sensor, else call ``mujoco.mj_rnePostConstraint`` first.
+        Forces of thrusters and fins are included. The wrenches are those of the last forward pass,
+        in world axes, about ``data.subtree_com`` of the tree's root. ``data.cacc`` must be up to
+        date: it is if the model has an accelerometer, force or torque sensor; else call
+        ``mujoco.mj_rnePostConstraint`` first.
         """
         return callback.water_wrenches(self.model, data)
 
@@ -164,8 +173,8 @@ class Hydrodynamics:
 def install(model: mujoco.MjModel) -> Hydrodynamics:
     """Install the hydrodynamics of a compiled model.
 
-    It checks MuJoCo's layout and the kernel, installs the kernel in MuJoCo's slot, and corrects the
-    model's inverse weights. A second call changes nothing.
+    This checks MuJoCo's layout and the kernel, installs the kernel in MuJoCo's callback slot, and
+    corrects the model's inverse weights. A second call changes nothing.
 
     Raises:
         NoWater: the model was not prepared, or its options exclude the callback.
@@ -194,11 +203,11 @@ def attach(model: mujoco.MjModel) -> Hydrodynamics:
 
 
 def _set_rotor_dynamics(model: mujoco.MjModel) -> None:
-    """Replace the exact filter of rotors by one that RK4 integrates in its stages.
+    """Replace the exact filter of rotors by a filter that RK4 integrates in its stages.
 
-    With MuJoCo's exact filter RK4 would apply the lag in the stages and again at their end, which
-    is of first order. A lag shorter than a step counts as a step: RK4 is unstable below a third of
-    one.
+    With MuJoCo's exact filter, RK4 would apply the lag in the stages and again at the end of the
+    step, with an error of first order. A lag shorter than a step counts as a step, as RK4 is
+    unstable for lags below a third of a step.
     """
     if model.opt.integrator != mujoco.mjtIntegrator.mjINT_RK4:
         return

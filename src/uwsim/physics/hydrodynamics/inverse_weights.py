@@ -1,8 +1,8 @@
-"""The inverse inertias that scale MuJoCo's contacts, corrected for the added mass.
+"""The inverse inertias that scale MuJoCo's contacts and limits, corrected for the added mass.
 
 MuJoCo computes ``body_invweight0``, ``dof_invweight0``, ``tendon_invweight0`` and the mean inertia
-when it compiles, without the water. The scale of contacts and limits of a body with much added mass
-would then be that of a much lighter one.
+when it compiles a model, without the water. Contacts and limits of a body with a large added mass
+would then be scaled as for a much lighter body.
 """
 
 from __future__ import annotations
@@ -21,10 +21,10 @@ _HIGH_SURFACE = 1e9  # a height of the surface above all bodies [m]
 
 
 def correct_inverse_weights(model: mujoco.MjModel) -> None:
-    """Recompute the inverse weights of ``model`` from M plus the added mass at ``qpos0``.
+    """Recompute the inverse weights of a model from its mass matrix with added mass at ``qpos0``.
 
-    Trees of bodies do not depend on each other, and each is inverted alone: the time grows with
-    their number, not with its cube.
+    Trees of bodies do not depend on each other. Each is inverted separately, so that the time is
+    proportional to their number.
     """
     if model.nv == 0:
         return
@@ -65,7 +65,7 @@ def _spread(rows: np.ndarray, inverse_mass: np.ndarray) -> np.ndarray:
 
 
 def _inverted_masses(model: mujoco.MjModel, dofs: Sequence[slice]) -> list[np.ndarray]:
-    """Return the inverse of M of each tree at ``qpos0``, under water, without implicit drag."""
+    """Return the inverse mass matrix of each tree, in water at ``qpos0``, without implicit drag."""
     surface, thetas = model.body_user[0, c.SURFACE], model.body_user[1:, c.THETA].copy()
     flags = model.opt.enableflags
     data = mujoco.MjData(model)
@@ -87,7 +87,7 @@ def _inverted_masses(model: mujoco.MjModel, dofs: Sequence[slice]) -> list[np.nd
 
 
 def _block(model: mujoco.MjModel, data: mujoco.MjData, dofs: slice) -> np.ndarray:
-    """Return M of one tree, (n, n): MuJoCo keeps the entries on and left of the diagonal."""
+    """Return the mass matrix of one tree, (n, n); MuJoCo stores its lower triangle."""
     n = dofs.stop - dofs.start
     block = np.zeros((n, n))
     for row in range(n):

@@ -1,4 +1,4 @@
-"""Self-test of the kernel's assumptions about MuJoCo, run once per process."""
+"""The self-test of the kernel's assumptions about MuJoCo, which runs once in a process."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ STEP, MAX_LOSS = 0.01, 1e-9
 
 @functools.cache
 def self_test() -> None:
-    """Compare offsets, a mass matrix, a force and a step with independent values.
+    """Check the field offsets, a mass matrix, a force and the energy of a step.
 
     Raises:
-        MujocoChanged: one of them differs.
+        MujocoChanged: one of them differs from the expected value.
     """
     callback.offsets()
     slot_was_ours = callback.is_installed()
@@ -36,7 +36,7 @@ def self_test() -> None:
 
 
 def _equations_hold() -> bool:
-    """Return whether one mass matrix and one force agree with numpy's."""
+    """Return whether a mass matrix and a force equal the results of numpy."""
     rng_free = np.arange(36.0).reshape(6, 6) / 36.0
     m_a = rng_free @ rng_free.T + np.diag(np.arange(1.0, 7.0))
     body = BodyHydrodynamics(
@@ -51,7 +51,7 @@ def _equations_hold() -> bool:
     callback.add_water(model, data)
     mass = np.empty((6, 6))
     mujoco.mj_fullM(model, data, mass)
-    # at the unit attitude body axes are world axes, so J is the identity
+    # body axes are world axes here, so the Jacobian is the identity
     linear, angular = data.qvel[:3], data.qvel[3:]
     momentum = m_a @ data.qvel
     force = -matrix(body.linear_damping) @ data.qvel
@@ -63,10 +63,10 @@ def _equations_hold() -> bool:
 
 
 def _energy_is_conserved() -> bool:
-    """Return whether a rotating free body conserves energy in a step of ``implicitfast``.
+    """Return whether a rotating free body conserves its energy in a step of ``implicitfast``.
 
-    MuJoCo adds a gyroscopic term there, which `free_bodies` subtracts: with another term, or none,
-    the step would gain or lose energy.
+    MuJoCo adds a gyroscopic term in this integrator, which `free_bodies` subtracts. If MuJoCo's
+    term were different, the body would gain or lose energy in the step.
     """
     added_mass = (4.0, 20.0, 30.0, 0.3, 0.02, 0.1)
     body = BodyHydrodynamics(link="b", added_mass=added_mass)
@@ -91,7 +91,7 @@ def _energy_is_conserved() -> bool:
 
 
 def _model(body: BodyHydrodynamics, integrator: mujoco.mjtIntegrator) -> mujoco.MjModel:
-    """Return a model of one free body in weightless water."""
+    """Return a model of one free body in water without gravity."""
     spec = mujoco.MjSpec()
     spec.option.gravity = [0.0, 0.0, 0.0]
     spec.option.integrator = integrator

@@ -1,4 +1,4 @@
-"""The bodies that the water acts on."""
+"""The bodies on which the water acts, and the points at which it acts on them."""
 
 from __future__ import annotations
 
@@ -16,13 +16,14 @@ if TYPE_CHECKING:
 
 
 class SubmergedBodies:
-    """The bodies of a scene that the water acts on.
+    """The bodies of a scene on which the water acts.
 
     Args:
         model: the engine's model.
-        poses: the poses of its bodies.
-        water: their hydrodynamics; None where no vehicle is simulated.
-        vehicles: the numbers of the simulated vehicles: autopilots need the water at their bases.
+        poses: the poses of the engine's bodies.
+        water: the hydrodynamics of the engine; None in a scene without dynamics.
+        vehicles: the numbers of the vehicles with dynamics, whose bases are included as the
+            autopilots need the water's motion there.
     """
 
     def __init__(
@@ -40,14 +41,15 @@ class SubmergedBodies:
             [] if water is None else [water.reference_point(body) for body in self.bodies.tolist()]
         )
         self.reference_points = np.array(points).reshape(-1, 3)
-        """The points at which the water acts on the bodies, in their axes, (n, 3) [m].
+        """The points at which the water acts, in the frames of the bodies, (n, 3) [m].
 
-        It is the centre of buoyancy, or the reference point of a body that displaces no water.
+        The point is the centre of buoyancy, or the reference point of a body that displaces no
+        water.
         """
         parts = [model.body(body).name.split("/") for body in self.bodies.tolist()]
         self.vehicles = tuple(int(part[1]) if part[0] == "vehicle" else None for part in parts)
-        """The number of the vehicle that each body belongs to; None: an object."""
+        """The number of the vehicle to which each body belongs; None for an object."""
 
     def positions(self) -> Array:
-        """Return the points at which the water acts on the bodies now, in W, (n, 3) [m]."""
+        """Return the present positions in W of the points at which the water acts, (n, 3) [m]."""
         return self._poses.points(self.bodies, self.reference_points)

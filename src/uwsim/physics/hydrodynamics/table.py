@@ -1,4 +1,4 @@
-"""The tables of a model, written from specs before it is compiled."""
+"""The tables of the hydrodynamics, written into the spec of a model before it is compiled."""
 
 from __future__ import annotations
 
@@ -42,18 +42,19 @@ def prepare(
     density: float = 1000.0,
     levels: Sequence[tuple[float, float]] = (),
 ) -> None:
-    """Write hydrodynamics into a model that is about to be compiled.
+    """Write hydrodynamics into the spec of a model that is about to be compiled.
 
-    Call it last: it counts the bodies and the actuators.
+    Call it after all bodies and actuators were added, as it counts them.
 
     Args:
-        spec: the whole scene.
-        bodies: the hydrodynamics by the name of a body in ``spec``.
-        thrusters: the body and the spec of a thruster, by the name of the actuator to add.
-        fins: the same for the fins.
+        spec: the spec of the model.
+        bodies: the hydrodynamics of bodies, by the name of the body in ``spec``.
+        thrusters: the body name and the spec of each thruster, by the name of the actuator to add.
+        fins: the body name and the spec of each fin, by the name of the actuator to add.
         surface: the height of the still water's surface in W [m].
-        density: the density of the water of the bodies' numbers [kg/m3].
-        levels: the levels of stratified water, depth [m], density [kg/m3], two or more, downwards.
+        density: the density of water to which the bodies' hydrodynamics refer [kg/m3].
+        levels: the levels of stratified water as depth [m] and density [kg/m3], from the top down;
+            at least two, or none for uniform water.
 
     Raises:
         BadHydrodynamics: the hydrodynamics are invalid; with every error.
@@ -80,7 +81,7 @@ def prepare(
 
 
 def body_row(body: BodyHydrodynamics, density: float) -> npt.NDArray[np.float64]:
-    """Return the columns of a body, (160,)."""
+    """Return the row of a body, with the columns of `columns`, (160,)."""
     row = np.zeros(c.BODY_COLUMNS)
     linear, quadratic = matrix(body.linear_damping), matrix(body.quadratic_damping)
     added_mass, lift = matrix(body.added_mass), matrix(body.body_lift)
@@ -112,7 +113,7 @@ def _max_radius(shape: str, size: tuple[float, ...]) -> float:
 
 
 def thruster_row(thruster: ThrusterSpec) -> npt.NDArray[np.float64]:
-    """Return the columns of a thruster, (68,)."""
+    """Return the row of a thruster, with the columns of `columns`, (68,)."""
     row = np.zeros(c.ACTUATOR_COLUMNS)
     row[c.ROLE] = c.PROPELLER
     row[c.DEAD_ZONE] = thruster.dead_zone
@@ -129,7 +130,7 @@ def thruster_row(thruster: ThrusterSpec) -> npt.NDArray[np.float64]:
 
 
 def fin_row(fin: FinSpec) -> npt.NDArray[np.float64]:
-    """Return the columns of a fin, (68,)."""
+    """Return the row of a fin, with the columns of `columns`, (68,)."""
     row = np.zeros(c.ACTUATOR_COLUMNS)
     row[c.ROLE] = c.FIN
     row[c.MIN_ANGLE], row[c.MAX_ANGLE] = fin.limits
@@ -186,9 +187,9 @@ def _prepare_body(node: mujoco.MjsBody, body: BodyHydrodynamics, density: float)
 def _add_thruster(
     spec: mujoco.MjSpec, name: str, body: mujoco.MjsBody, thruster: ThrusterSpec
 ) -> None:
-    """Add a site whose x axis is the thrust, and an actuator whose state is the rotor's.
+    """Add a site whose x axis is the direction of thrust, and an actuator with a rotor state.
 
-    MuJoCo integrates the state; its own gain is 0, and the kernel computes the force.
+    MuJoCo integrates the state. The gain of the actuator is 0, as the kernel computes the force.
     """
     body.add_site(name=name, pos=list(thruster.position), quat=_quat_to(thruster.direction))
     actuator = spec.add_actuator(name=name, target=name, trntype=mujoco.mjtTrn.mjTRN_SITE)
@@ -205,9 +206,9 @@ def _add_thruster(
 
 
 def _add_fin(spec: mujoco.MjSpec, name: str, body: mujoco.MjsBody, fin: FinSpec) -> None:
-    """Add a site with the chord along x and the span along z, and an actuator of the angle.
+    """Add a site with the chord along x and the span along z, and an actuator with a fin angle.
 
-    MuJoCo integrates the state, whose rate the kernel sets; the kernel also computes the force.
+    MuJoCo integrates the angle. The kernel sets its rate, and computes the force.
     """
     span = np.array(fin.axis) / math.hypot(*fin.axis)
     normal = np.cross(span, fin.chord)
@@ -225,7 +226,7 @@ def _add_fin(spec: mujoco.MjSpec, name: str, body: mujoco.MjsBody, fin: FinSpec)
 
 
 def _quat_to(direction: tuple[float, float, float]) -> list[float]:
-    """Return a rotation wxyz that takes x into ``direction``."""
+    """Return a quaternion (wxyz) of a rotation from the x axis to ``direction``."""
     quat = np.zeros(4)
     unit = np.array(direction) / math.hypot(*direction)
     half = np.array([1.0, 0.0, 0.0]) + unit

@@ -1,4 +1,4 @@
-"""The motion of the water at the bodies of a scene in the compiled steps."""
+"""Compiled functions of the water's motion at bodies, and of the drift of kinematic vehicles."""
 
 from __future__ import annotations
 
@@ -13,28 +13,29 @@ from ...base.numerics.calls import address_of, call
 from ...base.numerics.jit import njit
 
 POINT, VELOCITY, ACCELERATION, ROTATION, WATER_ROW = 0, 3, 6, 9, 12
-"""The columns of a row of water at a body, in W: the point [m], and there the velocity [m/s],
-acceleration [m/s2] and angular velocity [rad/s] of the water."""
+"""The columns of the row of a body, in W: a point [m], and the velocity [m/s], the acceleration
+[m/s2] and the angular velocity [rad/s] of the water at the point; the last is the length of a row.
+"""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class WaterFunction:
     """A compiled function of the water's motion; see `uwsim.base.numerics.calls`.
 
-    Its values are a row of `WATER_ROW` numbers a body: it reads the points and writes the others.
-    Its time is that in the middle of the step.
+    Its values are a row of `WATER_ROW` numbers for each body: it reads the point and writes the
+    other numbers. Its time is the middle of the step.
     """
 
     function: int
     """The address of the function."""
     parameters: npt.NDArray[Any]
-    """The array that it reads at its address."""
+    """The array whose address the function receives."""
     needs_points: bool = False
-    """True if it reads the points, which must then be up to date."""
+    """True if the function reads the points, which must then be up to date."""
     is_steady: bool = False
-    """True if its values at the first step hold for all others."""
+    """True if the motion in the first step of a run holds for all other steps."""
     memory_owners: tuple[object, ...] = field(default=())
-    """The objects whose addresses the parameters contain."""
+    """The objects whose addresses the parameters contain, kept alive here."""
 
     @cached_property
     def address(self) -> int:
@@ -44,18 +45,18 @@ class WaterFunction:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class DriftFunction:
-    """A function that moves vehicles that are not simulated, at the start of each step of a run.
+    """A compiled function that moves kinematic vehicles with the water, at the start of each step.
 
-    See `uwsim.base.numerics.calls`: its values are the poses of all such vehicles, position [m] and
-    quaternion (wxyz), (n, 7), which it changes. Its time is that at the end of the step.
+    See `uwsim.base.numerics.calls`. Its values are the poses in W of all kinematic vehicles,
+    position [m] and quaternion (wxyz), (n, 7), which it changes. Its time is the end of the step.
     """
 
     function: int
     """The address of the function."""
     parameters: npt.NDArray[Any]
-    """The array that it reads at its address."""
+    """The array whose address the function receives."""
     memory_owners: tuple[object, ...] = field(default=())
-    """The objects whose addresses the parameters contain."""
+    """The objects whose addresses the parameters contain, kept alive here."""
 
     @cached_property
     def address(self) -> int:
@@ -65,5 +66,5 @@ class DriftFunction:
 
 @njit
 def apply_drift(function: int, parameters: int, poses: Array, time: float) -> None:
-    """Move poses (n, 7) by the `DriftFunction` at these addresses."""
+    """Move poses (n, 7) with the function and parameters of a `DriftFunction`."""
     call(function, parameters, poses.ctypes.data, time)

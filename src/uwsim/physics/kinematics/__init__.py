@@ -1,1 +1,1 @@
-"""Velocities and accelerations of points on vehicles, for sensors."""
+"""Motion of points on vehicles for sensors, and bodies whose poses are set in jumps or lifted."""

@@ -1,9 +1,9 @@
-"""The velocity of bodies that commands place in jumps.
+"""The velocity of kinematic bodies, whose poses change in jumps.
 
-Commands move a body in jumps, one a message. A jump is spread evenly over the time since the
-previous one, at most `MAX_JUMP`. A twist that comes ten times a second is therefore the velocity at
-every step, not fifty times that velocity at one step of fifty. A jump faster than `MAX_JUMP_SPEED`
-is a placement and no motion.
+Each command message moves a body in one jump. The jump is spread evenly over the time since the
+previous jump, at most `MAX_JUMP`. A twist command at 10 Hz therefore gives its velocity in every
+step of 2 ms, and not 50 times this velocity in one of 50 steps. A jump faster than `MAX_JUMP_SPEED`
+counts as a placement without velocity.
 """
 
 from __future__ import annotations
@@ -26,17 +26,17 @@ class JumpState(Record):
     """The last jump of a body."""
 
     step: int
-    """The step of the jump."""
+    """The number of the step at which the body jumped."""
     n_steps: int
     """The number of steps over which the jump is spread."""
 
 
 class JumpTimes:
-    """The time of the last jump of a body, and its duration.
+    """The time and the duration of the last jump of a body.
 
     Args:
         timestep: the length of a step [s].
-        last_step: the step of the placement before the first jump; None: long ago.
+        last_step: the step of the placement before the first jump; None if it was long ago.
         n_steps: the number of steps over which this placement is spread.
     """
 
@@ -56,7 +56,7 @@ class JumpTimes:
         self.state.step = step
 
     def forget(self) -> None:
-        """Move the last jump to the distant past."""
+        """Forget the last jump, as if it had happened long ago."""
         self.state.step = -self._max_steps
 
     def age(self, step: int) -> int:
@@ -70,5 +70,5 @@ class JumpTimes:
 
 
 def jump_velocity(velocity: Array, speed: float) -> Array:
-    """Return the velocity of a jump, or zeros where its greatest speed makes it a placement."""
+    """Return the velocity of a jump, or zeros if ``speed`` is that of a placement."""
     return velocity if speed <= MAX_JUMP_SPEED else np.zeros_like(velocity)

@@ -1,13 +1,13 @@
-r"""Lifting of bodies that begin deep in the ground.
+r"""Lifting of bodies whose initial poses are deep in the ground.
 
 A contact pushes a penetrating body out along the shortest way, which may be sideways or through the
-ground, with a force that grows with the depth. A light link that begins 0.25 m deep leaves at
-100 rad/s. A body that a scene places in the ground therefore has no contacts at first, and its base
-rises at `LIFT_SPEED` with a constant attitude until it is clear:
+ground, with a force that grows with the depth: a light link that begins at a depth of 0.25 m is
+ejected at 100 rad/s. A body that a scene places in the ground therefore has no contacts at first,
+and its base rises at `LIFT_SPEED`, v, with a constant attitude, by the height :math:`\Delta z`:
 
 .. math:: z(t) = z_0 + v\,t, \qquad 0 \le t \le \Delta z / v
 
-Its joints are free to move meanwhile. A body that is placed elsewhere is no longer lifted.
+Its joints are free to move meanwhile. The lift ends if the pose of the body is set.
 """
 
 from __future__ import annotations
@@ -30,7 +30,8 @@ class LiftState(Record):
     """The progress of the lifted bodies."""
 
     steps_left: list[int] = field(default_factory=list)
-    """The steps until each body is clear."""
+    """The number of steps left in the lift of each body; 0 for a body that is not lifted any more.
+    """
 
 
 class Lift:
@@ -48,7 +49,7 @@ class Lift:
         """The progress of the lifted bodies."""
 
     def add(self, body: int, rise: float) -> None:
-        """Lift a body with a free joint, and its whole tree of bodies, from where it is.
+        """Begin to lift a body with a free joint, and the bodies attached to it.
 
         Args:
             body: the engine's number of the body.
@@ -62,18 +63,18 @@ class Lift:
 
     @property
     def is_active(self) -> bool:
-        """True if a body is being lifted, and steps are taken one by one."""
+        """True if a body is being lifted; steps must then be taken one by one."""
         return any(self.state.steps_left)
 
     def begin_step(self) -> None:
-        """Stop the lift of bodies that were placed elsewhere; to be called before a step."""
+        """End the lift of bodies whose poses were set since the last step; call before a step."""
         for i, body in enumerate(self._bodies):
             if self.state.steps_left[i] and not body.is_at(self.state.steps_left[i]):
                 self.state.steps_left[i] = 0
                 body.set_contacts(is_on=True)
 
     def end_step(self) -> None:
-        """Move each body to its lifted pose; to be called after a step."""
+        """Move each body to its lifted pose; call it after a step."""
         for i, body in enumerate(self._bodies):
             if self.state.steps_left[i]:
                 self.state.steps_left[i] -= 1
@@ -81,7 +82,7 @@ class Lift:
 
 
 class _LiftedBody:
-    """A body that is lifted, with its pose at the start."""
+    """A body that is lifted, with its initial pose."""
 
     def __init__(
         self, model: mujoco.MjModel, data: mujoco.MjData, body: int, rise: float, n_steps: int
@@ -100,11 +101,11 @@ class _LiftedBody:
         self._model.geom_conaffinity[self._geoms] = conaffinity if is_on else 0
 
     def is_at(self, steps_left: int) -> bool:
-        """Return whether the body is where it was placed that many steps before its end."""
+        """Return whether the body has the pose of the lift with this number of steps left."""
         return np.array_equal(self._pose, self._pose_at(steps_left))
 
     def place(self, steps_left: int) -> None:
-        """Place the body; at the end of the lift it is at rest and has contacts."""
+        """Set the pose and velocity of the body; at the end of the lift, allow contacts again."""
         self._pose[:] = self._pose_at(steps_left)
         self._velocity[:] = 0.0
         if steps_left:

@@ -1,9 +1,10 @@
-r"""The frame of a part on a link and the motion of its points, in compiled code.
+r"""The frame of a part mounted on a link, and the motion of points on the link, compiled.
 
-With the Jacobian J of a point, :math:`v = J \dot q` and :math:`a = J \ddot q + \dot J \dot q`. The
-columns of J are those of the joints from the root of the tree of links to the link; the others are
-zero. They are computed in MuJoCo's order (``mj_comPos``, ``mj_comVel``, ``mj_jac``, ``mj_jacDot``),
-about the centre of mass of the tree, so that they have the bytes of MuJoCo's.
+With the Jacobian J of a point, :math:`v = J \dot q` and :math:`a = J \ddot q + \dot J \dot q`. Only
+the columns of the joints from the root of the tree of links to the link are not zero. They are
+computed about the centre of mass of the tree, in the order of MuJoCo's operations (``mj_comPos``,
+``mj_comVel``, ``mj_jac``, ``mj_jacDot``), so that the results equal MuJoCo's to the bit. W is the
+world frame.
 """
 
 from __future__ import annotations
@@ -20,57 +21,60 @@ from ...base.numerics.memory import carray, pointer, view_doubles, view_int32s, 
 CHAIN = np.dtype(
     [
         ("root", np.int64),  # the first body of the tree; its bodies have consecutive numbers
-        ("n_bodies", np.int64),
-        ("dofs", np.int64),  # `DOF_COLUMNS` numbers a degree of freedom, from root to link
+        ("n_bodies", np.int64),  # the number of bodies of the tree
+        ("dofs", np.int64),  # the address of (n_dofs, `DOF_COLUMNS`) numbers, from root to link
         ("n_dofs", np.int64),
-        ("parents", np.int64),  # addresses of MuJoCo's arrays
-        ("masses", np.int64),
-        ("tree_masses", np.int64),
-        ("centres", np.int64),
-        ("axes", np.int64),
-        ("anchors", np.int64),
-        ("joint_axes", np.int64),
-        ("speeds", np.int64),  # of all degrees of freedom [m/s, rad/s]
-        ("accelerations", np.int64),  # of all degrees of freedom [m/s2, rad/s2]
-        ("scratch", np.int64),  # `scratch_size` numbers
+        ("parents", np.int64),  # the addresses of MuJoCo's arrays: ``body_parentid``,
+        ("masses", np.int64),  # ``body_mass``,
+        ("tree_masses", np.int64),  # ``body_subtreemass``,
+        ("centres", np.int64),  # ``xipos``,
+        ("axes", np.int64),  # ``xmat``,
+        ("anchors", np.int64),  # ``xanchor``,
+        ("joint_axes", np.int64),  # ``xaxis``
+        ("speeds", np.int64),  # the address of the speeds of all dofs [m/s, rad/s]
+        ("accelerations", np.int64),  # the address of their accelerations [m/s2, rad/s2]
+        ("scratch", np.int64),  # the address of `scratch_size` numbers
     ],
     align=True,
 )
-"""The joints that move a body, and the addresses of their numbers."""
+"""The degrees of freedom (dofs) that move a body, and the addresses of arrays about them."""
 
 MOUNT = np.dtype(
     [
-        ("origin", np.int64),  # addresses of the link's position and axes in W
+        ("origin", np.int64),  # the addresses of the link's position and axes in W
         ("axes", np.int64),
-        ("base_axes", np.int64),  # of the axes of a scaled vehicle's base; 0: it has no scale
-        ("scale", np.float64, 3),
-        ("position", np.float64, 3),  # of the part on the link [m]
-        ("rotation", np.float64, (3, 3)),
+        ("base_axes", np.int64),  # the address of the axes of a scaled vehicle's base; 0: no scale
+        ("scale", np.float64, 3),  # along the axes of the base [1]
+        ("position", np.float64, 3),  # of the part in the frame of the link [m]
+        ("rotation", np.float64, (3, 3)),  # ``link_from_part``
         ("chain", CHAIN),
     ],
     align=True,
 )
-"""A part on a link."""
+"""A part mounted on a link."""
 
 DOF_COLUMNS = 4
-"""The columns of a degree of freedom: its number, its kind, its body and its joint."""
+"""The number of columns for a degree of freedom: its index, its kind, its body and its joint."""
 TRANSLATION, ROTATION, SLIDE, HINGE = range(4)
-"""The kinds of degrees of freedom: translation and rotation of a free joint, joints of one axis."""
+"""The kinds of degrees of freedom: translation or rotation of a free joint, and the motion of a
+slide or hinge joint."""
 _MINVAL = 1e-15  # mjMINVAL
 
 Record = Any
 
 
 def scratch_size(n_bodies: int, n_dofs: int) -> int:
-    """Return how many numbers of scratch memory a chain needs."""
+    """Return the number of floats in the scratch memory of a chain."""
     return 3 * n_bodies + 12 * n_dofs
 
 
 @njit
 def write_frame(mount: Record, frame: Array) -> None:
-    """Write the position in W [m] and the axes of a part, by rows, into (12,).
+    """Compute the frame of a part; the scale of a vehicle moves the part without turning it.
 
-    The scale of a vehicle moves the part and does not turn it.
+    Args:
+        mount: a record of `MOUNT`.
+        frame: receives the position in W [m] and the rotation ``world_from_part`` by rows, (12,).
     """
     origin, axes = view_doubles(mount.origin, 3), view_doubles(mount.axes, 9).reshape((3, 3))
     shift, turn = compose(axes, origin, mount.rotation, mount.position)
@@ -90,7 +94,7 @@ def write_frame(mount: Record, frame: Array) -> None:
 
 @njit
 def compute_frame(mounts: Record) -> Array:
-    """Return the values of `write_frame` for the first of some records, (12,)."""
+    """Return the values of `write_frame` for a record of `MOUNT`, (1,), from Python, (12,)."""
     frame = np.empty(12)
     write_frame(mounts[0], frame)
     return frame
@@ -98,7 +102,7 @@ def compute_frame(mounts: Record) -> Array:
 
 @njit
 def compute_motion(chains: Record, point: Array) -> Array:
-    """Return the values of `write_motion` for the first of some records, (9,)."""
+    """Return the values of `write_motion` for a record of `CHAIN`, (1,), from Python, (9,)."""
     motion = np.empty(9)
     write_motion(chains[0], point, motion)
     return motion
@@ -106,7 +110,13 @@ def compute_motion(chains: Record, point: Array) -> Array:
 
 @njit
 def scaled_axes(base: Array, axes: Array, scale: Array) -> Array:
-    """Return the axes of a link with the scale along its vehicle's base in them, (3, 3)."""
+    """Return the axes of a link with the vehicle's scale included, (3, 3).
+
+    Args:
+        base: the rotation ``world_from_base``, (3, 3).
+        axes: the rotation ``world_from_link``, (3, 3).
+        scale: the scale along the axes of the base, (3,) [1].
+    """
     in_base, matrix = np.empty((3, 3)), np.empty((3, 3))
     for i in range(3):
         for k in range(3):
@@ -125,12 +135,13 @@ def scaled_axes(base: Array, axes: Array, scale: Array) -> Array:
 
 @njit
 def write_motion(chain: Record, point: Array, motion: Array) -> None:
-    """Write velocity, angular velocity and acceleration of a point, in W, into (9,).
+    """Compute the motion of a point on a body.
 
     Args:
-        chain: the joints that move the point.
+        chain: a record of `CHAIN`, with the joints that move the point.
         point: the point in W, (3,) [m].
-        motion: receives the numbers, (9,).
+        motion: receives the velocity [m/s], the angular velocity [rad/s] and the acceleration
+            [m/s2] in W, (9,).
     """
     for i in range(9):
         motion[i] = 0.0
@@ -138,14 +149,14 @@ def write_motion(chain: Record, point: Array, motion: Array) -> None:
     if n == 0:
         return
     scratch = chain.scratch + 24 * chain.n_bodies
-    columns = view_doubles(scratch, 6 * n).reshape((n, 6))  # turn and shift by each joint
+    columns = view_doubles(scratch, 6 * n).reshape((n, 6))  # the twist per speed of each dof
     changes = view_doubles(scratch + 48 * n, 6 * n).reshape((n, 6))  # their rates of change
     centre, twist, offset = np.empty(3), np.zeros(6), np.empty(3)
     tree_centre(chain, centre)
     joint_columns(chain, centre, columns, changes, twist)
     for i in range(3):
         offset[i] = point[i] - centre[i]
-    v_point = np.empty(3)  # by the twist of the link
+    v_point = np.empty(3)  # the velocity of the point [m/s]
     for i in range(3):
         v_point[i] = twist[3 + i] - cross(offset, twist, i)
     dofs = view_int64s(chain.dofs, DOF_COLUMNS * n).reshape((n, DOF_COLUMNS))
@@ -167,7 +178,7 @@ def write_motion(chain: Record, point: Array, motion: Array) -> None:
 
 @njit
 def tree_centre(chain: Record, centre: Array) -> None:
-    """Write the centre of mass of the tree of links into (3,) [m]."""
+    """Write the centre of mass of the tree of links in W into ``centre``, (3,) [m]."""
     root, n = chain.root, chain.n_bodies
     masses, parents = (
         view_doubles(chain.masses + 8 * root, n),
@@ -192,7 +203,15 @@ def tree_centre(chain: Record, centre: Array) -> None:
 def joint_columns(
     chain: Record, centre: Array, columns: Array, changes: Array, twist: Array
 ) -> None:
-    """Write the twist per joint about the centre, its rate of change, and the twist of the link."""
+    """Compute the Jacobian of a link about a centre, rotational part first.
+
+    Args:
+        chain: a record of `CHAIN`.
+        centre: the centre of mass of the tree in W, (3,) [m].
+        columns: receives the twist per speed of each degree of freedom, (n, 6).
+        changes: receives the rates of change of these columns, (n, 6).
+        twist: receives the twist of the link about the centre in W, (6,); zero at the start.
+    """
     n = chain.n_dofs
     dofs = view_int64s(chain.dofs, DOF_COLUMNS * n).reshape((n, DOF_COLUMNS))
     axis, offset, total = np.empty(3), np.empty(3), np.empty(6)
@@ -234,14 +253,14 @@ def joint_columns(
         for j in range(width):
             if kind == TRANSLATION:
                 changes[k + j, :] = 0.0
-            elif kind == ROTATION:  # of a quaternion, by the twist with the joint's own
+            elif kind == ROTATION:  # of a quaternion: by the twist that includes this joint
                 write_column_rate(twist, columns[k + j], changes[k + j])
         k += width
 
 
 @njit
 def write_column_rate(twist: Array, column: Array, rate: Array) -> None:
-    """Write the rate of change of a joint's column that moves with a twist (6,) into (6,)."""
+    """Write the rate of change of a joint's column (6,), which moves with a twist (6,)."""
     for i in range(3):
         rate[i] = cross(twist, column, i)
         rate[3 + i] = cross(twist, column[3:], i) + cross(twist[3:], column, i)
@@ -249,18 +268,18 @@ def write_column_rate(twist: Array, column: Array, rate: Array) -> None:
 
 @njit
 def cross(left: Array, right: Array, i: int) -> float:
-    """Return a component of the vector product of two vectors' first three numbers."""
+    """Return component i of the cross product of the first three elements of two arrays."""
     j, k = (i + 1) % 3, (i + 2) % 3
     component: float = left[j] * right[k] - left[k] * right[j]
     return component
 
 
 def write_mount_frame(record_address: int, values_address: int, time: float) -> None:
-    """Write the frame of a part; see `uwsim.base.numerics.calls`."""
+    """Write the frame of a part, as `write_frame`; see `uwsim.base.numerics.calls`."""
     write_frame(carray(pointer(record_address), (1,), MOUNT)[0], view_doubles(values_address, 12))
 
 
 def write_mount_motion(record_address: int, values_address: int, time: float) -> None:
-    """Write the motion of a part's point behind the point, (3,), in the same array, (12,)."""
+    """Read a point (3,) and write its motion (9,), as `write_motion`, behind it in an array."""
     mount = carray(pointer(record_address), (1,), MOUNT)[0]
     write_motion(mount.chain, view_doubles(values_address, 3), view_doubles(values_address + 24, 9))

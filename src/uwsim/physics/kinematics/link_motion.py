@@ -1,8 +1,8 @@
 r"""Velocities and accelerations of points on the links of vehicles.
 
-Velocities of a simulated vehicle are those at the end of the last step. :math:`\ddot q` is the
-engine's solution for that step, in which forces act at its middle: accelerations are half a step
-old. `link_kernel` has the formulas.
+The velocities of a vehicle with dynamics are those at the end of the last step. Its accelerations
+:math:`\ddot q` are the engine's solution for that step, with forces at the middle of the step: they
+are half a step old. `link_kernel` has the formulas.
 """
 
 from __future__ import annotations
@@ -40,32 +40,33 @@ class LinkMotion:
         self._scratch = np.zeros(link_kernel.scratch_size(model.nbody, model.nv))
         self._joint_rates: dict[int, tuple[Array, Array]] = {}
         self._chains: dict[tuple[int, int | None], Chain] = {}
-        self._dof_arrays: list[npt.NDArray[np.int64]] = []  # chains have their addresses
+        self._dof_arrays: list[npt.NDArray[np.int64]] = []  # kept alive for the chains
 
     def base_addresses(self, index: int) -> tuple[Addresses, Addresses]:
-        """Return the addresses of the pose and of the twist of a vehicle's base, (12,) and (6,).
+        """Return the addresses of the pose and the twist of a vehicle's base, (12,) and (6,).
 
-        The pose has the position [m] and the axes in W by rows, as `Poses.refresh` computes them.
-        The twist has the velocity in W [m/s] and the angular velocity in the base's axes [rad/s].
+        The pose is the position in W [m] and the rotation ``world_from_base`` by rows, as
+        `Poses.refresh` computes them. The twist is the velocity in W [m/s] and the angular velocity
+        in base axes [rad/s].
         """
         poses, body = self._poses, self._poses.base(index)
         dof = int(self._model.body_dofadr[body])
-        place = (
+        pose = (
             number_addresses(poses.origins, np.arange(3 * body, 3 * body + 3)),
             number_addresses(poses.axes, np.arange(9 * body, 9 * body + 9)),
         )
-        return np.concatenate(place), number_addresses(self._data.qvel, np.arange(dof, dof + 6))
+        return np.concatenate(pose), number_addresses(self._data.qvel, np.arange(dof, dof + 6))
 
     def joint_addresses(self, index: int, names: Sequence[str], *, with_motion: bool) -> Addresses:
-        """Return the addresses of the positions of some joints of a vehicle [rad or m], (n,).
+        """Return the addresses of numbers of n joints of a vehicle: positions [rad or m], (n,).
 
-        With motion, (4 n,), those of velocities [rad/s or m/s] and of the two parts of the efforts
-        [N m or N] follow: the actuators' efforts, and the applied ones.
+        With motion, (4 n,), they are followed by the addresses of the velocities [rad/s or m/s], of
+        the efforts of actuators [N m or N], and of the applied efforts [N m or N].
         """
         model, data = self._model, self._data
         joints = [model.joint(vehicle_joint(index, name)).id for name in names]
-        places, dofs = model.jnt_qposadr[joints], model.jnt_dofadr[joints]
-        addresses = [number_addresses(data.qpos, places)]
+        positions, dofs = model.jnt_qposadr[joints], model.jnt_dofadr[joints]
+        addresses = [number_addresses(data.qpos, positions)]
         if with_motion:
             arrays = data.qvel, data.qfrc_actuator, data.qfrc_applied
             addresses += [number_addresses(array, dofs) for array in arrays]
@@ -78,20 +79,21 @@ class LinkMotion:
             index: the number of the vehicle.
 
         Returns:
-            Speeds and accelerations of all degrees of freedom of the scene, (nv,) each.
+            The speeds [m/s, rad/s] and the accelerations [m/s2, rad/s2] of all degrees of freedom
+            of the scene, (nv,) each; those of other vehicles are 0.
         """
         if index not in self._joint_rates:
             self._joint_rates[index] = np.zeros(self._model.nv), np.zeros(self._model.nv)
         return self._joint_rates[index]
 
     def point_motion(self, body: int, point: Array, *, vehicle: int | None = None) -> BodyMotion:
-        """Return the motion of a point of W, (3,) [m], on a body of the engine.
+        """Return the motion of a point on a body, in W.
 
         Args:
             body: the engine's number of the body.
             point: the point in W, (3,) [m].
-            vehicle: the vehicle whose `joint_rates` moves the joints; None: the
-                engine moves them.
+            vehicle: the kinematic vehicle of the body, whose `joint_rates` are used; None for a
+                body with dynamics.
         """
         self._poses.refresh()
         motion = link_kernel.compute_motion(self.chain(body, vehicle), point)
@@ -102,8 +104,8 @@ class LinkMotion:
 
         Args:
             body: the engine's number of the body.
-            vehicle: the vehicle whose `joint_rates` moves the joints; None: the
-                engine moves them.
+            vehicle: the kinematic vehicle of the body, whose `joint_rates` are used; None for a
+                body with dynamics.
         """
         if (body, vehicle) in self._chains:
             return self._chains[body, vehicle]
@@ -131,7 +133,7 @@ class LinkMotion:
         return chain
 
     def _dof_rows(self, body: int) -> list[tuple[int, int, int, int]]:
-        """Return number, kind, body and joint of a body's degrees of freedom, from the root on."""
+        """Return the index, kind, body and joint of each degree of freedom from root to body."""
         model, rows = self._model, []
         body = int(model.body_weldid[body])
         dof = int(model.body_dofadr[body] + model.body_dofnum[body] - 1) if body else -1

@@ -5,9 +5,10 @@ motion spreads each jump evenly over a time T:
 
 .. math:: \dot q = \Delta q / T, \qquad \ddot q = (\dot q - \dot q_{before}) / T
 
-Both last until the next jump. Where none comes for :math:`1.5\,T`, the vehicle stops and slows down
-over T. The commands of the base, those of the joints and the drift with the water, which moves a
-vehicle at every step, are separate jumps, and their motions are added.
+The velocity and the acceleration last until the next jump. If no jump follows for :math:`1.5\,T`,
+the velocity becomes 0, with a deceleration that lasts for T. The motions by commands of the base,
+by commands of the joints, and by the drift with the water (a jump in every step) are computed
+separately and added.
 """
 
 from __future__ import annotations
@@ -77,13 +78,15 @@ class PrescribedMotion:
         self._data = data
         self._speeds, self._accelerations = links.joint_rates(index)
         free_joint, *other_joints = joints
-        place, dof = int(model.jnt_qposadr[free_joint]), int(model.jnt_dofadr[free_joint])
-        self._places = np.array([*range(place, place + 7), *model.jnt_qposadr[other_joints]])
+        start, dof = int(model.jnt_qposadr[free_joint]), int(model.jnt_dofadr[free_joint])
+        self._qpos_addresses = np.array(
+            [*range(start, start + 7), *model.jnt_qposadr[other_joints]]
+        )
         self._dofs = np.array([*range(dof, dof + 6), *model.jnt_dofadr[other_joints]])
         timestep = float(model.opt.timestep)
         self._base, self._drift = _Motion(6, timestep), _Motion(6, timestep)
         self._joints = _Motion(len(other_joints), timestep)
-        now: Array = data.qpos[self._places]
+        now: Array = data.qpos[self._qpos_addresses]
         self.state = PrescribedMotionState(
             now, self._base.state, self._joints.state, self._drift.state
         )
@@ -125,7 +128,7 @@ class PrescribedMotion:
 
     def _measure_change(self) -> Array:
         """Return the displacement since the last call, for each degree of freedom."""
-        q_last, q = self.state.positions, self._data.qpos[self._places]
+        q_last, q = self.state.positions, self._data.qpos[self._qpos_addresses]
         change = np.empty(len(self._dofs))
         change[:3] = q[:3] - q_last[:3]  # in W
         mujoco.mju_subQuat(change[3:6], q[3:7], q_last[3:7])  # in the base's axes
