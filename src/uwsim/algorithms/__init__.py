@@ -1,4 +1,7 @@
-"""The bundled algorithms under test; they use topics and services as third-party programs do."""
+"""The bundled algorithms under test: trackers, controllers, pilots and a grasping algorithm.
+
+They communicate with the simulation by topics and services only, as third-party algorithms do.
+"""
 
 from __future__ import annotations
 
@@ -37,6 +40,7 @@ ALGORITHMS: dict[str, type[Algorithm]] = {
     "scripted": ScriptedPilot,
     "ssd-esm": SsdEsm,
 }
+"""The bundled algorithms by name, in alphabetical order."""
 
 
 def summary(algorithm: type[Algorithm]) -> str:
@@ -45,7 +49,11 @@ def summary(algorithm: type[Algorithm]) -> str:
 
 
 def load_algorithm(name: str, table: Mapping[str, type[Algorithm]] = ALGORITHMS) -> type[Algorithm]:
-    """Return an algorithm by its name in ``table``, or a third-party one by ``module:Class``.
+    """Return the class of an algorithm.
+
+    Args:
+        name: a name in ``table``, or ``module:Class`` for a third-party algorithm.
+        table: the classes of algorithms by name.
 
     Raises:
         BadSetting: there is no such algorithm; the message lists the valid names.
@@ -80,13 +88,14 @@ def load_algorithm(name: str, table: Mapping[str, type[Algorithm]] = ALGORITHMS)
 
 
 def check_parameters(algorithm: type[Algorithm], parameters: Mapping[str, float | str]) -> None:
-    """Reject a parameter that a bundled algorithm rejects when it starts.
+    """Check the user's parameters of an algorithm before it starts.
 
-    A third-party class is checked against its ``PARAMETERS``, and by its ``check_parameters``, if
-    it has them. ``latency_s`` is a parameter of the bus and always valid.
+    They are compared with the class's ``PARAMETERS``, and passed to its method
+    ``check_parameters``, if the class has them. ``latency_s`` is a parameter of the bus and always
+    valid.
 
     Raises:
-        BadSetting: a name is unknown, or a value is invalid.
+        BadSetting: the name of a parameter is unknown, or a value is invalid.
     """
     defaults = getattr(algorithm, "PARAMETERS", None)
     if isinstance(defaults, Mapping):

@@ -1,4 +1,4 @@
-"""The trackers that compare grey levels directly: ``esm``, ``ssd-esm`` and ``ic``."""
+"""The direct trackers ``esm``, ``ssd-esm`` and ``ic``, which compare grey levels, not features."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ class Esm(TrackerNode):
     PHOTOMETRIC: ClassVar[bool] = True
 
     def make_tracker(self, image: Grey, quad: Array) -> Tracker | str:
-        """Make a tracker with a template of the quad at every pyramid level."""
+        """Make a tracker with the pixels inside ``quad`` (4, 2) [px] as the template."""
         method = Method(
             blend=self.BLEND,
             photometric=self.PHOTOMETRIC,
@@ -39,12 +39,12 @@ class Esm(TrackerNode):
 
 
 class SsdEsm(Esm):
-    """ESM on SL(3) on grey levels without normalisation, to measure the effect of fog."""
+    """ESM on SL(3) with grey levels that are not normalised, which shows the effect of fog."""
 
     PHOTOMETRIC: ClassVar[bool] = False
 
 
 class InverseCompositional(Esm):
-    """The inverse compositional method (Baker and Matthews 2004), normalised like esm."""
+    """The inverse compositional method (Baker and Matthews 2004), with normalised patches."""
 
     BLEND: ClassVar[str] = "ic"

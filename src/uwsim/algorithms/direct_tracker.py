@@ -1,4 +1,4 @@
-"""A tracker that aligns a template from coarse to fine, starting at its last estimate."""
+"""A tracker that aligns a template with each image, from coarse to fine pyramid levels."""
 
 from __future__ import annotations
 
@@ -16,10 +16,16 @@ from .tracker import Estimate, Tracker
 class DirectTracker(Tracker):
     """A tracker by direct alignment of grey levels (`uwsim.algorithms.esm.alignment`).
 
-    Levels on which the patch has fewer than 8 rows or columns are omitted. A step is accepted only
-    if it increases the correlation, so a coarse level without a match does no harm. At the start
-    the template's pixels are those of the image; elsewhere interpolation blurs them. If the target
-    is at rest and the noise is low, every step may be rejected, and the estimate stays the same.
+    The alignment starts at the last estimate. Pyramid levels on which the patch has fewer than 8
+    rows or columns are omitted. A step is accepted only if it increases the correlation, so a
+    coarse level without a match does no harm. An image is not interpolated at the template's own
+    position, but blurred by interpolation at any other position. If the target is at rest and the
+    noise is low, every step may therefore be rejected, and the estimate stays the same.
+
+    Args:
+        templates: the template at each pyramid level, the finest first.
+        quad: the corners of the patch in the image of the template, (4, 2) [px].
+        method: the method of alignment.
     """
 
     def __init__(self, templates: list[Template], quad: Array, method: Method) -> None:
@@ -32,7 +38,17 @@ class DirectTracker(Tracker):
 
     @staticmethod
     def from_image(image: Grey, quad: Array, *, levels: int, method: Method) -> DirectTracker | str:
-        """Make a tracker of a quad; return the reason as text if it cannot be tracked."""
+        """Make a tracker of the patch inside a quad.
+
+        Args:
+            image: the image of the template, (h, w) [grey level].
+            quad: the corners of the patch, (4, 2) [px].
+            levels: the greatest number of pyramid levels.
+            method: the method of alignment.
+
+        Returns:
+            The tracker, or a text with the reason why the patch cannot be tracked.
+        """
         templates: list[Template] = []
         for level, level_image in enumerate(pyramid(image, levels)):
             template = extract_template(level_image, warp(level_from_image(level), quad))
@@ -44,11 +60,11 @@ class DirectTracker(Tracker):
         return DirectTracker(templates, quad, method)
 
     def set_quad(self, quad: Array) -> None:
-        """Set the start of the next alignment to ``quad``."""
+        """Set the estimate at which the next alignment starts to ``quad`` (4, 2) [px]."""
         self.homography = homography_between(self._quad, quad)
 
     def step(self, image: Grey) -> Estimate:
-        """Find the patch in the next image."""
+        """Find the patch in the next image (h, w) [grey level]."""
         images = pyramid(image, len(self._templates))
         homography, iterations = self.homography, 0
         for level in range(min(len(images), len(self._templates)) - 1, -1, -1):
@@ -67,7 +83,7 @@ class DirectTracker(Tracker):
 
 
 def diagonal_intersection(quad: Array) -> Array:
-    """Return the intersection of the diagonals of a convex quad (4, 2), (2,)."""
+    """Return the intersection (2,) of the diagonals of a convex quad (4, 2)."""
     diagonal, other_diagonal = quad[2] - quad[0], quad[3] - quad[1]
     offset = quad[1] - quad[0]
     share = (offset[0] * other_diagonal[1] - offset[1] * other_diagonal[0]) / (

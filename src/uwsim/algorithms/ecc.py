@@ -1,4 +1,4 @@
-"""``ecc``: the enhanced correlation coefficient of Evangelidis and Psarakis (2008), by OpenCV."""
+"""``ecc``: a tracker by the enhanced correlation coefficient (Evangelidis and Psarakis 2008)."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Ecc(TrackerNode):
     }
 
     def make_tracker(self, image: Grey, quad: Array) -> Tracker | str:
-        """Make a tracker of the axis-aligned bounding box of the quad."""
+        """Make a tracker of the axis-aligned bounding box of ``quad`` (4, 2) [px]."""
         template = extract_template(image, quad)
         if template is None:
             return "the quad is smaller than 8 px or has no contrast"
@@ -46,12 +46,20 @@ class Ecc(TrackerNode):
 
 
 class EccTracker(Tracker):
-    """A tracker that maximises the correlation, starting at its last estimate.
+    """A tracker that maximises the correlation coefficient, starting at its last estimate.
 
-    OpenCV compares the axis-aligned bounding box of the quad, in images that a Gaussian of
-    ``smoothing`` pixels has smoothed. We smooth the whole image before the patch is cut out:
-    OpenCV would mirror the patch at its border, which moves its corners by a quarter of a pixel.
-    There is no pyramid. An image on which OpenCV fails has no estimate.
+    OpenCV compares the axis-aligned bounding box of the quad in images that are smoothed by a
+    Gaussian filter. The whole image is smoothed before the patch is cut out: OpenCV would mirror
+    the patch at its border, which moves the corners by a quarter of a pixel. There is no pyramid.
+    An image on which OpenCV fails has no estimate.
+
+    Args:
+        image: the image of the template, (h, w) [grey level].
+        template: the template of the quad.
+        quad: the corners of the patch, (4, 2) [px].
+        max_iterations: the greatest number of iterations in an image.
+        precision: the increase of the correlation below which the iterations end.
+        smoothing: the width of the Gaussian filter, odd [px].
     """
 
     @deterministic_opencv()
@@ -84,12 +92,12 @@ class EccTracker(Tracker):
         )
 
     def set_quad(self, quad: Array) -> None:
-        """Set the start of the next search to ``quad``."""
+        """Set the estimate at which the next search starts to ``quad`` (4, 2) [px]."""
         self._homography = homography_between(self._quad, quad)
 
     @deterministic_opencv()
     def step(self, image: Grey) -> Estimate:
-        """Find the patch in the next image."""
+        """Find the patch in the next image (h, w) [grey level]."""
         import cv2
 
         guess = product(self._homography, self._image_from_patch)

@@ -1,4 +1,4 @@
-"""``frozen``: the control, which evaluates no image."""
+"""``frozen``: a sham baseline (the control), which publishes estimates but evaluates no image."""
 
 from __future__ import annotations
 
@@ -13,20 +13,20 @@ from .tracker_node import INPUT_PARAMETERS, TrackerNode
 
 
 class FrozenTracker(TrackerNode):
-    """The control: repeats the last quad of autoInit at every image and is never lost."""
+    """A sham baseline (the control): repeats the last quad of autoInit and is never lost."""
 
     PARAMETERS: ClassVar[Mapping[str, float | str]] = {**INPUT_PARAMETERS}
 
     def make_tracker(self, image: Grey, quad: Array) -> Tracker:
-        """Make a tracker that repeats the quad."""
+        """Make a tracker that repeats ``quad`` (4, 2) [px]."""
         return Echo(quad)
 
     def loss_test(self) -> None:
-        """Return None, as the control is never lost."""
+        """Return None, as this algorithm is never lost."""
 
 
 class Echo(Tracker):
-    """A tracker that returns the quad that was set last."""
+    """A tracker that returns the quad (4, 2) [px] that was set last."""
 
     def __init__(self, quad: Array) -> None:
         self.set_quad(quad)
@@ -36,5 +36,5 @@ class Echo(Tracker):
         self._estimate = Estimate(corners=quad, centroid=diagonal_intersection(quad), zncc=1.0)
 
     def step(self, image: Grey) -> Estimate:
-        """Return the quad."""
+        """Return the quad, whatever the image shows."""
         return self._estimate

@@ -1,4 +1,4 @@
-"""``orb``: ORB features (Rublee et al. 2011) and a homography by MAGSAC++, by OpenCV."""
+"""``orb``: a tracker by ORB features (Rublee et al. 2011) and a homography (MAGSAC++)."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from .tracker import Estimate, Tracker
 from .tracker_node import INPUT_PARAMETERS, LOSS_PARAMETERS, TrackerNode
 
 EDGE_MARGIN = 15
-"""The margin at the border of an image without features; half ORB's smallest patch [px]."""
+"""The width of the border of an image without features; half ORB's smallest patch [px]."""
 
 
 class Orb(TrackerNode):
@@ -37,7 +37,7 @@ class Orb(TrackerNode):
     }
 
     def make_tracker(self, image: Grey, quad: Array) -> Tracker | str:
-        """Make a tracker with the features inside the quad."""
+        """Make a tracker with the features inside ``quad`` (4, 2) [px]."""
         template = extract_template(image, quad)
         if template is None:
             return "the quad is smaller than 8 px or has no contrast"
@@ -57,10 +57,21 @@ class Orb(TrackerNode):
 
 
 class OrbTracker(Tracker):
-    """A tracker that matches the template's features in each image, without a motion model.
+    """A tracker that matches the template's features with those of each image.
 
-    Matches are mutual nearest neighbours by Hamming distance that pass the ratio test. MAGSAC's
-    random generator has the same seed in every image.
+    There is no motion model: the whole image is searched. Two features match if each is the nearest
+    neighbour of the other by Hamming distance, and if they pass the ratio test. The random
+    generator of MAGSAC++ has the same seed in every image.
+
+    Args:
+        image: the image of the template, (h, w) [grey level].
+        template: the template of the quad.
+        quad: the corners of the patch, (4, 2) [px].
+        features: the greatest number of features in an image.
+        fast_threshold: the least brightness step of a feature [grey level].
+        ratio: the greatest ratio of the distances of the nearest and the second nearest neighbour.
+        inlier_distance: the greatest distance of an inlier from the homography [px].
+        min_inliers: the least number of inliers of a homography.
     """
 
     @deterministic_opencv()
@@ -100,12 +111,12 @@ class OrbTracker(Tracker):
         return len(self._points)
 
     def set_quad(self, quad: Array) -> None:
-        """Set the last estimate to ``quad``; `step` searches the whole image in any case."""
+        """Set the last estimate to ``quad`` (4, 2) [px]; it does not affect `step`."""
         self._homography = homography_between(self._quad, quad)
 
     @deterministic_opencv()
     def step(self, image: Grey) -> Estimate:
-        """Find the patch in the next image."""
+        """Find the patch in the next image (h, w) [grey level]."""
         homography = self._match(image)
         if homography is not None:
             self._homography = homography
@@ -117,12 +128,14 @@ class OrbTracker(Tracker):
         )
 
     def _detect(self, image: Grey, mask: npt.NDArray[np.uint8] | None) -> tuple[Array, Any]:
+        """Return the positions (n, 2) [px] and the descriptors of the features in an image."""
         image_8bit = np.clip(np.rint(image), 0, 255).astype(np.uint8)
         keypoints, descriptors = self._orb.detectAndCompute(image_8bit, mask)
         points = np.array([keypoint.pt for keypoint in keypoints]).reshape(-1, 2)
         return points, descriptors
 
     def _match(self, image: Grey) -> Array | None:
+        """Return the homography from the template's image to an image; None if there is none."""
         import cv2
 
         points, descriptors = self._detect(image, None)

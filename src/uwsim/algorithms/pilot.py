@@ -1,4 +1,4 @@
-"""``pilot``: a person at the live view, who is scored like an algorithm."""
+"""``pilot``: an algorithm that converts a person's inputs in the live view to commands."""
 
 from __future__ import annotations
 
@@ -25,15 +25,18 @@ from .scripted import odometry_message, parse_twist
 from .tracker_node import merge_parameters
 
 TOPIC = "pilotInputs"
-"""The topic of the pilot's inputs: one number an axis, -1..1; missing axes are 0."""
+"""The topic of the pilot's inputs: one number for each axis, -1..1; missing axes are 0."""
 N_JOINTS = 6
-"""The number of joints that have an axis, without the jaw."""
+"""The greatest number of joints with an input axis, not counting the jaw."""
 N_THRUSTERS = 12
-"""The number of thrusters that have an axis."""
+"""The greatest number of thrusters with an input axis."""
 TWIST_AXES = ("surge", "sway", "heave", "roll", "pitch", "yaw")
-"""The axes of the vehicle: ahead, to starboard, up; starboard down, bow up, to starboard."""
+"""The input axes of the vehicle's motion.
+
+Positive inputs move it forward, to starboard and up, and turn it with its starboard side down, its
+bow up, and its bow to starboard."""
 THRUSTER_AXES = tuple(f"thruster{k}" for k in range(1, N_THRUSTERS + 1))
-"""The axes of the thrusters' commands, in the order of the vehicle's hydrodynamics file."""
+"""The input axes of single thrusters, in the order of the vehicle's hydrodynamics file."""
 AXES = (
     *TWIST_AXES,
     "jaw",
@@ -41,7 +44,9 @@ AXES = (
     *THRUSTER_AXES,
     "lamps",
 )
-"""The axes of an input: twist, jaw opening, joints, thrusters, brightness. Append new axes."""
+"""The input axes, in the order of the numbers in a message; new axes are appended.
+
+The groups are the twist, the jaw (positive opens it), the joints, the thrusters and the lamps."""
 PERIOD = 0.05
 """The time between two commands while no input changes [s]."""
 
@@ -49,12 +54,13 @@ PERIOD = 0.05
 class Pilot:
     """A human pilot: converts inputs of the live view to commands of a vehicle and its joints.
 
-    An input in the dead zone is 0. The command approaches the input at a limited rate. When an
-    input changes, a command is published at once; its step is at most that of one `PERIOD`.
-    Before the first input there are no commands. A vehicle may accept both twists and commands of
-    single thrusters: it gets those whose axes moved last, at first twists. All lamps have the same
-    brightness, at first 1. Names of services and topics are separated by blanks; the run sets
-    those of the scene unless the user does.
+    An input in the dead zone counts as 0. The command of each axis approaches the input at a
+    limited rate. When an input changes, a command is published at once, which changes by at most
+    the step of one `PERIOD`. Before the first input there are no commands. A vehicle may accept
+    both twists and commands of single thrusters: the pilot publishes the kind whose axes were moved
+    last, and twists at first. All lamps have the same brightness, at first 1. Names of services,
+    topics and joints in a parameter are separated by blanks; by default the run takes them from the
+    scene.
     """
 
     IS_PILOTED: ClassVar[bool] = True
@@ -78,6 +84,13 @@ class Pilot:
         "rate": 2.0,
         "dead_zone": 0.05,
     }
+    """The parameters with their defaults.
+
+    Speeds at full input: ``speed`` [m/s], ``turn`` [rad/s], ``joint_speed`` [rad/s or m/s]; the
+    thrust at full input ``thrust`` [share of full thrust]; the change of brightness ``dim_rate``
+    [1/s]; the greatest change of an axis ``rate`` [1/s]; ``dead_zone`` [1]. ``z_is_down`` is 1 if
+    the z axis of the vehicle points down, 0 if it points up.
+    """
 
     def start(self, node: Node) -> None:
         """Subscribe to the inputs and start the timer of the commands."""
@@ -141,7 +154,7 @@ class Pilot:
         self._publish_brightness(commands["lamps"] * dt)
 
     def _select_thrusters(self, commands: Mapping[str, float]) -> bool:
-        """Return whether to command single thrusters instead of a twist."""
+        """Return whether to publish commands of single thrusters instead of a twist."""
         takes_twists = self._publish_twist is not None or self._publish_odom is not None
         if self._publish_thrusts is None or not takes_twists:
             return self._uses_thrusters
@@ -151,7 +164,7 @@ class Pilot:
         return self._uses_thrusters
 
     def _publish_thrust(self, commands: Mapping[str, float]) -> None:
-        """Command all thrusters; those without an axis get 0."""
+        """Publish commands of all thrusters; those without an input axis get 0."""
         assert self._publish_thrusts is not None
         thrusts = np.zeros(int(float(self.parameters["n_thrusters"])))
         axes = THRUSTER_AXES[: len(thrusts)]
@@ -178,7 +191,7 @@ class Pilot:
             self._publish_odom(odometry_message(now, twist))
 
     def _publish_joint_speeds(self, commands: Mapping[str, float]) -> None:
-        """Command speeds of the joints while an axis is moved, and 0 once at the end."""
+        """Publish speeds of the joints while an axis is not 0, and then zeros once."""
         speeds = np.array([commands[axis] for axis, _ in self._joints])
         is_moving = bool(speeds.any())
         if self._publish_joints is None or not (is_moving or self._was_moving_joints):
@@ -195,7 +208,10 @@ class Pilot:
         )
 
     def _publish_brightness(self, input_time: float) -> None:
-        """Command the brightness of all lamps if it changes (``input_time``: axis times dt)."""
+        """Publish the brightness of all lamps if it changes.
+
+        ``input_time`` is the command of the axis times the time for which it held [s].
+        """
         change = float(self.parameters["dim_rate"]) * input_time
         brightness = min(1.0, max(0.0, self._brightness + change))
         if brightness != self._brightness:

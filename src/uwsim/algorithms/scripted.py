@@ -1,4 +1,4 @@
-"""``scripted``: starts and stops benchmarks at set times and commands a constant twist."""
+"""``scripted``: an algorithm that starts and stops benchmarks and commands a constant twist."""
 
 from __future__ import annotations
 
@@ -32,12 +32,13 @@ PERIOD = 0.1
 
 
 class ScriptedPilot:
-    """A script: starts and stops benchmarks at set times and commands a constant twist.
+    """A script that starts and stops benchmarks at set times and commands a constant twist.
 
-    Names of services and topics are separated by blanks. A signal calls the services and publishes
-    true (std_msgs/Bool) on the topics. The start signal is sent every `PERIOD`, so that every level
-    and measure that waits for it starts. The stop signal is sent every ``stop_after`` seconds and
-    ends one level after the other. Services that are not offered are skipped.
+    A start or stop signal calls services and publishes true (std_msgs/Bool) on topics, whose names
+    are separated by blanks in the parameters. From ``start_after`` on, the start signal is sent
+    every `PERIOD`, so that every level and measure that waits for it starts. The stop signal is
+    sent every ``stop_after`` seconds and ends one level after the other. Services that are not
+    offered are skipped.
     """
 
     PARAMETERS: ClassVar[Mapping[str, float | str]] = {
@@ -51,6 +52,8 @@ class ScriptedPilot:
         "odom_topic": "",
         "twist": "0 0 0 0 0 0",
     }
+    """The parameters with their defaults: services and topics of the two signals, their times [s],
+    and a twist (`parse_twist`), which is published on the topics that are not empty."""
 
     def start(self, node: Node) -> None:
         """Read the parameters and start the timers."""
@@ -88,7 +91,7 @@ class ScriptedPilot:
 
 
 class Signal:
-    """A signal: calls services and publishes true on topics."""
+    """A signal to benchmarks: when called, it calls services and publishes true on topics."""
 
     def __init__(self, node: Node, services: list[str], topics: list[str]) -> None:
         self._node, self._services = node, services
@@ -104,7 +107,7 @@ class Signal:
 
 
 def parse_twist(text: str) -> Twist:
-    """Parse a twist of six numbers: along x, y, z [m/s] and about them [rad/s].
+    """Parse a twist of six numbers: velocities along x, y, z [m/s] and about them [rad/s].
 
     Raises:
         BadSetting: the text is not six finite numbers.
@@ -123,7 +126,10 @@ def parse_twist(text: str) -> Twist:
 
 
 def odometry_message(time: float, twist: Twist) -> Odometry:
-    """Make a message with a twist for ``ROSOdomToPAT``; its pose is the identity."""
+    """Make a message with a twist for ``ROSOdomToPAT``; the pose in it is the identity.
+
+    ``time`` is the time of its stamp [s].
+    """
     identity = Quaternion(x=0.0, y=0.0, z=0.0, w=1.0)
     origin = Pose(position=Point(x=0.0, y=0.0, z=0.0), orientation=identity)
     return Odometry(

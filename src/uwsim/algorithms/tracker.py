@@ -1,4 +1,4 @@
-"""The interface of trackers, and the test for the loss of a target."""
+"""The interface of trackers of a planar patch, and the test whether the patch is lost."""
 
 from __future__ import annotations
 
@@ -12,22 +12,25 @@ from .esm.pyramid import Grey
 
 @dataclass(frozen=True, eq=False)
 class Estimate:
-    """The estimate of a patch in an image, in pixels from the centre of the first pixel."""
+    """The estimated position of a patch in an image.
+
+    Coordinates are in pixels from the centre of the top left pixel.
+    """
 
     corners: Array
-    """The corners in the order of the initial quad, (4, 2) [px]."""
+    """The corners of the patch in the order of the initial quad, (4, 2) [px]."""
     centroid: Array
     """The intersection of the diagonals: the image of the patch's centre, (2,) [px]."""
     zncc: float
     """The correlation of template and image at the estimate, -1..1 (`esm.alignment.zncc`)."""
     is_found: bool = True
-    """True if the method converged; otherwise corners and centroid are the last ones."""
+    """True if the patch was found; otherwise corners and centroid are the last found ones."""
     iterations: int = 0
-    """The number of steps, over all pyramid levels."""
+    """The number of iterations, over all pyramid levels."""
 
 
 class Tracker(abc.ABC):
-    """A tracker of a planar patch, independent of the bus."""
+    """A tracker of a planar patch: a function of images, without topics."""
 
     @abc.abstractmethod
     def step(self, image: Grey) -> Estimate:
@@ -35,15 +38,20 @@ class Tracker(abc.ABC):
 
     @abc.abstractmethod
     def set_quad(self, quad: Array) -> None:
-        """Set the estimate to the convex ``quad`` (4, 2) [px] and keep the template."""
+        """Set the estimate to a convex quad (4, 2) [px]; the template does not change."""
 
 
 class LossTest:
-    """The test for the loss of a target.
+    """The test whether a tracker has lost its target.
 
-    A target is lost if the ZNCC is below the threshold, or nothing is found, on ``frames``
-    consecutive images. It is also lost if its quad is not convex, or if the centre of the quad is
-    outside the image.
+    A target is lost if the zero-mean normalised cross-correlation (ZNCC) is below a threshold, or
+    nothing is found, on several consecutive images. It is also lost if its quad is not convex, or
+    if the centre of the quad is outside the image.
+
+    Args:
+        zncc_threshold: the least ZNCC of a good estimate, -1..1.
+        frames: the number of consecutive images without a good estimate after which the target is
+            lost.
     """
 
     def __init__(self, *, zncc_threshold: float, frames: int) -> None:
@@ -67,7 +75,7 @@ class LossTest:
 
 
 def quad_error(quad: Array, width: int, height: int) -> str | None:
-    """Return why a quad (4, 2) [px] cannot be tracked in an image; None if it can."""
+    """Return the reason why a quad (4, 2) [px] cannot be tracked in an image; None if it can."""
     names = ("NW", "NE", "SE", "SW")
     for name, (u, v) in zip(names, quad, strict=True):
         if not is_in_image(u, v, width, height):

@@ -1,12 +1,13 @@
-"""The algorithm that all trackers share: it reads images and publishes corners, centroid, status.
+"""The base class of tracking algorithms, which connects a `Tracker` to topics and services.
 
-It subscribes to the images, offers ``autoInit`` and, after the first image, calls
-``startBench``. The first quad of ``autoInit`` selects the template in the last image;
-every later quad is the present position of the patch. A lost tracker publishes its loss once, and
-no estimates until the next ``autoInit``. A tracker that failed at its first quad never restarts.
-Estimates have no stamp; they are published while the image's callback runs.
+A tracking algorithm subscribes to images, offers the service ``autoInit`` and, after the first
+image, calls ``startBench``. The first quad that ``autoInit`` receives selects the template in the
+last image; every later quad is the present position of the patch. The algorithm publishes corners,
+centroid and its status. When it has lost the patch, it publishes the loss once, and no estimates
+until the next call of ``autoInit``. If it cannot track the first quad, it never restarts. Estimates
+have no stamp; they are published while the callback of the image runs.
 
-Without ``autoInit`` the quad is the parameter ``corners``, and the template the first image.
+Without ``autoInit`` the first quad is the parameter ``corners``, in the first image.
 """
 
 from __future__ import annotations
@@ -35,14 +36,16 @@ from .esm.pyramid import Grey, to_grey
 from .tracker import LossTest, Tracker, quad_error
 
 INPUT_PARAMETERS: Mapping[str, float | str] = {"image_topic": "/uwsim/camera1", "corners": ""}
-"""The parameters of the input: the topic of the images; the quad in the first image, for a
+"""The parameters for the input, with their defaults.
+
+``image_topic`` is the topic of the images. ``corners`` is the quad in the first image, for a
 benchmark that does not call ``autoInit``: x, y of NW NE SE SW [px], eight numbers."""
 LOSS_PARAMETERS = {"zncc_threshold": 0.5, "lost_frames": 5.0}
-"""The parameters of the loss test, which all trackers share."""
+"""The parameters of the `LossTest`, with their defaults."""
 
 
 class TrackerNode(abc.ABC):
-    """An algorithm that tracks a quad; a derived class has `PARAMETERS` and `make_tracker`."""
+    """An algorithm that tracks a quad; derived classes define `PARAMETERS` and `make_tracker`."""
 
     PARAMETERS: ClassVar[Mapping[str, float | str]]
     """The parameters with their defaults; other names are rejected."""
@@ -51,7 +54,7 @@ class TrackerNode(abc.ABC):
         self._parameters: dict[str, float | str] = dict(self.PARAMETERS)
         self._image: Image | None = None
         self._quad: Array | None = None
-        self._quad_source = "corners"  # the parameter or the service
+        self._quad_source = "corners"  # the parameter, or the service "autoInit"
         self._tracker: Tracker | None = None
         self._loss: LossTest | None = None
         self._is_lost = False
@@ -69,7 +72,15 @@ class TrackerNode(abc.ABC):
 
     @abc.abstractmethod
     def make_tracker(self, image: Grey, quad: Array) -> Tracker | str:
-        """Make a tracker of ``quad`` (4, 2) [px]; return the reason if it cannot be tracked."""
+        """Make a tracker of a quad.
+
+        Args:
+            image: the image of the template, (h, w) [grey level].
+            quad: the corners of the patch, (4, 2) [px].
+
+        Returns:
+            The tracker, or a text with the reason why the patch cannot be tracked.
+        """
 
     def loss_test(self) -> LossTest | None:
         """Make the loss test; None for an algorithm that is never lost."""
@@ -79,7 +90,7 @@ class TrackerNode(abc.ABC):
         )
 
     def start(self, node: Node) -> None:
-        """Read the parameters and connect to the bus."""
+        """Read the parameters, and connect to topics and services."""
         self._parameters = merge_parameters(self.PARAMETERS, node.parameters)
         self._quad = parse_corners(self._parameters)
         self._node = node
@@ -190,7 +201,7 @@ def parse_corners(parameters: Mapping[str, float | str]) -> Array | None:
 def merge_parameters(
     defaults: Mapping[str, float | str], parameters: Mapping[str, float | str]
 ) -> dict[str, float | str]:
-    """Return the defaults, overridden by the parameters of the user.
+    """Return the defaults, replaced by the parameters of the user where these exist.
 
     Raises:
         BadSetting: a name has no default, or a number is negative or text.

@@ -1,4 +1,4 @@
-"""Controllers as algorithms under test: they read images of a camera and publish twists."""
+"""Controllers for visual station keeping: algorithms that read images and publish twists."""
 
 from __future__ import annotations
 

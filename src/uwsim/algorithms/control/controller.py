@@ -1,15 +1,17 @@
-r"""Visual station keeping over a tracked target.
+r"""Visual station keeping: a vehicle stays over a target that it tracks with a camera.
 
-The error [m] of the tracked centroid c from the principal point o, in the axes of the camera, is
+With the tracked centroid c and the principal point o [px], the focal length f [px] and the distance
+d to the target [m], the position error in the axes of the camera is [m]
 
 .. math:: e = (c - o) \, d / f
 
-The *parameter* d is the distance to the target, which the camera cannot measure. The command is
+d is a *parameter*, since a camera cannot measure it. The commanded velocity is
 
 .. math:: u = K_p e + K_i \int e \, dt, \qquad |u_i| \le u_{max}
 
-The integral of an axis is constant while its command is at the limit and the error would increase
-it (anti-windup by clamping). dt is the time between two estimates. Not modelled: errors of d, tilt.
+The integral of an axis is held constant while the command of the axis is at the limit and the error
+would increase the integral further (anti-windup by clamping). dt is the time between two estimates.
+Not modelled: an error of d, and a tilt of the vehicle.
 """
 
 from __future__ import annotations
@@ -42,22 +44,29 @@ PARAMETERS: Mapping[str, float | str] = {
     "info_topic": "/uwsim/camera1_info",
     "twist_topic": "/dataNavigator",
 }
-"""The gains [1/s, 1/s^2], the distance d to the target [m], the speed limit [m/s], the topics."""
+"""The parameters of the controllers, with their defaults.
+
+The gains ``kp`` [1/s] and ``ki`` [1/s^2], the ``distance`` d to the target [m], the speed ``limit``
+[m/s], and the topics of the camera's intrinsics and of the commands."""
 
 
 class Law(Protocol):
     """A control law that computes speeds from position errors."""
 
     def step(self, error: Array, dt: float) -> Array:
-        """Compute surge and sway (2,) [m/s] from the error forward and to starboard (2,) [m].
+        """Compute the commanded velocity, which the node then limits to its parameter ``limit``.
 
-        ``dt`` is the time since the last call [s], 0 at the first. The node limits both speeds to
-        its parameter ``limit``.
+        Args:
+            error: the position error, forward and to starboard, (2,) [m].
+            dt: the time since the last call [s], 0 at the first call.
+
+        Returns:
+            Surge and sway, (2,) [m/s].
         """
 
 
 def check_speeds(output: object, law_name: str) -> Array:
-    """Convert the output of a control law to speeds (2,) [m/s].
+    """Convert the output of a control law to surge and sway, (2,) [m/s].
 
     Raises:
         ValueError: the output is not two finite numbers.
@@ -73,14 +82,20 @@ def check_speeds(output: object, law_name: str) -> Array:
 
 
 class StationKeeper:
-    """A PI control law with anti-windup."""
+    """A proportional-integral control law with anti-windup.
+
+    Args:
+        kp: the proportional gain [1/s].
+        ki: the integral gain [1/s^2].
+        limit: the greatest speed along an axis [m/s].
+    """
 
     def __init__(self, *, kp: float, ki: float, limit: float) -> None:
         self._kp, self._ki, self._limit = kp, ki, limit
         self._integral = np.zeros(2)  # [m s]
 
     def step(self, error: Array, dt: float) -> Array:
-        """Compute the speeds (2,) [m/s] from an error (2,) [m], ``dt`` [s] after the last one."""
+        """Compute surge and sway; see `Law`."""
         integral = self._integral + error * dt
         speeds = self._kp * error + self._ki * integral
         is_winding_up = (np.abs(speeds) > self._limit) & (speeds * error > 0.0)
@@ -94,13 +109,15 @@ class StationKeeper:
 class ControllerNode:
     """A station-keeping algorithm that tracks its target with ESM.
 
-    The camera points down and the top of its image points to the bow. A target right of the centre
-    requires sway to starboard, a target above it surge. The vehicle keeps a twist until the next
-    one; the twist is zero when the tracker is lost. Each ``autoInit`` sets a new target and makes
-    a new law, as the integral belongs to the old target.
+    The camera points down, with the top of its image towards the bow. A target to the right of the
+    image centre causes sway to starboard, a target above the centre causes surge forward. The
+    vehicle keeps each commanded twist until the next one; a zero twist is published when the
+    target is lost. Each call of ``autoInit`` sets a new target and makes a new law, as the integral
+    belongs to the old target.
     """
 
     PARAMETERS: ClassVar[Mapping[str, float | str]] = {**Esm.PARAMETERS, **PARAMETERS}
+    """The parameters with their defaults."""
 
     def __init__(self) -> None:
         self._parameters: dict[str, float | str] = dict(self.PARAMETERS)
@@ -115,7 +132,7 @@ class ControllerNode:
         return dict(self._parameters)
 
     def start(self, node: Node) -> None:
-        """Read the parameters, connect to the bus and start the tracker."""
+        """Read the parameters, connect to topics, and start the tracker."""
         self._parameters = merge_parameters(self.PARAMETERS, node.parameters)
         self._node = node
         self._law = self.law()

@@ -1,4 +1,4 @@
-"""The node of an algorithm, with other parameters for a part of the algorithm."""
+"""A node for a part of an algorithm, with parameters of its own."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ class NodeView:
 
     @property
     def parameters(self) -> Mapping[str, float | str]:
-        """The part's parameters."""
+        """The parameters of the part of the algorithm."""
         return self._parameters
 
     @property
     def rng(self) -> np.random.Generator:
-        """The algorithm's random stream."""
+        """The random generator of the whole algorithm."""
         return self._node.rng
 
     def subscribe(self, topic: str, type: type[M], callback: Callable[[M], None]) -> None:

@@ -9,7 +9,7 @@ from .controller import ControllerNode
 
 
 class P(ControllerNode):
-    """A proportional controller with the ESM tracker: a steady current c leaves the offset c/kp."""
+    """A proportional controller with ESM: a steady current c [m/s] leaves the offset c/kp [m]."""
 
     PARAMETERS: ClassVar[Mapping[str, float | str]] = {
         name: value for name, value in ControllerNode.PARAMETERS.items() if name != "ki"

@@ -1,1 +1,4 @@
-"""Efficient second-order minimisation (ESM) and related methods, independent of the bus."""
+"""Efficient second-order minimisation (ESM) and related methods for aligning images.
+
+The functions are computations on images, without topics.
+"""

@@ -1,4 +1,7 @@
-"""The iterations of an alignment, compiled: sample, compare, solve, step."""
+"""The iterations of an alignment, in compiled code: sample, compare, solve, step.
+
+`alignment` has the formulas and the symbols I, I*, J, s, a and b.
+"""
 
 from __future__ import annotations
 
@@ -17,20 +20,31 @@ from .template import Runs
 
 
 class Settings(NamedTuple):
-    """The shares (a, b) of the gradients in J, and the rest of an `alignment.Method`."""
+    """The settings of an alignment that compiled code reads."""
 
     a: float
+    """The share of the image's gradient in J."""
     b: float
+    """The share of the template's gradient in J."""
     photometric: bool
+    """True if patches are normalised; see `alignment.Method`."""
     max_iterations: int
+    """The greatest number of steps."""
     precision: float
+    """The length of a step below which the iterations end; see `alignment.Method`."""
 
 
 @njit
 def iterate(
     image: Grey, patch: Patch, guess: Array, settings: Settings
 ) -> tuple[Array, float, int]:
-    """Refine ``guess`` (normalised template to image points); return it, its correlation, steps."""
+    """Align a patch with an image, starting at ``guess``.
+
+    ``guess`` is a homography from normalised template coordinates to image points [px], (3, 3).
+
+    Returns:
+        The homography with the best score, its correlation, and the number of steps.
+    """
     height, width = patch.values.shape
     samples = np.zeros((height + 2, width + 2), np.float32)
     mask = np.zeros((height + 2, width + 2), np.float32)
@@ -74,7 +88,7 @@ def iterate(
 
 @njit
 def _score(sums: Statistics, patch: Patch, photometric: bool) -> tuple[float, float]:
-    """Return the score of a homography, greater is better, and its correlation."""
+    """Return the score of the present homography (greater is better), and its correlation."""
     n, square_t, cross = sums.n, sums.square_t, sums.cross
     correlation = -1.0
     if sums.deviation_i > 1e-6:
@@ -89,7 +103,11 @@ def _score(sums: Statistics, patch: Patch, photometric: bool) -> tuple[float, fl
 
 @njit
 def _system(gram: Array, sums: Statistics, scale: float, photometric: bool) -> tuple[Array, Array]:
-    """Return J^T J and J^T s, projected onto the complement of gain and bias if photometric."""
+    """Return J^T J (8, 8) and J^T s (8,) from the products in `normal_equations`.
+
+    If ``photometric``, J is projected onto the complement of gain and offset. ``scale`` is the
+    contrast by which the image is divided [grey level].
+    """
     n, square_t = sums.n, sums.square_t
     matrix = gram[:8, :8].copy()
     right = gram[:8, 8] - gram[:8, 9]
@@ -105,7 +123,15 @@ def _system(gram: Array, sums: Statistics, scale: float, photometric: bool) -> t
 
 @njit
 def sample_image(image: Grey, homography: Array, runs: Runs, samples: Grey, mask: Grey) -> None:
-    """Sample the image (bilinear) at the warped template pixels and their neighbours."""
+    """Interpolate the image at the warped template pixels and at their neighbours.
+
+    Args:
+        image: the image.
+        homography: the homography from normalised template coordinates to image points [px].
+        runs: the columns of the patch in each row of the template.
+        samples: the output, (rows + 2, columns + 2); bilinear interpolation, 0 outside the image.
+        mask: the output, of the same shape; 1 for samples inside the image, else 0.
+    """
     height, width = runs.shape[0], samples.shape[1] - 2
     limit_x, limit_y = image.shape[1] - 1.0, image.shape[0] - 1.0
     step_x = homography[0, 0] * 2.0 / width

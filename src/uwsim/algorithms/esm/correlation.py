@@ -1,4 +1,4 @@
-"""Correlation of template and image: sums over the pixels of the patch, compiled."""
+"""Correlation of a template and an image: sums over the pixels of a patch, in compiled code."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ class Statistics(NamedTuple):
     n: float
     """The number of pixels."""
     mean_i: float
-    """The mean of the image."""
+    """The mean of the image's pixels [grey level]."""
     deviation_i: float
-    """The standard deviation of the image."""
+    """The standard deviation of the image's pixels [grey level]."""
     mean_t: float
-    """The mean of the template."""
+    """The mean of the template's pixels, which are normalised."""
     square_t: float
-    """The sum of the squares of the template, about its mean."""
+    """The sum of the squared deviations of the template's pixels from their mean."""
     cross: float
-    """The sum of the products of both, about their means."""
+    """The sum of the products of the deviations of both from their means [grey level]."""
 
 
 @njit
@@ -44,7 +44,7 @@ def nearest_zncc(image: Grey, runs: Runs, values: Grey, homography: Array) -> fl
                 continue
             x = (homography[0, 0] * u + homography[0, 1] * v + homography[0, 2]) / w
             y = (homography[1, 0] * u + homography[1, 1] * v + homography[1, 2]) / w
-            x, y = x + 0.5, y + 0.5  # their integer parts are the indices of the nearest pixel
+            x, y = x + 0.5, y + 0.5  # the integer parts are the indices of the nearest pixel
             if 0.0 <= x < image.shape[1] and 0.0 <= y < image.shape[0]:
                 i, t = float(image[int(y), int(x)]), float(values[row, column])
                 n += 1.0
@@ -63,7 +63,14 @@ def nearest_zncc(image: Grey, runs: Runs, values: Grey, homography: Array) -> fl
 
 @njit
 def statistics(runs: Runs, values: Grey, samples: Grey, mask: Grey) -> Statistics:
-    """Compute the statistics over the pixels whose four neighbours are in the image."""
+    """Compute the statistics over the pixels of a patch whose four neighbours are in the image.
+
+    Args:
+        runs: the columns of the patch in each row of the template.
+        values: the pixels of the template, (h, w).
+        samples: the image at these pixels and their neighbours, (h + 2, w + 2).
+        mask: 1 for samples inside the image, else 0, (h + 2, w + 2).
+    """
     n = sum_i = sum_ii = sum_t = sum_tt = sum_it = 0.0
     for row in range(runs.shape[0]):
         for column in range(runs[row, 0], runs[row, 1]):

@@ -1,8 +1,9 @@
 r"""Homographies as elements of SL(3), the group of 3x3 matrices of determinant 1.
 
-A step of a tracker is a point :math:`x` of the tangent space sl(3); it is applied as
+A step of a tracker is a vector :math:`x \in R^8` of coordinates in the tangent space sl(3), whose
+basis are the generators :math:`A_i`. It is applied as
 :math:`H \leftarrow H \exp(\sum_i x_i A_i)` (Benhimane and Malis, IROS 2004).
-Points are image coordinates [px] from the centre of the first pixel, unless their name is
+Points are image coordinates [px] from the centre of the top left pixel, unless they are called
 normalised.
 """
 
@@ -19,11 +20,12 @@ from ...base.numerics.linear import determinant, product, solve
 
 @njit
 def exponential(x: Array) -> Array:
-    r"""Return :math:`\exp(\sum_i x_i A_i)`, (3, 3), determinant 1.
+    r"""Return :math:`\exp(\sum_i x_i A_i)` for x (8,), a homography of determinant 1, (3, 3).
 
-    The generators, each of trace 0, move a point (u, v) of the plane by: 0 right, 1 down, 2 shear
-    along u, 3 shear along v, 4 stretch u and squeeze v, 5 scale, 6 and 7 perspective along u, v.
-    Scaling and squaring with a Taylor series of order 8: accurate to 1e-12 for \|x\| < 1.
+    The generators :math:`A_i`, of trace 0, move the points (u, v) of the plane: 0 right, 1 down,
+    2 shear along u, 3 shear along v, 4 stretch along u and compress along v, 5 scale, 6 and 7
+    perspective along u and v. The method is scaling and squaring with a Taylor series of order 8,
+    accurate to 1e-12 for \|x\| < 1.
     """
     a = np.empty((3, 3))
     a[0, 0], a[0, 1], a[0, 2] = x[4] + x[5] / 3.0, x[2], x[0]
@@ -47,7 +49,7 @@ def exponential(x: Array) -> Array:
 
 @njit
 def multiply(left: Array, right: Array) -> Array:
-    """Multiply two (3, 3) matrices, in a fixed order of additions."""
+    """Multiply two (3, 3) matrices, with a fixed order of the additions."""
     product = np.empty((3, 3))
     for i in range(3):
         for j in range(3):
@@ -64,14 +66,14 @@ def normalize_determinant(homography: Array) -> Array:
 
 
 def warp(homography: Array, points: Array) -> Array:
-    """Apply a homography to points (n, 2), (n, 2)."""
+    """Apply a homography (3, 3) to points (n, 2); return the points (n, 2)."""
     homogeneous_points = product(points, homography[:, :2].T) + homography[:, 2]
     image_points: Array = homogeneous_points[:, :2] / homogeneous_points[:, 2:]
     return image_points
 
 
 def homography_between(source: Array, target: Array) -> Array:
-    """Compute the homography of determinant 1 from four points (4, 2) to four others (4, 2).
+    """Compute the homography of determinant 1 that maps four points (4, 2) to four others (4, 2).
 
     Raises:
         numpy.linalg.LinAlgError: three points are collinear.
@@ -85,7 +87,7 @@ def homography_between(source: Array, target: Array) -> Array:
 
 
 def corner_areas(quad: Array) -> Array:
-    """Return twice the signed areas of the corner triangles of a quad (4, 2) [px^2], (4,)."""
+    """Return twice the signed area of the triangle at each corner of a quad (4, 2) [px], (4,)."""
     next_edges = np.roll(quad, -1, axis=0) - quad
     previous_edges = quad - np.roll(quad, 1, axis=0)
     areas: Array = previous_edges[:, 0] * next_edges[:, 1] - previous_edges[:, 1] * next_edges[:, 0]

@@ -1,4 +1,7 @@
-"""The normal equations of a step and their solution, compiled."""
+"""The normal equations for a step of the alignment, and their solution, in compiled code.
+
+`alignment` has the formulas and the symbols I, I*, J, a and b.
+"""
 
 from __future__ import annotations
 
@@ -13,25 +16,38 @@ from .pyramid import Grey
 
 
 class Weights(NamedTuple):
-    """The factors that convert the pixels of a run to columns of J."""
+    """The factors that convert the pixels of a run to the columns of J and of the image."""
 
     offset: np.float32
+    """The brightness that is subtracted from the image [grey level]."""
     gain: np.float32
+    """The factor of the difference [1 / grey level]."""
     from_u: np.float32
+    """The factor of a difference of two samples that are two columns apart, for the gradient by
+    the normalised coordinate u; it includes the share a of the image."""
     from_v: np.float32
+    """The factor of a difference of two samples that are two rows apart, for the gradient by v."""
     share: np.float32
+    """The share b of the template's gradient."""
 
 
 class Run(NamedTuple):
     """The n pixels of one row of the patch, with their neighbours in the image."""
 
     abscissa: Grey
+    """The normalised coordinate u of each pixel, (n,)."""
     v: np.float32
+    """The normalised coordinate v of the row."""
     samples: Grey
+    """The image at the pixels and their neighbours, (3, n + 2) [grey level]."""
     mask: Grey
+    """1 for samples inside the image, else 0, (3, n + 2)."""
     values: Grey
+    """The pixels of the template, (n,)."""
     slope_u: Grey
+    """The derivative of the template by u, (n,)."""
     slope_v: Grey
+    """The derivative of the template by v, (n,)."""
 
 
 @njit
@@ -42,11 +58,20 @@ def normal_equations(
     a: float,
     b: float,
 ) -> Array:
-    """Compute the products of the eight columns of J with each other, image, template and 1.
+    """Compute the products of J with J, with the image, with the template and with 1.
 
-    ``image_samples`` is the warped image and its mask, ``brightness`` offset and gain. Returns
-    (8, 11): J^T [J, (I - offset) gain, I*, 1]. The columns of the patch are summed in float32,
-    several at once in the processor; then their sums are added in float64.
+    Each column of the patch is summed in float32, so that the processor adds several columns at
+    once; the sums of the columns are then added in float64.
+
+    Args:
+        patch: the template.
+        image_samples: the warped image and its mask (`alignment_kernel.sample_image`).
+        brightness: the offset [grey level] and the gain [1 / grey level] of the image.
+        a: the share of the image's gradient in J.
+        b: the share of the template's gradient in J.
+
+    Returns:
+        J^T [J, (I - offset) gain, I*, 1], (8, 11).
     """
     height, width = patch.values.shape
     samples, mask = image_samples
@@ -98,7 +123,7 @@ def normal_equations(
 
 @njit
 def fill_columns(columns: Grey, run: Run, weights: Weights) -> None:
-    """Write the eight columns of J, the image, the template and 1 for one run of pixels."""
+    """Compute the eight columns of J, the image, the template and 1 for one run of pixels."""
     abscissa, v, samples, mask, values, slope_u, slope_v = run
     offset, gain, from_u, from_v, share = weights
     upper_row, centre_row, lower_row = samples[0], samples[1], samples[2]
@@ -125,7 +150,11 @@ def fill_columns(columns: Grey, run: Run, weights: Weights) -> None:
 
 @njit
 def solve(matrix: Array, right: Array) -> tuple[Array, bool]:
-    """Solve a symmetric system (8, 8) by Cholesky; False if it is not positive definite."""
+    """Solve a symmetric system (8, 8) by Cholesky decomposition.
+
+    Returns:
+        The solution (8,), and False if the matrix is not positive definite.
+    """
     n = right.size
     lower = np.zeros((n, n))
     x = right.copy()

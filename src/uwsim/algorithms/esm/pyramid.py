@@ -1,7 +1,8 @@
-"""Grey images and their pyramid, in float32 grey levels 0..255.
+"""Grey images and their pyramids, in float32 grey levels 0..255.
 
-Coordinates are from the centre of the first pixel. A pixel of a level covers four pixels of the
-finer level, so a point (u, v) of one level is ((u - 0.5)/2, (v - 0.5)/2) of the next.
+Coordinates (u, v) are in pixels from the centre of the top left pixel. A pixel of a pyramid level
+covers four pixels of the next finer level, so the point (u, v) of one level is the point
+((u - 0.5)/2, (v - 0.5)/2) of the next coarser level.
 """
 
 from __future__ import annotations
@@ -13,10 +14,11 @@ from ...base.geometry import Array
 from ...base.numerics.jit import njit
 
 Grey = npt.NDArray[np.float32]
+"""A grey image, (h, w) [grey level]."""
 
 
 def to_grey(pixels: npt.NDArray[np.uint8]) -> Grey:
-    """Return the luma ``0.299 R + 0.587 G + 0.114 B`` of (h, w, 3), or a grey image (h, w)."""
+    """Convert an image to grey: the luma of an RGB image (h, w, 3), or a grey image (h, w)."""
     if pixels.ndim == 2:
         return pixels.astype(np.float32)
     return luma(np.ascontiguousarray(pixels))
@@ -24,7 +26,7 @@ def to_grey(pixels: npt.NDArray[np.uint8]) -> Grey:
 
 @njit
 def luma(rgb: npt.NDArray[np.uint8]) -> Grey:
-    """Return the luma (h, w) of an RGB image (h, w, 3)."""
+    """Return the luma ``0.299 R + 0.587 G + 0.114 B`` (h, w) of an RGB image (h, w, 3)."""
     height, width = rgb.shape[0], rgb.shape[1]
     grey_levels = np.empty(height * width, np.float32)
     values = rgb.reshape(-1)
@@ -39,7 +41,10 @@ def luma(rgb: npt.NDArray[np.uint8]) -> Grey:
 
 @njit
 def halve(image: Grey) -> Grey:
-    """Halve the size after the filter (1 3 3 1)/8 along rows and columns; edges repeat."""
+    """Filter an image by (1 3 3 1)/8 along rows and columns, and take every second pixel.
+
+    Beyond its edges the image is continued by its outermost pixels.
+    """
     height, width = image.shape[0] // 2, image.shape[1] // 2
     last_x, last_y = image.shape[1] - 1, image.shape[0] - 1
     near, far = np.float32(0.375), np.float32(0.125)
@@ -59,7 +64,10 @@ def halve(image: Grey) -> Grey:
 
 
 def pyramid(image: Grey, levels: int) -> list[Grey]:
-    """Return the image and its halves, finest first, while the sides are at least 2 px."""
+    """Return the pyramid of an image, the finest level first.
+
+    It has at most ``levels`` levels, and none with a side below 2 px.
+    """
     images = [image]
     while len(images) < levels and min(images[-1].shape) >= 4:
         images.append(halve(images[-1]))
@@ -67,7 +75,7 @@ def pyramid(image: Grey, levels: int) -> list[Grey]:
 
 
 def level_from_image(level: int) -> Array:
-    """Return the homography from the image to a level (3, 3); its inverse for ``-level``."""
+    """Return the homography from level 0 to a level, (3, 3); ``-level`` gives its inverse."""
     scale = 0.5**level
     shift = 0.5 * (scale - 1.0)
     return np.array([[scale, 0.0, shift], [0.0, scale, shift], [0.0, 0.0, 1.0]])

@@ -1,7 +1,7 @@
 """The template of a tracker: the pixels of one image inside a quad, at one pyramid level.
 
-The template has the pixels of the image without resampling, so that its noise is that of the
-camera. The intersection of a convex quad with a row of pixels is one run of pixels.
+The template consists of pixels of the image without interpolation, which would change their noise.
+In each row of pixels, a convex quad contains one run of adjacent pixels.
 """
 
 from __future__ import annotations
@@ -15,11 +15,16 @@ from ...base.geometry import Array
 from .pyramid import Grey
 
 Runs = npt.NDArray[np.int64]
+"""The first and one-past-last column of the run of pixels in each row, (h, 2)."""
 
 
 @dataclass(frozen=True, eq=False)
 class Template:
-    """The pixels inside a quad, normalised, with their slopes."""
+    """The pixels inside a quad, normalised, with their derivatives.
+
+    The array has h rows and w columns, those of the quad's bounding box. Normalised coordinates u
+    and v are from -1 to 1 over this box.
+    """
 
     left: int
     """The column of the image that is column 0 of the template."""
@@ -28,29 +33,31 @@ class Template:
     runs: Runs
     """The first and one-past-last column inside the quad, for each row, (h, 2)."""
     values: Grey
-    """The pixels, with zero mean and unit variance inside the quad, (h, w)."""
+    """The pixels, with zero mean and unit variance inside the quad, 0 outside, (h, w)."""
     slope_u: Grey
-    """d values / d normalised u, central differences, (h, w)."""
+    """The derivative of ``values`` by the normalised coordinate u, by central differences,
+    (h, w)."""
     slope_v: Grey
-    """d values / d normalised v, (h, w)."""
+    """The derivative of ``values`` by the normalised coordinate v, by central differences,
+    (h, w)."""
     mean: float
-    """The mean of the pixels [grey level]."""
+    """The mean of the pixels before the normalisation [grey level]."""
     contrast: float
-    """The standard deviation of the pixels [grey level]."""
+    """The standard deviation of the pixels before the normalisation [grey level]."""
     image_from_normalised: Array
-    """The homography from the square [-1, 1]^2 to the bounding box of the quad, (3, 3)."""
+    """The homography from normalised coordinates to image points [px], (3, 3)."""
 
     @property
     def n(self) -> int:
-        """The number of pixels."""
+        """The number of pixels inside the quad."""
         return int((self.runs[:, 1] - self.runs[:, 0]).sum())
 
 
 def runs_in_quad(quad: Array, width: int, height: int) -> tuple[int, Runs]:
-    """Return the first row and, for each row, the run of pixels in a convex quad (4, 2).
+    """Return the first row of a convex quad (4, 2) [px], and the run of pixels in each row.
 
-    A pixel is in the quad if its centre is. Pixels at the border of the image have no central
-    difference and are omitted.
+    A pixel is in the quad if its centre is in the quad. Pixels at the border of an image of
+    ``width`` x ``height`` pixels are omitted, since they have no central difference.
     """
     top = max(int(np.ceil(quad[:, 1].min())), 1)
     bottom = min(int(np.floor(quad[:, 1].max())), height - 2)
@@ -70,7 +77,7 @@ def runs_in_quad(quad: Array, width: int, height: int) -> tuple[int, Runs]:
 def extract_template(image: Grey, quad: Array) -> Template | None:
     """Extract the pixels of ``image`` inside the convex ``quad`` (4, 2) [px].
 
-    Returns None if there are fewer than 8 rows or columns, or no contrast.
+    Returns None if the quad has fewer than 8 rows or columns of pixels, or no contrast.
     """
     top, runs = runs_in_quad(quad, image.shape[1], image.shape[0])
     has_pixels = runs[:, 1] > runs[:, 0]

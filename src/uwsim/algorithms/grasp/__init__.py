@@ -1,4 +1,9 @@
-"""Autonomous grasping of a black box: the parts, and the state machine that uses them."""
+"""Autonomous grasping of a black box (a flight recorder) by a vehicle with an arm.
+
+`grasp` is the algorithm, `phases` its state machine; the other modules are parts of it. Positions
+are in the navigation frame of the vehicle: north, east, down, origin at the water surface
+(`uwsim.algorithms.navigation.ekf`).
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The phases until the arm is over the box: search, detect, station, pregrasp."""
+"""The phases until the lowered arm is over the box: search, detect, station, pregrasp."""
 
 from __future__ import annotations
 
@@ -11,25 +11,25 @@ from .task import APPROACH_HEIGHT, Task
 
 
 class SearchPhase(Phase):
-    """The vehicle flies a square spiral at the search depth until there are three sightings."""
+    """The vehicle follows a square spiral at the search depth until there are three sightings."""
 
     name = "search"
     limit = 180.0
     timeout_phase = "aborted"
 
     def enter(self, task: Task) -> None:
-        """Reset the target; a second search continues the pattern of the first."""
+        """Reset the target; a second search continues the search pattern of the first."""
         task.failure = "not found: the search pattern is flown"
         task.target.reset()
         task.perception.reset()
 
     def step(self, task: Task) -> str | None:
-        """Fly to the next corner of the pattern."""
+        """Move towards the next corner of the search pattern."""
         vehicle = task.vehicle
         if task.target.n_sightings >= 3:
             return "detect"
         if task.target.n_sightings and task.now - task.target.last_sighting_time < 1.0:
-            return None  # stay for a second sighting
+            return None  # keep the goal and wait for another sighting
         if not task.pattern:
             return "aborted"
         vehicle.goal = np.array([*task.pattern[0], task.search_depth])
@@ -39,14 +39,14 @@ class SearchPhase(Phase):
 
 
 class DetectPhase(Phase):
-    """The vehicle stays for more sightings."""
+    """The vehicle keeps its position and waits for more sightings."""
 
     name = "detect"
     limit = 10.0
     timeout_phase = "search"
 
     def enter(self, task: Task) -> None:
-        """Set the goal to the present position."""
+        """Set the goal of the base to its present position."""
         task.set_goal(task.vehicle.pose.position.copy())
 
     def step(self, task: Task) -> str | None:
@@ -57,7 +57,7 @@ class DetectPhase(Phase):
 
 
 class StationPhase(Phase):
-    """The vehicle flies over the box until its position is known."""
+    """The vehicle moves over the box and stays there until the position of the box is known."""
 
     name = "station"
     limit = 45.0
@@ -68,7 +68,7 @@ class StationPhase(Phase):
         task.publish_status("tracking")
 
     def step(self, task: Task) -> str | None:
-        """Fly to where the grip of the lowered arm is over the handle."""
+        """Move to the position at which the grip of the lowered arm is over the handle."""
         if task.is_target_lost(6.0):
             return "search"
         error = task.keep_station(APPROACH_HEIGHT + 0.1)
@@ -77,13 +77,13 @@ class StationPhase(Phase):
 
 
 class PregraspPhase(Phase):
-    """The arm brings the open jaw down, above the handle and across it."""
+    """The arm is lowered, with the jaw open, above the handle and across it."""
 
     name = "pregrasp"
     limit = 30.0
 
     def step(self, task: Task) -> str | None:
-        """Command the posture and wait for the arm."""
+        """Command the joints of the arm and wait until it has reached them."""
         task.keep_station(APPROACH_HEIGHT + 0.1)
         vehicle = task.vehicle
         vehicle.jaw.setpoint = JAW_OPEN

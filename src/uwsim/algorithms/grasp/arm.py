@@ -1,7 +1,7 @@
-r"""Kinematics of the ARM5E on a free base: forward, and inverse within limits.
+r"""Forward and inverse kinematics of the arm ARM5E below the vehicle Girona 500.
 
-Denavit-Hartenberg parameters of the arm below the Girona 500 (theta, d, a, alpha). The base of the
-arm is 1.08 m below that of the vehicle, rotated by half a turn about z:
+The frame of the arm's base is 1.08 m below the frame of the vehicle's base (z down), and rotated by
+half a turn about z. The Denavit-Hartenberg parameters of the joints q1 to q4 are:
 
 ====== ================ ======= ======== =====
 joint  theta            d [m]   a [m]    alpha
@@ -12,10 +12,11 @@ elbow  q3 + 1.972222    0       -0.083   pi/2
 wrist  q4               0.34404 0        0
 ====== ================ ======= ======== =====
 
-The *grip* is the point between the fingers, `GRIP_OFFSET` below the wrist, where they close on a
-bar. Four joints set its position and the heading of the axis along which the jaw closes; the tilt
-of the jaw follows from these. The inverse is computed by damped least squares (Nakamura and
-Hanafusa 1986) with joints limited to their range.
+The *grip* is the point between the fingers at which they close on a bar, `GRIP_OFFSET` below the
+wrist. Its frame has z out of the jaw and x along the axis along which the fingers close (the
+*closing axis*). The four joints determine the position of the grip and the heading of the closing
+axis; the tilt of the jaw follows from these. The inverse kinematics are computed by damped least
+squares (Nakamura and Hanafusa 1986), with the joints limited to their ranges.
 """
 
 from __future__ import annotations
@@ -31,18 +32,19 @@ from ...base.numerics.jit import njit
 from .normal_equations import cholesky_solve
 
 JOINTS = ("Slew", "Shoulder", "Elbow", "JawRotate")
-"""The names of the joints of the arm; that of the fingers is `JAW`."""
+"""The names of the joints of the arm, without the joint of the fingers."""
 JAW = "JawOpening"
+"""The name of the joint of the fingers."""
 JOINT_LIMITS = np.array([[-1.570796, 0.5488], [0.0, 1.58665], [0.0, 2.15294], [-math.pi, math.pi]])
-"""The limits of the joints, (4, 2) [rad]."""
+"""The lower and upper limit of each joint of the arm, (4, 2) [rad]."""
 JAW_OPEN, JAW_CLOSED = 0.55, -0.05
-"""The positions of the fingers [rad]."""
+"""The positions of the joint of the fingers when the jaw is open, and closed [rad]."""
 GRIP_OFFSET = 0.135
 """The distance of the grip below the wrist [m]."""
 DOWN_POSTURE: Array = np.array([0.0, 0.7, 0.332, 0.0])
-"""The joints with the arm down and aft, the jaw vertical, (4,) [rad]."""
+"""The joint positions at which the arm is down and aft, with the jaw vertical, (4,) [rad]."""
 FOLDED_POSTURE: Array = np.array([0.0, 0.0, 0.0, 0.0])
-"""The joints with the arm stretched aft, out of the camera's view, (4,) [rad]."""
+"""The joint positions at which the arm is stretched aft, out of the camera's view, (4,) [rad]."""
 
 _DH_TABLE: Array = np.array(
     [
@@ -52,10 +54,11 @@ _DH_TABLE: Array = np.array(
         [0.0, 0.34404, 0.0, 0.0],
     ]
 )
+"""The Denavit-Hartenberg parameters theta, d, a, alpha of each joint, (4, 4)."""
 _ARM_BASE_DEPTH = 1.08
-"""The depth of the arm's base below the vehicle's [m]."""
+"""The depth of the arm's base below the vehicle's base [m]."""
 _HEADING_WEIGHT = 0.1
-"""The weight of the jaw's heading relative to its position [m/rad]."""
+"""The weight of an error of the jaw's heading relative to an error of its position [m/rad]."""
 _N_ITERATIONS = 15
 
 
@@ -64,7 +67,7 @@ class Reach:
     """The result of inverse kinematics."""
 
     joints: Array
-    """The joints: slew, shoulder, elbow, wrist, (4,) [rad]."""
+    """The joint positions: slew, shoulder, elbow, wrist, (4,) [rad]."""
     error: float
     """The distance of the grip from the requested position [m]."""
 
@@ -73,15 +76,19 @@ class Kinematics(Protocol):
     """The kinematics of an arm; see `Grasp.kinematics`."""
 
     def grip(self, joints: Array) -> Pose:
-        """Return ``base_from_grip`` for joints (4,) [rad]: z out of the jaw, x its closing axis."""
+        """Return the pose ``base_from_grip`` for joint positions (4,) [rad].
+
+        The frame of the grip has z out of the jaw and x along its closing axis.
+        """
 
     def reach(self, position: Array, heading: float, start: Array) -> Reach:
-        """Compute the joints for a position of the grip in the base's frame.
+        """Compute the joint positions for a position of the grip.
 
         Args:
-            position: of the grip, (3,) [m].
-            heading: of the axis along which the jaw closes, modulo half a turn [rad].
-            start: the initial joints, (4,) [rad].
+            position: the position of the grip in the frame of the vehicle's base, (3,) [m].
+            heading: the heading of the closing axis, modulo half a turn, about z of that frame
+                [rad].
+            start: the joint positions at which the iterations start, (4,) [rad].
         """
 
 
@@ -89,24 +96,24 @@ class Arm5e:
     """The kinematics of the ARM5E."""
 
     def wrist(self, joints: Array) -> Pose:
-        """Return ``base_from_wrist`` (link ``part4_base``) for joints (4,) [rad]."""
+        """Return the pose ``base_from_wrist`` (link ``part4_base``) for joint positions (4,)."""
         pose = _wrist_pose(np.asarray(joints, dtype=np.float64), _DH_TABLE)
         return Pose(pose[:, 3].copy(), np.ascontiguousarray(pose[:, :3]))
 
     def grip(self, joints: Array) -> Pose:
-        """Return ``base_from_grip``; see `Kinematics`."""
+        """Return the pose ``base_from_grip``; see `Kinematics`."""
         wrist = self.wrist(joints)
         return Pose(wrist.position + GRIP_OFFSET * wrist.rotation[:, 2], wrist.rotation)
 
     def reach(self, position: Array, heading: float, start: Array) -> Reach:
-        """Compute joints within `JOINT_LIMITS`; see `Kinematics`."""
+        """Compute joint positions within `JOINT_LIMITS`; see `Kinematics`."""
         joints, error = _solve_joints(position, heading, start, _DH_TABLE, JOINT_LIMITS)
         return Reach(joints=joints, error=error)
 
 
 @njit
 def _wrist_pose(joints: Array, table: Array) -> Array:
-    """Return rotation and position of the wrist in the vehicle's base, (3, 4)."""
+    """Return the rotation and the position [m] of the wrist in the vehicle's base, (3, 4)."""
     pose = np.zeros((3, 4))
     pose[0, 0], pose[1, 1], pose[2, 2], pose[2, 3] = -1.0, -1.0, 1.0, _ARM_BASE_DEPTH
     for k in range(4):
@@ -125,7 +132,7 @@ def _wrist_pose(joints: Array, table: Array) -> Array:
 
 @njit
 def _grip_coordinates(joints: Array, table: Array) -> Array:
-    """Return the position of the grip [m] and the closing heading of the jaw [rad], (4,)."""
+    """Return the position of the grip [m] and the heading of the closing axis [rad], (4,)."""
     pose = _wrist_pose(joints, table)
     coordinates = np.empty(4)
     for i in range(3):
@@ -138,7 +145,7 @@ def _grip_coordinates(joints: Array, table: Array) -> Array:
 def _solve_joints(
     position: Array, heading: float, start: Array, table: Array, limits: Array
 ) -> tuple[Array, float]:
-    """Return joints (4,) and the remaining distance of the grip [m]."""
+    """Return joint positions (4,) [rad] and the distance of the grip from its goal [m]."""
     joints = np.minimum(np.maximum(start, limits[:, 0]), limits[:, 1])
     best_joints, least_error = joints.copy(), 1e9
     error, jacobian = np.empty(4), np.empty((4, 4))

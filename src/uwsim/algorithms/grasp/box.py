@@ -1,4 +1,4 @@
-"""The box that is grasped: its shape, its painted faces and its handle."""
+"""The box that is grasped: its shape, its handle and its pose."""
 
 from __future__ import annotations
 
@@ -13,29 +13,30 @@ from ...base.numerics.linear import product, rotate
 
 @dataclass(frozen=True, kw_only=True)
 class BoxSpec:
-    """The known model of the grasped object: a box with a handle on its top.
+    """The model of the grasped object: a box with a handle, a bar parallel to y, over its top.
 
-    Top, bottom and long sides are painted; the ends are bare metal, and so is the handle. Its
-    frame: origin at the centre of the body, y along the long edges, z out of the top face.
+    Top, bottom and long sides are painted; the short sides and the handle are bare metal. The frame
+    of the box has its origin at the centre of the body, y along the long edges and z out of the top
+    face.
     """
 
     size: tuple[float, float, float] = (0.15, 0.32, 0.14)
-    """The edges along x, y, z [m]."""
+    """The lengths of the edges along x, y, z [m]."""
     handle: float = 0.128
-    """The height of the handle's bar, which is parallel to y, over the centre [m]."""
+    """The height of the handle's bar over the centre of the box [m]."""
     bar: float = 0.008
-    """The radius of the bar [m]."""
+    """The radius of the handle's bar [m]."""
 
     @property
     def corners(self) -> Array:
-        """The corners of the body, (8, 3) [m]."""
+        """The corners of the body in the frame of the box, (8, 3) [m]."""
         half = np.array(self.size) / 2.0
         signs = [(x, y, z) for x in (-1.0, 1.0) for y in (-1.0, 1.0) for z in (-1.0, 1.0)]
         return np.array(signs) * half
 
     @property
     def face(self) -> Array:
-        """The corners of the top face, in order around it, (4, 3) [m]."""
+        """The corners of the top face in cyclic order, in the frame of the box, (4, 3) [m]."""
         x, y, z = (edge / 2.0 for edge in self.size)
         return np.array([[-x, -y, z], [-x, y, z], [x, y, z], [x, -y, z]])
 
@@ -45,7 +46,10 @@ class BoxSpec:
         return position
 
     def closing_heading(self, pose: BoxPose) -> float:
-        """Return the heading of the axis across the handle, modulo half a turn [rad]."""
+        """Return the heading of the axis across the handle, along which the jaw closes [rad].
+
+        It is between -pi/2 and pi/2, as the opposite heading is equivalent.
+        """
         return wrap_half_turn(pose.heading)
 
 
@@ -54,26 +58,27 @@ class BoxPose:
     """The pose of a box in the navigation frame (north, east, down)."""
 
     position: Array
-    """The centre of the body, (3,) [m]."""
+    """The position of the centre of the body, (3,) [m]."""
     heading: float
-    """The heading of the x axis, from north towards east [rad]; front and back are equal."""
+    """The heading of the x axis, from north towards east [rad]; the opposite heading is equivalent,
+    as front and back look the same."""
     tilt: tuple[float, float] = (0.0, 0.0)
     """The tilt about the x and y axes of the box [rad]."""
 
     @property
     def rotation(self) -> Array:
-        """The axes of the box in the navigation frame, (3, 3); z is up without a tilt."""
+        """The rotation ``navigation_from_box``, (3, 3); without a tilt, z of the box is up."""
         level_rotation = product(rotation_z(self.heading), rotation_x(math.pi))
         return product(level_rotation, product(rotation_x(self.tilt[0]), rotation_y(self.tilt[1])))
 
     @property
     def vector(self) -> Array:
-        """The position, heading and tilt, (6,) [m, rad]."""
+        """The pose vector: position, heading and tilt, (6,) [m, rad]."""
         return np.array([*self.position.tolist(), self.heading, *self.tilt])
 
     @staticmethod
     def from_vector(vector: Array) -> BoxPose:
-        """Make a pose from position, heading and tilt, (6,) [m, rad]."""
+        """Make a pose from a pose vector: position, heading and tilt, (6,) [m, rad]."""
         x, y, z, heading, about_x, about_y = vector.tolist()
         return BoxPose(position=np.array([x, y, z]), heading=heading, tilt=(about_x, about_y))
 
@@ -90,5 +95,5 @@ class BoxPose:
 
 
 def wrap_half_turn(angle: float) -> float:
-    """Wrap a heading that is periodic in half a turn to between -pi/2 and pi/2 [rad]."""
+    """Add half turns to an angle until it is between -pi/2 and pi/2 [rad]."""
     return angle - math.pi * math.floor(angle / math.pi + 0.5)

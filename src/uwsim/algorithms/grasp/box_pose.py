@@ -1,13 +1,15 @@
-r"""The pose of a box from its outline, or from the corners of its top face.
+r"""Estimation of the pose of a box from its outline, or from the corners of its top face.
 
-Gauss-Newton on position, heading and tilt :math:`x \in R^6` of
+The pose vector :math:`x \in R^6` (position, heading and tilt) minimises, by Gauss-Newton,
 
 .. math:: \sum_k \frac{(h_k(x) - h_k)^2}{\sigma^2} + \sum_i \frac{(x_i - m_i)^2}{p_i^2}
 
-where :math:`h_k(x)` is the support of the projected corners along direction k (the support function
-of the visible painted faces) and :math:`h_k` that of the outline. The second sum is the prior: the
-box rests on the bottom with a small tilt. With the corners of a tracked face, the first sum is over
-their image coordinates. The covariance of x is the inverse of the normal matrix.
+The support of a shape along a direction is the largest coordinate of its points along that
+direction. :math:`h_k(x)` is the support of the projected visible painted faces along direction k,
+:math:`h_k` the support of the detected outline, and :math:`\sigma` its standard deviation [px]. The
+second sum is the prior with the mean :math:`m` and the standard deviations :math:`p`: the box rests
+on the bottom with a small tilt. If the top face is tracked, the first sum is over the image
+coordinates of its corners instead. The covariance of x is the inverse of the normal matrix.
 """
 
 from __future__ import annotations
@@ -28,39 +30,40 @@ from .normal_equations import cholesky_solve
 TILT_DEVIATION = 0.03
 """The standard deviation of the tilt in the prior [rad]."""
 DEPTH_DEVIATION = 0.018
-"""The standard deviation of the depth of the box from that of the bottom [m]."""
+"""The standard deviation of the depth of the box in the prior, relative to the bottom [m]."""
 GRAZING_TANGENT = 0.3
-"""The tangent of the angle between view and side below which a side may not be detected."""
+"""The tangent of the angle between the view and a side below which the detector may miss the
+side."""
 UNKNOWN_DEVIATION = 10.0
 """The standard deviation of unknown coordinates in the prior [m, rad]."""
 MIN_KNOWN_DIRECTIONS = 12
-"""The least number of known directions of an outline."""
+"""The least number of directions with a known support for a fit."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Sighting:
-    """The pose of an object in one image."""
+    """A measurement of the pose of an object from one image."""
 
     pose: BoxPose
-    """The pose of the object."""
+    """The pose of the object in the navigation frame."""
     covariance: Array
     """The covariance of position, heading and tilt, (6, 6) [m, rad]."""
     residual: float
-    """The residual of the fit, root mean square [px]."""
+    """The root mean square residual of the fit [px]."""
     source: str = "outline"
-    """The source of the pose: ``outline``, ``face`` or ``truth``."""
+    """The data from which the pose was computed: ``outline``, ``face`` or ``truth``."""
 
 
 def pose_from_outline(
     outline: Outline, view: View, box: BoxSpec, *, deviation: float = 0.7
 ) -> Sighting | None:
-    """Fit the pose of the box to an outline; None if there is no fit.
+    """Fit the pose of a box to an outline; return None if no pose fits.
 
     Args:
-        outline: of the box in the image.
+        outline: the outline of the box in the image.
         view: the camera at the time of the image.
-        box: the model.
-        deviation: the standard deviation of the outline [px].
+        box: the model of the box.
+        deviation: the standard deviation of the support of the outline [px].
     """
     if outline.is_known.sum() < MIN_KNOWN_DIRECTIONS:
         return None
@@ -86,9 +89,14 @@ def pose_from_outline(
 def pose_from_face(
     corners: Array, view: View, box: BoxSpec, initial_pose: BoxPose, *, deviation: float = 1.0
 ) -> Sighting | None:
-    """Fit the pose of the box to the corners of the top face (4, 2) [px], in their order.
+    """Fit the pose of a box to the corners of its top face; return None if no pose fits.
 
-    The fit starts at ``initial_pose``.
+    Args:
+        corners: the corners in the image, in the order of `BoxSpec.face`, (4, 2) [px].
+        view: the camera at the time of the image.
+        box: the model of the box.
+        initial_pose: the pose at which the fit starts.
+        deviation: the standard deviation of the corners [px].
     """
     start = initial_pose.vector
     prior = _prior(start, view, box)
@@ -114,14 +122,14 @@ def _sighting(vector: Array, normal: Array, residual: float, source: str) -> Sig
         return None
     return Sighting(
         pose=BoxPose.from_vector(vector),
-        covariance=inverse(normal),  # the prior keeps it regular
+        covariance=inverse(normal),  # with the prior, the normal matrix is not singular
         residual=residual,
         source=source,
     )
 
 
 def _prior(start: Array, view: View, box: BoxSpec) -> Array:
-    """Return the pose vector of the prior and its weights, (2, 6)."""
+    """Return the mean pose vector of the prior and the inverse variances, (2, 6)."""
     expected = start.copy()
     expected[2] = view.bottom - box.size[2] / 2.0
     expected[4:] = tilt_on_slope(view.slopes, float(start[3]))
@@ -131,7 +139,12 @@ def _prior(start: Array, view: View, box: BoxSpec) -> Array:
 
 
 def tilt_on_slope(slopes: tuple[float, float], heading: float) -> tuple[float, float]:
-    """Return the tilt [rad] of a box with a heading [rad] on a bottom with two slopes [1]."""
+    """Return the tilt of a box that lies on a sloping bottom [rad].
+
+    Args:
+        slopes: the slopes of the bottom's depth to the north and to the east [1].
+        heading: the heading of the box [rad].
+    """
     north, east = slopes
     c, s = math.cos(heading), math.sin(heading)
     size = math.sqrt(1.0 + north * north + east * east)
@@ -140,14 +153,17 @@ def tilt_on_slope(slopes: tuple[float, float], heading: float) -> tuple[float, f
 
 
 def _camera(view: View) -> Array:
-    """Return the position, the rotation by rows, fx, fy, cx, cy, (16,)."""
+    """Return the position, the rotation by rows, fx, fy, cx, cy of a camera, (16,)."""
     pose = view.navigation_from_camera
     return np.concatenate([pose.position, pose.rotation.reshape(9), view.pinhole.intrinsics])
 
 
 @njit
 def _project(vector: Array, points: Array, camera: Array) -> Array:
-    """Project points of a box (n, 3) with a pose vector to the image, (n, 2)."""
+    """Project points of a box (n, 3) [m] to the image, (n, 2) [px].
+
+    ``vector`` is the pose vector of the box; ``camera`` is the output of `_camera`.
+    """
     ch, sh = math.cos(vector[3]), math.sin(vector[3])
     cx, sx = math.cos(vector[4]), math.sin(vector[4])
     cy, sy = math.cos(vector[5]), math.sin(vector[5])
@@ -171,7 +187,7 @@ def _project(vector: Array, points: Array, camera: Array) -> Array:
 
 @njit
 def _camera_in_box(vector: Array, camera: Array) -> Array:
-    """Return the position of the camera in the frame of the box, (3,) [m]."""
+    """Return the position of a camera in the frame of a box with a pose vector, (3,) [m]."""
     ch, sh = math.cos(vector[3]), math.sin(vector[3])
     cx, sx = math.cos(vector[4]), math.sin(vector[4])
     cy, sy = math.cos(vector[5]), math.sin(vector[5])
@@ -183,10 +199,10 @@ def _camera_in_box(vector: Array, camera: Array) -> Array:
 
 @njit
 def _support_bounds(vector: Array, points: Array, directions: Array, camera: Array) -> Array:
-    """Return the bounds of the support of the visible painted faces, (2, n).
+    """Return two bounds of the support of the visible painted faces, (2, n) [px].
 
-    The first row is without, the second with a long side that is seen at a grazing angle: a
-    detector may miss it. The top face is always visible; the ends are bare.
+    The first row excludes, the second row includes a long side that is seen at a grazing angle,
+    which a detector may miss. The top face is always visible; the short sides are not painted.
     """
     pixels = _project(vector, points, camera)
     camera_position = _camera_in_box(vector, camera)
@@ -194,7 +210,8 @@ def _support_bounds(vector: Array, points: Array, directions: Array, camera: Arr
     for i in range(len(pixels)):
         x, _, z = points[i]
         is_lower = z < 0.0
-        side_distance = camera_position[0] * x / abs(x) - abs(x)  # from that side outwards
+        # Distance of the camera from the plane of the point's long side, positive outside [m].
+        side_distance = camera_position[0] * x / abs(x) - abs(x)
         if is_lower and side_distance <= 0.0:
             continue
         is_grazing = is_lower and side_distance < GRAZING_TANGENT * (camera_position[2] - abs(z))
@@ -210,7 +227,7 @@ def _support_bounds(vector: Array, points: Array, directions: Array, camera: Arr
 def _support(
     vector: Array, points: Array, directions: Array, camera: Array, h_measured: Array
 ) -> Array:
-    """Return the support that is nearest to the measured one within its bounds, (n,)."""
+    """Return the measured support, limited to the bounds of `_support_bounds`, (n,) [px]."""
     bounds = _support_bounds(vector, points, directions, camera)
     support = np.empty(len(h_measured))
     for k in range(len(h_measured)):
@@ -224,7 +241,13 @@ def _step(
 ) -> tuple[Array, Array]:
     """Return the normal matrix (6, 6) and the step (6,) of Gauss-Newton.
 
-    ``h_shifted`` (6, n) are the values with each coordinate shifted by `_DELTA`.
+    Args:
+        vector: the pose vector, (6,).
+        prior: the mean pose vector and the inverse variances, (2, 6).
+        h: the values for the pose vector, (n,) [px].
+        h_shifted: the values with each coordinate of the pose vector increased by `_DELTA`, (6, n).
+        h_measured: the measured values, (n,) [px].
+        weights: the inverse variances of the measured values, (n,); 0 for unknown values.
     """
     normal, right = np.zeros((6, 6)), np.zeros(6)
     for i in range(6):
@@ -243,6 +266,7 @@ def _step(
 
 
 _DELTA = 1e-4
+"""The step of the numerical derivatives [m, rad]."""
 _N_ITERATIONS = 12
 
 

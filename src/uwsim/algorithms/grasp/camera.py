@@ -1,4 +1,4 @@
-"""The intrinsics of a camera, and its pose at the time of an image."""
+"""A pinhole camera: its intrinsics, and its pose at the time of an image."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ class Pinhole:
     fy: float
     """The focal length along v [px]."""
     cx: float
-    """The principal point, u [px]."""
+    """The coordinate u of the principal point [px]."""
     cy: float
-    """The principal point, v [px]."""
+    """The coordinate v of the principal point [px]."""
     width: int
     """The width of the image [px]."""
     height: int
@@ -49,14 +49,15 @@ class View:
     navigation_from_camera: Pose
     """The pose of the camera (OpenCV's axes) in the navigation frame."""
     bottom: float
-    """The depth of the bottom at the position of the box, or where it may be [m]."""
+    """The depth of the bottom at the estimated position of the box; without an estimate, on the
+    axis of the camera [m]."""
     slopes: tuple[float, float] = (0.0, 0.0)
-    """The slopes of that depth to the north and to the east [1]."""
+    """The slopes of the bottom's depth to the north and to the east [1]."""
 
     def project(self, points: Array) -> Array:
         """Project points of the navigation frame (n, 3) [m] to the image, (n, 2) [px].
 
-        NaN for points that are not in front of the camera.
+        The coordinates of points that are not in front of the camera are NaN.
         """
         camera_points = self.navigation_from_camera.inverse().transform(points)
         depth = np.where(camera_points[:, 2] > 1e-6, camera_points[:, 2], np.nan)
@@ -66,9 +67,15 @@ class View:
         return pixels
 
     def intersect_plane(self, u: float, v: float, depth: float) -> Array | None:
-        """Intersect the ray of a pixel with a horizontal plane at a depth [m], (3,) [m].
+        """Return the point in which the ray of a pixel meets a horizontal plane, (3,) [m].
 
-        None if the ray does not intersect it.
+        Args:
+            u: the image coordinate to the right [px].
+            v: the image coordinate down [px].
+            depth: the depth of the plane [m].
+
+        Returns:
+            The point in the navigation frame; None if the ray does not meet the plane.
         """
         ray = rotate(
             self.navigation_from_camera.rotation,

@@ -1,13 +1,14 @@
-r"""An object of any shape that is detected by its outline and grasped at a given point.
+r"""The model and perception of an object of any shape, which is grasped at a given point.
 
 The object rests on the bottom. Its position and heading :math:`x = (north, east, \psi)` minimise
 
 .. math:: \sum_k \frac{(h_k(x) - h_k)^2}{\sigma^2}
 
-where :math:`h_k(x)` is the support of the projected points of the object's convex hull along
-direction k, and :math:`h_k` that of the outline (Gauss-Newton, numerical derivatives, several
-initial headings). The covariance is :math:`\sigma^2 (J^T J)^{-1}`. Not modelled: parts of the
-object that the detector does not detect by their colour; objects that lie on a side.
+where :math:`h_k(x)` is the support (see `box_pose`) of the object's projected convex hull along
+direction k, :math:`h_k` the support of the detected outline, and :math:`\sigma` its standard
+deviation [px]. The method is Gauss-Newton with numerical derivatives J, from several initial
+headings. The covariance of x is :math:`\sigma^2 (J^T J)^{-1}`. Not modelled: parts of the object
+that the detector does not detect by their colour, and objects that have tipped over.
 """
 
 from __future__ import annotations
@@ -29,33 +30,32 @@ from .target import Target
 N_HEADINGS = 6
 """The number of initial headings of the fit."""
 N_ITERATIONS = 10
+"""The number of iterations of the fit."""
 STEPS: Array = np.array([1e-4, 1e-4, 1e-3])
 """The steps of the numerical derivatives, (3,) [m, m, rad]."""
 OUTLINE_DEVIATION = 1.0
-"""The standard deviation of an outline [px]."""
+"""The standard deviation of the support of an outline [px]."""
 MAX_RESIDUAL = 3.0
 """The largest residual of a fit that is accepted [px]."""
 DEPTH_DEVIATION = 0.02
-"""The standard deviation of the object's depth: that of the bottom below it [m]."""
+"""The standard deviation of the object's depth, which is that of the bottom's depth [m]."""
 ROUND_HEADING_DEVIATION = 0.5
 """The standard deviation of the heading of a round object, which is not observable [rad]."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class ConvexObject:
-    """The known model of an object that rests on the bottom; its frame has z up.
-
-    Args:
-        points: the corners of its convex hull, (n, 3) [m].
-        grip_point: the point that the jaw grasps, (3,) [m].
-        closing_angle: the direction in which the jaw closes, about z from the x axis [rad].
-        is_round: True if all headings look equal; the jaw then keeps its present heading.
-    """
+    """The model of an object that rests on the bottom; its frame has z up."""
 
     points: Array
+    """The corners of the convex hull in the frame of the object, (n, 3) [m]."""
     grip_point: Array
+    """The point that the jaw grasps, in the frame of the object, (3,) [m]."""
     closing_angle: float = 0.0
+    """The angle about z from the x axis of the object to the axis along which the jaw closes
+    [rad]."""
     is_round: bool = False
+    """True if the object looks the same at all headings; the jaw then keeps its heading."""
 
     @property
     def min_z(self) -> float:
@@ -76,8 +76,8 @@ class ConvexPerception:
     """A perception that fits the pose of a `ConvexObject` in every image.
 
     Args:
-        detector: of the outlines of candidates.
-        model: of the object.
+        detector: the detector of outlines that may be the object.
+        model: the model of the object.
     """
 
     def __init__(self, detector: Detector, model: ConvexObject) -> None:
@@ -87,7 +87,7 @@ class ConvexPerception:
         """Do nothing, as there is no state between images."""
 
     def observe(self, image: Pixels, view: View, target: Target, time: float) -> Sighting | None:
-        """Update the target from an image (h, w, 3) RGB; return the accepted sighting or None."""
+        """Update the target from an image; see `uwsim.algorithms.grasp.ObjectPerception`."""
         sightings = [
             sighting
             for outline in self._detector.detect(image, view)
@@ -100,7 +100,7 @@ class ConvexPerception:
 
 
 def fit_pose(outline: Outline, view: View, model: ConvexObject) -> Sighting | None:
-    """Fit the pose of an object to an outline; None if no fit is good enough."""
+    """Fit the pose of an object to an outline; return None if no fit is good enough."""
     if outline.is_known.sum() < MIN_KNOWN_DIRECTIONS:
         return None
     depth = view.bottom + model.min_z
@@ -123,7 +123,12 @@ def fit_pose(outline: Outline, view: View, model: ConvexObject) -> Sighting | No
 def _fit_from(
     start: Array, depth: float, outline: Outline, view: View, model: ConvexObject
 ) -> tuple[Array, Array, float]:
-    """Return position and heading (3,), covariance (3, 3) and residual [px]; inf without a fit."""
+    """Fit north, east and heading (3,) [m, rad], starting at ``start``.
+
+    Returns:
+        The fitted numbers, their covariance (3, 3), and the root mean square residual [px], which
+        is infinite if there is no fit.
+    """
     is_known = outline.is_known
     vector = start.astype(np.float64)
     n_free = 2 if model.is_round else 3

@@ -1,14 +1,20 @@
-r"""The detection of the outline of an orange box in an image, by its colour.
+r"""Detection of an orange box in an image by its colour, and of its outline.
 
-The colour score of a pixel is :math:`s = 2R - G - B`. Water reduces the contrast of scores and
-keeps their order: fog of transmission T leaves :math:`T s`, plus an offset that varies slowly over
-the image (`Background`). Therefore the threshold is a share of the peak over the bottom. The peak
-must exceed `MIN_CONTRAST` deviations of the noise. The red of a blob must be a share
-`MIN_RED_SHARE` of its score: a dark hull in fog has less green and blue than the water behind it,
-and little more red. Blobs far larger than the box, such as the arm in front of the camera, are
-removed, and the threshold is computed again. Gaps by bands, lettering and handle are closed. The
-outline of a blob is the support function of its convex hull along `N_DIRECTIONS` directions. It is
-unknown where the blob ends at the border of the image.
+The colour score of a pixel is :math:`s = 2R - G - B`. Water reduces the contrast of scores but
+keeps their order: fog of the transmission T changes s to :math:`T s` plus an offset that varies
+slowly over the image (`Background`, the score of the bottom). A connected region of pixels whose
+score is above a threshold is called a blob.
+
+1. The threshold is a share of the largest score above the bottom, the peak, which must exceed
+   `MIN_CONTRAST` standard deviations of the noise.
+2. Blobs far larger than the box, such as the arm in front of the camera, are removed, and the
+   threshold is computed again.
+3. Gaps due to bands, lettering and the handle are closed.
+4. The increase of red in a blob must be at least the share `MIN_RED_SHARE` of its score: a dark
+   hull in fog has less green and blue than the water behind it, but hardly more red.
+5. The outline of a blob is the support of its convex hull (its largest coordinate) along each of
+   `N_DIRECTIONS` directions. It is unknown in a direction in which the blob ends at the border of
+   the image.
 
 Not modelled: other orange objects of the size of the box.
 """
@@ -28,27 +34,31 @@ from .background import Background, Layer
 from .camera import View
 
 Pixels = npt.NDArray[np.uint8]
+"""An image, (h, w, 3) RGB, or a mask, (h, w)."""
 N_DIRECTIONS = 32
+"""The number of directions along which the support of an outline is computed."""
 MIN_CONTRAST = 7.0
-"""The least score of a blob over the bottom, in deviations of the bottom [1]."""
+"""The least peak of the score above the bottom, in standard deviations of the bottom [1]."""
 MIN_SCORE = 6.0
-"""The least score of a blob over the bottom [grey levels of the score]."""
+"""The least peak of the score above the bottom [grey levels]."""
 THRESHOLD_SHARE = 0.17
-"""The threshold between the bottom (0) and the peak (1) [1]."""
+"""The threshold of the score above the bottom, as a share of the peak [1]."""
 MIN_RED = 5.0
-"""The least red of a blob over that of the bottom [grey levels]."""
+"""The least increase of red from the bottom to a blob [grey levels]."""
 MIN_RED_SHARE = 0.2
-"""The least red of a blob over the bottom, as a share of its score [1]: that of the box is 0.3 and
-more, that of a hull in fog 0.15."""
+"""The least increase of red from the bottom to a blob, as a share of the increase of its score [1].
+
+The share is 0.3 or more for the box, and 0.15 for a hull in fog."""
 DARK_PERCENTILE = 10.0
-"""The percentile of an image's red that is the red of water [%]."""
+"""The percentile of the red channel of an image that is taken as the red of the water [%]."""
 BORDER_WIDTH = 2
 """The width of the border of an image in which an outline is unknown [px]."""
 MAX_BLOBS = 3
+"""The greatest number of blobs whose outlines are computed."""
 
 _angles = [2.0 * np.pi * k / N_DIRECTIONS for k in range(N_DIRECTIONS)]
 DIRECTIONS: Array = np.array([[np.cos(a), np.sin(a)] for a in _angles])
-"""The unit vectors of the directions in the image, (n, 2)."""
+"""The unit vectors (u, v) of the directions in the image, (N_DIRECTIONS, 2)."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -56,44 +66,45 @@ class Outline:
     """The convex outline of a blob in an image."""
 
     support: Array
-    """The support along each of `DIRECTIONS` from the first pixel's centre, (n,) [px]."""
+    """The support along each of `DIRECTIONS`, from the centre of the top left pixel, (n,) [px]."""
     is_known: npt.NDArray[np.bool_]
     """The mask of the directions with a known support, (n,)."""
     centre: tuple[float, float]
-    """The centre of the blob [px]."""
+    """The mean u and v of the corners of the convex hull [px]."""
     angle: float
-    """The angle of the long axis, from u to v [rad]."""
+    """The angle of the direction in which the outline is widest, from u towards v [rad]."""
     area: float
-    """The area of the hull [px^2]."""
+    """The area of the convex hull [px^2]."""
     contrast: float
-    """The peak score over the bottom, in deviations of the bottom [1]."""
+    """The peak of the score above the bottom, in standard deviations of the bottom [1]."""
 
 
 class Detector(Protocol):
-    """A detector of outlines of candidates for the object; see `Grasp.detector`."""
+    """A detector of outlines that may be the object; see `Grasp.detector`."""
 
     def detect(self, image: Pixels, view: View) -> list[Outline]:
         """Return the outlines in an image (h, w, 3) RGB, the largest first; may be empty."""
 
 
 class ColourDetector:
-    """A detector of orange blobs."""
+    """A detector of orange blobs and of their outlines."""
 
     def __init__(self, *, band: float = 0.03, min_size: float = 0.1, max_size: float = 0.4) -> None:
-        """Set the sizes.
+        """Create a detector for objects of some size on the bottom.
 
         Args:
             band: the width of gaps that are closed [m].
-            min_size: the least size of an object on the bottom [m].
-            max_size: the largest size of an object on the bottom [m].
+            min_size: the least root of the area of an object [m].
+            max_size: the largest root of the area of an object [m].
         """
         self._band, self._min_size, self._max_size = band, min_size, max_size
 
     @deterministic_opencv()
     def detect(self, image: Pixels, view: View) -> list[Outline]:
-        """Return the outlines, the largest first.
+        """Return the outlines, the largest first; see `Detector`.
 
-        Blobs are detected in every second pixel; their outlines are from all pixels around them.
+        Blobs are detected in an image of every second pixel; their outlines are computed from all
+        pixels around them.
         """
         import cv2
 
@@ -125,12 +136,15 @@ class ColourDetector:
     def _blobs(
         self, excess: Layer, noise: float, scale: float
     ) -> tuple[float, list[tuple[int, int, int, int]]]:
-        """Return the threshold, and left, top, right, bottom of boxes around the blobs [px].
+        """Return the threshold of the score, and the bounding boxes of the blobs.
+
+        A bounding box is left, top, right, bottom in the whole image [px], with a margin.
 
         Args:
-            excess: the scores of every second pixel over the bottom; large blobs are set to 0.
-            noise: the deviation of the bottom's score.
-            scale: of these pixels on the bottom [px/m].
+            excess: the score of every second pixel minus the score of the bottom; large blobs in it
+                are set to 0.
+            noise: the standard deviation of the bottom's score.
+            scale: the number of these pixels in a metre of the bottom [px/m].
         """
         import cv2
 
@@ -159,10 +173,15 @@ class ColourDetector:
     def _hull(
         self, part: Pixels, background: tuple[Layer, Layer], threshold: float, scale: float
     ) -> tuple[float, Array] | None:
-        """Return area [px^2] and corners (n, 2) [px] of the largest hull in a part of the image.
+        """Return the area [px^2] and corners (n, 2) [px] of the largest convex hull of a blob.
 
-        None if it is too small, too large, or not redder than the bottom. ``background`` is the
-        score and the red of the bottom, (h, w) each.
+        The result is None if the hull is too small or too large, or not redder than the bottom.
+
+        Args:
+            part: a part of the image around the blob, (h, w, 3).
+            background: the score and the red of the bottom in this part, (h, w) each.
+            threshold: the threshold of the score above the bottom.
+            scale: the number of pixels in a metre of the bottom [px/m].
         """
         import cv2
 
@@ -203,7 +222,14 @@ def colour_score(image: Pixels) -> npt.NDArray[np.float32]:
 
 
 def outline_of(hull: Array, shape: tuple[int, ...], area: float, contrast: float) -> Outline:
-    """Return the outline of a hull (n, 2) [px] of pixel centres in an image of a shape (h, w)."""
+    """Return the outline of a convex hull.
+
+    Args:
+        hull: the corners of the hull, which are centres of pixels, (n, 2) [px].
+        shape: the shape of the image, which begins with (h, w).
+        area: the area of the hull [px^2].
+        contrast: the contrast of the outline; see `Outline`.
+    """
     extents = product(hull, DIRECTIONS.T)  # (n, directions)
     ends = hull[extents.argmax(axis=0)]
     height, width = shape[:2]
@@ -213,7 +239,7 @@ def outline_of(hull: Array, shape: tuple[int, ...], area: float, contrast: float
         & (ends[:, 0] <= width - 1 - BORDER_WIDTH)
         & (ends[:, 1] <= height - 1 - BORDER_WIDTH)
     )
-    # a pixel extends half a pixel beyond its centre, along the axes
+    # The outline is a quarter of a pixel beyond the outermost pixel centres, along u and v.
     support = extents.max(axis=0) + 0.25 * np.abs(DIRECTIONS).sum(axis=1)
     widths = support + np.roll(support, N_DIRECTIONS // 2)
     longest_index = int(widths[: N_DIRECTIONS // 2].argmax())

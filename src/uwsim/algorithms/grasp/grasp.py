@@ -1,10 +1,11 @@
-"""``grasp``: finds a box with a camera, grasps its handle with the ARM5E and lifts it.
+"""``grasp``: an algorithm that finds a box by camera, grasps its handle with an arm and lifts it.
 
-It uses the sensors of a real vehicle: images, DVL, IMU, depth, joint states, efforts of the drives
-and the force on the wrist. A derived class can replace each of its parts:
-`Grasp.navigation`, `Grasp.detector`, `Grasp.tracker`, `Grasp.controller`, `Grasp.kinematics`; and
-for another object than the box `Grasp.model` and `Grasp.perception`.
-`uwsim.algorithms.grasp.phases` describes the state machine.
+It reads only sensors that a real vehicle has: camera, DVL, IMU, depth sensor, joint positions and
+efforts of the drives, and a force sensor in the wrist. A derived class can replace each part of the
+algorithm: `Grasp.navigation`, `Grasp.detector`, `Grasp.tracker`, `Grasp.controller` and
+`Grasp.kinematics`; and `Grasp.model` and `Grasp.perception` for an object other than the box.
+`uwsim.algorithms.grasp.phases` describes the state machine. Positions are in the navigation frame:
+north, east, down.
 """
 
 from __future__ import annotations
@@ -49,12 +50,14 @@ from .vehicle_interface import VehicleInterface
 PERIOD = 0.1
 """The period of the control loop [s]."""
 OPENCV_FROM_OPENGL: Array = np.diag([1.0, -1.0, -1.0])
+"""The rotation between the camera axes of OpenCV (y down, z forward) and OpenGL (y up, z back)."""
 SEARCH_HEIGHT = 2.6
-"""The height of the base over the bottom during the search: clears the arm and the camera [m]."""
+"""The height of the base over the bottom during the search, at which arm and camera are clear of
+the bottom [m]."""
 
 
 class Grasp:
-    """Finds a box by camera, keeps station over it, grasps its handle and lifts it."""
+    """Finds a box by camera, keeps station over the box, grasps its handle and lifts it."""
 
     PARAMETERS: ClassVar[Mapping[str, float | str]] = {
         "kp": 0.6,
@@ -83,6 +86,14 @@ class Grasp:
         "twist_topic": "/girona500/twist",
         "arm_topic": "/girona500/joint_command",
     }
+    """The parameters with their defaults.
+
+    Station keeping: gains ``kp`` [1/s] and ``ki`` [1/s2], ``feed_forward`` 1 or 0, largest
+    correction ``limit`` [m/s]. Search pattern: ``search_spacing``, ``search_radius`` [m]. Grasp:
+    horizontal ``tolerance`` [m], speed of ``descent`` [m/s], height of the ``lift`` [m], pause of
+    the lift ``settle`` [s], ``hold`` time [s], number of ``attempts``, least load on the wrist
+    ``min_load`` [N]. Mounts in the frame of the base: positions [m], roll pitch yaw [rad].
+    """
 
     def __init__(self) -> None:
         self._parameters: dict[str, float | str] = dict(self.PARAMETERS)
@@ -102,20 +113,28 @@ class Grasp:
             if name in parameters:
                 parse_triple(name, parameters[name])
 
-    # The parts, which a derived class can replace.
+    # -- the parts, which a derived class can replace ------------------------------------------
 
     def navigation(self, node: Node) -> Navigator:
-        """Make the estimator of the pose, the velocity and the bottom."""
+        """Make the estimator of the vehicle's pose and velocity, and of the bottom's depth."""
         position = parse_triple("dvl_place", self._parameters["dvl_place"])
         topics = {name: self.text(name) for name in ("imu_topic", "dvl_topic", "depth_topic")}
         return Navigator(node, topics, NavigationSpec(dvl_place=position))
 
     def detector(self) -> Detector:
-        """Make the detector of outlines of the box in an image."""
+        """Make the detector of outlines that may be the box."""
         return ColourDetector()
 
     def tracker(self, image: Grey, quad: Array) -> Tracker | str:
-        """Make a tracker of the top face, a quad (4, 2) [px]; return the reason if it fails."""
+        """Make a tracker of the top face of the box.
+
+        Args:
+            image: the image of the template, (h, w) [grey level].
+            quad: the corners of the top face, (4, 2) [px].
+
+        Returns:
+            The tracker, or a text with the reason why the face cannot be tracked.
+        """
         method = Method(blend="esm", photometric=True, max_iterations=10, precision=1e-3)
         return DirectTracker.from_image(image, quad, levels=2, method=method)
 
@@ -141,7 +160,7 @@ class Grasp:
         return self.box()
 
     def perception(self) -> ObjectPerception:
-        """Make the perception of the object in images; by default of the box."""
+        """Make the perception, which estimates the pose of the object from images."""
         return Perception(self.detector(), self.tracker, self.box())
 
     def number(self, name: str) -> float:
@@ -153,7 +172,7 @@ class Grasp:
         return str(self._parameters[name])
 
     def start(self, node: Node) -> None:
-        """Make the parts and connect to the bus."""
+        """Make the parts, and connect to topics."""
         self._parameters = merge_parameters(self.PARAMETERS, node.parameters)
         self.check_parameters(self._parameters)
         self._node = node
@@ -195,7 +214,7 @@ class Grasp:
         self.task.perception.observe(pixels_of(message), view, self.task.target, self._node.now)
 
     def _view(self, pinhole: Pinhole) -> View:
-        """Return the view now, over the bottom at the target or else on the camera's axis."""
+        """Return the present view; its bottom is at the target, or else on the camera's axis."""
         bottom = self._navigator.bottom
         camera = self._navigator.pose @ self._base_from_camera
         if self.task.target.pose is not None:

@@ -8,17 +8,17 @@ from .station import horizontal_length
 from .task import APPROACH_HEIGHT, Task
 
 OCCLUSION_HEIGHT = 0.2
-"""The height of the grip over the handle below which the jaw occludes the box [m]."""
+"""The height of the grip over the handle below which the jaw hides the box from the camera [m]."""
 
 
 class AlignPhase(Phase):
-    """The vehicle brings the grip over the handle; the arm compensates its error."""
+    """The vehicle brings the grip over the handle; the arm compensates the vehicle's error."""
 
     name = "align"
     limit = 60.0
 
     def enter(self, task: Task) -> None:
-        """Reset the time of alignment."""
+        """Reset the time since which the grip is aligned."""
         self._aligned_since: float | None = None
 
     def step(self, task: Task) -> str | None:
@@ -41,7 +41,7 @@ class DescendPhase(Phase):
     limit = 50.0
 
     def enter(self, task: Task) -> None:
-        """Start at the approach height."""
+        """Start with the grip at the approach height."""
         self._height, self._last_time = APPROACH_HEIGHT, task.now
         self._aligned_since: float | None = None
 
@@ -62,7 +62,7 @@ class DescendPhase(Phase):
 
 
 class ClosePhase(Phase):
-    """The jaw closes, and its joint state shows whether it holds an object."""
+    """The jaw closes; the position and torque of the fingers show whether it holds an object."""
 
     name = "close"
     limit = 8.0

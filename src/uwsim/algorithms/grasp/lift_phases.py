@@ -1,4 +1,4 @@
-"""The phases with the box, and after them: lift, hold, retreat, retry, done, aborted."""
+"""The phases after the jaw has closed: lift, hold, retreat, retry, done, aborted."""
 
 from __future__ import annotations
 
@@ -12,23 +12,23 @@ from .task import Task
 LIFT_SPEED = 0.1
 """The speed of the lift [m/s]."""
 SETTLING_HEIGHT = 0.25
-"""The height at which the lift waits until the box is at rest in the jaw [m]."""
+"""The height of the lift at which the vehicle waits until the box is at rest in the jaw [m]."""
 
 
 class LiftPhase(Phase):
-    """The vehicle rises with the object in the jaw."""
+    """The vehicle rises by `Task.lift` with the box in the jaw."""
 
     name = "lift"
     limit = 40.0
     uses_images = False
 
     def enter(self, task: Task) -> None:
-        """Store the position and the time of the start."""
+        """Store the position of the vehicle, and the time."""
         self._start = task.vehicle.pose.position.copy()
         self._start_time = task.now
 
     def step(self, task: Task) -> str | None:
-        """Raise the goal and check that the jaw holds the box."""
+        """Raise the goal of the vehicle, and check that the jaw holds the box."""
         height, speed = self._lift_goal(task.now - self._start_time, task)
         task.set_goal(self._start - np.array([0.0, 0.0, height]), np.array([0.0, 0.0, speed]))
         if not task.vehicle.jaw.holds_object:
@@ -43,9 +43,10 @@ class LiftPhase(Phase):
         return "hold"
 
     def _lift_goal(self, time: float, task: Task) -> tuple[float, float]:
-        """Return the height of the goal [m] at a time [s], and its velocity (down) [m/s].
+        """Return the height of the goal over the start [m], and its velocity, positive down [m/s].
 
-        The goal waits at `SETTLING_HEIGHT` until the box is at rest in the jaw.
+        The goal waits at `SETTLING_HEIGHT` for `Task.settle` seconds. ``time`` is the time since
+        the start of the phase [s].
         """
         settling_start = SETTLING_HEIGHT / LIFT_SPEED
         if time < settling_start:
@@ -57,18 +58,18 @@ class LiftPhase(Phase):
 
 
 class HoldPhase(Phase):
-    """The vehicle stays, with the box in the jaw."""
+    """The vehicle keeps its position for `Task.hold` seconds, with the box in the jaw."""
 
     name = "hold"
     uses_images = False
 
     def enter(self, task: Task) -> None:
-        """Store the final goal of the lift."""
+        """Store the last goal of the lift."""
         assert task.vehicle.goal is not None
         self._position = task.vehicle.goal.copy()
 
     def step(self, task: Task) -> str | None:
-        """Wait and check that the jaw holds the box."""
+        """Keep the position, and check that the jaw holds the box."""
         task.set_goal(self._position)
         if not (task.vehicle.jaw.holds_object and task.has_load):
             task.failure = "dropped: jaw and wrist lost the box while it was held"
@@ -77,7 +78,7 @@ class HoldPhase(Phase):
 
 
 class RetreatPhase(Phase):
-    """The vehicle rises further, with the box."""
+    """The vehicle rises by another 0.5 m, with the box in the jaw."""
 
     name = "retreat"
     limit = 30.0
@@ -85,11 +86,11 @@ class RetreatPhase(Phase):
     uses_images = False
 
     def enter(self, task: Task) -> None:
-        """Store the position of the start."""
+        """Store the position of the vehicle."""
         self._start: Array = task.vehicle.pose.position.copy()
 
     def step(self, task: Task) -> str | None:
-        """Raise the goal by 0.5 m."""
+        """Raise the goal of the vehicle, and check that the jaw holds the box."""
         height = min(0.1 * task.phase_time, 0.5)
         task.set_goal(self._start - np.array([0.0, 0.0, height]), np.array([0.0, 0.0, -0.1]))
         if not (task.vehicle.jaw.holds_object and task.has_load):
@@ -99,7 +100,7 @@ class RetreatPhase(Phase):
 
 
 class RetryPhase(Phase):
-    """The vehicle opens the jaw, rises and restarts; it aborts after `Task.attempts` failures."""
+    """The vehicle opens the jaw, rises and tries again; it aborts after too many failures."""
 
     name = "retry"
     limit = 10.0
@@ -129,7 +130,7 @@ class RetryPhase(Phase):
 
 
 class DonePhase(Phase):
-    """The vehicle stays; the box is up."""
+    """The vehicle keeps its position; the box was lifted and held."""
 
     name = "done"
     limit = float("inf")
@@ -147,7 +148,7 @@ class DonePhase(Phase):
 
 
 class AbortedPhase(Phase):
-    """The vehicle stays, with the jaw open, after too many failures."""
+    """The vehicle keeps its position: the search found nothing, or there were too many failures."""
 
     name = "aborted"
     limit = float("inf")

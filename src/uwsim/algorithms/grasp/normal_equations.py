@@ -12,7 +12,7 @@ from ...base.numerics.jit import njit
 
 @njit
 def cholesky_solve(normal: Array, right: Array) -> Array:
-    """Solve ``normal @ x = right`` for a positive definite matrix (n, n)."""
+    """Solve ``normal @ x = right`` (n,) for a positive definite matrix ``normal`` (n, n)."""
     n = len(right)
     lower = np.zeros((n, n))
     for i in range(n):

@@ -1,9 +1,9 @@
-"""The perception of the box in images: detector, pose, and a tracker between detections.
+"""The perception, which estimates the pose of the box from images by a detector and a tracker.
 
-The detector reads every image until the position of the target is known. Then the top face of the
-box is tracked from image to image, and the detector reads every `DETECTION_INTERVAL`-th image, and
-those on which the tracker is lost. A track ends if its pose is implausible or if the
-corners do not fit it.
+Each image is searched by the detector until the position of the box is known. Then the top face of
+the box is tracked from image to image, and the detector searches every `DETECTION_INTERVAL`-th
+image, and each image in which the tracker loses the face. A track also ends if its pose is
+implausible, or if the tracked corners do not fit the model of the box.
 """
 
 from __future__ import annotations
@@ -26,15 +26,17 @@ from .target import Target
 DETECTION_INTERVAL = 5
 """The number of images from one detection to the next during a track."""
 MAX_RESIDUAL = 0.06
-"""The largest residual of a fit, as a share of the box's length in the image; at least 1.2 px."""
+"""The largest residual of a plausible fit, as a share of the length of the box in the image [1]; a
+residual up to 1.2 px is always plausible."""
 MIN_ZNCC = 0.6
-"""The correlation below which a track ends."""
+"""The least ZNCC (`uwsim.algorithms.esm.alignment.zncc`) of a track; below it the track ends."""
 MAX_DEVIATION = 0.02
-"""The largest deviation of the target at which a track starts [m]."""
+"""The largest standard deviation of the target's position at which a track starts [m]."""
 MAX_BOTTOM_DISTANCE = 0.25
 """The largest distance of a plausible box from the bottom [m]."""
 
 MakeTracker = Callable[[Grey, Array], "Tracker | str"]
+"""A function that makes a tracker of a quad in an image; see `Grasp.tracker`."""
 
 
 class GraspModel(Protocol):
@@ -48,31 +50,44 @@ class GraspModel(Protocol):
 
 
 class ObjectPerception(Protocol):
-    """The perception of an object in images; see `Grasp.perception`."""
+    """A part that estimates the pose of an object from images; see `Grasp.perception`."""
 
     def observe(self, image: Pixels, view: View, target: Target, time: float) -> Sighting | None:
-        """Detect the object in an image (h, w, 3) RGB of the present ``time`` [s].
+        """Find the object in an image, and update the target (`Target.update`).
 
-        Update the target by the sighting (`Target.update`); return it if the target accepts it.
+        Args:
+            image: the image, (h, w, 3) RGB.
+            view: the camera at the time of the image.
+            target: the estimate of the object's pose, which is updated.
+            time: the time of the image [s].
+
+        Returns:
+            The measured pose of the object; None if there is none, or the target rejected it.
         """
 
     def reset(self) -> None:
-        """Remove the state from earlier images, as the search restarts."""
+        """Forget earlier images, because the search restarts."""
 
 
 class Perception:
-    """The perception of the box."""
+    """The perception of the box.
+
+    Args:
+        detector: the detector of outlines that may be the box.
+        make_tracker: the function that makes a tracker of the top face.
+        box: the model of the box.
+    """
 
     def __init__(self, detector: Detector, make_tracker: MakeTracker, box: BoxSpec) -> None:
         self._detector, self._make_tracker, self._box = detector, make_tracker, box
         self._tracker: Tracker | None = None
         self._n_since_detection = 0
         self.contrast = 0.0
-        """The contrast of the last blob, in deviations of the bottom [1]."""
+        """The `Outline.contrast` of the last plausible outline [1]."""
 
     @property
     def is_tracking(self) -> bool:
-        """True if a track is active."""
+        """True if the top face is being tracked."""
         return self._tracker is not None
 
     def reset(self) -> None:
@@ -80,10 +95,7 @@ class Perception:
         self._tracker = None
 
     def observe(self, image: Pixels, view: View, target: Target, time: float) -> Sighting | None:
-        """Update the target from an image (h, w, 3) RGB.
-
-        Returns the sighting that the target accepts; None if there is none.
-        """
+        """Update the target from an image; see `ObjectPerception`."""
         sighting = None
         if self._tracker is not None:
             sighting = self._track(image, view, target)
@@ -99,7 +111,7 @@ class Perception:
         return sighting
 
     def detect(self, image: Pixels, view: View, target: Target) -> Sighting | None:
-        """Return the plausible sighting with the smallest residual, or None."""
+        """Detect the box in an image; return the plausible fit with the least residual, or None."""
         sightings = []
         for outline in self._detector.detect(image, view):
             sighting = pose_from_outline(outline, view, self._box)

@@ -12,16 +12,21 @@ class Phase(abc.ABC):
     """A state of the state machine."""
 
     name: ClassVar[str]
+    """The name that is published as the phase."""
     limit: ClassVar[float] = 60.0
-    """The longest duration [s]."""
+    """The longest duration of the phase [s]."""
     timeout_phase: ClassVar[str] = "retry"
-    """The phase that follows when `limit` is exceeded."""
+    """The name of the phase that follows when `limit` is exceeded."""
     uses_images: bool = True
-    """True if the perception reads images."""
+    """True if the perception reads images during the phase."""
 
     def enter(self, task: Task) -> None:  # noqa: B027 - most have no start
         """Start the phase."""
 
     @abc.abstractmethod
     def step(self, task: Task) -> str | None:
-        """Set goals; return the next phase, or None."""
+        """Set the goals of the vehicle, once every control period.
+
+        Returns:
+            The name of the next phase; None to stay in this phase.
+        """

@@ -3,23 +3,22 @@
 ==========  ===================================================  =======================
 phase       action                                               next
 ==========  ===================================================  =======================
-search      fly a square spiral until the box is detected        detect
-detect      stay for more sightings                              station
-station     fly over the box until its position is known         pregrasp
-pregrasp    arm down, jaw open and across the handle             align
-align       grip over the handle                                 descend
-descend     grip down to the handle                              close
+search      follow a square spiral until the box is detected     detect, or aborted
+detect      keep position, wait for more sightings               station, or search
+station     stay over the box until its position is known        pregrasp, or search
+pregrasp    lower the arm, open the jaw across the handle        align
+align       bring the grip over the handle                       descend, or retry
+descend     lower the grip to the handle                         close
 close       close the jaw, check that it holds an object         lift, or retry
-lift        rise                                                 hold, or retry
-hold        stay                                                 retreat, or retry
-retreat     rise further, with the box                           done
-retry       open the jaw, rise, wait for sightings               station, or search
-done        stay
-aborted     stay; the reason is published
+lift        rise with the box                                    hold, or retry
+hold        keep position with the box                           retreat, or retry
+retreat     rise further with the box                            done, or retry
+retry       open the jaw, rise, wait for sightings               station, or aborted
+done        keep position
+aborted     keep position; the reason is published
 ==========  ===================================================  =======================
 
-A phase that exceeds its `limit` continues with its `timeout_phase`. `step` returns the name of the
-next phase, or None to stay.
+The phase after one that exceeds its `limit` is its `timeout_phase`.
 """
 
 from __future__ import annotations

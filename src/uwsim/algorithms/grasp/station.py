@@ -1,17 +1,17 @@
-r"""Station keeping: the control law from the error of position to a twist in the water.
+r"""Station keeping: a control law that computes a twist from the position and heading errors.
 
-The law is proportional and integral on the error of position e, in the vehicle's axes,
+The commanded velocity through the water is proportional and integral in the position error e,
 
 .. math:: u = K_p e + K_i \int e \, dt - \hat c
 
-with the current :math:`\hat c` as feedforward. It is estimated from the command and the navigation:
-a vehicle with the command u moves at :math:`u_f` (u after a lag) through the water and at v over
-ground, so that
+with the estimated water current :math:`\hat c` as feedforward. A vehicle with the command u moves
+at the velocity :math:`u_f` through the water, which is u after a first-order lag, and at v over
+ground, which the navigation estimates. Therefore, with the time constant T,
 
 .. math:: \hat c' = (v - u_f - \hat c) / T
 
-Without integral and feedforward, a steady current c leaves the offset :math:`c / K_p`. The
-correction is limited to `limit`; the integral is constant there.
+Without integral and feedforward, a steady current c leaves the offset :math:`c / K_p`. The length
+of the first two terms is limited; at the limit, the integral is held constant.
 """
 
 from __future__ import annotations
@@ -26,9 +26,9 @@ from ...base.geometry import Array
 from ...base.numerics.linear import length, rotate_back
 
 LAG = 0.5
-"""The time constant of the vehicle's velocity after a command [s]."""
+"""The time constant of the vehicle's velocity in response to a command [s]."""
 CURRENT_TIME_CONSTANT = 3.0
-"""The time constant of the estimate of the current [s]."""
+"""The time constant T of the estimate of the current [s]."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -36,13 +36,13 @@ class Motion:
     """The motion of a vehicle relative to its goal."""
 
     error: Array
-    """The goal minus the position, navigation axes, (3,) [m]."""
+    """The goal minus the position of the base, navigation axes, (3,) [m]."""
     heading_error: float
     """The goal heading minus the heading, between -pi and pi [rad]."""
     velocity: Array
-    """The velocity over ground, navigation axes, (3,) [m/s]."""
+    """The velocity of the base over ground, navigation axes, (3,) [m/s]."""
     rotation: Array
-    """The axes of the base in the navigation frame, (3, 3)."""
+    """The rotation ``navigation_from_base``, (3, 3)."""
     goal_velocity: Array
     """The velocity of the goal, navigation axes, (3,) [m/s]."""
 
@@ -51,17 +51,22 @@ class StationLaw(Protocol):
     """A law of station keeping; see `Grasp.controller`."""
 
     current: Array
-    """The estimate of the current, navigation axes, (3,) [m/s]; zero without one."""
+    """The estimate of the water current, navigation axes, (3,) [m/s]; zero if not estimated."""
 
     def step(self, motion: Motion, dt: float) -> tuple[Array, float]:
-        """Compute the velocity in the water (3,) [m/s] and the yaw rate [rad/s], base axes.
+        """Compute the command.
 
-        ``dt`` is the time since the last call [s].
+        Args:
+            motion: the motion of the vehicle relative to its goal.
+            dt: the time since the last call [s].
+
+        Returns:
+            The velocity through the water, base axes, (3,) [m/s], and the yaw rate [rad/s].
         """
 
 
 class Station:
-    """A proportional-integral law with the current as feedforward."""
+    """A proportional-integral control law with the water current as feedforward."""
 
     def __init__(
         self, *, kp: float, ki: float, feeds_forward: bool, limit: float, turn_gain: float = 0.6
@@ -72,19 +77,19 @@ class Station:
             kp: the proportional gain [1/s].
             ki: the integral gain [1/s2].
             feeds_forward: True to estimate and compensate the current.
-            limit: the largest correction [m/s].
-            turn_gain: the gain of the heading [1/s].
+            limit: the largest speed due to the proportional and the integral term [m/s].
+            turn_gain: the gain from the heading error to the yaw rate [1/s].
         """
         self._kp, self._ki, self._limit, self._turn_gain = kp, ki, limit, turn_gain
         self._feeds_forward = feeds_forward
-        self._integral = np.zeros(3)
-        self._response = np.zeros(3)
-        self._command = np.zeros(3)
+        self._integral = np.zeros(3)  # of the error, navigation axes [m s]
+        self._response = np.zeros(3)  # velocity through the water after the lag [m/s]
+        self._command = np.zeros(3)  # commanded velocity, navigation axes [m/s]
         self.current = np.zeros(3)
-        """The estimate of the current, navigation axes, (3,) [m/s]."""
+        """The estimate of the water current, navigation axes, (3,) [m/s]."""
 
     def step(self, motion: Motion, dt: float) -> tuple[Array, float]:
-        """Compute the velocity in the water (3,) [m/s] and the yaw rate [rad/s], base axes."""
+        """Compute the command; see `StationLaw`."""
         self._estimate(motion.velocity, dt)
         integral = self._integral + motion.error * dt
         correction = self._kp * motion.error + self._ki * integral
@@ -99,6 +104,7 @@ class Station:
         return body_velocity, float(np.clip(self._turn_gain * motion.heading_error, -0.3, 0.3))
 
     def _estimate(self, velocity: Array, dt: float) -> None:
+        """Update the estimate of the current from the velocity over ground (3,) [m/s]."""
         share = 1.0 - math.exp(-dt / LAG)
         self._response = self._response + share * (self._command - self._response)
         if not self._feeds_forward:

@@ -1,10 +1,11 @@
-r"""The estimate of the pose of the box from many sightings.
+r"""The estimate of the pose of the box from the sightings in many images, by a Kalman filter.
 
-A Kalman filter over position, heading and tilt of the box in the navigation frame. The box does not
-move; the drift of the navigation is a random walk of the pose, `DRIFT`. A sighting is accepted if
-its squared Mahalanobis distance is at most `GATE`; after `MAX_REJECTED` rejected ones in a row the
-filter restarts with the next one. Sightings have common errors (of calibration, of the threshold):
-their covariance is increased by `SYSTEMATIC_ERROR`.
+The state of the filter is the position, heading and tilt of the box in the navigation frame. The
+box does not move, but the navigation drifts, so the pose has the random walk `DRIFT`. A sighting is
+accepted if its squared Mahalanobis distance from the estimate is at most `GATE`. After more than
+`MAX_REJECTED` rejected sightings in a row, the filter restarts with the last of them. All sightings
+share some errors, for example of the camera's calibration; their covariance is therefore increased
+by `SYSTEMATIC_ERROR`.
 """
 
 from __future__ import annotations
@@ -19,11 +20,11 @@ from .box_pose import Sighting
 DRIFT = np.array([0.003, 0.003, 0.001, 0.001, 0.0005, 0.0005])
 """The random walk of position, heading and tilt, (6,) [m/sqrt(s), rad/sqrt(s)]."""
 SYSTEMATIC_ERROR = np.array([0.01, 0.01, 0.015, 0.02, 0.04, 0.04])
-"""The standard deviation of errors outside of a fit's covariance, (6,) [m, rad]."""
+"""The standard deviation of the errors that all sightings share, (6,) [m, rad]."""
 GATE = 30.0
 """The largest squared Mahalanobis distance of an accepted sighting."""
 MAX_REJECTED = 8
-"""The number of rejected sightings in a row after which the filter restarts."""
+"""The greatest number of sightings in a row that are rejected without a restart."""
 
 
 class Target:
@@ -43,7 +44,10 @@ class Target:
 
     @property
     def deviation(self) -> float:
-        """The deviation of the horizontal position [m]; infinite before the first sighting."""
+        """The standard deviation of the horizontal position, the larger of north and east [m].
+
+        It is infinite before the first sighting.
+        """
         if self.pose is None:
             return float("inf")
         return float(np.sqrt(max(self.covariance[0, 0], self.covariance[1, 1])))

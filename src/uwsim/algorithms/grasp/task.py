@@ -1,4 +1,4 @@
-"""The state that the phases share: the vehicle, the target, the clock, the parameters."""
+"""The state that the phases of a grasp share: vehicle, target, time and parameters."""
 
 from __future__ import annotations
 
@@ -19,7 +19,15 @@ APPROACH_HEIGHT = 0.30
 
 
 class Task:
-    """The state of a grasp."""
+    """The state that the phases of a grasp share.
+
+    Args:
+        vehicle: the interface to the vehicle.
+        perception: the part that estimates the pose of the object from images.
+        model: the model of the object.
+        parameters: the parameters of the algorithm, `Grasp.PARAMETERS`.
+        publish_status: the function that publishes a text on ``algorithmStatus``.
+    """
 
     def __init__(
         self,
@@ -31,8 +39,9 @@ class Task:
     ) -> None:
         self.vehicle, self.perception, self.model = vehicle, perception, model
         self.publish_status = publish_status
-        """The function that publishes on ``algorithmStatus``."""
+        """The function that publishes a text on ``algorithmStatus``."""
         self.target = Target()
+        """The estimate of the object's pose."""
         self.now = 0.0
         """The simulation time [s]."""
         self.phase_start = 0.0
@@ -40,14 +49,18 @@ class Task:
         self.failure = ""
         """The reason for the last failure."""
         self.failures = 0
+        """The number of failed attempts."""
         self.pattern: list[tuple[float, float]] = []
-        """The remaining corners of the search pattern, navigation frame [m]."""
+        """The remaining corners of the search pattern: north and east [m]."""
         self.search_depth = 0.0
         """The depth of the base during the search [m]."""
         numbers = {name: float(value) for name, value in parameters.items() if _is_number(value)}
         self.attempts = int(numbers["attempts"])
+        """The greatest number of attempts."""
         self.lift, self.settle, self.hold = numbers["lift"], numbers["settle"], numbers["hold"]
+        """The height of the lift [m], and the durations of its pause and of the hold [s]."""
         self.descent = numbers["descent"]
+        """The speed at which the grip descends [m/s]."""
         self._tolerance, self._min_load = numbers["tolerance"], numbers["min_load"]
 
     @property
@@ -62,7 +75,7 @@ class Task:
 
     @property
     def grip(self) -> Array:
-        """The point of the target that the jaw grasps, (3,) [m]."""
+        """The point of the target that the jaw grasps, navigation frame, (3,) [m]."""
         assert self.target.pose is not None
         return self.model.grip(self.target.pose)
 
@@ -74,19 +87,19 @@ class Task:
 
     @property
     def has_load(self) -> bool:
-        """True if the wrist carries a weight, or has no sensor."""
+        """True if the wrist carries a weight, or has no force sensor."""
         load = self.vehicle.wrist.load
         return load is None or load > self._min_load
 
     def is_target_lost(self, max_age: float) -> bool:
-        """Return whether the last sighting is older than ``max_age`` [s]; if so, set `failure`."""
+        """Return whether the last sighting is older than ``max_age`` [s]; then set `failure`."""
         is_lost = self.target.pose is None or self.now - self.target.last_sighting_time > max_age
         if is_lost:
             self.failure = f"lost target: it was not seen for {max_age:g} s"
         return is_lost
 
     def set_goal(self, position: Array, velocity: Array | None = None) -> None:
-        """Set the goal of the base, (3,) [m], and its velocity, (3,) [m/s]."""
+        """Set the goal of the base, navigation frame, (3,) [m], and its velocity, (3,) [m/s]."""
         self.vehicle.goal = position
         self.vehicle.goal_velocity = np.zeros(3) if velocity is None else velocity
 
@@ -94,11 +107,12 @@ class Task:
         """Set the goal of the base so that the grip is over the handle.
 
         Args:
-            height: of the grip over the handle [m].
-            is_settled: True to use the present joints; otherwise those of the lowered arm.
+            height: the height of the grip over the handle [m].
+            is_settled: True to compute the goal for the present joint positions of the arm; False
+                for those of the lowered arm.
 
         Returns:
-            The error of the base, (3,) [m].
+            The goal minus the position of the base, navigation axes, (3,) [m].
         """
         vehicle = self.vehicle
         goal = self.grip - np.array([0.0, 0.0, height])
@@ -109,7 +123,14 @@ class Task:
         return error
 
     def hover(self, height: float) -> Array:
-        """Keep the grip over the handle with base and arm; return its error, (3,) [m]."""
+        """Set the goals of base and arm so that the grip is over the handle.
+
+        Args:
+            height: the height of the grip over the handle [m].
+
+        Returns:
+            The goal minus the position of the grip, navigation axes, (3,) [m].
+        """
         self.keep_station(height)
         vehicle = self.vehicle
         vehicle.closing_heading = self.closing_heading
@@ -121,13 +142,13 @@ class Task:
 def square_spiral(
     start: Array, heading: float, spacing: float, radius: float
 ) -> list[tuple[float, float]]:
-    """Return the corners of a square spiral about a start, the first ahead of it.
+    """Return the corners of a square spiral: north and east of each [m].
 
     Args:
-        start: north and east [m], (at least 2,).
-        heading: of the first leg [rad].
-        spacing: between legs [m].
-        radius: the largest distance of a corner along an axis [m].
+        start: the position at which the spiral starts; it begins with north and east [m].
+        heading: the heading of the first leg [rad].
+        spacing: the distance between parallel legs [m].
+        radius: the largest distance of a corner from the start, along or across the heading [m].
     """
     corners: list[tuple[float, float]] = []
     x, y, n = 0.0, 0.0, 0

@@ -1,8 +1,12 @@
-"""The algorithms for comparison with `grasp`: simpler station keeping, ground truth, controls.
+"""Algorithms with which `grasp` is compared.
 
-``grasp-truth`` reads the true poses of vehicle and box from ``/truth/odometry`` and ``/tf``, which
-no real vehicle can. The difference to `grasp` is the cost of perception and navigation.
-``grasp-nothing`` and ``grasp-blind-close`` are controls: if one succeeds, the benchmark is invalid.
+- ``grasp-p`` has a simpler control law for station keeping.
+- ``grasp-truth`` reads the true poses of vehicle and box from ``/truth/odometry`` and ``/tf``,
+  which no real vehicle can. Its advantage over `grasp` is the cost of perception and navigation.
+- ``grasp-nothing`` and ``grasp-blind-close`` are sham baselines (controls), which do not search for
+  the box. If one of them succeeds, the benchmark is invalid.
+
+L is the localized world frame, which is used as the navigation frame.
 """
 
 from __future__ import annotations
@@ -35,7 +39,7 @@ from .box_pose import Sighting
 from .grasp import Grasp
 
 TRUTH_COVARIANCE = np.diag(np.square([1e-3, 1e-3, 1e-3, 1e-3, 1e-3, 1e-3]))
-"""The covariance of the truth, (6, 6)."""
+"""The covariance that is assumed for a true pose, (6, 6) [m, rad]."""
 
 
 class GraspP(Grasp):
@@ -59,7 +63,7 @@ class GraspTruth(Grasp):
     }
 
     def navigation(self, node: Node) -> Navigator:
-        """Make the navigator with the true pose."""
+        """Make a navigator that reads the true pose."""
         return TrueNavigator(node, self.text("odometry_topic"))
 
     def _subscribe(self, node: Node) -> None:
@@ -86,17 +90,17 @@ class GraspTruth(Grasp):
 
 
 class TrueNavigator(Navigator):
-    """A navigator that reads the true odometry, in L."""
+    """A navigator that reads the true odometry, in L, instead of sensors."""
 
     def __init__(self, node: Node, topic: str) -> None:
-        """Subscribe to the odometry."""
+        """Subscribe to the topic of the odometry."""
         self._is_ready, self.bottom = False, BottomPlane()
         self._pose, self._velocity = Pose.identity(), np.zeros(3)
         node.subscribe(topic, Odometry, self._on_odometry)
 
     @property
     def is_ready(self) -> bool:
-        """True if the odometry is known."""
+        """True if an odometry message has arrived."""
         return self._is_ready
 
     @property
@@ -106,7 +110,7 @@ class TrueNavigator(Navigator):
 
     @property
     def velocity(self) -> Array:
-        """The velocity over ground, in L, (3,) [m/s]."""
+        """The velocity of the base over ground, in L, (3,) [m/s]."""
         return self._velocity
 
     def _on_odometry(self, message: Odometry) -> None:
@@ -118,7 +122,7 @@ class TrueNavigator(Navigator):
 
 
 class GraspNothing:
-    """A control that does nothing and must never succeed."""
+    """A sham baseline (a control) that does nothing and must never succeed."""
 
     PARAMETERS: ClassVar[Mapping[str, float | str]] = {}
 
@@ -130,13 +134,14 @@ class GraspNothing:
 
 
 class GraspBlindClose:
-    """A control without sensors that repeatedly descends and closes the jaw."""
+    """A sham baseline (a control) that descends and closes the jaw again and again, blindly."""
 
     PARAMETERS: ClassVar[Mapping[str, float | str]] = {
         "period": 20.0,
         "twist_topic": "/girona500/twist",
         "arm_topic": "/girona500/joint_command",
     }
+    """The parameters with their defaults: the ``period`` of the motion [s], and the topics."""
 
     def start(self, node: Node) -> None:
         """Publish the phase ``search`` and start the timer."""
@@ -149,7 +154,7 @@ class GraspBlindClose:
         node.create_timer(0.1, self._tick)
 
     def _tick(self) -> None:
-        """Descend for a fifth of the period, close the jaw, then rise for two fifths."""
+        """Publish the commands: descend for a fifth of the period, close the jaw, later rise."""
         now = self._node.now
         fraction = math.modf(now / float(self.parameters["period"]))[0]
         speed = 0.12 if fraction < 0.2 else -0.12 if fraction > 0.6 else 0.0

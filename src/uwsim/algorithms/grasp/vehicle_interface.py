@@ -1,4 +1,8 @@
-"""The interface of the state machine to the vehicle: its state and goals, its arm and jaw."""
+"""The interface of the state machine to the vehicle, its arm, jaw and wrist.
+
+Positions are in the navigation frame: north, east, down. The *grip* is the point between the
+fingers of the jaw (`arm`).
+"""
 
 from __future__ import annotations
 
@@ -14,13 +18,14 @@ from .arm import DOWN_POSTURE, FOLDED_POSTURE, JAW, JAW_CLOSED, JAW_OPEN, JOINTS
 from .station import Motion, StationLaw
 
 MAX_COMPENSATION = 0.08
-"""The largest error of the vehicle along an axis that the arm compensates [m]."""
+"""The largest position error of the vehicle along an axis that the arm compensates [m]."""
 MIN_JOINT_CHANGE = 0.004
-"""The least change of the arm's command that is published [rad]."""
+"""The least change of a joint command that is published [rad]."""
 WRIST_WEIGHT = 0.1
-"""The weight of a sample in the smoothed force of the wrist: 0.2 s at 50 Hz."""
+"""The weight of a sample in the smoothed force of the wrist [1]; at 50 Hz it gives a time constant
+of 0.2 s."""
 MIN_GRIP_OPENING = 0.02
-"""The least opening of closed fingers that hold an object [rad]."""
+"""The least opening of the fingers, beyond the closed position, when they hold an object [rad]."""
 MIN_GRIP_TORQUE = 2.0
 """The least torque of the fingers' drive when they hold an object [N m]."""
 MAX_REST_SPEED = 0.02
@@ -28,13 +33,13 @@ MAX_REST_SPEED = 0.02
 
 
 class Jaw:
-    """The state of two fingers with one drive, from its joint states."""
+    """The state of the jaw, two fingers with one drive, from joint states."""
 
     def __init__(self) -> None:
         self.setpoint = JAW_OPEN
-        """The commanded position of the fingers [rad]."""
+        """The commanded position of the joint of the fingers [rad]."""
         self.position = 0.0
-        """The position of the fingers [rad]."""
+        """The position of the joint of the fingers [rad]."""
         self._speed = 0.0  # of the fingers [rad/s]
         self._effort = 0.0  # torque of the drive, from its current [N m]
 
@@ -44,7 +49,7 @@ class Jaw:
         speeds: Mapping[str, float],
         efforts: Mapping[str, float],
     ) -> None:
-        """Set the state from positions [rad], speeds [rad/s] and torques [N m] by name."""
+        """Set the state from positions [rad], speeds [rad/s] and torques [N m] by joint name."""
         self.position, self._speed = positions[JAW], speeds.get(JAW, 0.0)
         self._effort = abs(efforts.get(JAW, 0.0))
 
@@ -55,19 +60,19 @@ class Jaw:
 
     @property
     def holds_object(self) -> bool:
-        """True if the fingers press and an object keeps them apart."""
+        """True if the drive presses the fingers together and an object keeps them apart."""
         return self.position > JAW_CLOSED + MIN_GRIP_OPENING and self._effort > MIN_GRIP_TORQUE
 
 
 class Wrist:
-    """The smoothed force on the wrist; an arm without the sensor has no samples."""
+    """The smoothed force on the wrist; without the force sensor there is no force."""
 
     def __init__(self) -> None:
         self._force: Array | None = None  # smoothed, in the sensor's axes, (3,) [N]
-        self._tare: Array | None = None
+        self._tare: Array | None = None  # the force without a load (3,) [N]
 
     def on_wrist(self, message: WrenchStamped) -> None:
-        """Smooth a sample of the force sensor in the wrist."""
+        """Add a sample of the force sensor to the smoothed force."""
         force = message.wrench.force
         sample = np.array([force.x, force.y, force.z])
         self._force = (
@@ -75,12 +80,12 @@ class Wrist:
         )
 
     def tare(self) -> None:
-        """Set the force without a load to the present force."""
+        """Store the present force as the force without a load."""
         self._tare = self._force
 
     @property
     def load(self) -> float | None:
-        """The change of the wrist's force since `tare` [N]; None without a sensor."""
+        """The size of the change of the force since `tare` [N]; None without a force sensor."""
         if self._force is None or self._tare is None:
             return None
         return length(self._force - self._tare)
@@ -89,8 +94,13 @@ class Wrist:
 class VehicleInterface:
     """A vehicle with an arm: converts goals to twists and joint commands.
 
-    The vehicle keeps `goal` (base in the navigation frame) and `goal_heading`. With `grip_goal`
-    set, the arm compensates the error of the vehicle, within `MAX_COMPENSATION`.
+    The base moves to the position `goal` and the heading `goal_heading`. If `grip_goal` is set, the
+    arm moves the grip there, which compensates the position error of the base up to
+    `MAX_COMPENSATION`.
+
+    Args:
+        law: the control law of the base.
+        kinematics: the kinematics of the arm.
     """
 
     def __init__(self, law: StationLaw, kinematics: Kinematics) -> None:
@@ -98,30 +108,30 @@ class VehicleInterface:
         self.pose = Pose.identity()
         """The pose ``navigation_from_base``."""
         self.velocity: Array = np.zeros(3)
-        """The velocity over ground, navigation axes, (3,) [m/s]."""
+        """The velocity of the base over ground, navigation axes, (3,) [m/s]."""
         self.goal: Array | None = None
-        """The goal of the base, (3,) [m]; None: no motion."""
+        """The goal of the base, navigation frame, (3,) [m]; None: no motion."""
         self.goal_velocity: Array = np.zeros(3)
-        """The velocity of the goal, (3,) [m/s]."""
+        """The velocity of the goal, navigation axes, (3,) [m/s]."""
         self.goal_heading = 0.0
-        """The goal of the heading [rad]."""
+        """The goal of the heading, from north towards east [rad]."""
         self.grip_goal: Array | None = None
-        """The goal of the grip, navigation frame, (3,) [m]; None: the arm stays."""
+        """The goal of the grip, navigation frame, (3,) [m]; None: the arm keeps `posture`."""
         self.closing_heading = 0.0
         """The heading of the axis along which the jaw closes, navigation frame [rad]."""
         self.posture: Array = FOLDED_POSTURE.copy()
-        """The commanded joints of the arm, (4,) [rad]."""
+        """The commanded joint positions of the arm, (4,) [rad]."""
         self.joints: Array = FOLDED_POSTURE.copy()
-        """The joints of the arm, (4,) [rad]."""
+        """The measured joint positions of the arm, (4,) [rad]."""
         self.jaw = Jaw()
         """The jaw of the arm."""
         self.wrist = Wrist()
         """The wrist of the arm, with its force sensor."""
-        self._sent_command: Array = np.full(5, math.inf)
+        self._sent_command: Array = np.full(5, math.inf)  # last published, arm and jaw [rad]
 
     @property
     def heading(self) -> float:
-        """The heading of the base [rad]."""
+        """The heading of the base, from north towards east [rad]."""
         return math.atan2(self.pose.rotation[1, 0], self.pose.rotation[0, 0])
 
     @property
@@ -133,22 +143,30 @@ class VehicleInterface:
 
     @property
     def is_arm_settled(self) -> bool:
-        """True if the arm has its commanded joints."""
+        """True if all joints of the arm are near their commanded positions."""
         return bool(np.abs(self.joints - self.posture).max() < 0.05)
 
     def base_position_for(self, grip: Array, posture: Array = DOWN_POSTURE) -> Array:
-        """Compute the position of the base for a position of the grip with a posture, (3,) [m]."""
+        """Compute the position of the base at which the grip has a given position.
+
+        Args:
+            grip: the position of the grip, navigation frame, (3,) [m].
+            posture: the joint positions of the arm, (4,) [rad].
+
+        Returns:
+            The position of the base at its present attitude, navigation frame, (3,) [m].
+        """
         offset = rotate(self.pose.rotation, self.kinematics.grip(posture).position)
         position: Array = grip - offset
         return position
 
     def wrist_angle_for(self, closing_heading: float) -> float:
-        """Return the nearest angle of the wrist's joint [rad] for a closing heading."""
+        """Return the position of the wrist's joint, nearest to 0, for a closing heading [rad]."""
         turn = closing_heading - self.goal_heading
         return turn - math.pi * math.floor(turn / math.pi + 0.5)
 
     def on_joints(self, message: JointState) -> None:
-        """Set the state of arm and jaw."""
+        """Set the measured state of arm and jaw."""
         positions = dict(zip(message.name, message.position.tolist(), strict=False))
         speeds = dict(zip(message.name, message.velocity.tolist(), strict=False))
         efforts = dict(zip(message.name, message.effort.tolist(), strict=False))
@@ -157,7 +175,12 @@ class VehicleInterface:
             self.jaw.update(positions, speeds, efforts)
 
     def twist(self, time: float, dt: float) -> TwistStamped:
-        """Compute the twist towards the goal."""
+        """Compute the twist that moves the base to its goal.
+
+        Args:
+            time: the time of the message's stamp [s].
+            dt: the time since the last call [s].
+        """
         error = np.zeros(3) if self.goal is None else self.goal - self.pose.position
         heading_error = self.goal_heading - self.heading
         heading_error -= 2.0 * math.pi * math.floor(heading_error / (2.0 * math.pi) + 0.5)
@@ -178,7 +201,10 @@ class VehicleInterface:
         )
 
     def joint_command(self, time: float) -> JointState | None:
-        """Return the command of arm and jaw; None if it did not change."""
+        """Return the position commands of arm and jaw; None if they did not change.
+
+        ``time`` is the time of the message's stamp [s].
+        """
         if self.grip_goal is not None:
             self.posture = self._compensating_joints(self.grip_goal)
         command = np.array([*self.posture.tolist(), self.jaw.setpoint])
@@ -194,7 +220,11 @@ class VehicleInterface:
         )
 
     def _compensating_joints(self, goal: Array) -> Array:
-        """Compute joints (4,) with the grip at its goal, within `MAX_COMPENSATION`."""
+        """Compute the joint positions (4,) [rad] with the grip at its goal (3,) [m].
+
+        The grip moves by at most `MAX_COMPENSATION` along each axis of the base, from its position
+        with the lowered arm.
+        """
         position = self.pose.inverse().transform(goal[None])[0]
         centre = self.kinematics.grip(DOWN_POSTURE).position
         position = centre + np.clip(position - centre, -MAX_COMPENSATION, MAX_COMPENSATION)

@@ -1,4 +1,4 @@
-"""The estimation of a vehicle's pose from its DVL, IMU and depth sensor."""
+"""Estimation of a vehicle's pose, and of the bottom below it, from DVL, IMU and depth sensor."""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""The plane of the sea floor below a vehicle, from the ranges of the four beams of a DVL."""
+"""Estimation of the plane of the bottom below a vehicle from the four beams of a DVL.
+
+Positions are in the navigation frame (north, east, down), whose origin is at the water surface.
+"""
 
 from __future__ import annotations
 
@@ -15,9 +18,10 @@ BEAM_ANGLE = math.radians(30.0)
 N_AVERAGED_PINGS = 20
 """The number of pings over which the plane is averaged."""
 MAX_RESIDUAL = 0.05
-"""The largest distance of the four points from their plane for a flat bottom [m]."""
+"""The largest vertical distance of a beam's point from the plane, for a flat bottom [m]."""
 
 _BEAM_AZIMUTHS = [math.radians(45.0 + 90.0 * k) for k in range(4)]
+"""The directions of the beams about the axis of the DVL, from x towards y [rad]."""
 BEAMS: Array = np.array(
     [
         [
@@ -28,15 +32,16 @@ BEAMS: Array = np.array(
         for azimuth in _BEAM_AZIMUTHS
     ]
 )
-"""The directions of the beams in a DVL with the axes of the base, (4, 3)."""
+"""The unit vectors of the beams in the axes of the base, to which those of the DVL are parallel,
+(4, 3)."""
 
 
 class BottomPlane:
-    """The depth of the bottom as ``a + b north + c east``, averaged over some pings."""
+    """The depth of the bottom as ``a + b north + c east``, averaged over several pings."""
 
     def __init__(self) -> None:
-        self._plane: Array | None = None
-        self._n_pings = 0
+        self._plane: Array | None = None  # a [m], b, c (3,)
+        self._n_pings = 0  # pings in the average
 
     @property
     def is_known(self) -> bool:
@@ -51,7 +56,10 @@ class BottomPlane:
         return float(self._plane[1]), float(self._plane[2])
 
     def depth_at(self, position: Array) -> float:
-        """Return the depth of the bottom [m] at a position (at least 2,): north, east [m]."""
+        """Return the depth of the bottom [m] at a position; NaN if it is not known.
+
+        ``position`` begins with the north and east coordinates [m].
+        """
         if self._plane is None:
             return math.nan
         a, b, c = self._plane.tolist()
@@ -62,7 +70,12 @@ class BottomPlane:
         self._plane = np.array([depth, 0.0, 0.0])
 
     def update(self, ranges: Array, navigation_from_dvl: Pose) -> None:
-        """Average the plane of a ping's ranges along the beams (4,) [m]; NaN without an echo."""
+        """Add the plane through the points of a ping to the average, if it is flat.
+
+        Args:
+            ranges: the ranges along the beams, (4,) [m]; NaN for a beam without an echo.
+            navigation_from_dvl: the pose of the DVL in the navigation frame.
+        """
         if not np.isfinite(ranges).all():
             return
         points = navigation_from_dvl.transform(ranges[:, None] * BEAMS)
@@ -77,7 +90,7 @@ class BottomPlane:
 
 
 def parse_ranges(message: DVL) -> Array:
-    """Parse the ranges of the four beams [m] from the first numbers of ``raw_data``, or NaN."""
+    """Return the ranges of the four beams, the first numbers in ``raw_data``, (4,) [m]; or NaN."""
     try:
         numbers = [float(word) for word in message.raw_data.split()[:4]]
     except ValueError:

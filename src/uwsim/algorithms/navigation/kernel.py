@@ -1,4 +1,4 @@
-"""The covariance of the navigation filter, compiled: it is propagated at the rate of the IMU."""
+"""The computations of the navigation filter, compiled because the IMU has a high rate."""
 
 from __future__ import annotations
 
@@ -12,12 +12,14 @@ from ...base.numerics.jit import njit
 
 @njit
 def propagate(covariance: Array, rotation: Array, force: Array, dt: float, noise: Array) -> Array:
-    """Compute the covariance ``F P F' + Q dt`` of the error state, (15, 15).
+    """Compute the covariance ``F P F' + Q dt`` of the error state after a time step, (15, 15).
+
+    F is the transition matrix of the error state, and Q the density of the process noise.
 
     Args:
-        covariance: the covariance P, (15, 15).
-        rotation: the axes of the base in the navigation frame, (3, 3).
-        force: specific force in navigation axes, (3,) [m/s2].
+        covariance: the covariance P before the step, (15, 15).
+        rotation: the rotation ``navigation_from_base``, (3, 3).
+        force: the specific force in navigation axes, (3,) [m/s2].
         dt: the time step [s].
         noise: the diagonal of Q, (15,).
     """
@@ -40,7 +42,10 @@ def propagate(covariance: Array, rotation: Array, force: Array, dt: float, noise
 
 @njit
 def rotate_by(rotation: Array, vector: Array, *, in_base: bool) -> Array:
-    """Rotate the axes (3, 3) by a rotation vector (3,) [rad], in base or navigation axes."""
+    """Rotate ``rotation``, navigation_from_base (3, 3), by a rotation vector (3,) [rad].
+
+    The rotation vector is in base axes if ``in_base``, else in navigation axes.
+    """
     x, y, z = vector
     angle = math.sqrt(x * x + y * y + z * z)
     if angle < 1e-12:
@@ -68,7 +73,7 @@ def rotate_by(rotation: Array, vector: Array, *, in_base: bool) -> Array:
 
 @njit
 def rotation_between(rotation: Array, other: Array) -> Array:
-    """Return the rotation vector (3,) [rad] of ``other @ rotation.T``, shorter than pi."""
+    """Return the rotation vector (3,) [rad] of ``other @ rotation.T``, of at most half a turn."""
     turn = _product_transposed(other, rotation)
     axis = np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
     axis *= 0.5
@@ -80,7 +85,14 @@ def rotation_between(rotation: Array, other: Array) -> Array:
 
 @njit
 def squared_distance(covariance: Array, jacobian: Array, error: Array, variance: float) -> float:
-    """Return the squared Mahalanobis distance of an error (m,) with a Jacobian (m, 15)."""
+    """Return the squared Mahalanobis distance of a measurement from its expected values.
+
+    Args:
+        covariance: the covariance of the error state, (15, 15).
+        jacobian: the derivatives of the values by the error state, (m, 15).
+        error: the measured minus the expected values, (m,).
+        variance: the variance of each measured value.
+    """
     innovation_covariance = _innovation_covariance(covariance, jacobian, variance)
     weighted_error = _solve(innovation_covariance, error.copy().reshape(-1, 1))
     total = 0.0
@@ -93,7 +105,10 @@ def squared_distance(covariance: Array, jacobian: Array, error: Array, variance:
 def correct(
     covariance: Array, jacobian: Array, error: Array, variance: float
 ) -> tuple[Array, Array]:
-    """Return the correction (15,) and the updated covariance (Joseph's form)."""
+    """Return the correction of the error state (15,), and the corrected covariance (15, 15).
+
+    The covariance is computed in Joseph's form. `squared_distance` describes the arguments.
+    """
     cross_covariance = _product_transposed(covariance, jacobian)  # (15, m)
     innovation_covariance = _innovation_covariance(covariance, jacobian, variance)
     gain = _solve(innovation_covariance, cross_covariance.T.copy()).T.copy()
@@ -136,7 +151,7 @@ def _product_transposed(a: Array, b: Array) -> Array:
 
 @njit
 def _solve(a: Array, b: Array) -> Array:
-    """Solve ``a x = b``, with ``a`` (m, m) positive definite and ``b`` (m, n), without pivots."""
+    """Solve ``a x = b`` without pivoting for a positive definite a (m, m) and b (m, n)."""
     a, b = a.copy(), b.copy()
     m = len(a)
     for column in range(m):

@@ -1,4 +1,4 @@
-"""The navigation filter on the topics of the sensors."""
+"""A navigation filter that is connected to the topics of the sensors."""
 
 from __future__ import annotations
 
@@ -23,9 +23,10 @@ TOPICS: Mapping[str, str] = {
 class Navigator:
     """A `NavigationFilter` that reads the topics of an IMU, a DVL and a depth sensor.
 
-    The IMU has the axes of the base; the DVL's velocity in ship axes is used. Any algorithm can
-    make one in its `start`. Without a spec, the DVL is at the origin of the base. If it is
-    elsewhere, set ``NavigationSpec(dvl_place=...)``; otherwise the estimate drifts.
+    The axes of the IMU are assumed to be parallel to those of the base, and of the DVL's velocities
+    the one in ship axes is used. Any algorithm can make a navigator in its `start`. Without a spec,
+    the DVL is assumed to be at the origin of the base. If it is elsewhere, set
+    ``NavigationSpec(dvl_place=...)``; otherwise the estimate drifts.
     """
 
     def __init__(
@@ -34,11 +35,17 @@ class Navigator:
         topics: Mapping[str, str] = TOPICS,
         spec: NavigationSpec | None = None,
     ) -> None:
-        """Subscribe to the topics (`TOPICS`)."""
+        """Subscribe to the topics of the sensors.
+
+        Args:
+            node: the node of the algorithm.
+            topics: the topics by the names in `TOPICS`.
+            spec: the noise and the positions of the sensors; None: the defaults.
+        """
         self.filter = NavigationFilter(spec or NavigationSpec())
-        """The filter with the state of the vehicle."""
+        """The filter that estimates the motion of the vehicle."""
         self.bottom = BottomPlane()
-        """The bottom below the vehicle, in the navigation frame."""
+        """The plane of the bottom below the vehicle, in the navigation frame."""
         node.subscribe(topics["imu_topic"], Imu, self._on_imu)
         node.subscribe(topics["dvl_topic"], DVL, self._on_dvl)
         node.subscribe(topics["depth_topic"], Pressure, self._on_depth)
@@ -50,17 +57,17 @@ class Navigator:
 
     @property
     def pose(self) -> Pose:
-        """The pose ``navigation_from_base``: north, east from the start; z is the depth."""
+        """The pose ``navigation_from_base``; z of its position is the depth of the base [m]."""
         return Pose(self.filter.position.copy(), self.filter.rotation.copy())
 
     @property
     def velocity(self) -> Array:
-        """The velocity over ground, navigation axes, (3,) [m/s]."""
+        """The velocity of the base over ground, navigation axes, (3,) [m/s]."""
         return self.filter.velocity.copy()
 
     @property
     def heading(self) -> float:
-        """The heading, from north towards east [rad]."""
+        """The heading of the base, from north towards east [rad]."""
         return self.filter.heading
 
     def _on_imu(self, message: Imu) -> None:
