@@ -1,1 +1,1 @@
-"""Replays stored results and compares them byte for byte."""
+"""Verification of stored results: trials are run again and compared with them byte for byte."""

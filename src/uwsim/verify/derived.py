@@ -1,6 +1,7 @@
-"""Redundant values of a row: its total from the values, and a value from its detail.
+"""Checks of the values of a row that follow from other values of the row.
 
-Both can be computed without a run, so a change of one requires a change of the other.
+The total follows from the values of the measures, and the value of a measure is one of its details.
+Both are checked without a run, so that a single changed number in a result is detected.
 """
 
 from __future__ import annotations
@@ -16,10 +17,10 @@ from .differences import Difference
 
 
 def contradictions(result: Result, benchmark: BenchmarkSpec) -> Iterator[Difference]:
-    """Recompute totals and derived values; yield those that differ.
+    """Compute the totals and values of all rows again; yield a difference for each that differs.
 
     Args:
-        result: the result as read.
+        result: the stored result.
         benchmark: the benchmark that was run.
     """
     columns = [column.name for column in result.columns]

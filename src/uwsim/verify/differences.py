@@ -1,7 +1,7 @@
-"""Differences between two executions of one trial: cells, first log sample, first step.
+"""Differences between a stored trial and its replay: cells of rows, log samples, motion.
 
-Stored JSON is split into its leaves, each with its path, which are compared as text: -0.0 is not
-0.0, and a record that was tampered with is compared like any other.
+Stored JSON is split into its leaves (numbers and texts), each with its path. Leaves are compared as
+text: -0.0 differs from 0.0, and records that were tampered with can be compared, too.
 """
 
 from __future__ import annotations
@@ -20,12 +20,12 @@ from ..runs.trial.fingerprint import Checkpoints, divergence
 
 @dataclass(frozen=True, kw_only=True)
 class Difference:
-    """A difference."""
+    """A difference between a stored result and what it should be."""
 
     location: str
-    """The file, or the trial and level."""
+    """The file, or the trial and level, in which the difference is."""
     description: str
-    """The column, sample, topic or steps, with the stored and the new value."""
+    """The column, sample, topic or step that differs, with the stored and the expected value."""
 
     def __str__(self) -> str:
         return f"{self.location}: {self.description}"
@@ -34,7 +34,10 @@ class Difference:
 def differing_leaves(
     old_value: Any, new_value: Any
 ) -> Iterator[tuple[tuple[str | int, ...], str, str]]:
-    """Yield path, stored text and new text of every leaf that differs; ``nothing`` for none."""
+    """Yield the path, the stored text and the new text of every leaf that differs.
+
+    The text of an absent leaf is ``nothing``.
+    """
     old_leaves, new_leaves = leaves(old_value), leaves(new_value)
     for path in dict.fromkeys([*old_leaves, *new_leaves]):
         old_text, new_text = old_leaves.get(path, "nothing"), new_leaves.get(path, "nothing")
@@ -43,7 +46,7 @@ def differing_leaves(
 
 
 def row_differences(old_row: Record, new_row: Record) -> list[str]:
-    """Return the differences in the record of a level, a line for each column and log."""
+    """Return the differences between two records of a level: a line for each column and log."""
     messages: dict[str, str] = {}
     for path, old_text, new_text in differing_leaves(old_row, new_row):
         name = _name(path, old_row, new_row)
@@ -54,10 +57,10 @@ def row_differences(old_row: Record, new_row: Record) -> list[str]:
 
 
 def _name(path: tuple[str | int, ...], old_row: Record, new_row: Record) -> str | None:
-    """Return the name in the result of a leaf of a record; None for the fingerprint."""
+    """Return the name in messages of a leaf of a level's record; None for the fingerprint."""
     match path:
         case ("fingerprint",):
-            return None  # the trace has more detail
+            return None  # `compare_checkpoints` states the step at which the fingerprints differ
         case ("measures" | "details", name, 0, *_):
             return f"column {name}"
         case ("measures" | "details", name, *_):
@@ -86,7 +89,10 @@ def _time(record: Record, name: str | int, sample: int) -> str:
 
 
 def end_differences(old_end: Record, new_end: Record) -> list[str]:
-    """Return the differences in the end of a trial: images, constants, parameters; no trace."""
+    """Return the differences between two end records of a trial, without their traces.
+
+    An end record has the hashes of images, the constants and the parameters of the trial.
+    """
     messages: dict[str, str] = {}
     for path, old_text, new_text in differing_leaves(_drop_trace(old_end), _drop_trace(new_end)):
         name = " ".join(map(str, path[:2]))
@@ -107,12 +113,12 @@ def _drop_trace(end: Record) -> Record:
 
 @dataclass(frozen=True, kw_only=True)
 class FingerprintComparison:
-    """The comparison of the fingerprints of a trial."""
+    """The comparison of the fingerprints of a stored trial and its replay."""
 
     message: str | None
-    """The steps at which two runs diverge, in words; None if they do not."""
+    """A sentence about the steps between which the two diverge; None if they do not."""
     parts: tuple[str, ...] = ()
-    """The parts that differ first."""
+    """The bodies, and the topics of images, that differ first."""
     is_known: bool = True
     """True if both runs have fingerprints."""
 
@@ -120,7 +126,7 @@ class FingerprintComparison:
 def compare_checkpoints(
     old_trial: StoredTrial, new_trial: StoredTrial, timestep: float
 ) -> FingerprintComparison:
-    """Compare the fingerprints of two executions of one trial."""
+    """Compare the fingerprints of a stored trial and its replay; ``timestep`` is in seconds."""
     traces = [None if trial.end is None else trial.end.trace for trial in (old_trial, new_trial)]
     old_marks, new_marks = (Checkpoints.from_dict(trace) for trace in traces)
     if old_marks is None or new_marks is None:
@@ -145,7 +151,7 @@ def compare_checkpoints(
 
 
 def text_difference(old_text: str, new_text: str) -> str | None:
-    """Return where two tables of text first differ, by line and column; None if they are equal."""
+    """Return the first difference between two text files with tables; None if they are equal."""
     if old_text == new_text:
         return None
     old_lines, new_lines = old_text.split("\n"), new_text.split("\n")

@@ -1,4 +1,7 @@
-"""Environments of the recording and of the replay, and likely causes of differences."""
+"""Comparison of the environments of a result and its replay, and likely causes of differences.
+
+The environment consists of the versions of the software and of the processor.
+"""
 
 from __future__ import annotations
 
@@ -21,7 +24,7 @@ PART_NAMES = {
     "system": "system",
     "python": "Python",
 }
-"""The names of the parts of the environment."""
+"""The names of the parts of the environment in messages."""
 GUARANTEES = {
     "version": "results of other versions of uwsim may differ",
     "physics": "results of other versions of MuJoCo may differ",
@@ -33,11 +36,17 @@ GUARANTEES = {
     "system": "another system has other libraries of mathematics",
     "python": "between versions of Python nothing is expected to differ",
 }
-"""The guarantee where a part of the environment differs."""
+"""The sentence that states what a difference in each part of the environment can change."""
 
 
 def environment_differences(result: Result, directory: Path, run: RunInfo) -> dict[str, str]:
-    """Return the differences between the recorded environment and that of the replay."""
+    """Return a message for each part of the environment that differs.
+
+    Args:
+        result: the stored result.
+        directory: the directory of the result.
+        run: the description of the replay.
+    """
     pairs = {name: (getattr(result.run, name), getattr(run, name)) for name in ENVIRONMENT}
     provenance, current_machine = load_provenance(directory), machine()
     for name in ("system", "python", *(["cpu"] if "code" not in provenance else [])):
@@ -55,7 +64,12 @@ def environment_differences(result: Result, directory: Path, run: RunInfo) -> di
 
 
 def likely_cause(report: Verification, changes: Mapping[str, str]) -> str:
-    """Return the part of the program that the differences point to."""
+    """Return a sentence about the likely cause of the differences.
+
+    Args:
+        report: the verification.
+        changes: the output of `environment_differences`.
+    """
     bodies = [part for part in report.parts if not part.startswith("/")]
     if bodies:
         message = f"It begins in the physics: {', '.join(bodies)} moved otherwise."

@@ -1,4 +1,4 @@
-"""Rebuilding the plan of a result: its files are found by name and identified by hash."""
+"""Rebuilding the plan of a stored result from the files that it names, which have known hashes."""
 
 from __future__ import annotations
 
@@ -23,27 +23,32 @@ if TYPE_CHECKING:
     from ..runs.planning.plan import Plan
 
 NOT_DRAWN = "none"
-"""The renderer of a control, which uses no image."""
+"""The recorded renderer of a control run (a sham baseline), in which nothing is rendered."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class FileOverrides:
-    """The paths of files that the user names."""
+    """The files and folders that the user names for a verification."""
 
     benchmark: Path | None = None
-    """The benchmark."""
+    """The benchmark file; None: it is searched."""
     scene: Path | None = None
-    """The scene."""
+    """The scene file; None: it is searched."""
     plugins: tuple[Path, ...] = ()
-    """Plugins, in any order."""
+    """The plugin files, in any order."""
     data_path: tuple[Path, ...] = ()
-    """Folders in which files are looked for."""
-    no_code: bool = False
     """The folders in which files are searched."""
+    no_code: bool = False
+    """True if code that the files name is refused."""
 
 
 def plan_of(result: Result, directory: Path, overrides: FileOverrides) -> Plan:
-    """Rebuild the plan of a result.
+    """Rebuild the plan of a stored result.
+
+    Args:
+        result: the stored result.
+        directory: the directory of the result.
+        overrides: the files and folders that the user names.
 
     Raises:
         ResultError: the result lacks a value, or a file is not the one that was run.
@@ -91,12 +96,12 @@ def plan_of(result: Result, directory: Path, overrides: FileOverrides) -> Plan:
 
 
 def check_inputs(recorded_inputs: Inputs, current_inputs: Inputs) -> None:
-    """Refuse assets or an algorithm that differ from the recorded ones.
+    """Raise an error if assets or the algorithm differ from the recorded ones.
 
-    Benchmark, scene and plugins are found by their hashes.
+    Benchmark, scene and plugins are not compared, as they are found by their hashes.
 
     Raises:
-        ResultError: with each file that differs.
+        ResultError: files differ; the message names each of them.
     """
     old_inputs, new_inputs = (
         Inputs(assets=inputs.assets, algorithm=inputs.algorithm)
@@ -121,16 +126,16 @@ def find_input(
     """Find a file by its name and its hash.
 
     Args:
-        kind: benchmark or scene: the option that names it.
+        kind: ``benchmark`` or ``scene``, which is also the option that names the file.
         recorded_file: the recorded name and hash.
-        choice: the file that the user names, if any; no other is read.
-        directory: the directory of the result; its folder and those above it are searched.
-        overrides: the folders to search.
-        words: words of the recorded command, among which the file may be named.
+        choice: the file that the user names; None to search.
+        directory: the directory of the result; it and the folders above it are searched.
+        overrides: the folders that are searched, too.
+        words: the words of the recorded command, of which one may be the path of the file.
 
     Raises:
-        ResultError: there are files of that name, but with other hashes.
-        AssetNotFound: there is no such file.
+        ResultError: there are files with this name, but with other hashes.
+        AssetNotFound: there is no file with this name.
     """
     from ..assets.find import candidates, searched_folders
 
@@ -166,7 +171,10 @@ def find_input(
 
 
 def typed_words(directory: Path) -> list[str]:
-    """Return the words of the command that made a result; for a control, of its result."""
+    """Return the words of the command that made a result.
+
+    A control run (a sham baseline) has no command of its own, but that of the result it belongs to.
+    """
     from ..results.directory import CONTROL
     from ..results.provenance import load_provenance
 
@@ -190,11 +198,11 @@ def _plugin_paths(result: Result, benchmark: Path) -> list[str]:
 
 
 def _plugins(result: Result, overrides: Sequence[Path], words: Sequence[str]) -> list[Path]:
-    """Return the plugins that were used, in their order.
+    """Return the plugins of the recorded run, in their order.
 
-    Plugins that the user does not name are files with the recorded hash, in the recorded command or
-    in the benchmark's folder. The file of an algorithm ``FILE.py:Class`` is at the path of its
-    name, unless it has changed.
+    They are searched by their recorded hashes among the files that the user names, the words of the
+    recorded command, and the files in the benchmark's folder. The file of an algorithm
+    ``FILE.py:Class`` is left out if it has the recorded hash.
     """
     names = [name for name, _ in result.inputs.plugins or ()]
     candidates = [Path(word) for word in words if Path(word).name in names and Path(word).is_file()]
@@ -225,7 +233,7 @@ def _sha256(path: Path) -> str:
 
 
 def named_input(result: Result, kind: str) -> tuple[str, str]:
-    """Return name and hash of a result's benchmark or scene; raise ResultError without it."""
+    """Return the recorded name and hash of a benchmark or scene; raise ResultError without it."""
     file: tuple[str, str] | None = getattr(result.inputs, kind)
     if file is None:
         raise ResultError(f'The result does not name its {kind}: "inputs" lacks it.')
@@ -237,7 +245,7 @@ def _short_hash(digest: str) -> str:
 
 
 def _value_of(run: RunInfo, name: str) -> Any:
-    """Return a value of ``run``; raise ResultError where it is absent."""
+    """Return a value of ``run`` in the result; raise ResultError if it is absent."""
     value = getattr(run, name)
     if value is None:
         raise ResultError(f'The result cannot be replayed: "run" lacks its {name}.')

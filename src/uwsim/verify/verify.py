@@ -1,10 +1,10 @@
-"""Verifying a result: consistency of its files, and replays of trials.
+"""Verification of a stored result: are its files consistent, and do replays give the same values?
 
-First, without a run, every total is computed from its row, and every file of the result is written
-again from the journals of its trials and compared. Then whole trials are replayed from the recorded
-inputs and compared with the stored ones: every cell, every sample, every image, byte for byte.
-Where they differ, the fingerprints (`runs.trial.fingerprint`) identify the step and the body or
-image.
+First, without a run, every total is computed again from its row, and every file of the result is
+written again from the journals of the trials (``units/``) and compared. Then whole trials are
+replayed from the recorded inputs and compared with the stored trials: every cell, every log sample
+and every image, byte for byte. If they differ, fingerprints (`runs.trial.fingerprint`) identify the
+step at which they diverge, and the body or image that differs first.
 """
 
 from __future__ import annotations
@@ -32,15 +32,15 @@ from .derived import contradictions
 from .differences import Difference
 
 ENVIRONMENT = ("version", "physics", "renderer", "numpy")
-"""The keys of ``run`` for the environment of a result."""
+"""The keys of ``run`` in ``result.json`` that describe the environment of a result."""
 
 
 @dataclass(kw_only=True)
 class Verification:
-    """The result of a verification."""
+    """The outcome of a verification."""
 
     differences: list[Difference] = field(default_factory=list)
-    """The differences found."""
+    """The differences between the stored result and what it should be."""
     parts: list[str] = field(default_factory=list)
     """The bodies and topics in which replays diverge from the stored runs."""
     is_steady: bool = True
@@ -48,17 +48,17 @@ class Verification:
     is_replayed: bool = True
     """True if every replay gave the stored values of its trial."""
     not_compared: list[str] = field(default_factory=list)
-    """The files that are absent and therefore not compared."""
+    """A sentence about each file that is absent and was therefore not compared."""
     trials: tuple[Trial, ...] = ()
     """The trials that were replayed."""
 
     def add(self, location: str, description: str) -> None:
-        """Record a difference."""
+        """Add a difference; see `Difference` for the arguments."""
         self.differences.append(Difference(location=location, description=description))
 
 
 def complete_trials(directory: Path, plan: Plan, result: Result) -> list[Trial]:
-    """Return the complete trials: by their files or, without those, by their rows."""
+    """Return the trials that ended, by their journals, or without journals by their rows."""
     trials = plan.trials()
     if _has_journals(directory):
         files = [journal.path_of(directory, trial.index) for trial in trials]
@@ -69,7 +69,7 @@ def complete_trials(directory: Path, plan: Plan, result: Result) -> list[Trial]:
 
 
 def choose_trials(trials: Sequence[Trial], sample: int | None, seed: int) -> tuple[Trial, ...]:
-    """Choose ``sample`` random trials (None: all), in their order."""
+    """Return ``sample`` trials, drawn at random with a seed, in their order; None: all trials."""
     if sample is None or sample >= len(trials):
         return tuple(trials)
     indices = stream(seed, "verify").choice(len(trials), size=sample, replace=False)
@@ -85,15 +85,15 @@ def verify(
     executor: Executor | None = None,
     on_level: OnLevel = lambda: None,
 ) -> Verification:
-    """Check the consistency of a stored result and replay trials.
+    """Check the consistency of a stored result, and replay some of its trials.
 
     Args:
         directory: the directory of the result.
-        result: the result as read.
-        run: the same run anew, from the recorded inputs; its directory is not used.
+        result: the stored result.
+        run: the run to execute again, from the recorded inputs; its output directory is not used.
         trials: the trials to replay.
-        executor: the executor of the trials; None for this process.
-        on_level: called for every level executed.
+        executor: the executor of the trials; None: they run in this process.
+        on_level: the function that is called after each replayed level.
 
     Raises:
         UwsimError: a replay could not be executed.
@@ -126,7 +126,7 @@ def _has_journals(directory: Path) -> bool:
 
 
 def _check_files(report: Verification, directory: Path, result: Result, run: Run) -> None:
-    """Write every file again from the stored trials, if all exist, and compare."""
+    """Write every file again from the journals of the trials, if all exist, and compare."""
     lost = _lost_trials(directory, result, run.plan)
     for trial, reason in lost.items():
         name = journal.path_of(directory, trial.index).name
@@ -173,7 +173,7 @@ def _check_files(report: Verification, directory: Path, result: Result, run: Run
 
 
 def _check_tracks(report: Verification, directory: Path, plan: Plan) -> None:
-    """Read the motion track of every trial; replays and films are drawn from it."""
+    """Check that every trial has a readable motion track, from which films are drawn."""
     for trial in plan.trials():
         path = journal.track_path(directory, trial.index)
         name = f"{journal.FOLDER}/{path.name}"
@@ -187,7 +187,7 @@ def _check_tracks(report: Verification, directory: Path, plan: Plan) -> None:
 
 
 def _lost_trials(directory: Path, result: Result, plan: Plan) -> dict[Trial, str]:
-    """Return the trials whose rows are in the result but not in their journals, with the reason."""
+    """Return the trials with rows in ``result.json`` that their journals lack, with the reason."""
     rows = _rows_by_level(result, plan)
     lost_trials = {}
     for trial in plan.trials():
@@ -202,9 +202,10 @@ def _lost_trials(directory: Path, result: Result, plan: Plan) -> dict[Trial, str
 
 
 def _head(result: Result, replayed_head: Record) -> Record:
-    """Return the head that a trial should have, according to result.json.
+    """Return the head record that a trial should have, according to ``result.json``.
 
-    The head has the parameters of the command; result.json has those that the algorithm ran with.
+    The parameters are taken from the head of the replay: a head has the parameters of the command,
+    whereas ``result.json`` has the parameters with which the algorithm ran.
     """
     stored_run = json.loads(json.dumps(result.run.as_dict()))
     run = {
@@ -274,7 +275,7 @@ def _end(content: journal.StoredTrial) -> Record:
 
 
 def _check_rows(report: Verification, result: Result, replay: Run) -> None:
-    """Compare replayed rows with those of result.json, where there is no journal."""
+    """Compare replayed rows with the rows of ``result.json``, for a result without journals."""
     new_result = replay.write()
     expected = _rows_by_level(result, replay.plan)
     names = {column.name for column in result.columns}
