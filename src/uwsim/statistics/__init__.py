@@ -1,8 +1,8 @@
-"""Confidence intervals, paired tests, effect sizes and power analysis.
+"""Statistics: confidence intervals, paired tests, effect sizes and power analysis.
 
-The functions take and return numbers alone, without benchmarks. Random numbers come from named
-streams, so that equal values always have equal intervals. ``docs/statistics.md`` defines each
-number, and states when it can mislead.
+The functions are computations on numbers, without knowledge of benchmarks. Random numbers come from
+named streams, so that equal data always give equal results. ``docs/statistics.md`` defines each
+quantity, and states when it can mislead.
 """
 
 from __future__ import annotations

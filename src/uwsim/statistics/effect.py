@@ -11,9 +11,11 @@ from .paired import doubled_ranks
 
 
 def cohens_d(differences: Sequence[float]) -> float | None:
-    r"""Return Cohen's (1988, section 2.3.5) :math:`d_z = \bar d / s_d` of paired differences.
+    r"""Return the effect size :math:`d_z = \bar d / s_d` of paired differences.
 
-    None for fewer than two differences, and for equal ones, which have no spread.
+    :math:`\bar d` is the mean and :math:`s_d` the standard deviation of the differences (Cohen
+    1988, section 2.3.5). The result is None for fewer than two differences, and for equal
+    differences, whose standard deviation is 0.
     """
     n = len(differences)
     if n < 2:
@@ -24,12 +26,13 @@ def cohens_d(differences: Sequence[float]) -> float | None:
 
 
 def hedges_g(differences: Sequence[float]) -> float | None:
-    r"""Return Hedges' (1981) :math:`g = J(n-1)\, d_z`, an unbiased estimate.
+    r"""Return the effect size :math:`g = J(n-1)\, d_z` of n paired differences (Hedges 1981).
 
     .. math:: J(m) = \frac{\Gamma(m/2)}{\sqrt{m/2}\;\Gamma((m-1)/2)}
 
-    J is 0.56 for three differences, 0.80 for five, 0.91 for ten: :math:`d_z` of few differences is
-    too large. None for fewer than three differences, and for equal ones.
+    The factor J corrects :math:`d_z` (`cohens_d`), which is on average too large for few
+    differences. It is 0.56 for three differences, 0.80 for five, 0.91 for ten. The result is None
+    for fewer than three differences, and for equal differences.
     """
     d = cohens_d(differences)
     m = len(differences) - 1
@@ -39,11 +42,11 @@ def hedges_g(differences: Sequence[float]) -> float | None:
 
 
 def vargha_delaney(first_sample: Sequence[float], second_sample: Sequence[float]) -> float | None:
-    r"""Return Vargha and Delaney's (2000) :math:`A = P(X_1 > X_2) + P(X_1 = X_2)/2`.
+    r"""Return the effect size :math:`A = P(X_1 > X_2) + P(X_1 = X_2)/2` (Vargha and Delaney 2000).
 
-    The probability is over all pairs of a value of the first and one of the second sample; seeds
-    are not paired. 0.5 is no difference; 0.56, 0.64 and 0.71 (or 0.44, 0.36, 0.29) are a small, a
-    medium and a large one. None when a sample is empty.
+    The probability is over all pairs of a value of the first and a value of the second sample,
+    whatever their seeds. A is 0.5 if there is no difference; 0.56, 0.64 and 0.71 (or 0.44, 0.36 and
+    0.29) are a small, a medium and a large difference. The result is None if a sample is empty.
     """
     if not len(first_sample) or not len(second_sample):
         return None
@@ -57,8 +60,9 @@ def vargha_delaney(first_sample: Sequence[float], second_sample: Sequence[float]
 def rank_biserial(differences: Sequence[float]) -> float | None:
     r"""Return the matched-pairs rank-biserial correlation (Kerby 2014), -1 to 1.
 
-    :math:`(W^+ - W^-)/(W^+ + W^-)` of Wilcoxon's signed ranks: the share of the rank sum that is of
-    positive differences, minus that of negative ones. None when all differences are zero.
+    It is :math:`(W^+ - W^-)/(W^+ + W^-)`, with the sums :math:`W^+` and :math:`W^-` of the ranks of
+    positive and of negative differences by Wilcoxon's method. The result is None if all differences
+    are zero.
     """
     values = np.array([d for d in differences if d != 0.0])
     if not len(values):

@@ -6,11 +6,13 @@ from collections.abc import Sequence
 
 
 def holm(p_values: Sequence[float | None]) -> tuple[float | None, ...]:
-    r"""Return the p-values adjusted by Holm (1979); None (no test) stays None and is not counted.
+    r"""Return the p-values of several tests, adjusted by the method of Holm (1979).
 
-    With m tests ordered by p, :math:`\tilde p_{(i)} = \max_{j \le i} \min(1, (m-j+1)\, p_{(j)})`.
-    The probability of even one false rejection at :math:`\tilde p \le \alpha` is at most
-    :math:`\alpha`, for every dependence between the tests.
+    With the p-values :math:`p_{(1)} \le \dots \le p_{(m)}` of m tests, the adjusted values are
+    :math:`\tilde p_{(i)} = \max_{j \le i} \min(1, (m-j+1)\, p_{(j)})`. If every test with
+    :math:`\tilde p \le \alpha` is called significant, the probability of one or more false
+    positives is at most :math:`\alpha`, whatever the dependence between the tests. None stands for
+    a test without a p-value; it stays None and does not count in m.
     """
     sorted_tests = sorted((p, i) for i, p in enumerate(p_values) if p is not None)
     adjusted_p_values: list[float | None] = [None] * len(p_values)

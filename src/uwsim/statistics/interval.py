@@ -1,4 +1,4 @@
-r"""Confidence interval of a mean, by the smoothed bootstrap-t."""
+r"""The confidence interval of a mean, by the smoothed bootstrap-t method."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ import numpy.typing as npt
 from ..base.rng import stream
 
 N_RESAMPLES = 10_000
-"""The number of resamples, drawn once for each number of values and the same for all data."""
+"""The number of resamples, which are the same for all data with the same number of values."""
 MAX_BOOTSTRAP_VALUES = 200
-"""The number of values above which the interval is Student's, which then differs little."""
+"""The number of values above which Student's interval is used, which then differs little."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Interval:
-    """A mean and its confidence interval; too few values have no limits."""
+    """A mean and its confidence interval."""
 
     n: int
     """The number of values."""
@@ -31,7 +31,8 @@ class Interval:
     low: float | None
     """The lower limit; None for fewer than two values."""
     high: float | None
-    """The upper limit, at another distance from the mean; None for fewer than two values."""
+    """The upper limit; None for fewer than two values. The limits are not symmetric about the
+    mean."""
 
 
 def mean_interval(values: Sequence[float], *, confidence: float = 0.95) -> Interval:
@@ -42,15 +43,19 @@ def mean_interval(values: Sequence[float], *, confidence: float = 0.95) -> Inter
         \Bigl[\bar x - t^*_{1-\alpha/2}\, s/\sqrt n,\; \bar x - t^*_{\alpha/2}\, s/\sqrt n\Bigr],
         \qquad t^* = \frac{\bar x^* - \bar x}{s^*/\sqrt n}
 
-    (Efron 1982, section 10.10; Hall 1988), where every value of a resample :math:`x^*` carries a
-    normal error of variance :math:`s^2/n` (Hesterberg 2004). Resamples then spread as widely as
-    samples do, never consist of one value, and the limits are finite from two values on. Above
-    `MAX_BOOTSTRAP_VALUES` values :math:`t^*` has Student's quantiles.
+    (Efron 1982, section 10.10; Hall 1988), with the mean :math:`\bar x`, the standard deviation
+    :math:`s` and :math:`\alpha = 1 -` ``confidence``. A resample :math:`x^*` has the same size as
+    the sample; to every value in it, a normal error of the variance :math:`s^2/n` is added
+    (Hesterberg 2004). Resamples then vary as much as samples, they never consist of equal values,
+    and the limits are finite from two values on. Above `MAX_BOOTSTRAP_VALUES` values, the quantiles
+    of :math:`t^*` are those of Student's t.
 
-    Its coverage was measured (``docs/statistics.md``): 95 % for normal values of any number, at
-    least 93 % for skewness up to 2 from 10 values on. For long tails it is below the nominal one.
+    The coverage was measured (``docs/statistics.md``): 95 % for any number of normal values, at
+    least 93 % for 10 or more values with a skewness up to 2. For distributions with long tails it
+    is below ``confidence``.
 
-    Equal values, whatever their order, have equal limits; mirrored values have mirrored ones.
+    The limits do not depend on the order of the values; values of opposite sign have limits of
+    opposite sign.
     """
     n = len(values)
     if n == 0:
@@ -68,7 +73,7 @@ def mean_interval(values: Sequence[float], *, confidence: float = 0.95) -> Inter
 
 
 def _quantiles(z_scores: npt.NDArray[np.float64], tail: float) -> tuple[float, float]:
-    """Return the quantiles ``tail`` and ``1 - tail`` of t* for sorted z-scores."""
+    """Return the quantiles ``tail`` and ``1 - tail`` of t* for sorted z-scores (n,)."""
     from scipy.special import stdtrit
 
     n = len(z_scores)
@@ -88,21 +93,27 @@ def _quantiles(z_scores: npt.NDArray[np.float64], tail: float) -> tuple[float, f
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class _Resamples:
-    """The terms of the moments of all resamples of n values, for any values."""
+    """The resamples of n values, in the terms in which any data have their mean and mean square.
+
+    The unit of errors is the standard deviation of the values divided by the root of n.
+    """
 
     shares: npt.NDArray[np.float64]
-    """The number of draws of each value over n, (n, N_RESAMPLES)."""
+    """The number of times that each value is drawn, divided by n, (n, N_RESAMPLES)."""
     errors: npt.NDArray[np.float64]
-    """The sum of the errors [s / sqrt n] at the draws of each value over n, (n, N_RESAMPLES)."""
+    """The sum of the errors that are added to each value, divided by n, (n, N_RESAMPLES)."""
     mean_error: npt.NDArray[np.float64]
-    """The mean error, (N_RESAMPLES,)."""
+    """The mean of the errors in each resample, (N_RESAMPLES,)."""
     square_error: npt.NDArray[np.float64]
-    """The mean squared error, (N_RESAMPLES,)."""
+    """The mean of the squared errors in each resample, (N_RESAMPLES,)."""
 
 
 @functools.lru_cache(maxsize=4)
 def _resamples(n: int) -> _Resamples:
-    """Draw half of the resamples, and mirror them, so that mirrored values have mirrored limits."""
+    """Draw half of the resamples; the other half are their mirror images.
+
+    Values of opposite sign then have limits of opposite sign.
+    """
     rng = stream(0, f"statistics/bootstrap/{n}")
     half = N_RESAMPLES // 2
     draws = rng.integers(0, n, (n, half))

@@ -1,4 +1,4 @@
-"""The median of interval-censored values, with its exact confidence interval."""
+"""The median of values that are known only to lie in brackets, with its confidence interval."""
 
 from __future__ import annotations
 
@@ -9,36 +9,37 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, kw_only=True)
 class Median:
-    """A sample median and the confidence limits of the true median."""
+    """The median of a sample, and the confidence limits of the median of the population."""
 
     n: int
     """The number of values, at least 1."""
     value: float | None
-    """The median of the values; None where it is censored."""
+    """The median of the sample; None if its bracket has an infinite end."""
     low: float | None
-    """The lower limit, minus infinity where it is censored; None for too few values."""
+    """The lower limit, which may be minus infinity; None for too few values."""
     high: float | None
-    """The upper limit, infinity where it is censored; None for too few values."""
+    """The upper limit, which may be infinity; None for too few values."""
     confidence: float | None
     """The confidence level of the limits, at least the requested one; None without limits."""
 
 
 def median_interval(brackets: Sequence[tuple[float, float]], *, confidence: float = 0.95) -> Median:
-    r"""Return the median of values, each of which lies in a bracket, with its exact limits.
+    r"""Return the median of values that lie in brackets, with its exact confidence limits.
 
-    The limits are order statistics. Of n independent values of any distribution, the number below
-    the median is binomial with rate 1/2. The interval from the r-th smallest to the r-th largest
-    value therefore misses the median with probability
+    The limits are order statistics. Of n independent values from any distribution, the number of
+    values below the median of the distribution is binomial with the probability 1/2. The interval
+    from the r-th smallest to the r-th largest value therefore misses that median with the
+    probability
 
     .. math:: 2 \sum_{i<r} \binom{n}{i} 2^{-n}
 
-    (Thompson 1936, *Ann. Math. Stat.* 7, 122). r is the largest for which that is at most
-    :math:`1 - c`: the limits hold with *at least* the requested confidence. The lower limit is the
-    r-th smallest lower end of the brackets, the upper one the r-th largest upper end. An end may be
-    infinite: a value beyond the range of a search is counted, too.
+    (Thompson 1936, *Ann. Math. Stat.* 7, 122). r is the largest number for which this probability
+    is at most 1 - ``confidence``, so the limits hold with *at least* this confidence. The lower
+    limit is the r-th smallest lower end of the brackets, the upper limit the r-th largest upper
+    end. An end is infinite for a value beyond the range of a search.
 
     Args:
-        brackets: (low, high) of each value; either may be infinite.
+        brackets: the lower and upper end of the bracket of each value; ends may be infinite.
         confidence: the least probability that the limits enclose the median.
     """
     n = len(brackets)
@@ -58,7 +59,7 @@ def median_interval(brackets: Sequence[tuple[float, float]], *, confidence: floa
 
 
 def min_values_for_median(confidence: float) -> int:
-    """Return the least number of values that has limits of this confidence."""
+    """Return the least number of values for which there are limits of this confidence."""
     n = 1
     while _limit_rank(n, confidence) == 0:
         n += 1
@@ -66,7 +67,10 @@ def min_values_for_median(confidence: float) -> int:
 
 
 def _limit_rank(n: int, confidence: float) -> int:
-    """Return the largest r whose interval misses with probability 1 - confidence at most."""
+    """Return the largest r whose interval misses the median with at most 1 - confidence.
+
+    It is 0 if there is none.
+    """
     max_miss_probability = (1 - confidence) * (1 + 1e-12)  # 1 - 0.9375 is a little less than 2 / 32
     n_outcomes, rank = 0, 0
     while rank < n // 2:

@@ -1,4 +1,4 @@
-"""Paired tests: two values, or two outcomes, of the same seed and level."""
+"""Paired tests, which compare two values, or two outcomes, with the same seed and level."""
 
 from __future__ import annotations
 
@@ -12,24 +12,26 @@ import numpy.typing as npt
 from ..base.rng import stream
 
 MAX_EXACT_PAIRS = 20
-"""The greatest number of differences of which all 2^n sign patterns are counted."""
+"""The greatest number of differences for which all 2^n sign patterns are evaluated."""
 N_SIGN_PATTERNS = 99_999
-"""The number of sign patterns that are drawn for more differences."""
+"""The number of random sign patterns that are evaluated for more differences."""
 MAX_COUNTED_PAIRS = 200
-"""The number of differences above which the limiting distribution agrees to all printed digits."""
+"""The number of differences above which the limiting distribution (Student's t, or normal) is used;
+it then agrees to all printed digits."""
 
 
 def sign_flip(differences: Sequence[float]) -> float | None:
     r"""Return the two-sided p-value of the sign-flip test of a mean difference of zero.
 
-    If neither of a pair is better, both signs of each difference are equally likely. p is the share
-    of all :math:`2^n` sign patterns whose mean is at least as far from zero as the observed one
-    (Fisher 1935, section 21; Pitman 1937): exact for any distribution, and never below
-    :math:`2/2^n`. Beyond `MAX_EXACT_PAIRS` differences p is :math:`(b+1)/(m+1)` over
-    `N_SIGN_PATTERNS` random patterns (Phipson and Smyth 2010), where b are at least as far. Beyond
-    `MAX_COUNTED_PAIRS` it is that of Student's paired t-test.
+    If neither of the compared algorithms is better, both signs of each difference are equally
+    likely. p is the share of all :math:`2^n` sign patterns for which the mean is at least as far
+    from zero as the observed mean (Fisher 1935, section 21; Pitman 1937). It is exact for any
+    distribution, and never below :math:`2/2^n`. For more than `MAX_EXACT_PAIRS` differences,
+    :math:`m` = `N_SIGN_PATTERNS` random patterns are evaluated, and p is :math:`(b+1)/(m+1)` if the
+    mean is at least as far from zero for b of them (Phipson and Smyth 2010). For more than
+    `MAX_COUNTED_PAIRS` differences, p is that of Student's paired t-test.
 
-    None without differences.
+    The result is None without differences.
     """
     n = len(differences)
     if n == 0:
@@ -53,11 +55,12 @@ def sign_flip(differences: Sequence[float]) -> float | None:
 def signed_rank(differences: Sequence[float]) -> float | None:
     r"""Return the two-sided p-value of Wilcoxon's (1945) signed-rank test.
 
-    :math:`W^+` is the sum of the ranks, by size, of the positive differences; zeros are omitted,
-    ties have their mean rank. Its distribution under :math:`2^n` equally likely sign patterns is
-    counted exactly, ties included, up to `MAX_COUNTED_PAIRS` differences; beyond, it is normal.
+    The differences are ranked by their absolute values; zeros are omitted, and ties have their mean
+    rank. :math:`W^+` is the sum of the ranks of the positive differences. Its distribution over
+    :math:`2^n` equally likely sign patterns is computed exactly, ties included, for up to
+    `MAX_COUNTED_PAIRS` differences, and approximated by a normal distribution for more.
 
-    None without differences; 1 when all are zero.
+    The result is None without differences, and 1 if all differences are zero.
     """
     if len(differences) == 0:
         return None
@@ -85,9 +88,14 @@ def signed_rank(differences: Sequence[float]) -> float | None:
 def mcnemar(first_only: int, second_only: int) -> float:
     r"""Return the two-sided p-value of McNemar's (1947) test in its exact form.
 
-    If neither is better, a pair in which only one succeeds is as likely in favour of either. With b
-    and c such pairs, p is :math:`2\,P(X \le \min(b, c))` with :math:`X \sim B(b + c, 1/2)`, at most
-    1. Pairs in which both or neither succeed have no information about which is better.
+    If neither of two algorithms is better, a pair in which only one of them succeeds is equally
+    likely to favour the first or the second. With b pairs in favour of the first and c in favour of
+    the second, p is :math:`2\,P(X \le \min(b, c))` with :math:`X \sim B(b + c, 1/2)`, at most 1.
+    Pairs in which both or neither succeed contain no information about which algorithm is better.
+
+    Args:
+        first_only: the number b of pairs in which only the first succeeds.
+        second_only: the number c of pairs in which only the second succeeds.
     """
     from scipy.special import bdtr
 
@@ -98,9 +106,9 @@ def mcnemar(first_only: int, second_only: int) -> float:
 def min_p_value(n: int) -> float:
     r"""Return the smallest p-value that `sign_flip` can give for any differences of n pairs.
 
-    It is :math:`2/2^n`, or 1 without pairs, where all sign patterns are counted: the observed one
-    and its mirror image are always as far from zero as the observed one. Where m patterns are drawn
-    it is :math:`1/(m+1)`. Student's test has no smallest one.
+    If all sign patterns are evaluated, it is :math:`2/2^n` (1 without pairs), because the observed
+    pattern and the opposite one always count. If m random patterns are evaluated, it is
+    :math:`1/(m+1)`. For Student's test it is 0.
     """
     if n <= MAX_EXACT_PAIRS:
         return min(1.0, 2.0 ** (1 - n))
@@ -110,16 +118,16 @@ def min_p_value(n: int) -> float:
 def min_pairs(alpha: float) -> int:
     r"""Return the least number of pairs whose sign-flip test can reach ``alpha``: 6 for 5 %.
 
-    :math:`n = \lceil \log_2(2/\alpha) \rceil`: the smallest p of n pairs is :math:`2/2^n`
-    (`min_p_value`). For m tests with Holm's correction use :math:`\alpha/m`: one p has to be that
-    small for any difference to be significant.
+    It is :math:`n = \lceil \log_2(2/\alpha) \rceil`, as the smallest p of n pairs is
+    :math:`2/2^n` (`min_p_value`). For m tests with Holm's correction use :math:`\alpha/m`: the
+    smallest p has to reach that value for any difference to be significant.
     """
     n = max(1, math.ceil(math.log2(2 / alpha)))
     return n - 1 if n > 1 and 2.0 ** (2 - n) <= alpha else n
 
 
 def doubled_ranks(sizes: npt.NDArray[np.float64]) -> npt.NDArray[np.int64]:
-    """Return twice the mean rank of every size, an integer; 2 for the smallest."""
+    """Return twice the mean rank of every size (n,), which is an integer; 2 for the smallest."""
     _, place, counts = np.unique(sizes, return_inverse=True, return_counts=True)
     n_below = np.concatenate([[0], np.cumsum(counts)[:-1]])
     ranks: npt.NDArray[np.int64] = (2 * n_below + counts + 1)[place]
@@ -138,6 +146,6 @@ def _student_p(values: npt.NDArray[np.float64]) -> float:
 
 @functools.lru_cache(maxsize=2)
 def _random_signs(n: int) -> npt.NDArray[np.int8]:
-    """Return signs, (n, N_SIGN_PATTERNS), the same for all data."""
+    """Return random signs, (n, N_SIGN_PATTERNS), which are the same for all data."""
     rng = stream(0, f"statistics/sign-flip/{n}")
     return (2 * rng.integers(0, 2, (n, N_SIGN_PATTERNS), dtype=np.int8) - 1).astype(np.int8)

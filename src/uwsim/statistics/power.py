@@ -1,4 +1,4 @@
-"""The number of repeats for a required power: planning, not inference."""
+"""Power analysis: the number of repeats that a planned comparison needs."""
 
 from __future__ import annotations
 
@@ -11,15 +11,20 @@ MAX_REPEATS = 100_000
 
 
 def power(n: int, d: float, alpha: float = 0.05) -> float:
-    r"""Return the probability that n pairs show a true effect :math:`d_z` of size d.
+    r"""Return the probability that a test of n pairs detects an effect of the size d.
 
-    Two-sided, by the paired t-test (Cohen 1988): with :math:`t_c` the quantile
-    :math:`1 - \alpha/2` of Student's t with n - 1 degrees of freedom,
+    It is the power of the two-sided paired t-test at the level :math:`\alpha` (Cohen 1988),
 
     .. math:: 1 - T_{n-1}(t_c;\, d\sqrt n) + T_{n-1}(-t_c;\, d\sqrt n)
 
-    where T is the noncentral distribution. The sign-flip test has the same power, except that its p
-    has steps.
+    where :math:`t_c` is the quantile :math:`1 - \alpha/2` of Student's t with n - 1 degrees of
+    freedom, and T the distribution function of the noncentral t. The power of the sign-flip test is
+    about the same.
+
+    Args:
+        n: the number of pairs.
+        d: the true effect size :math:`d_z` (`uwsim.statistics.cohens_d`).
+        alpha: the significance level.
     """
     from scipy.special import ncfdtr, stdtrit
 
@@ -34,10 +39,15 @@ def power(n: int, d: float, alpha: float = 0.05) -> float:
 
 
 def repeats_needed(d: float, *, alpha: float = 0.05, target_power: float = 0.8) -> int | None:
-    """Return the least number of pairs that shows an effect of size d with power ``target_power``.
+    """Return the least number of pairs for which the test has the power ``target_power``.
 
-    It is at least the number at which the sign-flip test can reach ``alpha`` (`min_pairs`). None
-    for more than `MAX_REPEATS`, as without an effect.
+    It is at least the number of pairs for which the sign-flip test can reach ``alpha``
+    (`min_pairs`). The result is None if more than `MAX_REPEATS` pairs are needed, as for d = 0.
+
+    Args:
+        d: the true effect size (`power`).
+        alpha: the significance level.
+        target_power: the required probability of detecting the effect.
     """
     low, high = 1, max(2, min_pairs(alpha))
     if power(high, d, alpha) >= target_power:

@@ -1,4 +1,4 @@
-"""Confidence interval of a success rate."""
+"""The confidence interval of a success rate."""
 
 from __future__ import annotations
 
@@ -25,15 +25,16 @@ class Rate:
 
 
 def rate(successes: int, n: int, *, confidence: float = 0.95) -> Rate | None:
-    r"""Return the share of successes with its exact limits; None without trials.
+    r"""Return the share of k successes in n trials, with its exact limits; None without trials.
 
-    The limits are those of Clopper and Pearson (1934): the rates at which so many successes or
-    more, or so few or fewer, have probability :math:`\alpha/2`:
+    The limits are those of Clopper and Pearson (1934). At the lower limit, k or more successes have
+    the probability :math:`\alpha/2`, and at the upper limit k or fewer successes, with
+    :math:`\alpha = 1 -` ``confidence``. They are quantiles of beta distributions,
 
     .. math:: B^{-1}_{\alpha/2}(k, n-k+1), \qquad B^{-1}_{1-\alpha/2}(k+1, n-k)
 
-    They enclose every true rate with *at least* the stated probability, and most rates with a
-    higher one: the interval is conservative.
+    The interval contains the true rate with a probability of *at least* ``confidence``, for most
+    rates with a higher one: it is conservative.
     """
     from scipy.special import betaincinv
 
