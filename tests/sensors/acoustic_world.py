@@ -11,7 +11,7 @@ from uwsim.base.geodesy import Geodetic
 from uwsim.base.geometry import Intrinsics, Pose
 from uwsim.rays import RayScene, Surface
 from uwsim.sensors.pinhole import cast_depth
-from uwsim.world import BodyMotion
+from uwsim.world import BodyMotion, WaterSurface
 
 WORLD_FROM_NED = np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, -1.0]])
 """W is east, north, up."""
@@ -35,7 +35,7 @@ class AcousticWorld:
     ) -> None:  # fmt: skip
         self.rays = Materials(list(sets), materials)
         self.sea_water = SeaWater()
-        self.surface_height = surface_height
+        self.surface = WaterSurface(surface_height)
         self.compatibility = compatibility
         self.seed = seed
         self.world_from_localized = Pose(np.zeros(3), WORLD_FROM_NED)

@@ -24,10 +24,11 @@ from .actuation.autopilot_kernel import Base, steer
 from .actuation.records import AUTOPILOT, AUTOPILOT_STATE, JOINT, JOINT_STATE, POSITION, THRUSTER
 from .actuation.servo_kernel import EngineArrays, advance_requests, apply_servos
 from .engine_warnings import find_excess_speed
-from .hydrodynamics.columns import OMEGA, WATER_COLUMNS
+from .hydrodynamics.columns import ELEVATION, OMEGA, SLOPE_X, SLOPE_Y, WATER_COLUMNS
 from .hydrodynamics.kernel import fields as f
+from .hydrodynamics.kernel.flow import submerged_middle
 from .hydrodynamics.kernel.free_bodies import move_to_end, move_to_middle
-from .hydrodynamics.water_function import POINT, ROTATION, VELOCITY, WATER_ROW
+from .hydrodynamics.water_function import POINT, ROTATION, SURFACE, VELOCITY, WATER_ROW
 from .islands import choose_islands
 
 _MINVAL = 1e-15  # mjMINVAL
@@ -69,6 +70,7 @@ PLAN = np.dtype(
         ("flow", np.int64),  # the addresses of a `WaterFunction` and its parameters
         ("flow_parameters", np.int64),
         ("needs_points", np.int64),  # 1 if this function reads the positions of the points
+        ("follows_surface", np.int64),  # 1 if it needs the middles of the submerged parts
         ("n_water", np.int64),  # the number of further steps in which this function is called
     ],
     align=True,
@@ -209,6 +211,10 @@ def set_water(plan: Record, o: Ints64) -> None:
                 rows[i, POINT + k] = (
                     origin[k] + axes[3 * k] * x + axes[3 * k + 1] * y + axes[3 * k + 2] * z
                 )
+            if plan.follows_surface != 0:
+                rows[i, POINT + 2] = submerged_middle(
+                    plan.model, d, o, bodies[i], rows[i, POINT + 2]
+                )
     time = (plan.step + plan.step_offset + 1) * plan.timestep - 0.5 * plan.timestep
     call(plan.flow, plan.flow_parameters, plan.water_rows, time)
     userdata = view_doubles(read_int64(d + o[f.USERDATA]), read_int64(plan.model + o[f.NUSERDATA]))
@@ -218,6 +224,9 @@ def set_water(plan: Record, o: Ints64) -> None:
             userdata[start + k] = rows[i, VELOCITY + k]
         for k in range(3):
             userdata[start + OMEGA + k] = rows[i, ROTATION + k]
+        userdata[start + ELEVATION] = rows[i, SURFACE]
+        userdata[start + SLOPE_X] = rows[i, SURFACE + 1]
+        userdata[start + SLOPE_Y] = rows[i, SURFACE + 2]
     plan.n_water -= 1
 
 

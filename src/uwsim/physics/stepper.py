@@ -41,6 +41,7 @@ def _word(name: str) -> int:
 _STEP, _SAMPLES, _OFFSET = map(_word, ("step", "samples", "step_offset"))
 _FLOW, _FLOW_PARAMETERS = map(_word, ("flow", "flow_parameters"))
 _NEEDS_POINTS, _N_WATER = map(_word, ("needs_points", "n_water"))
+_FOLLOWS_SURFACE = _word("follows_surface")
 _DRIFT, _DRIFT_PARAMETERS = map(_word, ("drift", "drift_parameters"))
 
 
@@ -193,6 +194,7 @@ class Stepper:
             self.state.has_flow = True
             words[_FLOW], words[_FLOW_PARAMETERS] = water.function, water.address
             words[_NEEDS_POINTS], words[_N_WATER] = water.needs_points, 1 if water.is_steady else n
+            words[_FOLLOWS_SURFACE] = water.follows_surface
             return
         words[_NEEDS_POINTS] = words[_N_WATER] = 0
         if self.state.has_flow:

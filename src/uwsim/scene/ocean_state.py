@@ -11,6 +11,7 @@ from ..acoustics import SeaWater
 from ..base.geometry import Triple
 from ..currents import CURRENTS, CurrentSpec
 from ..schema import MAX_DISTANCE, NAMESPACE, REQUIRED_BY_DTD, Numbers, Original, Spec, element
+from ..waves import WAVE_SYSTEMS, WaveSystemSpec
 from .seawater import sea_water_density
 
 NIGHT_BLUE: Triple = (0.0, 0.05, 0.3)
@@ -119,6 +120,11 @@ class OceanStateSpec(Spec):
         choice={f"{{{NAMESPACE}}}{name}": spec for name, spec in CURRENTS.items()},
     )  # fmt: skip
     """The currents, whose velocities are added."""
+    waves: tuple[WaveSystemSpec, ...] = element(
+        namespaced=True, default=(),
+        choice={f"{{{NAMESPACE}}}{name}": spec for name, spec in WAVE_SYSTEMS.items()},
+    )  # fmt: skip
+    """The wave systems of the surface, which add up; when absent the surface is level."""
 
     @property
     def sea_water(self) -> SeaWater:

@@ -162,7 +162,7 @@ class Dvl(CompiledSensor):
         row["dropout"], row["water_layer"] = spec.dropout, spec.water_layer
         row["min_altitude"], row["max_altitude"] = spec.min_altitude, spec.max_altitude
         row["surface"], row["measures_differences"] = (
-            self._world.surface_height,
+            self._world.surface.height,
             self._measures_differences,
         )
         row["is_own"], row["flow"] = address_of(self._is_own), address_of(self._flow)

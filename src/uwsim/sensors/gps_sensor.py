@@ -22,13 +22,14 @@ from typing import ClassVar
 import numpy as np
 
 from ..base.geometry import Array
+from ..base.numerics.calls import FUNCTION
 from ..base.numerics.draws import STREAM, normal, stream_of
 from ..base.numerics.memory import carray, pointer, view_doubles
 from ..base.record import RandomState
 from ..messages import NavSatFix, NavSatStatus, header
 from ..schema import MAX_DISTANCE, element
 from ..world import Mount, SensorWorld
-from ..world.mounts import MOUNT, read_frame
+from ..world.mounts import MOUNT, read_frame, read_surface
 from .sensor import Carrier, CompiledSensor, SensorSpec, create_sampler
 
 NO_FIX, FIX = -1, 0
@@ -62,10 +63,18 @@ class GpsSensorSpec(SensorSpec):
         return GpsSensor(self, vehicle.mount(self), world, rng)
 
 
-GNSS = np.dtype([("mount", MOUNT), ("stream", STREAM), ("std", np.float64)])  # std in [m]
+GNSS = np.dtype(
+    [
+        ("mount", MOUNT),
+        ("stream", STREAM),
+        ("std", np.float64),  # [m]
+        ("waves", FUNCTION),  # see `read_surface`
+    ]
+)
 """The parameters of a satellite receiver, for compiled code."""
-N_VALUES = 6
-"""The number of values of a sample: the position in W, then its noise along x, y and z [m]."""
+N_VALUES = 7
+"""The number of values of a sample: the position in W, its noise along x, y and z, and the
+elevation of the surface above its still height [m]."""
 
 
 class GpsSensor(CompiledSensor):
@@ -80,13 +89,14 @@ class GpsSensor(CompiledSensor):
         self._publishes_metres = "gps-metres" in world.compatibility
         row = np.zeros(1, GNSS)
         row["mount"], row["stream"], row["std"] = mount.functions, stream_of(rng), spec.std
-        self.sampler = create_sampler(mount, sample_gps, row, N_VALUES, (self.state,))
+        row["waves"] = world.surface.wave_addresses
+        self.sampler = create_sampler(mount, sample_gps, row, N_VALUES, (self.state, world.surface))
         """The sampler."""
 
     def message(self, time: float, values: Array) -> NavSatFix | None:
         """Return the message of a sample at ``time`` [s]; None for no message."""
-        position, noise = values[:3], values[3:]
-        if self._world.surface_height - float(position[2]) >= self._spec.max_depth:
+        position, noise, elevation = values[:3], values[3:6], float(values[6])
+        if self._world.surface.height + elevation - float(position[2]) >= self._spec.max_depth:
             return None if self._publishes_metres else self._no_fix(time)
         latitude, longitude, altitude = self._coordinates(position, noise)
         return NavSatFix(
@@ -124,7 +134,7 @@ def sample_gps(parameters: int, values: int, time: float) -> None:
     """Take a sample of a satellite receiver; see `uwsim.base.numerics.calls`."""
     sensor, output, frame = (
         carray(pointer(parameters), (1,), GNSS)[0],
-        view_doubles(values, 6),
+        view_doubles(values, N_VALUES),
         np.empty(12),
     )
     read_frame(sensor.mount, frame)
@@ -132,3 +142,4 @@ def sample_gps(parameters: int, values: int, time: float) -> None:
         output[k] = frame[k]
     for k in range(3, 6):
         output[k] = sensor.std * normal(sensor.stream)
+    output[6], _ = read_surface(sensor.waves, frame, time)

@@ -10,8 +10,9 @@ r"""Depth, or pressure, at the sensor.
       <u:measures>pressure</u:measures> <u:atmosphere>100800</u:atmosphere>
     </pressureSensor>
 
-The pressure is hydrostatic: :math:`p = p_0 + g \int_0^d \rho \, dz` at the depth d below the still
-surface, with the water's density over depth; above the surface it is the air pressure :math:`p_0`.
+The pressure is :math:`p = p_0 + g \int_0^d \rho \, dz + p_w` at the depth d below the still
+surface, with the water's density over depth and the dynamic pressure :math:`p_w` of waves. Above
+the surface it is the air pressure :math:`p_0`. A measured depth is :math:`d + p_w / (\rho g)`.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 
 from ..base.geometry import Array
-from ..base.numerics.calls import address_of
+from ..base.numerics.calls import FUNCTION, address_of
 from ..base.numerics.draws import STREAM, normal, stream_of
 from ..base.numerics.jit import njit
 from ..base.numerics.memory import carray, pointer, view_doubles
@@ -30,7 +31,7 @@ from ..base.record import RandomState
 from ..messages import Pressure, header
 from ..schema import MAX_DISTANCE, element
 from ..world import GRAVITY, Mount, SensorWorld
-from ..world.mounts import MOUNT, read_frame
+from ..world.mounts import MOUNT, read_frame, read_surface
 from .sensor import Carrier, CompiledSensor, SensorSpec, create_sampler
 
 Quantity = Literal["depth", "pressure", "gauge"]
@@ -73,7 +74,8 @@ PRESSURE = np.dtype(
         ("stream", STREAM),
         ("std", np.float64),  # of the noise [m or Pa]
         ("measures", np.int64),  # DEPTH, PRESSURE_ABSOLUTE, PRESSURE_GAUGE or HEIGHT
-        ("surface", np.float64),  # height of the water's surface in W [m]
+        ("surface", np.float64),  # height of the still surface in W [m]
+        ("waves", FUNCTION),  # see `read_surface`
         ("atmosphere", np.float64),  # [Pa]
         ("levels", np.int64),  # the address of depths [m] and densities [kg/m3], (n, 2)
         ("n_levels", np.int64),
@@ -106,12 +108,15 @@ class PressureSensor(CompiledSensor):
             spec.measures
         ]
         row["measures"] = HEIGHT if measures_height else measures
-        row["surface"], row["atmosphere"] = world.surface_height, spec.atmosphere
+        row["surface"], row["atmosphere"] = world.surface.height, spec.atmosphere
+        row["waves"] = world.surface.wave_addresses
         row["levels"], row["n_levels"] = address_of(levels), len(levels)
         localized_from_world = world.world_from_localized.inverse()
         row["upward"] = localized_from_world.rotation[2]
         row["origin"] = localized_from_world.position[2]
-        self.sampler = create_sampler(mount, sample_pressure, row, 1, (self.state, levels))
+        self.sampler = create_sampler(
+            mount, sample_pressure, row, 1, (self.state, levels, world.surface)
+        )
         """The sampler."""
 
     def message(self, time: float, values: Array) -> Pressure:
@@ -122,13 +127,13 @@ class PressureSensor(CompiledSensor):
 def sample_pressure(parameters: int, values: int, time: float) -> None:
     """Take a sample of a pressure sensor; see `uwsim.base.numerics.calls`."""
     sensor = carray(pointer(parameters), (1,), PRESSURE)[0]
-    view_doubles(values, 1)[0] = compute_noise_free_value(sensor) + sensor.std * normal(
+    view_doubles(values, 1)[0] = compute_noise_free_value(sensor, time) + sensor.std * normal(
         sensor.stream
     )
 
 
 @njit
-def compute_noise_free_value(sensor: Any) -> float:
+def compute_noise_free_value(sensor: Any, time: float) -> float:
     """Return the measured quantity without noise [m, or Pa]."""
     frame = np.empty(12)
     read_frame(sensor.mount, frame)
@@ -136,12 +141,17 @@ def compute_noise_free_value(sensor: Any) -> float:
         up = sensor.upward
         height: float = up[0] * frame[0] + up[1] * frame[1] + up[2] * frame[2] + sensor.origin
         return height
+    elevation, wave_pressure = read_surface(sensor.waves, frame, time)
     signed_depth = sensor.surface - frame[2]
-    depth: float = signed_depth if signed_depth > 0.0 else 0.0
+    if signed_depth <= -elevation:  # above the surface
+        signed_depth, wave_pressure = 0.0, 0.0
     if sensor.measures == DEPTH:
-        return depth
+        depth: float = signed_depth + wave_pressure / GRAVITY
+        return depth if depth > 0.0 else 0.0
     levels = view_doubles(sensor.levels, 2 * sensor.n_levels).reshape((-1, 2))
-    gauge: float = GRAVITY * column_mass(levels, depth)
+    mass = column_mass(levels, signed_depth) if signed_depth > 0.0 else levels[0, 1] * signed_depth
+    gauge: float = GRAVITY * mass + levels[0, 1] * wave_pressure
+    gauge = gauge if gauge > 0.0 else 0.0
     return gauge if sensor.measures == PRESSURE_GAUGE else sensor.atmosphere + gauge
 
 

@@ -22,6 +22,7 @@ from .parts import (
     Mount,
     MovingBody,
     Rays,
+    WaterSurface,
 )
 from .views import DeviceWorld, ForceWorld, SensorWorld, Stage, TimedWorld, World
 
@@ -45,5 +46,6 @@ __all__ = [
     "SensorWorld",
     "Stage",
     "TimedWorld",
+    "WaterSurface",
     "World",
 ]

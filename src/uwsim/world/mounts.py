@@ -17,6 +17,9 @@ their parameters.
 See `uwsim.base.numerics.calls`; ``motion`` is 0 if the motion is not read.
 """
 
+N_SURFACE_VALUES = 5
+"""The values of `read_surface`: the point (3,), the elevation, the pressure."""
+
 Record = Any
 
 
@@ -55,3 +58,25 @@ def read_water(water: Record, points: Array, time: float) -> None:
         time: the simulation time [s].
     """
     call(water.function, water.parameters, points.ctypes.data, time)
+
+
+@njit
+def read_surface(surface: Record, point: Array, time: float) -> tuple[float, float]:
+    """Return the elevation of the surface above a point, and the dynamic pressure there.
+
+    Args:
+        surface: a record of `FUNCTION`; its first number is 0 under a level surface.
+        point: the point in W; only the first three numbers are read [m].
+        time: the simulation time [s].
+
+    Returns:
+        The elevation above the still surface [m], and the dynamic pressure over the density of the
+        water [m2/s2].
+    """
+    if surface.function == 0:
+        return 0.0, 0.0
+    values = np.zeros(N_SURFACE_VALUES)
+    for k in range(3):
+        values[k] = point[k]
+    call(surface.function, surface.parameters, values.ctypes.data, time)
+    return values[3], values[4]

@@ -38,6 +38,21 @@ class Box:
         return corners
 
 
+@dataclass(frozen=True, eq=False)
+class WaterSurface:
+    """The surface of the water."""
+
+    height: float
+    """The height of the still surface in W [m]."""
+    waves: CompiledFunction | None = None
+    """The function of its waves, see `uwsim.world.mounts.read_surface`; None if it is level."""
+
+    @property
+    def wave_addresses(self) -> tuple[int, int]:
+        """The numbers of `calls.FUNCTION`: the addresses of the waves, 0 if it is level."""
+        return (0, 0) if self.waves is None else self.waves.addresses
+
+
 class Body(Protocol):
     """A vehicle, a link or an object, with a name and a pose."""
 

@@ -16,7 +16,7 @@ from ..base.numerics.calls import CompiledFunction
 from ..base.sampling import Sampling
 from ..bus import Bus
 from ..network import Network
-from .parts import Actuators, Attachment, Body, Camera, Contact, Flow, Rays
+from .parts import Actuators, Attachment, Body, Camera, Contact, Flow, Rays, WaterSurface
 
 
 class TimedWorld(Protocol):
@@ -200,8 +200,8 @@ class SensorWorld(TimedWorld, Protocol):
         """The acoustic properties of the water."""
 
     @property
-    def surface_height(self) -> float:
-        """The height of the water's surface in W [m]."""
+    def surface(self) -> WaterSurface:
+        """The surface of the water."""
 
     @property
     def density_levels(self) -> Sequence[tuple[float, float]]:

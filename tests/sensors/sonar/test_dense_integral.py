@@ -68,7 +68,7 @@ def dense_power(
     off = 2.0 * (azimuth[met] - beam) / math.radians(spec.beam_width)
     pattern = np.sinc(u / math.pi) ** 4 * np.where(np.abs(off) <= 2.5, 2.0 ** -(off**2), 0.0)
     solid = (right - left) * (high - low) / n**2 * level[met]
-    alpha = world.sea_water.absorption(spec.frequency, world.surface_height - pose.position[2])
+    alpha = world.sea_water.absorption(spec.frequency, world.surface.height - pose.position[2])
     strength = 10.0 ** (0.1 * (spec.source_level - 120.0 - 2.0 * alpha * r))
     return r, strength * pattern * sigma * solid / (r**2 * np.maximum(cosine, 0.02))
 

@@ -8,7 +8,13 @@ import numpy as np
 
 from uwsim.base.numerics.calls import call
 from uwsim.base.numerics.jit import njit
-from uwsim.physics.hydrodynamics.water_function import POINT, VELOCITY, WATER_ROW, WaterFunction
+from uwsim.physics.hydrodynamics.water_function import (
+    POINT,
+    SURFACE,
+    VELOCITY,
+    WATER_ROW,
+    WaterFunction,
+)
 
 
 @njit
@@ -22,5 +28,5 @@ def rows_of(water: WaterFunction, points: np.ndarray, times: Sequence[float]) ->
     found, rows = [], np.zeros((len(points), WATER_ROW))
     rows[:, POINT:VELOCITY] = points
     for time in times[:1] if water.is_steady else times:
-        found.append(ask(water.function, water.address, rows, time)[:, VELOCITY:].copy())
+        found.append(ask(water.function, water.address, rows, time)[:, VELOCITY:SURFACE].copy())
     return np.array(found * len(times) if water.is_steady else found)

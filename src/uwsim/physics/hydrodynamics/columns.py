@@ -14,13 +14,14 @@ ACTUATOR_COLUMNS = 68
 """The value of ``nuser_actuator``."""
 WATER_COLUMNS = 12
 """The number of columns of a body's row in ``userdata``, about the water at the body in the world
-frame: velocity (3) [m/s], acceleration (3) [m/s2], height of the surface above still water [m],
-spare, angular velocity (3) [rad/s], spare. The rows of all bodies are followed by a number for each
-actuator: the loss of a thruster, from 0 (healthy) to 1 (dead), or the commanded angle of a fin
-[rad]; then by another: the share of a thruster's static thrust that is lost by inflow [1]."""
+frame: velocity (3) [m/s], acceleration (3) [m/s2], height of the surface above still water [m], its
+slope along x [1], angular velocity (3) [rad/s], slope along y [1]. The rows of all bodies are
+followed by a number for each actuator: the loss of a thruster, from 0 (healthy) to 1 (dead), or the
+commanded angle of a fin [rad]; then by another: the share of a thruster's static thrust that is
+lost by inflow [1]."""
 
-OMEGA = 8
-"""The column of the water's angular velocity."""
+ELEVATION, SLOPE_X, OMEGA, SLOPE_Y = 6, 7, 8, 11
+"""The columns of the surface's elevation, its slopes, and the water's angular velocity."""
 
 # the row of the world body: the water as a whole
 MAGIC, SURFACE, DENSITY = 0, 1, 2  # `MAGIC_NUMBER`, height of the still water [m], [kg/m3]

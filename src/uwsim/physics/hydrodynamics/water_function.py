@@ -12,10 +12,10 @@ from ...base.geometry import Array
 from ...base.numerics.calls import address_of, call
 from ...base.numerics.jit import njit
 
-POINT, VELOCITY, ACCELERATION, ROTATION, WATER_ROW = 0, 3, 6, 9, 12
-"""The columns of the row of a body, in W: a point [m], and the velocity [m/s], the acceleration
-[m/s2] and the angular velocity [rad/s] of the water at the point; the last is the length of a row.
-"""
+POINT, VELOCITY, ACCELERATION, ROTATION, SURFACE, WATER_ROW = 0, 3, 6, 9, 12, 15
+"""The columns of the row of a body, in W: a point [m], the velocity [m/s], the acceleration [m/s2]
+and the angular velocity [rad/s] of the water at the point, and the elevation of the surface above
+it [m] with its slopes along x and y [1]; the last is the length of a row."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -32,6 +32,8 @@ class WaterFunction:
     """The array whose address the function receives."""
     needs_points: bool = False
     """True if the function reads the points, which must then be up to date."""
+    follows_surface: bool = False
+    """True if the point of a body that pierces the surface is the middle of its submerged part."""
     is_steady: bool = False
     """True if the motion in the first step of a run holds for all other steps."""
     memory_owners: tuple[object, ...] = field(default=())

@@ -163,7 +163,7 @@ class Echoes:
         hits = self._world.rays.cast(pose, directions, reach)
         normal = product(hits.normal, pose.rotation)
         up = rotate_back(pose.rotation, np.array([0.0, 0.0, 1.0]))
-        surface_height = self._world.surface_height - pose.position[2]
+        surface_height = self._world.surface.height - pose.position[2]
         rise = product(directions, up)
         to_surface = np.full(len(rise), np.inf)
         if len(rise) and 0.0 < surface_height < reach * float(rise.max()):
@@ -185,7 +185,7 @@ class Echoes:
         grid, world_from_sonar = self.grid, ping.world_from_sonar
         mirror = np.diag([1.0, 1.0, -1.0])
         position = world_from_sonar.position.copy()
-        position[2] = 2.0 * self._world.surface_height - position[2]
+        position[2] = 2.0 * self._world.surface.height - position[2]
         rotation = product(mirror, world_from_sonar.rotation)
         starts = np.where(np.isfinite(to_surface), to_surface, self._spec.range)
         hits = self._world.rays.cast(
@@ -198,7 +198,7 @@ class Echoes:
         add_echoes(power, sonar_hits, grid.directions, rows, ping.materials, ping.bins)
 
     def _depth(self, world_from_sonar: Pose) -> float:
-        return max(0.0, self._world.surface_height - float(world_from_sonar.position[2]))
+        return max(0.0, self._world.surface.height - float(world_from_sonar.position[2]))
 
 
 @lru_cache(maxsize=16)

@@ -26,6 +26,7 @@ from ...physics.hydrodynamics.water_function import (
     ACCELERATION,
     POINT,
     ROTATION,
+    SURFACE,
     VELOCITY,
     WATER_ROW,
     WaterFunction,
@@ -117,7 +118,7 @@ def write_next_rows(parameters: int, values: int, time: float) -> None:
     table = carray(pointer(parameters), (1,), ROWS)[0]
     if table.n_left == 0:
         return
-    size = WATER_ROW - VELOCITY
+    size = SURFACE - VELOCITY
     source, rows = (
         view_doubles(table.rows, size * table.n),
         view_doubles(values, WATER_ROW * table.n),
@@ -190,7 +191,7 @@ def add_shear(
         for k in range(3):
             axis_1, axis_2 = (k + 1) % 3, (k + 2) % 3
             rotation[k] = 0.5 * (gradient[axis_2, axis_1] - gradient[axis_1, axis_2])
-        globalize(water.rotation, rotation, rows[i, ROTATION:WATER_ROW])
+        globalize(water.rotation, rotation, rows[i, ROTATION:SURFACE])
 
 
 @njit

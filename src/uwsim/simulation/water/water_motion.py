@@ -1,9 +1,9 @@
-"""The motion of the water in a scene: its currents, and a flow that programs or updaters add."""
+"""The motion of the water in a scene: currents, waves, and a flow that is added while it runs."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TypeVar
 
@@ -18,14 +18,17 @@ from ...base.record import Record
 from ...currents import SceneContext, TotalCurrent, bind_currents
 from ...currents.current import flow_function_of, is_steady
 from ...currents.flow_function import FlowFunction
+from ...errors import UwsimError
 from ...model.robots import find_file
 from ...model.scene_model import SceneModel
 from ...physics.hydrodynamics.water_function import DriftFunction, WaterFunction
 from ...scene.spec import SceneSpec
+from ...waves import SeaSettings, bind_waves
 from ...world import Flow
 from .drift_kernel import drift_function
 from .point_kernel import point_function
 from .water_kernel import SHEAR_DISTANCE, flow_function, row_function
+from .wave_kernel import add_waves, add_waves_to_drift, add_waves_to_points
 
 F = TypeVar("F")
 _CachedFunction = tuple[Flow | None, Sequence[str], FlowFunction | None, F | None]
@@ -39,6 +42,8 @@ class WaterState(Record):
 
     added_flow: Flow | None = None
     """The flow that is added to the currents of the scene; None: none."""
+    wave_scale: Array = field(default_factory=lambda: np.ones(1))
+    """The factor on the wave heights of the scene, (1,) [1]."""
 
 
 class WaterMotion:
@@ -59,10 +64,16 @@ class WaterMotion:
         self._last_added_flow: Flow | None = None
         self._sum: Flow = self._scene_current
         self.state = WaterState()
-        """The state: the added flow."""
+        """The state: the added flow and the scale of the waves."""
+        self.waves = bind_waves(
+            scene.ocean_state.waves, sea_settings(scene), context, self.state.wave_scale
+        )
+        """The waves; None of a level surface."""
         # the flow and the vehicles for which the functions are valid, and the functions
         self._water_cache: _CachedFunction[WaterFunction] = None, (), None, None
         self._drift_cache: _CachedFunction[DriftFunction] = None, (), None, None
+        # the functions of the currents, and with waves
+        self._wave_cache: tuple[WaterFunction | None, WaterFunction | None] = None, None
         # the flow for which the functions are valid; the functions by vehicle and number of points
         self._point_cache: tuple[Flow, dict[tuple[str, int], CompiledFunction | None]] = (
             self._sum,
@@ -76,6 +87,28 @@ class WaterMotion:
     def set(self, current: Flow | None) -> None:
         """Add a flow to the currents of the scene; None removes it."""
         self.state.added_flow = current
+
+    def set_wave_height(self, height: float | None) -> None:
+        """Set the significant wave height; None gives that of the scene.
+
+        Args:
+            height: the significant wave height of all wave systems together [m].
+
+        Raises:
+            UwsimError: the scene has no waves of which the height could change.
+        """
+        stated_height = 0.0 if self.waves is None else self.waves.significant_height
+        if height is not None and stated_height == 0.0:
+            raise UwsimError(
+                "The scene has no waves whose height could change; "
+                "expected <u:waves> with a height above 0 in its <oceanState>."
+            )
+        self.state.wave_scale[0] = 1.0 if height is None else height / stated_height
+
+    @property
+    def surface_function(self) -> CompiledFunction | None:
+        """The function of the surface, see `uwsim.world.mounts.read_surface`; None if level."""
+        return None if self.waves is None else self.waves.surface_function
 
     @property
     def _flow(self) -> Flow:
@@ -91,7 +124,7 @@ class WaterMotion:
     @property
     def is_still(self) -> bool:
         """True if the water does not move at all."""
-        return self._flow.is_still
+        return self._flow.is_still and self.waves is None
 
     def needs_positions(self, vehicles: Sequence[str]) -> bool:
         """Return whether `motion_during` needs the positions of the bodies in every step."""
@@ -115,6 +148,22 @@ class WaterMotion:
             timestep: the length of a step [s].
             vehicles: the name of the vehicle of each body; empty for other bodies.
         """
+        currents = self._currents_during(positions, steps, timestep, vehicles)
+        waves = self.waves
+        if waves is None:
+            return currents
+        if self._wave_cache[1] is None or self._wave_cache[0] is not currents:
+            self._wave_cache = currents, add_waves(currents, waves, len(vehicles))
+        return self._wave_cache[1]
+
+    def _currents_during(
+        self,
+        positions: Callable[[], Array],
+        steps: range,
+        timestep: float,
+        vehicles: Sequence[str],
+    ) -> WaterFunction | None:
+        """Return the motion of the water without waves, as `motion_during`."""
         flow = self._flow
         if flow.is_still:
             return None
@@ -152,6 +201,8 @@ class WaterMotion:
                 function = drift_function(
                     compiled_flow, self._world_from_localized, numbers, timestep
                 )
+            if self.waves is not None and (function is not None or flow.is_still):
+                function = add_waves_to_drift(function, self.waves, len(vehicles), timestep)
             self._drift_cache = flow, vehicles, compiled_flow, function
         if compiled_flow is not None:
             compiled_flow.prepare(end)
@@ -231,11 +282,13 @@ class WaterMotion:
             time: the time [s].
             vehicle: the name of the vehicle of the points; some currents differ by vehicle.
         """
-        if self.is_still:
-            return np.zeros((len(points), 3))
-        local_points = self._localized_from_world.transform(points)
-        velocity = self._flow.velocity(local_points, time, (vehicle,) * len(points))
-        return product(velocity, self._localized_from_world.rotation)
+        velocity = np.zeros((len(points), 3))
+        if not self._flow.is_still:
+            local_points = self._localized_from_world.transform(points)
+            velocity = self._flow.velocity(local_points, time, (vehicle,) * len(points))
+            velocity = product(velocity, self._localized_from_world.rotation)
+        waves = self.waves
+        return velocity if waves is None else velocity + waves.motion(points, time).velocity
 
     def velocity_function(self, vehicle: str, n: int) -> CompiledFunction | None:
         """Return `velocity` as a compiled function; None if Python has to compute the flow.
@@ -251,9 +304,12 @@ class WaterMotion:
         if (vehicle, n) not in functions:
             function = None if flow.is_still else flow_function_of(flow, (vehicle,))
             needs_python = function is None and not flow.is_still
-            functions[vehicle, n] = (
+            point_velocity = (
                 None if needs_python else point_function(function, self._localized_from_world, n)
             )
+            if point_velocity is not None and self.waves is not None:
+                point_velocity = add_waves_to_points(point_velocity, self.waves, n)
+            functions[vehicle, n] = point_velocity
         return functions[vehicle, n]
 
     def drifted_pose(
@@ -263,6 +319,9 @@ class WaterMotion:
         point = self._localized_from_world.transform(world_from_base.position[None])  # (1, 3) [m]
         velocity = self._flow.velocity(point, time, (vehicle,))[0]  # (3,) [m/s]
         position = self._world_from_localized.transform(point + velocity * timestep)[0]
+        waves = self.waves
+        if waves is not None:
+            position += waves.motion(world_from_base.position[None], time).velocity[0] * timestep
         return Pose(position, world_from_base.rotation)
 
 
@@ -289,6 +348,18 @@ def _spread_rows(motions: Array, numbers: npt.NDArray[np.int64], turn: Array) ->
                         total += motions[t, kind, numbers[i], j] * turn[j, k]
                     rows[t, i, 3 * kind + k] = total
     return rows
+
+
+def sea_settings(scene: SceneSpec) -> SeaSettings:
+    """Return the settings of a scene's sea that wave systems may need."""
+    ocean = scene.ocean_state
+    return SeaSettings(
+        depth=ocean.depth,
+        wind=(ocean.windx, ocean.windy),
+        wind_speed=ocean.wind_speed,
+        reflection_damping=ocean.reflection_damping,
+        wave_scale=ocean.wave_scale,
+    )
 
 
 def water_motion(

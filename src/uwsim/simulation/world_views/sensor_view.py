@@ -7,6 +7,7 @@ import numpy.typing as npt
 
 from ...base.geometry import Intrinsics, Pose
 from ...sensors.pinhole import cast_depth
+from ...world import WaterSurface
 from ..physical_scene import PhysicalScene
 from .scene_view import SceneView
 
@@ -31,8 +32,10 @@ class SensorView(SceneView):
         """The ray casting against the scene."""
         self.sea_water = spec.ocean_state.sea_water
         """The water as an acoustic medium."""
-        self.surface_height = spec.ocean_state.ocean_surface_height
-        """The height of the water's surface in W [m]."""
+        self.surface = WaterSurface(
+            spec.ocean_state.ocean_surface_height, scene.water.surface_function
+        )
+        """The surface of the water."""
         self.density_levels = scene.model.density_levels
         """The depth [m] and density [kg/m3] of each level of the water; uniform water has one."""
         self.earth_origin = spec.earth_origin

@@ -78,6 +78,34 @@ def reference_point(table: Floats, xpos: Floats, axes: Floats, com: Floats) -> t
 
 
 @njit
+def surface_plane(
+    table: Floats, axes: Floats, height: float, surface: float, water: Floats
+) -> tuple[Three, float]:
+    """Return the plane of the surface at a body: its normal, and the depth below it.
+
+    Args:
+        table: the body's table.
+        axes: world_from_body.
+        height: the height of the reference point in W [m].
+        surface: the height of the still surface in W [m].
+        water: the body's row of the water.
+
+    Returns:
+        The normal in the axes of the body, which is the vertical under a level surface, and the
+        depth of the reference point below the plane [m].
+    """
+    a, b = water[c.SLOPE_X], water[c.SLOPE_Y]
+    if a == 0.0 and b == 0.0:
+        return (axes[6], axes[7], axes[8]), surface + water[c.ELEVATION] - height
+    size = math.sqrt(1.0 + a * a + b * b)
+    up = to_body(axes, -a / size, -b / size, 1.0 / size)
+    x, y, z = table[c.CENTRE], table[c.CENTRE + 1], table[c.CENTRE + 2]
+    centre_height = height + axes[6] * x + axes[7] * y + axes[8] * z
+    depth = (surface + water[c.ELEVATION] - centre_height) / size  # of the centre
+    return up, depth + (up[0] * x + up[1] * y + up[2] * z)
+
+
+@njit
 def submerged_part(table: Floats, up: Three, depth: float) -> tuple[float, Three]:
     """Return the submerged fraction of a body, and its centre from the reference point [m].
 

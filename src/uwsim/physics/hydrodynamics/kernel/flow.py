@@ -1,4 +1,4 @@
-"""The flow of the water past a point of a body: at a propeller, at a fin."""
+"""The water at a point of a body: its flow at a propeller or a fin, its surface, its density."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from ....base.numerics.memory import (
 )
 from .. import columns as c
 from . import fields as f
-from .equations import Three, relative_twist
+from .equations import Three, relative_twist, submerged_part, surface_plane
 
 
 @njit
@@ -78,6 +78,40 @@ def submersion(m: int, d: int, o: Ints64, site: int, body: int, radius: float) -
     surface = read_double(read_int64(m + o[f.BODY_USER]) + 8 * c.SURFACE)
     surface += read_double(read_int64(d + o[f.USERDATA]) + 8 * (c.WATER_COLUMNS * body + 6))
     return min(max(0.5 + 0.5 * (surface - height) / radius, 0.0), 1.0)
+
+
+@njit
+def submerged_middle(m: int, d: int, o: Ints64, body: int, height: float) -> float:
+    """Return the height of the middle of the submerged part of a body in W [m].
+
+    It is that below the surface of the last step.
+
+    Args:
+        m: the address of the model.
+        d: the address of the data.
+        o: the offsets of the fields.
+        body: the number of the body.
+        height: the height of the whole body's centre, which is returned unless the body pierces the
+            surface.
+    """
+    tables = read_int64(m + o[f.BODY_USER])
+    table = view_doubles(tables + 8 * c.BODY_COLUMNS * body, c.BODY_COLUMNS)
+    water = view_doubles(
+        read_int64(d + o[f.USERDATA]) + 8 * c.WATER_COLUMNS * body, c.WATER_COLUMNS
+    )
+    surface = read_double(tables + 8 * c.SURFACE)
+    if surface + water[c.ELEVATION] - height >= 2.0 * table[c.REACH]:
+        return height
+    axes = view_doubles(read_int64(d + o[f.XMAT]) + 72 * body, 9)
+    x, y, z = table[c.REFERENCE], table[c.REFERENCE + 1], table[c.REFERENCE + 2]
+    origin = read_double(read_int64(d + o[f.XPOS]) + 8 * (3 * body + 2))
+    reference = origin + axes[6] * x + axes[7] * y + axes[8] * z
+    up, depth = surface_plane(table, axes, reference, surface, water)
+    fraction, centre = submerged_part(table, up, depth)
+    if table[c.KIND] == c.DRY_BODY or fraction <= 0.0:
+        return height
+    middle: float = reference + axes[6] * centre[0] + axes[7] * centre[1] + axes[8] * centre[2]
+    return middle
 
 
 @njit

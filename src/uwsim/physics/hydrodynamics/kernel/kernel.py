@@ -61,6 +61,7 @@ from .equations import (
     submerged_part,
     subtract,
     subtract_momentum_rate,
+    surface_plane,
     to_body,
 )
 from .fins import add_fin
@@ -264,7 +265,7 @@ def _add_bodies(m: int, d: int, o: Ints64, theta_h: float, work: Floats, with_ma
         com = view_doubles(read_int64(d + o[f.COM]) + 24 * root[body], 3)
         twist = view_doubles(read_int64(d + o[f.CVEL]) + 48 * body, 6)
         height, lever = reference_point(table, position, axes, com)
-        up, depth = (axes[6], axes[7], axes[8]), surface + water[6] - height
+        up, depth = surface_plane(table, axes, height, surface, water)
         fraction, centre = submerged_part(table, up, depth)
         if fraction <= 0.0:
             continue

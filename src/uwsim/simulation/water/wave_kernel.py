@@ -1,0 +1,180 @@
+r"""Waves added to the currents of a scene, in compiled code.
+
+At each body the orbital motion is added to the motion of the currents, and the acceleration is that
+of the water which passes the point,
+
+.. math:: \frac{Du}{Dt} = \frac{Du_c}{Dt} + \frac{\partial u_w}{\partial t}
+    + ((u_c + u_w) \cdot \nabla) u_w
+
+with the exact gradient of the waves. Waves have no rotation. Not modelled: the shear of a current
+in the orbital motion, :math:`(u_w \cdot \nabla) u_c`, and the Doppler shift of waves in a current.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from ...base.geometry import Array
+from ...base.numerics.calls import FUNCTION, CompiledFunction, address_of, call, function_address
+from ...base.numerics.jit import njit
+from ...base.numerics.memory import carray, pointer, view_doubles
+from ...physics.hydrodynamics.water_function import (
+    ACCELERATION,
+    POINT,
+    SURFACE,
+    VELOCITY,
+    WATER_ROW,
+    DriftFunction,
+    WaterFunction,
+)
+from ...waves import Waves
+from ...waves import kernel as k
+from ...waves.kernel import WAVES, compute_wave_motion
+
+WAVY_WATER = np.dtype(
+    [
+        ("currents", FUNCTION),
+        ("waves", np.int64),  # the address of a record of `WAVES`
+        ("n", np.int64),  # bodies
+        ("rows", np.int64),  # the address of the rows of the currents, (n, WATER_ROW)
+    ]
+)
+"""The water of a scene with waves, for compiled code."""
+DRIFT_IN_WAVES = np.dtype(
+    [
+        ("currents", FUNCTION),
+        ("waves", np.int64),  # the address of a record of `WAVES`
+        ("n", np.int64),  # vehicles
+        ("timestep", np.float64),  # [s]
+    ]
+)
+"""The kinematic vehicles of a scene with waves, for compiled code."""
+POINTS_IN_WAVES = np.dtype([("currents", FUNCTION), ("waves", np.int64), ("n", np.int64)])
+"""The record of points around one vehicle in a scene with waves, for compiled code."""
+
+Record = Any
+
+
+def add_waves(currents: WaterFunction | None, waves: Waves, n: int) -> WaterFunction:
+    """Return the function of the water under waves.
+
+    Args:
+        currents: the function of the water without waves; None: it is still.
+        waves: the waves.
+        n: the number of bodies.
+    """
+    rows, row = np.zeros((n, WATER_ROW)), np.zeros(1, WAVY_WATER)
+    row["waves"], row["n"], row["rows"] = address_of(waves.record), n, address_of(rows)
+    if currents is not None:
+        row["currents"] = currents.function, currents.address
+    return WaterFunction(
+        function=function_address(write_wavy_water),
+        parameters=row,
+        needs_points=True,
+        follows_surface=True,
+        memory_owners=(currents, waves, rows),
+    )
+
+
+def add_waves_to_drift(
+    currents: DriftFunction | None, waves: Waves, n: int, timestep: float
+) -> DriftFunction:
+    """Return the function of kinematic vehicles that drift in currents and waves.
+
+    Args:
+        currents: the function of the drift in the currents; None: there are none.
+        waves: the waves.
+        n: the number of vehicles.
+        timestep: the length of a step [s].
+    """
+    row = np.zeros(1, DRIFT_IN_WAVES)
+    row["waves"], row["n"], row["timestep"] = address_of(waves.record), n, timestep
+    if currents is not None:
+        row["currents"] = currents.function, currents.address
+    return DriftFunction(
+        function=function_address(drift_in_waves), parameters=row, memory_owners=(currents, waves)
+    )
+
+
+def add_waves_to_points(currents: CompiledFunction, waves: Waves, n: int) -> CompiledFunction:
+    """Return the function of the velocity of the water at some points, with waves.
+
+    Args:
+        currents: the function of the velocity of the currents.
+        waves: the waves.
+        n: the number of points.
+    """
+    row = np.zeros(1, POINTS_IN_WAVES)
+    row["currents"], row["waves"], row["n"] = currents.addresses, address_of(waves.record), n
+    return CompiledFunction(
+        addresses=(function_address(write_velocities_in_waves), address_of(row)),
+        prepare=currents.prepare,
+        memory_owners=(row, currents, waves),
+    )
+
+
+def write_wavy_water(parameters: int, values: int, time: float) -> None:
+    """Write the motion of the water under waves; see `WaterFunction`."""
+    water = carray(pointer(parameters), (1,), WAVY_WATER)[0]
+    waves = carray(pointer(water.waves), (1,), WAVES)[0]
+    rows = view_doubles(values, WATER_ROW * water.n).reshape((water.n, WATER_ROW))
+    currents = view_doubles(water.rows, WATER_ROW * water.n).reshape((water.n, WATER_ROW))
+    for i in range(water.n):
+        for j in range(VELOCITY):
+            currents[i, j] = rows[i, j]
+    if water.currents.function != 0:
+        call(water.currents.function, water.currents.parameters, water.rows, time)
+    for i in range(water.n):
+        for j in range(VELOCITY, SURFACE):
+            rows[i, j] = currents[i, j]
+        motion = compute_wave_motion(
+            waves, rows[i, POINT], rows[i, POINT + 1], rows[i, POINT + 2], time
+        )
+        _add_motion(motion, rows[i])
+
+
+@njit
+def _add_motion(motion: Array, row: Array) -> None:
+    """Add the motion under waves, see `waves.kernel`, to the row of a body."""
+    for j in range(3):
+        row[VELOCITY + j] += motion[k.VELOCITY + j]
+    u, v, w = row[VELOCITY], row[VELOCITY + 1], row[VELOCITY + 2]
+    xx, xy, yy = motion[k.GRADIENT], motion[k.GRADIENT + 1], motion[k.GRADIENT + 2]
+    xz, yz = motion[k.GRADIENT + 3], motion[k.GRADIENT + 4]
+    acceleration = motion[k.ACCELERATION : k.GRADIENT]
+    row[ACCELERATION] += acceleration[0] + xx * u + xy * v + xz * w
+    row[ACCELERATION + 1] += acceleration[1] + xy * u + yy * v + yz * w
+    row[ACCELERATION + 2] += acceleration[2] + xz * u + yz * v - (xx + yy) * w
+    row[SURFACE] = motion[k.ELEVATION]
+    row[SURFACE + 1], row[SURFACE + 2] = motion[k.SLOPE], motion[k.SLOPE + 1]
+
+
+def drift_in_waves(parameters: int, values: int, time: float) -> None:
+    """Move vehicles by a step; see `DriftFunction`."""
+    record = carray(pointer(parameters), (1,), DRIFT_IN_WAVES)[0]
+    waves = carray(pointer(record.waves), (1,), WAVES)[0]
+    poses = view_doubles(values, 7 * record.n).reshape((record.n, 7))
+    velocities = np.empty((record.n, 3))
+    for i in range(record.n):
+        motion = compute_wave_motion(waves, poses[i, 0], poses[i, 1], poses[i, 2], time)
+        for j in range(3):
+            velocities[i, j] = motion[k.VELOCITY + j]
+    if record.currents.function != 0:
+        call(record.currents.function, record.currents.parameters, values, time)
+    for i in range(record.n):
+        for j in range(3):
+            poses[i, j] += velocities[i, j] * record.timestep
+
+
+def write_velocities_in_waves(parameters: int, values: int, time: float) -> None:
+    """Write velocities after the points, see `uwsim.world.mounts.read_water`."""
+    record = carray(pointer(parameters), (1,), POINTS_IN_WAVES)[0]
+    waves = carray(pointer(record.waves), (1,), WAVES)[0]
+    call(record.currents.function, record.currents.parameters, values, time)
+    rows = view_doubles(values, 6 * record.n).reshape((2, record.n, 3))
+    for i in range(record.n):
+        motion = compute_wave_motion(waves, rows[0, i, 0], rows[0, i, 1], rows[0, i, 2], time)
+        for j in range(3):
+            rows[1, i, j] += motion[k.VELOCITY + j]

@@ -1,0 +1,56 @@
+"""The interface of wave systems: a wind sea, a swell, a regular wave."""
+
+from __future__ import annotations
+
+import abc
+from dataclasses import dataclass
+
+import numpy as np
+
+from ..schema import Spec, element
+from .components import WaveComponents
+
+MAX_HEIGHT = 40.0
+"""The largest wave height in a file [m]; the highest that was measured at sea is some 30 m."""
+MAX_COMPONENTS = 4000
+"""The largest number of components of a wave system."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SeaSettings:
+    """The settings of the sea that a wave system may need."""
+
+    depth: float
+    """The depth of the water [m]."""
+    wind: tuple[float, float]
+    """The wind of the original's spectrum along x and y of L [1]."""
+    wind_speed: float
+    """The wind speed of the original's spectrum [m/s]."""
+    reflection_damping: float
+    """The original's factor on waves that run against the wind [1]."""
+    wave_scale: float
+    """The scale of the original's spectrum [1]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class WaveSystemSpec(Spec, abc.ABC):
+    """The spec of a wave system."""
+
+    @abc.abstractmethod
+    def components(self, sea: SeaSettings, rng: np.random.Generator) -> WaveComponents:
+        """Draw its components."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class IrregularWavesSpec(WaveSystemSpec, abc.ABC):
+    """The spec of a wave system with a spectrum."""
+
+    direction: float = element(namespaced=True, default=0.0)
+    """The mean direction of travel, from x of L towards y [rad]."""
+    spreading: float | None = element(namespaced=True, default=None, minimum=0.5, maximum=1000.0)
+    """The exponent s of the spreading function ``cos(angle/2)^(2s)``: some 10 for a wind sea, 50
+    for swell [1]; when absent all waves travel in one direction."""
+    n_components: int = element(
+        "components", namespaced=True, default=200, minimum=1, maximum=MAX_COMPONENTS
+    )
+    """The number of sinusoidal components."""
