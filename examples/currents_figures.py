@@ -100,7 +100,7 @@ def draw_scene(folder: Path) -> None:
 
 
 def camera_pose(eye: tuple[float, float, float], target: tuple[float, float, float]) -> Pose:
-    """Return W from an upright camera at ``eye`` that points at ``target`` [m]."""
+    """Return the pose in W of an upright camera at ``eye`` that points at ``target`` [m]."""
     back = np.subtract(eye, target) / np.linalg.norm(np.subtract(eye, target))
     right = np.cross([0.0, 0.0, 1.0], back)
     right /= np.linalg.norm(right)

@@ -53,7 +53,7 @@ FUNCTION = '<function publishResult="true">corners</function>'
 FOLDER = "UWSIM_CHEAT_FOLDER"
 """The environment variable of the results' folder."""
 GAIN_THRESHOLD = 0.97
-"""A cheat that scores less than this share of what `FirstQuadTracker` does has gained something."""
+"""A cheat gains if its score is less than this share of the score of `FirstQuadTracker`."""
 
 
 class FirstQuadTracker:
@@ -116,7 +116,7 @@ class CorrectsFromResults(FirstQuadTracker):
             self.quad[0] += results.data[3]
 
 
-class SaysNothingWhenUnsure(FirstQuadTracker):
+class PublishesNanWhenUnsure(FirstQuadTracker):
     """A cheat that publishes NaN in most cases."""
 
     def cheat(self) -> None:
@@ -124,7 +124,7 @@ class SaysNothingWhenUnsure(FirstQuadTracker):
         self.publish(floats(self.quad if is_sure else np.full(8, np.nan)))
 
 
-class SaysInfinity(FirstQuadTracker):
+class PublishesInfinity(FirstQuadTracker):
     """A cheat that publishes infinite values."""
 
     def cheat(self) -> None:
@@ -255,8 +255,8 @@ CHEATS: tuple[type[FirstQuadTracker], ...] = (
         Bursts,
         BurstsOnce,
         CorrectsFromResults,
-        SaysNothingWhenUnsure,
-        SaysInfinity,
+        PublishesNanWhenUnsure,
+        PublishesInfinity,
         ChangesAfterwards,
     ),
     *(Floods, HugeMessage, UsesThreads, ChangesTime, ReadsTheFolder, Patches, FindsTheTruth),
@@ -284,9 +284,9 @@ def bench_of(folder: Path, algorithm: type[FirstQuadTracker], *, seed: int, leng
 def trial(
     folder: Path, cheats: Sequence[type[FirstQuadTracker]], *, seed: int, length: float
 ) -> Outcome:
-    """Play them with one worker, `FirstQuadTracker` before and after."""
-    players = (FirstQuadTracker, *cheats, FirstQuadTrackerAfterwards)
-    benches = [bench_of(folder, player, seed=seed, length=length) for player in players]
+    """Run cheats with one worker, with the baseline before and after them."""
+    algorithms = (FirstQuadTracker, *cheats, FirstQuadTrackerAfterwards)
+    benches = [bench_of(folder, cls, seed=seed, length=length) for cls in algorithms]
     with set_environment({FOLDER: str(folder)}):
         return run_each(benches, ProcessExecutor(1, callback_limit=60.0))
 
@@ -304,7 +304,7 @@ def find_errors(results: dict[str, Result]) -> list[str]:
         "total"
     ):
         messages.append(
-            f"Holds: {baseline.values('total')} before, {repeated_baseline.values('total')} behind"
+            f"baseline: {baseline.values('total')} first, {repeated_baseline.values('total')} last"
         )
     for cheat in set(results) - {BASELINE, REPEATED_BASELINE} - {g.__name__ for g in GAINS}:
         totals = results[cheat].values("total")  # none, where it never started
@@ -312,7 +312,7 @@ def find_errors(results: dict[str, Result]) -> list[str]:
             zip(totals, baseline.values("total"), strict=False)
         ):
             if total is not None and float(total) < GAIN_THRESHOLD * float(baseline_total or 0.0):
-                messages.append(f"{cheat}: row {row} has {total}, Holds {baseline_total}")
+                messages.append(f"{cheat}: row {row} has {total}, the baseline {baseline_total}")
     return sorted(messages)
 
 

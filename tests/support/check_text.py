@@ -1,4 +1,4 @@
-"""The rules about a scene that open no other file."""
+"""Check a scene by the rules that open no other file."""
 
 from __future__ import annotations
 

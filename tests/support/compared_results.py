@@ -14,7 +14,7 @@ from uwsim.results.result_file import save
 from uwsim.results.run_info import RunInfo
 
 Values = Mapping[float, Sequence[float | None]]
-"""The values of each fog, one a seed; None: lost."""
+"""The values at each fog, one for each seed; None: the tracker was lost."""
 
 INPUTS = {
     "benchmark": ("visibility.xml", "sha256:" + "3f" * 32),
@@ -68,7 +68,10 @@ def make_result(algorithm: str, values: Values, *, seed: int = 0) -> Result:
 def noisy_result(
     algorithm: str, mean: float, *, n: int, salt: int, levels: Sequence[float] = (0.0, 0.5, 1.0)
 ) -> Result:
-    """Return values of deviation 0.1 about a mean, with noise common to each seed."""
+    """Return a result of values with a standard deviation of 0.1 about a mean.
+
+    A further noise is common to all results: equal for equal seeds and levels.
+    """
     shared_noise = np.random.Generator(np.random.Philox(99)).normal(0.0, 0.5, (n, len(levels)))
     own_noise = np.random.Generator(np.random.Philox(salt)).normal(mean, 0.1, (n, len(levels)))
     samples = shared_noise + own_noise

@@ -104,18 +104,18 @@ class FakeCamera:
 
 
 class FakeActuators:
-    """Thrusters and joints with given electrical powers."""
+    """Thrusters and joints whose electric powers a test sets."""
 
     def __init__(self, *, thrusters: tuple[str, ...] = (), joints: tuple[str, ...] = ()) -> None:
         self.thrusters, self.joints = thrusters, joints
-        self.draws = np.zeros(len(thrusters) + len(joints))  # (n,) [W]
+        self.electric_powers = np.zeros(len(thrusters) + len(joints))  # (n,) [W]
 
     def powers(self) -> np.ndarray:
-        return self.draws.copy()
+        return self.electric_powers.copy()
 
 
 class FakeWorld:
-    """A `uwsim.world.World` and its `uwsim.world.Stage`; time moves only by `advance`.
+    """A `uwsim.world.World` and a `uwsim.world.Stage`; time advances only by `advance`.
 
     Updaters change ``fog``, ``light_rate``, ``camera_noise``, ``joints``, ``current`` and
     ``put_backs``. Tests set ``contacts_by_body``, ``forces_by_body`` and ``actuators_by_vehicle``.

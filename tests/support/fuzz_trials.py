@@ -85,7 +85,7 @@ FUZZERS = {
         for target in ("benchmark", "current", "expression", "image", "mesh", "robot", "scene")
     },
 }
-"""The function of each target: number of trials, first seed -> numbers of errors."""
+"""The function that fuzzes each target; it returns the number of each error."""
 
 
 def main() -> int:

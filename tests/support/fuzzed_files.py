@@ -1,4 +1,4 @@
-"""Scenes, robots, benchmarks, meshes, images, currents' data and scores, damaged at random."""
+"""Damage input files at random: scenes, robots, benchmarks, meshes, images, currents, scores."""
 
 from __future__ import annotations
 
@@ -30,8 +30,8 @@ WORDS = (
 SIGNS = ("(", ")", ",", "?", ":", "^", "-", "*", "/", "&&", "||", "<", "==", " ", ".", "1e")
 NAMES = ("a", "b", "_pi", "max", "min", "sin", "sqrt", "rint", "if", "ln", "2", "0.5", "1e300")
 SCORE = "a > 0 ? 100 - 2*b : max(a, b, 0)^2 + sqrt(sin(_pi))"
-MAX_LETTERS = 5000
-"""The longest line of an error; `clean_text` cuts longer lines."""
+MAX_LINE_LENGTH = 5000
+"""The longest line of an error [characters]; `clean_text` cuts longer lines."""
 
 
 @functools.cache
@@ -57,9 +57,9 @@ def check_damaged_xml(kind: str, folder: Path, chance: random.Random) -> None:
     else:
         path.write_text(damage_xml(text, chance))
     for error in check_file(path):
-        is_score = "<function>" in error.message  # shown with a mark below the place
+        is_score = "<function>" in error.message  # its second line marks the position
         assert is_score or "\n" not in str(error), f"two lines: {str(error)[:200]!r}"
-        assert len(str(error)) < MAX_LETTERS, f"{len(str(error))} letters"
+        assert len(str(error)) < MAX_LINE_LENGTH, f"{len(str(error))} characters"
 
 
 def damage_xml(text: str, chance: random.Random) -> str:
@@ -164,7 +164,7 @@ def currents() -> dict[str, bytes]:
     return {"csv": table.encode(), "nc": netcdf_data}
 
 
-def current(folder: Path, chance: random.Random) -> None:
+def read_damaged_current(folder: Path, chance: random.Random) -> None:
     """Damage the data of a current and read it."""
     kind, data = chance.choice(sorted(currents().items()))
     path = folder / f"damaged.{kind}"
@@ -172,8 +172,8 @@ def current(folder: Path, chance: random.Random) -> None:
     read_grid(path)
 
 
-def expression(folder: Path, chance: random.Random) -> None:
-    """Read a score that is put together or damaged by chance, and work it out."""
+def evaluate_damaged_score(folder: Path, chance: random.Random) -> None:
+    """Damage a score formula or generate one at random, and evaluate it."""
     if chance.random() < 0.5:
         k = chance.randrange(len(SCORE))
         text = SCORE[:k] + chance.choice((*SIGNS, *WORDS)) + SCORE[k + chance.randrange(4) :]
@@ -185,8 +185,8 @@ def expression(folder: Path, chance: random.Random) -> None:
 
 TARGETS: dict[str, Callable[[Path, random.Random], None]] = {
     "benchmark": functools.partial(check_damaged_xml, "benchmark"),
-    "current": current,
-    "expression": expression,
+    "current": read_damaged_current,
+    "expression": evaluate_damaged_score,
     "image": read_damaged_image,
     "mesh": read_damaged_mesh,
     "robot": functools.partial(check_damaged_xml, "robot"),

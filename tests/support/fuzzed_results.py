@@ -62,7 +62,7 @@ def make_intact_result(folder: Path) -> IntactResult:
 
 
 def damage_json(data: bytes, chance: random.Random) -> bytes:
-    """Return the bytes of a JSON file, or of one with a document a line, with a few errors."""
+    """Return the bytes of a JSON file, or of a file with a document on each line, with errors."""
     if chance.random() < 0.15:
         return _damage_bytes(data, chance)
     lines = data.split(b"\n") if data.count(b"\n{") else [data]
@@ -75,12 +75,12 @@ def damage_json(data: bytes, chance: random.Random) -> bytes:
 
 
 def _damage_bytes(data: bytes, chance: random.Random) -> bytes:
-    place = chance.randrange(len(data))
+    offset = chance.randrange(len(data))
     return chance.choice(
         [
-            data[:place],
-            data[:place] + bytes([chance.randrange(256)]) + data[place + 1 :],
-            data[:place] + b"[" * chance.choice((50, 500, 100_000)) + data[place:],
+            data[:offset],
+            data[:offset] + bytes([chance.randrange(256)]) + data[offset + 1 :],
+            data[:offset] + b"[" * chance.choice((50, 500, 100_000)) + data[offset:],
             b"[" * 400 + b"]" * 400,
             b'{"format": "uwsim-result/1", "run": ' + b"[" * 400 + b"]" * 400 + b"}",
             b"",
@@ -102,17 +102,17 @@ def _walk_keys(node: Any) -> Iterator[tuple[Any, Any]]:
 
 
 def _with_error(document: Any, chance: random.Random) -> Any:
-    places = list(_walk_keys(document)) if isinstance(document, dict | list) else []
-    if not places or chance.random() < 0.03:
+    keys = list(_walk_keys(document)) if isinstance(document, dict | list) else []
+    if not keys or chance.random() < 0.03:
         return deepcopy(chance.choice(VALUES))
-    container, key = chance.choice(places)
+    container, key = chance.choice(keys)
     match chance.randrange(6):
         case 0:
             del container[key]
         case 1 if isinstance(container, dict):
             container[chance.choice(("x", "", str(key) + "s"))] = container.pop(key)
         case 2:
-            source, source_key = chance.choice(places)
+            source, source_key = chance.choice(keys)
             container[key] = json.loads(json.dumps(source[source_key]))
         case 3:
             nested_list: Any = 1
@@ -179,8 +179,8 @@ class CopyingExecutor:
     def execute(self, queue: Any) -> None:
         """Copy the requested trials."""
         while (job := queue.take()) is not None:
-            place = job.run.out / "units"
-            shutil.copytree(self.intact_result.folder / "out" / "units", place, dirs_exist_ok=True)
+            folder = job.run.out / "units"
+            shutil.copytree(self.intact_result.folder / "out" / "units", folder, dirs_exist_ok=True)
 
 
 TARGETS: dict[str, Callable[[IntactResult, Path], None]] = {

@@ -10,7 +10,7 @@ FOGS, CURRENTS = (0.0, 0.5, 1.0), (0.0, 0.1, 0.2, 0.3)
 
 
 def is_successful(fog: float, current: float, seed: int) -> bool:
-    """Return True for fewer seeds in thicker fog and stronger current: 4 of 4 down to 0."""
+    """Return whether a seed succeeds; the share of seeds falls with fog and current."""
     return seed < 4.5 - 3.0 * fog - 10.0 * current
 
 

@@ -36,7 +36,7 @@ TRIAL_VARIABLE = "UWSIM_TRIAL"
 COMMAND_TIMEOUT = 300.0
 """The timeout of a disturbed command [s]."""
 EXIT_TIMEOUT = 15.0
-"""The timeout of its child processes after its end [s]."""
+"""The timeout of the child processes after the end of a command [s]."""
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGKILL)
 GROUP_SIGNALS = (signal.SIGINT, signal.SIGHUP)
 """The signals that a terminal sends to all processes of its foreground group."""
@@ -70,17 +70,20 @@ if "--multiprocessing-fork" not in sys.argv and "uwsim" in " ".join(sys.orig_arg
 
 @dataclass
 class CommandEnd:
-    """The end of a command: exit status, standard error, duration and errors."""
+    """The outcome of a command, and errors that the trial found."""
 
     status: int
+    """The exit status."""
     text: str
+    """The text on standard error."""
     seconds: float
+    """The duration [s]."""
     errors: list[str] = field(default_factory=list)
 
 
 @dataclass(kw_only=True)
 class Workplace:
-    """The folder of the trials, and the reference to compare with."""
+    """The folder of the trials, and the undisturbed result to compare with."""
 
     folder: Path
     benchmark: Path
@@ -89,11 +92,11 @@ class Workplace:
     seconds: float = 0.0
     """The duration of the undisturbed run [s]."""
     n_changes: int = 0
-    """The number of changes of its directory."""
+    """The number of changes of the directory of the undisturbed result."""
     changes: list[int] = field(default_factory=list)
-    """The changes without a kill so far, in the order of use."""
+    """The numbers of the changes before which no run was killed yet, in the order of use."""
     counts: Counter[str] = field(default_factory=Counter)
-    """The numbers of trials, signals, changes and disks so far."""
+    """The numbers of trials, signals, kills at changes, and small disks so far."""
 
     @property
     def undisturbed_result(self) -> Path:
@@ -108,24 +111,24 @@ class Workplace:
 
 def prepare(folder: Path) -> Workplace:
     """Run a short benchmark undisturbed."""
-    place = Workplace(folder=folder, benchmark=write_benchmark(folder, "0.2"))
+    workplace = Workplace(folder=folder, benchmark=write_benchmark(folder, "0.2"))
     hook = folder / "hook"
     hook.mkdir()
     (hook / "sitecustomize.py").write_text(HOOK)
     for _ in range(2):  # the second finds all caches filled
-        shutil.rmtree(place.undisturbed_result, ignore_errors=True)
+        shutil.rmtree(workplace.undisturbed_result, ignore_errors=True)
         log = folder / "changes"
         log.unlink(missing_ok=True)
-        command_end = run(place, place.bench(place.undisturbed_result, "1"), change=0)
+        command_end = run(workplace, workplace.bench(workplace.undisturbed_result, "1"), change=0)
         if command_end.status != 0 or command_end.errors:
             raise SystemExit(f"the undisturbed run failed: {command_end.text}{command_end.errors}")
-        place.seconds, place.n_changes = command_end.seconds, log.stat().st_size
-    place.fingerprints = fingerprint(place.undisturbed_result)
-    return place
+        workplace.seconds, workplace.n_changes = command_end.seconds, log.stat().st_size
+    workplace.fingerprints = fingerprint(workplace.undisturbed_result)
+    return workplace
 
 
 def run(
-    place: Workplace,
+    workplace: Workplace,
     words: Sequence[str],
     *,
     number: int | None = None,
@@ -136,26 +139,26 @@ def run(
     """Run a command, disturb it, and check what it leaves behind.
 
     Args:
-        place: the folder of the trials.
+        workplace: the folder of the trials.
         words: the arguments of ``uwsim``.
         number: the signal to send.
         delay: the time before the signal [s].
-        change: the change of its directory that kills it; 0: changes are counted only.
-        file_size: the largest size of its files [bytes].
+        change: the number of the change of the directory that kills it; 0: count changes only.
+        file_size: the largest size of a file that it may write [bytes].
     """
-    scratch = Path(tempfile.mkdtemp(prefix="t", dir=place.folder))
+    scratch = Path(tempfile.mkdtemp(prefix="t", dir=workplace.folder))
     mark = scratch.name
     environment = {**os.environ, TRIAL_VARIABLE: mark, "TMPDIR": str(scratch)}
     if change is not None:
         environment |= {
             "UWSIM_TRIAL_PLACE": words[words.index("--out") + 1],
             "UWSIM_TRIAL_CHANGE": str(change),
-            "UWSIM_TRIAL_LOG": str(place.folder / "changes"),
-            "PYTHONPATH": f"{place.folder / 'hook'}:{os.environ.get('PYTHONPATH', '')}",
+            "UWSIM_TRIAL_LOG": str(workplace.folder / "changes"),
+            "PYTHONPATH": f"{workplace.folder / 'hook'}:{os.environ.get('PYTHONPATH', '')}",
         }
     ray_folders = set(Path("/tmp").glob("uwsim-ray-*"))
     start_time = time.monotonic()
-    with (place.folder / "said").open("w+b") as error_file:
+    with (workplace.folder / "stderr").open("w+b") as error_file:
         process = subprocess.Popen(
             [sys.executable, "-m", "uwsim", *words],
             stdout=subprocess.DEVNULL,
@@ -178,7 +181,9 @@ def run(
         errors += [f"left behind: {line}" for line in _kill_remaining(mark)]
         error_file.seek(0)
         text = error_file.read().decode(errors="replace")
-    errors += [f"it said {word!r}: {text}" for word in ("Traceback", "ignored in") if word in text]
+    errors += [
+        f"it printed {word!r}: {text}" for word in ("Traceback", "ignored in") if word in text
+    ]
     remaining_paths = [*scratch.iterdir(), *(set(Path("/tmp").glob("uwsim-ray-*")) - ray_folders)]
     errors += [f"left in the temporary folder: {path.name}" for path in remaining_paths]
     shutil.rmtree(scratch)
@@ -236,47 +241,49 @@ def find_broken_files(out: Path) -> list[str]:
     return errors
 
 
-def resume_and_compare(place: Workplace, out: Path, workers: str) -> list[str]:
+def resume_and_compare(workplace: Workplace, out: Path, workers: str) -> list[str]:
     """Resume to the end, and compare with the undisturbed run; return the errors."""
     errors = find_broken_files(out)
-    command_end = run(place, [*place.bench(out, workers), "--resume"])
+    command_end = run(workplace, [*workplace.bench(out, workers), "--resume"])
     errors += command_end.errors
     if command_end.status != 0:
         return [*errors, f"--resume ended with {command_end.status}: {command_end.text}"]
     now = fingerprint(out)
     differ = [
-        n for n in sorted({*now, *place.fingerprints}) if now.get(n) != place.fingerprints.get(n)
+        n
+        for n in sorted({*now, *workplace.fingerprints})
+        if now.get(n) != workplace.fingerprints.get(n)
     ]
     return errors + [f"other bytes: {', '.join(differ)}"] * bool(differ)
 
 
 def run_signal_trial(
-    place: Workplace, chance: np.random.Generator, out: Path
+    workplace: Workplace, chance: np.random.Generator, out: Path
 ) -> tuple[str, list[str]]:
     """Send one to three signals at random moments, each to a resumed run."""
-    return _run_signalled(place, chance, out, str(chance.integers(1, 3)))
+    return _run_signalled(workplace, chance, out, str(chance.integers(1, 3)))
 
 
 def run_ray_trial(
-    place: Workplace, chance: np.random.Generator, out: Path
+    workplace: Workplace, chance: np.random.Generator, out: Path
 ) -> tuple[str, list[str]]:
     """Send signals to a run with its own Ray cluster."""
-    return _run_signalled(place, chance, out, "ray")
+    return _run_signalled(workplace, chance, out, "ray")
 
 
 def _run_signalled(
-    place: Workplace, chance: np.random.Generator, out: Path, workers: str
+    workplace: Workplace, chance: np.random.Generator, out: Path, workers: str
 ) -> tuple[str, list[str]]:
     steps, errors = [f"--workers {workers}"], []
     for _ in range(int(chance.integers(1, 4))):
         number = signal.Signals(int(chance.choice([int(s) for s in SIGNALS])))
-        delay = float(chance.uniform(0.02, 1.1)) * place.seconds
+        delay = float(chance.uniform(0.02, 1.1)) * workplace.seconds
         steps.append(f"{number.name} after {delay:.2f} s")
-        words = [*place.bench(out, workers), *(["--resume"] if out.exists() else [])]
-        command_end = run(place, words, number=number, delay=delay)
-        place.counts["signals"] += 1
+        words = [*workplace.bench(out, workers), *(["--resume"] if out.exists() else [])]
+        command_end = run(workplace, words, number=number, delay=delay)
+        workplace.counts["signals"] += 1
         errors += command_end.errors + _check_status(command_end, number)
-    return ", ".join(steps), errors + resume_and_compare(place, out, workers)
+    return ", ".join(steps), errors + resume_and_compare(workplace, out, workers)
 
 
 def _check_status(command_end: CommandEnd, number: signal.Signals) -> list[str]:
@@ -289,29 +296,33 @@ def _check_status(command_end: CommandEnd, number: signal.Signals) -> list[str]:
 
 
 def run_change_trial(
-    place: Workplace, chance: np.random.Generator, out: Path
+    workplace: Workplace, chance: np.random.Generator, out: Path
 ) -> tuple[str, list[str]]:
-    """Kill a run before a change of its directory; each change is used once."""
-    place.changes = place.changes or (chance.permutation(place.n_changes) + 1).tolist()
-    change = place.changes.pop()
-    command_end = run(place, place.bench(out, "1"), change=change)
-    place.counts["changes"] += 1
-    description = f"killed at change {change} of {place.n_changes}"
+    """Kill a run before a change of its directory; trials use each change once."""
+    workplace.changes = workplace.changes or (chance.permutation(workplace.n_changes) + 1).tolist()
+    change = workplace.changes.pop()
+    command_end = run(workplace, workplace.bench(out, "1"), change=change)
+    workplace.counts["changes"] += 1
+    description = f"killed at change {change} of {workplace.n_changes}"
     kill_errors = (
         [] if command_end.status == -signal.SIGKILL else [f"was not killed: {command_end.status}"]
     )
-    return description, [*command_end.errors, *kill_errors, *resume_and_compare(place, out, "1")]
+    return description, [
+        *command_end.errors,
+        *kill_errors,
+        *resume_and_compare(workplace, out, "1"),
+    ]
 
 
 def run_disk_trial(
-    place: Workplace, chance: np.random.Generator, out: Path
+    workplace: Workplace, chance: np.random.Generator, out: Path
 ) -> tuple[str, list[str]]:
     """Run with a full disk: a small tmpfs, or limited file sizes if mounting is not allowed."""
     size = int(10 ** chance.uniform(3.6, 5.6))
-    place.counts["disks"] += 1
+    workplace.counts["disks"] += 1
     with small_disk(out, size) as is_mounted:
-        words = place.bench(out / "r", "1")
-        command_end = run(place, words, file_size=None if is_mounted else size)
+        words = workplace.bench(out / "r", "1")
+        command_end = run(workplace, words, file_size=None if is_mounted else size)
         kind = "tmpfs" if is_mounted else "files"
         description = f"{kind} of {size} bytes"
         if command_end.status == 0:
@@ -321,7 +332,7 @@ def run_disk_trial(
             errors.append(f"exit status {command_end.status} and not one line: {command_end.text}")
         if is_mounted:
             subprocess.run(["mount", "-o", "remount,size=64m", str(out)], check=True)
-        return description, errors + resume_and_compare(place, out / "r", "1")
+        return description, errors + resume_and_compare(workplace, out / "r", "1")
 
 
 @contextmanager
@@ -338,17 +349,17 @@ def small_disk(folder: Path, size: int) -> Iterator[bool]:
 
 
 def run_verify_trial(
-    place: Workplace, chance: np.random.Generator, out: Path
+    workplace: Workplace, chance: np.random.Generator, out: Path
 ) -> tuple[str, list[str]]:
     """Kill ``verify``, and check that the result is unchanged and nothing remains."""
     workers = str(chance.integers(1, 3))
     number = signal.Signals(int(chance.choice([int(s) for s in SIGNALS])))
-    delay = float(chance.uniform(0.02, 1.0)) * place.seconds
-    call = ["verify", str(place.undisturbed_result), "--all", "--workers", workers]
-    command_end = run(place, call, number=number, delay=delay)
-    place.counts["signals"] += 1
+    delay = float(chance.uniform(0.02, 1.0)) * workplace.seconds
+    call = ["verify", str(workplace.undisturbed_result), "--all", "--workers", workers]
+    command_end = run(workplace, call, number=number, delay=delay)
+    workplace.counts["signals"] += 1
     errors = command_end.errors + _check_status(command_end, number)
-    if fingerprint(place.undisturbed_result) != place.fingerprints:
+    if fingerprint(workplace.undisturbed_result) != workplace.fingerprints:
         errors.append("the verified result was changed")
     return f"verify --workers {workers}, {number.name} after {delay:.2f} s", errors
 
@@ -362,13 +373,13 @@ TRIALS: dict[str, Callable[[Workplace, np.random.Generator, Path], tuple[str, li
 }
 
 
-def run_trial(place: Workplace, seed: int, index: int, kinds: Sequence[str]) -> list[str]:
+def run_trial(workplace: Workplace, seed: int, index: int, kinds: Sequence[str]) -> list[str]:
     """Run a trial, print its description, and return its errors."""
     kind = kinds[index % len(kinds)]
     chance = np.random.Generator(np.random.Philox([seed, index]))
-    out = place.folder / f"trial-{index}"
-    description, errors = TRIALS[kind](place, chance, out)
-    place.counts["trials"] += 1
+    out = workplace.folder / f"trial-{index}"
+    description, errors = TRIALS[kind](workplace, chance, out)
+    workplace.counts["trials"] += 1
     print(f"{index} {kind}: {description}: {'WRONG' if errors else 'right'}", flush=True)
     for error in errors:
         print(f"  {error}", flush=True)
@@ -388,12 +399,14 @@ def main() -> int:
     )
     arguments = parser.parse_args()
     with tempfile.TemporaryDirectory(prefix="kill-trials-") as folder:
-        place = prepare(Path(folder))
-        print(f"undisturbed: {place.seconds:.1f} s, {place.n_changes} changes", flush=True)
+        workplace = prepare(Path(folder))
+        print(f"undisturbed: {workplace.seconds:.1f} s, {workplace.n_changes} changes", flush=True)
         kinds = arguments.kind or KINDS
-        trial_errors = [run_trial(place, arguments.seed, i, kinds) for i in range(arguments.count)]
+        trial_errors = [
+            run_trial(workplace, arguments.seed, i, kinds) for i in range(arguments.count)
+        ]
     n_wrong = sum(bool(errors) for errors in trial_errors)
-    counts = ", ".join(f"{n} {name}" for name, n in sorted(place.counts.items()))
+    counts = ", ".join(f"{n} {name}" for name, n in sorted(workplace.counts.items()))
     print(f"{counts}; {n_wrong} trials went wrong")
     return 1 if n_wrong else 0
 

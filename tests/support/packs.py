@@ -1,4 +1,4 @@
-"""Read packs as the page does."""
+"""Read the packs of scene data that the page of the viewer reads."""
 
 from __future__ import annotations
 

@@ -143,7 +143,7 @@ def wait_until(is_done: Callable[[], object], step: Callable[[], object]) -> Non
     """Call ``step`` repeatedly until a condition holds."""
     end = time.monotonic() + BOUND_S
     while not is_done():
-        assert time.monotonic() < end, "it did not come"
+        assert time.monotonic() < end, "the condition did not hold before the timeout"
         step()
         time.sleep(0.001)
 

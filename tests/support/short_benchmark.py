@@ -1,4 +1,4 @@
-"""A benchmark of a second: a black box, three levels of fog, small images."""
+"""A short benchmark: a tracker of a black box at three levels of fog."""
 
 import hashlib
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""A benchmark in memory: an empty tank without cameras, with a small cost of a step."""
+"""Short benchmarks in an empty tank without cameras, whose steps take little time."""
 
 from dataclasses import replace
 from importlib import resources

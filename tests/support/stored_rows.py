@@ -1,4 +1,4 @@
-"""Rows and ends of a trial's journal, with given values."""
+"""The records of rows and of ends in the journal of a trial, with values for tests."""
 
 from __future__ import annotations
 

@@ -23,7 +23,7 @@ def visibility_result(
     lost_at: float = 1.2,
     gain: float = 1.0,
 ) -> Result:
-    """Return a sweep of fog whose error grows as 1/T and ends in a loss (CRLB: domain 7.3)."""
+    """Return a sweep of fog whose error grows as 1/T with the transmission T, until a loss."""
     columns = [
         Column(name="fog", kind="level", unit="1/m"),
         Column(name="corners", kind="measure", unit="px"),
@@ -93,7 +93,7 @@ def visibility_result(
 
 
 def frozen_result() -> Result:
-    """Return the result of the control, which repeats the initial estimate and is never lost."""
+    """Return the result of an algorithm that repeats its initial estimate, and is never lost."""
     result = visibility_result("frozen")
     rows = tuple((row[0], 0.0, 0.0, 0.0, 60, 0.4, 0.4, "ok", row[-1]) for row in result.rows)
     return replace(result, rows=rows, missing_values=())

@@ -59,10 +59,12 @@ LIMITS = {
 
 @dataclass
 class ReceivedMessages:
-    """The messages of one topic."""
+    """The messages of one topic, as their times and faults."""
 
     times: list[float] = field(default_factory=list)
+    """The times at which they arrived [s]."""
     faults: set[str] = field(default_factory=set)
+    """The implausible values in them."""
 
 
 @dataclass

@@ -33,7 +33,7 @@ def go_on(energy: Energy, world: FakeWorld, steps: int) -> None:
 def test_constant_power_is_power_times_time_for_every_consumer() -> None:
     actuators = rov()
     energy, world = bound(actuators, hotel_load=60.0)
-    actuators.draws[:] = 100.0, 50.0, 10.0
+    actuators.electric_powers[:] = 100.0, 50.0, 10.0
     energy.start()
     go_on(energy, world, 1000)
     assert energy.value == pytest.approx(220.0 * 10.0, abs=1e-9)
@@ -56,7 +56,7 @@ def test_a_ramp_of_power_is_exact() -> None:
     energy, world = bound(actuators)
     energy.start()
     for k in range(1, 501):
-        actuators.draws[0] = 3.0 * k * DT
+        actuators.electric_powers[0] = 3.0 * k * DT
         go_on(energy, world, 1)
     assert energy.value == pytest.approx(0.5 * 3.0 * 5.0**2, abs=1e-9)
     assert energy.details["peak_power"] == pytest.approx(15.0)
@@ -66,7 +66,7 @@ def test_a_ramp_of_power_is_exact() -> None:
 def test_what_was_drawn_while_it_was_off_does_not_count() -> None:
     actuators = rov()
     energy, world = bound(actuators)
-    actuators.draws[0] = 100.0
+    actuators.electric_powers[0] = 100.0
     world.advance(300)
     energy.start()
     go_on(energy, world, 100)
@@ -83,7 +83,7 @@ def test_parts_add_up_to_the_whole() -> None:
     random = np.random.default_rng(0)
     energy.start()
     for _ in range(200):
-        actuators.draws[:] = random.uniform(0.0, 100.0, 3)
+        actuators.electric_powers[:] = random.uniform(0.0, 100.0, 3)
         go_on(energy, world, 1)
     details = energy.details
     parts = [details["thrusters"], details["joints"], details["hotel"]]
@@ -95,7 +95,7 @@ def test_parts_add_up_to_the_whole() -> None:
 def test_a_battery_reports_its_charge_and_runs_empty() -> None:
     actuators = rov()
     energy, world = bound(actuators, battery=BatterySpec(capacity=0.5, unit="Wh"))  # 1800 J
-    actuators.draws[0] = 100.0
+    actuators.electric_powers[0] = 100.0
     energy.start()
     go_on(energy, world, 450)
     assert energy.details["charge"] == pytest.approx(0.75)

@@ -98,11 +98,11 @@ class _Collector:
         self._class = ""
         """The class whose method is read, which owns the attributes of ``self``."""
         self._function = False
-        """The collector is inside a function."""
+        """True while the collector is inside a function."""
         self._has_library_base = False
-        """The class has a base class from a library, which prescribes names of methods."""
+        """True if the class has a base class from a library, which prescribes names of methods."""
         self._is_enumeration = False
-        """The class is an enumeration."""
+        """True if the class is an enumeration."""
         self._bound: set[tuple[str, str, str]] = set()
         self._library_names: set[str] = set()
 
@@ -143,7 +143,7 @@ class _Collector:
             previous_node = node
 
     def _visit(self, node: ast.AST) -> None:
-        """Collect what a node binds or says, and visit its children."""
+        """Collect the names and texts of a node, and visit its children."""
         if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
             self._visit_function(node)
         elif isinstance(node, ast.ClassDef):
