@@ -54,7 +54,7 @@ def test_it_measures_latitude_and_longitude_where_the_origin_is_given() -> None:
 
 def test_a_place_on_earth_and_back() -> None:
     for there in ([0.0, 0.0, 0.0], [1234.5, -678.9, 12.0], [-9000.0, 8000.0, -300.0]):
-        back = ORIGIN.north_east_down(ORIGIN.place(np.array(there)))
+        back = ORIGIN.north_east_down(ORIGIN.position_at(np.array(there)))
         assert back == pytest.approx(there, abs=1e-8)
 
 

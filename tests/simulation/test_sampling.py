@@ -25,8 +25,10 @@ def test_a_camera_takes_its_rate_times_the_time_however_long_it_runs() -> None:
 def test_a_sample_that_is_not_needed_is_neither_taken_nor_published() -> None:
     """Also where a reader comes during the step: there is nothing to publish."""
     values, is_read, calls = np.array([3.0]), [False], []
-    prepare, is_alone = (lambda _: None), (lambda _: True)
-    sampler = gather_sampler(number_addresses(values), prepare=prepare, is_alone=is_alone)
+    prepare, can_skip_prepare = (lambda _: None), (lambda _: True)
+    sampler = gather_sampler(
+        number_addresses(values), prepare=prepare, can_skip_prepare=can_skip_prepare
+    )
     sample, schedule = Sample.create(sampler), Schedule(Bus(), 0.002)
     schedule.create_timer(100.0, lambda: is_read.__setitem__(0, True))
     sampling = Sampling(sampler, sample, lambda: is_read[0])

@@ -1,4 +1,4 @@
-"""The foundation of all packages: geometry, numbers, random streams, files, messages' fields.
+"""The foundation of all packages: geometry, numerics, random streams, files, fields of messages.
 
-Its modules import nothing of uwsim but `uwsim.errors` and each other.
+Its modules import only `uwsim.errors` and each other from uwsim.
 """

@@ -1,7 +1,8 @@
-"""Compatibility quirks of the original, restored by name: one table for files and ``--compat``.
+"""Quirks of UWSim that can be restored by name, in files and by ``--compat``.
 
-By default all of these are corrected. ``u:compatibility="thresholds rows"`` on ``<benchmark>``
-or ``--compat thresholds,rows`` restores the named quirks. ``uwsim`` restores all but those of
+UWSim is the C++ simulator whose scene and benchmark files uwsim reads: *the original*. By default
+all of its quirks are corrected. ``u:compatibility="thresholds rows"`` on ``<benchmark>`` or
+``--compat thresholds,rows`` restores the named quirks. The name ``uwsim`` restores all but
 `OLDER_QUIRKS`, which the last version of the original no longer has.
 """
 
@@ -47,14 +48,14 @@ COMPATIBILITY: dict[str, str] = {
     "whole-rates": "a rate is a whole number: 33.3 is 33",
     "y0": "camera parameters x0, y0 count from the left and bottom edge, published as they are",
 }
-"""The behaviour of the original by the name of the quirk, in alphabetical order."""
+"""The behaviour of the original, by the name of the quirk, in alphabetical order."""
 
 OLDER_QUIRKS = frozenset({"visual-frames"})
 """The quirks of older versions of the original, which ``uwsim`` does not restore."""
 
 
 def compatibility(names: Iterable[str]) -> frozenset[str]:
-    """Return the set of quirks for these names; ``uwsim`` means all but `OLDER_QUIRKS`.
+    """Return the set of quirks with these names; ``uwsim`` means all but `OLDER_QUIRKS`.
 
     Raises:
         UnknownName: a name is not in the table.

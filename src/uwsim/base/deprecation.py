@@ -1,7 +1,7 @@
-"""Old names of the public interface, which still work; `docs/python.md`, "Stability", has the rule.
+"""Decorators for old names of the public interface, which still work with a warning.
 
-`deprecated_name` and `renamed_parameters` make decorators. The caller of an old name gets a
-DeprecationWarning, which states the new one.
+A use of an old name gives a DeprecationWarning that states the new name. The rules are in
+``docs/python.md``, "Stability".
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ F = TypeVar("F", bound=Callable[..., Any])
 
 
 def deprecated_name(new_name: str) -> Callable[[F], F]:
-    """Return the decorator of a method, or of a property's getter, that has an old name."""
+    """Return a decorator for a method, or a property's getter, that is kept under its old name."""
 
     def decorate(function: F) -> F:
         @functools.wraps(function)
@@ -29,7 +29,7 @@ def deprecated_name(new_name: str) -> Callable[[F], F]:
 
 
 def renamed_parameters(**new_names: str) -> Callable[[F], F]:
-    """Return the decorator of a function that accepts old keywords: old name = new name."""
+    """Return a decorator for a function that accepts old keywords: ``old_name="new_name"``."""
 
     def decorate(function: F) -> F:
         @functools.wraps(function)
@@ -46,6 +46,6 @@ def renamed_parameters(**new_names: str) -> Callable[[F], F]:
 
 
 def warn_old_name(old_name: str, new_name: str, *, stacklevel: int = 3) -> None:
-    """Warn the caller of the calling function, or one further up the stack, of an old name."""
+    """Warn that an old name is used; ``stacklevel`` is that of ``warnings.warn``."""
     text = f"{old_name!r} is deprecated since uwsim 0.2.0; use {new_name!r}."
     warnings.warn(text, DeprecationWarning, stacklevel=stacklevel)

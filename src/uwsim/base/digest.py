@@ -1,4 +1,4 @@
-"""Hashes of specs."""
+"""Hashes of specs (the parsed elements of files)."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 
 
 def digest_of(spec: object) -> str:
-    """Return a hash of the values of a spec, which does not depend on the place of its file."""
+    """Return a hash of the values of a spec; it does not depend on the location of its file."""
     return hashlib.sha256(repr(_plain_value(spec)).encode()).hexdigest()
 
 

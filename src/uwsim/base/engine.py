@@ -1,7 +1,8 @@
-"""The physics engine's library, imported so that it starts no process.
+"""The import of MuJoCo, the physics engine, without its search for a window library.
 
-MuJoCo starts a process to find the library of its windows, which uwsim does not use. That process
-prints a traceback when the run ends. A program that uses the windows imports mujoco first.
+On import, MuJoCo starts a process that searches for a window library, which uwsim does not use.
+That process prints a traceback when the run ends. A program that opens windows of MuJoCo imports
+``mujoco`` before uwsim.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ with set_environment({"MUJOCO_GL": "disable"}), block_interrupts():
 
 
 def model_bytes(model: mujoco.MjModel) -> bytes:
-    """Return a model of the engine as bytes, the same for the same numbers."""
+    """Return a compiled model as bytes; equal models give equal bytes."""
     buffer = np.zeros(mujoco.mj_sizeModel(model), np.uint8)
     mujoco.mj_saveModel(model, None, buffer)
     return buffer.tobytes()

@@ -1,4 +1,4 @@
-"""Environment variables: those set for the duration of a block, and those that hold secrets."""
+"""Environment variables: setting some for the duration of a block, and removing secrets."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Exceptions of third-party programs and the operating system, as text and errors of a run."""
+"""Conversion of exceptions of third-party programs and of the system to texts and `RunFailed`."""
 
 from __future__ import annotations
 
@@ -13,18 +13,22 @@ from .interrupts import is_user_interrupt
 
 
 class RemoteError(Exception):
-    """An exception of a third-party program in its own process, as `describe_exception` has it."""
+    """An exception of a third-party program in its own process; its text is complete."""
 
 
 def describe_exception(error: BaseException, program: type) -> str:
-    """Return an exception of a third-party program as one line, with the line of its file.
+    """Return the text of an exception of a third-party program, with its file and line.
 
-    The file is named without its folders, so that results do not depend on its place. It is the
-    file of the program, or that of the last frame if no frame is in the program.
+    The file is that of the program, or of the last stack frame if no frame is in the program. It is
+    named without its folders, so that results do not depend on its location.
+
+    Args:
+        error: the exception.
+        program: the class that the user's program defines.
     """
     if isinstance(error, RemoteError):
         return str(error)
-    frames = traceback.extract_tb(error.__traceback__)[1:]  # the first is that of the caller
+    frames = traceback.extract_tb(error.__traceback__)[1:]  # without the frame of the caller
     program_file = getattr(sys.modules.get(program.__module__), "__file__", None)
     program_frames = [frame for frame in frames if frame.filename == program_file] or frames
     place = ""
@@ -43,7 +47,7 @@ def _text(error: BaseException) -> str:
 
 
 def system_error_text(error: OSError) -> str:
-    """Return the text of a system error, with its file."""
+    """Return the text of a system error, with the name of its file."""
     if error.filename is None:
         return error.strerror or str(error)
     return f"{error.strerror}: {error.filename}"
@@ -51,7 +55,7 @@ def system_error_text(error: OSError) -> str:
 
 @contextmanager
 def convert_to_run_failed() -> Iterator[None]:
-    """Convert system errors in this block to `RunFailed`: the inputs were checked before."""
+    """Convert system errors (OSError) in this block to `RunFailed`; inputs are checked earlier."""
     try:
         yield
     except BrokenPipeError:

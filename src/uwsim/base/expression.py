@@ -1,4 +1,4 @@
-r"""Arithmetic expressions with named values, in the syntax of muParser: scores, error rates.
+r"""Arithmetic expressions with named values in the syntax of muParser, for scores and error rates.
 
 .. code-block:: text
 
@@ -17,14 +17,14 @@ From the loosest binding to the tightest:
 ``^``                  from right to left: ``2^3^2`` is 512; ``2^-1`` is 0.5
 =====================  ==========================================================
 
-Functions: those of `FUNCTIONS`; constants ``_pi`` and ``_e``. ``log`` is to base **10**, as in the
-muParser of UWSim's time (newer versions: natural); ``log10`` and ``ln`` are unambiguous. ``rint``
-rounds halves up. Angles are in radians. Numbers are float64. If an intermediate value is not a
-finite number, there is no value: ``max(1, 0/0)``, ``1 || 1/0`` and ``1/(1/0)`` have none. Of
-``? :`` and ``if`` the branch that is not chosen does not count.
+The functions are in `FUNCTIONS`; the constants are ``_pi`` and ``_e``. ``log`` has the base **10**,
+as in the muParser that UWSim used (newer versions: natural); ``log10`` and ``ln`` are unambiguous.
+``rint`` rounds halves up. Angles are in radians. Numbers are float64. If an intermediate value is
+not a finite number, the expression has no value: ``max(1, 0/0)``, ``1 || 1/0`` and ``1/(1/0)`` have
+none. In ``? :`` and ``if``, the branch that is not chosen is ignored.
 
-Python's ``eval`` is never called: a parsed expression is a list of the steps below. Not in the
-language: assignments, strings, muParser's words ``and``, ``or``, ``xor``.
+Python's ``eval`` is never called: a parsed expression is a list of steps that work on a stack. Not
+in the language: assignments, strings, muParser's words ``and``, ``or``, ``xor``.
 """
 
 from __future__ import annotations
@@ -87,7 +87,7 @@ class ScoreError(UwsimError):
 
     def __init__(self, text: str, column: int, message: str) -> None:
         self.text, self.column, self.message = text, column, message
-        """The column from 0."""
+        """The expression, the column of the error from 0, and the message without these."""
         super().__init__(f"{message}\n{self.marked_text()}")
 
     def marked_text(self) -> str:
@@ -114,10 +114,15 @@ class _Step:
     """A step that replaces the topmost numbers of the stack by one number."""
 
     column: int
+    """The column of the step in the expression, from 0."""
     n_operands: int
+    """The number of numbers that are removed from the stack."""
     function: Function | None = None
+    """The function of these numbers; None for a constant or a name."""
     constant: float | None = None
+    """The constant that is put on the stack."""
     name: str = ""
+    """The name whose value is put on the stack, if there is no function and no constant."""
 
 
 @dataclass(frozen=True)
@@ -140,7 +145,7 @@ class Expression:
         missing_names = [name for name in self.names if values[name] is None]
         if missing_names:
             return Score(None, f"no value for {', '.join(missing_names)}")
-        stack: list[tuple[float, _Step | None]] = []  # a number; the step that made it not finite
+        stack: list[tuple[float, _Step | None]] = []  # number; step that gave a non-finite number
         with np.errstate(all="ignore"):
             for step in self.steps:
                 operands = stack[len(stack) - step.n_operands :]
@@ -238,7 +243,7 @@ def _parser() -> lark.Lark:
 def _compile(
     tree: lark.Tree[Any], text: str, names: tuple[str, ...], kind: str
 ) -> tuple[list[_Step], dict[str, None]]:
-    """Convert a syntax tree to steps, without recursion: chains may have thousands of operands."""
+    """Convert a syntax tree to steps and the names used, without recursion: it may be very deep."""
     steps: list[_Step] = []
     names_used: dict[str, None] = {}
     stack: list[lark.Tree[Any] | _Step] = [tree]

@@ -1,7 +1,7 @@
-"""Numbers, positions and orientations of messages from programs, viewers and files.
+"""Validation of numbers, positions and orientations from programs, viewers and files.
 
 A peer may send any number that its encoding can express: infinities, 1e308, 5e-324, or an integer
-of a thousand digits. All readers of such values use these functions.
+of a thousand digits. All code that reads such values uses these functions.
 """
 
 from __future__ import annotations
@@ -14,9 +14,9 @@ import numpy as np
 from .geometry import Array, Pose
 
 MAX_COMMAND = 1e6
-"""The limit to which commands are clipped; no vehicle reaches it [m, m/s, rad/s, N, N m]."""
+"""The absolute value to which commands are clipped, in SI units; no vehicle reaches it."""
 MAX_COORDINATE = MAX_COMMAND
-"""The largest coordinate of a position that is accepted [m]."""
+"""The largest absolute coordinate of a position that is accepted [m]."""
 EXPECTED_POSE = (
     f"finite coordinates of at most {MAX_COORDINATE:g} m, and a quaternion that is not zero"
 )

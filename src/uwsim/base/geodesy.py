@@ -1,8 +1,7 @@
 r"""Latitude, longitude and altitude on the ellipsoid of WGS84, and local NED coordinates.
 
-National Imagery and Mapping Agency, TR8350.2, 1997: with the semi-major axis a, the square of the
-eccentricity :math:`e^2 = f (2 - f)` and the radius of curvature :math:`N = a / \sqrt{1 - e^2
-\sin^2 \varphi}`,
+A position with latitude :math:`\varphi`, longitude :math:`\lambda` and altitude :math:`h` has the
+earth-centred, earth-fixed coordinates (National Imagery and Mapping Agency, TR8350.2, 1997)
 
 .. math::
 
@@ -10,8 +9,10 @@ eccentricity :math:`e^2 = f (2 - f)` and the radius of curvature :math:`N = a / 
     y &= (N + h) \cos\varphi \sin\lambda \\
     z &= ((1 - e^2) N + h) \sin\varphi .
 
-The local frame is the plane tangent to the ellipsoid at its origin; at a distance of 10 km the
-plane is 8 m above the ellipsoid.
+with the semi-major axis :math:`a`, the flattening :math:`f`, the square of the eccentricity
+:math:`e^2 = f (2 - f)` and the radius of curvature
+:math:`N = a / \sqrt{1 - e^2 \sin^2 \varphi}`. The horizontal plane of a local NED frame is tangent
+to the ellipsoid at the frame's origin; at a distance of 10 km it is 8 m above the ellipsoid.
 """
 
 from __future__ import annotations
@@ -58,7 +59,7 @@ class Geodetic:
 
     @property
     def axes(self) -> Array:
-        """The north, east and down axes as columns in the earth-fixed frame, (3, 3)."""
+        """The north, east and down axes at this position in the earth-fixed frame, as columns."""
         sine, cosine = math.sin(self.latitude), math.cos(self.latitude)
         east, north = math.sin(self.longitude), math.cos(self.longitude)
         return np.array(
@@ -70,14 +71,14 @@ class Geodetic:
         )
 
     def north_east_down(self, position: Geodetic) -> Array:
-        """Return the local coordinates of a position in the NED frame of this one, (3,) [m]."""
+        """Return the coordinates of ``position`` in the NED frame at this position, (3,) [m]."""
         return rotate_back(self.axes, position.earth_centred - self.earth_centred)
 
-    def place(self, north_east_down: Array) -> Geodetic:
-        """Return the position at local coordinates (3,) [m]: the inverse of `north_east_down`.
+    def position_at(self, north_east_down: Array) -> Geodetic:
+        """Return the position with coordinates (3,) [m] in the NED frame at this position.
 
-        The latitude is iterated; the altitude is that of Bowring, Survey Review 28, 1985. The
-        error near the ellipsoid is 1e-8 m.
+        This is the inverse of `north_east_down`. The latitude is iterated; the altitude is computed
+        as in Bowring, Survey Review 28, 1985. The error near the ellipsoid is 1e-8 m.
         """
         x, y, z = (self.earth_centred + rotate(self.axes, north_east_down)).tolist()
         e2 = FLATTENING * (2.0 - FLATTENING)

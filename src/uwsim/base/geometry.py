@@ -1,6 +1,6 @@
 """Poses, rotations and pinhole cameras.
 
-Transforms are named ``a_from_b`` and map coordinates of frame b into frame a.
+A transform ``a_from_b`` maps coordinates in frame b to coordinates in frame a.
 Quaternions are wxyz.
 """
 
@@ -17,6 +17,7 @@ from .numerics.linear import Array as Array
 from .numerics.linear import compose, length, product, rotate_back, transform_points
 
 Triple = tuple[float, float, float]
+"""The x, y and z components of a vector."""
 ZERO: Triple = (0.0, 0.0, 0.0)
 UNIT_SCALE: Triple = (1.0, 1.0, 1.0)
 
@@ -59,12 +60,12 @@ def write_rotation(roll: float, pitch: float, yaw: float, rotation: Array) -> No
 
 
 def rotation_from_xyz(x: float, y: float, z: float) -> Array:
-    """Return ``Rx(x) Ry(y) Rz(z)``: UWSim's order of vehicles, offsetr, twists [rad], (3, 3)."""
+    """Return ``Rx(x) Ry(y) Rz(z)``, (3, 3): UWSim's order in vehicles, offsetr, twists [rad]."""
     return product(product(rotation_x(x), rotation_y(y)), rotation_z(z))
 
 
 def rpy_from_rotation(rotation: Array) -> tuple[float, float, float]:
-    """Return roll, pitch, yaw of ``Rz(yaw) Ry(pitch) Rx(roll)`` (3, 3) [rad]; |pitch| <= pi/2."""
+    """Return roll, pitch, yaw [rad] of ``Rz(yaw) Ry(pitch) Rx(roll)``, (3, 3); |pitch| <= pi/2."""
     r = rotation
     pitch = math.atan2(-r[2, 0], math.hypot(r[0, 0], r[1, 0]))
     if math.hypot(r[0, 0], r[1, 0]) < 1e-9:  # roll and yaw turn about one axis: all is yaw
@@ -73,13 +74,13 @@ def rpy_from_rotation(rotation: Array) -> tuple[float, float, float]:
 
 
 def xyz_from_rotation(rotation: Array) -> tuple[float, float, float]:
-    """Return the angles of ``Rx(x) Ry(y) Rz(z)`` (3, 3) [rad]; y within +-pi/2."""
+    """Return the angles x, y, z [rad] of ``Rx(x) Ry(y) Rz(z)``, (3, 3); |y| <= pi/2."""
     x, y, z = rpy_from_rotation(rotation.T)  # the inverse has the other order and other signs
     return -x, -y, -z
 
 
 def rotation_about(axis: Array, angle: float) -> Array:
-    """Return the rotation by ``angle`` [rad] about an axis (3,) of any length (Rodrigues)."""
+    """Return the rotation by ``angle`` [rad] about an axis, (3,) of any length, as (3, 3)."""
     unit = np.asarray(axis, dtype=np.float64) / length(axis)
     k = np.array([[0.0, -unit[2], unit[1]], [unit[2], 0.0, -unit[0]], [-unit[1], unit[0], 0.0]])
     rotation: Array = np.eye(3) + math.sin(angle) * k + (1.0 - math.cos(angle)) * product(k, k)
@@ -234,7 +235,7 @@ class Intrinsics:
     def from_fovy(
         width: int, height: int, fovy: float, *, near: float = 0.18, far: float = 2000.0
     ) -> Intrinsics:
-        """Return square pixels and a centred axis for a vertical field of view [rad]."""
+        """Return the pinhole with a vertical field of view [rad], square pixels, a centred axis."""
         focal = height / (2.0 * math.tan(fovy / 2.0))
         cx, cy = image_centre(width, height)
         return Intrinsics(
@@ -251,7 +252,7 @@ class Intrinsics:
     def with_size(self, width: int, height: int) -> Intrinsics:
         """Return the pinhole of an image of another size, with the same vertical field of view.
 
-        The point at the centre of the image is the same.
+        The ray through the centre of the image does not change.
         """
         factor = height / self.height
         cx, cy = image_centre(width, height)
@@ -270,8 +271,8 @@ class Intrinsics:
     def project(self, points: Array, *, includes_behind: bool = False) -> Array:
         """Return the image coordinates (n, 2) [px] of points in the camera frame (n, 3) [m].
 
-        Points at or behind the camera plane give NaN. With ``includes_behind`` only those in the
-        plane do; those behind it are projected through the camera's centre, upside down.
+        Points in or behind the plane z = 0 of the camera give NaN. With ``includes_behind``, points
+        behind it are projected through the camera's centre, upside down.
         """
         pixels = [
             self.pixel(x, y, z, includes_behind=includes_behind) for x, y, z in points.tolist()
@@ -281,12 +282,15 @@ class Intrinsics:
     def pixel(
         self, x: float, y: float, z: float, *, includes_behind: bool = False
     ) -> tuple[float, float]:
-        """Return the image coordinates u, v [px] of one point, as `project`; fast for a few."""
+        """Return the image coordinates u, v [px] of one point, as `project` does for arrays."""
         depth = -z if z < 0.0 or (includes_behind and z != 0.0) else math.nan
         return self.cx + (self.fx * x + self.skew * y) / depth, self.cy - self.fy * y / depth
 
     def rays(self) -> Array:
-        """Return the ray through each pixel centre, in the camera frame, -z = 1, (h, w, 3)."""
+        """Return the ray through the centre of each pixel in the camera's frame, with z = -1.
+
+        Its shape is (h, w, 3).
+        """
         u = np.arange(self.width, dtype=np.float64)
         v = np.arange(self.height, dtype=np.float64)
         y = (self.cy - v) / self.fy
@@ -295,7 +299,7 @@ class Intrinsics:
 
     @cached_property
     def ray_lengths(self) -> Array:
-        """The lengths of `rays`: distance along a ray over planar depth, (h, w) [1]; read-only.
+        """The lengths of `rays`: distance along a ray divided by planar depth, (h, w); read-only.
 
         They are cached, because their computation takes longer than to render a small image.
         """

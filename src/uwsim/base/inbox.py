@@ -1,4 +1,4 @@
-"""The inbox of a reader of a topic."""
+"""The inbox of a subscriber of a topic."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ M = TypeVar("M")
 MAX_MESSAGES = 10_000
 """The greatest number of messages in an inbox that is not read."""
 MAX_BYTES = 256 * 2**20
-"""The greatest size of all messages in an inbox [bytes]; the newest is kept at any size."""
+"""The greatest size of all messages in an inbox [bytes]; the newest is kept whatever its size."""
 
 
 class Inbox(Generic[M]):
-    """The messages of one topic that one reader has not taken yet, and the last one.
+    """The messages of a topic that a subscriber has not taken yet, and the newest message.
 
     An inbox that is full discards its oldest messages.
 
@@ -33,7 +33,7 @@ class Inbox(Generic[M]):
         self.last_message: M | None = None
         """The newest message, taken or not."""
         self.last_step: int | None = None
-        """The step at which it was delivered."""
+        """The step at which the newest message was delivered; None before the first message."""
 
     def receive(self, message: M, step: int) -> None:
         """Add a message; called by the bus."""
@@ -48,7 +48,7 @@ class Inbox(Generic[M]):
         self.last_message, self.last_step = message, step
 
     def take(self) -> list[M]:
-        """Remove and return all messages that came since the last call, oldest first."""
+        """Remove and return all messages that arrived since the last call, oldest first."""
         if not self._messages:
             return []
         messages = list(self._messages)
@@ -56,7 +56,7 @@ class Inbox(Generic[M]):
         return messages
 
     def clear(self) -> None:
-        """Remove all messages."""
+        """Remove all messages, also the newest."""
         self._empty()
         self.last_message, self.last_step = None, None
 
@@ -72,5 +72,5 @@ class Inbox(Generic[M]):
         self._n_bytes = 0
 
     def set_stop(self, stop: Callable[[], None]) -> None:
-        """Set the function that `close` calls; used by the bus."""
+        """Set the function that ends the subscription, for `close`; called by the bus."""
         self._stop = stop

@@ -1,14 +1,14 @@
-"""Interruption of a command by Ctrl-C and signals: at once until there are results to keep.
+"""Interruption of a command by Ctrl-C and other signals.
 
-Python raises KeyboardInterrupt at the line that it executes. While libraries are loaded that is a
-line of theirs: some convert it to another error, some print it and continue. So a command begins
-with `exit_on_interrupt`, and calls `raise_on_interrupt` before it writes its first file. From then
-on SIGTERM, and the SIGHUP of a closed terminal, have the effect of Ctrl-C.
+A command begins with `exit_on_interrupt`: Ctrl-C ends it at once. Before it writes its first file,
+it calls `raise_on_interrupt`: Ctrl-C, SIGTERM, and the SIGHUP of a closed terminal then raise
+KeyboardInterrupt, so that results are kept. This is not done earlier, because libraries that are
+being imported convert KeyboardInterrupt to another error, or print it and continue.
 
 Some libraries call Python from compiled code and do not check for an error: moderngl crashes the
-process when it makes a program's uniforms, numba continues with a named tuple that does not exist.
-An interrupt is delayed while one of them runs. If a library suppresses an interrupt all the same,
-`raise_if_interrupted` raises it again before an invalid row is stored.
+process when it creates a program's uniforms, numba continues with a named tuple that does not
+exist. So an interrupt is delayed while one of them runs. If a library suppresses an interrupt all
+the same, `raise_if_interrupted` raises it again before an invalid row is stored.
 """
 
 from __future__ import annotations
@@ -23,12 +23,12 @@ from types import FrameType
 INTERRUPTED_STATUS = 130
 """The exit status of an interrupted command, as shells define it."""
 UNSAFE_PACKAGES = ("moderngl", "_moderngl", "glcontext", "numba", "llvmlite")
-"""The packages that an asynchronous exception may break; also the named tuples of numba."""
+"""The packages whose code an exception in a signal handler may break (`_is_unsafe`)."""
 RETRY_DELAY = 0.02
 """The time after which a delayed interrupt is sent again [s]."""
-_was_raised = Event()
-_is_pending = Event()
-_is_blocked = Event()
+_was_raised = Event()  # KeyboardInterrupt was raised; a library may have suppressed it
+_is_pending = Event()  # an interrupt is delayed
+_is_blocked = Event()  # `block_interrupts` is active in the main thread
 
 
 def exit_on_interrupt() -> None:
@@ -62,7 +62,7 @@ def raise_pending_interrupt() -> None:
 
 
 def ignore_interrupts() -> None:
-    """Ignore Ctrl-C in the last milliseconds of a process, whose exit status is decided.
+    """Ignore Ctrl-C in the last milliseconds of a process, when its exit status is decided.
 
     Python restores the default action of SIGINT before it exits. The signal would then end a
     process that has written all of its files.
@@ -71,12 +71,12 @@ def ignore_interrupts() -> None:
 
 
 def are_interrupts_unblocked() -> bool:
-    """Return whether Ctrl-C reaches this process, so that a KeyboardInterrupt may be the user's."""
+    """Return whether this process receives Ctrl-C: a KeyboardInterrupt may be from the user."""
     return signal.SIGINT not in signal.pthread_sigmask(signal.SIG_BLOCK, ())
 
 
 def is_user_interrupt(error: BaseException) -> bool:
-    """Return whether an exception may be the user's Ctrl-C."""
+    """Return whether an exception may be caused by the user's Ctrl-C."""
     return isinstance(error, KeyboardInterrupt) and are_interrupts_unblocked()
 
 

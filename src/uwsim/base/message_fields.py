@@ -1,6 +1,6 @@
-"""Checks and copies of messages before they are published: each field has its defined type.
+"""Checks of messages against their definitions, and copies and sizes of messages.
 
-The definition is the dataclass of the message, with annotations that correspond to ROS types:
+The definition is the dataclass of the message. Its annotations correspond to ROS types:
 ``float``, ``str``, ``np.ndarray[..., np.dtype[np.float64]]``, ``list[...]`` and other messages.
 """
 
@@ -37,7 +37,7 @@ _EXPECTED_TEXTS = {
     "message": "a message",
 }
 MAX_LOOP_LENGTH = 32
-"""The greatest number of numbers that a Python loop checks."""
+"""The greatest size of an array that is checked by a Python loop; numpy checks larger arrays."""
 _ARRAY = re.compile(r"np\.ndarray\[.*np\.dtype\[np\.(\w+)\]\]")
 _LIST = re.compile(r"list\[(.*)\]")
 
@@ -45,8 +45,11 @@ _LIST = re.compile(r"list\[(.*)\]")
 def find_invalid_field(message: object, prefix: str = "", *, converts: bool = True) -> str | None:
     """Describe the first field of a message that violates its definition; None if there is none.
 
-    With ``converts`` lists and tuples in fields of arrays become arrays; without it they are
-    invalid. ``prefix`` is the path of a message in another, with a dot at its end.
+    Args:
+        message: the message.
+        prefix: the path of the message in an outer message, with a dot at its end.
+        converts: True if lists and tuples in fields of arrays are converted to arrays; False if
+            they are invalid.
     """
     return None if _is_valid_quickly(message) else _check_fields(message, prefix, converts)
 
@@ -58,23 +61,23 @@ def _check_fields(message: object, prefix: str, converts: bool) -> str | None:
         if kind == "array" and not isinstance(value, np.ndarray):
             value = _array(value, element_type) if converts else None
             if value is not None:
-                object.__setattr__(message, name, value)  # of a frozen one, too
+                object.__setattr__(message, name, value)  # also in a frozen dataclass
         if kind == "array":
-            is_fit = value is not None and value.dtype.kind in "biuf"
+            is_valid = value is not None and value.dtype.kind in "biuf"
         elif kind == "list":
-            is_fit = isinstance(value, list | tuple)
-            for i, item in enumerate(value if is_fit else ()):
+            is_valid = isinstance(value, list | tuple)
+            for i, item in enumerate(value if is_valid else ()):
                 if element_type == "str":
-                    is_fit = is_fit and isinstance(item, str)
-                elif error is None and (is_fit := is_fit and _is_message(item, element_type)):
+                    is_valid = is_valid and isinstance(item, str)
+                elif error is None and (is_valid := is_valid and _is_message(item, element_type)):
                     error = find_invalid_field(item, f"{prefix}{name}[{i}].", converts=converts)
         elif kind == "message":
-            is_fit = _is_message(value, element_type)
-            if is_fit:
+            is_valid = _is_message(value, element_type)
+            if is_valid:
                 error = find_invalid_field(value, f"{prefix}{name}.", converts=converts)
         else:
-            is_fit = isinstance(value, _FIELD_TYPES[kind])
-        if not is_fit:
+            is_valid = isinstance(value, _FIELD_TYPES[kind])
+        if not is_valid:
             text = " ".join(repr(getattr(message, name)).split())
             text = text if len(text) <= 60 else text[:57] + "..."
             return f"{prefix}{name} is {text}, expected {_EXPECTED_TEXTS[kind]}"
@@ -84,7 +87,7 @@ def _check_fields(message: object, prefix: str, converts: bool) -> str | None:
 
 
 def check_and_freeze(message: object) -> str | None:
-    """Do the same as `find_invalid_field`; make the arrays of a valid message read-only."""
+    """Check a message as `find_invalid_field` does; make arrays of a valid message read-only."""
     if _is_valid_quickly(message, freezes=True):
         return None
     error = _check_fields(message, "", converts=True)
@@ -94,7 +97,7 @@ def check_and_freeze(message: object) -> str | None:
 
 
 def _is_valid_quickly(message: object, *, freezes: bool = False) -> bool:
-    """Return True only if each field has exactly its type; False also for messages in lists.
+    """Return True only if each field has exactly its type; False if lists contain messages.
 
     With ``freezes`` the arrays of a valid message become read-only.
     """
@@ -122,15 +125,16 @@ def _is_valid_quickly(message: object, *, freezes: bool = False) -> bool:
 def find_invalid_number(
     message: object, paths: Sequence[str], limit: float
 ) -> tuple[str, str] | None:
-    """Describe the first number of a command that is not finite, or else beyond a limit.
+    """Describe the first number of a command that is not finite, or else exceeds a limit.
 
     Args:
         message: the command.
-        paths: the paths of its fields, such as ``twist.linear.x``; numbers or arrays of numbers.
-        limit: the greatest absolute value.
+        paths: the paths of the fields to check, such as ``twist.linear.x``; numbers or arrays.
+        limit: the greatest valid absolute value.
 
     Returns:
-        The number found, and the number expected with the consequence; None if all are valid.
+        The text of the invalid number, and of the expected number with the consequence; None if all
+        numbers are valid.
     """
     values = _value_getter(tuple(paths))(message)
     for value in values if len(paths) > 1 else (values,):
@@ -145,7 +149,7 @@ def find_invalid_number(
 
 def are_within(values: np.ndarray[Any, Any], limit: float) -> bool:
     """Return whether no number of an array is NaN or beyond a limit."""
-    if values.size <= MAX_LOOP_LENGTH:  # numpy's functions take longer than those numbers
+    if values.size <= MAX_LOOP_LENGTH:  # for few numbers, a loop is faster than numpy
         return all(-limit <= value <= limit for value in values.ravel().tolist())
     return bool(np.abs(values).max() <= limit)
 
@@ -199,7 +203,7 @@ def copy_message(message: M) -> M:
     for name in _field_names(cast(Hashable, message.__class__)):
         value = getattr(message, name)
         if value.__class__ not in _SCALAR_TYPES:
-            object.__setattr__(duplicate, name, _copy_value(value))  # of a frozen one, too
+            object.__setattr__(duplicate, name, _copy_value(value))  # also in a frozen dataclass
     return duplicate
 
 
@@ -337,7 +341,7 @@ def _definition(cls: Hashable) -> tuple[tuple[str, str, str], ...]:
 
 
 def _message_type(cls: type, annotation: str) -> str:
-    """Return ROS's name of a message in an annotation, and ``str`` for itself."""
+    """Return the ROS type of the message class in an annotation; ``str`` for ``str``."""
     name = annotation.rpartition(".")[2]
     message_class = _class_in(cls, annotation)
     return str(getattr(message_class, "__msgtype__", name.replace("__", "/")))

@@ -8,8 +8,9 @@ from collections.abc import Callable
 CONTRAST_EXPONENT = math.log(50.0)
 """The exponent of the contrast threshold of 2 %, below which nothing is visible."""
 DENSITY = "density"
+"""The ``u:unit`` of a value that is a fog density [1/m]."""
 LENGTHS: dict[str, Callable[[float], float]] = {
     "attenuationLength": lambda length: 1.0 / length,
     "visibilityRange": lambda length: math.sqrt(CONTRAST_EXPONENT) / length,
 }
-"""The conversions from a length [m] to a fog density [1/m], and back, by ``u:unit``."""
+"""The functions that convert a length [m] to a fog density [1/m], and back, by ``u:unit``."""

@@ -1,4 +1,4 @@
-"""JSON of peers: read within limits, so that it can be compared, displayed and forwarded."""
+"""Reading of JSON from peers (other programs, browsers) with limits on its content."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from typing import Any
 MAX_DEPTH = 64
 """The greatest depth of nested lists and objects."""
 ESCAPED_SURROGATE = re.compile(r"\\u[dD][89a-fA-F]")
-"""A surrogate: half of a character beyond 16 bits, as JSON escapes it."""
+"""The JSON escape of a surrogate: half of a character beyond 16 bits."""
 BRACKET = re.compile(r'[\[\]{}]|"[^"\\]*(?:\\.[^"\\]*)*(?:"|\\?\Z)', re.S)
-"""A bracket, or a string, whose brackets do not count. A string without an end extends to the end
-of the text: otherwise the time would grow with the square of its quotes."""
+"""A bracket, or a string, whose brackets are not counted. A string without an end extends to the
+end of the text; otherwise the time of a search would grow with the square of the text's quotes."""
 DEPTH_STEPS = {"[": 1, "{": 1, "]": -1, "}": -1}
 
 
@@ -21,7 +21,7 @@ def read_peer_json(text: str) -> Any:
     """Read JSON that a peer has sent.
 
     Raises:
-        ValueError: it is not JSON, is nested more deeply than `MAX_DEPTH`, or has half of a
+        ValueError: the text is not JSON, is nested more deeply than `MAX_DEPTH`, or has half of a
             surrogate pair, which is no character.
     """
     if text.count("[") + text.count("{") > MAX_DEPTH and _depth(text) > MAX_DEPTH:

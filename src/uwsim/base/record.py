@@ -1,10 +1,10 @@
-"""Records: the state of a part of a simulation.
+"""Records: dataclasses that hold the state of a simulation and of its parts.
 
-A part of a running scene has its state in one record, ``state``, and sets no other attribute after
-its creation. Records are nested as the parts are; the outermost is the state of a whole
-simulation. The records of a running simulation refer to live objects: arrays that compiled code
-writes, random generators, the engine's memory. `copy_value` returns a record of values alone, and
-`assign` writes such values back to the live objects.
+A *part* is an object of a running scene, such as a sensor. It has its whole state in one record,
+``state``, and sets no other attribute after its creation. Records are nested as the parts are; the
+outermost record is the state of a simulation. The records of a running simulation refer to live
+objects: arrays that compiled code writes, random generators, the engine's memory. `copy_record`
+returns a copy that contains only values, and `assign` writes such values back to the live objects.
 
 A record is a dataclass with slots. Its fields contain numbers, texts, tuples and frozen
 dataclasses, which are replaced, never changed; arrays, lists, dictionaries and queues of these;
@@ -47,16 +47,16 @@ class RandomState(Record):
 
 
 class Item(Record):
-    """The base of the elements of queues and tables in records.
+    """The base of records that are elements of queues and tables, and not the state of a part.
 
-    No part has it as its ``state``, so `assign` replaces the whole queue or table.
+    `assign` does not write into items: it replaces the whole queue or table.
     """
 
     __slots__ = ()
 
 
 class ExternalValue(abc.ABC):
-    """A value outside of Python's objects, such as the engine's memory, that is read and set."""
+    """A value that is not stored in a Python object, such as a value in the engine's memory."""
 
     @abc.abstractmethod
     def value(self) -> object:
@@ -64,7 +64,7 @@ class ExternalValue(abc.ABC):
 
     @abc.abstractmethod
     def set(self, value: object) -> None:
-        """Set the value; raises UwsimError if it is the value of another part."""
+        """Set the value; raise UwsimError if it was copied from another part."""
 
 
 class Part(Protocol):
@@ -79,7 +79,7 @@ P = TypeVar("P", bound=Part)
 
 
 class LazyPart(ExternalValue, Generic[P]):
-    """A part that is created, with its record, when it is first needed.
+    """A part that is created, with its record, when it is used for the first time.
 
     Args:
         make: a function that creates the part.
@@ -147,13 +147,13 @@ def copy_value(value: Any) -> Any:
 
 
 def copy_record(record: R) -> R:
-    """Return a copy of a record, of values alone."""
+    """Return a copy of a record that contains only values, no live objects."""
     copy: R = _COPIERS[type(record)](record)
     return copy
 
 
 def changing_fields(kind: type) -> tuple[int, ...]:
-    """Return the indices of the fields of a dataclass that may be more than a number or a text."""
+    """Return the indices of the fields of a dataclass whose type is not only a number or text."""
     return tuple(
         index
         for index, field in enumerate(dataclasses.fields(kind))
@@ -191,7 +191,7 @@ class _Copiers(dict[type, Callable[[Any], Any]]):
 
 
 def _record_copier(kind: type[Any]) -> Callable[[Any], Any]:
-    """Return the function that copies the records of a class; most fields need no copy."""
+    """Return the function that copies records of a class; it copies only `changing_fields`."""
     fields, indices, copiers = _FIELD_GETTERS[kind], changing_fields(kind), _COPIERS
     if not indices:
         return lambda record: kind(*fields(record))
@@ -232,7 +232,7 @@ def assign(record: Record, values: Record) -> None:
     """Write the values of a copied record into the record of a running part.
 
     Raises:
-        UwsimError: the record is that of another part.
+        UwsimError: the values were copied from another part.
     """
     if type(record) is not type(values):
         raise wrong_scene_error()
@@ -248,7 +248,7 @@ def assign_fields(record: Record, values: Mapping[str, Any]) -> None:
     """Write the copied values of some fields into the record of a running part.
 
     Raises:
-        UwsimError: the values are those of another part.
+        UwsimError: the values were copied from another part.
     """
     for name, new_value in values.items():
         if not _assign_in_place(getattr(record, name), new_value):

@@ -1,7 +1,7 @@
-"""Sampling times, and samples that compiled code takes.
+"""Timers that determine when sensors take samples, and samplers that take them in compiled code.
 
-A sample is due at the first step at or after its time. Timers are rows of a table that compiled
-code reads (`take_due`) at the steps at which one is due. A timer may have a sampler: a compiled
+A sample is due at the first step at or after its time. Timers are rows of a table, which compiled
+code reads (`take_due`) at the steps at which a timer is due. A timer may have a sampler: a compiled
 function that writes the numbers of a sample (`uwsim.base.numerics.calls`).
 """
 
@@ -22,27 +22,27 @@ from .numerics.memory import Ints64, carray, pointer, read_double, view_doubles,
 from .record import Record
 
 START, N_SAMPLES, DUE = range(3)
-"""The indices of a timer's counts: step of the first sample, samples taken, step of the next."""
+"""The indices in a timer's counts: step of the first sample, number of samples, next step."""
 NO_STEP = 2**62
-"""The due step of a table without a timer."""
+"""The step at which the next timer is due in a table without timers."""
 
 TIMER = np.dtype(
     [
         ("rate", np.float64),  # [Hz]
         ("counts", np.int64),  # the address of `TimerState.counts`
-        ("function", np.int64),  # addresses of a sampler; 0: there is none
-        ("parameters", np.int64),
-        ("values", np.int64),  # of `Sample.numbers`
-        ("is_needed", np.int64),  # whether its samples are taken
-        ("is_fired", np.int64),  # whether it was due, and needed, when the table was walked last
+        ("function", np.int64),  # the address of the sampler's function; 0: there is no sampler
+        ("parameters", np.int64),  # the address of the sampler's parameters
+        ("values", np.int64),  # the address of `Sample.numbers`
+        ("is_needed", np.int64),  # 1 if samples are taken, else 0
+        ("is_fired", np.int64),  # 1 if the timer was due and needed at the last `take_due`
     ]
 )
 """A timer in a table."""
 TABLE = np.dtype(
     [
-        ("timers", np.int64),  # the address of records of `TIMER`
-        ("n", np.int64),
-        ("due", np.int64),  # the address of the step before which no timer is due
+        ("timers", np.int64),  # the address of the records of `TIMER`
+        ("n", np.int64),  # the number of timers
+        ("due", np.int64),  # the address of the step at which the next timer is due
         ("timestep", np.float64),  # [s]
     ]
 )
@@ -59,7 +59,7 @@ def sample_step(n: int, rate: float, timestep: float) -> int:
 
 @njit
 def count_sample(counts: Ints64, rate: float, timestep: float) -> None:
-    """Count a sample of a timer, and compute the step of the next."""
+    """Count a sample of a timer, and compute the step of the next sample."""
     counts[N_SAMPLES] += 1
     counts[DUE] = counts[START] + sample_step(counts[N_SAMPLES], rate, timestep)
 
@@ -90,7 +90,7 @@ class TimerState(Record):
     """The state of a timer."""
 
     counts: npt.NDArray[np.int64]
-    """The step of the first sample, the number of samples taken, and the step of the next, (3,)."""
+    """The step of the first sample, the number of samples, the step of the next sample, (3,)."""
 
     @staticmethod
     def starting_at(step: int) -> TimerState:
@@ -99,7 +99,14 @@ class TimerState(Record):
 
 
 class SampleTimer:
-    """A timer that calls a function at a rate."""
+    """A timer that calls a Python function at a rate.
+
+    Args:
+        start: the step of the first call.
+        rate: the rate [Hz].
+        timestep: the duration of a step [s].
+        call: the function.
+    """
 
     def __init__(self, start: int, rate: float, timestep: float, call: Callable[[], None]) -> None:
         self._rate, self._timestep, self._call = rate, timestep, call
@@ -124,21 +131,21 @@ def _needs_no_preparation(end: float) -> bool:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Sampler:
-    """A function that takes the samples of a sensor in compiled code."""
+    """A compiled function that takes the samples of a sensor."""
 
     function: int
-    """The address of the function that writes a sample; see `uwsim.base.numerics.calls`."""
+    """The address of the function that writes a sample (`uwsim.base.numerics.calls`)."""
     parameters: npt.NDArray[Any]
     """The array that the function reads at its address."""
     n_values: int
     """The number of numbers that the function writes."""
     prepare: Callable[[float], None] = prepare_nothing
-    """A function that updates, in Python, the inputs of the sampler at a time [s]; it is called
-    before each sample in Python."""
-    is_alone: Callable[[float], bool] = _needs_no_preparation
+    """A Python function that updates the inputs of the sampler to a time [s]; it is called before
+    each sample that is taken from Python."""
+    can_skip_prepare: Callable[[float], bool] = _needs_no_preparation
     """A function that returns whether compiled steps until a time [s] need no preparation."""
     memory_owners: tuple[object, ...] = field(default=())
-    """The objects to whose memory the addresses in the parameters refer."""
+    """The objects whose memory the parameters refer to; they must not be freed."""
 
     def take(self, time: float) -> Array:
         """Take a sample at ``time`` [s] and return its numbers, (n,)."""
@@ -179,11 +186,11 @@ Addresses = npt.NDArray[np.int64]
 def number_addresses(
     array: npt.NDArray[np.float64], numbers: npt.ArrayLike | None = None
 ) -> Addresses:
-    """Return the addresses of numbers of a contiguous array, which must not be freed, (n,).
+    """Return the addresses of elements of a contiguous array, which must not be freed, (n,).
 
     Args:
         array: the array.
-        numbers: which, counted through the array by rows; None: all.
+        numbers: the indices of the elements in row-major order; None: all elements.
     """
     indices = np.arange(array.size) if numbers is None else np.asarray(numbers, dtype=np.int64)
     return address_of(array) + array.itemsize * indices.ravel()
@@ -193,14 +200,14 @@ def gather_sampler(
     addresses: Addresses,
     *,
     prepare: Callable[[float], None],
-    is_alone: Callable[[float], bool],
+    can_skip_prepare: Callable[[float], bool],
 ) -> Sampler:
-    """Return a sampler of the numbers at some addresses, in their order.
+    """Return a sampler that copies the numbers at some addresses, in their order.
 
     Args:
         addresses: addresses of doubles, (n,); ``prepare`` may change them.
         prepare: as in `Sampler`.
-        is_alone: as in `Sampler`.
+        can_skip_prepare: as in `Sampler`.
     """
     row = np.zeros(1, ADDRESSES)
     row["addresses"], row["n"] = address_of(addresses), len(addresses)
@@ -209,17 +216,14 @@ def gather_sampler(
         parameters=row,
         n_values=len(addresses),
         prepare=prepare,
-        is_alone=is_alone,
+        can_skip_prepare=can_skip_prepare,
         memory_owners=(addresses,),
     )
 
 
-def gather(parameters: int, values: int, time: float) -> None:
-    """Copy numbers from their addresses; see `uwsim.base.numerics.calls`."""
-    numbers = carray(pointer(parameters), (1,), ADDRESSES)[0]
-    addresses, values_read = (
-        view_int64s(numbers.addresses, numbers.n),
-        view_doubles(values, numbers.n),
-    )
-    for i in range(numbers.n):
-        values_read[i] = read_double(addresses[i])
+def gather(parameters_address: int, values_address: int, time: float) -> None:
+    """Copy numbers from their addresses (`ADDRESSES`); see `uwsim.base.numerics.calls`."""
+    row = carray(pointer(parameters_address), (1,), ADDRESSES)[0]
+    addresses, values = view_int64s(row.addresses, row.n), view_doubles(values_address, row.n)
+    for i in range(row.n):
+        values[i] = read_double(addresses[i])

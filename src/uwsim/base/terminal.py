@@ -1,4 +1,4 @@
-"""Messages on standard error, cleaned of control characters and shortened."""
+"""Messages on standard error, without control characters and of limited length."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from collections.abc import Iterable
 from ..errors import Diagnostic
 
 MAX_QUOTE_LENGTH = 300
-"""The greatest number of letters of a long word or of a quoted text."""
+"""The greatest number of characters of a word or of a quoted text."""
 MAX_LINE_LENGTH = 4000
-"""The greatest number of letters of a line."""
+"""The greatest number of characters of a line."""
 
 
 def warn(message: str) -> None:
@@ -27,9 +27,10 @@ def print_warnings(diagnostics: Iterable[Diagnostic]) -> None:
 
 
 def ignore_casts() -> None:
-    """Suppress warnings of numbers beyond their type; these become infinite, which is checked.
+    """Suppress numpy's warnings of casts of numbers that are too large for the new type.
 
-    The processes of the commands call it, for all of their threads.
+    Such numbers become infinite, which is checked elsewhere. The setting is for all threads of the
+    process; each command calls this function.
     """
     pattern = "(overflow|invalid value) encountered in cast"
     warnings.filterwarnings("ignore", pattern, RuntimeWarning)
@@ -48,7 +49,7 @@ def _clean_line(line: str) -> str:
 
 
 def escape_control_characters(text: str) -> str:
-    """Escape all control characters but line ends."""
+    """Escape all control characters except line ends."""
     return "".join(
         letter if letter.isprintable() or letter == "\n" else f"\\x{ord(letter):02x}"
         for letter in text
@@ -63,7 +64,7 @@ def escape_to_one_line(text: str) -> str:
 LONG_WORD = re.compile(
     rf"""(?<!\w)'[^']*'(?!\w)|(?<!\w)"[^"]*"(?!\w)|\S{{{MAX_QUOTE_LENGTH + 1},}}"""
 )
-"""A quoted text, or a long word."""
+"""The pattern of a quoted text or of a long word."""
 
 
 def _shorten(match: re.Match[str]) -> str:

@@ -1,4 +1,4 @@
-"""The parameters of an algorithm, which record the names that it reads."""
+"""The parameters of an algorithm, which record the names that the algorithm reads."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ class TrackedParameters(dict[str, Value]):
         self.plain_copy = dict(values)
         """The parameters as a dict that records nothing."""
         self.names_read: dict[str, None] = {}
-        """The names that were read, in this order, whether or not they have a value."""
+        """The names that were read, in the order of reading, whether or not they have a value."""
 
     def _record_all(self) -> None:
         self.names_read.update(dict.fromkeys(self.plain_copy))

@@ -149,7 +149,7 @@ class Battery(Device):
             parameters=row,
             n_values=0,
             prepare=prepare_nothing if powers is None else powers.prepare,
-            is_alone=self._lasts_until,
+            can_skip_prepare=self._lasts_until,
             memory_owners=(powers, numbers),
         )
         """The sampler that integrates the current."""

@@ -100,7 +100,7 @@ class JointWrench:
             self._poses.refresh()
             self._make_copy()
 
-        def is_alone(end_time: float) -> bool:
+        def can_skip_prepare(end_time: float) -> bool:
             self._make_copy()
             return True
 
@@ -109,7 +109,7 @@ class JointWrench:
             parameters=row,
             n_values=6,
             prepare=prepare,
-            is_alone=is_alone,
+            can_skip_prepare=can_skip_prepare,
             memory_owners=(mount, offsets, self),
         )
 

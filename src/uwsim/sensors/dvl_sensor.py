@@ -146,7 +146,7 @@ class Dvl(CompiledSensor):
             parameters=self._row,
             n_values=kernel.N_VALUES,
             prepare=self._prepare,
-            is_alone=self._is_alone,
+            can_skip_prepare=self._can_skip_prepare,
         )
         """The sampler."""
 
@@ -171,7 +171,7 @@ class Dvl(CompiledSensor):
         row["water_track"] = address_of(state.water.numbers)
         return row
 
-    def _is_alone(self, end_time: float) -> bool:
+    def _can_skip_prepare(self, end_time: float) -> bool:
         """Return True if samples until a time [s] need no preparation."""
         if not (self._mount.is_compiled and self._base.is_compiled):
             return False

@@ -116,7 +116,7 @@ class GpsSensor(CompiledSensor):
             x, y, _ = self._world.world_from_localized.inverse().transform(position[None])[0]
             return float(x + noise[0]), float(y + noise[1]), 0.0
         east, north, up = (position + noise).tolist()
-        geodetic = origin.place(np.array([north, east, -up]))
+        geodetic = origin.position_at(np.array([north, east, -up]))
         return math.degrees(geodetic.latitude), math.degrees(geodetic.longitude), geodetic.altitude
 
     def _no_fix(self, time: float) -> NavSatFix:

@@ -106,7 +106,7 @@ class RangeSensor(CompiledSensor):
             parameters=row,
             n_values=1,
             prepare=prepare,
-            is_alone=lambda _: mount.is_compiled and rays.is_compiled,
+            can_skip_prepare=lambda _: mount.is_compiled and rays.is_compiled,
             memory_owners=(self.state, mount, rays, directions),
         )
         """The sampler."""

@@ -165,7 +165,7 @@ def create_sampler(
         parameters=parameters,
         n_values=n_values,
         prepare=lambda _: mount.prepare(),
-        is_alone=lambda _: mount.is_compiled,
+        can_skip_prepare=lambda _: mount.is_compiled,
         memory_owners=(mount, *memory_owners),
     )
 

@@ -167,7 +167,9 @@ class CompiledVehicle:
         self._twist_addresses = twist_addresses
         self._addresses = np.concatenate([pose_addresses, twist_addresses])
         return gather_sampler(
-            self._addresses, prepare=self._prepare, is_alone=lambda _: self._select_twist_source()
+            self._addresses,
+            prepare=self._prepare,
+            can_skip_prepare=lambda _: self._select_twist_source(),
         )
 
     def _prepare(self, time: float) -> None:
@@ -192,4 +194,4 @@ class CompiledVehicle:
         addresses = engine.link_motion.joint_addresses(
             self._index, self._joints, with_motion=engine.has_dynamics(self._index)
         )
-        return gather_sampler(addresses, prepare=prepare_nothing, is_alone=lambda _: True)
+        return gather_sampler(addresses, prepare=prepare_nothing, can_skip_prepare=lambda _: True)

@@ -40,9 +40,9 @@ class _Timer:
     sampling: Sampling | None
     state: TimerState
 
-    def is_alone(self, end_time: float) -> bool:
+    def can_skip_prepare(self, end_time: float) -> bool:
         """Return whether samples until ``end_time`` [s] need no preparation in Python."""
-        return self.sampling is None or self.sampling.sampler.is_alone(end_time)
+        return self.sampling is None or self.sampling.sampler.can_skip_prepare(end_time)
 
     @property
     def is_called(self) -> bool:
@@ -137,7 +137,7 @@ class Schedule:
             due = int(timer.state.counts[DUE])
             if due > last_step or due >= preparation_due or not self._is_sampled(i, timer):
                 continue
-            if not timer.is_alone(last_step * self._timestep):
+            if not timer.can_skip_prepare(last_step * self._timestep):
                 preparation_due = due
             elif due < python_due and timer.is_called:
                 python_due = due

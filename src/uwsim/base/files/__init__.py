@@ -1,1 +1,1 @@
-"""Files: input files with their hashes, names, sources of Python code, caches on disk."""
+"""Files: input files and their hashes, file names, sources of Python code, caches on disk."""

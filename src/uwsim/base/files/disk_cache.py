@@ -1,8 +1,9 @@
 """Files of the caches on disk, each of which begins with the hash of its content.
 
 A file whose hash does not match is removed, so that its content is computed again. Caches are
-optional: a file that cannot be read is treated as missing, and a failure to write is ignored. The
-files of a kind take `MAX_BYTES` at most: the least recently read files are removed.
+optional: a file that cannot be read is treated as missing, and a failure to write is ignored. Each
+kind of cached content has a folder, whose files take `MAX_BYTES` at most: the least recently read
+files are removed.
 """
 
 from __future__ import annotations
@@ -20,11 +21,11 @@ DRAFT_SUFFIX = ".part"
 """The suffix of a file that is being written; its name begins with the process identifier."""
 
 MAX_BYTES = 512 * 2**20
-"""The greatest size of all files of a kind [bytes]."""
+"""The greatest size of all files of one kind [bytes]."""
 
 
 def cache_folder(kind: str) -> Path:
-    """Return the folder of a kind in the user's cache (XDG Base Directory Specification)."""
+    """Return the folder of a kind of content in the user's cache (XDG Base Directory)."""
     home = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
     return Path(home) / "uwsim" / kind
 
@@ -51,7 +52,7 @@ def read(file: Path) -> bytes | None:
 
 
 def write(file: Path, data: bytes) -> None:
-    """Write ``data`` to a file, whole or not at all; a failure is ignored.
+    """Write ``data`` to a file, completely or not at all; a failure is ignored.
 
     Drafts of killed processes are removed.
     """
@@ -100,5 +101,5 @@ def _remove_oldest(limit: int, new_file: Path) -> None:
 
 
 def _digest(file: Path, data: bytes) -> bytes:
-    """Return the hash of a file's name and content: a renamed file is damaged, too."""
+    """Return the hash of a file's name and content, so that a renamed file counts as damaged."""
     return hashlib.sha256(file.name.encode() + b"\0" + data).digest()

@@ -1,7 +1,7 @@
-"""Names of files for names that a user chose: of cameras, measures, algorithms.
+"""File names for names that a user chose, of cameras, measures or algorithms.
 
-Such a name may contain any character. The files of a result get their names here, so that two
-names have two files on every system, also where upper and lower case are the same.
+Such a name may contain any character. The files of a result get their names from here, so that two
+names have two files on every system, also if it does not distinguish upper and lower case.
 """
 
 from __future__ import annotations
@@ -12,19 +12,19 @@ from collections import Counter
 from collections.abc import Iterable
 
 MAX_NAME_LENGTH = 80
-"""The greatest length of the name of a file [characters]."""
+"""The greatest length of a file name [characters]."""
 RESERVED_NAMES = re.compile(r"(con|prn|aux|nul|com\d|lpt\d)(\..*)?", re.IGNORECASE)
-"""The names that no file on Windows may have."""
+"""The file names that Windows does not allow."""
 DIGEST_LENGTHS = (8, 16, 32, 64)
-"""The numbers of digits of a hash; the first that distinguishes all names is used."""
+"""The possible numbers of digits of a hash; the first that distinguishes all names is used."""
 
 
 def file_names(names: Iterable[str], *, existing_names: Iterable[str] = ()) -> dict[str, str]:
-    """Return the names of files, without suffix, by name; different names have different files.
+    """Return the file name, without suffix, of each name; different names have different files.
 
-    A valid name of a file stays. In other names ``:`` becomes ``.``, and every character that is
-    not an ASCII letter, digit, ``_``, ``.`` or ``-`` becomes ``_``. Names that are then equal or
-    too long end in digits of their hash. The order of the names has no effect.
+    A name that is a valid file name is not changed. In other names ``:`` becomes ``.``, and every
+    character that is not an ASCII letter, digit, ``_``, ``.`` or ``-`` becomes ``_``. Names that
+    are then equal or too long end in digits of their hash. The order of the names has no effect.
 
     Args:
         names: the names of all files of one folder.
@@ -51,7 +51,7 @@ def file_names(names: Iterable[str], *, existing_names: Iterable[str] = ()) -> d
 
 
 def file_name(name: str) -> str:
-    """Return the name of the file of a name that is the only one in its folder."""
+    """Return the file name of a name, if no other name has a file in the same folder."""
     return file_names([name])[name]
 
 

@@ -1,11 +1,11 @@
-"""Input files: the only module that opens the files that scenes, benchmarks and models name.
+"""Reading of input files: the files to which scenes, benchmarks and models refer.
 
-Every byte that goes into a result is read by `read_bytes`. Inside `record_inputs` nothing is read
-without its hash:
+Every byte of an input file is read by `read_bytes`. In a block of `record_inputs`, the hash of each
+file is recorded:
 
 .. code-block:: python
 
-    with recorded() as files:
+    with record_inputs() as files:
         simulation = Simulation(scene)
     for file in files: print(file.name, file.sha256)
 """
@@ -33,7 +33,7 @@ class InputFile:
     """A file as it was when it was read."""
 
     name: str
-    """The name in the file that refers to it; never a folder of this machine."""
+    """The name by which another file refers to it, without folders of this machine."""
     sha256: str
     """``sha256:`` and the digest of its bytes, in hexadecimal."""
     path: Path = field(default=Path(), compare=False)
@@ -55,7 +55,7 @@ def record_inputs() -> Iterator[list[InputFile]]:
 
 
 def record(files: Iterable[InputFile]) -> None:
-    """Record that files were read; cached objects record the files from which they were made."""
+    """Record that files were read, also for an object from a cache that was made from them."""
     for file in files:
         for recorded_files in _records.get():
             if file not in recorded_files:
@@ -67,7 +67,7 @@ def read_bytes(path: Path, *, name: str | Path = "", at_most: int = MAX_BYTES) -
 
     Args:
         path: the path of the file.
-        name: the name in the file that refers to it; by default the name of the file itself.
+        name: the name by which another file refers to it; by default the file's own name.
         at_most: the greatest size [bytes].
 
     Raises:
@@ -108,14 +108,14 @@ def compute_hash(path: Path) -> str:
 
 
 def portable_name(name: str | Path) -> str:
-    """Return the name of a file for a result: of an absolute path only the last part."""
+    """Return the name of a file in a result: only the last part of an absolute path."""
     text = str(name).strip().replace("\\", "/")
     is_local = text.startswith(("/", "~")) or bool(PureWindowsPath(text).drive)
     return PurePosixPath(text).name if is_local else str(PurePosixPath(text))
 
 
 def hashes_by_name(files: Iterable[InputFile]) -> dict[str, str]:
-    """Return the hashes by name, sorted; the second file of a name is ``NAME (2)``."""
+    """Return the hashes of files by their names, sorted; a second file is ``NAME (2)``."""
     hashes: dict[str, str] = {}
     for file in sorted(set(files)):
         name, n = file.name, 1

@@ -1,4 +1,4 @@
-"""The file of a Python module, found without running its code."""
+"""Search for the file of a Python module without running the module's code."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from importlib.machinery import PathFinder
 
 
 def find_module_file(module: str) -> str:
-    """Return the file of a module on Python's path; empty if it has none, as some packages.
+    """Return the file of a module on Python's path; empty if it has none, as namespace packages.
 
     Raises:
         ModuleNotFoundError: the module does not exist; ``name`` is the missing part.

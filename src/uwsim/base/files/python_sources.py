@@ -1,7 +1,7 @@
-"""The source files of a module: its own, and those of the user's modules that it imports.
+"""Search for the source files of a module and of the user's modules that it imports.
 
-Installed packages, Python's library and this package do not count: a result has their versions.
-Files that a module opens or imports by other means than an ``import`` are not found.
+Installed packages, Python's library and uwsim are left out: a result states their versions. Files
+that a module opens, or imports by other means than an ``import`` statement, are not found.
 """
 
 from __future__ import annotations
@@ -18,15 +18,16 @@ from pathlib import Path
 
 OWN_PACKAGE = "uwsim"
 INSTALL_FOLDERS = ("site-packages", "dist-packages")
+"""The names of the folders of installed packages."""
 MAX_MODULES = 2000
 """The greatest number of modules that are read."""
 
 
 def find_sources(module: str) -> dict[str, Path]:
-    """Return the files of an imported module and of its imports by name, sorted by name.
+    """Return the files of an imported module and of the user's modules that it imports.
 
-    A name is that of the module as a path, ``package/module.py``. Of installed packages only the
-    package of the module counts.
+    The keys are the modules' names as paths, ``package/module.py``, sorted. If the module itself is
+    in an installed package, the files of this package are included.
     """
     top = module.partition(".")[0]
     sources: dict[str, Path] = {}
@@ -52,28 +53,28 @@ def _file_of(module: str) -> Path | None:
     file = getattr(loaded_module, "__file__", None)
     if loaded_module is None:
         parent, _, _ = module.rpartition(".")
-        places: Sequence[str] | None = getattr(sys.modules.get(parent), "__path__", None)
-        if parent and places is None:
+        search_path: Sequence[str] | None = getattr(sys.modules.get(parent), "__path__", None)
+        if parent and search_path is None:
             return None
         with suppress(Exception):  # a third-party finder may raise any exception
-            spec = PathFinder.find_spec(module, places)
+            spec = PathFinder.find_spec(module, search_path)
             file = None if spec is None or not spec.has_location else spec.origin
     path = Path(str(file)) if file else None
     return path if path is not None and path.is_file() else None
 
 
 def _is_user_file(path: Path) -> bool:
-    """Return whether a file is the user's: neither of Python nor installed."""
+    """Return whether a file belongs to the user: neither to Python nor to an installed package."""
     resolved_path = path.resolve()
-    places = {sysconfig.get_path(name) for name in ("stdlib", "platstdlib")}
-    places.add(site.getusersitepackages())
+    folders = {sysconfig.get_path(name) for name in ("stdlib", "platstdlib")}
+    folders.add(site.getusersitepackages())
     return not any(part in INSTALL_FOLDERS for part in resolved_path.parts) and not any(
-        resolved_path.is_relative_to(Path(place).resolve()) for place in places if place
+        resolved_path.is_relative_to(Path(folder).resolve()) for folder in folders if folder
     )
 
 
 def _imported_names(path: Path, module: str) -> Iterator[str]:
-    """Yield the names of possible modules in all imports of the file of a module."""
+    """Yield the names in all imports of a module's file, which may be names of modules."""
     package = module if path.stem == "__init__" else module.rpartition(".")[0]
     try:
         tree = ast.parse(path.read_bytes())

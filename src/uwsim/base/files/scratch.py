@@ -1,4 +1,4 @@
-"""A temporary folder that is removed when its process ends, in whatever way.
+"""A temporary folder that is removed when the process that uses it ends, even if it is killed.
 
 A killed process cannot remove its files. So another process creates the folder and reads from a
 pipe. It removes the folder when the other end of the pipe is closed.
@@ -15,7 +15,10 @@ from pathlib import Path
 from ...errors import RunFailed
 
 SCRATCH_VARIABLE = "UWSIM_SCRATCH"
-"""The environment variable with a folder's name; its processes end with the folder's owner."""
+"""The environment variable with the path of a scratch folder, for processes that use the folder.
+
+They are killed if the process that requested the folder is killed.
+"""
 REMOVER = """
 import contextlib, os, shutil, sys, tempfile, time
 folder = tempfile.mkdtemp(prefix=sys.argv[1], dir=sys.argv[2] or None)
@@ -37,13 +40,14 @@ for _ in range(1 if is_over else 30):  # what a killed process has started may s
 
 @contextmanager
 def scratch_folder(prefix: str, parent: Path | None = None) -> Iterator[Path]:
-    """Yield an empty folder, and remove it with its content.
+    """Yield an empty folder, and remove it with its content after the block.
 
-    If this process is killed, those with `SCRATCH_VARIABLE` in their environment are killed, too.
+    If this process is killed, all processes with this folder in their `SCRATCH_VARIABLE` are
+    killed, too.
 
     Args:
-        prefix: the first letters of its name.
-        parent: the folder in which it is created; None: the system's for temporary files.
+        prefix: the first characters of the folder's name.
+        parent: the folder in which it is created; None: the system's temporary folder.
 
     Raises:
         RunFailed: the folder cannot be created.

@@ -1,4 +1,4 @@
-"""Modules made of a source that was read before, without access to a disk."""
+"""Creation of Python modules from source code in memory."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from types import CodeType, ModuleType
 
 
 def source_module(name: str, path: str, source: bytes) -> ModuleType:
-    """Return the module ``name``; create it from a source unless it is loaded already.
+    """Return the module ``name``; create it from source code unless it is loaded already.
 
     Args:
         name: the name in ``sys.modules``.
-        path: the path of the file in messages.
-        source: the content of the file.
+        path: the path of the source file that error messages show.
+        source: the source code.
 
     Raises:
         BaseException: any exception of the code; the module is then not in ``sys.modules``.
@@ -36,7 +36,7 @@ def source_module(name: str, path: str, source: bytes) -> ModuleType:
 
 
 class _Loader(importlib.abc.InspectLoader):
-    """A loader of a module from its source."""
+    """A loader of a module from its source code."""
 
     def __init__(self, path: str, source: bytes) -> None:
         self._path, self._source = path, source

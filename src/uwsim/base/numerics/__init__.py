@@ -1,1 +1,1 @@
-"""Compiled code, and arithmetic with the same bytes on every processor."""
+"""Numerics: compiled code, and arithmetic with the same results on every processor."""

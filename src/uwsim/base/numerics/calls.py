@@ -1,8 +1,9 @@
-"""Compiled functions that are called by their address, so that each layer may define its own.
+"""Compiled functions that other compiled code calls by their address.
 
-A function of this kind is ``void(parameters, values, time)``. It reads constants from a record at
-the address ``parameters``, writes numbers at the address ``values``, and receives the time [s].
-`compile_c_function` of `uwsim.base.numerics.jit` compiles one with the signature `SIGNATURE`.
+So a lower layer can call functions that higher layers define. Such a function is
+``void(parameters, values, time)``: it reads its parameters from a record at the address
+``parameters``, writes its results at the address ``values``, and receives the time [s].
+`function_address` compiles a Python function with this signature.
 """
 
 from __future__ import annotations
@@ -27,7 +28,7 @@ SIGNATURE = types.void(types.intp, types.intp, types.float64)
 """The types of the addresses of parameters and values, and of the time [s]."""
 
 FUNCTION = np.dtype([("function", np.int64), ("parameters", np.int64)])
-"""The addresses of a function and of its parameters; the first is 0 if there is no function."""
+"""The addresses of a function (0: there is none) and of its parameters."""
 
 
 def prepare_nothing(end: float) -> None:
@@ -39,11 +40,11 @@ class CompiledFunction:
     """A function that other compiled code calls by its address."""
 
     addresses: tuple[int, int]
-    """The numbers of `FUNCTION`."""
+    """The addresses of the function and of its parameters (`FUNCTION`)."""
     prepare: Callable[[float], None] = prepare_nothing
-    """A function that updates the inputs of the function up to a time [s]."""
+    """A Python function that updates the inputs of the compiled function to a time [s]."""
     memory_owners: tuple[object, ...] = field(default=())
-    """The objects to whose memory the addresses refer."""
+    """The objects whose memory the addresses refer to; they must not be freed."""
 
 
 def _call(
@@ -99,20 +100,27 @@ def _call_word(typingctx: Any, function: Any, argument: Any) -> Any:
 
 
 call: Any = intrinsic(_call)
-"""``call(function, parameters, values, time)``, for compiled code."""
+"""``call(function, parameters, values, time)`` calls a function in this module's sense."""
 call_both: Any = intrinsic(_call_both)
-"""``call_both(function, first, second)``: a C function ``void(void*, void*)``."""
+"""``call_both(function, first, second)`` calls a C function ``void(void*, void*)``."""
 call_three: Any = intrinsic(_call_three)
-"""``call_three(function, a, b, c)``: a C function ``void*(void*, void*, void*)``."""
+"""``call_three(function, a, b, c)`` calls a C function ``void*(void*, void*, void*)``."""
 call_numbered: Any = intrinsic(_call_numbered)
-"""``call_numbered(function, a, b, n, c)``: a C function ``void(void*, void*, int, void*)``."""
+"""``call_numbered(function, a, b, n, c)`` calls a C ``void(void*, void*, int, void*)``."""
 call_word: Any = intrinsic(_call_word)
-"""``call_word(function, argument)``: a C function ``uint64_t(void*)``."""
+"""``call_word(function, argument)`` calls a C function ``uint64_t(void*)``."""
 
 
 @njit
 def evaluate(function: int, parameters: int, n: int, time: float) -> Floats:
-    """Call a function by its address from Python; return its ``n`` values at ``time`` [s]."""
+    """Call a function from Python; return its ``n`` values at ``time`` [s], (n,).
+
+    Args:
+        function: the address of the function.
+        parameters: the address of its parameters.
+        n: the number of values that it writes.
+        time: the time [s].
+    """
     values = np.empty(n)
     call(function, parameters, values.ctypes.data, time)
     return values
@@ -124,7 +132,7 @@ def _compile(function: Callable[[int, int, float], None]) -> Any:
 
 
 def function_address(function: Callable[[int, int, float], None]) -> int:
-    """Compile a function of a module, once, and return its address."""
+    """Compile a module's function with the signature `SIGNATURE`, once; return its address."""
     return int(_compile(function).address)
 
 

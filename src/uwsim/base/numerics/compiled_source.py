@@ -1,7 +1,7 @@
 """A digest of the source of a compiled function: its code, the functions it calls, its constants.
 
-numba's own cache on disk checks only the file of the function. A constant of another module, or a
-function that it calls, may change without a change of this file.
+numba's own cache on disk checks only the file that defines the function. A constant in another
+module, or a function that is called, may change without a change of this file.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ import numpy as np
 def source_digest(function: FunctionType) -> str:
     """Return a digest of a function, of the functions that it calls and of its constants.
 
-    A function that numba does not compile from Python (of numpy, intrinsics) counts by its name.
+    Functions that numba does not compile from Python (of numpy, intrinsics) enter by their names.
     """
     digest = hashlib.sha256()
     functions_left, functions_seen = [function], {function}

@@ -1,4 +1,4 @@
-"""The count of functions that a process compiles: the first start on a machine is slow."""
+"""A count of the functions that a process compiles, to report a slow first start on a machine."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from collections.abc import Callable
 from ..interrupts import raise_pending_interrupt
 
 SLOW_START_COUNT = 3
-"""The number of compiled functions from which a start is slow; one takes up to two seconds."""
+"""The number of compiled functions from which a start counts as slow; each takes up to 2 s."""
 _listeners: list[Callable[[], None]] = []
 _n_compiled = 0
 
@@ -18,9 +18,9 @@ def on_slow_start(callback: Callable[[], None]) -> None:
 
 
 def count_compilation() -> None:
-    """Count a function that is compiled next, because it is not on the disk.
+    """Count a function that will be compiled, because the cache on disk does not contain it.
 
-    A pending interrupt is raised here, between two functions; each takes numba seconds.
+    A pending interrupt is raised here, because the compilation of one function may take seconds.
     """
     raise_pending_interrupt()
     global _n_compiled

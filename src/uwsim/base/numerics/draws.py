@@ -1,8 +1,8 @@
-"""Random numbers in compiled code, bit for bit those of the same generator in Python.
+"""Random numbers in compiled code, bit for bit equal to those of numpy's generator in Python.
 
-A compiled function draws from the generator object itself, by the addresses that numpy provides.
-The generator then continues in Python after the last number of the compiled code. Normal numbers
-are those of numpy by the ziggurat method (Marsaglia and Tsang 2000), with the tables of numba.
+A compiled function draws from the same generator object, by the addresses that numpy provides: in
+Python the generator then continues after the last number that compiled code has drawn. Normal
+numbers are computed as in numpy, by the ziggurat method (Marsaglia and Tsang 2000).
 """
 
 from __future__ import annotations
@@ -25,11 +25,11 @@ _TAIL, _INVERSE_TAIL = float(_constants.ziggurat_nor_r), float(_constants.ziggur
 _UNIT_SCALE = 1.0 / 9007199254740992.0  # 2**-53
 
 Stream = Any
-"""A record of `STREAM` in compiled code."""
+"""A record of the type `STREAM` in compiled code."""
 
 
 def stream_of(generator: np.random.Generator) -> tuple[int, int]:
-    """Return the numbers of `STREAM` of a generator, which must not be freed."""
+    """Return the addresses of a generator (`STREAM`), which must not be freed."""
     interface: Any = generator.bit_generator.ctypes
     next_word = ctypes.cast(interface.next_uint64, ctypes.c_void_p).value
     return int(interface.state_address), int(next_word or 0)
@@ -37,26 +37,26 @@ def stream_of(generator: np.random.Generator) -> tuple[int, int]:
 
 @njit
 def uniform(stream: Stream) -> float:
-    """Draw a uniform number from 0 to 1, as ``Generator.random``."""
+    """Draw a uniform number from 0 to 1 (excluded), as ``Generator.random`` does."""
     number: float = float(call_word(stream.next, stream.state) >> np.uint64(11)) * _UNIT_SCALE
     return number
 
 
 @njit
 def normal(stream: Stream) -> float:
-    """Draw a standard normal number, as ``Generator.standard_normal``."""
+    """Draw a standard normal number, as ``Generator.standard_normal`` does."""
     while True:
         word = call_word(stream.next, stream.state)
         layer = np.int64(word & np.uint64(0xFF))
         sign = (word >> np.uint64(8)) & np.uint64(1)
-        place = (word >> np.uint64(9)) & np.uint64(0x000FFFFFFFFFFFFF)
-        number: float = np.float64(place) * _WIDTHS[layer]
+        magnitude = (word >> np.uint64(9)) & np.uint64(0x000FFFFFFFFFFFFF)
+        number: float = np.float64(magnitude) * _WIDTHS[layer]
         if sign != np.uint64(0):
             number = -number
-        if place < _LAYER_TOPS[layer]:
+        if magnitude < _LAYER_TOPS[layer]:
             return number
         if layer == 0:
-            return _tail(stream, place)
+            return _tail(stream, magnitude)
         height = _HEIGHTS[layer]
         if (_HEIGHTS[layer - 1] - height) * uniform(stream) + height < math.exp(
             -0.5 * number * number
@@ -65,11 +65,11 @@ def normal(stream: Stream) -> float:
 
 
 @njit
-def _tail(stream: Stream, place: int) -> float:
-    """Draw a normal number beyond the lowest layer."""
+def _tail(stream: Stream, magnitude: int) -> float:
+    """Draw a normal number beyond the lowest layer; its sign is a bit of ``magnitude``."""
     while True:
         distance = -_INVERSE_TAIL * math.log1p(-uniform(stream))
         exponential = -math.log1p(-uniform(stream))
         if exponential + exponential > distance * distance:
-            is_negative = (np.uint64(place) >> np.uint64(8)) & np.uint64(1)
+            is_negative = (np.uint64(magnitude) >> np.uint64(8)) & np.uint64(1)
             return -(_TAIL + distance) if is_negative != np.uint64(0) else _TAIL + distance

@@ -1,10 +1,10 @@
 """Elementwise functions of arrays with identical results on every processor.
 
-numpy has several implementations of each of these and chooses by the processor; they differ in the
-last bit. (The sine, the cosine and the square root do not, and are not here.) These functions call
-the C library for each element. It gives the same results on every processor since 2015; older ones
-lack the fused multiply-add that it uses. Outside of its domain a function gives NaN or infinity, as
-in numpy.
+numpy has several implementations of each of these functions and chooses by the processor; their
+results differ in the last bit. (Its sine, cosine and square root do not, so they are not here.) The
+functions below call the C library for each element. It gives the same results on all processors
+since 2015; older ones lack the fused multiply-add that it uses. Outside of its domain a function
+gives NaN or infinity, as in numpy.
 """
 
 from __future__ import annotations

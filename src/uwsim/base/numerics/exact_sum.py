@@ -1,4 +1,4 @@
-"""The sum of some numbers in compiled code, rounded once: that of `math.fsum`."""
+"""The exactly rounded sum of numbers in compiled code, equal to `math.fsum`."""
 
 from __future__ import annotations
 
@@ -44,7 +44,7 @@ def exact_sum(values: Array) -> float:
         low = y - (total - x)
         if low != 0.0:
             break
-    if n > 0 and low * partials[n - 1] > 0.0:  # half of the last digit and a rest of that sign
+    if n > 0 and low * partials[n - 1] > 0.0:  # the rest is more than half of the last digit
         double_low = 2.0 * low
         rounded_sum = total + double_low
         if double_low == rounded_sum - total:

@@ -1,9 +1,9 @@
-"""Typed decorators for numba, with a cache on disk.
+"""Typed decorators for compilation by numba, with a safe cache on disk.
 
 numba's own cache passes any file on the disk to pickle and the linker: a truncated file ends every
-command, a file with a changed byte may give other results. Here each signature has its own file,
-which begins with its hash. Code that was compiled from another source or with other constants
-(`compiled_source`) is not used.
+command, and a file with a changed byte may give other results. Here the compiled code for each
+signature has its own file, which begins with its hash. Code that was compiled from another source
+or with other constants (`compiled_source`) is not used.
 """
 
 from __future__ import annotations
@@ -34,14 +34,14 @@ from .compiled_source import source_digest
 from .compiling import count_compilation
 
 FORMAT = 4
-"""The format of the files of compiled code."""
+"""The version of the format of the files with compiled code."""
 P = ParamSpec("P")
 R = TypeVar("R")
 Elementwise = Callable[..., npt.NDArray[np.float64]]
 
 
 def njit(function: Callable[P, R]) -> Callable[P, R]:
-    """Compile with numba: cached on disk, GIL released, no fast-math, one thread.
+    """Compile a function with numba: cached on disk, GIL released, no fast-math, one thread.
 
     A division by zero gives infinity or NaN, as in numpy.
     """
@@ -115,13 +115,13 @@ class HashedCache(FunctionCache):
 
 
 class CompiledFiles:
-    """The files of one function: one for each signature and type of processor.
+    """The files with the compiled code of one function, for each signature and type of processor.
 
     Args:
         folder: the folder of the files.
-        base: the beginning of their names.
-        stamp: a function that returns the digest of the source; it is called when all functions
-            of the source are defined.
+        base: the beginning of the files' names.
+        stamp: a function that returns the digest of the source; it is called only after all
+            functions that the source refers to are defined.
     """
 
     def __init__(self, *, folder: Path, base: str, stamp: Callable[[], str]) -> None:
@@ -141,7 +141,7 @@ class CompiledFiles:
             return None
         try:
             stamp, stored_key, code = pickle.loads(data)
-        except (ImportError, AttributeError):  # it refers to a name that was moved since
+        except (ImportError, AttributeError):  # it refers to a name that does not exist any more
             return None
         return code if (stamp, stored_key) == (self._find_stamp(), key) else None
 
@@ -174,7 +174,8 @@ class CacheOnUse(NullCache):
 
     Args:
         function: the function.
-        is_typed: whether loaded code is compiled into other code, which needs numba's tables.
+        is_typed: True if other code is compiled that calls the loaded code, which needs numba's
+            tables.
     """
 
     def __init__(self, function: Callable[..., object], *, is_typed: bool = False) -> None:

@@ -26,7 +26,9 @@ def _pointer(typingctx: Any, address: Any) -> Any:
 
 
 pointer: Any = intrinsic(_pointer)
+"""``pointer(address)`` returns an address as a pointer, in compiled code."""
 carray: Any = numba.carray  # type: ignore[attr-defined]  # not in numba's list of exports
+"""``carray(pointer, shape, dtype)`` returns an array over the memory at a pointer."""
 
 
 @njit

@@ -1,4 +1,4 @@
-"""A mode of OpenCV in which its results have the same bytes on every processor."""
+"""A mode of OpenCV in which its results are the same on every processor."""
 
 from __future__ import annotations
 
@@ -10,9 +10,9 @@ from contextlib import contextmanager
 def deterministic_opencv() -> Iterator[None]:
     """Make OpenCV use its generic code in one thread during this block.
 
-    OpenCV has several implementations of most functions, and Intel's library for some, and chooses
-    by the processor; their sums differ in the last bit. The mode is one of the whole process, so
-    it is restored after the block.
+    OpenCV has several implementations of most functions, and Intel's library for some functions,
+    and chooses by the processor; their sums differ in the last bit. The mode applies to the whole
+    process and is restored after the block.
     """
     import cv2
 

@@ -79,7 +79,7 @@ def contact_sampler(
     def prepare_row(time: float) -> None:
         row["has_contacts"] = prepare()
 
-    def is_alone(end_time: float) -> bool:
+    def can_skip_prepare(end_time: float) -> bool:
         row["has_contacts"] = True  # each step computes the contacts
         return True
 
@@ -88,7 +88,7 @@ def contact_sampler(
         parameters=row,
         n_values=6,
         prepare=prepare_row,
-        is_alone=is_alone,
+        can_skip_prepare=can_skip_prepare,
         memory_owners=(mount, offsets, model, data),
     )
 
