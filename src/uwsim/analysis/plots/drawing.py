@@ -45,8 +45,11 @@ class LineStyle:
     """The colour, marker and dashes of a curve."""
 
     colour: str
+    """The colour as ``#rrggbb``."""
     marker: str
+    """The marker of matplotlib, such as ``o``."""
     dashes: Any = "-"
+    """The line style of matplotlib."""
 
 
 CONTROL_STYLE = LineStyle(colour=INK, marker="o", dashes=(0, (4, 2)))
