@@ -48,7 +48,7 @@ class RecordedFrame:
     """An image in a recording, not decoded yet."""
 
     time: int
-    """The time of recording since that of the first image [ns]."""
+    """The time of recording, 0 for the first image [ns]."""
     info: Any
     """The newest CameraInfo recorded before the image; if there is none, the first CameraInfo."""
     label: str

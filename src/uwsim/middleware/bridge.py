@@ -152,7 +152,7 @@ class Bridge(ABC):
         """Read ``topic`` from the first message on, if the transport may lose messages."""
 
     def has_publisher(self, topic: str) -> bool:
-        """Return whether ``topic`` has an external publisher; True if a transport cannot tell."""
+        """Return whether ``topic`` has an external publisher; True if that cannot be detected."""
         return True
 
     def send_to(self, sender: str, topic: str, message: object) -> None:
@@ -238,7 +238,7 @@ class Bridge(ABC):
         """Publish ``/clock``, if it has a subscriber."""
 
     def _clock_is_read(self) -> bool:
-        """Return whether ``/clock`` has an external subscriber; True if a transport cannot tell."""
+        """Return whether ``/clock`` has external subscribers; True if that cannot be detected."""
         return True
 
     def close(self) -> None:

@@ -1,4 +1,4 @@
-"""Messages as bytes: the encoding of ROS 2 (CDR), and that of ROS 1.
+"""Messages as bytes, in the encodings of ROS 2 (CDR) and of ROS 1.
 
 The package rosbags encodes and decodes both. The classes on the bus are those of ROS 2; this module
 maps them to the types of ROS 1, field by field: in ROS 1 a header has ``seq``, CameraInfo has ``D K

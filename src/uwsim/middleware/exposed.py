@@ -9,7 +9,7 @@ from .types import service_of, wire_type
 
 
 def exposed_topics(bus: Bus, *, ignored_owner: object, log: Log) -> dict[str, TopicEndpoints]:
-    """Return the endpoints of each topic that is not hidden, except those of one owner."""
+    """Return the endpoints of each topic that is not hidden, without those of ``ignored_owner``."""
     topics: dict[str, TopicEndpoints] = {}
     for name in bus.topics:
         endpoints = bus.endpoints(name, ignored_owner=ignored_owner)

@@ -29,7 +29,7 @@ DTYPES = {"bool": "bool_", "byte": "uint8", "char": "uint8"}
 """The names in NumPy of the types of fields, where they differ."""
 INTEGER_TYPES = ("byte", "char", *(f"{sign}int{n}" for sign in ("", "u") for n in (8, 16, 32, 64)))
 LARGEST_FLOATS = {name: float(np.finfo(name).max) for name in ("float32", "float64")}
-"""The largest numbers of the float types; JSON can have larger ones."""
+"""The largest finite number of each float type; JSON can represent larger numbers."""
 ROS1_NAMES = {"secs": "sec", "nsecs": "nanosec"}
 """The fields of times: their names in ROS 2 by their names in ROS 1."""
 IGNORED_FIELDS = frozenset({"seq"})

@@ -50,13 +50,13 @@ class WireType:
     md5: str
     """The MD5 sum in ROS 1; empty if ROS 1 has no such type."""
     ros1_definition: str
-    """The definition in ROS 1, with those of the types of its fields; empty without such a type."""
+    """The definition in ROS 1, including nested types; empty if ROS 1 has no such type."""
     ros2_name: str
     """The name in ROS 2, ``package/msg/Name``."""
     type_hash: str
     """The hash in ROS 2: ``RIHS01_`` and 64 hexadecimal digits."""
     ros2_definition: str
-    """The definition in ROS 2, with those of the types of its fields."""
+    """The definition in ROS 2, including nested types."""
 
 
 @dataclass(frozen=True, kw_only=True)

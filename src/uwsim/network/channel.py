@@ -62,7 +62,7 @@ class WaterChannel:
     bandwidth: float = 4096.0
     """The noise bandwidth of receivers [Hz]."""
     noise_level: float = 0.0
-    """The spectral level of noise besides that of the sea, in dB re 1 uPa^2/Hz."""
+    """The spectral level of noise from other sources than the sea, in dB re 1 uPa^2/Hz."""
     sea: Sea | None = None
     """The conditions of the sea; None: the sea causes no noise."""
     absorption: AbsorptionModel = "francoisGarrison"

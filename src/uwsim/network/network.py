@@ -36,12 +36,16 @@ MAX_DEPTH = 12_000.0
 
 @dataclass(frozen=True)
 class _Event:
+    """An event of a modem: it tries to send its next packet, or has sent a packet."""
+
     kind: Literal["try", "sent"]
     modem: int
 
 
 @dataclass(frozen=True)
 class _Arrival:
+    """An event of a reception: it begins, ends, or its packet is delivered."""
+
     kind: Literal["begin", "end", "deliver"]
     reception: int
 
@@ -100,10 +104,10 @@ class Network:
 
     def join(self, modem: Modem) -> Callable[[bytes, int], None]:
         """Add a device; return ``send(data, destination)``, which queues a packet to an address."""
-        number = len(self._modems)
+        modem_index = len(self._modems)
         self._modems.append(modem)
         self.state.modems.append(modem.state)
-        return lambda data, destination: self._queue(number, data, destination)
+        return lambda data, destination: self._queue(modem_index, data, destination)
 
     def modem(self, name: str) -> Modem:
         """Return a device by its name; raise UnknownName if there is none."""
@@ -134,42 +138,45 @@ class Network:
             self._count(modem, "received", reception.sender, reception.packet)
             modem.deliver(reception.packet, self.now)
 
-    def _queue(self, number: int, data: bytes, destination: int) -> None:
+    def _queue(self, modem_index: int, data: bytes, destination: int) -> None:
         """Append a packet to the queue of a device, if the queue has space."""
-        modem = self._modems[number]
-        settings, state, index = modem.settings, modem.state, modem.state.n_packets
+        modem = self._modems[modem_index]
+        settings, state, packet_number = modem.settings, modem.state, modem.state.n_packets
         state.n_packets += 1
-        packet = Packet(number=index, source=settings.address, destination=destination, data=data)
-        self._count(modem, "queued", number, packet)
+        packet = Packet(
+            number=packet_number, source=settings.address, destination=destination, data=data
+        )
+        self._count(modem, "queued", modem_index, packet)
         if modem.is_dead(self.now):
-            self._count(modem, "no_energy", number, packet)
+            self._count(modem, "no_energy", modem_index, packet)
             return
         if state.n_queued_bytes + packet.queue_size > settings.queue_size:
-            self._count(modem, "queue_full", number, packet)
+            self._count(modem, "queue_full", modem_index, packet)
             return
         delay = settings.send_delay
         if settings.send_jitter > 0.0:
-            delay += settings.send_jitter * self._draw(f"{settings.name}/{index}/send").random()
+            random_delay = self._draw(f"{settings.name}/{packet_number}/send").random()
+            delay += settings.send_jitter * random_delay
         state.queue.append(QueuedPacket(packet=packet, ready_time=self.now + nanoseconds(delay)))
         state.n_queued_bytes += packet.queue_size
         if not state.is_busy:
-            self._plan_next(number)
+            self._plan_next(modem_index)
 
-    def _plan_next(self, number: int) -> None:
+    def _plan_next(self, modem_index: int) -> None:
         """Schedule the first packet of a device's queue for its earliest time."""
-        state = self._modems[number].state
+        state = self._modems[modem_index].state
         state.is_busy = bool(state.queue)
         if state.queue:
-            self._events.add(max(state.queue[0].ready_time, self.now), _Event("try", number))
+            self._events.add(max(state.queue[0].ready_time, self.now), _Event("try", modem_index))
 
-    def _try_to_send(self, number: int) -> None:
+    def _try_to_send(self, modem_index: int) -> None:
         """Send the first packet of the queue, or schedule another try as the protocol requires."""
-        modem = self._modems[number]
+        modem = self._modems[modem_index]
         queued_packet, settings = modem.state.queue[0], modem.settings
         if modem.is_dead(self.now):
-            self._count(modem, "no_energy", number, queued_packet.packet)
+            self._count(modem, "no_energy", modem_index, queued_packet.packet)
             self._drop_first(modem)
-            self._plan_next(number)
+            self._plan_next(modem_index)
             return
         name = f"{settings.name}/{queued_packet.packet.number}/backoff/{queued_packet.n_tries}"
         queued_packet.n_tries += 1
@@ -179,34 +186,34 @@ class Network:
             draw=lambda upper_bound: int(self._draw(name).integers(upper_bound)),
         )
         if time > self.now:
-            self._events.add(time, _Event("try", number))
+            self._events.add(time, _Event("try", modem_index))
         else:
-            self._send(number, queued_packet.packet)
+            self._send(modem_index, queued_packet.packet)
 
-    def _send(self, number: int, packet: Packet) -> None:
+    def _send(self, modem_index: int, packet: Packet) -> None:
         """Send a packet to all devices within range."""
-        sender = self._modems[number]
+        sender = self._modems[modem_index]
         settings, state = sender.settings, sender.state
         duration = settings.airtime(len(packet.data))
         state.sending_end = self.now + duration
         state.time_sending += duration
-        self._count(sender, "sent", number, packet)
+        self._count(sender, "sent", modem_index, packet)
         if settings.is_half_duplex:
             for reception_number in state.incoming_receptions:
                 self._mark_lost(reception_number, "half_duplex")
-        self._events.add(state.sending_end, _Event("sent", number))
+        self._events.add(state.sending_end, _Event("sent", modem_index))
         state.outgoing_receptions = [
-            self._add_reception(number, other, packet)
+            self._add_reception(modem_index, other, packet)
             for other, receiver in enumerate(self._modems)
-            if other != number and receiver.settings.listens_to == settings.sends_on
+            if other != modem_index and receiver.settings.listens_to == settings.sends_on
             if sender.reaches(self._path(sender, receiver))
         ]
         for outgoing_number in state.outgoing_receptions:
             arrival = self.state.receptions[outgoing_number].arrival
             self._events.add(arrival, _Arrival("begin", outgoing_number), rank=1)
 
-    def _mark_lost(self, number: int, outcome: Outcome) -> None:
-        reception = self.state.receptions[number]
+    def _mark_lost(self, reception_number: int, outcome: Outcome) -> None:
+        reception = self.state.receptions[reception_number]
         reception.loss_reason = reception.loss_reason or outcome
 
     def _add_reception(self, sender: int, receiver: int, packet: Packet) -> int:
@@ -222,9 +229,9 @@ class Network:
         )
         return self.state.n_receptions
 
-    def _finish_sending(self, number: int) -> None:
+    def _finish_sending(self, modem_index: int) -> None:
         """End the sending of a packet; the present distance delays the last bit."""
-        modem = self._modems[number]
+        modem = self._modems[modem_index]
         for reception_number in modem.state.outgoing_receptions:
             reception = self.state.receptions[reception_number]
             path = self._path(modem, self._modems[reception.receiver])
@@ -232,29 +239,29 @@ class Network:
             self._events.add(max(end, reception.arrival + 1), _Arrival("end", reception_number))
         modem.state.outgoing_receptions = []
         self._drop_first(modem)
-        self._plan_next(number)
+        self._plan_next(modem_index)
 
     def _drop_first(self, modem: Modem) -> None:
         modem.state.n_queued_bytes -= modem.state.queue.popleft().packet.queue_size
 
-    def _begin_reception(self, number: int) -> None:
+    def _begin_reception(self, reception_number: int) -> None:
         """Begin to receive a packet; packets that arrive at the same time are all lost."""
-        reception = self.state.receptions[number]
+        reception = self.state.receptions[reception_number]
         modem = self._modems[reception.receiver]
         if modem.is_dead(self.now):
             reception.loss_reason = "no_energy"
         elif modem.settings.is_half_duplex and modem.state.sending_end > self.now:
             reception.loss_reason = "half_duplex"
         if modem.state.incoming_receptions:
-            for lost_number in (*modem.state.incoming_receptions, number):
+            for lost_number in (*modem.state.incoming_receptions, reception_number):
                 self._mark_lost(lost_number, "collisions")
-        modem.state.incoming_receptions.append(number)
+        modem.state.incoming_receptions.append(reception_number)
 
-    def _end_reception(self, number: int) -> None:
+    def _end_reception(self, reception_number: int) -> None:
         """End the reception of a packet; schedule its delivery unless it is lost."""
-        reception = self.state.receptions.pop(number)
+        reception = self.state.receptions.pop(reception_number)
         modem, packet = self._modems[reception.receiver], reception.packet
-        modem.state.incoming_receptions.remove(number)
+        modem.state.incoming_receptions.remove(reception_number)
         if reception.loss_reason != "no_energy":
             modem.state.time_receiving += self.now - reception.arrival
         sender = self._modems[reception.sender].settings.name
@@ -269,8 +276,8 @@ class Network:
                 delay = modem.settings.receive_jitter * self._draw(f"{name}/receive").random()
             delivery = max(self.now + nanoseconds(delay), modem.state.last_delivery)
             modem.state.last_delivery = delivery
-            self.state.receptions[number] = reception
-            self._events.add(delivery, _Arrival("deliver", number))
+            self.state.receptions[reception_number] = reception
+            self._events.add(delivery, _Arrival("deliver", reception_number))
 
     def _count(self, modem: Modem, outcome: Outcome, sender: int, packet: Packet) -> None:
         """Count an outcome of a packet at a device, and write it to the trace."""

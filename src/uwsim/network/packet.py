@@ -27,7 +27,7 @@ class Packet:
     """Bytes sent from one device to others."""
 
     number: int
-    """The number of the packet among those of its sender, from 0."""
+    """The index of the packet among all packets of its sender, from 0."""
     source: int
     """The address of the sender."""
     destination: int

@@ -14,7 +14,7 @@ from ..errors import Diagnostic, FileError, did_you_mean
 from .source_line import Spec, line_of
 
 MAX_DIAGNOSTICS = 100
-"""The greatest number of errors that are listed, and that of warnings."""
+"""The greatest number of errors, and the greatest number of warnings, that are listed."""
 
 
 class Diagnostics:

@@ -135,7 +135,7 @@ def camel_case(name: str) -> str:
 
 
 def fields_of(cls: type) -> tuple[Field, ...]:
-    """Return the fields of a spec in their order, which is that of elements in the original."""
+    """Return the fields of a spec in the order in which the original expects the elements."""
     return _fields_of(cls)
 
 
@@ -217,7 +217,7 @@ def _kind(hint: Any, xml: XmlOptions) -> tuple[str, Any]:
 
 @functools.cache
 def field_docs(cls: type) -> dict[str, str]:
-    """Return the documentation string under each field of a spec, inherited ones included."""
+    """Return the documentation string under each field of a spec, including inherited fields."""
     docs: dict[str, str] = {}
     for base in reversed(cls.__mro__):
         if not dataclasses.is_dataclass(base):

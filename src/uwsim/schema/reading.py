@@ -124,7 +124,7 @@ def _tag_entries(
 def _children(
     cls: type, node: etree._Element, diagnostics: Diagnostics
 ) -> dict[str, list[etree._Element]]:
-    """Return the child elements by tag; add errors for unknown, repeated and misplaced ones."""
+    """Return the child elements by tag; report unknown, repeated and misplaced elements."""
     if any(field.xml.text for field in fields_of(cls)):
         return {}
     entries, old_entries = _tag_entries(cls)

@@ -37,7 +37,7 @@ def line_of(spec: object, element: str = "") -> int | None:
 
 
 def source_line(node: etree._Element, file: str) -> SourceLine | None:
-    """Return the line of an element and those of its children; None if a program made it."""
+    """Return the lines of an element and of its children; None if a program made the element."""
     if node.sourceline is None:
         return None
     elements: dict[str, int] = {}

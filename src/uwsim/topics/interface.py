@@ -36,7 +36,7 @@ class BodyContacts(Protocol):
         """Return whether a vehicle or object has that name and a collision shape."""
 
     def find(self, name: str) -> Sequence[Contact]:
-        """Find the present contacts of a vehicle or object; raise UnknownName without such."""
+        """Find the present contacts of a vehicle or object; raise UnknownName without it."""
 
 
 class TopicSensors(Protocol):
@@ -46,7 +46,7 @@ class TopicSensors(Protocol):
         """Find a virtual camera; raise UnknownName if there is none of that name."""
 
     def sensor(self, name: str, elements: tuple[str, ...]) -> Sensor:
-        """Find a sensor or device that publishes, of one of these elements; else UnknownName."""
+        """Find a sensor or device that is one of ``elements``; raise UnknownName without it."""
 
     def publisher(self, sensor: str, topic: str, type_: type) -> Callable[[Any], None]:
         """Return a function that applies a sensor's faults to a message and publishes it."""

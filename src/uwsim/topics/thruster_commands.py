@@ -41,7 +41,7 @@ class AutopilotTopicSpec(VehicleTopicSpec):
         """Find the autopilot of the vehicle; raise UnknownName if it has no ``u:dynamics``."""
         autopilot = world.vehicle(self.vehicle_name).autopilot
         if autopilot is None:
-            raise UnknownName("simulated vehicle", self.vehicle_name, ())
+            raise UnknownName("vehicle with u:dynamics", self.vehicle_name, ())
         return autopilot
 
 

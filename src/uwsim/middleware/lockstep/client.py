@@ -209,7 +209,7 @@ class LockStepClient:
         return is_text and hmac.compare_digest(str(secret).encode(), self._secret.encode())
 
     def _reject_other(self, topic: str, content: dict[str, Any], sender: str) -> None:
-        """Report to another program of the same name, and to the log, that it is ignored."""
+        """Report, to the program and the log, that another program of the name is ignored."""
         if not content.get("left"):
             if self._bridge.admission is not None:
                 self._bridge.admission.refuse(sender, f"/{topic}")

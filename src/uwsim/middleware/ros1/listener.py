@@ -11,7 +11,7 @@ from ..log import Log
 from .tcpros import PeerError, close, encode_header, read_header, write
 
 MAX_CONNECTIONS = 256
-"""The maximum number of connections at the same time; further ones are closed."""
+"""The maximum number of open connections; further connections are closed."""
 NUMBER_PATTERN = re.compile(r"[0-9a-f]{32}|[0-9]+")
 """The pattern of MD5 sums and lengths, which are left out of the kind of an event in the log."""
 HEADER_TIMEOUT = 10.0

@@ -182,7 +182,7 @@ class Master:
         return [1, "", os.getpid()]
 
     def _add_node(self, caller: str, uri: str) -> None:
-        """Store a node; tell another node of the same name to shut down, as ROS does."""
+        """Store a node; shut down an earlier node with its name, as ROS does."""
         old_uri = self._nodes.get(caller)
         if old_uri is not None and old_uri != uri:
             for registrations in (self._publishers, self._subscribers):

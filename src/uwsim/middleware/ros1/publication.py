@@ -83,7 +83,7 @@ class Publication:
         self._is_closed = False
 
     def send(self, message: object, target_node: str = "") -> None:
-        """Send a message to all subscribers, or to those of one node, without waiting."""
+        """Send a message without waiting, to all subscribers or only to those of one node."""
         self._n_sent += 1
         encoded_message = EncodedMessage(message, self._n_sent, self._encode)
         with self._lock:

@@ -40,7 +40,7 @@ Methods = Mapping[str, Callable[..., Answer]]
 
 
 class RequestHandler(SimpleXMLRPCRequestHandler):
-    """A handler of requests with limits of length and time, which refuses those of browsers."""
+    """A handler of requests with limits of length and time; requests of browsers are refused."""
 
     rpc_paths = ()  # accept any path, as the servers of ROS do
     timeout = READ_TIMEOUT

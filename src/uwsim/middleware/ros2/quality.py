@@ -26,7 +26,7 @@ class Quality:
     is_latched: bool = False
     """True if a late reader receives earlier messages (transient local)."""
     ignores_own: bool = False
-    """True if messages of the same participant are not read."""
+    """True if the reader ignores messages of its own participant."""
 
 
 def quality_of(topic: str) -> Quality:
