@@ -16,7 +16,13 @@ from ..base.interrupts import raise_on_interrupt
 from ..base.terminal import clean_text
 from ..errors import ResultError
 from ..runs.foreign_code import announce_code
-from ..verify.recorded_plan import NOT_DRAWN, FileOverrides, check_inputs, named_input, plan_of
+from ..verify.recorded_plan import (
+    NOT_RENDERED,
+    FileOverrides,
+    check_inputs,
+    plan_of,
+    recorded_input,
+)
 from .exit_status import RUN_FAILED
 from .options.help_texts import FILES, RUN, option
 from .options.options import CodeOptions, ResultArgument, WorkerOptions
@@ -192,7 +198,7 @@ def prepare_replay(stored_result: Result, directory: Path, overrides: FileOverri
     announce_code(plan.scene)
     run = prepare_run(plan, directory)
     check_inputs(stored_result.inputs, run.inputs)
-    renderer = NOT_DRAWN if plan.is_blind else run.renderer
+    renderer = NOT_RENDERED if plan.is_blind else run.renderer
     return replace(run, inputs=stored_result.inputs, renderer=renderer)
 
 
@@ -201,7 +207,7 @@ def describe_result(stored_result: Result, directory: Path, n_finished: int, n_t
     from ..results.per_level import seeds_of
 
     run = stored_result.run
-    names = [named_input(stored_result, kind)[0] for kind in ("benchmark", "scene")]
+    names = [recorded_input(stored_result, kind)[0] for kind in ("benchmark", "scene")]
     n_others = len(stored_result.inputs.assets or {})
     trials_text = format_count(n_trials, "trial")
     if n_finished < n_trials:

@@ -70,16 +70,18 @@ def likely_cause(report: Verification, changes: Mapping[str, str]) -> str:
         report: the verification.
         changes: the output of `environment_differences`.
     """
-    bodies = [part for part in report.parts if not part.startswith("/")]
+    bodies = [part for part in report.diverging_parts if not part.startswith("/")]
     if bodies:
         message = f"It begins in the physics: {', '.join(bodies)} moved otherwise."
         return message + _causes(changes, ("version", "physics", "numpy", "cpu", "code", "system"))
-    if report.parts:
-        message = f"Every body moved the same; the images on {', '.join(report.parts)} differ."
+    if report.diverging_parts:
+        message = (
+            f"Every body moved the same; the images on {', '.join(report.diverging_parts)} differ."
+        )
         return message + _causes(changes, ("version", "renderer", "numpy", "cpu", "code", "system"))
-    if report.is_replayed:
+    if report.has_same_values:
         return "Every replayed trial gave its stored values; other parts of the result differ."
-    if not report.is_steady:
+    if not report.has_same_motion:
         return "Its stored fingerprints are not those of a replay."
     return (
         "Every motion and every image was the same. Either the stored values were changed, or the "

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from ..results.run_info import RunInfo
     from ..runs.planning.plan import Plan
 
-NOT_DRAWN = "none"
+NOT_RENDERED = "none"
 """The recorded renderer of a control run (a sham baseline), in which nothing is rendered."""
 
 
@@ -61,20 +61,20 @@ def plan_of(result: Result, directory: Path, overrides: FileOverrides) -> Plan:
                 f"The result was made with the external program {client!r} ({participation}). Run "
                 "the benchmark with it again and compare."
             )
-    words = typed_words(directory)
+    words = command_words(directory)
     benchmark = find_input(
         "benchmark",
-        named_input(result, "benchmark"),
+        recorded_input(result, "benchmark"),
         overrides.benchmark,
         directory,
         overrides,
         words,
     )
-    words += [str(benchmark.parent / name) for name in scene_named_by(benchmark)]
+    words += [str(benchmark.parent / name) for name in find_scene_name(benchmark)]
     scene = find_input(
-        "scene", named_input(result, "scene"), overrides.scene, directory, overrides, words
+        "scene", recorded_input(result, "scene"), overrides.scene, directory, overrides, words
     )
-    is_blind = _value_of(run, "renderer") == NOT_DRAWN
+    is_blind = _value_of(run, "renderer") == NOT_RENDERED
     settings = [f"{name}={value}" for name, value in run.settings or ()]
     request = PlanRequest(
         benchmark=str(benchmark),
@@ -170,7 +170,7 @@ def find_input(
     )
 
 
-def typed_words(directory: Path) -> list[str]:
+def command_words(directory: Path) -> list[str]:
     """Return the words of the command that made a result.
 
     A control run (a sham baseline) has no command of its own, but that of the result it belongs to.
@@ -184,7 +184,7 @@ def typed_words(directory: Path) -> list[str]:
     return [word.partition("=")[2] if word.startswith("--") else word for word in words]
 
 
-def scene_named_by(benchmark: Path) -> list[str]:
+def find_scene_name(benchmark: Path) -> list[str]:
     """Return the scene that a benchmark file names (u:scene), if there is one."""
     from ..schema import NAMESPACE, parse
 
@@ -212,8 +212,8 @@ def _plugins(result: Result, overrides: Sequence[Path], words: Sequence[str]) ->
     for name, sha256 in result.inputs.plugins or ():
         if program.name == name and program.is_file() and _sha256(program) == sha256:
             continue
-        right = [path for path, digest in hashes.items() if digest == sha256]
-        if not right:
+        matching_paths = [path for path, digest in hashes.items() if digest == sha256]
+        if not matching_paths:
             paths = [str(path) for path in overrides if path.name == name]
             reason = (
                 f"{paths[0]} is another file" if paths else "it is not in the benchmark's folder"
@@ -222,7 +222,7 @@ def _plugins(result: Result, overrides: Sequence[Path], words: Sequence[str]) ->
                 f"The result was made with the plugin {name} ({_short_hash(sha256)}); {reason}. "
                 "Name its path with --plugin."
             )
-        plugins.append(right[0])
+        plugins.append(matching_paths[0])
     if unused_paths := [str(path) for path in overrides if path not in plugins]:
         raise ResultError(f"The result was made without the plugin {', '.join(unused_paths)}.")
     return plugins
@@ -232,7 +232,7 @@ def _sha256(path: Path) -> str:
     return "sha256:" + hashlib.sha256(path.read_bytes()).hexdigest()
 
 
-def named_input(result: Result, kind: str) -> tuple[str, str]:
+def recorded_input(result: Result, kind: str) -> tuple[str, str]:
     """Return the recorded name and hash of a benchmark or scene; raise ResultError without it."""
     file: tuple[str, str] | None = getattr(result.inputs, kind)
     if file is None:

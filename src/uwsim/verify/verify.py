@@ -41,11 +41,11 @@ class Verification:
 
     differences: list[Difference] = field(default_factory=list)
     """The differences between the stored result and what it should be."""
-    parts: list[str] = field(default_factory=list)
+    diverging_parts: list[str] = field(default_factory=list)
     """The bodies and topics in which replays diverge from the stored runs."""
-    is_steady: bool = True
+    has_same_motion: bool = True
     """True if every replay had the motion and images of the stored run."""
-    is_replayed: bool = True
+    has_same_values: bool = True
     """True if every replay gave the stored values of its trial."""
     not_compared: list[str] = field(default_factory=list)
     """A sentence about each file that is absent and was therefore not compared."""
@@ -65,7 +65,7 @@ def complete_trials(directory: Path, plan: Plan, result: Result) -> list[Trial]:
         ends = [journal.read_any(file)[1].end for file in files]
         return [trial for trial, end in zip(trials, ends, strict=True) if end is not None]
     rows = _rows_by_level(result, plan)
-    return [trial for trial in trials if all(key in rows for key in _keys(trial))]
+    return [trial for trial in trials if all(key in rows for key in _row_keys(trial))]
 
 
 def choose_trials(trials: Sequence[Trial], sample: int | None, seed: int) -> tuple[Trial, ...]:
@@ -127,11 +127,11 @@ def _has_journals(directory: Path) -> bool:
 
 def _check_files(report: Verification, directory: Path, result: Result, run: Run) -> None:
     """Write every file again from the journals of the trials, if all exist, and compare."""
-    lost = _lost_trials(directory, result, run.plan)
-    for trial, reason in lost.items():
+    incomplete_trials = _incomplete_trials(directory, result, run.plan)
+    for trial, reason in incomplete_trials.items():
         name = journal.path_of(directory, trial.index).name
         report.add(f"{journal.FOLDER}/{name}", reason)
-    if lost:
+    if incomplete_trials:
         report.not_compared.append("result.json and the files next to it: units/ is incomplete")
     expected_names = {journal.path_of(directory, trial.index).name for trial in run.plan.trials()}
     for path in sorted((directory / journal.FOLDER).glob("*.jsonl")):
@@ -140,9 +140,9 @@ def _check_files(report: Verification, directory: Path, result: Result, run: Run
     for trial in run.plan.trials():
         path = journal.path_of(directory, trial.index)
         head, content = journal.read_any(path)
-        if head is None or trial in lost:
+        if head is None or trial in incomplete_trials:
             continue
-        expected = _head(result, run.head(trial))
+        expected = _expected_head(result, run.head(trial))
         _check_head(report, f"{journal.FOLDER}/{path.name}", head, expected)
         file = journal.Journal(run.out, trial.index, run.head(trial))
         for row in content.rows:
@@ -150,7 +150,7 @@ def _check_files(report: Verification, directory: Path, result: Result, run: Run
         if content.end is not None:
             file.finish(content.end)
         file.close()
-    if lost:
+    if incomplete_trials:
         return
     try:
         written_result = run.write()
@@ -186,22 +186,22 @@ def _check_tracks(report: Verification, directory: Path, plan: Plan) -> None:
             report.add(name, str(error).removeprefix(f"{path}: ").removesuffix("."))
 
 
-def _lost_trials(directory: Path, result: Result, plan: Plan) -> dict[Trial, str]:
+def _incomplete_trials(directory: Path, result: Result, plan: Plan) -> dict[Trial, str]:
     """Return the trials with rows in ``result.json`` that their journals lack, with the reason."""
     rows = _rows_by_level(result, plan)
-    lost_trials = {}
+    incomplete_trials = {}
     for trial in plan.trials():
         file = journal.path_of(directory, trial.index)
         n_stored = len(journal.read_any(file)[1].rows) if file.is_file() else 0
-        n_rows = sum(key in rows for key in _keys(trial))
+        n_rows = sum(key in rows for key in _row_keys(trial))
         if n_stored < n_rows:
             name = f"trial {trial.index} (seed {trial.seed})"
             reason = f"{n_stored} rows can be read" if file.exists() else "is absent"
-            lost_trials[trial] = f"{name}: {reason}; result.json has {n_rows} of it"
-    return lost_trials
+            incomplete_trials[trial] = f"{name}: {reason}; result.json has {n_rows} of it"
+    return incomplete_trials
 
 
-def _head(result: Result, replayed_head: Record) -> Record:
+def _expected_head(result: Result, replayed_head: Record) -> Record:
     """Return the head record that a trial should have, according to ``result.json``.
 
     The parameters are taken from the head of the replay: a head has the parameters of the command,
@@ -226,8 +226,8 @@ def _check_head(report: Verification, name: str, head: Record, expected: Record)
 
 def _check_result(report: Verification, result: Result, written_result: Result) -> None:
     documents = []
-    for one_result in (result, written_result):
-        document = json.loads(dumps(one_result))
+    for compared_result in (result, written_result):
+        document = json.loads(dumps(compared_result))
         document["run"] = {k: v for k, v in document["run"].items() if k not in ENVIRONMENT}
         documents.append(document)
     names = [column.name for column in written_result.columns]
@@ -261,12 +261,14 @@ def _check_trial(report: Verification, directory: Path, replay: Run, trial: Tria
         report.add(name, message)
     motion = differences.compare_checkpoints(old_trial, new_trial, replay.plan.timestep)
     if len(report.differences) > n_before or motion.message is not None:
-        report.is_replayed = False
+        report.has_same_values = False
     if not motion.is_known:
         report.not_compared.append(f"{name}: has no fingerprints of motion")
     elif motion.message is not None:
-        report.is_steady = False
-        report.parts += [part for part in motion.parts if part not in report.parts]
+        report.has_same_motion = False
+        report.diverging_parts += [
+            part for part in motion.parts if part not in report.diverging_parts
+        ]
         report.differences.insert(n_before, Difference(location=name, description=motion.message))
 
 
@@ -279,7 +281,7 @@ def _check_rows(report: Verification, result: Result, replay: Run) -> None:
     new_result = replay.write()
     expected = _rows_by_level(result, replay.plan)
     names = {column.name for column in result.columns}
-    replayed_keys = {key for trial in replay.plan.trials() for key in _keys(trial)}
+    replayed_keys = {key for trial in replay.plan.trials() for key in _row_keys(trial)}
     n = len(replayed_keys & expected.keys())
     if len(result.rows) > n:
         report.add("result.json", f"{len(result.rows)} rows; expected {n}, one for each level")
@@ -289,12 +291,12 @@ def _check_rows(report: Verification, result: Result, replay: Run) -> None:
                 continue  # includes earlier parts of the run
             old_cell = result.values(column.name)[expected[key]] if column.name in names else None
             if leaves(old_cell) != leaves(cell):
-                report.is_replayed = False
+                report.has_same_values = False
                 location = f"row {expected[key]}, column {column.name}"
                 report.add("result.json", f"{location}: stored {old_cell!r}, replayed {cell!r}")
-    for stream_again in new_result.image_streams:
-        if stream_again not in result.image_streams:
-            report.add("result.json", f"images on {stream_again.topic}: others than those replayed")
+    for new_stream in new_result.image_streams:
+        if new_stream not in result.image_streams:
+            report.add("result.json", f"images on {new_stream.topic}: others than those replayed")
 
 
 def _check_images(report: Verification, directory: Path, replay_directory: Path) -> None:
@@ -319,5 +321,5 @@ def _rows_by_level(result: Result, plan: Plan) -> dict[tuple[float, ...], int]:
     return rows
 
 
-def _keys(trial: Trial) -> list[tuple[float, ...]]:
+def _row_keys(trial: Trial) -> list[tuple[float, ...]]:
     return [(float(trial.repeat), *(value for _, value in level.values)) for level in trial.levels]

@@ -23,10 +23,10 @@ from ..scene.settings import apply_setting, xacro_arguments
 from ..scene.spec import SceneSpec
 from ..verify.recorded_plan import (
     FileOverrides,
+    command_words,
     find_input,
-    named_input,
-    scene_named_by,
-    typed_words,
+    find_scene_name,
+    recorded_input,
 )
 from ..world import TIMESTEP
 
@@ -130,7 +130,7 @@ class RecordedTrial:
             raise ResultError(f"{directory}: trial {index} is not finished; --resume runs it.")
         track = load_track(journal.track_path(directory, index))
         run = result.run
-        name = Path(named_input(result, "benchmark")[0]).stem
+        name = Path(recorded_input(result, "benchmark")[0]).stem
         return RecordedTrial(
             directory=directory,
             index=index,
@@ -166,12 +166,12 @@ def trials_of_first_seed(directory: Path) -> tuple[int, ...]:
 
 def scene_of(result: Result, directory: Path, overrides: FileOverrides) -> SceneSpec:
     """Find the scene of a result by name and hash, and apply its settings (``--set``)."""
-    words = typed_words(directory)
+    words = command_words(directory)
     with suppress(UwsimError):  # a missing benchmark names no scene; the record may be enough
-        record = named_input(result, "benchmark")
+        record = recorded_input(result, "benchmark")
         file = find_input("benchmark", record, overrides.benchmark, directory, overrides, words)
-        words += [str(file.parent / name) for name in scene_named_by(file)]
-    record = named_input(result, "scene")
+        words += [str(file.parent / name) for name in find_scene_name(file)]
+    record = recorded_input(result, "scene")
     path = find_input("scene", record, overrides.scene, directory, overrides, words)
     arguments = xacro_arguments(result.run.settings or ())
     scene = read_scene(path, data_path=overrides.data_path, arguments=arguments)

@@ -95,5 +95,5 @@ def test_what_has_another_outline_is_not_the_object() -> None:
 def test_the_bundled_grasp_takes_the_box_by_default() -> None:
     grasp = Grasp()
     pose = BoxPose(position=np.array([1.0, 2.0, 4.9]), heading=0.4)
-    assert grasp.model().grip(pose)[2] == pytest.approx(4.9 - grasp.box().handle)
+    assert grasp.model().grip(pose)[2] == pytest.approx(4.9 - grasp.box().handle_height)
     assert grasp.model().closing_heading(pose) == pytest.approx(0.4)

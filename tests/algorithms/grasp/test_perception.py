@@ -56,7 +56,7 @@ def test_a_box_that_is_half_out_of_the_image_is_no_surprise() -> None:
 
 def test_the_corners_of_the_face_give_the_pose() -> None:
     true, seen = pose(-0.7, 0.1, 0.4), view()
-    corners = seen.project(transform_points(BOX.face, true.rotation, true.position))
+    corners = seen.project(transform_points(BOX.top_face, true.rotation, true.position))
     near = pose(-0.65, 0.15, 0.3)
     away, turned = off(pose_from_face(corners, seen, BOX, near), true)
     assert away < 0.002

@@ -33,7 +33,7 @@ def faces(where: BoxPose, seen: View) -> list[np.ndarray]:
     """Top and, where the camera sees them, the long sides, in the image."""
     x, y, z = BOX.corners.max(axis=0)
     camera = where.rotation.T @ (seen.navigation_from_camera.position - where.position)
-    shown = [BOX.face]
+    shown = [BOX.top_face]
     for sign in (-1.0, 1.0):
         if sign * camera[0] > x:
             side = [(sign * x, a, b) for a, b in ((-y, z), (y, z), (y, -z), (-y, -z))]

@@ -74,7 +74,7 @@ def test_fog_over_a_recording_is_counted_like_fog() -> None:
 
 
 def test_counting_in_single_precision_is_what_plays_the_last_fog() -> None:
-    assert len(sweep_values(0.0, 1.3, 0.05, is_single=True)) == 27
+    assert len(sweep_values(0.0, 1.3, 0.05, uses_float32=True)) == 27
     assert len(sweep_values(0.0, 1.3, 0.05)) == 26
 
 
@@ -87,7 +87,7 @@ def test_values_are_multiples_of_the_step_and_not_a_drifting_sum() -> None:
 @pytest.mark.parametrize("step", [0.0, -0.1, 1e-12])
 def test_a_sweep_that_never_ends_is_refused(step: float) -> None:
     with pytest.raises(BadSetting, match="more than 100000 levels"):
-        sweep_values(0.0, 1.3, step, is_single=True)
+        sweep_values(0.0, 1.3, step, uses_float32=True)
 
 
 def test_none_is_one_level_called_1_that_lasts_until_stop_on() -> None:

@@ -22,9 +22,9 @@ class BoxSpec:
 
     size: tuple[float, float, float] = (0.15, 0.32, 0.14)
     """The lengths of the edges along x, y, z [m]."""
-    handle: float = 0.128
+    handle_height: float = 0.128
     """The height of the handle's bar over the centre of the box [m]."""
-    bar: float = 0.008
+    bar_radius: float = 0.008
     """The radius of the handle's bar [m]."""
 
     @property
@@ -35,14 +35,16 @@ class BoxSpec:
         return np.array(signs) * half
 
     @property
-    def face(self) -> Array:
+    def top_face(self) -> Array:
         """The corners of the top face in cyclic order, in the frame of the box, (4, 3) [m]."""
         x, y, z = (edge / 2.0 for edge in self.size)
         return np.array([[-x, -y, z], [-x, y, z], [x, y, z], [x, -y, z]])
 
     def grip(self, pose: BoxPose) -> Array:
         """Return the centre of the handle's bar in the navigation frame, (3,) [m]."""
-        position: Array = pose.position + rotate(pose.rotation, np.array([0.0, 0.0, self.handle]))
+        position: Array = pose.position + rotate(
+            pose.rotation, np.array([0.0, 0.0, self.handle_height])
+        )
         return position
 
     def closing_heading(self, pose: BoxPose) -> float:

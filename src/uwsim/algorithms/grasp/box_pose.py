@@ -92,7 +92,7 @@ def pose_from_face(
     """Fit the pose of a box to the corners of its top face; return None if no pose fits.
 
     Args:
-        corners: the corners in the image, in the order of `BoxSpec.face`, (4, 2) [px].
+        corners: the corners in the image, in the order of `BoxSpec.top_face`, (4, 2) [px].
         view: the camera at the time of the image.
         box: the model of the box.
         initial_pose: the pose at which the fit starts.
@@ -101,7 +101,7 @@ def pose_from_face(
     start = initial_pose.vector
     prior = _prior(start, view, box)
     vector, normal, residual = _fit_corners(
-        start, prior, box.face, corners, _camera(view), 1.0 / deviation**2
+        start, prior, box.top_face, corners, _camera(view), 1.0 / deviation**2
     )
     return _sighting(vector, normal, residual, "face")
 

@@ -132,7 +132,7 @@ class Perception:
         if target.pose is None or target.deviation > MAX_DEVIATION or self._tracker is not None:
             return
         pose = sighting.pose
-        quad = view.project(transform_points(self._box.face, pose.rotation, pose.position))
+        quad = view.project(transform_points(self._box.top_face, pose.rotation, pose.position))
         height, width = image.shape[:2]
         if not np.isfinite(quad).all() or quad_error(quad, width, height):
             return

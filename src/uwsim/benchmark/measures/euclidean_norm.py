@@ -32,7 +32,7 @@ from .measure import Measure, MeasureSpec
 
 MAX_AGE = 1.0
 """The greatest age of an estimate that is scored [s]."""
-COUNTS = ("refused", "frames", "answered")
+DIMENSIONLESS_DETAILS = ("refused", "frames", "answered")
 """The details without unit: two counts and a share."""
 Sample = tuple[float, list[float]]
 """The norm of an error, and the components of the error."""
@@ -124,7 +124,7 @@ class EuclideanNorm(Measure):
     """
 
     unit = "1"
-    detail_units: ClassVar[Mapping[str, str]] = dict.fromkeys(COUNTS, "1")
+    detail_units: ClassVar[Mapping[str, str]] = dict.fromkeys(DIMENSIONLESS_DETAILS, "1")
     fed_by_algorithm = True
 
     def __init__(self, spec: EuclideanNormSpec, world: World, truth: GroundTruth) -> None:
@@ -134,7 +134,7 @@ class EuclideanNorm(Measure):
         self._publish_on = spec.ground_truth.publish_on
         self._keeps_last_norm = "last-norm" in world.compatibility
         self._inbox = world.bus.inbox(spec.target, Float32MultiArray)
-        self._frames = Signal(truth.components)  # the errors at the steps t_k
+        self._image_errors = Signal(truth.components)  # the errors at the steps t_k
         self._n_images: int | None = None  # images of the truth's camera at the last update
         # The error of the newest estimate that had a truth, at the step of its arrival.
         self._last_sample: Sample | None = None
@@ -184,7 +184,7 @@ class EuclideanNorm(Measure):
             return None
         if self._statistic == "last":
             return None if self._last_sample is None else self._last_sample[0]
-        return self._frames.value(self._statistic)
+        return self._image_errors.value(self._statistic)
 
     @property
     def missing_reason(self) -> str | None:
@@ -192,7 +192,7 @@ class EuclideanNorm(Measure):
         if self._wait_start is None:
             return "it was never on"
         if self._last_sample is not None and self.longest_silence <= MAX_AGE:
-            is_empty = self._statistic != "last" and not self._frames.n
+            is_empty = self._statistic != "last" and not self._image_errors.n
             return "its camera took no image while the measure was on" if is_empty else None
         if self._error:
             return self._error
@@ -204,9 +204,9 @@ class EuclideanNorm(Measure):
     @property
     def details(self) -> dict[str, float | None]:
         """The statistics of the norm and of each component, and the numbers of messages."""
-        values = self._frames.details
+        values = self._image_errors.details
         values |= {key: float(self._n_estimates) for key in values if key.rpartition(".")[2] == "n"}
-        n_frames = self._frames.n
+        n_frames = self._image_errors.n
         return {
             **values,
             "refused": float(self._n_invalid),
@@ -217,7 +217,7 @@ class EuclideanNorm(Measure):
     @property
     def reasons(self) -> dict[str, str]:
         """The reason why the share of answered images is None."""
-        if self._frames.n:
+        if self._image_errors.n:
             return {}
         return {
             "answered": self.missing_reason or "its camera took no image while the measure was on"
@@ -254,7 +254,9 @@ class EuclideanNorm(Measure):
 
         The start value is the truth with which ``publishOn`` was called.
         """
-        n_images = self._frames.n + len(self._waiting_truths) + sum(self._n_without_truth.values())
+        n_images = (
+            self._image_errors.n + len(self._waiting_truths) + sum(self._n_without_truth.values())
+        )
         # A row without a value states the reason itself.
         counts = self._n_without_truth if self.missing_reason is None else {}
         remarks = tuple(
@@ -325,7 +327,7 @@ class EuclideanNorm(Measure):
         self._newest_sample = None if truth is None else compare(truth, estimates[-1])
         self._last_sample = self._newest_sample or self._last_sample
         for waiting_truth in self._waiting_truths:
-            self._frames.add(*compare(waiting_truth, estimates[-1]))
+            self._image_errors.add(*compare(waiting_truth, estimates[-1]))
         self._waiting_truths.clear()
         return True
 
@@ -363,7 +365,7 @@ class EuclideanNorm(Measure):
             self._waiting_truths.append(truth)
         else:
             self._newest_sample = compare(truth, self._estimate)
-            self._frames.add(*self._newest_sample)
+            self._image_errors.add(*self._newest_sample)
 
     def _publish(self, service: str) -> None:
         truth = self._truth.read()

@@ -22,11 +22,17 @@ from ...messages import Float64MultiArray, JointState, Twist, TwistStamped, Wren
 
 Quantity = tuple[float | None, str]
 """A value, or None without commands, and its unit."""
-TWIST = {**dict.fromkeys(("vx", "vy", "vz"), "m/s"), **dict.fromkeys(("wx", "wy", "wz"), "rad/s")}
+TWIST_UNITS = {
+    **dict.fromkeys(("vx", "vy", "vz"), "m/s"),
+    **dict.fromkeys(("wx", "wy", "wz"), "rad/s"),
+}
 """The axes of a twist and their units."""
-WRENCH = {**dict.fromkeys(("fx", "fy", "fz"), "N"), **dict.fromkeys(("tx", "ty", "tz"), "N m")}
+WRENCH_UNITS = {
+    **dict.fromkeys(("fx", "fy", "fz"), "N"),
+    **dict.fromkeys(("tx", "ty", "tz"), "N m"),
+}
 """The axes of a wrench and their units."""
-JOINTS = {"position": "rad or m", "velocity": "rad/s or m/s", "effort": "N m or N"}
+JOINT_UNITS = {"position": "rad or m", "velocity": "rad/s or m/s", "effort": "N m or N"}
 """The command fields of a JointState and their units; the first that is not empty is used."""
 
 
@@ -44,7 +50,8 @@ def read_twist(message: Twist) -> AxisValues:
     """Return the six components of a twist."""
     v, w = message.linear, message.angular
     return AxisValues(
-        values=dict(zip(TWIST, (v.x, v.y, v.z, w.x, w.y, w.z), strict=True)), units=TWIST
+        values=dict(zip(TWIST_UNITS, (v.x, v.y, v.z, w.x, w.y, w.z), strict=True)),
+        units=TWIST_UNITS,
     )
 
 
@@ -52,7 +59,8 @@ def read_wrench(message: Wrench) -> AxisValues:
     """Return the six components of a wrench."""
     f, t = message.force, message.torque
     return AxisValues(
-        values=dict(zip(WRENCH, (f.x, f.y, f.z, t.x, t.y, t.z), strict=True)), units=WRENCH
+        values=dict(zip(WRENCH_UNITS, (f.x, f.y, f.z, t.x, t.y, t.z), strict=True)),
+        units=WRENCH_UNITS,
     )
 
 
@@ -67,7 +75,7 @@ def read_joints(message: JointState) -> AxisValues:
 
     Axes have the names of the joints, or ``q0``, ``q1``, ... if the message has no names.
     """
-    for kind, unit in JOINTS.items():
+    for kind, unit in JOINT_UNITS.items():
         commands = getattr(message, kind)
         if len(commands):
             names = message.name or [f"q{i}" for i in range(len(commands))]
@@ -86,10 +94,10 @@ READERS: dict[type, Callable[[Any], AxisValues]] = {
 }
 """The function that reads the command in a message of each type."""
 KNOWN_AXES: dict[type, Mapping[str, str]] = {
-    Twist: TWIST,
-    TwistStamped: TWIST,
-    Wrench: WRENCH,
-    WrenchStamped: WRENCH,
+    Twist: TWIST_UNITS,
+    TwistStamped: TWIST_UNITS,
+    Wrench: WRENCH_UNITS,
+    WrenchStamped: WRENCH_UNITS,
 }
 """The axes and units of the message types that have fixed axes."""
 

@@ -45,7 +45,7 @@ class FogSweepSpec(SweepSpec):
 
     name: ClassVar[str] = "fog"
     unit: ClassVar[str] = "1/m"
-    is_single: ClassVar[bool] = True
+    uses_float32: ClassVar[bool] = True
 
     initial_value: float = element(original=Original(aliases=("initialFog",)), minimum=0.0)
     """The fog density of the first level [1/m], or the length that ``u:unit`` selects [m]."""

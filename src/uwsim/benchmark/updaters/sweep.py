@@ -17,7 +17,7 @@ from .updater import MAX_LEVELS, SceneUpdater, SceneUpdaterSpec
 class SweepSpec(SceneUpdaterSpec):
     """An updater whose value increases by a step from level to level."""
 
-    is_single: ClassVar[bool] = False
+    uses_float32: ClassVar[bool] = False
     """True if the number of levels is computed in float32, as in the original UWSim; otherwise it
     is computed in float64 (`sweep_values`)."""
 
@@ -33,7 +33,7 @@ class SweepSpec(SceneUpdaterSpec):
     def values(self) -> tuple[float, ...]:
         """Return the initial value, the next value one step above, and so on."""
         return sweep_values(
-            self.initial_value, self.final_value, self.step, is_single=self.is_single
+            self.initial_value, self.final_value, self.step, uses_float32=self.uses_float32
         )
 
     def errors(self) -> Iterator[str]:
@@ -66,7 +66,7 @@ class Setter(SceneUpdater):
 
 
 def sweep_values(
-    start: float, end: float, step: float, *, is_single: bool = False
+    start: float, end: float, step: float, *, uses_float32: bool = False
 ) -> tuple[float, ...]:
     """Return ``start + i * step`` for as many levels i as the original UWSim runs.
 
@@ -79,12 +79,12 @@ def sweep_values(
         start: the first value.
         end: the value that is not exceeded.
         step: the increment from level to level.
-        is_single: True if the sums are computed in float32 (fog), False in float64.
+        uses_float32: True if the sums are computed in float32 (fog), False in float64.
 
     Raises:
         BadSetting: the sweep never ends, or has more than 100 000 levels.
     """
-    kind = np.float32 if is_single else np.float64
+    kind = np.float32 if uses_float32 else np.float64
     value, end_value, increment = kind(start), kind(end), kind(step)
     if end > start and not (end - start) < MAX_LEVELS * step:
         raise endless_error(start, end, step)
