@@ -176,7 +176,7 @@ def _execute_request(
 def _name_and_class(
     algorithm: str | type[Algorithm] | None,
 ) -> tuple[str | None, type[Algorithm] | None]:
-    """Return the name of an algorithm, and its class, if any; raise BadSetting for an object."""
+    """Return the name of an algorithm, and the class if one is given; raise BadSetting."""
     if algorithm is None or isinstance(algorithm, str):
         return algorithm, None
     if not isinstance(algorithm, type):
@@ -269,7 +269,7 @@ def _first_seed(seeds: Sequence[int]) -> int:
 
 
 def read_result(path: str | Path) -> Result:
-    """Read a result: its directory or its ``result.json``, of any format version.
+    """Read a result directory, or a ``result.json``, of any format version up to the present.
 
     Raises:
         ResultError: the result does not exist, is incomplete, or has another format.

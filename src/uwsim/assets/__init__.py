@@ -23,11 +23,11 @@ from .find import (
     searched_folders,
 )
 from .loaders import MESH_FORMATS, OSGCONV_FORMATS, can_read, read_model
+from .location_remarks import describe_search, location_remark, package_remark, states_location
 from .mesh import Mesh, Model, Texture
 from .model_cache import generated_model
 from .packages import PREFIXES, UWSIM_PACKAGE, environment_folders, package_folders, package_of
 from .paint import paint_model
-from .places import describe_search, location_remark, package_remark, states_location
 from .primitives import primitive
 from .stand_ins import STAND_INS, StandIn
 

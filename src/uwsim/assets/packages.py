@@ -27,9 +27,9 @@ from pathlib import Path
 PREFIXES = ("package://", "model://")
 """The beginnings of names in a ROS package or a model of Gazebo."""
 UWSIM_PACKAGE = "uwsim"
-"""The package whose files are those of this program and of the original UWSim."""
+"""The name of the package of the original UWSim, whose files are also part of this program."""
 LAYOUTS = (".", "src", "share", "install/share", "devel/share", "install/{0}/share", "{0}/share")
-"""The folders, below a root, that contain a package as a folder of its name."""
+"""The folders below a root that may contain the folder of a package."""
 BUILD_NAMES = ("build", "devel", "install", ".catkin_tools", ".catkin_workspace")
 """The entries that distinguish a workspace from another folder with a ``src``."""
 IGNORED_FOLDERS = frozenset(
@@ -235,7 +235,7 @@ def _walk_packages(
 
     Args:
         packages: the folders of packages, by their level.
-        stamps: the modification time of each folder; those of visited folders are added.
+        stamps: the modification time of each folder, to which visited folders are added.
 
     Returns:
         Models of Gazebo and other folders, by their names.

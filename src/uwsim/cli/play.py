@@ -59,11 +59,12 @@ def play(
 ) -> None:
     """Publish the messages of a recording on the bus, each at its time, and list the topics.
 
-    Without a scene, your --program and external programs (--ros1, --ros2, --web) use its topics.
-    --record writes them. It also converts a .bag to an .mcap and back. With a scene its vehicles
-    are ghosts: they follow the recorded odometry and joint states. The scene's sensors measure
-    along that motion. Topics of both are played as /recorded/TOPIC. With --commands the recorded
-    commands drive the vehicles.
+    Without a scene, your --program and external programs (--ros1, --ros2, --web) use the topics of
+    the recording. With --record the messages are written to a new recording, which converts a .bag
+    to an .mcap or back. The vehicles of a scene are ghosts: they follow the recorded odometry and
+    joint states, and the sensors of the scene measure along that motion. A topic of both recording
+    and scene is published as /recorded/TOPIC. With --commands the recorded commands drive the
+    vehicles.
     """
     from ..checks import model_warnings
     from ..middleware.recording import BagReader

@@ -300,7 +300,7 @@ def open_trials(
 ) -> list[RecordedTrial]:
     """Open the trial of a result with an index, or all trials of its first seed.
 
-    The result may be named by its result.json.
+    The path of a result is that of the directory or of ``result.json``.
     """
     from ..results.journal import trials_without_motion
     from ..verify.recorded_plan import FileOverrides

@@ -116,7 +116,7 @@ class BatteryRecord(Record):
     """The state of a battery."""
 
     numbers: Array
-    """The charge drawn so far [A s], the current at the last sample [A] and its time [s], (3,)."""
+    """The charge drawn so far [A s], and the current [A] and time [s] of the last sample, (3,)."""
     sample: Sample
     """The last sample of the sampler."""
     is_overloaded: bool = False
@@ -124,7 +124,7 @@ class BatteryRecord(Record):
 
 
 class Battery(Device):
-    """A battery: its remaining charge, and its present voltage and current."""
+    """A battery, which measures the remaining charge, and the present voltage and current."""
 
     def __init__(
         self,

@@ -46,7 +46,7 @@ VERSION = 24
 NED_FRAME = "local_origin_ned"
 """The ROS frame of the NED axes, if it is on ``/tf``."""
 WORLD_FROM_NED = Pose(np.zeros(3), np.array([[0.0, 1.0, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, -1.0]]))
-"""The default pose of the NED frame: its axes are y, x and -z of W."""
+"""The default pose of the NED frame: north, east and down are y, x and -z of W."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -27,7 +27,7 @@ from .device import Device, DeviceSpec, DeviceVehicle
 WORLD = "world"
 """The name of the ROS frame that coincides with L."""
 MAX_DEPTH = 100
-"""The greatest number of transforms between a frame and its ancestor."""
+"""The greatest number of transforms between a frame and the frame ``world``."""
 EXPECTED = f"{EXPECTED_POSE}; it is left out"
 """The expected content of a transform, and what happens to an invalid one."""
 

@@ -84,7 +84,7 @@ class DvlSensorSpec(SensorSpec):
         return is_far_enough & (axial_distances <= self.max_altitude)
 
     def bind(self, world: SensorWorld, vehicle: Carrier) -> Dvl:
-        """Mount it on its link; raise UnknownName if the vehicle has no such link."""
+        """Mount the sensor on its link; raise UnknownName if the vehicle has no such link."""
         return Dvl(self, vehicle.moving_mount(self), world, vehicle)
 
 
@@ -148,7 +148,7 @@ class Dvl(CompiledSensor):
             prepare=self._prepare,
             can_skip_prepare=self._can_skip_prepare,
         )
-        """The sampler."""
+        """The sampler that takes samples in compiled code."""
 
     def _create_parameters(self) -> npt.NDArray[np.void]:
         """Return the parameters for compiled code, a record of `dvl_kernel.DVL`, (1,)."""

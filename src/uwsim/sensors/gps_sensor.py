@@ -58,7 +58,7 @@ class GpsSensorSpec(SensorSpec):
     """The depth below the surface from which on the receiver has no fix [m]."""
 
     def bind(self, world: SensorWorld, vehicle: Carrier) -> GpsSensor:
-        """Mount it on its link; raise UnknownName if the vehicle has no such link."""
+        """Mount the sensor on its link; raise UnknownName if the vehicle has no such link."""
         rng = world.stream(f"{vehicle.name}/{self.name}/noise")
         return GpsSensor(self, vehicle.mount(self), world, rng)
 
@@ -91,7 +91,7 @@ class GpsSensor(CompiledSensor):
         row["mount"], row["stream"], row["std"] = mount.functions, stream_of(rng), spec.std
         row["waves"] = world.surface.wave_addresses
         self.sampler = create_sampler(mount, sample_gps, row, N_VALUES, (self.state, world.surface))
-        """The sampler."""
+        """The sampler that takes samples in compiled code."""
 
     def message(self, time: float, values: Array) -> NavSatFix | None:
         """Return the message of a sample at ``time`` [s]; None for no message."""

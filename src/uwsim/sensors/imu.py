@@ -57,7 +57,7 @@ class ImuSpec(SensorSpec):
     """The errors of the measured specific force."""
 
     def bind(self, world: SensorWorld, vehicle: Carrier) -> InertialUnit:
-        """Mount it on its link; raise UnknownName if the vehicle has no such link."""
+        """Mount the sensor on its link; raise UnknownName if the vehicle has no such link."""
         return InertialUnit(self, vehicle.moving_mount(self), world, vehicle.name)
 
 
@@ -111,7 +111,7 @@ class InertialUnit(CompiledSensor):
         row["measures_motion"] = self._measures_motion
         row["gyro"], row["accelerometer"] = gyro.parameters, accelerometer.parameters
         self.sampler = create_sampler(mount, sample_imu, row, N_VALUES, (self.state,))
-        """The sampler."""
+        """The sampler that takes samples in compiled code."""
 
     def message(self, time: float, values: Array) -> Imu:
         """Return the message of a sample at ``time`` [s]."""

@@ -63,7 +63,7 @@ class PressureSensorSpec(SensorSpec):
     """The pressure of the air at the surface [Pa]."""
 
     def bind(self, world: SensorWorld, vehicle: Carrier) -> PressureSensor:
-        """Mount it on its link; raise UnknownName if the vehicle has no such link."""
+        """Mount the sensor on its link; raise UnknownName if the vehicle has no such link."""
         rng = world.stream(f"{vehicle.name}/{self.name}/noise")
         return PressureSensor(self, vehicle.mount(self), world, rng)
 
@@ -117,7 +117,7 @@ class PressureSensor(CompiledSensor):
         self.sampler = create_sampler(
             mount, sample_pressure, row, 1, (self.state, levels, world.surface)
         )
-        """The sampler."""
+        """The sampler that takes samples in compiled code."""
 
     def message(self, time: float, values: Array) -> Pressure:
         """Return the message of a sample at ``time`` [s]."""

@@ -61,7 +61,7 @@ class RangeSensorSpec(SensorSpec):
     """The standard deviation of the noise of the distance [m]."""
 
     def bind(self, world: SensorWorld, vehicle: Carrier) -> RangeSensor:
-        """Mount it on its link; raise UnknownName if the vehicle has no such link."""
+        """Mount the sensor on its link; raise UnknownName if the vehicle has no such link."""
         mount = vehicle.mount(self, visual="visual-frames" in world.compatibility)
         return RangeSensor(self, mount, world, world.stream(f"{vehicle.name}/{self.name}/noise"))
 
@@ -81,7 +81,7 @@ RANGE = np.dtype(
 
 
 class RangeSensor(CompiledSensor):
-    """A sensor of the distance to the first surface in its beam."""
+    """A sensor that measures the distance to the first surface in a beam."""
 
     def __init__(
         self, spec: RangeSensorSpec, mount: Mount, world: SensorWorld, rng: np.random.Generator
@@ -109,7 +109,7 @@ class RangeSensor(CompiledSensor):
             can_skip_prepare=lambda _: mount.is_compiled and rays.is_compiled,
             memory_owners=(self.state, mount, rays, directions),
         )
-        """The sampler."""
+        """The sampler that takes samples in compiled code."""
 
     def message(self, time: float, values: Array) -> Range:
         """Return the message of a sample at ``time`` [s]."""

@@ -175,7 +175,7 @@ class BindsSensor(Protocol):
     """The spec of a sensor that is simulated; other specs have no ``bind``."""
 
     message_type: ClassVar[type]
-    """The type of its messages."""
+    """The type of the sensor's messages."""
 
     @property
     def name(self) -> str:

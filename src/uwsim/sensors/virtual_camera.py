@@ -114,11 +114,11 @@ class VirtualCameraSpec(SensorSpec):
     showpath: float = 0.0
     """The period at which the viewer marks the outline of the camera's view [s]; 0 is off."""
     grayscale: bool = False
-    """True if its images are mono8 instead of rgb8."""
+    """True if the images are mono8 instead of rgb8."""
     std: float = element(default=0.005, minimum=0, maximum=10)
     """The standard deviation of the noise of each channel of each pixel [1: full scale]."""
     quality: Quality = element(namespaced=True, default="plain")
-    """The quality of its images; ``polished`` ones have soft shadows in the hue of the water,
+    """The quality of the images; ``polished`` images have soft shadows in the hue of the water,
     highlights on wet surfaces and smooth edges, like views for people, and take three to four times
     the time."""
 
@@ -129,7 +129,7 @@ class VirtualCameraSpec(SensorSpec):
         return Intrinsics.from_fovy(self.resw, self.resh, math.radians(self.fovy))
 
     def bind(self, world: SensorWorld, vehicle: Carrier) -> VirtualCamera:
-        """Mount it on its link; raise UnknownName if the vehicle has no such link.
+        """Mount the sensor on its link; raise UnknownName if the vehicle has no such link.
 
         With the compatibility quirk ``visual-frames`` it is fixed to the link's visual frame.
         """
@@ -145,7 +145,7 @@ class CameraState(Record):
     """The standard deviation of the noise of each channel [1: full scale], which scene updaters
     may set."""
     n_images: int | None
-    """The number of images due on its topics so far, whether or not they are subscribed to;
+    """The number of images due on the camera's topics so far, with or without subscribers;
     None if it has no topic."""
     rng: np.random.Generator
     """The generator of the noise."""
@@ -169,11 +169,11 @@ class VirtualCamera:
         self.name = spec.name
         """The name in the scene."""
         self.frame_id = spec.frame_id
-        """The frame in the headers of its messages."""
+        """The name of the frame in the headers of the messages."""
         self.is_grey = spec.grayscale
-        """True if it returns mono8 images instead of rgb8."""
+        """True if the images are mono8 instead of rgb8."""
         self.is_polished = spec.quality == "polished"
-        """True if its images have soft shadows, highlights and smooth edges."""
+        """True if the images have soft shadows, highlights and smooth edges."""
 
     @property
     def n_images(self) -> int | None:

@@ -65,7 +65,7 @@ class VirtualRangeImageSpec(SensorSpec):
         return Intrinsics.from_fovy(self.resw, self.resh, math.radians(self.fovy))
 
     def bind(self, world: SensorWorld, vehicle: Carrier) -> VirtualRangeImage:
-        """Mount it on its link; raise UnknownName if the vehicle has no such link.
+        """Mount the sensor on its link; raise UnknownName if the vehicle has no such link.
 
         With the compatibility quirk ``visual-frames`` it is fixed to the link's visual frame.
         """
@@ -93,7 +93,7 @@ class VirtualRangeImage:
         self.name = spec.name
         """The name in the scene."""
         self.frame_id = spec.frame_id
-        """The frame in the headers of its messages."""
+        """The name of the frame in the headers of the messages."""
 
     @property
     def world_from_camera(self) -> Pose:

@@ -74,11 +74,11 @@ class BodyMotion:
     """The motion of a body over ground, in W."""
 
     velocity: npt.NDArray[np.float64]
-    """The velocity of its origin, (3,) [m/s]."""
+    """The velocity of the body's origin, (3,) [m/s]."""
     angular_velocity: npt.NDArray[np.float64]
     """The angular velocity of the body, (3,) [rad/s]."""
     acceleration: npt.NDArray[np.float64]
-    """The acceleration of its origin, (3,) [m/s2]."""
+    """The acceleration of the body's origin, (3,) [m/s2]."""
 
 
 class Mount(Body, Protocol):
@@ -117,8 +117,8 @@ class CompiledVehicle(Protocol):
     def base_sampler(self) -> Sampler:
         """Return the sampler of the base, whose samples have 18 numbers.
 
-        The numbers are its position in W [m], its axes in W by rows, its velocity over ground in W
-        [m/s], and its angular velocity in base axes [rad/s].
+        The numbers are the position in W [m], the axes in W by rows, the velocity over ground in W
+        [m/s], and the angular velocity in base axes [rad/s].
         """
 
     def joint_sampler(self) -> Sampler:
@@ -259,7 +259,7 @@ class Rays(Protocol):
 
 
 class Attachment(Protocol):
-    """A frame on a vehicle, a link or an object, at whose origin a force acts."""
+    """A frame on a vehicle, a link or an object; a force acts at the origin of the frame."""
 
     @property
     def name(self) -> str:
@@ -274,7 +274,7 @@ class Attachment(Protocol):
         """The present pose of the frame; its axes are those of the body."""
 
     def motion(self) -> BodyMotion:
-        """Return the present motion of its origin over ground, in W.
+        """Return the present motion of the frame's origin over ground, in W.
 
         The motion of a vehicle with dynamics or a loose object is that of the physics engine. A
         kinematic vehicle moves as in `MovingBody.motion`; another object is at rest.

@@ -67,7 +67,7 @@ def read_parts(
 
 
 class _Document(collada.Collada):  # type: ignore[misc]  # pycollada has no types
-    """A file with all of its materials, broken ones as plain colours."""
+    """A Collada file in which broken materials are replaced by plain colours."""
 
     def __init__(self, file: io.BytesIO, ignore: list[type]) -> None:
         self._broken_effects: dict[str, str] = {}
@@ -271,7 +271,7 @@ def _triangles_of(primitive: Any) -> Any:
 
 
 def _normals_of(primitive: Any) -> npt.NDArray[np.float64] | None:
-    """Return the normals of the corners: those of different normals are not merged."""
+    """Return the normals of the corners, so that corners with different normals are not merged."""
     if primitive.normal is None:
         return None
     normals: npt.NDArray[np.float64] = primitive.normal[primitive.normal_index]

@@ -44,7 +44,7 @@ def limit_error(data: bytes) -> str:
 
 
 class _Counts:
-    """The size of each node with its instances, counted once."""
+    """The size of each node including its instances, computed once."""
 
     def __init__(self, root: Element) -> None:
         self._nodes: dict[str, list[Element]] = {}

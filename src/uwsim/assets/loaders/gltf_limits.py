@@ -14,7 +14,7 @@ MAX_ENTRIES = 20_000
 MAX_DEPTH = 100
 """The greatest length of a chain of nodes."""
 MAX_ELEMENTS = 24_000_000
-"""The greatest number of elements of an accessor: twice that of 4 million separate triangles."""
+"""The greatest number of elements of an accessor: 4 million separate triangles have half of it."""
 MAX_EMPTY_ELEMENTS = 12_000_000
 """The greatest number of elements of all accessors without data, whose elements are zeros."""
 MAX_HEADER_BYTES = 32 * 2**20

@@ -175,7 +175,7 @@ class _Rewriter:
         return texture if isinstance(texture, dict) else {}
 
     def _set_colour(self, primitive: Tree, index: int) -> None:
-        """Copy a primitive's material, times the mean colour of its vertices."""
+        """Copy the material of a primitive, multiplied by the mean colour of the vertices."""
         self._has_changed = True
         mean = self._values(index)[:, :3].mean(axis=0, dtype=np.float64).tolist()
         if min(mean) > 1.0 - 1e-3:

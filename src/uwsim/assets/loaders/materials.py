@@ -83,7 +83,7 @@ class Materials:
         """Return the colour and texture of a trimesh visual.
 
         Raises:
-            AssetError: its image is too large, or of a type that is not read.
+            AssetError: the image is too large, or of an unsupported type.
         """
         material = getattr(visual, "material", None)
         if material is None:

@@ -16,7 +16,7 @@ Points = npt.NDArray[np.float64]
 Indices = npt.NDArray[np.int64]
 
 MAX_CORNERS = 1000
-"""The number of corners beyond which a polygon is cut as a fan: the time grows as its square."""
+"""The number of corners beyond which a polygon is cut as a fan; the time grows as the square."""
 TURN_TOLERANCE = 1e-9
 """The turn of a corner of a convex polygon the other way, relative to the squared size."""
 
@@ -101,7 +101,7 @@ def _is_ear(outline: Points, corners: list[int], k: int) -> bool:
     is_inside = np.ones(len(corners), dtype=bool)
     for p, q in ((a, b), (b, c), (c, a)):
         is_inside &= _cross_product(p, q, points.T) >= 0.0
-    for p in (a, b, c):  # corners at the same ear are those of an edge to a hole
+    for p in (a, b, c):  # corners at the same point belong to an edge to a hole
         is_inside &= (points != p).any(axis=1)
     return not is_inside.any()
 

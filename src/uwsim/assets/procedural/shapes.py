@@ -52,7 +52,7 @@ class Shape:
         return Shape(self.corners[:, ::-1], self.uvs[:, ::-1])
 
     def scale_uv(self, scale_u: float, scale_v: float) -> Shape:
-        """Return the shape with its texture repeated this often."""
+        """Return the shape with the texture repeated along u and v."""
         return Shape(self.corners, self.uvs * np.array([scale_u, scale_v]))
 
     def project_uv(self, metres: float) -> Shape:
@@ -332,7 +332,7 @@ def capsule(radius: float, z0: float, z1: float, *, n: int = 20) -> Shape:
 
 
 def torus(ring: float, tube_radius: float, *, n: int = 32, m: int = 12) -> Shape:
-    """Return a ring about z, with the radius of its middle line and that of the tube."""
+    """Return a ring about z, by the radius of the middle line and the radius of the tube."""
     a = np.linspace(-math.pi, math.pi, m + 1)
     a[-1] = -math.pi
     profile = np.stack([ring + tube_radius * np.cos(a), tube_radius * np.sin(a)], axis=1)

@@ -25,7 +25,7 @@ REPORT_INTERVAL = 10.0
 
 
 class TimeEstimate:
-    r"""An estimate of the remaining time of a work from its finished pieces.
+    r"""An estimate of the remaining time of a task from the pieces finished so far.
 
     Loading and compiling occur once, before the first piece, and w workers finish their pieces at
     about the same time, in waves. The estimate therefore counts waves, from the time :math:`t_w` at

@@ -130,7 +130,7 @@ class AcousticCommsDeviceSpec(DeviceSpec):
         return packet_topics(self.name, has_energy=self.energy_model is not None)
 
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> CommsDevice:
-        """Mount the device, and connect it to its channel; raise UnknownName without its link."""
+        """Mount the device, and connect it to a channel; raise UnknownName without the link."""
         settings = None if self.disable else self._modem_settings(world, vehicle.name)
         return CommsDevice(self, world, vehicle, settings)
 

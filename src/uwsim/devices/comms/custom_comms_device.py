@@ -132,7 +132,7 @@ class CustomCommsDeviceSpec(DeviceSpec):
         return () if self.disable else packet_topics(self.name)
 
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> CommsDevice:
-        """Mount the device, and connect it to its channels; raise UnknownName without its link."""
+        """Mount the device, and connect it to its channels; raise UnknownName without the link."""
         settings = None if self.disable else self._modem_settings(world, vehicle.name)
         return CommsDevice(self, world, vehicle, settings)
 

@@ -69,7 +69,7 @@ class ImagingSonarSpec(SonarSpec):
         return np.linspace(-half, half, self.beams)
 
     def bind(self, world: SensorWorld, vehicle: Carrier) -> ImagingSonar:
-        """Mount it on its link; raise UnknownName if the vehicle has no such link."""
+        """Mount the sensor on its link; raise UnknownName if the vehicle has no such link."""
         rng = world.stream(f"{vehicle.name}/{self.name}/noise")
         return ImagingSonar(self, vehicle.mount(self), world, rng)
 

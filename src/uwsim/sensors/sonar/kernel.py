@@ -38,7 +38,8 @@ def add_echoes(
     r"""Add the power of the echo of each ray to the range bins that the echo covers.
 
     A ray of the solid angle :math:`d\Omega` that meets a surface at the range r and the angle
-    :math:`\theta` to its normal covers :math:`r^2 d\Omega / \cos\theta` of it, and sends back
+    :math:`\theta` to the normal covers the area :math:`r^2 d\Omega / \cos\theta`. The power of its
+    echo is
 
     .. math:: w\, \sigma(\theta)\, \frac{10^{-2 \alpha r / 10}}{r^2 \cos\theta} ,
 

@@ -75,7 +75,7 @@ class FanSpec(SensorSpec):
         return int(abs(self.final_angle - self.init_angle) / self.angle_incr) + 1
 
     def bind(self, world: SensorWorld, vehicle: Carrier) -> BeamFan:
-        """Mount it on its link; raise UnknownName if the vehicle has no such link."""
+        """Mount the sensor on its link; raise UnknownName if the vehicle has no such link."""
         mount = vehicle.mount(self, visual="visual-frames" in world.compatibility)
         return BeamFan(self, mount, world, world.stream(f"{vehicle.name}/{self.name}/noise"))
 

@@ -25,9 +25,9 @@ class ProfilingSonarSpec(FanSpec):
     """A ``<ProfilingSonar>``."""
 
     fov: float = element(exclusive_minimum=0)
-    """The field of view of each of the original's depth cameras [deg]; rays need none."""
+    """The field of view of each depth camera of the original UWSim [deg]; rays do not use it."""
 
     @property
     def camera_field(self) -> float:
-        """The largest field of view of the original's cameras [deg]."""
+        """The largest field of view of each depth camera of the original UWSim [deg]."""
         return self.fov

@@ -1,7 +1,7 @@
 r"""The directions of the rays of a ping, and the weights of each beam.
 
 Rays are in columns of one azimuth. There are at least `COLUMNS_PER_BEAM_WIDTH` columns in the width
-of a beam, whatever the spacing of the beams: beams that are close together power columns, and beams
+of a beam, whatever the spacing of the beams: beams that are close together share columns, and beams
 that are far apart have several columns each, or columns of their own.
 
 The rays of a column are closest in the middle of the beam. Their elevations e reach the first null
@@ -61,7 +61,7 @@ class RayGrid:
         powers = [[beam_pattern(angle, width) for angle in line] for line in offsets.tolist()]
         self.patterns = np.array(powers, dtype=np.float32)
         """The patterns of the beams over neighbouring columns, as for `compute_amplitudes`."""
-        if self.stride > n_taps:  # no two beams power a column
+        if self.stride > n_taps:  # no two beams share a column
             self.stride = n_taps
             beam_columns = azimuths[:, None] + spacing * np.arange(-n_side, n_side + 1)
             self.azimuths: Array = beam_columns.reshape(-1)
@@ -86,7 +86,7 @@ class RayGrid:
         weights = pattern * np.cos(elevations) * np.diff(edges) * spacing
         rises = 0.5 * np.diff(ends) / np.maximum(pattern, 1e-12)
         self.rows = np.stack([weights, rises], axis=1)
-        """The pattern times the solid angle of each row's rays [sr], and the power by which the
+        """The pattern times the solid angle of each row's rays [sr], and the share by which the
         pattern rises from its middle to its upper end, (k, 2)."""
 
     def _elevations(self, t: Array) -> Array:

@@ -77,7 +77,7 @@ class ScanningSonarSpec(SonarSpec):
         return abs(self.final_angle - self.init_angle) >= 360.0
 
     def bind(self, world: SensorWorld, vehicle: Carrier) -> ScanningSonar:
-        """Mount it on its link; raise UnknownName if the vehicle has no such link."""
+        """Mount the sensor on its link; raise UnknownName if the vehicle has no such link."""
         rng = world.stream(f"{vehicle.name}/{self.name}/noise")
         return ScanningSonar(self, vehicle.mount(self), world, rng)
 

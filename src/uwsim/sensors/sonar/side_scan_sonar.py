@@ -62,7 +62,7 @@ class SideScanSonarSpec(SonarSpec):
         return 2 * self.bins * self.lines
 
     def bind(self, world: SensorWorld, vehicle: Carrier) -> SideScanSonar:
-        """Mount it on its link; raise UnknownName if the vehicle has no such link."""
+        """Mount the sensor on its link; raise UnknownName if the vehicle has no such link."""
         rng = world.stream(f"{vehicle.name}/{self.name}/noise")
         return SideScanSonar(self, vehicle.mount(self), world, rng)
 

@@ -39,7 +39,7 @@ class SonarSpec(SensorSpec):
     """The number of rays of a beam, one above the other. Small targets get additional rays; a part
     of a large body that is lower than the spacing of the rays may be missed."""
     frequency: float = element(default=900e3, minimum=1000, maximum=5e6)
-    """The frequency of the sound, for its absorption [Hz]."""
+    """The frequency of the sound, which determines the absorption [Hz]."""
     source_level: float = element(default=210.0, minimum=0, maximum=300)
     """The source level of the ping on the axis of the beam [dB re 1 uPa at 1 m]."""
     noise_level: float = element(default=80.0, minimum=0, maximum=300)
