@@ -1,1 +1,1 @@
-"""The parts of a scene that follow from its file and do not change during a simulation."""
+"""The model of a scene: everything that is computed from its files and does not change in a run."""

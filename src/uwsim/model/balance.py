@@ -1,12 +1,13 @@
 r"""Weight, buoyancy and hydrostatic stiffness of a vehicle.
 
-A hull whose centre of buoyancy is a height h above its centre of mass has, at a roll or pitch angle
-:math:`\theta`, the righting moment
+A submerged vehicle whose centre of buoyancy is a height h above its centre of mass has, at a roll
+or pitch angle :math:`\theta`, the righting moment
 
 .. math:: \rho g \nabla h \sin\theta
 
-with the volume :math:`\nabla` (Fossen, *Handbook of Marine Craft*, 2011, section 4.1). Joints have
-the values of the file. Not modelled: the effect of arm motion, the waterplane at the surface.
+with the density :math:`\rho`, the gravity g and the displaced volume :math:`\nabla` (Fossen,
+*Handbook of Marine Craft*, 2011, section 4.1). Joints have the values in the scene file. Not
+modelled: the effect of arm motion, the waterplane at the surface.
 """
 
 from __future__ import annotations
@@ -26,27 +27,27 @@ from ..world import GRAVITY
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Balance:
-    """The weight and buoyancy of a vehicle with all its links."""
+    """The mass, the displaced mass and their centres, for a vehicle with all its links."""
 
     mass: float
     """The mass [kg]."""
     centre_of_mass: Array
     """The centre of mass in the base's frame, (3,) [m]."""
     displaced_mass: float
-    """The mass of the displaced water, fully submerged [kg]."""
+    """The mass of the displaced water of the fully submerged vehicle [kg]."""
     centre_of_buoyancy: Array
     """The centre of buoyancy in the base's frame, (3,) [m]."""
 
     @property
     def buoyancy(self) -> float:
-        """The net buoyancy: buoyancy less weight, upwards [N]."""
+        """The net buoyancy: buoyancy minus weight, positive upwards [N]."""
         return GRAVITY * (self.displaced_mass - self.mass)
 
     def stiffness(self, up: Array) -> float:
-        """Compute the righting moment per angle; the vehicle capsizes below 0 [N m/rad].
+        """Compute the righting moment per angle [N m/rad]; if negative, the vehicle capsizes.
 
         Args:
-            up: W's z in the base's frame, (3,).
+            up: the z axis of W in the base's frame, a unit vector (3,).
         """
         height = dot(self.centre_of_buoyancy - self.centre_of_mass, up)
         return float(GRAVITY * self.displaced_mass * height)
@@ -55,12 +56,12 @@ class Balance:
 def balance_of(
     robot: RobotSpec, dynamics: VehicleHydrodynamics, joint_values: Sequence[float] = ()
 ) -> Balance:
-    """Add up the links of a vehicle.
+    """Compute the balance of a vehicle from its links.
 
     Args:
         robot: the links of the vehicle.
-        dynamics: its hydrodynamics; masses of the set replace those of the robot.
-        joint_values: the values of its joints [rad or m].
+        dynamics: the hydrodynamics of the vehicle; masses in it replace those of the robot.
+        joint_values: the joint vector [rad or m]; missing values are 0.
     """
     poses = link_poses(robot, joint_values)
     masses, volumes = [0.0], [0.0]

@@ -39,5 +39,5 @@ def grip_constraint(vehicle: int, link: str, object_index: int) -> str:
 
 
 def owner_of(name: str) -> str:
-    """Return ``vehicle/1`` or ``object/1``, the owner of the body or shape of that name."""
+    """Return the owner, ``vehicle/1`` or ``object/1``, of the body or shape with a name."""
     return "/".join(name.split("/")[:2])

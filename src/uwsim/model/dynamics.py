@@ -1,8 +1,8 @@
-"""Resolution of the hydrodynamics of a scene's vehicles and of every name in it.
+"""Reading of the hydrodynamics of a scene's vehicles, and checks of the names in the scene.
 
-Names are resolved before anything is simulated, and all errors are reported with their lines: sets,
-hydrodynamics files, thrusters that fail, interfaces that need a simulated vehicle, topics that two
-interfaces use for different messages, files of currents.
+All errors are reported, with their lines, before the simulation starts: unknown hydrodynamics sets,
+invalid hydrodynamics files, faults of unknown thrusters, interfaces that need a vehicle with
+dynamics, topics that two interfaces use for different messages, missing files of currents.
 """
 
 from __future__ import annotations
@@ -38,16 +38,16 @@ U = f"{{{NAMESPACE}}}"
 DYNAMICS = f"{U}dynamics"
 PROFILE = f"{U}profile"
 MAX_LISTED_LINKS = 8
-"""The greatest number of links that one warning names."""
-MIN_LIFT = 0.1
-"""The smallest change of buoyancy by another density that is reported [N]."""
+"""The greatest number of links that one warning lists."""
+MIN_BUOYANCY_CHANGE = 0.1
+"""The least change of buoyancy in water of another density that is reported [N]."""
 
 
 def read_dynamics(resolved_scene: ResolvedScene) -> dict[int, VehicleHydrodynamics]:
-    """Read the hydrodynamics of every vehicle that has ``u:dynamics``, by its number.
+    """Return the hydrodynamics of every vehicle with ``u:dynamics``, by the vehicle's number.
 
     Raises:
-        SceneError: a name is unknown or a file is invalid; with every error.
+        SceneError: a name is unknown or a file is invalid; the error has every mistake.
     """
     resolution = NameResolution(resolved_scene)
     if diagnostics := [
@@ -58,7 +58,7 @@ def read_dynamics(resolved_scene: ResolvedScene) -> dict[int, VehicleHydrodynami
 
 
 def is_number_path(dynamics: VehicleHydrodynamics, path: str) -> bool:
-    """Return whether a path is one number of a set, or invalid, which is reported elsewhere."""
+    """Return whether a path refers to one number of a set; True if invalid (reported elsewhere)."""
     try:
         return locate(dynamics, path).is_number
     except BadSetting:
@@ -66,16 +66,17 @@ def is_number_path(dynamics: VehicleHydrodynamics, path: str) -> bool:
 
 
 class NameResolution:
-    """The resolution of names: the files that they refer to, and errors for unknown names.
+    """The hydrodynamics of the vehicles, and the errors and warnings about names in a scene.
 
     Args:
-        resolved_scene: the scene, with the robot of each vehicle that has one.
-        is_thorough: read currents whole; the user's own functions are not run.
+        resolved_scene: the scene with its robots.
+        is_thorough: True: also read the files of currents completely. Python functions of currents
+            are searched, but not called.
     """
 
     def __init__(self, resolved_scene: ResolvedScene, *, is_thorough: bool = False) -> None:
         self.dynamics: dict[int, VehicleHydrodynamics] = {}
-        """The hydrodynamics of each vehicle that is simulated, by its number."""
+        """The hydrodynamics of each vehicle with dynamics, by the vehicle's number."""
         self.diagnostics: list[Diagnostic] = []
         """The errors and warnings."""
         scene, robots = resolved_scene.scene, resolved_scene.robots
@@ -148,7 +149,7 @@ class NameResolution:
 
     def _check_weight(self, index: int, name: str, robot: RobotSpec) -> None:
         dynamics, vehicle = self.dynamics[index], self._scene.vehicles[index].name
-        place = (self._scene.vehicles[index], DYNAMICS)
+        source = (self._scene.vehicles[index], DYNAMICS)
         masses = {body.link: body.mass for body in dynamics.bodies}
         mass = sum(masses.get(link.name) or link.mass for link in robot.links)
         water_mass = dynamics.density * sum(body.volume for body in dynamics.bodies)  # [kg]
@@ -156,21 +157,23 @@ class NameResolution:
             self._report(
                 f"the vehicle {vehicle!r} has no mass: neither a link of its URDF nor a <body> of "
                 f"{name!r} gives one",
-                *place,
+                *source,
             )
         elif water_mass > MAX_BUOYANCY * mass:
             self._report(
                 f"the vehicle {vehicle!r} has {mass:g} kg and displaces {water_mass:g} kg of "
                 f"water; expected at most {MAX_BUOYANCY:g} times the mass, as of the lightest "
                 f"foam. Check <mass> in kg and <volume> in m3 of the set {name!r}",
-                *place,
+                *source,
             )
 
     def _check_massless_links(self, index: int, robot: RobotSpec) -> None:
         dynamics, vehicle = self.dynamics[index], self._scene.vehicles[index].name
         masses = {body.link: body.mass for body in dynamics.bodies}
         names = [link.name for link in robot.links if not (masses.get(link.name) or link.mass)]
-        if names and len(names) < len(robot.links):  # `_check_weight` reports one without any mass
+        if names and len(names) < len(
+            robot.links
+        ):  # `_check_weight` reports a vehicle without any mass
             listed_names = names[:MAX_LISTED_LINKS]
             listed_names += ["..."] if len(names) > MAX_LISTED_LINKS else []
             self._report(
@@ -183,7 +186,7 @@ class NameResolution:
             )
 
     def _choose_density(self) -> None:
-        """Choose one density of water: the scene's, or that on which all sets agree."""
+        """Choose the density of the water: the scene's, or the common density of all sets."""
         ocean = self._scene.ocean_state
         if errors := self._profile_errors():
             for error in errors:
@@ -219,13 +222,15 @@ class NameResolution:
         self.dynamics[index] = dynamics.scale_to_density(density)
         if self._scene.ocean_state.profile is not None:
             density = self._scene.ocean_state.profile.density_at(self._depth(index))
-        lift = GRAVITY * (density - dynamics.density) * sum(body.volume for body in dynamics.bodies)
+        buoyancy_change = (
+            GRAVITY * (density - dynamics.density) * sum(body.volume for body in dynamics.bodies)
+        )
         name = self._scene.vehicles[index].name
-        if abs(lift) >= MIN_LIFT:
+        if abs(buoyancy_change) >= MIN_BUOYANCY_CHANGE:
             self._report(
                 f"the water has {density:.6g} kg/m3 and the set {dynamics.name!r} of {name!r} is "
-                f"trimmed for {dynamics.density:.6g}: the vehicle is {abs(lift):.3g} N "
-                f"{'lighter' if lift > 0.0 else 'heavier'} than in its set",
+                f"trimmed for {dynamics.density:.6g}: the vehicle is {abs(buoyancy_change):.3g} N "
+                f"{'lighter' if buoyancy_change > 0.0 else 'heavier'} than in its set",
                 self._scene.vehicles[index],
                 DYNAMICS,
                 severity="warning",
@@ -234,8 +239,8 @@ class NameResolution:
     def _depth(self, index: int) -> float:
         """Compute the depth of a vehicle at the start [m]."""
         vehicle = self._scene.vehicles[index]
-        place = (self._scene.world_from_localized @ vehicle.localized_from_base).position
-        return self._scene.ocean_state.ocean_surface_height - float(place[2])
+        position = (self._scene.world_from_localized @ vehicle.localized_from_base).position
+        return self._scene.ocean_state.ocean_surface_height - float(position[2])
 
     def _check_scale(self, vehicle: VehicleSpec) -> None:
         if vehicle.scale_factor != (1.0, 1.0, 1.0):
@@ -312,7 +317,7 @@ class NameResolution:
             vehicle_name = getattr(interface, "vehicle_name", None)
             camera_name = getattr(interface, "camera_name", None)
             if vehicle_name not in (None, *vehicles) or camera_name not in (None, *cameras):
-                continue  # ignored, as in the original
+                continue  # ignored, as in the original UWSim
             if error := self._sensors.error(interface):
                 self._report(f"<{element}>: {error}", interface)
             for field, message in self._sensors.message_types(interface).items():

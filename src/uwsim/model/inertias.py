@@ -1,6 +1,6 @@
-"""Checks of the inertias of links and objects, before the engine rejects them.
+"""Checks of the inertias of links and objects, which the engine would reject with poor messages.
 
-The reader of hydrodynamics files checks the inertias in them.
+Inertias in hydrodynamics files are checked by their reader.
 """
 
 from __future__ import annotations
@@ -14,9 +14,9 @@ from ..schema import diagnostic_at
 from .resolved_scene import ResolvedScene
 
 MIN_MASS = 0.01
-"""The mass of a link whose URDF gives none [kg]."""
+"""The mass of a link without a mass in its URDF [kg]."""
 MIN_INERTIA = 1e-4
-"""The moment of inertia of a link whose URDF gives none [kg m2]."""
+"""The moments of inertia of a link without an inertia in its URDF [kg m2]."""
 MAX_BUOYANCY = 100.0
 """The greatest ratio of buoyancy to weight: the lightest foam has 10 kg/m3 [1]."""
 
@@ -24,11 +24,11 @@ MAX_BUOYANCY = 100.0
 def check_inertias(
     resolved_scene: ResolvedScene, dynamics: Mapping[int, VehicleHydrodynamics]
 ) -> Iterator[Diagnostic]:
-    """Report every inertia that cannot be simulated.
+    """Yield an error for every inertia that is physically impossible.
 
     Args:
-        resolved_scene: the scene, with the robot of each vehicle that has one.
-        dynamics: the hydrodynamics of each vehicle that is simulated, by its number.
+        resolved_scene: the scene with its robots.
+        dynamics: the hydrodynamics of each vehicle with dynamics, by the vehicle's number.
     """
     scene = resolved_scene.scene
     for index, vehicle in dynamics.items():

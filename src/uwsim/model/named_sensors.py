@@ -1,4 +1,4 @@
-"""The sensor that a ``<u:sensorToROS>`` names: its message type, or the error in the name."""
+"""Look-up of the sensors that ``<u:sensorToROS>`` elements name, and of their message types."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ class NamedSensors:
 
     def __init__(self, scene: SceneSpec) -> None:
         self._types: dict[str, dict[str, type]] = {}
-        """The message type, by name and element."""
+        """The message type by element, by the name of the sensor."""
         self._cameras: set[str] = set()
         for vehicle in scene.vehicles:
             self._cameras |= {camera.name for camera in vehicle.parts_of(VirtualCameraSpec)}
@@ -28,14 +28,14 @@ class NamedSensors:
                     self._types.setdefault(name, {})[element] = type_
 
     def message_types(self, interface: InterfaceSpec) -> Mapping[str, type]:
-        """Return the types of an interface's messages, by the field that names the topic."""
+        """Return the message types of an interface, by the field that contains the topic's name."""
         if not isinstance(interface, SensorToROSSpec):
             return interface.message_types()
         types = [*self._types.get(interface.name, {}).values()]
         return {"topic": types[-1]} if types else {}
 
     def error(self, interface: InterfaceSpec) -> str | None:
-        """Return the reason why a ``<u:sensorToROS>`` does not name one sensor; None if it does."""
+        """Return the error in the name of a ``<u:sensorToROS>``; None if it names one sensor."""
         if not isinstance(interface, SensorToROSSpec):
             return None
         name = interface.name

@@ -1,4 +1,4 @@
-"""The models of a scene, each with its body and its pose on that body."""
+"""The visible parts of a scene: 3-D models, each with its link or object and its pose on that."""
 
 from __future__ import annotations
 
@@ -28,18 +28,19 @@ from .resolved_scene import ResolvedScene
 
 CommsDeviceSpec = CustomCommsDeviceSpec | AcousticCommsDeviceSpec
 MIN_EDGE = 1e-4
-"""The least edge of a box, cylinder or sphere; some robot files have none without thickness [m]."""
+"""The least edge of a box, cylinder or sphere, as some robot files have flat shapes [m]."""
 
 
 @dataclass(frozen=True, eq=False)
 class Part:
-    """One model of the scene, with its body."""
+    """A visible 3-D model on a link or an object."""
 
     id: int
     """The number in segmentation images, from 1."""
     name: str
-    """The name, ``vehicle/link`` or the object's."""
+    """The name: ``vehicle/link``, ``vehicle/device``, or the name of an object."""
     model: Model
+    """The meshes and textures."""
     vehicle: int | None
     """The number of the vehicle; None for an object."""
     link: str
@@ -47,14 +48,14 @@ class Part:
     object: int | None
     """The number of the object; None for a link."""
     frame_from_mesh: npt.NDArray[np.float64]
-    """The mesh frame in the link's or object's frame, (4, 4) [m], with the scale of an object or
-    mesh, without that of a vehicle."""
+    """The pose of the mesh frame in the frame of the link or object, (4, 4) [m]. It includes the
+    scale of the mesh or object, but not the scale of the vehicle."""
     is_hidden: bool
-    """True if the part is a ghost (``vr``), visible in the viewer, not to virtual cameras."""
+    """True if the part is a ghost (``<vr>``): visible in the viewer, but not to virtual cameras."""
 
 
 def parts_of(resolved_scene: ResolvedScene) -> list[Part]:
-    """Return the visible models of a scene; those of a link or object share a number and a name."""
+    """Return the visible parts of a scene; parts of one link or object share number and name."""
     scene, data_path = resolved_scene.scene, resolved_scene.data_path
     parts: list[Part] = []
     load = object_models(scene, data_path)
@@ -108,9 +109,9 @@ def parts_of(resolved_scene: ResolvedScene) -> list[Part]:
 
 def _led_parts(number: int, index: int, vehicle: VehicleSpec, array: LedArraySpec) -> list[Part]:
     balls = []
-    for i, (colour, place) in enumerate(array.positions.items()):
+    for i, (colour, position) in enumerate(array.positions.items()):
         frame_from_mesh = np.eye(4)
-        frame_from_mesh[:3, 3] = place
+        frame_from_mesh[:3, 3] = position
         balls.append(
             Part(
                 id=number + i,
@@ -153,7 +154,7 @@ def _weathered_model(model: Model, spec: ObjectSpec) -> Model:
 def placed_visual(
     visual: VisualSpec, named_by: Path, data_path: tuple[Path, ...]
 ) -> tuple[Model, npt.NDArray[np.float64]]:
-    """Return the model of a shape of a link and ``link_from_mesh`` with its scale, (4, 4) [m]."""
+    """Return the model of a link's shape, and ``link_from_mesh`` with its scale, (4, 4) [m]."""
     model, scale = visual_model(visual, named_by, data_path)
     link_from_visual = Pose.from_rpy(visual.position, visual.rpy).matrix
     return model, product(link_from_visual, np.diag([*scale, 1.0]))
@@ -162,7 +163,7 @@ def placed_visual(
 def visual_model(
     visual: VisualSpec, named_by: Path, data_path: tuple[Path, ...]
 ) -> tuple[Model, tuple[float, float, float]]:
-    """Load or make the visible model of a shape of a link, in its colour, and its scale [m].
+    """Load or create the coloured model of a link's shape; return it with its scale [1].
 
     A labelled box of fixed size replaces a mesh that is not found.
     """
@@ -181,9 +182,9 @@ def visual_model(
 
 
 def object_models(scene: SceneSpec, data_path: tuple[Path, ...]) -> Callable[[str], Model]:
-    """Return a function that loads the models of objects by file, each once.
+    """Return a function that loads the model of an object by its file name, each file once.
 
-    In a scene of the original, a labelled box replaces a file that is not found.
+    In a scene of the original UWSim, a labelled box replaces a file that is not found.
     """
     named_by = Path(scene.path).parent if scene.path else None
 

@@ -1,9 +1,9 @@
 """Placement of vehicles and objects with ``<u:onFloor>`` on the ground when a scene is opened.
 
-The ground is every fixed object that has contacts, and ``terrain`` in any case; objects that are
-set on the ground support nothing. The contacts of a vehicle are those of its links' boxes, with its
-joints as in the file. Those of an object are its collision shape, without ``<physics>`` the hulls
-of its mesh's materials.
+The ground consists of every fixed object that has contacts, and of ``terrain`` in any case, but not
+of objects that are placed on the ground themselves. A vehicle touches the ground with the bounding
+boxes of its links, at the joint values of the scene file. An object touches it with its collision
+shape; without ``<physics>`` these are the convex hulls of the materials of its mesh.
 """
 
 from __future__ import annotations
@@ -29,14 +29,14 @@ from .collision.scene_shapes import collision_shapes, fixed_faces
 from .resolved_scene import ResolvedScene
 
 HULL_PHYSICS = PhysicsSpec(collision_shape_type="trimesh")
-"""The collision shapes of an object without ``<physics>``: the hulls of its materials."""
+"""The physics with the shapes of an object without ``<physics>``: the hulls of its materials."""
 
 
 def set_on_floor(resolved_scene: ResolvedScene) -> SceneSpec:
     """Return the scene with every ``u:onFloor`` resolved to a pose.
 
     Raises:
-        SceneError: there is no ground under a body; with an error for each.
+        SceneError: there is no ground under a body; the error lists all such bodies.
     """
     scene = resolved_scene.scene
     if not has_floor_placement(scene):
@@ -74,19 +74,21 @@ def ground_faces(scene: SceneSpec, data_path: tuple[Path, ...]) -> dict[int, Arr
 
 
 class Floor:
-    """The ground of a scene, and the poses of bodies at rest on it.
+    """The ground of a scene, for computing the poses of bodies that rest on it.
 
     Args:
-        resolved_scene: the scene.
+        resolved_scene: the scene with its robots.
     """
 
     def __init__(self, resolved_scene: ResolvedScene) -> None:
         self._resolved_scene, self._scene = resolved_scene, resolved_scene.scene
         self.faces = ground_faces(resolved_scene.scene, resolved_scene.data_path)
+        """The triangles of each object that is ground, in W, (n, 3, 3) [m], by object number."""
         self.ground = Ground(np.concatenate([np.zeros((0, 3, 3)), *self.faces.values()]))
+        """The surface of all these objects together."""
 
     def body_of_vehicle(self, index: int, world_from_base: Pose) -> Array:
-        """Return the boxes of a vehicle's links, (n, 3, 3) [m]; n is 0 if it has no shape."""
+        """Return the triangles of a vehicle's link boxes in W, (n, 3, 3) [m]; n may be 0."""
         robot, vehicle = self._resolved_scene.robots[index], self._scene.vehicles[index]
         shapes = collision_shapes(self._resolved_scene, [index], {})
         poses = link_poses(robot, vehicle.joint_values)
@@ -98,13 +100,13 @@ class Floor:
         return np.concatenate(triangles)
 
     def body_of_object(self, index: int, world_from_object: Pose) -> Array:
-        """Return the collision triangles of an object, (n, 3, 3) [m]."""
+        """Return the triangles of an object's collision shapes in W, (n, 3, 3) [m]."""
         default = PhysicsSpec() if self._scene.requests_uwsim_physics else HULL_PHYSICS
         file_physics = self._scene.objects[index].physics or default
         physics = PhysicsSpec(
             collision_shape_type=file_physics.collision_shape_type,
             collision_shape=file_physics.collision_shape,
-        )  # loose, so that a trimesh is its hull
+        )  # a loose object, whose trimesh is its convex hull
         shapes = collision_shapes(self._resolved_scene, [], {index: physics})
         return triangles_of(shapes[object_body(index)], world_from_object)
 
@@ -112,20 +114,21 @@ class Floor:
         """Compute ``localized_from_base`` on the ground; None if there is no ground."""
         world_from_base = self._scene.world_from_localized @ vehicle.localized_from_base
         body = self.body_of_vehicle(index, world_from_base)
-        return self._set_down(world_from_base, body, spec)
+        return self._pose_on_ground(world_from_base, body, spec)
 
     def pose_of_object(self, index: int, object_spec: ObjectSpec, spec: OnFloorSpec) -> Pose | None:
         """Compute ``localized_from_object`` on the ground; None if there is no ground."""
         world_from_object = self._scene.world_from_localized @ object_spec.localized_from_object
         body = self.body_of_object(index, world_from_object)
-        return self._set_down(world_from_object, body, spec)
+        return self._pose_on_ground(world_from_object, body, spec)
 
-    def _set_down(self, world_from_body: Pose, body: Array, spec: OnFloorSpec) -> Pose | None:
-        """Compute the pose on the ground, in L.
+    def _pose_on_ground(self, world_from_body: Pose, body: Array, spec: OnFloorSpec) -> Pose | None:
+        """Compute the pose on the ground, in L; None if there is no ground.
 
         Args:
-            world_from_body: the pose in the file.
-            body: the triangles at that pose, (n, 3, 3) [m]; without any, the origin only.
+            world_from_body: the pose in the scene file, in W.
+            body: the triangles of the body at that pose, in W, (n, 3, 3) [m]; if there are none,
+                the origin of the body is placed on the ground.
             spec: the ``<u:onFloor>`` of the body.
         """
         origin = world_from_body.position
@@ -143,7 +146,7 @@ class Floor:
         return self._scene.world_from_localized.inverse() @ pose
 
     def no_ground_error(self, kind: str, spec: VehicleSpec | ObjectSpec) -> Diagnostic:
-        """Make the error that there is no ground below a body."""
+        """Return the error that there is no ground below a body."""
         x, y, _ = spec.position
         place = "at this point" if len(self.ground) else "in this scene"
         return diagnostic_at(
@@ -155,7 +158,7 @@ class Floor:
 
 
 def _rotation_to(normal: Array) -> Array:
-    """Return the smallest rotation from z to a normal that points up, (3, 3)."""
+    """Return the smallest rotation that turns the z axis to an upward normal, (3, 3)."""
     axis = np.cross([0.0, 0.0, 1.0], normal)
     sine = length(axis)
     if sine < 1e-12:

@@ -1,4 +1,4 @@
-"""The bodies of a scene that rays meet, with their surfaces and acoustic materials."""
+"""The visible surfaces of a scene for ray casting, grouped by body, with acoustic materials."""
 
 from __future__ import annotations
 
@@ -15,25 +15,25 @@ from ..scene.spec import SceneSpec
 from .parts import Part
 
 Owner = tuple[int | None, str, int | None]
-"""The number of a vehicle and its link, or the number of an object."""
+"""The vehicle number and the link of a body, or None, an empty text and the object number."""
 
 
 class RayBodies:
-    """The visible models of a scene for ray casting, without ghosts (``vr``).
+    """The visible parts of a scene for ray casting, without ghosts (``<vr>``).
 
-    Their triangles are sorted at the first access to `scene` or `movers`.
+    The search tree of their triangles is built at the first access to `scene`.
 
     Args:
         scene: the spec of the scene.
-        parts: the models of the scene.
-        fixed_places: ``world_from_object`` of each object that never moves, by its number.
+        parts: the visible parts of the scene.
+        fixed_poses: ``world_from_object`` of each object that never moves, by its number.
     """
 
     def __init__(
-        self, scene: SceneSpec, parts: Sequence[Part], fixed_places: Mapping[int, Pose]
+        self, scene: SceneSpec, parts: Sequence[Part], fixed_poses: Mapping[int, Pose]
     ) -> None:
         self._parts = [part for part in parts if not part.is_hidden]
-        self._fixed_places = fixed_places
+        self._fixed_poses = fixed_poses
         names = {part.id: _material(scene, part) for part in self._parts}
         owners = {
             p.id: scene.vehicles[p.vehicle].name for p in self._parts if p.vehicle is not None
@@ -42,30 +42,30 @@ class RayBodies:
         self.materials: tuple[Material, ...] = tuple(
             MATERIALS[names.get(number, "sand")] for number in numbers
         )
-        """The material of each surface, by its number."""
+        """The acoustic material of each surface, by the surface's number."""
         self.vehicles = tuple(owners.get(number, "") for number in numbers)
-        """The name of the vehicle of each surface, by its number; empty for an object."""
+        """The name of the vehicle of each surface, by the surface's number; empty for an object."""
 
     @property
-    def movers(self) -> tuple[Owner, ...]:
-        """The owner of each moving body."""
+    def moving_owners(self) -> tuple[Owner, ...]:
+        """The link or object of each moving body, in the order of the bodies in `scene`."""
         return tuple(self._moving_surfaces)
 
     @cached_property
     def scene(self) -> RayScene:
-        """The fixed surfaces as the first body, then those of `movers`; all in the place of W."""
+        """The fixed surfaces in W as the first body; then each moving body, in its own frame."""
         fixed: list[Surface] = []
         for part in self._parts:
-            place = None if part.object is None else self._fixed_places.get(part.object)
-            if place is not None:
-                fixed += _surfaces(part, product(place.matrix, part.frame_from_mesh))
+            world_from_object = None if part.object is None else self._fixed_poses.get(part.object)
+            if world_from_object is not None:
+                fixed += _surfaces(part, product(world_from_object.matrix, part.frame_from_mesh))
         return RayScene([fixed, *self._moving_surfaces.values()])
 
     @cached_property
     def _moving_surfaces(self) -> dict[Owner, list[Surface]]:
         surfaces: dict[Owner, list[Surface]] = {}
         for part in self._parts:
-            if part.object not in self._fixed_places:
+            if part.object not in self._fixed_poses:
                 owner = part.vehicle, part.link, part.object
                 surfaces.setdefault(owner, []).extend(_surfaces(part, part.frame_from_mesh))
         return surfaces
@@ -79,7 +79,13 @@ def _material(scene: SceneSpec, part: Part) -> MaterialName:
 
 
 def _surfaces(part: Part, frame: Array) -> list[Surface]:
-    """Return the triangles of a part in a frame; a reflection reverses their orientation."""
+    """Return the surfaces of a part.
+
+    Args:
+        part: the part.
+        frame: the matrix that maps the mesh to the frame of the surfaces, (4, 4) [m]. If it is a
+            reflection, the corners of the triangles are reversed.
+    """
     surfaces = []
     for mesh in part.model.meshes:
         if mesh.opacity > 0.0:

@@ -1,4 +1,4 @@
-"""A scene before its model is compiled: with its robots, then with the engine's inputs."""
+"""A scene with the contents of its other files: robots, hydrodynamics, collision shapes."""
 
 from __future__ import annotations
 
@@ -14,23 +14,23 @@ from .collision.shapes import CollisionShape
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class ResolvedScene:
-    """A scene with its robots."""
+    """A scene with the robots of its vehicles."""
 
     scene: SceneSpec
-    """The spec."""
+    """The spec of the scene."""
     robots: Mapping[int, RobotSpec]
-    """The robot of each vehicle, by its number in the scene."""
+    """The robot of each vehicle, by the vehicle's number in the scene."""
     data_path: tuple[Path, ...] = ()
     """The folders that are searched for files."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class SimulatedScene(ResolvedScene):
-    """A scene with everything from which the engine's model is compiled."""
+    """A scene with everything from which the model of the physics engine is compiled."""
 
     dynamics: Mapping[int, VehicleHydrodynamics]
-    """The hydrodynamics of each vehicle that is simulated, by its number."""
+    """The hydrodynamics of each vehicle with dynamics, by the vehicle's number."""
     shapes: Mapping[str, tuple[CollisionShape, ...]]
-    """The collision shapes of the simulated bodies, by the name of the body."""
+    """The collision shapes of the engine's bodies, by the name of the body."""
     timestep: float
     """The length of a step [s]."""

@@ -1,4 +1,4 @@
-"""The robot files of a scene: search and reading."""
+"""Search for the robot files of a scene, and reading of them."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ..scene.urdf.robot import RobotSpec
 
 
 def find_file(name: str, named_by: str, data_path: tuple[Path, ...]) -> Path:
-    """Find a file named in the file ``named_by``; AssetNotFound names every folder searched."""
+    """Return the path of a file that the file ``named_by`` names; raise AssetNotFound."""
     folder = Path(named_by).parent if named_by else None
     path = find(name, named_by=folder, data_path=data_path)
     if path is None:
@@ -25,10 +25,10 @@ def find_file(name: str, named_by: str, data_path: tuple[Path, ...]) -> Path:
 
 
 def find_robot(name: str, named_by: str, data_path: tuple[Path, ...]) -> Path:
-    """Find a robot file; if it is not found, the bundled one of the same file name replaces it.
+    """Return the path of a robot file, or of the bundled robot file with the same file name.
 
     Raises:
-        AssetNotFound: no bundled one has that name either; names every folder searched.
+        AssetNotFound: there is neither; the message lists the folders searched.
     """
     try:
         return find_file(name, named_by, data_path)
@@ -40,7 +40,7 @@ def find_robot(name: str, named_by: str, data_path: tuple[Path, ...]) -> Path:
 
 
 def robot_stand_ins(scene: SceneSpec, data_path: tuple[Path, ...] = ()) -> dict[str, Path]:
-    """Return the robot files that are not found, with the bundled ones that replace them."""
+    """Return the bundled robot file for each robot file that is not found, by its name."""
     named_by = Path(scene.path).parent if scene.path else None
     replacements = {
         vehicle.file: bundled_robot(vehicle.file)
@@ -51,10 +51,10 @@ def robot_stand_ins(scene: SceneSpec, data_path: tuple[Path, ...] = ()) -> dict[
 
 
 def read_robots(scene: SceneSpec, data_path: tuple[Path, ...]) -> dict[int, RobotSpec]:
-    """Find and read the URDF of every vehicle, by the vehicle's number.
+    """Find and read the URDF of every vehicle; return the robots by vehicle number.
 
     Raises:
-        AssetNotFound: a file is not found; names every folder searched.
+        AssetNotFound: a file is not found; the message lists the folders searched.
         SceneError: a file is invalid.
     """
     arguments = dict(scene.expansion.arguments)

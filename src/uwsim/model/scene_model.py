@@ -34,30 +34,32 @@ T = TypeVar("T")
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class SceneModel(SimulatedScene):
-    """The result of a scene, a seed, a timestep, folders and compatibility quirks.
+    """The model of a scene: everything that is computed before a simulation and then constant.
 
-    `uwsim.physics.compile_scene.compile_scene` makes it once for all simulations of it. In its
-    ``scene`` every body has a pose, also those on the floor (``<u:onFloor>``).
+    `uwsim.physics.compile_scene.compile_scene` computes it from a scene, a seed, a timestep, search
+    folders and compatibility quirks; several simulations share it. In its ``scene`` the placements
+    on the floor (``<u:onFloor>``) are replaced by poses.
     """
 
     source: SceneSpec
     """The scene as it was read, with its integrator."""
     varied_scene: SceneSpec
-    """The scene with the variations (``<u:vary>``) of the seed; lines are those of the file."""
+    """The scene after the variations (``<u:vary>``) of the seed; its elements have their lines."""
     seed: int
-    """The seed of its variations."""
+    """The seed of the variations and of the random streams."""
     compatibility: frozenset[str]
-    """The compatibility quirks that apply."""
+    """The names of the active compatibility quirks."""
     engine_model: mujoco.MjModel
-    """The model of the physics engine; each engine steps a copy."""
+    """The model of the physics engine; each simulation uses a copy."""
     _results: dict[Callable[[SceneModel], Any], Any] = field(
         default_factory=dict, init=False, repr=False
     )
 
     def compute_once(self, compute: Callable[[SceneModel], T]) -> T:
-        """Return the result of a function of a higher package of the model alone.
+        """Return the result of a function that depends on this model only, computed once.
 
-        It is computed at the first call. It is read-only: all simulations share it.
+        The function may be in a package of a higher layer. All simulations share the result, which
+        must not be changed.
         """
         if compute not in self._results:
             self._results[compute] = compute(self)
@@ -66,13 +68,13 @@ class SceneModel(SimulatedScene):
 
     @cached_property
     def digest(self) -> str:
-        """The hash of the scene, hydrodynamics and engine's model, independent of folders."""
+        """The hash of scene, hydrodynamics and engine model; it does not depend on folders."""
         hash_of_engine = hashlib.sha256(model_bytes(self.engine_model)).hexdigest()
         return digest_of((self.scene, list(self.dynamics.items()), hash_of_engine))
 
     @cached_property
     def shape_owners(self) -> tuple[tuple[str, ...], npt.NDArray[np.int64]]:
-        """The owners of the engine's shapes, ``vehicle/1``, sorted; and their index by shape."""
+        """The sorted owners of shapes, such as ``vehicle/1``, and the owner's index by shape."""
         engine = self.engine_model
         owners = [owner_of(engine.geom(i).name) for i in range(engine.ngeom)]
         names = sorted(set(owners))
@@ -81,19 +83,21 @@ class SceneModel(SimulatedScene):
 
     @cached_property
     def parts(self) -> tuple[Part, ...]:
-        """The visible models with their owners, loaded at the first access."""
+        """The visible parts of the scene, which are loaded at the first access."""
         return tuple(parts_of(self))
 
     @cached_property
     def mount_frames(self) -> tuple[MountFrames, ...]:
-        """Each vehicle at its pose in the file, from which its mounts are computed."""
-        place = self.scene.world_from_localized
+        """The frames of each vehicle at its pose in the file, for poses of mounted parts."""
+        world_from_localized = self.scene.world_from_localized
         vehicles = enumerate(self.scene.vehicles)
-        return tuple(MountFrames(spec, self.robots[index], place) for index, spec in vehicles)
+        return tuple(
+            MountFrames(spec, self.robots[index], world_from_localized) for index, spec in vehicles
+        )
 
     @cached_property
     def sensor_specs(self) -> tuple[tuple[int, str, BindsSensor], ...]:
-        """The simulated sensors that are no devices: number of the vehicle, element, spec."""
+        """The sensors that are not devices: vehicle number, element name and spec of each."""
         return tuple(
             (index, element, part)
             for index, vehicle in enumerate(self.scene.vehicles)
@@ -103,7 +107,7 @@ class SceneModel(SimulatedScene):
 
     @cached_property
     def mounted_sensors(self) -> tuple[tuple[int, MountedSensor], ...]:
-        """The sensors and devices with a frame: number of the vehicle, spec."""
+        """The sensors and devices with a mounting frame: vehicle number and spec of each."""
         return tuple(
             (index, part)
             for index, vehicle in enumerate(self.scene.vehicles)
@@ -113,14 +117,14 @@ class SceneModel(SimulatedScene):
 
     @cached_property
     def all_shapes(self) -> Mapping[str, tuple[CollisionShape, ...]]:
-        """The collision shapes of everything that has contacts, simulated or not, by body."""
+        """The collision shapes by body, including bodies that the engine does not move."""
         scene = self.scene
         vehicles = range(len(scene.vehicles))
         return collision_shapes(self, vehicles, scene.solid_objects)
 
     @cached_property
     def placed_objects(self) -> Mapping[int, Pose]:
-        """The ``world_from_object`` of each object that is no body of the engine, by its number."""
+        """The pose in W of each object that is not a body of the engine, by object number."""
         bodies = {self.engine_model.body(i).name for i in range(self.engine_model.nbody)}
         return {
             index: _round_to_quaternion(
@@ -132,7 +136,7 @@ class SceneModel(SimulatedScene):
 
     @cached_property
     def fixed_objects(self) -> Mapping[int, Pose]:
-        """The ``world_from_object`` of objects that never move: nothing can pick them up."""
+        """The pose in W of each object that never moves and cannot be picked up, by number."""
         scene = self.scene
         has_picker = any(vehicle.parts_of(ObjectPickerSpec) for vehicle in scene.vehicles)
         return {
@@ -143,22 +147,22 @@ class SceneModel(SimulatedScene):
 
     @cached_property
     def ray_bodies(self) -> RayBodies:
-        """The bodies that rays hit; their triangles are sorted at the first access."""
+        """The visible surfaces for ray casting."""
         return RayBodies(self.scene, self.parts, self.fixed_objects)
 
     @cached_property
     def grounds(self) -> tuple[SolidGround, ...]:
-        """The ground that bodies may not pass through."""
+        """The objects that are solid ground, which no body may pass through."""
         return tuple(solid_grounds(self.scene, self.shapes, self.data_path))
 
     @cached_property
     def density_levels(self) -> tuple[tuple[float, float], ...]:
-        """The depth [m] and density [kg/m3] of the water's levels; one level for uniform water."""
+        """The depth [m] and density [kg/m3] of each level of the water; uniform water has one."""
         return density_levels(self.scene.ocean_state, self.dynamics)
 
     @cached_property
     def hydrodynamics_files(self) -> Mapping[str, Path]:
-        """The hydrodynamics files of the vehicles, by name."""
+        """The paths of the vehicles' hydrodynamics files, by file name."""
         return {path.name: path for dynamics in self.dynamics.values() for path in dynamics.files}
 
 

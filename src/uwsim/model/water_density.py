@@ -1,4 +1,4 @@
-"""The density of a scene's water over depth."""
+"""The density of a scene's water as a function of depth."""
 
 from __future__ import annotations
 
@@ -9,17 +9,17 @@ from ..scene.ocean_state import DEFAULT_TEMPERATURE, OceanStateSpec
 from ..scene.seawater import sea_water_density
 
 SEA_DENSITY = sea_water_density(DEFAULT_TEMPERATURE, 35.0)
-"""The density of water if the scene and the sets give none [kg/m3]."""
+"""The density of water if neither the scene nor a hydrodynamics file gives one [kg/m3]."""
 
 
 def density_levels(
     ocean: OceanStateSpec, dynamics: Mapping[int, VehicleHydrodynamics]
 ) -> tuple[tuple[float, float], ...]:
-    """Return depth [m] and density [kg/m3] of the levels; one level for uniform water.
+    """Return the depth [m] and density [kg/m3] of each level; uniform water has one level.
 
     Args:
-        ocean: the water of the scene.
-        dynamics: the hydrodynamics of vehicles, whose density applies if the scene gives none.
+        ocean: the spec of the water.
+        dynamics: the hydrodynamics of the vehicles, whose density applies if the scene gives none.
     """
     if ocean.profile is not None:
         return ocean.profile.levels

@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 from ..errors import BadSetting
-from ..model.collision.scene_shapes import simulated_shapes
+from ..model.collision.scene_shapes import engine_shapes
 from ..model.dynamics import read_dynamics
 from ..model.placement import set_on_floor
 from ..model.resolved_scene import ResolvedScene, SimulatedScene
@@ -63,7 +63,7 @@ def compile_scene(
     simulated_scene = SimulatedScene(
         **vars(resolved_scene),
         dynamics=dynamics,
-        shapes=simulated_shapes(resolved_scene, dynamics),
+        shapes=engine_shapes(resolved_scene, dynamics),
         timestep=timestep,
     )
     return SceneModel(

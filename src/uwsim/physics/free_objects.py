@@ -17,7 +17,7 @@ import numpy as np
 
 from ..base.geometry import Array
 from ..errors import Diagnostic
-from ..model.collision.shapes import CollisionShape, bounds
+from ..model.collision.shapes import CollisionShape, bounding_box
 from ..model.inertias import MAX_BUOYANCY
 from ..scene.hydrodynamics import BodyHydrodynamics
 from ..scene.object import ObjectSpec, PhysicsSpec
@@ -52,7 +52,7 @@ prisms of table A-2)."""
 
 def loose_link(name: str, physics: PhysicsSpec, shapes: Sequence[CollisionShape]) -> LinkSpec:
     """Return the mass properties of an object; a missing inertia is that of its box or sphere."""
-    box = bounds(shapes)
+    box = bounding_box(shapes)
     x, y, z = (2.0 * half for half in box.size)
     inertia = physics.inertia
     if not any(inertia):
@@ -90,7 +90,7 @@ def object_errors(
             "the mass 0"
         )
     elif density is not None and (physics.volume or 0.0) * density > MAX_BUOYANCY * physics.mass:
-        box = float(np.prod(2.0 * np.array(bounds(shapes).size)))
+        box = float(np.prod(2.0 * np.array(bounding_box(shapes).size)))
         messages.append(
             f"the object {spec.name!r} has {physics.mass:g} kg and displaces "
             f"{(physics.volume or 0.0) * density:.4g} kg of water; expected less than "
@@ -111,7 +111,7 @@ def loose_hydrodynamics(
         shapes: the collision shapes of the object.
         density: the density of the water [kg/m3].
     """
-    box = bounds(shapes)
+    box = bounding_box(shapes)
     edges = 2.0 * np.array(box.size)  # (3,) [m]
     is_ball = _is_ball(shapes)
     drag = density * (_ball_drag(box.size[0]) if is_ball else box_drag(edges))

@@ -13,7 +13,7 @@ from uwsim.assets import load_model
 from uwsim.base.geometry import Array
 from uwsim.errors import UwsimError
 from uwsim.model.collision import fixed_mesh as fixed_mesh_module
-from uwsim.model.collision.convex_faces import convex_faces, n_patches
+from uwsim.model.collision.convex_faces import convex_faces, count_patches
 from uwsim.model.collision.fixed_mesh import (
     DEFAULT_ERROR,
     MAX_EXACT_FACES,
@@ -83,7 +83,7 @@ def test_patches_are_counted_as_faces_are_joined() -> None:
     tank = load_model("terrain/CIRS/cirs_trident.osg")
     for parts in ([mesh.vertices[mesh.triangles].astype(float) for mesh in tank.meshes], [ROCK]):
         whole = np.concatenate(parts)
-        assert 0.9 * len(convex_faces(whole)) <= n_patches(whole) <= len(convex_faces(whole))
+        assert 0.9 * len(convex_faces(whole)) <= count_patches(whole) <= len(convex_faces(whole))
 
 
 def test_a_large_rock_is_simplified_and_says_by_how_much() -> None:

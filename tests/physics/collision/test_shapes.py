@@ -9,7 +9,7 @@ from uwsim.errors import UwsimError
 from uwsim.model.collision.shapes import (
     MAX_PLATES,
     CollisionShape,
-    bounds,
+    bounding_box,
     convex_shapes,
     shapes_of,
 )
@@ -185,5 +185,5 @@ def test_a_ball_has_its_own_volume_and_added_mass() -> None:
 def test_bounds_hold_every_shape() -> None:
     model = primitive("box", (3.0, 1.0, 1.0))
     for kind in ("box", "compound box", "compound cylinder", "trimesh"):
-        box = bounds(shapes_of(model, SAME, kind, is_fixed=False))
+        box = bounding_box(shapes_of(model, SAME, kind, is_fixed=False))
         assert box.size == pytest.approx((1.5, 0.5, 0.5)), kind

@@ -12,7 +12,7 @@ from ...base.numerics.linear import length
 from ...errors import Diagnostic, UwsimError
 from ...model.body_names import object_body
 from ...model.collision.scene_shapes import collision_shapes
-from ...model.collision.shapes import CollisionShape, bounds
+from ...model.collision.shapes import CollisionShape, bounding_box
 from ...scene.accepted_warnings import ObjectWarning, acceptance_hint
 from ...scene.object import PhysicsSpec
 from ..subjects import CheckedScene
@@ -46,7 +46,7 @@ def object_numbers(
 
 def describe_centre(physics: PhysicsSpec, shapes: Sequence[CollisionShape]) -> str:
     """Describe a centre of mass outside the box around an object; empty if inside."""
-    box = bounds(shapes)
+    box = bounding_box(shapes)
     half = np.array(box.size)  # half the edges, (3,) [m]
     if physics.centre_of_mass is None:
         return ""
@@ -62,7 +62,7 @@ def describe_centre(physics: PhysicsSpec, shapes: Sequence[CollisionShape]) -> s
 
 def describe_volume(physics: PhysicsSpec, shapes: Sequence[CollisionShape]) -> str:
     """Describe a displaced volume that is too large for the box around an object; empty if not."""
-    half = np.array(bounds(shapes).size)  # half the edges, (3,) [m]
+    half = np.array(bounding_box(shapes).size)  # half the edges, (3,) [m]
     box_volume = float(np.prod(2.0 * half))
     if physics.volume is None or physics.volume <= MAX_VOLUME_RATIO * box_volume:
         return ""

@@ -13,7 +13,7 @@ from contextlib import suppress
 from ...errors import Diagnostic, UwsimError
 from ...model.body_names import object_body
 from ...model.collision.scene_shapes import collision_shapes
-from ...model.collision.shapes import CollisionShape, bounds
+from ...model.collision.shapes import CollisionShape, bounding_box
 from ...physics.free_objects import loose_hydrodynamics
 from ...scene.object import PhysicsSpec
 from ...world import GRAVITY
@@ -59,7 +59,7 @@ def describe_rotation(
     if weight_in_water <= 0.0 or drag <= 0.0:
         return ""
     speed = math.sqrt(weight_in_water / drag)
-    radius = sorted(bounds(shapes).size)[1]
+    radius = sorted(bounding_box(shapes).size)[1]
     if speed * timestep <= MAX_TURN * radius:
         return ""
     return (

@@ -1,1 +1,1 @@
-"""The collision shapes of a scene, and the ground that they form."""
+"""Collision shapes of the bodies of a scene, and the ground on which bodies rest."""

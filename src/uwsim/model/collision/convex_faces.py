@@ -1,9 +1,10 @@
 """Decomposition of a mesh's surface into few flat convex polygons, for fixed trimeshes.
 
-Triangles that lie in one plane and share corners are a patch. A patch as large as its convex hull
-is one polygon. Any other is cut along the line of that edge of its border whose halves have the
-smallest hulls, recursively. If that gives no fewer pieces than there are triangles, the triangles
-remain. The union of the polygons is that of the triangles, with the same holes.
+A patch is a group of triangles that lie in one plane and share corners. A patch with the same area
+as its convex hull becomes one polygon. Any other patch is cut recursively along the line of a
+border edge: the edge for which the convex hulls of the two halves are smallest. If there are not
+fewer pieces than triangles, the triangles are kept. The polygons cover exactly the area of the
+triangles, with the same holes.
 """
 
 from __future__ import annotations
@@ -18,15 +19,15 @@ from ...base.numerics.jit import njit
 from ...base.numerics.linear import dot, length, product
 
 MIN_DISTANCE = 1e-4
-"""The distance below which corners are equal, and the least height of a triangle [m]."""
+"""The distance below which corners count as equal, and the least height of a triangle [m]."""
 MAX_HEIGHT = 1e-3
 """The greatest distance of a patch's corners from the plane of its first triangle [m]."""
 MIN_COSINE = 1.0 - 1e-6
-"""The least cosine between the normals of a patch."""
+"""The least cosine between the normals of triangles in a patch [1]."""
 MAX_EXCESS_SHARE = 1e-3
-"""The greatest share of a convex polygon that may lie outside its triangles."""
+"""The greatest share of a convex polygon's area that may lie outside its triangles [1]."""
 MAX_LINES = 64
-"""The greatest number of lines tried for a cut: those of the longest border edges."""
+"""The greatest number of lines that are tried for a cut: those of the longest border edges."""
 
 Ints = npt.NDArray[np.int64]
 
@@ -35,10 +36,10 @@ def convex_faces(triangles: Array) -> list[Array]:
     """Join triangles to convex polygons.
 
     Args:
-        triangles: counter-clockwise seen from outside, (n, 3, 3) [m].
+        triangles: the triangles, with corners counter-clockwise seen from outside, (n, 3, 3) [m].
 
     Returns:
-        The corners of each polygon, oriented as its triangles, (k, 3) [m].
+        The corners of each polygon, in the same orientation, (k, 3) [m].
     """
     normals, has_area = _normals(triangles)
     triangles = triangles[has_area]
@@ -61,7 +62,7 @@ def convex_faces(triangles: Array) -> list[Array]:
 
 
 def _frame(triangle: Array, normal: Array) -> Array:
-    """Return axes: the first along a triangle's longest edge, the third on its normal, (3, 3)."""
+    """Return axes as columns, (3, 3): x along a triangle's longest edge, z along ``normal``."""
     edges = np.roll(triangle, -1, axis=0) - triangle
     x_axis = edges[int(np.argmax(np.linalg.norm(edges, axis=1)))]
     x_axis = x_axis / length(x_axis)
@@ -69,7 +70,7 @@ def _frame(triangle: Array, normal: Array) -> Array:
 
 
 def number_corners(corners: Array) -> Ints:
-    """Number corners (n, d) in the order of their positions; equal corners have equal numbers."""
+    """Return a number for each corner (n, d), sorted by position; equal corners share a number."""
     cells = np.round(corners / MIN_DISTANCE).astype(np.int64)
     order = np.lexsort(cells.T[::-1])
     is_new = np.zeros(len(order), dtype=np.int64)
@@ -79,11 +80,11 @@ def number_corners(corners: Array) -> Ints:
     return numbers
 
 
-def n_patches(triangles: Array) -> int:
+def count_patches(triangles: Array) -> int:
     """Count the flat patches of triangles (n, 3, 3) [m] that share edges.
 
-    If no more corners than those of edges are shared, it is the number of patches in
-    `convex_faces`, in a hundredth of the time.
+    If triangles share corners only along shared edges, this is the number of patches in
+    `convex_faces`, computed in a hundredth of the time.
     """
     if not len(triangles):
         return 0
@@ -96,12 +97,12 @@ def n_patches(triangles: Array) -> int:
     is_shared = (np.diff(ends[order], axis=0) == 0).all(axis=1)
     left, right = owners[order[:-1][is_shared]], owners[order[1:][is_shared]]
     is_flat = (normals[left] * normals[right]).sum(axis=1) >= MIN_COSINE
-    return len(corners) - _n_joins(left[is_flat], right[is_flat], len(corners))
+    return len(corners) - _count_joins(left[is_flat], right[is_flat], len(corners))
 
 
 @njit
-def _n_joins(left: Ints, right: Ints, n: int) -> int:
-    """Count the pairs of n numbers that join two groups which were separate before."""
+def _count_joins(left: Ints, right: Ints, n: int) -> int:
+    """Count the pairs that join two separate groups, when n numbers are joined pair by pair."""
     parents = np.arange(n)
     joins = 0
     for k in range(len(left)):
@@ -119,7 +120,7 @@ def _n_joins(left: Ints, right: Ints, n: int) -> int:
 
 
 def _normals(triangles: Array) -> tuple[Array, npt.NDArray[np.bool_]]:
-    """Return the unit normals of the triangles that have area, and the mask of these."""
+    """Return the unit normals of the triangles that have an area, and the mask of these."""
     normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     double_areas = np.linalg.norm(normals, axis=1)  # (n,) [m2]
     has_area = double_areas > MIN_DISTANCE * _longest_edges(triangles)
@@ -127,18 +128,18 @@ def _normals(triangles: Array) -> tuple[Array, npt.NDArray[np.bool_]]:
 
 
 def _corners(points: Array) -> Ints:
-    """Number the corners (n, 3, d); equal corners have equal numbers, (n, 3)."""
+    """Return numbers (n, 3) of corners (n, 3, d); equal corners share a number."""
     return number_corners(points.reshape(-1, points.shape[-1])).reshape(-1, 3)
 
 
 def _groups(corners: Ints) -> list[list[int]]:
-    """Return groups of triangles that are connected by corners, in the mesh's order."""
+    """Return groups of triangles that share corners, in the order of the mesh."""
     no_planes = np.ones((len(corners), 1)), np.zeros((len(corners), 3, 1))
     return _grow_groups(corners, *no_planes)
 
 
 def _patches(triangles: Array, normals: Array) -> list[list[int]]:
-    """Return groups of coplanar connected triangles, in the mesh's order."""
+    """Return groups of coplanar triangles that share corners, in the order of the mesh."""
     return _grow_groups(_corners(triangles), normals, triangles)
 
 
@@ -156,14 +157,14 @@ def _grow_groups(corners: Ints, normals: Array, points: Array) -> list[list[int]
 def _group_numbers(
     corners: Ints, normals: Array, points: Array, corner_triangles: Ints, starts: Ints
 ) -> Ints:
-    """Number the groups of triangles in the order of their first triangles, (n,).
+    """Return the group number of each triangle, in the order of the first triangles, (n,).
 
     Args:
         corners: the numbers of each triangle's corners, (n, 3).
         normals: the normal of each triangle, (n, d).
-        points: the positions of its corners, (n, 3, d) [m].
-        corner_triangles: the triangles at each corner, corner by corner.
-        starts: the start of each corner in ``corner_triangles``, and its length.
+        points: the positions of each triangle's corners, (n, 3, d) [m].
+        corner_triangles: the triangles at the first corner, then at the second, and so on.
+        starts: the index in ``corner_triangles`` at which each corner begins, then its length.
     """
     n, n_axes = normals.shape
     numbers = np.full(n, -1)
@@ -201,7 +202,7 @@ def _group_numbers(
 
 
 def _pieces(triangles: Array, max_pieces: int) -> list[Array] | None:
-    """Cut triangles of a plane (n, 3, 2) into convex polygons; None if over ``max_pieces``."""
+    """Cut triangles in a plane (n, 3, 2) [m] into convex polygons; None if more than allowed."""
     pieces: list[Array] = []
     queue = deque([triangles])
     while queue:
@@ -224,7 +225,7 @@ def _pieces(triangles: Array, max_pieces: int) -> list[Array] | None:
 
 
 def _hull(part: Array) -> tuple[Array, float]:
-    """Return the convex hull's corners, counter-clockwise, (k, 2) [m], and its area [m2]."""
+    """Return the corners of the convex hull, counter-clockwise, (k, 2) [m], and its area [m2]."""
     from scipy.spatial import ConvexHull
 
     hull = ConvexHull(part.reshape(-1, 2))
@@ -248,7 +249,7 @@ def _longest_edges(part: Array) -> Array:
 
 
 def _cut(part: Array) -> tuple[Array, Array] | None:
-    """Cut along the border line whose halves have the smallest hulls; None if no line cuts."""
+    """Cut along the line of the border edge whose halves have the smallest hulls, if any does."""
     min_size, halves = np.inf, None
     for normal, offset in _border_lines(part):
         left, right = (_clip(part, sign * normal, sign * offset) for sign in (1.0, -1.0))
@@ -260,7 +261,7 @@ def _cut(part: Array) -> tuple[Array, Array] | None:
 
 
 def _border_lines(part: Array) -> list[tuple[Array, float]]:
-    """Return lines ``normal @ x = offset`` of the edges of one triangle only, longest first."""
+    """Return lines ``normal @ x = offset`` of border edges (of one triangle), longest first."""
     corners = _corners(part)
     n_triangles: dict[tuple[int, int], int] = {}
     edges = [(i, k, (k + 1) % 3) for i in range(len(part)) for k in range(3)]
@@ -287,7 +288,7 @@ def _border_lines(part: Array) -> list[tuple[Array, float]]:
 
 
 def _clip(part: Array, normal: Array, offset: float) -> Array:
-    """Clip triangles (n, 3, 2) to ``normal @ x >= offset``, (m, 3, 2)."""
+    """Return the part of triangles (n, 3, 2) with ``normal @ x >= offset``, (m, 3, 2) [m]."""
     triangles: list[Array] = []
     heights = product(part, normal) - offset  # (n, 3)
     heights[np.abs(heights) < MIN_DISTANCE] = 0.0

@@ -1,9 +1,9 @@
 """Collision surface of a fixed mesh: flat faces, height fields, or a simpler mesh.
 
-A mesh of up to `MAX_EXACT_FACES` flat faces is its own collision surface. In a larger one, each
+A mesh of up to `MAX_EXACT_FACES` flat faces is its own collision surface. In a larger mesh, each
 material that is a sheet over a rectangle becomes a height field (`height_field`), and the rest is
-simplified (`simplification`). Both have the error that the file allows, else `DEFAULT_ERROR`,
-which grows where it would leave more than `MAX_TRIANGLES` triangles.
+simplified (`simplification`). Both are within the error that the scene file allows, by default
+`DEFAULT_ERROR`. The default error grows if more than `MAX_TRIANGLES` triangles would remain.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ...base.geometry import Array
-from .convex_faces import n_patches
+from .convex_faces import count_patches
 from .height_field import ROUNDING_ERROR, HeightField, height_field
 from .simplification import simplify
 
@@ -31,7 +31,7 @@ class FixedMesh:
     """The collision surface of a fixed mesh."""
 
     faces: Array
-    """Triangles that become plates, (n, 3, 3) [m]."""
+    """The triangles that become plates, (n, 3, 3) [m]."""
     fields: tuple[HeightField, ...] = ()
     """The height fields of the rest of the surface."""
     error: float = 0.0
@@ -48,7 +48,7 @@ class FixedMesh:
 
 
 def fixed_mesh(parts: Sequence[Array], error: float | None) -> FixedMesh:
-    """Compute the collision surface of a mesh.
+    """Compute the collision surface of a fixed mesh.
 
     Args:
         parts: the triangles of each material, counter-clockwise seen from outside, (n, 3, 3) [m].
@@ -68,7 +68,7 @@ def fixed_mesh(parts: Sequence[Array], error: float | None) -> FixedMesh:
             fields.append(field)
     rest = np.concatenate(other_parts)
     field_error = max((field.error for field in fields), default=0.0)
-    if error == 0.0 or (error is None and n_patches(rest) <= MAX_EXACT_FACES):
+    if error == 0.0 or (error is None and count_patches(rest) <= MAX_EXACT_FACES):
         return FixedMesh(faces=rest, fields=tuple(fields), error=field_error)
     simple_mesh = simplify(rest, max_error, MAX_TRIANGLES if error is None else len(rest))
     total_error = max(field_error, simple_mesh.error)

@@ -1,6 +1,6 @@
-"""Disk cache of the collision surfaces of large fixed meshes, which take up to seconds to compute.
+"""Disk cache of the collision surfaces of large fixed meshes, each computed in up to seconds.
 
-The key is the hash of the triangles, of the error, and of the code that computes the surface.
+The key is the hash of the triangles, of the allowed error, and of the code that computes a surface.
 """
 
 from __future__ import annotations

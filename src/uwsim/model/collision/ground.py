@@ -1,13 +1,13 @@
-r"""The ground: its height and slope, and the pose of a body at rest on it.
+r"""The ground as triangles: its height and slope, and the height at which a body rests on it.
 
-The ground is triangles in W, z up. A body is lowered vertically until it has contact with the
-ground. Two sheets of triangles first meet at a corner of the one above a face of the other, or
-where two edges cross as seen from above. The height of the first contact,
+The triangles are in W, z up. A body is lowered vertically until it touches the ground. The first
+contact is at a corner of one of them above or below a face of the other, or where two edges cross
+as seen from above. The vertical displacement to the first contact,
 
 .. math:: \Delta z = \max_{(x, y)} \left( z_{ground} - z_{body} \right),
 
 is the greatest over all such points, so that the result is exact for triangles. Only faces that
-face up support a body, not ceilings or walls. Not modelled: tipping over, sinking in.
+face up support a body, not ceilings or walls. Not modelled: tipping over, sinking into soft ground.
 """
 
 from __future__ import annotations
@@ -22,15 +22,15 @@ from ...base.numerics.linear import length, product, pseudo_inverse, rank
 from .shapes import CollisionShape
 
 MIN_UPWARD_PART = 1e-6
-"""The upward part of a face's normal below which the face is a wall [1]."""
+"""The vertical component of a face's unit normal below which the face is a wall [1]."""
 EDGE_TOLERANCE = 1e-9
-"""The tolerance for a point inside a triangle, as a share of its area."""
+"""The tolerance for a point inside a triangle, as a share of the triangle's area [1]."""
 MAX_EDGE_PAIRS = 2_000_000
-"""The greatest number of pairs of edges that are compared together."""
+"""The greatest number of pairs of edges that are compared at once, which limits memory."""
 N_CIRCLE_CORNERS = 32
 """The number of corners of a circle in the surface of a ball or cylinder."""
 N_SAMPLES = 9
-"""The number of heights along each side of a body, from which the slope below it is fitted."""
+"""The number of sample points along each side of a body's box for fitting the slope below it."""
 CUBE_CORNERS = np.array([[i & 1, i >> 1 & 1, i >> 2 & 1] for i in range(8)]) * 2.0 - 1.0
 CUBE_FACES = np.array(
     [[0, 2, 3], [0, 3, 1], [4, 5, 7], [4, 7, 6], [0, 1, 5], [0, 5, 4],
@@ -39,10 +39,10 @@ CUBE_FACES = np.array(
 
 
 class Ground:
-    """The triangles of the ground.
+    """The surface of the ground.
 
     Args:
-        triangles: counter-clockwise seen from outside, in W, (n, 3, 3) [m].
+        triangles: the triangles in W, corners counter-clockwise seen from outside, (n, 3, 3) [m].
     """
 
     def __init__(self, triangles: Array) -> None:
@@ -59,9 +59,10 @@ class Ground:
         return len(self._triangles)
 
     def level(self, point: Array) -> float | None:
-        """Return the height of the ground at a point's x and y; None if there is none.
+        """Return z of the ground in W at a point's x and y [m]; None if there is no ground.
 
-        It is the surface above a point that is below ground, else the next below it or the lowest.
+        For a point below ground it is the surface above the point; otherwise it is the next surface
+        below the point, or the lowest surface if all are above.
         """
         heights, faces_up = self._column(point[0], point[1])
         floors = heights[faces_up]
@@ -76,13 +77,13 @@ class Ground:
         return float(floors_below.max() if len(floors_below) else floors.min())
 
     def covers(self, point: Array) -> bool:
-        """Return whether a point (3,) is under the surface: the next face above it faces up."""
+        """Return whether a point in W (3,) is below ground: the next face above it faces up."""
         heights, faces_up = self._column(point[0], point[1])
         faces_above = np.flatnonzero(heights > point[2])
         return bool(len(faces_above) and faces_up[faces_above[np.argmin(heights[faces_above])]])
 
     def rise(self, body: Array) -> float | None:
-        """Compute the rise that sets a body on the ground; None if there is none under it.
+        """Compute the displacement upwards that sets a body on the ground [m]; None without ground.
 
         Args:
             body: the triangles of the body in W, (k, 3, 3) [m].
@@ -104,7 +105,7 @@ class Ground:
         return None if max_rise == -np.inf else float(max_rise)
 
     def normal(self, body: Array) -> Array:
-        """Compute the upward normal of the plane that fits the ground under a body best, (3,).
+        """Return the upward unit normal of the plane that best fits the ground under a body, (3,).
 
         Args:
             body: the triangles of the body in W, (k, 3, 3) [m].
@@ -129,7 +130,7 @@ class Ground:
         return unit
 
     def _column(self, x: float, y: float) -> tuple[Array, npt.NDArray[np.bool_]]:
-        """Return the heights of all faces over and under a point, and whether each faces up."""
+        """Return z of all faces above and below a point [m], and whether each face faces up."""
         point = np.array([x, y])
         is_near = ((self._low[:, :2] <= point) & (self._high[:, :2] >= point)).all(axis=1)
         heights = _heights(point[None], self._triangles[is_near], self._double_areas[is_near])[0]
@@ -137,9 +138,10 @@ class Ground:
         return heights[is_hit], self._double_areas[is_near][is_hit] > 0.0
 
     def _faces_under(self, body: Array) -> tuple[Array, Array] | None:
-        """Return the faces below a body that face up, and twice their horizontal area.
+        """Return the faces that can support a body, and twice their horizontal areas [m2].
 
-        Their height above the ground at its middle is at most its own height.
+        These are upward faces under or beside the body, at most the height of the body above the
+        ground at the centre of the body.
         """
         low, high = body.min(axis=(0, 1)), body.max(axis=(0, 1))
         is_near = (
@@ -147,8 +149,8 @@ class Ground:
             & (self._high[:, :2] >= low[:2]).all(axis=1)
             & (self._double_areas > 0.0)
         )
-        middle = 0.5 * (low + high)
-        levels = [self.level(middle)]
+        centre = 0.5 * (low + high)
+        levels = [self.level(centre)]
         if levels[0] is None:
             levels = [self.level(corner) for corner in body.reshape(-1, 3)]
         ground_levels = [level for level in levels if level is not None]
@@ -159,7 +161,10 @@ class Ground:
 
 
 def triangles_of(shapes: Sequence[CollisionShape], world_from_body: Pose) -> Array:
-    """Return the surface of shapes in W, (n, 3, 3) [m]; circles have `N_CIRCLE_CORNERS`."""
+    """Return the triangles of collision shapes in W, (n, 3, 3) [m].
+
+    A circle is a polygon of `N_CIRCLE_CORNERS` corners.
+    """
     triangles = [
         world_from_body.transform(
             shape.body_from_shape.transform(_surface(shape).reshape(-1, 3))
@@ -183,7 +188,7 @@ def _surface(shape: CollisionShape) -> Array:
         circle = np.column_stack([np.cos(angles), np.sin(angles)])
         if shape.kind == "cylinder":
             rings = [(1.0, -shape.size[1]), (1.0, shape.size[1])]
-        else:  # a corner at the lowest and the highest point, so that its height is a ball's
+        else:  # corners at the lowest and highest points: the height is exact
             latitudes = np.linspace(-0.5 * np.pi, 0.5 * np.pi, N_CIRCLE_CORNERS // 2 + 1)
             radius = shape.size[0]
             rings = [(float(np.cos(angle)), radius * float(np.sin(angle))) for angle in latitudes]
@@ -211,7 +216,7 @@ def _nonvertical_faces(triangles: Array) -> tuple[Array, Array]:
 
 
 def _heights(points: Array, triangles: Array, double_areas: Array) -> Array:
-    """Return heights of triangles (n) at horizontal points (m, 2), (m, n) [m]; else -inf."""
+    """Return z of n triangles at horizontal positions (m, 2), (m, n) [m]; -inf outside."""
     a, b, c = (triangles[None, :, k, :2] for k in range(3))
     p = points[:, None, :]
     shares = [_cross(c - b, p - b), _cross(a - c, p - c), _cross(b - a, p - a)]
@@ -228,7 +233,7 @@ def _heights(points: Array, triangles: Array, double_areas: Array) -> Array:
 def _max_height_over_faces(
     points: Array, triangles: Array, double_areas: Array, sign: float = 1.0
 ) -> float:
-    """Return the greatest ``sign * (face height - height of a point over it)`` [m]; or -inf."""
+    """Return the greatest ``sign * (z of a face - z of a point on its vertical)`` [m], or -inf."""
     if not len(triangles):
         return -np.inf
     heights = _heights(points[:, :2], triangles, double_areas)
@@ -236,7 +241,7 @@ def _max_height_over_faces(
 
 
 def _max_height_over_edges(body: Array, ground: Array) -> float:
-    """Return the greatest height of a ground edge over a crossing edge of the body [m]."""
+    """Return the greatest height of a ground edge over an edge of the body that it crosses [m]."""
     a, b = (np.concatenate([body[:, k] for k in order]) for order in ((0, 1, 2), (1, 2, 0)))
     p, q = (np.concatenate([ground[:, k] for k in order]) for order in ((0, 1, 2), (1, 2, 0)))
     body_edge, ground_edge = (b - a)[:, None], (q - p)[None]

@@ -1,17 +1,18 @@
-r"""Conversion of ground to height fields, which the engine compiles and searches fast.
+r"""Conversion of meshes to height fields, in which the engine finds contacts fast.
 
-A mesh is a height field if it is a sheet over a rectangle: seen along one axis of its body, all of
-its faces have the same side, and each point of the rectangle is in exactly one of them. Its
-heights are sampled at the nodes of a grid,
+A mesh can be converted if it is a sheet over a rectangle: along one axis of its body, all faces
+show the same side, and each point of the rectangle is in exactly one face. The heights of the sheet
+are sampled at the nodes of a grid,
 
 .. math:: h_{ij} = z(x_0 + j\,\Delta x,\; y_0 + i\,\Delta y),
 
-and each cell is two triangles. A mesh that is such a grid itself is converted exactly. Any other is
-sampled at a distance that is halved until the greatest difference in height between both surfaces,
-which lies at a node, a corner, or where two edges cross, is no more than a given error.
+and each cell consists of two triangles. A mesh that is itself such a grid is converted exactly. For
+any other mesh the distance of the nodes is halved until the greatest difference in height between
+both surfaces is no more than a given error. This difference is at a node, at a corner, or where two
+edges cross.
 
-The engine finds 50 contacts at most between a shape and a height field. So the grid is cut into
-tiles of 5 x 5 cells, 50 triangles each.
+The engine finds at most 50 contacts between a shape and a height field. The grid is therefore cut
+into tiles of 5 x 5 cells, which have 50 triangles each.
 """
 
 from __future__ import annotations
@@ -28,13 +29,13 @@ from ...base.numerics.linear import product
 TILE_CELLS = 5
 """The number of cells along each side of a tile."""
 MAX_CELLS = 250_000
-"""The greatest number of cells of a grid; they are 10 000 tiles."""
+"""The greatest number of cells of a grid: 10 000 tiles."""
 MIN_HEIGHT_RANGE = 1e-3
 """The height range below which a sheet is a plane, for which plates are better [m]."""
 ROUNDING_ERROR = 1e-5
-"""The greatest error that is a rounding error of the file [m]."""
+"""The greatest error that can be due to the rounding of numbers in the mesh file [m]."""
 MAX_REFINEMENTS = 4
-"""The number of times that the distance of nodes is halved."""
+"""The greatest number of distances of nodes that are tried, each half of the one before."""
 TOLERANCE = 1e-6
 """The tolerance for a point inside a triangle or on a grid line, as a share of its size [1]."""
 
@@ -43,16 +44,16 @@ Ints = npt.NDArray[np.int64]
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class HeightField:
-    """Heights over a rectangle; the diagonal of each cell runs from its first to its last node."""
+    """A grid of heights; the diagonal of each cell joins its nodes with least and greatest x, y."""
 
     body_from_field: Array
-    """The field's axes in the body's frame as columns, the third upwards, (3, 3)."""
+    """The axes of the field in the frame of the body, as columns, (3, 3); heights are along z."""
     origin: Array
-    """The first node in the axes of the field, x and y, (2,) [m]."""
+    """The x and y of the first node, in the axes of the field, (2,) [m]."""
     spacing: Array
-    """The distance of two nodes along x and y, (2,) [m]."""
+    """The distance between nodes along x and along y, (2,) [m]."""
     heights: Array
-    """The heights of the nodes, a row along x for each y, (rows, columns) [m]."""
+    """The heights of the nodes, (rows, columns) [m]; each row is along x."""
     error: float
     """The greatest difference in height from the mesh [m]."""
 
@@ -70,7 +71,7 @@ class HeightField:
         return triangles
 
     def tiles(self) -> Iterator[tuple[Array, Array]]:
-        """Yield the middle of each tile at height 0 in the body's frame, and its heights [m]."""
+        """Yield each tile's centre at height 0, in the body's frame (3,), and its heights [m]."""
         rows, columns = self.heights.shape
         for i in range(0, rows - 1, TILE_CELLS):
             for j in range(0, columns - 1, TILE_CELLS):
@@ -81,11 +82,11 @@ class HeightField:
 
 
 def height_field(triangles: Array, error: float) -> HeightField | None:
-    """Convert a sheet to a height field; None if it is not one, or is a plane.
+    """Convert triangles to a height field; None if they are no sheet over a rectangle, or a plane.
 
     Args:
-        triangles: counter-clockwise seen from outside, (n, 3, 3) [m].
-        error: the greatest difference in height allowed [m].
+        triangles: the triangles, with corners counter-clockwise seen from outside, (n, 3, 3) [m].
+        error: the greatest difference in height that is allowed [m].
     """
     normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     sizes = np.sqrt((normals * normals).sum(axis=1))
@@ -111,7 +112,7 @@ def height_field(triangles: Array, error: float) -> HeightField | None:
 
 
 def _frame(axis: int, sign: float, turn: int) -> Array:
-    """Return a field's axes in the body's frame, the third ``sign`` times an axis, (3, 3)."""
+    """Return the axes of a field in the body's frame, (3, 3): z is ``sign`` times a body axis."""
     x, y, z = (np.eye(3)[(axis + k) % 3] for k in (1, 2, 3))
     if sign < 0.0:
         y, z = -y, -z
@@ -121,7 +122,7 @@ def _frame(axis: int, sign: float, turn: int) -> Array:
 
 
 def _sample_rectangle(corners: Array, frame: Array, error: float) -> HeightField | None:
-    """Sample a sheet, (n, 3, 3) in the field's axes; None if it is not a whole rectangle."""
+    """Sample triangles (n, 3, 3) in the axes of the field; None if they cover no rectangle."""
     low, high = corners.min(axis=(0, 1)), corners.max(axis=(0, 1))
     extent = (high - low)[:2]
     if high[2] - low[2] < MIN_HEIGHT_RANGE or extent.min() <= 0.0:
@@ -149,7 +150,7 @@ def _sample_rectangle(corners: Array, frame: Array, error: float) -> HeightField
 
 
 def _grid_of(corners: Array, low: Array, extent: Array) -> tuple[int, int] | None:
-    """Return the rows and columns of a mesh that is a regular grid; None for any other."""
+    """Return the rows and columns of nodes if the mesh is a regular grid; else None."""
     counts: list[int] = []
     for k in range(2):
         positions = np.sort(corners[:, :, k].ravel())
@@ -168,10 +169,10 @@ def _grid_of(corners: Array, low: Array, extent: Array) -> tuple[int, int] | Non
 def _sample_grid(
     corners: Array, frame: Array, low: Array, extent: Array, size: tuple[int, int]
 ) -> HeightField | None:
-    """Sample a sheet at the nodes of a grid of some rows and columns; None if it has a hole."""
+    """Sample a sheet at the nodes of a grid (rows, columns); None if the sheet has a hole."""
     rows, columns = size
     spacing = extent / np.array([columns - 1, rows - 1])
-    grid = corners.copy()  # x and y in cells
+    grid = corners.copy()  # x and y in units of cells
     grid[..., :2] = (corners[..., :2] - low[:2]) / spacing
     heights = _heights_at_nodes(grid, rows, columns)
     if not np.isfinite(heights).all():
@@ -186,7 +187,13 @@ def _sample_grid(
 
 
 def _heights_at_nodes(grid: Array, rows: int, columns: int) -> Array:
-    """Return heights of triangles (n, 3, 3), x and y in cells, at the nodes; nan outside them."""
+    """Return the heights of triangles at the nodes, (rows, columns) [m]; NaN where there is none.
+
+    Args:
+        grid: the triangles, (n, 3, 3), with x and y in units of cells.
+        rows: the number of nodes along y.
+        columns: the number of nodes along x.
+    """
     first_nodes = np.ceil(grid[..., :2].min(axis=1) - TOLERANCE).astype(np.int64)  # (n, 2)
     counts = np.floor(grid[..., :2].max(axis=1) + TOLERANCE).astype(np.int64) - first_nodes + 1
     owner, index = _ranges(counts[:, 0] * counts[:, 1])
@@ -207,10 +214,10 @@ def _heights_at_nodes(grid: Array, rows: int, columns: int) -> Array:
 
 
 def _greatest_difference(grid: Array, heights: Array) -> float:
-    """Compute the greatest height difference of a field and triangles (n, 3, 3), x and y in cells.
+    """Compute the greatest difference in height between a field and triangles [m].
 
-    Both surfaces are flat between corners, nodes and the points where an edge of the one crosses an
-    edge of the other; at the nodes the difference is 0.
+    Between corners, nodes and the points where edges of the two surfaces cross, both are flat; at
+    the nodes the difference is 0. ``grid`` is as in `_heights_at_nodes`.
     """
     points = [grid.reshape(-1, 3)]
     starts, ends = grid.reshape(-1, 3), np.roll(grid, -1, axis=1).reshape(-1, 3)
@@ -226,7 +233,7 @@ def _greatest_difference(grid: Array, heights: Array) -> float:
 
 
 def _field_at(points: Array, heights: Array) -> Array:
-    """Return the heights of a field at points whose x and y are in cells, (n,)."""
+    """Return the heights of a field at points (n, 2+) with x and y in units of cells, (n,) [m]."""
     rows, columns = heights.shape
     j = np.clip(np.floor(points[:, 0]).astype(np.int64), 0, columns - 2)
     i = np.clip(np.floor(points[:, 1]).astype(np.int64), 0, rows - 2)
@@ -238,7 +245,7 @@ def _field_at(points: Array, heights: Array) -> Array:
 
 
 def _ranges(counts: Ints) -> tuple[Ints, Ints]:
-    """Return ``0 .. count - 1`` for each count: the index of the count, and the index in it."""
+    """Enumerate ``0 .. count - 1`` for each count; return count indices, and the numbers."""
     owner = np.repeat(np.arange(len(counts)), counts)
     starts = np.cumsum(counts) - counts
     return owner, np.arange(len(owner)) - starts[owner]

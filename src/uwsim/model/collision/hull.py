@@ -1,4 +1,4 @@
-"""The extent of a vehicle: the bounding boxes of its links in the frame of its base."""
+"""The extent of a vehicle: the bounding boxes of its links, in the frame of its base."""
 
 from __future__ import annotations
 
@@ -20,11 +20,11 @@ class LinkBox:
     """The bounding box of a link."""
 
     low: Array
-    """The least corner in the base's frame, (3,) [m]."""
+    """The lower corner in the base's frame, (3,) [m]."""
     high: Array
-    """The greatest corner, (3,) [m]."""
+    """The upper corner in the base's frame, (3,) [m]."""
     volume: float
-    """The volume of its boxes, overlaps counted twice [m3]."""
+    """The total volume of the boxes of the link's shapes; overlaps count twice [m3]."""
 
     @property
     def extent(self) -> Array:
@@ -34,44 +34,44 @@ class LinkBox:
 
 @dataclass(frozen=True, eq=False)
 class Hull:
-    """The links of a vehicle that have a shape; at least one."""
+    """The bounding boxes of the links of a vehicle that have a shape; at least one."""
 
     links: Mapping[str, LinkBox]
-    """The box of each link, by its name."""
+    """The bounding box of each link, by the link's name."""
 
     @property
     def low(self) -> Array:
-        """The least corner in the base's frame, (3,) [m]."""
+        """The lower corner of the whole bounding box in the base's frame, (3,) [m]."""
         low: Array = np.min([box.low for box in self.links.values()], axis=0)
         return low
 
     @property
     def high(self) -> Array:
-        """The greatest corner in the base's frame, (3,) [m]."""
+        """The upper corner of the whole bounding box in the base's frame, (3,) [m]."""
         high: Array = np.max([box.high for box in self.links.values()], axis=0)
         return high
 
     @property
     def size(self) -> float:
-        """The longest extent [m]."""
+        """The longest edge of the whole bounding box [m]."""
         return float((self.high - self.low).max())
 
     @property
     def volume(self) -> float:
-        """The volume of all boxes [m3]."""
+        """The total volume of the boxes of all links [m3]."""
         return sum(box.volume for box in self.links.values())
 
     def distance(self, point: Array) -> float:
-        """Compute the distance of a point of the base's frame, (3,), from the whole box [m]."""
+        """Compute the distance of a point in the base's frame, (3,), from the whole box [m]."""
         offset = np.maximum(np.maximum(self.low - point, point - self.high), 0.0)
         return float(length(offset))
 
 
 def hull_of(scene: ResolvedScene, index: int) -> Hull | None:
-    """Measure a vehicle with its joints as in the file; None if it has no shape.
+    """Return the extent of a vehicle at the joint values of the scene file; None without shapes.
 
     Args:
-        scene: the scene.
+        scene: the scene with its robots.
         index: the number of the vehicle.
 
     Raises:

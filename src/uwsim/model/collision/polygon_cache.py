@@ -1,4 +1,4 @@
-"""Disk cache of the convex polygons of meshes; those of the tank take half a second to compute.
+"""Disk cache of the convex polygons of meshes, which take up to seconds to compute.
 
 The key is the hash of the triangles, of the sources that compute the polygons, and of the versions
 of numpy and SciPy.

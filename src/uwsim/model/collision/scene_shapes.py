@@ -1,12 +1,13 @@
 """Collision shapes of the bodies of a scene.
 
-Each link of a vehicle is the box around its collision geometry, else around its visible geometry. A
-finger (a link at the end of a chain that a joint moves) is its mesh if that is convex. The objects
-are those of `uwsim.scene.spec.SceneSpec.solid_objects`. If a vehicle is simulated, or the scene
-requests the original's physics, an object is loose if it has a mass and is not ``isKinematic``;
-else it is fixed. Solid scenery without ``<physics>`` has its faces, a large mesh those of
-`uwsim.model.collision.fixed_mesh`. Not modelled: contacts of a vehicle with itself, of fixed
-objects with each other; limits of objects; hollows between the hulls of a link.
+The shape of a link is the bounding box of its collision geometry, or of its visible geometry if
+there is none. The shape of a finger (a moving link at the end of a chain) is its mesh if that is
+convex. The objects are those of `uwsim.scene.spec.SceneSpec.solid_objects`. If a vehicle has
+dynamics, or the scene requests the physics of the original UWSim, an object is loose if it has a
+mass and is not ``isKinematic``; all other objects are fixed. The shape of a solid object without
+``<physics>`` is the faces of its mesh; for a large mesh see `uwsim.model.collision.fixed_mesh`. Not
+modelled: contacts of a vehicle with itself, or between fixed objects; limits of objects; hollows
+between the hulls of a link.
 """
 
 from __future__ import annotations
@@ -40,14 +41,14 @@ from .shapes import (
 )
 
 
-def simulated_shapes(
+def engine_shapes(
     resolved_scene: ResolvedScene, dynamics: Collection[int]
 ) -> dict[str, tuple[CollisionShape, ...]]:
-    """Make the collision shapes of the engine; none if nothing is simulated.
+    """Return the collision shapes of the engine by body; none if forces move nothing.
 
     Args:
-        resolved_scene: the scene.
-        dynamics: the numbers of the vehicles that are simulated.
+        resolved_scene: the scene with its robots.
+        dynamics: the numbers of the vehicles with dynamics.
     """
     scene = resolved_scene.scene
     if scene.has_uwsim_physics:
@@ -61,7 +62,7 @@ def simulated_shapes(
 def solid_objects_in_water(
     scene: SceneSpec, dynamics: Collection[int]
 ) -> Mapping[int, PhysicsSpec]:
-    """Return the solid objects of the engine, by number; none if nothing is simulated."""
+    """Return the solid objects of the engine, by number; none if forces move nothing."""
     if scene.has_uwsim_physics:
         return scene.solid_objects
     return scene.solid_objects_in_water if dynamics else {}
@@ -70,12 +71,12 @@ def solid_objects_in_water(
 def collision_shapes(
     resolved_scene: ResolvedScene, vehicles: Collection[int], objects: Mapping[int, PhysicsSpec]
 ) -> dict[str, tuple[CollisionShape, ...]]:
-    """Make the shapes of a scene, by the name of their body in the model.
+    """Return the collision shapes of a scene, by the name of their body in the engine.
 
     Args:
-        resolved_scene: the scene.
+        resolved_scene: the scene with its robots.
         vehicles: the numbers of the vehicles that have contacts.
-        objects: the physics of each object that has contacts, by its number.
+        objects: the physics of each object that has contacts, by the object's number.
     """
     scene, data_path = resolved_scene.scene, resolved_scene.data_path
     shapes: dict[str, tuple[CollisionShape, ...]] = {}
@@ -112,9 +113,9 @@ def collision_shapes(
 
 
 def _link_scales(robot: RobotSpec, vehicle: VehicleSpec) -> dict[str, Array]:
-    """Return a vehicle's scale as a matrix in each link's frame, (3, 3); empty without a scale.
+    """Return the vehicle's scale as a matrix in the frame of each link, (3, 3); empty if it is 1.
 
-    An uneven scale applies at the joints' initial values: a box remains a box.
+    A scale that differs by axis is applied at the initial joint values: boxes remain boxes.
     """
     if vehicle.scale_factor == (1.0, 1.0, 1.0):
         return {}
@@ -188,7 +189,7 @@ def fixed_faces(
 def fixed_box(
     scene: SceneSpec, index: int, physics: PhysicsSpec, data_path: tuple[Path, ...]
 ) -> Array:
-    """Return the least and greatest coordinates in W of a fixed object's mesh, (2, 3) [m]."""
+    """Return the lower and upper corner of a fixed object's bounding box in W, (2, 3) [m]."""
     spec = scene.objects[index]
     model = _contact_model(spec, physics, object_models(scene, data_path))
     world_from_object = scene.world_from_localized @ spec.localized_from_object
@@ -200,7 +201,7 @@ def fixed_box(
 def contact_mesh(
     scene: SceneSpec, index: int, physics: PhysicsSpec, data_path: tuple[Path, ...]
 ) -> FixedMesh | None:
-    """Return the collision surface of a fixed mesh, in the object's frame; None for other shapes.
+    """Return the collision surface of an object in its frame; None if it is no fixed trimesh.
 
     Args:
         scene: the spec of the scene.
@@ -225,7 +226,7 @@ def _object_from_mesh(spec: ObjectSpec) -> Array:
 
 
 def _vertical_axis(spec: ObjectSpec, scene: SceneSpec) -> Array:
-    """Return W's z in the axes of an object, (3,)."""
+    """Return the z axis of W in the axes of an object, (3,)."""
     world_from_object = scene.world_from_localized @ spec.localized_from_object
     up: Array = world_from_object.rotation[2]
     return up

@@ -4,18 +4,18 @@
 collisionShapeType  shape
 =================  ======================================================================
 box                the bounding box in the object's axes
-sphere             the ball around its centre that is as wide as the box is long
+sphere             the ball at the centre of that box, as wide as the box is long
 compound box       a bounding box for each of the mesh's materials
 compound cylinder  a cylinder in each of those boxes, along its longest edge
 trimesh            loose: the convex hull of each material; fixed: the faces themselves
 compound trimesh   as trimesh
 =================  ======================================================================
 
-A fixed trimesh becomes plates behind its flat faces (`convex_faces`): a rectangle a slab, any other
-polygon a prism, `PLATE_THICKNESS` deep, behind its front side. A large one is simplified, or
-becomes tiles of a height field (`fixed_mesh`), which are `FIELD_DEPTH` thick. Ground whose faces
-mainly face down is flipped: its file has the corners in reverse order. Not modelled: hollows of
-loose objects, faces with two front sides.
+A fixed trimesh becomes plates of the thickness `PLATE_THICKNESS` behind the front sides of its flat
+faces (`convex_faces`): slabs behind rectangles, prisms behind other polygons. A large fixed trimesh
+is simplified, or becomes tiles of a height field (`fixed_mesh`) that are `FIELD_DEPTH` thick. If
+the faces of the ground mainly face down, they are flipped, as their file has the corners in reverse
+order. Not modelled: hollows of loose objects, faces with two front sides.
 """
 
 from __future__ import annotations
@@ -39,11 +39,11 @@ from .polygon_cache import cached_faces
 TRIMESHES = ("trimesh", "compound trimesh")
 """The collisionShapeTypes that use the faces of a fixed mesh."""
 PLATE_THICKNESS = 0.1
-"""The thickness of a fixed trimesh's plates, at most its shortest extent unless it is flat [m]."""
+"""The thickness of plates; at most the shortest extent of the mesh, unless that is flat [m]."""
 FIELD_DEPTH = 1.0
 """The depth of a height field below its lowest point [m]."""
 MAX_PLANE_THICKNESS = 0.01
-"""The greatest thickness of a mesh that is a plane [m]."""
+"""The greatest thickness of a mesh that counts as flat [m]."""
 MAX_PLATES = 10_000
 """The greatest number of plates of one fixed trimesh."""
 MIN_HEIGHT_RANGE = 1e-6
@@ -51,13 +51,13 @@ MIN_HEIGHT_RANGE = 1e-6
 MIN_EDGE = 1e-3
 """The least edge of a box [m]."""
 MAX_BULGE = 0.01
-"""The greatest bulge of a mesh that counts as convex, as a share of its longest extent."""
+"""The greatest deviation of a mesh that counts as convex, as a share of its longest extent [1]."""
 MAX_HULL_FACES = 1000
 """The greatest number of faces of a moving mesh whose hull is its collision shape."""
 RECTANGLE_TOLERANCE = 1e-3
-"""The tolerance of a rectangle: cosine of its corner, share of its edge."""
+"""The tolerance of a rectangle: for the cosine of its angles, and relative for its edges [1]."""
 MIN_DOWNWARD_SHARE = 0.5
-"""The net share of a sheet's horizontal area that faces down, above which it is flipped."""
+"""The net share of the horizontal area that faces down, above which ground is flipped [1]."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -67,14 +67,16 @@ class CollisionShape:
     kind: Literal["box", "sphere", "cylinder", "hull", "height field"]
     """The kind of shape."""
     body_from_shape: Pose
-    """The middle's pose; a cylinder's axis is z; a height field's origin is its lowest height."""
+    """The pose of the shape's centre on the body. The axis of a cylinder is z. The origin of a
+    height field is at its centre, at the lowest height."""
     size: tuple[float, ...] = ()
-    """The half edges of a box; radius of a ball; radius and half length of a cylinder; half edges,
-    greatest height and depth of a height field [m]."""
+    """The half edges of a box; the radius of a sphere; radius and half length of a cylinder; two
+    half edges, greatest height and depth below the origin of a height field; empty for a hull
+    [m]."""
     corners: Array | None = None
     """The corners of a hull, in the shape's frame, (n, 3) [m]."""
     heights: Array | None = None
-    """The heights of a field above its lowest, a row along x for each y, (rows, columns) [m]."""
+    """The heights of a height field above its lowest, (rows, columns) [m]; each row is along x."""
 
 
 def shapes_of(
@@ -86,14 +88,14 @@ def shapes_of(
     up: Array | None = None,
     error: float | None = None,
 ) -> tuple[CollisionShape, ...]:
-    """Make the shapes of a body.
+    """Return the collision shapes of a body.
 
     Args:
         model: the meshes of the body.
-        body_from_mesh: their pose on the body, with their scale, (4, 4) [m].
-        kind: the collisionShapeType; an unknown one is read as box.
+        body_from_mesh: the pose of the meshes on the body, with their scale, (4, 4) [m].
+        kind: the collisionShapeType; an unknown type is read as ``box``.
         is_fixed: True if the body never moves.
-        up: W's z in the body's axes, (3,), for the ground, which is seen from above.
+        up: the z axis of W in the body's axes, (3,), if the body is the ground; else None.
         error: the greatest distance of a fixed trimesh from its mesh [m]; None: the default.
 
     Raises:
@@ -130,7 +132,7 @@ def fixed_mesh_of(
     up: Array | None,
     error: float | None,
 ) -> FixedMesh:
-    """Return the collision surface of a fixed trimesh; the arguments are those of `shapes_of`."""
+    """Return the collision surface of a fixed trimesh; for the arguments see `shapes_of`."""
     turn, shift = body_from_mesh[:3, :3], body_from_mesh[:3, 3]
     parts = [
         transform_points(mesh.vertices.astype(np.float64), turn, shift)[mesh.triangles]
@@ -145,11 +147,11 @@ def fixed_mesh_of(
 def convex_shapes(
     model: Model, body_from_mesh: npt.NDArray[np.float64]
 ) -> tuple[CollisionShape, ...] | None:
-    """Return the hull of each material of a model, a box for a box; None if one is not convex.
+    """Return the convex hull, or box, of each material of a model; None if one is not convex.
 
     Args:
         model: the meshes of the body.
-        body_from_mesh: their pose on the body, with their scale, (4, 4) [m].
+        body_from_mesh: the pose of the meshes on the body, with their scale, (4, 4) [m].
     """
     turn, shift = body_from_mesh[:3, :3], body_from_mesh[:3, 3]
     hulls = []
@@ -162,7 +164,7 @@ def convex_shapes(
 
 
 def _is_box(points: Array) -> bool:
-    """Return whether points are the eight corners of their box (flat pairs grip best)."""
+    """Return whether points are the corners of a box: grippers hold best with boxes."""
     low, high = points.min(axis=0), points.max(axis=0)
     tolerance = RECTANGLE_TOLERANCE * (high - low)
     is_high = high - points <= tolerance  # (n, 3)
@@ -172,7 +174,7 @@ def _is_box(points: Array) -> bool:
 
 
 def is_convex(triangles: Array) -> bool:
-    """Return whether no corner of triangles (n, 3, 3) is over `MAX_BULGE` in front of any."""
+    """Return whether triangles (n, 3, 3) are convex within the tolerance `MAX_BULGE`."""
     normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     sizes = np.linalg.norm(normals, axis=1)  # (n,) [m2]
     has_area = sizes > 0.0
@@ -186,26 +188,28 @@ def is_convex(triangles: Array) -> bool:
 
 
 def box_around(points: Array) -> CollisionShape:
-    """Make the axis-aligned box around points (n, 3) [m]."""
+    """Return the axis-aligned box around points (n, 3) [m]."""
     low, high = points.min(axis=0), points.max(axis=0)
     half = np.maximum(0.5 * (high - low), 0.5 * MIN_EDGE)
-    middle = Pose(0.5 * (low + high), np.eye(3))
-    return CollisionShape(kind="box", body_from_shape=middle, size=tuple(half.tolist()))
+    body_from_box = Pose(0.5 * (low + high), np.eye(3))
+    return CollisionShape(kind="box", body_from_shape=body_from_box, size=tuple(half.tolist()))
 
 
 def _cylinder(box: CollisionShape) -> CollisionShape:
     axis_index = int(np.argmax(box.size))
     radii = [half for axis, half in enumerate(box.size) if axis != axis_index]
-    turn = np.roll(np.eye(3), axis_index - 2, axis=0)  # z becomes the longest axis
-    place = Pose(box.body_from_shape.position, turn)
+    turn = np.roll(
+        np.eye(3), axis_index - 2, axis=0
+    )  # the z axis of the cylinder is the longest axis of the box
+    body_from_cylinder = Pose(box.body_from_shape.position, turn)
     return CollisionShape(
-        kind="cylinder", body_from_shape=place, size=(max(radii), box.size[axis_index])
+        kind="cylinder", body_from_shape=body_from_cylinder, size=(max(radii), box.size[axis_index])
     )
 
 
 def _hull(points: Array) -> CollisionShape:
     extent = points.max(axis=0) - points.min(axis=0)
-    if extent.min() < MIN_EDGE:  # a flat one has no hull
+    if extent.min() < MIN_EDGE:  # a flat mesh has no convex hull
         return box_around(points)
     return CollisionShape(kind="hull", body_from_shape=Pose.identity(), corners=points)
 
@@ -213,7 +217,11 @@ def _hull(points: Array) -> CollisionShape:
 def orient_upwards(up: Array, triangles: Array) -> Array:
     """Return triangles (n, 3, 3) of the ground, flipped if they are a sheet that faces down.
 
-    A closed mesh faces up as much as down and is not changed.
+    A closed mesh has equal areas that face up and down, and is not changed.
+
+    Args:
+        up: the upward direction in the frame of the triangles, (3,).
+        triangles: the triangles.
     """
     normals = np.cross(triangles[:, 1] - triangles[:, 0], triangles[:, 2] - triangles[:, 0])
     upward_parts = product(normals, up)
@@ -226,7 +234,7 @@ def orient_upwards(up: Array, triangles: Array) -> Array:
 
 
 def _plates(triangles: Array, name: str) -> tuple[CollisionShape, ...]:
-    """Make slabs and prisms below the faces of triangles (n, 3, 3) [m]."""
+    """Return slabs and prisms behind the flat faces of triangles (n, 3, 3) [m]."""
     faces = cached_faces(triangles)
     if len(faces) > MAX_PLATES:
         raise UwsimError(
@@ -250,7 +258,7 @@ def _plates(triangles: Array, name: str) -> tuple[CollisionShape, ...]:
 
 
 def _plates_of(faces: Array, depth: float) -> Iterator[CollisionShape]:
-    """Yield the solids behind flat convex polygons, (n, k, 3) [m]: a slab behind a rectangle."""
+    """Yield the plate behind each of n flat convex polygons of k corners, (n, k, 3) [m]."""
     edges = np.roll(faces, -1, axis=1) - faces
     spokes = faces[:, 1:] - faces[:, :1]
     normals = _sum(np.cross(spokes[:, :-1], spokes[:, 1:]))
@@ -269,12 +277,12 @@ def _plates_of(faces: Array, depth: float) -> Iterator[CollisionShape]:
         is_slab = np.zeros(len(faces), bool)
     x_axes = edges[:, 0] / np.where(is_slab, lengths[:, 0], 1.0)[:, None]
     turns = np.stack([x_axes, np.cross(normals, x_axes), normals], axis=2)  # body_from_shape
-    middles = _sum(faces) / faces.shape[1] - 0.5 * depth * normals
+    centres = _sum(faces) / faces.shape[1] - 0.5 * depth * normals
     prisms = np.concatenate([faces, faces - (depth * normals)[:, None]], axis=1)
     for n in range(len(faces)):
         if is_slab[n]:
             half = (0.5 * float(lengths[n, 0]), 0.5 * float(lengths[n, 1]), 0.5 * depth)
-            pose = Pose(middles[n], turns[n])
+            pose = Pose(centres[n], turns[n])
             yield CollisionShape(kind="box", body_from_shape=pose, size=half)
         else:
             pose = Pose.identity()
@@ -283,13 +291,13 @@ def _plates_of(faces: Array, depth: float) -> Iterator[CollisionShape]:
 
 def _tiles(field: HeightField) -> Iterator[CollisionShape]:
     half_cell = 0.5 * field.spacing
-    for middle, heights in field.tiles():
+    for centre, heights in field.tiles():
         low, high = float(heights.min()), float(heights.max())
         rows, columns = heights.shape
         half = (columns - 1) * half_cell[0], (rows - 1) * half_cell[1]
         yield CollisionShape(
             kind="height field",
-            body_from_shape=Pose(middle + low * field.body_from_field[:, 2], field.body_from_field),
+            body_from_shape=Pose(centre + low * field.body_from_field[:, 2], field.body_from_field),
             size=(float(half[0]), float(half[1]), max(high - low, MIN_HEIGHT_RANGE), FIELD_DEPTH),
             heights=heights - low,
         )
@@ -309,8 +317,8 @@ def _dots(left: Array, right: Array) -> Array:
     return sums
 
 
-def bounds(shapes: Sequence[CollisionShape]) -> CollisionShape:
-    """Make the box along the body's axes around several shapes."""
+def bounding_box(shapes: Sequence[CollisionShape]) -> CollisionShape:
+    """Return the box around several shapes, with the axes of the body."""
     points = []
     for shape in shapes:
         if shape.corners is not None:

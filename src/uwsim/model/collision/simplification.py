@@ -1,12 +1,12 @@
-r"""Simplification of meshes by a greatest error in metres.
+r"""Simplification of meshes within an error in metres.
 
 Edges are collapsed in the order of their quadric error (M. Garland, P. S. Heckbert, *Surface
-simplification using quadric error metrics*, SIGGRAPH 1997). The smallest number of triangles is
-searched for which
+simplification using quadric error metrics*, SIGGRAPH 1997). The search finds the smallest number of
+triangles for which the error e is not exceeded,
 
 .. math:: \max_{p} \min_{q} \lVert p - q \rVert \le e
 
-holds both ways: p are the corners of the one surface and q all points of the other.
+where p are the corners of one surface and q all points of the other, in both directions.
 """
 
 from __future__ import annotations
@@ -23,33 +23,33 @@ from .convex_faces import Ints, number_corners
 N_TRIALS = 8
 """The greatest number of simplifications that are tried."""
 SCALED_SIZE = 10.0
-"""The size to which a mesh is scaled: the thresholds of the simplification are lengths. Measured on
-rocks and pipes: with 1 the error is up to ten times as large, with 30 more edges remain."""
+"""The size to which a mesh is scaled, because the library that collapses edges has thresholds in
+lengths. On rocks and pipes, 1 gives errors up to ten times as large, and 30 leaves more edges."""
 MIN_TRIANGLES = 12
 """The least number of triangles after simplification."""
 FIRST_SHARE = 0.05
-"""The share of the triangles that is tried first."""
+"""The share of triangles that remain in the first trial [1]."""
 GOOD_ERROR_SHARE = 0.8
-"""The share of the allowed error that ends the search."""
+"""The share of the allowed error at which the search ends [1]."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class SimpleMesh:
-    """A mesh of fewer triangles."""
+    """A simplified mesh."""
 
     triangles: Array
-    """The faces, turning as the mesh's do, (n, 3, 3) [m]."""
+    """The triangles, in the orientation of the original mesh, (n, 3, 3) [m]."""
     error: float
-    """The greatest distance from the mesh [m]."""
+    """The greatest distance from the original mesh [m]."""
 
 
 def simplify(triangles: Array, error: float, max_triangles: int) -> SimpleMesh:
-    """Simplify a mesh as far as an error allows, and to a limit of triangles in any case.
+    """Simplify a mesh as far as an error allows, but at least to a number of triangles.
 
     Args:
         triangles: the faces of the mesh, (n, 3, 3) [m].
         error: the greatest distance allowed between the surfaces [m].
-        max_triangles: the limit of triangles, which takes precedence over the error.
+        max_triangles: the greatest number of triangles; it takes precedence over the error.
     """
     points, faces = _weld(triangles)
     if not len(faces):
@@ -71,7 +71,7 @@ def simplify(triangles: Array, error: float, max_triangles: int) -> SimpleMesh:
                 break
         else:
             lower = n
-        # of a smooth surface the error is inversely proportional to the number of triangles
+        # the error of a smooth surface is inversely proportional to the number of triangles
         n = round(n * min(max(simple_mesh.error / (0.85 * error), 0.2), 5.0))
         if not lower < n < upper:
             n = round(math.sqrt(lower * upper))
@@ -79,22 +79,22 @@ def simplify(triangles: Array, error: float, max_triangles: int) -> SimpleMesh:
 
 
 def _weld(triangles: Array) -> tuple[Array, Ints]:
-    """Return distinct corners, (k, 3) [m], and their numbers in each face that has area, (n, 3)."""
+    """Return the distinct corners, (k, 3) [m], and their indices in each face, (n, 3)."""
     corners = triangles.reshape(-1, 3)
     numbers = number_corners(corners)
     points = np.empty((int(numbers.max(initial=-1)) + 1, 3))
-    points[numbers[::-1]] = corners[::-1]  # of equal ones the first
+    points[numbers[::-1]] = corners[::-1]  # the first of equal corners
     faces = numbers.reshape(-1, 3)
     has_area = (faces != np.roll(faces, 1, axis=1)).all(axis=1)
     return points, faces[has_area]
 
 
 class _Mesh:
-    """A mesh with the surface from which errors are measured.
+    """A mesh that is simplified, with the surface from which errors are measured.
 
     Args:
         points: the corners of the mesh, (k, 3) [m].
-        faces: the numbers of each face's corners, (n, 3).
+        faces: the indices of the corners of each face, (n, 3).
     """
 
     def __init__(self, points: Array, faces: Ints) -> None:
@@ -105,7 +105,7 @@ class _Mesh:
         self._unit = max(size / SCALED_SIZE, 1e-9)
 
     def collapse(self, n: int, limit: float) -> SimpleMesh:
-        """Collapse edges to about n triangles; errors above ``limit`` are not exact."""
+        """Collapse edges until about n triangles remain; errors above ``limit`` are not exact."""
         if n >= len(self._faces):
             return SimpleMesh(triangles=self._surface.triangles, error=0.0)
         import fast_simplification
@@ -125,26 +125,29 @@ class _Mesh:
 
 
 class _Surface:
-    """Triangles (n, 3, 3) with the middle and the radius of a ball around each [m]."""
+    """The triangles of a surface, (n, 3, 3) [m], each with a ball around it."""
 
     def __init__(self, triangles: Array) -> None:
         self.triangles = np.ascontiguousarray(triangles)
         a, b, c = (triangles[:, k] for k in range(3))
-        self._middles = (a + b + c) / 3.0
-        arms = [corners - self._middles for corners in (a, b, c)]
+        self._centres = (a + b + c) / 3.0
+        arms = [corners - self._centres for corners in (a, b, c)]
         squares = [x * x + y * y + z * z for x, y, z in (arm.T for arm in arms)]
         self._radii = np.sqrt(np.maximum(np.maximum(*squares[:2]), squares[2]))
 
     def distance(self, points: Array, limit: float) -> float:
         """Compute the greatest distance of points (n, 3) from the surface [m], up to ``limit``."""
-        return _max_distance(points, self.triangles, self._middles, self._radii, limit)
+        return _max_distance(points, self.triangles, self._centres, self._radii, limit)
 
 
 @njit
 def _max_distance(
-    points: Array, triangles: Array, middles: Array, radii: Array, limit: float
+    points: Array, triangles: Array, centres: Array, radii: Array, limit: float
 ) -> float:
-    """Compute the greatest distance of points from triangles, with their middles and radii [m]."""
+    """Compute the greatest distance of points from triangles [m], up to ``limit``.
+
+    ``centres`` (n, 3) and ``radii`` (n,) [m] describe a ball around each triangle.
+    """
     max_squared, nearest_index = 0.0, 0
     for i in range(len(points)):
         x, y, z = points[i, 0], points[i, 1], points[i, 2]
@@ -153,7 +156,7 @@ def _max_distance(
         for k in range(len(triangles)):
             if min_squared <= max_squared:
                 break  # another point is farther
-            dx, dy, dz = x - middles[k, 0], y - middles[k, 1], z - middles[k, 2]
+            dx, dy, dz = x - centres[k, 0], y - centres[k, 1], z - centres[k, 2]
             bound = min_distance + radii[k]
             if dx * dx + dy * dy + dz * dz >= bound * bound:
                 continue

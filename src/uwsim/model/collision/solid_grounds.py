@@ -1,12 +1,13 @@
-"""The fixed objects of a scene below which a body gets only through their surface.
+"""Solid grounds: fixed objects below which a body gets only by passing through their surface.
+
+They are:
 
 - ``terrain``, whatever its shape;
-- a sheet over a rectangle whose faces face up (a height field): the only other way below it is
-  around its edge;
+- a sheet over a rectangle whose faces face up: the only other way below it is around its edge;
 - a closed mesh, whose inside is solid.
 
-Not among them: meshes with holes, which a vehicle may enter, and boxes, balls, cylinders and hulls,
-which are solid and push bodies out.
+They are not: meshes with holes, which a vehicle may enter; boxes, spheres, cylinders and hulls,
+whose inside pushes bodies out.
 """
 
 from __future__ import annotations
@@ -25,13 +26,13 @@ from .scene_shapes import fixed_box, fixed_faces
 from .shapes import PLATE_THICKNESS, TRIMESHES
 
 MIN_DISTANCE = 1e-5
-"""The distance below which corners of a mesh are equal [m]."""
+"""The distance below which corners of a mesh count as equal [m]."""
 MAX_AREA_ERROR = 1e-3
-"""The greatest relative difference of a rectangle's area and that of a sheet, seen from above."""
+"""The greatest relative difference between the horizontal area of a sheet and its rectangle [1]."""
 
 
 class SolidGround:
-    """A fixed object that may be solid ground; its faces are read when a body is near.
+    """A fixed object that may be solid ground; its faces are read once a body comes near.
 
     Args:
         scene: the spec of the scene.
@@ -49,11 +50,11 @@ class SolidGround:
 
     @property
     def has_edge(self) -> bool:
-        """True if the ground is a sheet around whose edge a body can get below it."""
+        """True if the ground is a sheet, below which a body can get around the edge."""
         return not self._is_terrain and self._is_sheet
 
     def is_above(self, point: Array) -> bool:
-        """Return whether a point, (3,) in W [m], is above the surface or in a plate of it."""
+        """Return whether a point in W (3,) is above the surface, or within a plate's thickness."""
         if self._edge_distance(point) < 0.0:
             return False
         if float(point[2]) > float(self._high[2]):
@@ -64,24 +65,24 @@ class SolidGround:
         return level is not None and float(point[2]) > level - PLATE_THICKNESS
 
     def path_length_around(self, start: Array, end: Array) -> float:
-        """Compute the shortest horizontal path from a point (3,) to another around the edge [m].
+        """Compute the shortest horizontal path from one point to another around the edge [m].
 
-        It is 0 if one of them is outside its box.
+        It is 0 if one of the points, (3,) in W [m], is outside the bounding box of the ground.
         """
         edges = self._edge_distance(start), self._edge_distance(end)
         return sum(edges) if min(edges) > 0.0 else 0.0
 
     def _edge_distance(self, point: Array) -> float:
-        """Return the horizontal distance of a point from the edge of the box [m]; < 0 outside."""
+        """Return the distance to the nearest side of the bounding box [m]; negative outside."""
         return float(np.minimum(point - self._low, self._high - point)[:2].min())
 
     def depth(self, points: Array) -> float:
-        """Compute the depth of a whole body below the surface [m]; 0 if a part is above it.
+        """Compute the depth of a body's highest point below the surface [m]; 0 if it is above.
 
-        It is 0 up to the depth of a plate, into which heavy bodies sink.
+        The result is also 0 up to the thickness of a plate, into which heavy bodies sink.
 
         Args:
-            points: the corners of the body's box in W, (n, 3) [m].
+            points: the corners of the body's bounding box in W, (n, 3) [m].
         """
         low, high = points.min(axis=0), points.max(axis=0)
         if (high[:2] < self._low[:2]).any() or (low[:2] > self._high[:2]).any():
@@ -106,7 +107,7 @@ class SolidGround:
 
     @cached_property
     def _ground(self) -> Ground | None:
-        """The ground of its faces; None if a body can get below it without passing through it."""
+        """The surface; None if a body can get below it in another way than through or around it."""
         is_solid = self._is_terrain or self._is_sheet or is_closed(self._faces)
         return Ground(self._faces) if is_solid and len(self._faces) else None
 
@@ -131,7 +132,7 @@ def solid_grounds(
 
 
 def is_level_sheet(faces: Array) -> bool:
-    """Return whether triangles, (n, 3, 3) [m], face up and cover a rectangle of x and y once."""
+    """Return whether triangles (n, 3, 3) [m] all face up and cover a rectangle in x, y once."""
     normals = np.cross(faces[:, 1] - faces[:, 0], faces[:, 2] - faces[:, 0])
     lengths = np.sqrt((normals * normals).sum(axis=1))
     has_area = lengths > 0.0
@@ -143,7 +144,7 @@ def is_level_sheet(faces: Array) -> bool:
 
 
 def is_closed(faces: Array) -> bool:
-    """Return whether triangles, (n, 3, 3) [m], are a body's closed surface, seen from outside."""
+    """Return whether triangles (n, 3, 3) [m] are a closed surface that faces outwards."""
     corners = np.round(faces.reshape(-1, 3) / MIN_DISTANCE).astype(np.int64)
     _, numbers = np.unique(corners, axis=0, return_inverse=True)
     triangles = numbers.reshape(-1, 3)

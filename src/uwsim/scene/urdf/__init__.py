@@ -1,1 +1,1 @@
-"""Robot descriptions (URDF): specs, their reader, forward kinematics."""
+"""Robot files (URDF): their specs, the reader, and forward kinematics."""

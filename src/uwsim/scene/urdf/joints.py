@@ -1,4 +1,4 @@
-"""Reader of ``<joint>`` of a robot file: type, limits, damping, friction and mimic."""
+"""Reader of ``<joint>`` elements in robot files, and of the joints that mimic others."""
 
 from __future__ import annotations
 
@@ -14,21 +14,23 @@ from .values import name_of, number_of, origin_of, triple_of
 
 MOVABLE_TYPES = ("revolute", "continuous", "prismatic")
 FIXED_TYPES = ("floating", "planar")
+"""The types of URDF joints that are read as fixed joints."""
 NO_STOPS = (-math.inf, math.inf)
 """The limits of a ``continuous`` joint, which turns without end.
 
-Bounds of less than a turn hold for it, too, as in the original: its robots are written so.
+If its ``<limit>`` spans less than a turn, it applies, as in the original UWSim, whose robots rely
+on that.
 """
 MAX_RATIO = 1e6
-"""The greatest multiplier and offset with which a joint follows the first of a chain."""
+"""The greatest multiplier and offset of a joint at the end of a chain of mimicking joints."""
 FULL_TURN = 0.99 * math.tau
-"""The range of bounds that excludes no angle: 3.14 on both sides means pi [rad]."""
+"""The range of limits that excludes no angle, as files write 3.14 for pi [rad]."""
 
 
 def read_joint(
     node: etree._Element, links: dict[str, LinkSpec], diagnostics: Diagnostics
 ) -> JointSpec | None:
-    """Read a joint; None if it does not join two links, or has no valid type."""
+    """Return a joint; None if it does not connect two links, or has no valid type."""
     name, joint_type = name_of(node), (node.get("type") or "").strip()
     if joint_type not in (*MOVABLE_TYPES, *FIXED_TYPES, "fixed"):
         diagnostics.report_unknown(
@@ -50,7 +52,7 @@ def read_joint(
     kind: JointKind = "fixed"
     axis, lower, upper = (1.0, 0.0, 0.0), 0.0, 0.0
     if joint_type in MOVABLE_TYPES:
-        kind = joint_type  # type: ignore[assignment]  # one of MOVABLE
+        kind = joint_type  # type: ignore[assignment]  # one of MOVABLE_TYPES
         lower, upper = _limits(node, joint_type, diagnostics)
         if (axis_node := node.find("axis")) is not None:
             axis = triple_of(axis_node, "xyz", diagnostics, axis)
@@ -111,14 +113,14 @@ def _are_degrees(lower: float, upper: float) -> bool:
 
 
 def _limit_of(node: etree._Element, attribute: str, diagnostics: Diagnostics) -> float:
-    """Return an effort or speed of a ``<limit>``; none, or 0 as many files have it, is no limit."""
+    """Return the effort or velocity of a ``<limit>``; infinity if it is absent or 0."""
     limit = node.find("limit")
     value = 0.0 if limit is None else number_of(limit, attribute, diagnostics, 0.0)
     return value if value > 0.0 else math.inf
 
 
 def _loss(node: etree._Element, attribute: str, diagnostics: Diagnostics) -> float:
-    """Return a damping or friction of ``<dynamics>``; 0 without one, or for one below 0."""
+    """Return the damping or friction of ``<dynamics>``; 0 if it is absent or negative."""
     dynamics = node.find("dynamics")
     loss = 0.0 if dynamics is None else number_of(dynamics, attribute, diagnostics, 0.0)
     if loss < 0.0:
@@ -143,7 +145,7 @@ def _mimic(node: etree._Element, diagnostics: Diagnostics) -> MimicSpec | None:
 def check_leader(
     joint: JointSpec, joints: dict[str, JointSpec], diagnostics: Diagnostics
 ) -> JointSpec:
-    """Return the joint, which is free if the joint that it mimics does not exist."""
+    """Return the joint, without its ``<mimic>`` if the mimicked joint does not exist."""
     if joint.mimic is None or joint.mimic.joint in joints:
         return joint
     source = joint.mimic.joint
@@ -156,10 +158,10 @@ def check_leader(
 
 
 def check_mimics(joints: dict[str, JointSpec], diagnostics: Diagnostics) -> None:
-    """Report joints that mimic each other in a loop; visit every joint once."""
+    """Report joints that mimic each other in a loop."""
     visited_names: set[str] = set()
     for name in joints:
-        path: dict[str, int] = {}  # joint -> how many before it
+        path: dict[str, int] = {}  # joint -> its index in the path
         while name in joints and name not in visited_names:
             visited_names.add(name)
             path[name] = len(path)
@@ -173,14 +175,15 @@ def check_mimics(joints: dict[str, JointSpec], diagnostics: Diagnostics) -> None
 
 
 def follow_chains(joints: dict[str, JointSpec], diagnostics: Diagnostics) -> dict[str, JointSpec]:
-    r"""Make each joint that mimics a mimicking one follow the first of the chain.
+    r"""Replace chains of mimicking joints: each joint then mimics the first joint of its chain.
 
-    With q_1 = m_1 q_0 + o_1 and q_2 = m_2 q_1 + o_2,
+    If joint 1 mimics joint 0 and joint 2 mimics joint 1, with multipliers m and offsets o, q_1 =
+    m_1 q_0 + o_1 and q_2 = m_2 q_1 + o_2. Therefore
 
     .. math:: q_2 = m_1 m_2\,q_0 + m_2 o_1 + o_2
 
-    A slider-crank moves differently; a joint that mimics it remains at its offset, which is
-    reported. There is no loop (`check_mimics`).
+    A slider-crank moves by another law; a joint that mimics it remains at its offset, which is
+    reported. The joints must have no loop (`check_mimics`).
     """
     resolved_joints: dict[str, JointSpec] = {}
     for name in joints:
@@ -197,7 +200,13 @@ def follow_chains(joints: dict[str, JointSpec], diagnostics: Diagnostics) -> dic
 def _follow_first(
     joint: JointSpec, joints: dict[str, JointSpec], diagnostics: Diagnostics
 ) -> JointSpec:
-    """Return a joint that mimics one that moves by itself; ``joints`` has its leader."""
+    """Return the joint, which mimics the first joint of its chain.
+
+    Args:
+        joint: a joint.
+        joints: the resolved joints, among which is the joint that it mimics.
+        diagnostics: receives warnings and errors.
+    """
     mimic = joint.mimic
     leader = None if mimic is None else joints[mimic.joint]
     if mimic is None or leader is None or leader.mimic is None:

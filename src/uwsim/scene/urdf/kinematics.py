@@ -13,11 +13,12 @@ from .robot import JointSpec, RobotSpec
 
 
 def joint_positions(robot: RobotSpec, joint_values: Sequence[float] = ()) -> dict[str, float]:
-    """Return the value of every joint that moves, mimicking ones included [rad or m].
+    """Return the position of every movable joint, mimicking joints included [rad or m].
 
     Args:
         robot: the robot.
-        joint_values: the joint vector, clamped to the limits here; missing values are 0.
+        joint_values: the joint vector [rad or m], which is clamped to the limits; missing values
+            are 0.
     """
     positions = {joint.name: 0.0 for joint in robot.joints if joint.moves}
     for index, joint in enumerate(robot.movable_joints):
@@ -31,7 +32,7 @@ def joint_positions(robot: RobotSpec, joint_values: Sequence[float] = ()) -> dic
 
 
 def link_poses(robot: RobotSpec, joint_values: Sequence[float] = ()) -> dict[str, Pose]:
-    """Return ``base_from_link`` of every link: its kinematic frame in the root link's frame."""
+    """Return the pose of every link in the root link's frame, ``base_from_link``."""
     positions = joint_positions(robot, joint_values)
     poses = {robot.root: Pose.identity()}
     for joint in robot.joints:  # parents come before their children
@@ -51,7 +52,12 @@ def _joint_from_child(joint: JointSpec, value: float) -> Pose:
 
 
 def _follow(joint: JointSpec, source: float) -> float:
-    """Return the value of a mimicking joint; the reader has resolved chains."""
+    """Return the position of a mimicking joint; the reader has resolved chains.
+
+    Args:
+        joint: the mimicking joint.
+        source: the position of the mimicked joint [rad or m].
+    """
     assert joint.mimic is not None
     if joint.is_crank:
         reach = joint.mimic.offset * math.sin(source)

@@ -1,4 +1,4 @@
-"""Reader of ``<link>`` of a robot file: inertial, visuals and collisions."""
+"""Reader of ``<link>`` elements in robot files: inertia, visual and collision shapes."""
 
 from __future__ import annotations
 
@@ -52,10 +52,14 @@ def read_link(
 
 
 def read_materials(root: etree._Element, diagnostics: Diagnostics) -> dict[str, Colour]:
-    """Return the named colours: those of the robot, then those that visuals define."""
+    """Return the colours of named materials, which the robot or its visuals define."""
     colours: dict[str, Colour] = {}
-    first_uses: dict[str, etree._Element] = {}  # the first undefined use of each name
-    ignored_diagnostics = Diagnostics(diagnostics.file)  # a visual reports its own errors
+    first_uses: dict[
+        str, etree._Element
+    ] = {}  # the first element that uses each name without a definition
+    ignored_diagnostics = Diagnostics(
+        diagnostics.file
+    )  # errors in visuals are reported by `read_link`
     for path, sink in (("material", diagnostics), ("link/visual/material", ignored_diagnostics)):
         for node in root.findall(path):
             colour = colour_of(node, sink)

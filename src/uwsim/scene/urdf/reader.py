@@ -1,15 +1,17 @@
-"""Reader of a robot file (URDF): a `RobotSpec`, or every error.
+"""Reader of robot files (URDF): it returns a `RobotSpec`, or raises an error with all mistakes.
 
-UWSim's rules: the tree is traversed depth first, children in the alphabetical order of their
-joints' names, and the movable joints in that order are the joint vector. A ``<limit>`` without
-bounds means 0 to 0; without one a joint moves from -pi to pi, prismatic ones included. A continuous
-joint has no end stops; bounds of less than a turn apply to it as in the original. ``effort`` and
-``velocity`` of a ``<limit>``, which UWSim ignores, limit the joints of simulated vehicles. All
-``<visual>`` and ``<collision>`` elements of a link are used, where UWSim used the first. A material
-is found by its name wherever it is defined, as in URDF.
+The rules of the original UWSim apply. The tree is traversed depth first, children in the
+alphabetical order of their joints' names, and the movable joints in that order are the joint
+vector. A ``<limit>`` without bounds means 0 to 0; without a ``<limit>`` a joint, also a prismatic
+one, moves from -pi to pi. A continuous joint has no end stops, unless its limits span less than a
+turn.
 
-Elements of plug-ins or other programs (``<gazebo>``, ``<transmission>``, ...) are ignored, as in
-the original. Not read: safety controllers, textures.
+Two rules differ. ``effort`` and ``velocity`` of a ``<limit>``, which UWSim ignores, limit the
+joints of vehicles with dynamics. All ``<visual>`` and ``<collision>`` elements of a link are used,
+where UWSim uses only the first. A material is found by its name wherever it is defined, as in URDF.
+
+Elements of plug-ins or other programs (``<gazebo>``, ``<transmission>``, ...) are ignored. Safety
+controllers and textures are not read.
 """
 
 from __future__ import annotations
@@ -43,10 +45,10 @@ def read_urdf(
     Args:
         path: the file.
         data_path: the further folders that are searched for included files.
-        arguments: the values of its xacro arguments, by name.
+        arguments: the values of the file's xacro arguments, by name.
 
     Raises:
-        SceneError: with every error of the file.
+        SceneError: the file is invalid; the error has every mistake in it.
     """
     path = Path(path)
     diagnostics = Diagnostics(path)
@@ -62,7 +64,7 @@ def read_robot(
     data_path: tuple[Path, ...] = (),
     arguments: Mapping[str, str] | None = None,
 ) -> RobotSpec | None:
-    """Read a robot file; return None and add errors to ``diagnostics`` if it has no tree."""
+    """Read a robot file; if it is invalid, add errors to ``diagnostics`` and return None."""
     document = parse_expanded(path, error=SceneError, data_path=data_path, arguments=arguments)
     root = document.root
     if root.tag != "robot":

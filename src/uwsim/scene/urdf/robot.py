@@ -10,7 +10,7 @@
       </joint>
     </robot>
 
-`reader` makes it from a file.
+`uwsim.scene.urdf.reader` reads the spec from a file.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ ShapeKind = Literal["mesh", "box", "cylinder", "sphere"]
 JointKind = Literal["revolute", "continuous", "prismatic", "fixed"]
 
 MAX_ANGLE = 1e6
-"""The greatest angle to which a joint without end stops is set [rad]."""
+"""The angle above which the position of a joint without end stops is reduced by turns [rad]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,7 +40,7 @@ class VisualSpec(Spec):
     kind: ShapeKind
     """The kind of shape."""
     file: str = ""
-    """The mesh, as the file names it; empty for the other kinds."""
+    """The name of the mesh file, as in the robot file; empty for other kinds of shape."""
     size: Triple = (1.0, 1.0, 1.0)
     """The extent along x, y, z of a box, a cylinder (about z) or a sphere [m]."""
     scale: Triple = (1.0, 1.0, 1.0)
@@ -50,7 +50,7 @@ class VisualSpec(Spec):
     rpy: Triple = ZERO
     """The orientation in the link's frame, fixed-axis roll, pitch, yaw: Rz Ry Rx [rad]."""
     colour: Colour | None = None
-    """The red, green, blue, opacity of its material [0..1]; None without one."""
+    """The red, green, blue and opacity of the material [0..1]; None without a material."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -60,15 +60,15 @@ class LinkSpec(Spec):
     name: str
     """The name."""
     visuals: tuple[VisualSpec, ...] = ()
-    """The visible shapes; the original uses the first only."""
+    """The visible shapes; the original UWSim uses only the first."""
     collisions: tuple[VisualSpec, ...] = ()
-    """The collision shapes; the original uses the first only, at the link's origin."""
+    """The collision shapes; the original UWSim uses only the first, at the link's origin."""
     mass: float = 0.0
     """The mass [kg]."""
     centre_of_mass: Triple = ZERO
     """The centre of mass in the link's frame [m]."""
     inertia_rpy: Triple = ZERO
-    """The axes of the inertia in the link's frame, roll, pitch, yaw: Rz Ry Rx [rad]."""
+    """The axes of the inertia in the link's frame: roll, pitch, yaw, Rz Ry Rx [rad]."""
     inertia: tuple[float, float, float, float, float, float] = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     """The inertia about the centre of mass: xx, yy, zz, xy, xz, yz [kg m2]."""
 
@@ -79,20 +79,20 @@ class LinkSpec(Spec):
 
     @property
     def solids(self) -> tuple[VisualSpec, ...]:
-        """The collision shapes; without any, the visuals."""
+        """The shapes for contacts: the collision shapes or, without any, the visible shapes."""
         return self.collisions or self.visuals
 
 
 @dataclass(frozen=True, kw_only=True)
 class MimicSpec(Spec):
-    """A joint that follows another: ``multiplier * q + offset``."""
+    """A ``<mimic>``: the joint's position is ``multiplier * q + offset``."""
 
     joint: str
-    """The joint that it follows."""
+    """The joint with the position q."""
     multiplier: float = 1.0
-    """The factor on the other's value [1]."""
+    """The factor on the position of that joint [1]."""
     offset: float = 0.0
-    """The offset that is added to it [rad or m]."""
+    """The offset [rad or m]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -102,7 +102,7 @@ class JointSpec(Spec):
     name: str
     """The name."""
     kind: JointKind
-    """The type of motion; URDF's floating and planar are fixed, as in the original."""
+    """The type of motion; ``floating`` and ``planar`` of URDF are fixed, as in UWSim."""
     parent: str
     """The parent link."""
     child: str
@@ -114,19 +114,19 @@ class JointSpec(Spec):
     axis: Triple = (1.0, 0.0, 0.0)
     """The axis of rotation or translation, in the joint's frame [1]."""
     lower: float = 0.0
-    """The least value; -inf for a joint without end stops [rad or m]."""
+    """The least position; -inf for a joint without end stops [rad or m]."""
     upper: float = 0.0
-    """The greatest value; inf for a joint without end stops [rad or m]."""
+    """The greatest position; inf for a joint without end stops [rad or m]."""
     effort: float = math.inf
-    """The greatest effort of its drive; for a simulated vehicle only [N m or N]."""
+    """The greatest effort of the joint's drive, of a vehicle with dynamics [N m or N]."""
     velocity: float = math.inf
-    """The greatest speed of its drive; for a simulated vehicle only [rad/s or m/s]."""
+    """The greatest speed of the joint's drive, of a vehicle with dynamics [rad/s or m/s]."""
     damping: float = 0.0
-    """The damping effort per speed; for a simulated vehicle only [N m s/rad or N s/m]."""
+    """The damping effort per speed, of a vehicle with dynamics [N m s/rad or N s/m]."""
     friction: float = 0.0
-    """The effort of its dry friction; for a simulated vehicle only [N m or N]."""
+    """The effort of dry friction, of a vehicle with dynamics [N m or N]."""
     mimic: MimicSpec | None = None
-    """The joint that it mimics, with multiplier and offset."""
+    """The joint that this joint mimics; None: this joint moves by itself."""
 
     @property
     def moves(self) -> bool:
@@ -140,13 +140,13 @@ class JointSpec(Spec):
 
     @property
     def is_crank(self) -> bool:
-        """True if it mimics as a slider-crank does; its name states this, as in the original."""
+        """True if the joint mimics as a slider-crank does: its name contains ``slidercrank``."""
         return "slidercrank" in self.name
 
     def clamp(self, value: float) -> float:
-        """Clamp a value to the limits [rad or m].
+        """Clamp a position to the limits [rad or m].
 
-        The angle of a joint without end stops does not change; one of more than `MAX_ANGLE` is
+        The angle of a joint without end stops is not clamped. An angle of more than `MAX_ANGLE` is
         reduced by whole turns, so that its sine and cosine are exact.
         """
         if self.has_stops:
@@ -157,7 +157,7 @@ class JointSpec(Spec):
 
 @dataclass(frozen=True, kw_only=True)
 class RobotSpec(Spec):
-    """A robot: links and joints in UWSim's order."""
+    """A robot: its links and joints, in the order of the original UWSim."""
 
     name: str
     """The name."""
@@ -168,13 +168,13 @@ class RobotSpec(Spec):
     joints: tuple[JointSpec, ...]
     """The joints, depth first, children in the alphabetical order of their joints' names."""
     path: str = ""
-    """The file from which it was read."""
+    """The path of the file from which the robot was read."""
     expansion: Expansion = field(default=Expansion(), compare=False)
-    """The xacro expansion."""
+    """The result of the xacro expansion."""
 
     @cached_property
     def movable_joints(self) -> tuple[JointSpec, ...]:
-        """The joint vector: the joints that move and mimic no other."""
+        """The joints of the joint vector: those that move and mimic no other joint."""
         return tuple(joint for joint in self.joints if joint.moves and joint.mimic is None)
 
     def link(self, name: str) -> LinkSpec | None:

@@ -1,4 +1,4 @@
-"""Reader of the attributes of a robot file: names, numbers, positions and colours."""
+"""Reader of attributes in robot files: names, numbers, positions and colours."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .robot import Colour
 
 
 def origin_of(node: etree._Element, diagnostics: Diagnostics) -> tuple[Triple, Triple]:
-    """Return the position and roll, pitch, yaw of an ``<origin>``; zero without one."""
+    """Return the position [m] and roll, pitch, yaw [rad] of an ``<origin>``; 0 without one."""
     origin = node.find("origin")
     if origin is None:
         return ZERO, ZERO
@@ -59,7 +59,7 @@ def triple_of(
 def size_of(
     node: etree._Element, attribute: str, diagnostics: Diagnostics, default: float | None
 ) -> float:
-    """Return a length or mass >= 0; clamp one beyond the limit, and a negative mass."""
+    """Return a length or mass of at least 0; clamp too large numbers and negative masses."""
     value = number_of(node, attribute, diagnostics, default)
     if node.tag == "mass" or MAX_DISTANCE < value <= MAX_NUMBER:
         return clamp_size(node, attribute, value, diagnostics)
@@ -99,7 +99,7 @@ def number_of(
 def numbers_of(
     node: etree._Element, attribute: str, count: int, diagnostics: Diagnostics
 ) -> list[float] | None:
-    """Return ``count`` numbers of an attribute; None if it has another count."""
+    """Return the numbers of an attribute; report an error and return None if not ``count``."""
     text = node.get(attribute)
     if text is None:
         diagnostics.error(node, f"<{node.tag}> lacks the attribute {attribute}")

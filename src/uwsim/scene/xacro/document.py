@@ -1,4 +1,4 @@
-"""Parsing of a file, and expansion of the xacro and the includes in it."""
+"""Parsing of XML files, with expansion of their xacro and includes."""
 
 from __future__ import annotations
 
@@ -23,9 +23,9 @@ def parse_expanded(
     data_path: tuple[Path, ...] = (),
     arguments: Mapping[str, str] | None = None,
 ) -> Document:
-    """Read a file as XML, with its xacro and includes expanded.
+    """Read an XML file and expand its xacro and includes.
 
-    Included files are searched like every file that a scene names, in the same folders.
+    Included files are searched in the same folders as all files that a scene names.
 
     Args:
         path: the file.
@@ -34,7 +34,7 @@ def parse_expanded(
         arguments: the values of ``<xacro:arg>`` that replace their defaults, by name.
 
     Raises:
-        FileError: (or the given ``error``) a file cannot be read, or is invalid.
+        FileError: a file cannot be read, or is invalid; the type is ``error``.
     """
     document = parse(path, error=error)
     argument_pairs = tuple(sorted((arguments or {}).items()))
@@ -53,7 +53,7 @@ def parse_expanded(
 
 
 class _NamedFiles:
-    """The files that a document names, in the folders that `uwsim.assets` searches."""
+    """The search for files that a document names, in the folders that `uwsim.assets` searches."""
 
     def __init__(self, error: type[FileError], data_path: tuple[Path, ...]) -> None:
         self._error, self._data_path = error, data_path
@@ -61,8 +61,9 @@ class _NamedFiles:
     def find(self, name: str, named_by: Path) -> Path:
         """Return the path of a file; raise NotFound, or ExpressionError if it may not be read.
 
-        For a package that is not found only a file of the same path is accepted. Another file of
-        that name, or the one that names it, would be used without a warning.
+        For a package that is not found, only a file with the same path is accepted: otherwise
+        another file with the same name, or the including file itself, would be used without a
+        warning.
         """
         from ...assets import describe_search, find
 
@@ -80,14 +81,14 @@ class _NamedFiles:
         return parse(path, error=self._error).root
 
     def location_remark(self, name: str, path: Path, named_by: Path) -> str:
-        """Return a remark on a file at another path than its name states; else empty."""
+        """Return a remark if a file is at another path than its name states; else empty."""
         from ...assets import location_remark
 
         return location_remark(name, path, named_by=named_by, data_path=self._data_path)
 
 
 def _is_guess(name: str, path: Path, named_by: Path) -> bool:
-    """Return whether a file of a package has another path than its name states, or names itself."""
+    """Return whether a file of a package is at another path, or is the including file."""
     from ...assets.packages import UWSIM_PACKAGE, package_of
 
     in_package = package_of(name)
@@ -98,9 +99,10 @@ def _is_guess(name: str, path: Path, named_by: Path) -> bool:
 
 
 def library_of(root: etree._Element) -> tuple[str, tuple[str, ...]] | None:
-    """Return the kind and names of a library of xacro; None for a file with other elements.
+    """Return the kind and the names of the definitions in a xacro library; None for other files.
 
-    A library has macros, else properties, and otherwise only arguments, includes and materials.
+    A library contains macros or properties and, besides these, only arguments, includes and
+    materials. The kind is ``macros`` or ``properties``.
     """
     children = [node for node in root if isinstance(node.tag, str)]
     names = {"macro", "property", "arg", "include"}
@@ -117,7 +119,7 @@ def library_of(root: etree._Element) -> tuple[str, tuple[str, ...]] | None:
 
 
 def _is_to_expand(document: Document) -> bool:
-    """Return whether a file is xacro, by its name or a declared namespace, or includes another."""
+    """Return whether a file is xacro, by its suffix or a namespace, or includes other files."""
     return (
         document.path.suffix == SUFFIX
         or not XACRO.isdisjoint(document.root.nsmap.values())

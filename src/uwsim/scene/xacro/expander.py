@@ -1,7 +1,7 @@
-"""The expander: traverses a document and replaces every element of xacro.
+"""The expander of xacro, which traverses a document and replaces every xacro element.
 
-An element of an included file gets the line of the include, or of the call of its macro, so that
-errors of the expanded document have lines of the user's file.
+An element from an included file gets the line of the include, or of the call of its macro, so that
+errors in the expanded document refer to lines of the user's file.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ XACRO = frozenset(
 """The namespaces of xacro that files use."""
 XINCLUDE = frozenset({"http://www.w3.org/2001/XInclude", "http://www.w3.org/2003/XInclude"})
 DEFINITIONS = {"macro": {"name"}, "property": {"name", "value"}}
-"""The elements of xacro, and their attributes, that are valid without its prefix, too."""
+"""The xacro elements that are also valid without the prefix, with their required attributes."""
 ROBOT_ELEMENTS = frozenset(
     {
         *("axis", "box", "calibration", "capsule", "child", "collision", "color", "cylinder"),
@@ -40,11 +40,11 @@ ROBOT_ELEMENTS = frozenset(
         *("safety_controller", "sensor", "sphere", "texture", "transmission", "visual"),
     }
 )
-"""The elements of robot files, which call no macro of their name."""
+"""The elements of robot files, which are never calls of macros with the same name."""
 FOREIGN_ELEMENTS = frozenset({"gazebo", "plugin", "ros2_control", "sensor", "transmission"})
-"""The elements of robot files whose content is not URDF: it has no calls without a prefix."""
+"""The elements of robot files whose content is not URDF and has no calls without a prefix."""
 CALLING_ELEMENTS = frozenset({"if", "macro", "unless"})
-"""The elements of xacro that contain calls without a prefix."""
+"""The xacro elements that can contain calls without a prefix."""
 MAX_DEPTH = 60
 """The deepest nesting of calls and includes."""
 MAX_FILES = 100
@@ -52,11 +52,11 @@ MAX_FILES = 100
 
 
 class NotFound(ExpressionError):
-    """A file is not found."""
+    """An error for a file that is not found."""
 
 
 class Files(Protocol):
-    """The files that a document names."""
+    """The search for files that a document names, and their reading."""
 
     def find(self, name: str, named_by: Path) -> Path:
         """Return the path of a file; raise NotFound, or ExpressionError if it may not be read."""
@@ -65,7 +65,7 @@ class Files(Protocol):
         """Read an included file and return its root element."""
 
     def location_remark(self, name: str, path: Path, named_by: Path) -> str:
-        """Return a remark on a file at another path than its name states; else empty."""
+        """Return a remark if a file is at another path than its name states; else empty."""
 
 
 def namespace_of(node: Node) -> str:
@@ -92,7 +92,7 @@ class Expander:
 
     Args:
         path: the file of the document.
-        files: the reader of the files that it names.
+        files: the search for files that the document names.
         arguments: the caller's values of ``<xacro:arg>``, by name.
     """
 
@@ -193,10 +193,10 @@ class Expander:
             yield from self._call_macro(node, macro_name, scope)
 
     def _is_unprefixed_xacro(self, node: Node, name: str) -> bool:
-        """Return whether an element without xacro's prefix is one of xacro, as up to ROS Melodic.
+        """Return whether an element without the prefix is a xacro element, as until ROS Melodic.
 
-        In robot files these are the calls of known macros, and definitions of macros and
-        properties, but not in elements of other formats (the SDF in ``<gazebo>``) or in blocks.
+        In robot files these are calls of known macros, and definitions of macros and properties;
+        but not within elements of other formats (such as SDF in ``<gazebo>``) or within blocks.
         """
         if not self._is_robot or self._n_foreign or namespace_of(node) or name in ROBOT_ELEMENTS:
             return False
@@ -234,7 +234,7 @@ class Expander:
         return element
 
     def _line_of(self, node: Node) -> int:
-        """Return the line of the user's file for an element."""
+        """Return the line in the user's file to which errors of an element refer."""
         return self._line or int(str(node.sourceline))
 
     def _expand_attributes(self, node: Node, element: Node, scope: Scope) -> None:
@@ -253,7 +253,7 @@ class Expander:
                 element.text = ""
 
     def _set_property(self, node: Node, scope: Scope) -> None:
-        """Set or remove a property, which is evaluated at its use by default."""
+        """Set or remove a property; by default its text is evaluated when it is used."""
         name = to_text(scope.text(require(node, "name")))
         value, default = node.get("value"), node.get("default")
         is_removed = self._flag(node, "remove", scope, default="false")
@@ -317,7 +317,7 @@ class Expander:
     def _include(
         self, node: Node, attribute: str, scope: Scope, *, keeps_root: bool = False
     ) -> Iterator[Node]:
-        """Yield the content of a file; for xacro without its root element, whatever its name."""
+        """Yield the expanded content of a file; without its root element, unless ``keeps_root``."""
         name = to_text(scope.text(require(node, attribute)))
         self._n_files += 1
         if self._n_files > MAX_FILES:
@@ -363,7 +363,10 @@ class Expander:
 
 
 def _is_stripped(root: Node) -> bool:
-    """Return whether the root of an included file is removed: a whole file, or macros only."""
+    """Return whether the root of a file included by XInclude is removed.
+
+    It is removed from a whole scene or robot, from a ``<fragment>``, and from a library of xacro.
+    """
     if etree.QName(root).localname in ("UWSimScene", "robot", "fragment"):
         return True
     spaces = {namespace_of(child) for child in root.iterchildren("*")}

@@ -1,7 +1,7 @@
 """Expressions in ``${...}``: Python's arithmetic, comparisons, conditions, lists and dictionaries.
 
-Python parses the text and this module evaluates the tree; names are properties and parameters,
-functions and methods are those of `functions`. All other syntax is an error.
+Python parses the text, and this module evaluates the syntax tree. Names are properties and
+parameters; functions and methods are those in `functions`. All other syntax is an error.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ BINARY_OPERATORS: dict[type[ast.AST], Callable[[Any, Any], Any]] = {
     ast.BitAnd: operator.and_,
 }
 SET_OPERATIONS = ast.Sub | ast.BitOr | ast.BitAnd
-"""The operations between sets."""
+"""The operators between sets."""
 COMPARISON_OPERATORS: dict[type[ast.AST], Callable[[Any, Any], Any]] = {
     ast.Eq: operator.eq,
     ast.NotEq: operator.ne,
@@ -53,7 +53,7 @@ COMPARISON_OPERATORS: dict[type[ast.AST], Callable[[Any, Any], Any]] = {
     ast.NotIn: lambda item, container: item not in container,
 }
 SINGLETONS = (None, True, False)
-"""The values that may be compared with ``is``."""
+"""The values that can be compared with ``is``."""
 TYPES: dict[str, type] = {
     **{kind.__name__: kind for kind in (int, float, bool, str, list, dict)},
     "tuple": list,
@@ -63,13 +63,13 @@ TYPES: dict[str, type] = {
 MAX_ITERATIONS = 2000
 """The greatest number of iterations of all loops of an expression."""
 MODULES = ("math", "xacro", "python")
-"""The names before a dot that are no property."""
+"""The names of modules before a dot, which are not properties."""
 INTEGER = re.compile(r"[+-]?\d{1,18}")
 REAL_NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d{1,3})?")
 
 
 def parse_literal(text: str) -> Value:
-    """Convert a text to the number or truth value that it is; else return the text."""
+    """Convert a text that is a number, truth value or quoted text; return other texts unchanged."""
     word = text.strip()
     if INTEGER.fullmatch(word):
         return int(word)
@@ -88,10 +88,10 @@ def evaluate(text: str, resolve: Callable[[str], Value], functions: Functions = 
     Args:
         text: the expression.
         resolve: the function that returns the value of a name or raises ExpressionError.
-        functions: the functions that it may call, by their names.
+        functions: the functions that the expression may call, by name.
 
     Raises:
-        ExpressionError: the text is no expression, or has no value.
+        ExpressionError: the text is not a valid expression, or has no value.
     """
     if len(text) > MAX_LENGTH:
         raise ExpressionError(f"longer than {MAX_LENGTH} characters")
@@ -111,12 +111,12 @@ def evaluate(text: str, resolve: Callable[[str], Value], functions: Functions = 
 
 
 class Evaluation:
-    """The evaluation of an expression's tree; only the kinds of nodes below are supported.
+    """The evaluation of an expression's syntax tree; other kinds of nodes are errors.
 
     Args:
         resolve: the function that returns the value of a name.
-        functions: the functions by their names.
-        n_iterations: the number of iterations so far, in a list that enclosing loops share.
+        functions: the functions that the expression may call, by name.
+        n_iterations: the number of iterations so far, in a list that nested loops share.
     """
 
     def __init__(
@@ -175,7 +175,7 @@ class Evaluation:
         return check_value(container[slice(*bounds)])
 
     def _items(self, node: ast.expr) -> list[Any]:
-        """Return the iterated items: those of a list, keys, or the letters of a text."""
+        """Return the items over which a loop iterates: list items, keys, or characters."""
         container = self.value(node)
         if not isinstance(container, list | dict | str):
             raise ExpressionError(f"{to_text(container)[:40]} is neither a list nor a dictionary")
@@ -277,7 +277,7 @@ def _is_same(left: Value, right: Value) -> bool:
 
 
 def _has_type(value: Value, types: tuple[type, ...]) -> bool:
-    """Return whether a value has one of some types; a set is no list."""
+    """Return whether a value has one of the types; a set does not count as a list."""
     return DistinctItems in types if isinstance(value, DistinctItems) else isinstance(value, types)
 
 
@@ -286,7 +286,7 @@ def _is_isinstance(function: ast.expr) -> bool:
 
 
 def _types(node: ast.expr) -> tuple[type, ...]:
-    """Return the types that ``isinstance`` names: one, or several in brackets."""
+    """Return the types in a call of ``isinstance``: one, or several in parentheses."""
     elements = node.elts if isinstance(node, ast.Tuple) else [node]
     names = [ast.unparse(element) for element in elements]
     names = [name.removeprefix("python.") for name in names]
@@ -296,7 +296,7 @@ def _types(node: ast.expr) -> tuple[type, ...]:
 
 
 def _unpack(target: ast.expr, value: Value) -> dict[str, Value]:
-    """Return the names of a loop with their values: ``x``, or ``x, y`` for an item of two."""
+    """Return the loop variables with their values: ``x``, or ``x, y`` for an item of two."""
     if isinstance(target, ast.Name):
         return {target.id: value}
     if isinstance(target, ast.Tuple | ast.List) and isinstance(value, list):
@@ -308,7 +308,7 @@ def _unpack(target: ast.expr, value: Value) -> dict[str, Value]:
 
 
 def _item(container: Value, key: Value) -> Value:
-    """Return an item of a list by its number, of a dictionary by its key, or a letter of a text."""
+    """Return a list item by index, a dictionary entry by key, or a character of a text."""
     if isinstance(container, dict):
         return check_value(container[key])
     if not isinstance(container, list | str):

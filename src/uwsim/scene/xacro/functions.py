@@ -1,4 +1,4 @@
-"""Functions and methods that an expression may call: those of Python without side effects."""
+"""The functions and methods that expressions may call: functions of Python without side effects."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .value import MAX_ITEMS, MAX_LENGTH, DistinctItems, ExpressionError, Value,
 
 
 def power(base: Value, exponent: Value) -> int | float:
-    """Return ``base ** exponent``; small integers give integers."""
+    """Return ``base ** exponent``, as an integer for small integers."""
     for number in (base, exponent):
         if not isinstance(number, int | float):
             raise ExpressionError(f"{to_text(number)[:40]!r} is not a number")
@@ -34,12 +34,12 @@ def integer_range(*bounds: Any) -> list[int]:
 
 
 def zip_lists(*lists: Any) -> list[list[Any]]:
-    """Return the first items of all lists as a list, the second ones, ..."""
+    """Return a list of the first items of all lists, a list of the second items, and so on."""
     return [list(items) for items in zip(*lists, strict=False)]
 
 
 def enumerate_items(items: Any, start: int = 0) -> list[list[Any]]:
-    """Return each item with its number before it."""
+    """Return a list ``[number, item]`` for each item."""
     return [[number, item] for number, item in enumerate(items, start)]
 
 
@@ -51,7 +51,7 @@ def format_pattern(pattern: str, values: Any) -> str:
 
 
 def repeat(sequence: Any, times: Any) -> Any:
-    """Return a text or a list, repeated."""
+    """Return a text or a list, repeated a number of times."""
     if isinstance(sequence, int):
         sequence, times = times, sequence
     if not isinstance(times, int) or isinstance(times, bool):
@@ -63,13 +63,13 @@ def repeat(sequence: Any, times: Any) -> Any:
 
 
 def tokenize(text: Any, sep: str = ",; ", skip_empty: bool = True) -> list[str]:
-    """Return the parts of a text between characters of ``sep``."""
+    """Split a text at each character of ``sep``."""
     parts = re.split(f"[{re.escape(sep)}]", str(text)) if sep else [str(text)]
     return [part for part in parts if part or not skip_empty]
 
 
 def dotify(entries: Any) -> Any:
-    """Return a dictionary, whose entries may always be written with a dot."""
+    """Return a dictionary unchanged, as entries can always be written with a dot."""
     if not isinstance(entries, dict):
         raise ExpressionError(f"{to_text(entries)[:40]} is no dictionary")
     return entries
@@ -91,7 +91,7 @@ FUNCTIONS: dict[str, Callable[..., Any]] = {
     **{"any": any, "all": all, "zip": zip_lists, "enumerate": enumerate_items},
     **{"xacro.tokenize": tokenize, "xacro.dotify": dotify, "dotify": dotify},
 }
-"""The functions by name; those of ``math`` may be written ``math.name``."""
+"""The functions by name; functions of ``math`` can also be written ``math.name``."""
 
 METHODS: dict[type, tuple[str, ...]] = {
     str: ("lower", "upper", "strip", "split", "startswith", "endswith", "replace", "join", "title"),
@@ -102,6 +102,6 @@ METHODS: dict[type, tuple[str, ...]] = {
 
 
 def method(value: Value, name: str) -> Callable[..., Any] | None:
-    """Return a method of a value; None if it has none of that name."""
+    """Return a method of a value by its name; None if expressions may not call it."""
     names = METHODS.get(type(value), ())
     return getattr(value, name) if name in names else None

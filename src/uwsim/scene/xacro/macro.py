@@ -1,4 +1,4 @@
-"""Macros: their parameters, and the values that a call gives them."""
+"""Macros, and the binding of their parameters to the values of a call."""
 
 from __future__ import annotations
 
@@ -17,25 +17,26 @@ PARAMETER = re.compile(
     r"(?:\s*(?P<colon>:?=)\s*(?P<outer>\^\|?)?"
     r"(?P<default>\$\{[^{}]*\}|\$\([^()]*\)|(?:'[^']*'|\"[^\"]*\"|[^\s'\"])*|\S*))?(?=\s|$)"
 )
-"""A parameter; its default may be a sequence of texts with and without quotes."""
+"""The pattern of a parameter, whose default may mix quoted and unquoted texts."""
 COMMAS = re.compile(r"\s*\w+\s*(,\s*\w+\s*)+")
-"""Names with commas between them, which xacro reads as parts of the names."""
+"""The pattern of names separated by commas, which the xacro of ROS reads as part of the names."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Parameter:
     """A parameter of a macro: ``name``, ``name:=default``, ``name:=^|default``, ``*block``.
 
-    The bar is optional.
+    The bar after ``^`` is optional.
     """
 
     name: str
     default: str | None = None
     """The default text; None: a value is required."""
     uses_caller: bool = False
-    """True if without a value, the property of that name in the caller's scope is used."""
+    """True if the caller's property with this name is used when a call gives no value (``^``)."""
     stars: int = 0
-    """The kind of block, 1: the next element of the call; 2: the content of it."""
+    """The number of stars. 1: the parameter is a block, the next element of the call; 2: it is the
+    content of that element; 0: it is no block."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -50,15 +51,15 @@ class Macro:
     def bind(
         self, texts: Mapping[str, str], elements: Sequence[etree._Element], call: Scope
     ) -> Scope:
-        """Return the scope of a call: each parameter with its value.
+        """Return the scope of a call, in which each parameter has its value.
 
         Args:
             texts: the attributes of the call.
-            elements: the elements of the call, expanded.
-            call: the scope in which it is called.
+            elements: the expanded child elements of the call.
+            call: the scope of the caller.
 
         Raises:
-            ExpressionError: a parameter has no value, or a value no parameter.
+            ExpressionError: a parameter has no value, or a value has no parameter.
         """
         call_scope, arguments = call.nested_scope(), dict(texts)
         blocks = [element for element in elements if isinstance(element.tag, str)]
@@ -95,7 +96,7 @@ def parameters_of(text: str) -> tuple[Parameter, ...]:
     """Read the attribute ``params`` of a macro.
 
     Raises:
-        ExpressionError: a part of it is no parameter, or two have one name.
+        ExpressionError: a part of the text is not a parameter, or two parameters share a name.
     """
     parameters: dict[str, Parameter] = {}
     position = 0

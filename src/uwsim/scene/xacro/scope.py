@@ -1,4 +1,4 @@
-"""Names and their values: properties, parameters and blocks of macros, in nested scopes."""
+"""Scopes of names: properties, parameters and blocks of macros, with their values."""
 
 from __future__ import annotations
 
@@ -16,18 +16,18 @@ if TYPE_CHECKING:
 MAX_DEPTH = 60
 """The greatest length of a chain of properties that refer to one another."""
 PART = re.compile(r"\$\$(?=[{(])|\$\{[^{}]*\}|\$\((?:[^()$]|\$\{[^{}]*\}|\([^()]*\))*\)|\$")
-"""An escaped dollar, an expression, a substitution, or a literal dollar."""
+"""The pattern of an escaped dollar, an expression, a substitution, or a literal dollar."""
 
 
 class Scope:
-    """Values by name; other names are resolved in the enclosing scope.
+    """A scope: values by name; other names are resolved in the enclosing scope.
 
-    A property is evaluated when it is used, so that it may refer to later ones.
+    A property is evaluated when it is used, so that it may refer to properties defined later.
 
     Args:
-        parent: the enclosing scope.
-        substitute: the function that returns the text of ``$(...)``, given its content.
-        functions: the functions that expressions may call, by their names.
+        parent: the enclosing scope; None for the scope of the file.
+        substitute: the function that returns the text for the content of a ``$(...)``.
+        functions: the functions that expressions may call, by name.
     """
 
     def __init__(
@@ -46,7 +46,7 @@ class Scope:
 
     @property
     def parent(self) -> Scope:
-        """The enclosing scope; itself if it is the scope of the file."""
+        """The enclosing scope; the scope of the file is its own parent."""
         return self._parent or self
 
     @property
@@ -55,12 +55,12 @@ class Scope:
         return self if self._parent is None else self._parent.file_scope
 
     def set_text(self, name: str, text: str) -> None:
-        """Set a property; its text is evaluated when it is used."""
+        """Set a property to a text that is evaluated when it is used."""
         self._values.pop(name, None)
         self._texts[name] = text
 
     def set_value(self, name: str, value: Value) -> None:
-        """Set a property or parameter."""
+        """Set a property or parameter to a value."""
         self._texts.pop(name, None)
         self._values[name] = value
 
@@ -72,7 +72,7 @@ class Scope:
             self._parent.remove(name)
 
     def has_name(self, name: str) -> bool:
-        """Return whether a property or parameter of that name exists."""
+        """Return whether a property or parameter with this name exists."""
         return (
             name in self._values
             or name in self._texts
@@ -110,13 +110,13 @@ class Scope:
         return value
 
     def block(self, name: str) -> Sequence[etree._Element] | None:
-        """Return the elements of a block; None if there is none of that name."""
+        """Return the elements of a block; None if there is no such block."""
         if name in self.blocks:
             return self.blocks[name]
         return None if self._parent is None else self._parent.block(name)
 
     def text(self, text: str) -> Value:
-        """Evaluate every ``${...}`` and ``$(...)`` of a text; one alone keeps its type."""
+        """Evaluate every ``${...}`` and ``$(...)`` in a text; return the value of a single one."""
         parts: list[Value] = []
         position = 0
         for match in PART.finditer(text):
@@ -146,5 +146,5 @@ class Scope:
 
 
 def literal_of(value: Value) -> Value:
-    """Parse a text as a number, truth value or quoted string; return other values unchanged."""
+    """Convert a text that is a number, truth value or quoted text; return others unchanged."""
     return parse_literal(value) if isinstance(value, str) else value

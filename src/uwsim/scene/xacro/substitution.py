@@ -1,4 +1,4 @@
-"""Substitution of ``$(...)``: arguments, packages, variables, and the folder of the file."""
+"""Substitution of ``$(...)``: arguments, packages, environment variables, folder of the file."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from .value import ExpressionError, Value, to_text
 
 
 class Arguments:
-    """The values of ``<xacro:arg>`` by name: the caller's, else the defaults of the files.
+    """The values of ``<xacro:arg>`` by name: from the caller, or the defaults in the files.
 
     Args:
-        values: the values of the caller.
+        values: the values from the caller.
     """
 
     def __init__(self, values: Mapping[str, str]) -> None:
@@ -30,7 +30,7 @@ class Arguments:
         return tuple(sorted(self._names))
 
     def declare(self, name: str, default: str | None) -> None:
-        """Add an argument; the default applies without a value of the caller."""
+        """Add an argument; the default applies if the caller gives no value."""
         self._names.add(name)
         if default is not None:
             self._values.setdefault(name, default)
@@ -48,10 +48,15 @@ class Arguments:
 
 
 def substitute(text: str, arguments: Arguments, file: Path) -> str:
-    """Return the substitution of ``$(text)`` in a file.
+    """Return the text that replaces ``$(text)`` in a file.
+
+    Args:
+        text: the content of the parentheses.
+        arguments: the values of ``<xacro:arg>``.
+        file: the path of the file.
 
     Raises:
-        ExpressionError: it is unknown, or not supported.
+        ExpressionError: the substitution is unknown, or not supported.
     """
     words = text.split()
     match words:

@@ -8,16 +8,17 @@ from typing import Any
 from ...errors import UwsimError
 
 Value = int | float | bool | str | list[Any] | dict[Any, Any] | None
-"""A value; a list contains values, a dictionary values by texts or numbers; None is YAML's null."""
+"""A value of an expression. A list contains values; a dictionary contains values by texts or
+numbers; None is the null of YAML."""
 MAX_LENGTH = 4096
-"""The greatest length of an expression, and of a text that it gives [characters]."""
+"""The greatest length of an expression and of a resulting text [characters]."""
 MAX_INTEGER = 2**63
 MAX_ITEMS = 10_000
 """The greatest number of values in a list or dictionary, nested ones included."""
 MAX_DISTINCT = 1000
 """The greatest number of items of a set: each is compared with all others."""
 LETTERS_PER_VALUE = 100
-"""The number of letters of the texts in a list that count as a value."""
+"""The number of characters in texts of a list that count like one value."""
 MAX_NESTING = 40
 """The deepest nesting of lists and dictionaries."""
 
@@ -27,9 +28,9 @@ class ExpressionError(UwsimError):
 
 
 class DistinctItems(list[Any]):
-    """The set of an expression: a list without equal items, in the order of their first ones.
+    """A set in an expression: a list without equal items, in the order of their first occurrence.
 
-    The order of Python's sets differs in each process, and no file can rely on it.
+    The order of Python's own sets differs between processes, so that files could not rely on it.
     """
 
     def __init__(self, items: Iterable[Any] = ()) -> None:
@@ -78,7 +79,7 @@ def _check_set(value: Any) -> DistinctItems:
 
 
 def to_text(value: Value) -> str:
-    """Return a value as text: that of a comparison as ``True``, as in xacro."""
+    """Return a value as text, as xacro does: the result of a comparison is ``True``."""
     return str(value)
 
 
@@ -103,7 +104,7 @@ def check_value(value: Any) -> Value:
 
 
 def _check_size(container: list[Any] | dict[Any, Any]) -> None:
-    """Count the values in a list or dictionary, repeated ones each time."""
+    """Check the number of values in a list or dictionary; shared values count each time."""
     n_items = 0
     level: list[Any] = [container]
     for _ in range(MAX_NESTING):

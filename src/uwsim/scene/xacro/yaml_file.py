@@ -1,7 +1,8 @@
-"""YAML files of properties, read by ``xacro.load_yaml`` as PyYAML reads them for the xacro of ROS.
+"""Reader of YAML files with properties, for ``xacro.load_yaml``.
 
-Of a key that occurs twice the last value applies, with a warning. The node of an alias (``*name``)
-is shared and not copied; its size counts each time.
+The values are those that PyYAML reads for the xacro of ROS. If a key occurs twice, the last value
+applies, with a warning. The node of an alias (``*name``) is shared, not copied; its size counts
+each time.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ Node = Any
 MAX_BYTES = 1 << 20
 """The size of the largest file that is read [bytes]."""
 MAX_YAML_NODES = 3 * MAX_ITEMS
-"""The greatest number of keys, values, lists, dictionaries and aliases of a file."""
+"""The greatest number of keys, values, lists, dictionaries and aliases in a file."""
 UNITS: dict[str, float] = {
     "!radians": 1.0,
     "!degrees": math.pi / 180.0,
@@ -31,9 +32,9 @@ UNITS: dict[str, float] = {
     "!foot": 0.3048,
     "!inches": 0.0254,
 }
-"""The unit of a number for each tag [rad or m]."""
+"""The unit of a number by its YAML tag [rad or m]."""
 Warn = Callable[[int, str], None]
-"""A function that takes a warning at a line."""
+"""A function that receives a line number and the text of a warning."""
 
 
 def read_yaml(path: Path, *, name: str, warn: Warn = lambda line, message: None) -> Value:
@@ -41,11 +42,11 @@ def read_yaml(path: Path, *, name: str, warn: Warn = lambda line, message: None)
 
     Args:
         path: the file.
-        name: the name of the file in the file that uses it.
-        warn: the function that is called with the line of each key that occurs twice.
+        name: the name of the file, as the xacro file writes it.
+        warn: the function that is called for each key that occurs twice.
 
     Raises:
-        ExpressionError: it cannot be read, is no YAML, or is too large, its aliases included.
+        ExpressionError: the file cannot be read, is not YAML, or is too large with its aliases.
     """
     from ruamel.yaml.error import MarkedYAMLError, YAMLError
 
@@ -66,7 +67,7 @@ def read_yaml(path: Path, *, name: str, warn: Warn = lambda line, message: None)
 
 
 def _compose(data: bytes) -> Node:
-    """Return the root node of a file, where an alias is its node; None for an empty file."""
+    """Return the root node of a file, in which aliases share nodes; None for an empty file."""
     from ruamel.yaml import YAML
     from ruamel.yaml.composer import Composer
     from ruamel.yaml.nodes import ScalarNode
@@ -100,7 +101,7 @@ def _compose(data: bytes) -> Node:
 
 
 class _Builder:
-    """The values of the nodes of a file, one for each node, with any number of aliases."""
+    """The converter of a file's nodes to values; a node with several aliases is converted once."""
 
     def __init__(self, warn: Warn) -> None:
         self._warn = warn
@@ -129,7 +130,7 @@ class _Builder:
         raise unknown_tag_error(tag)
 
     def _dictionary(self, node: Node) -> dict[Any, Any]:
-        """Return a dictionary: the entries that ``<<`` merges, and its own."""
+        """Return a dictionary with its own entries and those that ``<<`` merges."""
         merged_entries: dict[Any, Any] = {}
         entries: dict[Any, Any] = {}
         for key_node, value_node in node.value:
@@ -147,7 +148,7 @@ class _Builder:
         return {**merged_entries, **entries}
 
     def _merge(self, node: Node) -> dict[Any, Any]:
-        """Return the entries of a dictionary, or of a list of them; the first takes precedence."""
+        """Return the entries of one or several dictionaries; the first takes precedence."""
         merged_entries: dict[Any, Any] = {}
         for part in reversed(node.value if node.id == "sequence" else [node]):
             entries = self.value(part)

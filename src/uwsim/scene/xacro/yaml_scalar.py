@@ -14,7 +14,7 @@ from .value import ExpressionError
 STANDARD_PREFIX = "tag:yaml.org,2002:"
 """The prefix of the tags of YAML itself."""
 MAX_NUMBER = 100
-"""The length of the longest number [characters]; a longer one is a text."""
+"""The greatest length of a number [characters]; longer ones are texts."""
 TRUTH_VALUES = {
     **dict.fromkeys(("yes", "true", "on"), True),
     **dict.fromkeys(("no", "false", "off"), False),
@@ -30,12 +30,12 @@ PATTERNS = {
     "null": "~|null|Null|NULL|",
     "merge": "<<",
 }
-"""The pattern of each kind of text without quotes; the first match applies."""
+"""The pattern of each kind of unquoted scalar; the first match applies."""
 COMPILED_PATTERNS = {kind: re.compile(pattern) for kind, pattern in PATTERNS.items()}
 
 
 def tag_of(text: str) -> str:
-    """Return the tag of a text without quotes and without a tag."""
+    """Return the tag for an unquoted text that has no tag."""
     if len(text) <= MAX_NUMBER:
         for kind, pattern in COMPILED_PATTERNS.items():
             if pattern.fullmatch(text):
@@ -44,7 +44,7 @@ def tag_of(text: str) -> str:
 
 
 def parse_scalar(tag: str, text: str) -> int | float | bool | str | None:
-    """Convert a text with a tag to its value.
+    """Convert the text of a scalar with a tag to its value.
 
     Raises:
         ExpressionError: the tag is unknown, or the text is invalid for it.
@@ -65,7 +65,7 @@ def parse_scalar(tag: str, text: str) -> int | float | bool | str | None:
 
 
 def unknown_tag_error(tag: str) -> ExpressionError:
-    """Return the error of a tag that is not supported."""
+    """Return the error for a tag that is not supported."""
     return ExpressionError(f"not YAML of numbers and texts: the tag {tag[:60]} is unknown")
 
 

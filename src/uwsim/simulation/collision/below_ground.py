@@ -24,7 +24,7 @@ from ...base.geometry import Array, Pose
 from ...base.record import Record
 from ...errors import SimulationFailed
 from ...model.body_names import object_body, vehicle_body
-from ...model.collision.shapes import CollisionShape, bounds
+from ...model.collision.shapes import CollisionShape, bounding_box
 from ...model.collision.solid_grounds import SolidGround
 from ...model.scene_model import SceneModel
 from ...physics.engine import Engine
@@ -150,6 +150,6 @@ def _list_bodies(model: SceneModel, engine: Engine) -> Iterator[_Body]:
 
 
 def _make_body(name: str, pose: Callable[[], Pose], shapes: Sequence[CollisionShape]) -> _Body:
-    box = bounds(shapes)
+    box = bounding_box(shapes)
     points = np.concatenate([np.zeros((1, 3)), CORNERS * np.array(box.size)])
     return _Body(name, pose, box.body_from_shape.transform(points))

@@ -103,13 +103,13 @@ class SceneRays:
         poses, carried_objects = self._engine.poses, list(self._engine.poses.state.carriers)
         poses.refresh()
         if self._ray_scene is None or self._carried_objects != carried_objects:
-            movers = self._bodies.movers
-            engine = np.array([-1, *(poses.engine_body(*mover) for mover in movers)], np.int32)
+            owners = self._bodies.moving_owners
+            engine = np.array([-1, *(poses.engine_body(*owner) for owner in owners)], np.int32)
             self._ray_scene = self._bodies.scene.with_engine(engine, poses.origins, poses.axes)
             self._carried_objects = carried_objects
             self._placed_bodies = [
                 (number, self._frame(*owner))
-                for number, owner in enumerate(movers, start=1)
+                for number, owner in enumerate(owners, start=1)
                 if engine[number] < 0
             ]
         for body, frame in self._placed_bodies:
