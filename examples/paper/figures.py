@@ -26,10 +26,10 @@ def draw_image_grid(
     """Lay images of one size out in rows, with captions (a), (b), ... below.
 
     Args:
-        images: (h, w, 3) each.
-        captions: One an image.
-        columns: Images a row.
-        width: Of the figure [inch].
+        images: the images, (h, w, 3) each.
+        captions: a caption for each image.
+        columns: the number of images in a row.
+        width: the width of the figure [inch].
     """
     rows = math.ceil(len(images) / columns)
     height, image_width = images[0].shape[:2]
@@ -54,10 +54,10 @@ def draw_image_with_inset(
     """Show a scene with a camera's image in its lower right corner, framed in white.
 
     Args:
-        scene: (h, w, 3).
-        inset: (h, w, 3), any size.
-        share: Width of the inset as a share of the scene's.
-        width: Of the figure [inch].
+        scene: the image of the scene, (h, w, 3).
+        inset: the image of the camera, (h, w, 3), of any size.
+        share: the width of the inset relative to the width of the scene [1].
+        width: the width of the figure [inch].
     """
     height, scene_width = scene.shape[:2]
     inset_height = share * scene_width * inset.shape[0] / inset.shape[1] / height
@@ -80,10 +80,10 @@ def draw_image_with_inset(
 
 
 def draw_visibility_over_distance(curves: Mapping[float, Points]) -> Figure:
-    """Draw measured visibility over distance for several fogs, on the law.
+    """Draw measured visibility over distance for several fogs, with the curves of the law.
 
     Args:
-        curves: Fog density [1/m] -> (distances [m], visibilities 0..1).
+        curves: the distances [m] and visibilities 0..1, by fog density [1/m].
     """
     with styled_figure() as figure:
         axes = figure.subplots()
@@ -106,13 +106,13 @@ def draw_visibility_over_distance(curves: Mapping[float, Points]) -> Figure:
 def draw_visibility_over_fog(
     samples: Points, *, distance: float, marked_fog: float, marker_label: str = ""
 ) -> Figure:
-    """Draw measured visibility over fog density at one distance, on the law.
+    """Draw measured visibility over fog density at one distance, with the curve of the law.
 
     Args:
-        samples: (fog densities [1/m], visibilities 0..1).
-        distance: Of the plates [m].
-        marked_fog: Fog density that gets a vertical line [1/m].
-        marker_label: Text before the fog density in the label of the line.
+        samples: the fog densities [1/m], and the visibilities 0..1.
+        distance: the distance of the plates [m].
+        marked_fog: the fog density that a vertical line marks [1/m].
+        marker_label: the text before the fog density in the label of the line.
     """
     fogs, values = samples
     with styled_figure() as figure:

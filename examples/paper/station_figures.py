@@ -37,10 +37,10 @@ def draw_over_time(
     """Draw panels side by side with one scale.
 
     Args:
-        panels: title -> lines.
+        panels: the lines of each panel, by title.
         label: the label of the vertical axis, with its unit.
         note: the note below the figure.
-        theory: the note where any theory is drawn, instead of ``note``.
+        theory: the note that replaces ``note`` if theory is drawn.
     """
     theories = [line.theory for lines in panels.values() for line in lines]
     if any(values is not None and np.isfinite(values).any() for values in theories):
@@ -68,8 +68,8 @@ def draw_over_current(
     """Draw the mean error along and the amplitude across over the current.
 
     Args:
-        stations: controller -> current [m/s] -> station-keeping errors, one a seed.
-        loops: controller -> its gains, for the theory.
+        stations: the station-keeping errors, one for each seed, by controller and current [m/s].
+        loops: the gains of each controller, for the theory.
     """
     columns = {
         "mean error along the current [m]": "along_mean",

@@ -47,12 +47,12 @@ SWING_PERIOD = 30.0
 
 @dataclass(frozen=True, kw_only=True)
 class Loop:
-    """The gains of a controller; ``ki`` = 0 for P."""
+    """The gains of a P or PI controller; ``ki`` is 0 for P."""
 
     kp: float
-    """K_p [1/s]."""
+    """The proportional gain K_p [1/s]."""
     ki: float = 0.0
-    """K_i [1/s2]."""
+    """The integral gain K_i [1/s2]."""
 
     def response(self, rate: float) -> complex:
         """Return H(jw), the error per current [s], for an angular frequency [rad/s]."""
@@ -67,14 +67,14 @@ class SwingingCurrent:
     """A current whose direction swings: F along y of L, with a swing towards -x and +x."""
 
     speed: float
-    """F [m/s]."""
+    """The speed F of the current [m/s]."""
     angle: float = 0.7
-    """a [rad]."""
+    """The amplitude a of the swing [rad]."""
     period: float = SWING_PERIOD
-    """2 pi / w [s]."""
+    """The period 2 pi / w of the swing [s]."""
 
     def harmonics(self) -> tuple[Array, Phasors, Phasors]:
-        """Return w of each harmonic (n,) [rad/s] and its phasors, along and across (n,) [m/s].
+        """Return the frequencies (n,) [rad/s] and phasors along and across (n,) [m/s] of harmonics.
 
         A phasor p stands for the real part of p exp(j w t).
         """
@@ -103,7 +103,7 @@ class StationError:
 
 
 def predict_error(loop: Loop, swing: SwingingCurrent) -> StationError:
-    """Compute the settled error by the theory.
+    """Compute the settled error by the theory above.
 
     P: the mean F J0(a)/Kp along, the amplitude 2 F J1(a)/sqrt(Kp^2 + w^2) across. PI: no mean, and
     2 F J1(a) w/sqrt((Ki - w^2)^2 + (Kp w)^2), which is *more* than P's unless Ki > 2 w^2.
@@ -164,7 +164,7 @@ class Track:
         return mean
 
     def error(self, reference: Array | None = None) -> Array:
-        """Return the vehicle's position about the reference (n, 2) [m]."""
+        """Return the vehicle's position relative to the reference (n, 2) [m]."""
         error: Array = self.vehicle - (self.reference() if reference is None else reference)
         return error
 
@@ -218,7 +218,7 @@ def read_level_track(
 
     Args:
         result: the run.
-        logs: measure -> log, of ``centroid``, ``objectCentered`` and ``offset``.
+        logs: the logs of ``centroid``, ``objectCentered`` and ``offset``, by measure.
         level: the current [m/s].
         focal: the camera's focal length [px].
         seed: the seed of the repeat, where there are several.
@@ -231,14 +231,14 @@ def read_level_track(
         raise ResultError("The result does not say how far the target is (fact d).")
     truth = _read_columns(logs["objectCentered"], ("x", "y"), level, seed)
     centroid = _read_columns(logs["centroid"], ("total", "x", "y"), level, seed)
-    place = _read_columns(logs["offset"], ("x", "y"), level, seed)
-    n = min(len(truth), len(centroid), len(place))
-    truth, centroid, place = truth[:n], centroid[:n], place[:n]
+    offset = _read_columns(logs["offset"], ("x", "y"), level, seed)
+    n = min(len(truth), len(centroid), len(offset))
+    truth, centroid, offset = truth[:n], centroid[:n], offset[:n]
     right = -(truth[:, 1] + centroid[:, 2])  # [px]
     up = -(truth[:, 2] - centroid[:, 3])  # [px]
     return Track(
-        time=place[:, 0] - place[0, 0],
-        vehicle=np.stack([-place[:, 1], place[:, 2]], axis=1),
+        time=offset[:, 0] - offset[0, 0],
+        vehicle=np.stack([-offset[:, 1], offset[:, 2]], axis=1),
         target_offset=np.stack([right, up], axis=1) * distance[0] / focal,
         tracker_error=centroid[:, 1],
     )

@@ -200,7 +200,7 @@ def _packages_below(root: Path, depth: int) -> dict[str, tuple[Path, ...]]:
 
 
 def _walk(root: Path, depth: int) -> _Index:
-    """Read the folders below a root, level by level, in alphabetical order; packages at last."""
+    """Read the folders below a root by level, in alphabetical order; those in packages last."""
     stamps: dict[Path, int] = {}
     declared_folders: dict[str, list[Path]] = {}
     named_folders: dict[str, list[Path]] = {}
@@ -231,7 +231,7 @@ def _walk(root: Path, depth: int) -> _Index:
 def _walk_packages(
     packages: Iterable[list[Path]], stamps: dict[Path, int]
 ) -> tuple[dict[str, list[Path]], dict[str, list[Path]]]:
-    """Read the folders in packages, down to the level of the deepest.
+    """Read the folders in packages, down to the level of the deepest package.
 
     Args:
         packages: the folders of packages, by their level.

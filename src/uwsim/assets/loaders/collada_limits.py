@@ -1,7 +1,7 @@
 """Limits of Collada files, checked before anything is loaded.
 
 A node may be an instance of another that contains instances: a chain of ten nodes, each with ten
-instances of the next, makes ten thousand million, in a file of a few kilobytes.
+instances of the next, gives ten thousand million nodes in a file of a few kilobytes.
 """
 
 from __future__ import annotations

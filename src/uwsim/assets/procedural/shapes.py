@@ -1,8 +1,8 @@
 """Shapes: triangles with texture coordinates, made from a few numbers.
 
-A shape is a set of triangles; `mesh` converts it to vertices with normals. Angles below `CREASE`
-are smoothed, sharper ones stay edges. Frames are right-handed, lengths in metres, and triangles
-counter-clockwise as seen from outside.
+A shape is a set of triangles; `mesh` converts it to vertices with normals. Edges between faces at
+an angle below `CREASE` are smoothed; sharper edges remain. Frames are right-handed, lengths are in
+metres, and the corners of triangles are counter-clockwise as seen from outside.
 """
 
 from __future__ import annotations

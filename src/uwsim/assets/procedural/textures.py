@@ -137,7 +137,7 @@ def paint_text(
     colour: Colour = (0.0, 0.0, 0.0),
     quarter_turns: int = 0,
 ) -> None:
-    """Paint a text onto an image; positions and sizes are fractions of its width and height.
+    """Paint a text onto an image; positions and sizes are fractions of the image's size.
 
     One of ``width`` and ``height`` of the (rotated) text is required; both together stretch it.
     """
