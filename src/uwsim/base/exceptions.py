@@ -13,7 +13,10 @@ from .interrupts import is_user_interrupt
 
 
 class RemoteError(Exception):
-    """An exception of a third-party program in its own process; its text is complete."""
+    """An exception of a third-party program that runs in a separate process.
+
+    Its text is the result of `describe_exception` in that process.
+    """
 
 
 def describe_exception(error: BaseException, program: type) -> str:

@@ -15,7 +15,7 @@ MAX_PIECES = 4
 MIN_TRIANGLES = 16
 """The number of triangles below which a mesh is not divided."""
 MAX_FLAT_SINE = 0.02
-"""The sine of the largest angle between a flat piece's normal and those of its triangles."""
+"""The sine of the largest angle between the normals of a flat piece and of its triangles."""
 
 Triangles = npt.NDArray[np.uint32]
 

@@ -119,7 +119,7 @@ class Water:
 
     @property
     def far_colour(self) -> Colour:
-        """The colour of pixels without a surface: that of the water or fog at infinite distance."""
+        """The colour of pixels without a surface: water or fog at infinite distance."""
         return self.fog_colour if self.fog > 0.0 else self.colour
 
 

@@ -99,7 +99,7 @@ class Replay:
         return make_pack(head, blob)
 
     def _varied_trials(self) -> dict[int, RecordedTrial]:
-        """Return a trial of each seed whose scene differs from that of the first trial."""
+        """Return, by seed, a trial whose scene differs from the scene of the first trial."""
         first_trial = self._trials[0]
         if not first_trial.scene.vary:
             return {}

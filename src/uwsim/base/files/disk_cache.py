@@ -41,7 +41,7 @@ def read(file: Path) -> bytes | None:
         return None
     if data[:DIGEST_LENGTH] == _digest(file, data[DIGEST_LENGTH:]):
         with suppress(OSError):
-            os.utime(file)  # as the time of the last read
+            os.utime(file)  # records the time of the last read
         return data[DIGEST_LENGTH:]
     logging.getLogger(__name__).warning(
         "uwsim: warning: %s in the cache is damaged; its content is computed again.", file

@@ -43,7 +43,7 @@ class Lamp:
     """
 
     world_from_lamp: Pose
-    """The pose of the lamp; its axes are those of a camera."""
+    """The pose of the lamp in W; OpenGL axes: the lamp shines along -z."""
     half_angle: float
     """The angle between axis and edge of the cone, above 0 and at most 80 degrees; or pi for a lamp
     that shines in all directions and casts no shadows [rad]."""

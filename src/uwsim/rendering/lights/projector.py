@@ -39,7 +39,7 @@ class Projector:
     """A pattern projected along the projector's -z axis, as cameras look."""
 
     world_from_projector: Pose
-    """The pose of the projector; its axes are those of a camera."""
+    """The pose of the projector in W; OpenGL axes: it projects along -z, with y up."""
     fovy: float
     """The vertical field of view [rad]; the horizontal one follows from the pattern's sides."""
     pattern: npt.NDArray[np.uint8]
@@ -49,7 +49,7 @@ class Projector:
 
     @property
     def pinhole(self) -> Intrinsics:
-        """The pinhole whose image is the lit region; its size is that of the shadow map."""
+        """The pinhole whose image is the lit region, with the size of the shadow map."""
         rows, columns = self.pattern.shape[:2]
         scale = LONGEST_SIDE / max(rows, columns)
         width, height = max(1, round(scale * columns)), max(1, round(scale * rows))

@@ -78,7 +78,7 @@ class CurvePanel:
         letter_height: int,
     ) -> None:
         self._level, self._box, self._letter_height = level, box, letter_height
-        self._name_height = round(1.5 * letter_height)
+        self._name_height = round(1.5 * letter_height)  # of the row with name and value [px]
         self._cells = self._arrange(select_curves(level, names))
         _, _, width, height = box
         self._background: Pixels = np.full((height, width, 3), PANEL, np.uint8)
