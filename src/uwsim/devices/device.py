@@ -2,7 +2,7 @@
 
 .. code-block:: text
 
-    apply_commands -> step_devices -> advect_kinematic -> step_physics -> animate -> ...
+    apply_commands -> step_devices -> drift_kinematic_vehicles -> step_physics -> animate -> ...
 """
 
 from __future__ import annotations

@@ -4,7 +4,7 @@ The order of the computations in a step:
 
 .. code-block:: text
 
-    apply_commands -> step_devices -> advect_kinematic -> forces -> step_physics -> animate -> ...
+    apply_commands -> step_devices -> drift_kinematic_vehicles -> forces -> step_physics -> ...
 """
 
 from __future__ import annotations

@@ -246,7 +246,7 @@ class NameResolution:
         if vehicle.scale_factor != (1.0, 1.0, 1.0):
             x, y, z = vehicle.scale_factor
             self._report(
-                f"the vehicle {vehicle.name!r} is simulated (<u:dynamics>) and has a <scaleFactor> "
+                f"the vehicle {vehicle.name!r} has <u:dynamics> and a <scaleFactor> "
                 f"of {x:g} {y:g} {z:g}; expected 1 1 1. Its weight and drag are from the files; "
                 "change its URDF and its hydrodynamics file instead",
                 vehicle,

@@ -26,7 +26,7 @@ PLAUSIBILITY_WARNINGS: Mapping[VehicleWarning, str] = {
     "drag": "The drag of a link stops its mass in one step, or it has drag and no mass.",
     "friction": "The dry friction of a joint is more than its effort: no servo moves it.",
     "inertia": "The inertia of a link is missing, or far from that of its mass and size.",
-    "passable": "Simulated vehicles pass through it, or it through everything.",
+    "passable": "Vehicles with dynamics pass through it, or it through everything.",
     "places": "A thruster or the centre of mass or buoyancy is far from the hull. The centre of "
     "mass of an object is outside the box around it.",
     "size": "It is larger than 50 m or smaller than 5 cm: its meshes may be in millimetres.",

@@ -64,7 +64,7 @@ def _convert_numpixels(node: Node, parent: Node, diagnostics: Diagnostics) -> No
         return
     message = "<numpixels> and <fieldOfView> are read as initAngle, finalAngle, angleIncr"
     if parent.find("range") is None:
-        message += f"; there is no <range>: {BEAM_RANGE} m, as in the original's scenes"
+        message += f"; there is no <range>: {BEAM_RANGE} m, as in UWSim's scenes"
         _add(parent, "range", BEAM_RANGE, line=node.sourceline)
     diagnostics.warning(node, message)
     for name, value in (

@@ -2,12 +2,12 @@
 
 .. code-block:: text
 
-    commands -> devices -> drift of kinematic vehicles -> forces -> physics -> animation
-      -> contacts -> publishing: samples that are due (images first), messages on the bus,
+    apply_commands -> step_devices -> drift_kinematic_vehicles -> forces -> step_physics -> animate
+      -> update_contacts -> publish: samples that are due (images first), messages on the bus,
          algorithms' callbacks -> step callbacks
 
-Time is an integer count of steps. Publishing also happens once at step 0, when a simulation is
-started. Several steps are taken at once, in compiled code, if no Python code is due between them.
+Time is an integer count of steps. `publish` also runs once at step 0, when a simulation is started.
+Several steps are taken at once, in compiled code, if no Python code is due between them.
 """
 
 from __future__ import annotations

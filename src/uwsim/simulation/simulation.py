@@ -260,7 +260,7 @@ class Simulation:
         vehicle = self.world.vehicles.find(name)
         if not self.world.engine.has_dynamics(vehicle.index):
             raise UwsimError(
-                f"{name!r} is kinematic (no <u:dynamics>); only simulated vehicles have a velocity."
+                f"{name!r} is kinematic (no <u:dynamics>); expected a vehicle with dynamics."
             )
         return vehicle.velocity
 
