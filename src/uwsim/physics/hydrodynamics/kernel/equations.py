@@ -1,11 +1,14 @@
 r"""Fossen's equations for one body, on plain numbers and arrays.
 
-These functions do not depend on where the numbers are stored: the kernel, and any other back end (a
-batch on a GPU), passes them in from its own memory. Six numbers of a twist or a force are in the
-literature's order (surge, sway, heave, roll, pitch, yaw) and in the axes of the body, about its
-reference point. ``table`` is a row of the body's table (`columns`), ``axes`` the nine numbers of
-world_from_body row by row, ``lever`` the vector from the origin of the sums to the reference point,
-in world axes [m].
+These functions do not depend on where the numbers are stored: the kernel, or another back end such
+as a batch on a GPU, passes them in from its memory. The six components of a twist [m/s, rad/s],
+wrench [N, N m] or momentum are in the order of the literature (surge, sway, heave, roll, pitch,
+yaw), in body axes, about the body's reference point. MuJoCo's spatial vectors have the rotational
+part first, in world axes, about the centre of mass of the tree of bodies.
+
+``table`` is the row of the body (`columns`), ``axes`` the rotation ``world_from_body`` (9,) by
+rows, and ``lever`` the vector from the centre of mass of the tree to the reference point, in world
+axes [m].
 
 After Fossen, Handbook of Marine Craft Hydrodynamics and Motion Control (2011), chapters 6 and 8.
 """
@@ -25,7 +28,7 @@ Six = tuple[float, float, float, float, float, float]
 
 @njit
 def to_body(axes: Floats, x: float, y: float, z: float) -> Three:
-    """Return a vector of the world in the axes of the body."""
+    """Rotate a vector from world axes to body axes."""
     return (
         axes[0] * x + axes[3] * y + axes[6] * z,
         axes[1] * x + axes[4] * y + axes[7] * z,
@@ -35,7 +38,7 @@ def to_body(axes: Floats, x: float, y: float, z: float) -> Three:
 
 @njit
 def to_world(axes: Floats, x: float, y: float, z: float) -> Three:
-    """Return a vector of the body in the axes of the world."""
+    """Rotate a vector from body axes to world axes."""
     return (
         axes[0] * x + axes[1] * y + axes[2] * z,
         axes[3] * x + axes[4] * y + axes[5] * z,
@@ -60,13 +63,13 @@ def subtract(a: Six, b: Six) -> Six:
 
 @njit
 def reference_point(table: Floats, xpos: Floats, axes: Floats, com: Floats) -> tuple[float, Three]:
-    """Return the reference point's height in W and the lever to it from the sums' origin [m].
+    """Return the height of the reference point in the world, and the lever to it [m].
 
     Args:
-        table: the body's table.
-        xpos: the body's origin in W.
-        axes: world_from_body.
-        com: the origin of the sums in W.
+        table: the row of the body.
+        xpos: the body's origin in the world [m].
+        axes: ``world_from_body``.
+        com: the centre of mass of the tree in the world [m].
     """
     rx, ry, rz = table[c.REFERENCE], table[c.REFERENCE + 1], table[c.REFERENCE + 2]
     height = xpos[2] + axes[6] * rx + axes[7] * ry + axes[8] * rz
@@ -107,11 +110,13 @@ def surface_plane(
 
 @njit
 def submerged_part(table: Floats, up: Three, depth: float) -> tuple[float, Three]:
-    """Return the submerged fraction of a body, and its centre from the reference point [m].
+    """Return the submerged fraction of a body, and the centre of the submerged part.
+
+    The centre is relative to the reference point, in body axes [m].
 
     Args:
-        table: the body's table.
-        up: the vertical in the axes of the body.
+        table: the row of the body.
+        up: the upward unit vector in body axes.
         depth: the depth of the reference point below the surface [m].
     """
     x, y, z = table[c.CENTRE], table[c.CENTRE + 1], table[c.CENTRE + 2]
@@ -126,12 +131,14 @@ def submerged_part(table: Floats, up: Three, depth: float) -> tuple[float, Three
 
 
 @njit
-def entry(table: Floats, up: Three, depth: float, fraction: float, nu: Six, step: float) -> float:
+def entered_share(
+    table: Floats, up: Three, depth: float, fraction: float, nu: Six, step: float
+) -> float:
     """Return the share of the submerged part that has entered the water within a step.
 
     Args:
-        table: the body's table.
-        up: the vertical in the axes of the body.
+        table: the row of the body.
+        up: the upward unit vector in body axes.
         depth: the depth of the reference point below the surface [m].
         fraction: the submerged fraction of the body.
         nu: the twist relative to the water during the step.
@@ -149,7 +156,7 @@ def entry(table: Floats, up: Three, depth: float, fraction: float, nu: Six, step
 
 @njit
 def subtract_momentum_rate(force: Six, momentum: Six, rate: float) -> Six:
-    """Return a force less that on a body whose added mass grows at a rate [1/s]."""
+    """Return a wrench minus a momentum times the relative growth rate of the added mass [1/s]."""
     return (
         force[0] - rate * momentum[0], force[1] - rate * momentum[1],
         force[2] - rate * momentum[2], force[3] - rate * momentum[3],
@@ -162,10 +169,10 @@ def relative_twist(axes: Floats, lever: Three, twist: Floats, water: Floats) -> 
     r"""Return the twist :math:`\nu_r` relative to the water.
 
     Args:
-        axes: world_from_body.
+        axes: ``world_from_body``.
         lever: the lever to the reference point.
-        twist: rotational, then translational part at the origin of the sums, world axes.
-        water: the body's row of the water.
+        twist: MuJoCo's spatial velocity of the body (``cvel``).
+        water: the row of the water at the body in ``userdata``.
     """
     rx, ry, rz = lever
     wx, wy, wz = twist[0], twist[1], twist[2]
@@ -185,14 +192,15 @@ def bias_acceleration(axes: Floats, lever: Three, bias: Six, water: Floats, omeg
 
     .. math:: R^T (\dot J\dot q - \dot v_c) + \omega \times R^T v_c
 
-    The angular velocity of the water is part of :math:`v_c` and counts as constant.
+    Here R is ``world_from_body``, :math:`\omega` the angular velocity of the body, and :math:`v_c`
+    the twist of the water, whose angular part counts as constant.
 
     Args:
-        axes: world_from_body.
+        axes: ``world_from_body``.
         lever: the lever to the reference point.
-        bias: :math:`\dot J\dot q` at the origin of the sums, rotational part first, world axes.
-        water: the body's row of the water.
-        omega: the body's angular velocity, in its axes.
+        bias: :math:`\dot J\dot q` as a spatial acceleration of MuJoCo.
+        water: the row of the water at the body in ``userdata``.
+        omega: the angular velocity of the body in body axes [rad/s].
     """
     rx, ry, rz = lever
     ax, ay, az = bias[0], bias[1], bias[2]
@@ -223,7 +231,10 @@ def diagonal_momentum(table: Floats, nu: Six) -> Six:
 
 @njit
 def drag_speeds(table: Floats, nu: Six) -> Six:
-    """Return the speed s of each component in the quadratic drag; see `BodyHydrodynamics`."""
+    """Return the speed s of each component in the quadratic drag; see `BodyHydrodynamics`.
+
+    The drag of a component u is (linear + quadratic s) u; s depends on the drag law of the body.
+    """
     u, v, w, p, q, r = nu
     law = table[c.LAW]
     if law == c.DRAG_BY_SPEED:
@@ -244,7 +255,7 @@ def drag_speeds(table: Floats, nu: Six) -> Six:
 
 @njit
 def _drag_slope(table: Floats, i: int, speed: float, s: float) -> float:
-    """Return the derivative of a component's drag: linear + quadratic (s + u^2 / s)."""
+    """Return the derivative of the drag of component i: linear + quadratic (s + u^2 / s)."""
     u = abs(speed)
     rise = 2.0 * u if s == u else s + u * u / s
     slope: float = table[c.LINEAR + 7 * i] + table[c.QUADRATIC + 7 * i] * rise
@@ -253,7 +264,7 @@ def _drag_slope(table: Floats, i: int, speed: float, s: float) -> float:
 
 @njit
 def drag_slopes(table: Floats, nu: Six, s: Six) -> Six:
-    """Return the derivative of the drag of each component."""
+    """Return the derivative of the drag of each component by its speed."""
     return (
         _drag_slope(table, 0, nu[0], s[0]), _drag_slope(table, 1, nu[1], s[1]),
         _drag_slope(table, 2, nu[2], s[2]), _drag_slope(table, 3, nu[3], s[3]),
@@ -263,9 +274,15 @@ def drag_slopes(table: Floats, nu: Six, s: Six) -> Six:
 
 @njit
 def diagonal_force(table: Floats, nu: Six, rate: Six, s: Six, slope: Six, step: float) -> Six:
-    r"""Return the force :math:`-(M_A + h D')\dot\nu - D(\nu)\,\nu` of diagonal matrices.
+    r"""Return the wrench :math:`-(M_A + h D')\dot\nu - D(\nu)\,\nu` of diagonal matrices.
 
-    Drag is linear over a step: it depends on the known part of the rate as on the unknown one.
+    Args:
+        table: the row of the body.
+        nu: the twist relative to the water.
+        rate: the known part of the rate of ``nu``; the unknown part is solved for by the engine.
+        s: the speeds of `drag_speeds`.
+        slope: the slopes :math:`D'` of `drag_slopes`.
+        step: the step h over which drag is linearly implicit [s]; 0 for explicit drag.
     """
     return (
         _axis_force(table, 0, nu[0], rate[0], s[0], step * slope[0]),
@@ -288,10 +305,10 @@ def _axis_force(table: Floats, i: int, speed: float, rate: float, s: float, chan
 def full_force(
     table: Floats, nu: Six, rate: Six, step: float, work: Floats, start: int
 ) -> tuple[Six, Six]:
-    """Return force and momentum of the added mass of a body with full matrices.
+    """Return the wrench, and the momentum of the added mass, of a body with full matrices.
 
-    It writes added mass + step times the slope of the drag (its symmetric part), (6, 6), to
-    ``work`` from ``start`` on.
+    The added mass plus the symmetric part of ``step`` times the slope of the drag, (6, 6), is
+    written to ``work`` from the index ``start`` on. See `diagonal_force` for the arguments.
     """
     surge = abs(nu[0])
     for i in range(6):
@@ -316,12 +333,11 @@ def full_force(
 
 @njit
 def coriolis(nu: Six, omega: Three, momentum: Six) -> Six:
-    r"""Return the Coriolis force of the added mass, :math:`C_A(\nu)\,\nu` (Kirchhoff).
+    r"""Return the Coriolis wrench of the added mass, :math:`C_A(\nu)\,\nu` (Kirchhoff).
 
-    The axes rotate with the body at :math:`\omega`, in still water that of the twist.
-
-    With the momentum (p, h): force :math:`\omega \times p`, torque
-    :math:`\omega \times h + v \times p`.
+    With the momentum (p, h) it is the force :math:`\omega \times p` and the torque
+    :math:`\omega \times h + v \times p`. The angular velocity :math:`\omega` is that of the body
+    axes; in still water it is the angular part of ``nu``.
     """
     u, v, w = nu[0], nu[1], nu[2]
     p, q, r = omega
@@ -338,7 +354,14 @@ def coriolis(nu: Six, omega: Three, momentum: Six) -> Six:
 
 @njit
 def buoyancy(mass: float, water: Floats, gravity: Floats, gravity_scale: float) -> Three:
-    """Return the pressure force of still and of accelerating water on a mass [N], world axes."""
+    """Return the buoyancy with the pressure force of accelerating water [N], in world axes.
+
+    Args:
+        mass: the displaced mass [kg].
+        water: the row of the water at the body in ``userdata``.
+        gravity: the acceleration of gravity, (3,) [m/s2].
+        gravity_scale: 1, or 0 without gravity.
+    """
     return (
         mass * (water[3] - gravity_scale * gravity[0]),
         mass * (water[4] - gravity_scale * gravity[1]),
@@ -348,7 +371,7 @@ def buoyancy(mass: float, water: Floats, gravity: Floats, gravity_scale: float) 
 
 @njit
 def move_wrench(axes: Floats, lever: Three, fraction: float, force: Six) -> Six:
-    """Return a wrench of the body at the origin of the sums: torque, then force, world axes."""
+    """Return a fraction of a body's wrench as a spatial force of MuJoCo: torque, then force."""
     rx, ry, rz = lever
     x, y, z = to_world(axes, force[0], force[1], force[2])
     tx, ty, tz = to_world(axes, force[3], force[4], force[5])
@@ -367,7 +390,17 @@ def move_wrench(axes: Floats, lever: Three, fraction: float, force: Six) -> Six:
 def add_wrench(
     axes: Floats, lever: Three, centre: Three, wrench: Six, force: Three, out: Floats, k: int
 ) -> None:
-    """Add a wrench, and a force at ``centre`` (from the reference point), to ``out``."""
+    """Add a spatial force, and a force at a point of the body, to ``out`` from index k on.
+
+    Args:
+        axes: ``world_from_body``.
+        lever: the lever to the reference point.
+        centre: the point, relative to the reference point, in body axes [m].
+        wrench: the spatial force of MuJoCo.
+        force: the force at the point, in world axes [N].
+        out: the array to which both are added as a spatial force.
+        k: the index of its first component.
+    """
     x, y, z = centre
     fx, fy, fz = force
     cx = lever[0] + axes[0] * x + axes[1] * y + axes[2] * z

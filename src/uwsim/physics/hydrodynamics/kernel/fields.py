@@ -1,6 +1,7 @@
-"""The memory layout of the kernel: fields of MuJoCo's structs, and rows of its own.
+"""The indices of MuJoCo's fields in the kernel's offsets, and the layout of the kernel's own array.
 
-A field's number here is its index in the offsets that `layout.offsets` returns.
+The value of a constant with a field's name is its index in the offsets that `layout.offsets`
+returns.
 """
 
 from __future__ import annotations
@@ -83,12 +84,13 @@ CONTACT_POINT, CONTACT_AXES, CONTACT_GEOMS, CONTACT_SIZE = range(
     len(_NAMES), len(_NAMES) + len(CONTACT_FIELDS) + 1
 )
 
-# a row of the kernel's own array for each body; wrenches and twists have their rotational part
-# first, as in MuJoCo
+# The kernel's own array has a row of the length ROW for each body. Bias acceleration, wrench and
+# momentum are spatial vectors with the rotational part first, as in MuJoCo. The inertia of the
+# water is in three blocks: FF (force per acceleration, symmetric: xx xy xz yy yz zz), FT (force per
+# angular acceleration, (3, 3) by rows) and TT (torque per angular acceleration, symmetric).
 BIAS, WRENCH, FF, FT, TT, MOMENTUM, IS_ACTIVE, ROW = 0, 6, 12, 18, 27, 33, 39, 40
-# FF: force by velocity, symmetric (xx xy xz yy yz zz); FT: force by rotation (3, 3), row by row;
-# TT: torque by rotation, symmetric
 SCRATCH = 60
-"""The numbers behind the rows, for full matrices."""
+"""The number of elements behind the rows, as scratch memory for full matrices."""
 DRAG = 21
-"""The numbers behind these for each tree: the implicit drag in FF, FT and TT of the tree."""
+"""The number of elements behind these for each tree: the implicit drag of the tree, as FF, FT, TT.
+"""

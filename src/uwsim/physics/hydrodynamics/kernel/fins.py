@@ -1,23 +1,25 @@
-r"""Fins: control surfaces, with lift and drag over the angle of attack.
+r"""Fins: control surfaces with lift and drag as functions of the angle of attack.
 
-A foil of the area S moves through the water at V, across its span. The angle of attack
-:math:`\alpha` is from V to its leading edge. Lift acts across V, to that side, and drag against V:
+A foil of the area S moves through the water with the velocity V, perpendicular to its span. The
+angle of attack :math:`\alpha` is the angle from V to the chord. Lift acts perpendicular to V,
+towards the side to which the leading edge points, and drag acts against V:
 
 .. math:: L = \tfrac12 \rho S V^2 C_L(\alpha), \qquad D = \tfrac12 \rho S V^2 C_D(\alpha)
 
-The velocity is that at the foil, which therefore damps rotations of the vehicle. The coefficients
-are a table, or below the stall
+V is the velocity at the foil, which therefore damps rotations of the vehicle. The coefficients
+follow from a table; or below the stall, with the lift slope a and the induced drag k, from
 
 .. math:: C_L = a \alpha, \qquad C_D = C_{D0} + k C_L^2
 
-and beyond it, over `FADE_ANGLE`, those of a plate across the flow (Hoerner, *Fluid-Dynamic Drag*,
-ch. 3): :math:`C_L = C_N \sin\alpha \cos\alpha`, :math:`C_D = C_{D0} + C_N \sin^2\alpha`.
+Beyond the stall they change within `FADE_ANGLE` to those of an inclined plate (Hoerner,
+*Fluid-Dynamic Drag*, ch. 3): :math:`C_L = C_N \sin\alpha \cos\alpha`,
+:math:`C_D = C_{D0} + C_N \sin^2\alpha`.
 
-Its servo turns it to the target angle, with a lag and a greatest rate. The site of the actuator is
-the foil at the angle 0: x along the chord, z along the span.
+A servo turns the fin to its commanded angle, with a lag and a greatest rate. The site of the
+actuator is the frame of the foil at the angle 0: x along the chord, z along the span.
 
 Not modelled: the moment about the span, added mass of a foil, hysteresis of the stall, the wake of
-one fin or of a propeller on another.
+a fin or a propeller at another fin.
 """
 
 from __future__ import annotations
@@ -40,21 +42,21 @@ from .stratification import density_ratio
 from .thrusters import lag_share
 
 FADE_ANGLE = math.radians(10.0)
-"""The angle beyond the stall at which a foil is a plate [rad]."""
+"""The angle beyond the stall from which a foil counts as a plate [rad]."""
 _RK4 = 1  # mjINT_RK4
 
 
 @njit
 def add_fin(m: int, d: int, o: Ints64, i: int, table: Floats, dt: float, work: Floats) -> None:
-    """Add the force of a fin, by its angle a time ``dt`` later, and set the rate of its servo.
+    """Add the force of a fin with its angle after a time ``dt``, and set the rate of its angle.
 
     Args:
         m: the address of the model.
         d: the address of the data.
         o: the offsets of the fields.
-        i: the number of the actuator.
-        table: the fin's row.
-        dt: the time [s].
+        i: the actuator id of the fin.
+        table: the row of the fin.
+        dt: the time from now [s].
         work: the rows of the bodies.
     """
     nbody, step = read_int64(m + o[f.NBODY]), read_double(m + o[f.TIMESTEP])
@@ -62,7 +64,7 @@ def add_fin(m: int, d: int, o: Ints64, i: int, table: Floats, dt: float, work: F
     angle = read_double(
         read_int64(d + o[f.ACT]) + 8 * read_int32(read_int64(m + o[f.ACTUATOR_ACT]) + 4 * i)
     )
-    is_rate = read_int32(m + o[f.INTEGRATOR]) == _RK4  # its stages integrate the rate of a time
+    is_rate = read_int32(m + o[f.INTEGRATOR]) == _RK4  # its stages need the rate at their time
     speed = servo_speed(table, angle, target, step, is_rate)
     control = read_int32(read_int64(m + o[f.ACTUATOR_CTRL]) + 4 * i)
     view_doubles(read_int64(d + o[f.CTRL]) + 8 * control, 1)[0] = speed
@@ -81,12 +83,12 @@ def servo_speed(table: Floats, angle: float, target: float, step: float, is_rate
     """Return the angular velocity of a fin towards its target angle [rad/s].
 
     Args:
-        table: the fin's row.
+        table: the row of the fin.
         angle: the present angle [rad].
         target: the target angle [rad].
         step: the length of a step [s].
-        is_rate: true for the present rate instead of the mean of the step; a lag shorter than a
-            step then counts as a step, else the angle would overshoot.
+        is_rate: true for the present angular velocity, else its mean over the step. A lag shorter
+            than a step then counts as a step, so that the angle does not overshoot.
     """
     target = min(max(target, table[c.MIN_ANGLE]), table[c.MAX_ANGLE])
     if is_rate:
@@ -101,13 +103,13 @@ def servo_speed(table: Floats, angle: float, target: float, step: float, is_rate
 def foil_force(
     table: Floats, angle: float, u: float, v: float, density: float
 ) -> tuple[float, float]:
-    """Return the force on a foil along its chord at the angle 0, and across it [N].
+    """Return the force on a foil along the x and y axes of its site [N].
 
     Args:
-        table: the fin's row.
+        table: the row of the fin.
         angle: the angle of the fin [rad].
-        u: the velocity through the water along that chord [m/s].
-        v: the velocity across it, to the side to which the leading edge turns [m/s].
+        u: the velocity through the water along x, the chord at the angle 0 [m/s].
+        v: the velocity along y, to which the leading edge turns at positive angles [m/s].
         density: the density of the water [kg/m3].
     """
     speed = math.sqrt(u * u + v * v)
@@ -123,7 +125,7 @@ def foil_force(
 
 @njit
 def coefficients(table: Floats, angle: float) -> tuple[float, float]:
-    """Return the coefficients of lift and drag at an angle of attack from -pi to pi."""
+    """Return the coefficients of lift and drag at an angle of attack, from -pi to pi [rad]."""
     if table[c.N_COEFFICIENTS] > 0.0:
         return _interpolate(table, angle)
     size = abs(angle)
@@ -140,7 +142,7 @@ def coefficients(table: Floats, angle: float) -> tuple[float, float]:
 
 @njit
 def _interpolate(table: Floats, angle: float) -> tuple[float, float]:
-    """Return the coefficients between the rows of the table, and of the last row beyond it."""
+    """Interpolate the coefficients in the table; beyond its ends they are constant."""
     is_even = table[c.IS_EVEN] != 0.0
     x = abs(angle) if is_even else angle
     n = int(table[c.N_COEFFICIENTS])

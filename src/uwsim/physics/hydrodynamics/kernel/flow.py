@@ -25,7 +25,7 @@ def actuator_site(m: int, o: Ints64, actuator: int) -> tuple[int, int]:
 
 @njit
 def site_velocity(m: int, d: int, o: Ints64, site: int, body: int) -> Three:
-    """Return the velocity of a site through the rotating water, in the axes of the site [m/s]."""
+    """Return the velocity of a site through the water, which may rotate, in site axes [m/s]."""
     position = view_doubles(read_int64(d + o[f.SITE_XPOS]) + 24 * site, 3)
     axes = view_doubles(read_int64(d + o[f.SITE_XMAT]) + 72 * site, 9)
     root = read_int32(read_int64(m + o[f.BODY_ROOT]) + 4 * body)
@@ -50,7 +50,10 @@ def site_velocity(m: int, d: int, o: Ints64, site: int, body: int) -> Three:
 
 @njit
 def _reference_lever(m: int, d: int, o: Ints64, position: Floats, body: int) -> Three:
-    """Return the lever to a position from where the water acts on a body, world axes [m]."""
+    """Return the vector to a position from the point at which the water acts on a body [m].
+
+    The position and the vector are in world axes.
+    """
     table = view_doubles(read_int64(m + o[f.BODY_USER]) + 8 * c.BODY_COLUMNS * body, c.BODY_COLUMNS)
     share = 1.0 if table[c.DISPLACED_MASS] > 0.0 else 0.0
     x = table[c.REFERENCE] + share * table[c.CENTRE]
@@ -73,7 +76,7 @@ def site_height(d: int, o: Ints64, site: int) -> float:
 
 @njit
 def submersion(m: int, d: int, o: Ints64, site: int, body: int, radius: float) -> float:
-    """Return the submerged fraction of a part of this radius [m] about a site, 0..1."""
+    """Return the submerged fraction of a part with a radius [m] about a site, 0..1."""
     height = site_height(d, o, site)
     surface = read_double(read_int64(m + o[f.BODY_USER]) + 8 * c.SURFACE)
     surface += read_double(read_int64(d + o[f.USERDATA]) + 8 * (c.WATER_COLUMNS * body + 6))
@@ -116,7 +119,7 @@ def submerged_middle(m: int, d: int, o: Ints64, body: int, height: float) -> flo
 
 @njit
 def water_density(m: int, o: Ints64) -> float:
-    """Return the density of the water [kg/m3]."""
+    """Return the density of the model's water [kg/m3]."""
     density: float = read_double(read_int64(m + o[f.BODY_USER]) + 8 * c.DENSITY)
     return density
 
@@ -126,16 +129,16 @@ def add_force(
     m: int, d: int, o: Ints64, site: int, body: int,
     force: Three, torque: float, work: Floats,
 ) -> None:  # fmt: skip
-    """Add a force in the axes of a site at the site, and a torque per force along its x axis.
+    """Add a force at a site, and a torque proportional to the force, to the wrench of a body.
 
     Args:
         m: the address of the model.
         d: the address of the data.
         o: the offsets of the fields.
-        site: the number of the site.
-        body: the body of the site.
+        site: the id of the site.
+        body: the id of the site's body.
         force: the force in the axes of the site [N].
-        torque: the torque about the force, per force [m].
+        torque: the torque along the force, per force [m].
         work: the rows of the bodies.
     """
     position = view_doubles(read_int64(d + o[f.SITE_XPOS]) + 24 * site, 3)

@@ -1,8 +1,9 @@
-"""The energy-conserving step of free bodies in water: `midpoint` on MuJoCo's memory.
+"""The energy-conserving step of free bodies in water: `midpoint` applied to MuJoCo's memory.
 
-MuJoCo's solution is explicit. A force on the six degrees of freedom of a tree of bodies changes it
-to that of the midpoint rule, and a force on every joint keeps the motion of the joints. Both are 0
-for bodies that do not rotate, and vanish with the length of a step.
+MuJoCo evaluates Coriolis forces explicitly. A force on the six degrees of freedom of a free body is
+added, which changes MuJoCo's solution to that of the midpoint rule. Forces on the joints of the
+body keep their accelerations unchanged. These forces are 0 for bodies that do not rotate, and
+vanish with the length of a step.
 """
 
 from __future__ import annotations
@@ -52,7 +53,7 @@ def conserve_energy(m: int, d: int, o: Ints64, work: Floats) -> None:
         m: the address of the model.
         d: the address of the data, with the water in ``M`` and ``qfrc_passive``.
         o: the offsets of the fields.
-        work: the rows of the bodies, summed up the trees.
+        work: the rows of the bodies, summed over their subtrees.
     """
     n, nbody, nv = (
         read_int64(m + o[f.NTREE]),
@@ -90,13 +91,13 @@ def conserve_energy(m: int, d: int, o: Ints64, work: Floats) -> None:
         if length[tree] > 6:
             for i in range(6):
                 b[STEP + i] = b[FORCE + i]
-            substitute(b)  # for the inertia alone, but for what vanishes with the step squared
+            substitute(b)  # the factors are those of the inertia, up to terms of order h squared
             _hold_joints(m, d, o, body, start[tree], length[tree], lever, b, passive)
 
 
 @njit
 def move_to_middle(m: int, d: int, o: Ints64) -> None:
-    """Move free bodies by half a step, before MuJoCo's step: forces act on them there."""
+    """Move free bodies by half a step, before MuJoCo's step, which evaluates forces there."""
     _move_half_step(m, d, o, 1.0)
 
 
@@ -104,15 +105,22 @@ def move_to_middle(m: int, d: int, o: Ints64) -> None:
 def move_to_end(m: int, d: int, o: Ints64) -> None:
     """Move free bodies from the middle of a step to its end, after MuJoCo's step.
 
-    MuJoCo has moved them by a whole step, which is undone. The velocity change by contacts and
-    other constraints has a fixed direction in the world, and does not rotate with the body.
+    MuJoCo's own motion by a whole step is undone. The change of velocity by contacts and other
+    constraints has a fixed direction in the world: it does not rotate with the body.
     """
     _move_half_step(m, d, o, -1.0)
 
 
 @njit
 def _move_half_step(m: int, d: int, o: Ints64, sign: float) -> None:
-    """Move free bodies by half a step at their twist, whose linear part rotates with them."""
+    """Move free bodies by half a step with their twist, whose linear part rotates with the body.
+
+    Args:
+        m: the address of the model.
+        d: the address of the data.
+        o: the offsets of the fields.
+        sign: 1 for the move before MuJoCo's step, -1 for the move after it.
+    """
     if read_int32(m + o[f.INTEGRATOR]) == _RK4:
         return
     n, nbody = read_int64(m + o[f.NTREE]), read_int64(m + o[f.NBODY])
@@ -134,7 +142,7 @@ def _move_half_step(m: int, d: int, o: Ints64, sign: float) -> None:
         address = read_int32(read_int64(m + o[f.JNT_QPOSADR]) + 4 * joint)
         q = view_doubles(read_int64(d + o[f.QPOS]) + 8 * address, 7)
         water = view_doubles(read_int64(d + o[f.USERDATA]) + 8 * WATER_COLUMNS * body, 6)
-        to_middle = 0.5 * h if sign > 0.0 else -h  # from the velocity to the middle of the step
+        to_middle = 0.5 * h if sign > 0.0 else -h  # the time from the velocity to the middle [s]
         dof = 8 * start[tree]
         qacc, qacc_smooth = (
             view_doubles(read_int64(d + o[f.QACC]) + dof, 3),
@@ -159,14 +167,16 @@ def _move_half_step(m: int, d: int, o: Ints64, sign: float) -> None:
 
 @njit
 def _rotate_velocity(v: Floats, q: Floats, water: Floats, time: float, to_middle: float) -> None:
-    """Rotate the velocity relative to the water with the body for a time.
+    """Rotate the linear velocity relative to the water with the body for a time.
 
     Args:
-        v: linear velocity in world axes, angular velocity in the body's, (6,).
-        q: position, then attitude wxyz, (7,).
-        water: the velocity of the water in the middle of the step, and its acceleration.
-        time: the time; below 0 it rotates backwards.
-        to_middle: the time from this velocity to the middle of the step.
+        v: the linear velocity in world axes, which is changed, and the angular velocity in body
+            axes, (6,) [m/s, rad/s].
+        q: the position, then the attitude (wxyz), (7,).
+        water: the velocity [m/s] and the acceleration [m/s2] of the water in the middle of the
+            step, in world axes, (6,).
+        time: the time [s]; negative to rotate backwards.
+        to_middle: the time from this velocity to the middle of the step [s].
     """
     wx, wy, wz = _rotate_to_world(q, v[3], v[4], v[5])
     rx = v[0] - water[0] + to_middle * water[3]
@@ -181,7 +191,7 @@ def _rotate_velocity(v: Floats, q: Floats, water: Floats, time: float, to_middle
 
 @njit
 def _rotate_to_world(q: Floats, x: float, y: float, z: float) -> Three:
-    """Return a vector of the body in the axes of the world."""
+    """Rotate a vector from body axes to world axes by the quaternion in q."""
     n, a, b, c = q[3], q[4], q[5], q[6]
     tx, ty, tz = 2.0 * (b * z - c * y), 2.0 * (c * x - a * z), 2.0 * (a * y - b * x)
     return (
@@ -193,9 +203,9 @@ def _rotate_to_world(q: Floats, x: float, y: float, z: float) -> Three:
 
 @njit
 def _rotate_attitude(q: Floats, v: Floats, time: float) -> None:
-    """Rotate the attitude at the angular velocity for a time."""
+    """Rotate the attitude in q with the angular velocity in v for a time [s]."""
     half2 = 0.25 * time * time * (v[3] * v[3] + v[4] * v[4] + v[5] * v[5])
-    if half2 < 1e-4:  # the series are exact to the last digit
+    if half2 < 1e-4:  # the truncated series are exact in double precision
         n = 1.0 - half2 * (0.5 - half2 * (1.0 / 24.0 - half2 / 720.0))
         share = 0.5 * time * (1.0 - half2 * (1.0 / 6.0 - half2 * (1.0 / 120.0 - half2 / 5040.0)))
     else:
@@ -216,10 +226,11 @@ def _rotate_attitude(q: Floats, v: Floats, time: float) -> None:
 def _fill_numbers(
     m: int, d: int, o: Ints64, work: Floats, body: int, b: Floats
 ) -> tuple[float, float, float]:
-    """Fill in the numbers of one body, with all bodies on it held; return a lever.
+    """Fill in the twist, momentum and force of one tree for `midpoint`, and return a lever.
 
-    They are in the axes of the world about the centre of mass of the tree, and relative to the
-    water at its base, which counts as uniform. The lever is to the body's origin [m].
+    The numbers are in world axes, about the centre of mass of the tree, and relative to the water
+    at its root body, which counts as uniform. The lever is the vector from the centre of mass to
+    the origin of the root body, in world axes [m].
     """
     base = f.ROW * body
     twist = view_doubles(read_int64(d + o[f.CVEL]) + 48 * body, 6)
@@ -233,7 +244,7 @@ def _fill_numbers(
     for i in range(6):
         b[MOMENTUM + i] = work[base + f.MOMENTUM + i]
     wx, wy, wz = twist[0], twist[1], twist[2]
-    # the rate of the relative twist in the body's axes when no degree of freedom accelerates
+    # the rate of the relative twist in body axes if no degree of freedom accelerates
     ux = b[TWIST + 3] + wy * rz - wz * ry
     uy = b[TWIST + 4] + wz * rx - wx * rz
     uz = b[TWIST + 5] + wx * ry - wy * rx
@@ -250,7 +261,7 @@ def _fill_numbers(
 
 @njit
 def _add_rigid(m: int, d: int, o: Ints64, work: Floats, root: int, n: int, b: Floats) -> None:
-    """Add the momentum of a tree's rigid bodies, their weight and their gyroscopic terms."""
+    """Add the momentum, the weight and the gyroscopic forces of the n rigid bodies of a tree."""
     inertias = view_doubles(read_int64(d + o[f.CINERT]) + 80 * root, 10 * n)
     twists = view_doubles(read_int64(d + o[f.CVEL]) + 48 * root, 6 * n)
     gravity = view_doubles(m + o[f.GRAVITY], 3)
@@ -286,7 +297,7 @@ def _add_rigid(m: int, d: int, o: Ints64, work: Floats, root: int, n: int, b: Fl
 
 @njit
 def _momentum(row: Floats, wx: float, wy: float, wz: float, vx: float, vy: float, vz: float) -> Six:
-    """Return the momentum of a rigid body: rotational part first."""
+    """Return the momentum of a rigid body with a row of ``cinert``, rotational part first."""
     cx, cy, cz, mass = row[6], row[7], row[8], row[9]
     hx, hy, hz = _multiply_inertia(row, wx, wy, wz)
     return (
@@ -301,7 +312,7 @@ def _momentum(row: Floats, wx: float, wy: float, wz: float, vx: float, vy: float
 
 @njit
 def _add_applied(m: int, d: int, o: Ints64, body: int, dof: int, lever: Three, b: Floats) -> None:
-    """Add ``qfrc_applied`` of the six degrees of freedom."""
+    """Add ``qfrc_applied`` of the six degrees of freedom of the root body to the force."""
     force = view_doubles(read_int64(d + o[f.APPLIED]) + 8 * dof, 6)
     axes = view_doubles(read_int64(d + o[f.XMAT]) + 72 * body, 9)
     rx, ry, rz = lever
@@ -317,7 +328,7 @@ def _add_applied(m: int, d: int, o: Ints64, body: int, dof: int, lever: Three, b
 
 @njit
 def _fill_inertia(m: int, d: int, o: Ints64, work: Floats, tree: int, b: Floats) -> None:
-    """Fill in the inertia of water and rigid bodies of a tree, with and without implicit drag."""
+    """Fill in the inertia of water and rigid bodies of a tree, without and with implicit drag."""
     body = view_int32s(read_int64(m + o[f.TREE_BODY]), tree + 1)[tree]
     crb = view_doubles(read_int64(d + o[f.CRB]) + 80 * body, 10)
     _unpack_inertia(work, f.ROW * body + f.FF, b, SUM)
@@ -340,9 +351,9 @@ def _fill_inertia(m: int, d: int, o: Ints64, work: Floats, tree: int, b: Floats)
 
 @njit
 def _unpack_inertia(work: Floats, ff: int, b: Floats, k: int) -> None:
-    """Copy the 21 numbers of an inertia, from ``ff`` on, to the upper triangle of a matrix.
+    """Copy an inertia in blocks, from index ``ff`` on, to the upper triangle of a matrix at k.
 
-    Rotational part first.
+    The matrix (6, 6) has the rotational part first.
     """
     ft, tt = ff + f.FT - f.FF, ff + f.TT - f.FF
     b[k], b[k + 1], b[k + 2] = work[tt], work[tt + 1], work[tt + 2]
@@ -356,9 +367,10 @@ def _unpack_inertia(work: Floats, ff: int, b: Floats, k: int) -> None:
 
 @njit
 def _convert_to_wrench(lever: Three, h: float, b: Floats) -> None:
-    """Convert the rate over the step to the wrench that is missing for it, in ``FORCE``.
+    """Write the additional wrench that gives the solved rate into ``FORCE``.
 
-    The new twist is in the axes of the body after the step, and MuJoCo's in those of the world.
+    The rate of `midpoint` is that of the twist in body axes, which rotate in the step; MuJoCo's is
+    that of the twist in world axes.
     """
     rx, ry, rz = lever
     wx, wy, wz = b[TWIST], b[TWIST + 1], b[TWIST + 2]
@@ -387,8 +399,8 @@ def _convert_to_wrench(lever: Three, h: float, b: Floats) -> None:
 def _undo_gyroscopic(crb: Floats, lever: Three, h: float, b: Floats) -> None:
     r"""Subtract the gyroscopic term that ``implicitfast`` adds for a free body without joints.
 
-    It solves :math:`(M - hD)\dot v = f` with the derivative D of the gyroscopic forces of the rigid
-    body: implicit Euler, which loses energy.
+    MuJoCo solves :math:`(M - hD)\dot v = f` with the derivative D of the gyroscopic forces of the
+    rigid body. This is the implicit Euler method, which loses energy.
     """
     rx, ry, rz = lever
     wx, wy, wz = b[TWIST], b[TWIST + 1], b[TWIST + 2]
@@ -408,7 +420,7 @@ def _undo_gyroscopic(crb: Floats, lever: Three, h: float, b: Floats) -> None:
 
 @njit
 def _multiply_inertia(crb: Floats, x: float, y: float, z: float) -> Three:
-    """Return the rotational inertia of a composite rigid body times a vector."""
+    """Multiply the rotational inertia of a (composite) rigid body by a vector."""
     return (
         crb[0] * x + crb[3] * y + crb[4] * z,
         crb[3] * x + crb[1] * y + crb[5] * z,
@@ -421,7 +433,7 @@ def _hold_joints(
     m: int, d: int, o: Ints64, body: int, start: int, length: int, lever: Three, b: Floats,
     passive: Floats,
 ) -> None:  # fmt: skip
-    """Apply the additional acceleration to the joints, so that it does not move them."""
+    """Add forces on the joints of a tree, which the additional wrench would else accelerate."""
     rx, ry, rz = lever
     axes = view_doubles(read_int64(d + o[f.XMAT]) + 72 * body, 9)
     x, y, z = b[STEP], b[STEP + 1], b[STEP + 2]

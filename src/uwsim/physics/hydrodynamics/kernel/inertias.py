@@ -1,7 +1,7 @@
-"""Inertias of one body, from its own axes to those of the world, on plain numbers and arrays.
+"""The transformation of inertias of the water from body axes to world axes, on plain numbers.
 
-Names and conventions are those of `equations`. An inertia here may also be that of drag which is
-implicit over a step.
+Names and conventions are those of `equations`. An inertia here is an added mass, to which drag that
+is implicit over a step (step times slope of the drag) may be added.
 """
 
 from __future__ import annotations
@@ -12,12 +12,19 @@ from ..columns import M_A
 from .equations import Six, Three
 
 MAX_DRAG_SHARE = 0.01
-"""The share of the added mass up to which drag counts as inertia in gyroscopic terms, too."""
+"""The share of an inertia up to which implicit drag also counts as inertia in gyroscopic terms."""
 
 
 @njit
 def diagonal_inertia(table: Floats, slope: Six, p: float, step: float) -> tuple[Six, Six]:
-    """Return added mass + step times the slope of the drag, submerged; then the latter alone."""
+    """Return the diagonal inertia with implicit drag, and the implicit drag alone.
+
+    Args:
+        table: the row of the body.
+        slope: the slopes of `equations.drag_slopes`.
+        p: the submerged fraction, which scales both.
+        step: the step over which drag is implicit [s].
+    """
     h = p * step
     a, b, c = h * slope[0], h * slope[1], h * slope[2]
     d, e, f = h * slope[3], h * slope[4], h * slope[5]
@@ -42,7 +49,7 @@ def is_significant(inertia: Six, drag: Six) -> bool:
 
 @njit
 def subtract_added_mass(table: Floats, work: Floats, start: int) -> bool:
-    """Subtract the added mass from a full inertia (6, 6); return whether the drag counts."""
+    """Subtract the added mass from a full inertia (6, 6); return if the drag is significant."""
     has_drag = False
     for i in range(36):
         work[start + i] -= table[M_A + i]
@@ -54,15 +61,14 @@ def subtract_added_mass(table: Floats, work: Floats, start: int) -> bool:
 
 @njit
 def add_diagonal_inertia(axes: Floats, lever: Three, inertia: Six, out: Floats, k: int) -> None:
-    """Add a diagonal inertia at the origin of the sums, in world axes.
+    """Transform a diagonal inertia to world axes and the centre of mass of the tree, and add it.
 
     Args:
-        axes: world_from_body.
+        axes: ``world_from_body``.
         lever: the lever to the reference point.
-        inertia: the diagonal.
-        out: receives 21 numbers: force by velocity, symmetric (xx xy xz yy yz zz), force by
-            rotation (3, 3), row by row, torque by rotation, symmetric.
-        k: the index of the first of them.
+        inertia: the diagonal of the inertia in body axes.
+        out: the array to which the blocks FF, FT and TT (`fields`) are added.
+        k: the index of their first element.
     """
     rx, ry, rz = lever
     r00, r01, r02 = axes[0], axes[1], axes[2]
@@ -109,7 +115,14 @@ def add_diagonal_inertia(axes: Floats, lever: Three, inertia: Six, out: Floats, 
 
 @njit
 def _rotate_block(axes: Floats, work: Floats, block: int, k: int) -> None:
-    """Rotate a 3x3 block, at ``block`` in rows of 6, into world axes: R B R^T, in rows of 3."""
+    """Rotate a block (3, 3) of a matrix (6, 6) to world axes, R B R^T.
+
+    Args:
+        axes: ``world_from_body``, R.
+        work: the array with the matrix, and with the result.
+        block: the index of the first element of the block B.
+        k: the index of the first element of the result, (3, 3) by rows.
+    """
     for j in range(3):
         x, y, z = axes[3 * j], axes[3 * j + 1], axes[3 * j + 2]
         a = work[block] * x + work[block + 1] * y + work[block + 2] * z
@@ -122,7 +135,16 @@ def _rotate_block(axes: Floats, work: Floats, block: int, k: int) -> None:
 
 @njit
 def add_full_inertia(axes: Floats, lever: Three, p: float, out: Floats, start: int, k: int) -> None:
-    """Add a share p of a full inertia, (6, 6) and 9 of scratch in ``out`` from ``start`` on."""
+    """Transform a full inertia to world axes and the centre of mass of the tree, and add it.
+
+    Args:
+        axes: ``world_from_body``.
+        lever: the lever to the reference point.
+        p: the submerged fraction, which scales the inertia.
+        out: the array with the inertia, and with the blocks to which it is added.
+        start: the index of the inertia (6, 6), followed by 9 elements of scratch memory.
+        k: the index of the blocks FF, FT and TT (`fields`).
+    """
     rx, ry, rz = lever
     block = start + 36
     _rotate_block(axes, out, start, block)

@@ -1,30 +1,33 @@
-r"""The forces of the water on every body, written into MuJoCo's own matrices.
+r"""The forces of the water on every body, added to MuJoCo's mass matrix and passive forces.
 
-For a body with added mass :math:`M_A` and damping :math:`D` (body axes, about a point fixed to it),
-moving with the twist :math:`\nu` in water that moves with :math:`v_c`, Fossen's equations are
+For a body with the added mass :math:`M_A` and the damping :math:`D` (in body axes, about the
+reference point), which moves with the twist :math:`\nu` in water that moves with :math:`v_c`,
+Fossen's equations are
 
 .. math:: f = -M_A\dot\nu_r - C_A(\nu_r)\nu_r - D(\nu_r)\nu_r + B,
           \qquad \nu_r = \nu - [R^T v_c;\, 0]
 
-with :math:`\dot\nu = J\ddot q + \dot J\dot q`. The factor of :math:`\ddot q` is added to the mass
-matrix, the rest to the passive forces:
+with the rotation R from body to world axes, and :math:`\dot\nu = J\ddot q + \dot J\dot q`. The
+factor of :math:`\ddot q` is added to the mass matrix M, the rest to the passive forces
+:math:`\tau`:
 
 .. math:: M \mathrel{+}= J^T (M_A + \theta h D') J, \qquad
           \tau \mathrel{+}= J^T\bigl(-M_A(\dot J\dot q - \tfrac{d}{dt}R^T v_c)
           - C_A(\nu_r)\nu_r - D(\nu_r)\nu_r + B\bigr)
 
-:math:`D'` is the derivative of the drag: with :math:`\theta > 0` drag is linearly implicit over a
-step. :math:`B = \rho V (a_c - g)` is buoyancy with the pressure gradient of accelerating water. At
-the surface :math:`M_A`, :math:`D` and :math:`B` are proportional to the submerged fraction. Where
-it grows, the force is less by :math:`\dot M_A\nu_r`, the momentum of the water that is accelerated.
-Where it decreases, the water that is shed keeps its momentum. Inertias and wrenches are summed up
-the tree, as in the composite-rigid-body algorithm, in MuJoCo's own frame: at the centre of mass of
-the tree, world axes.
+:math:`D'` is the derivative of the drag: with :math:`\theta > 0`, drag is linearly implicit over a
+step of length h. :math:`B = \rho V (a_c - g)` is the buoyancy, with the pressure gradient of
+accelerating water. At the surface, :math:`M_A`, :math:`D` and :math:`B` are proportional to the
+submerged fraction. While the fraction grows, :math:`\dot M_A\nu_r`, the momentum rate of the newly
+accelerated water, is subtracted from the force. While it decreases, the water that leaves the body
+keeps its momentum. Inertias and wrenches are summed from the leaves of a tree of bodies to its
+root, as in the composite-rigid-body algorithm, in MuJoCo's spatial frame: in world axes, about the
+centre of mass of the tree.
 
 After Fossen, Handbook of Marine Craft Hydrodynamics and Motion Control (2011), chapters 6 and 8.
-`equations` has the equations of one body; this module reads and writes the numbers.
+`equations` has the equations of one body; this module reads and writes MuJoCo's memory.
 
-Not modelled: memory of waves, ground effect, flow of one body over another.
+Not modelled: memory effects of waves, ground effect, flow interaction of bodies.
 """
 
 from __future__ import annotations
@@ -52,7 +55,7 @@ from .equations import (
     diagonal_momentum,
     drag_slopes,
     drag_speeds,
-    entry,
+    entered_share,
     full_force,
     move_wrench,
     read_six,
@@ -77,7 +80,10 @@ from .stratification import density_ratio
 from .thrusters import add_thrust
 
 _WATER_MARK = 1e-300
-"""The mark in the world's composite inertia, which is unused and cleared with every M."""
+"""The value of the first element of ``crb`` that marks M as containing the water.
+
+The element belongs to the world's body, is not used, and is cleared whenever MuJoCo computes M.
+"""
 _GRAVITY_OFF = 128  # mjDSBL_GRAVITY
 _DIAGEXACT = 32  # mjENBL_DIAGEXACT
 _RK4, _PGS = 1, 0
@@ -85,7 +91,7 @@ _RK4, _PGS = 1, 0
 
 @njit
 def has_tables(m: int, o: Ints64) -> bool:
-    """Return whether a model has our tables."""
+    """Return whether a model has the tables of `columns`."""
     if read_int64(m + o[f.NUSER_BODY]) != c.BODY_COLUMNS:
         return False
     return read_double(read_int64(m + o[f.BODY_USER]) + 8 * c.MAGIC) == c.MAGIC_NUMBER
@@ -93,7 +99,7 @@ def has_tables(m: int, o: Ints64) -> bool:
 
 @njit
 def needs_projection(m: int, o: Ints64) -> bool:
-    """Return whether the constraint solver keeps products with an outdated inverse of M."""
+    """Return whether the constraint solver uses products with the inverse of M, now outdated."""
     return (
         read_int32(m + o[f.SOLVER]) == _PGS
         or read_int32(m + o[f.NOSLIP]) > 0
@@ -103,13 +109,13 @@ def needs_projection(m: int, o: Ints64) -> bool:
 
 @njit
 def has_water(d: int, o: Ints64) -> bool:
-    """Return whether ``d.M`` has its water already; if so it must be computed anew."""
+    """Return whether ``d.M`` contains the water already; it must then be computed again first."""
     return read_double(read_int64(d + o[f.CRB])) == _WATER_MARK
 
 
 @njit
 def add_water(m: int, d: int, o: Ints64) -> None:
-    """Add the water to ``d.M`` and ``d.qfrc_passive``, which must be as MuJoCo computed them."""
+    """Add the water to ``d.M`` and ``d.qfrc_passive``, which must be as MuJoCo computes them."""
     nv, nbody = read_int64(m + o[f.NV]), read_int64(m + o[f.NBODY])
     work = np.zeros(f.ROW * nbody + f.SCRATCH + f.DRAG * read_int64(m + o[f.NTREE]))
     step = read_double(m + o[f.TIMESTEP])
@@ -164,9 +170,9 @@ def add_water(m: int, d: int, o: Ints64) -> None:
 
 @njit
 def water_wrenches(m: int, d: int, o: Ints64, wrenches: Floats) -> None:
-    """Compute the wrench of the water and the thrusters on the subtree of every body.
+    """Compute the wrench of the water, thrusters and fins on the subtree of every body.
 
-    It needs ``cacc``, which a step with force sensors (or ``mj_rnePostConstraint``) computes.
+    ``cacc`` must be up to date, as a step with force sensors or ``mj_rnePostConstraint`` leaves it.
 
     Args:
         m: the address of the model.
@@ -195,7 +201,7 @@ def water_wrenches(m: int, d: int, o: Ints64, wrenches: Floats) -> None:
 
 @njit
 def _compute_bias(m: int, d: int, o: Ints64, work: Floats) -> None:
-    """Compute the spatial acceleration of every body when no joint accelerates: Jdot qvel."""
+    """Compute the spatial acceleration of every body without joint accelerations, Jdot qvel."""
     nv, nbody = read_int64(m + o[f.NV]), read_int64(m + o[f.NBODY])
     parent = view_int32s(read_int64(m + o[f.BODY_PARENT]), nbody)
     dof_number = view_int32s(read_int64(m + o[f.BODY_DOFNUM]), nbody)
@@ -213,7 +219,7 @@ def _compute_bias(m: int, d: int, o: Ints64, work: Floats) -> None:
 
 @njit
 def _sum_up(m: int, o: Ints64, work: Floats) -> None:
-    """Add every body's wrench and inertia to its parent's."""
+    """Add the wrench, inertia and momentum of every body to those of its parent."""
     nbody = read_int64(m + o[f.NBODY])
     parent = view_int32s(read_int64(m + o[f.BODY_PARENT]), nbody)
     for body in range(nbody - 1, 0, -1):
@@ -226,7 +232,7 @@ def _sum_up(m: int, o: Ints64, work: Floats) -> None:
 
 @njit
 def _add_actuators(m: int, d: int, o: Ints64, work: Floats, dt: float) -> None:
-    """Add the forces of all thrusters and fins, by their state a time ``dt`` later."""
+    """Add the forces of all thrusters and fins with their states after a time ``dt`` [s]."""
     if read_int64(m + o[f.NUSER_ACTUATOR]) != c.ACTUATOR_COLUMNS:
         return
     tables = read_int64(m + o[f.ACTUATOR_USER])
@@ -240,7 +246,16 @@ def _add_actuators(m: int, d: int, o: Ints64, work: Floats, dt: float) -> None:
 
 @njit
 def _add_bodies(m: int, d: int, o: Ints64, theta_h: float, work: Floats, with_mass: bool) -> None:
-    """Compute the wrench of the water on every body, and its inertia when ``with_mass``."""
+    """Compute the wrench of the water on every body.
+
+    Args:
+        m: the address of the model.
+        d: the address of the data.
+        o: the offsets of the fields.
+        theta_h: the step over which drag is implicit, for bodies with an implicitness of 1 [s].
+        work: the rows of the bodies, with their bias accelerations.
+        with_mass: true to compute the inertia and the momentum of the water, too.
+    """
     nbody = read_int64(m + o[f.NBODY])
     tree = view_int32s(read_int64(m + o[f.BODY_TREE]), nbody)
     root = view_int32s(read_int64(m + o[f.BODY_ROOT]), nbody)
@@ -274,7 +289,7 @@ def _add_bodies(m: int, d: int, o: Ints64, theta_h: float, work: Floats, with_ma
         x, y, z = centre
         if depth - (up[0] * x + up[1] * y + up[2] * z) < 2.0 * table[c.REACH]:
             timestep = read_double(m + o[f.TIMESTEP])
-            growth = entry(table, up, depth, fraction, nu, timestep) / timestep
+            growth = entered_share(table, up, depth, fraction, nu, timestep) / timestep
         if is_stratified:
             centre_height = height + axes[6] * x + axes[7] * y + axes[8] * z
             fraction *= density_ratio(m, o, centre_height)

@@ -1,8 +1,8 @@
 """Offsets of the fields of MuJoCo's C structs, computed from `mujoco.introspect`.
 
-The kernel receives only the addresses of ``mjModel`` and ``mjData``. The offset of every field that
-it reads follows from the declarations by C's rules of alignment. `check` compares the offsets with
-the arrays of the Python bindings: another layout is an error, and is never misread.
+The kernel receives only the addresses of ``mjModel`` and ``mjData``. The offsets of the fields that
+it reads follow from the declarations of the structs by C's rules of alignment. `check` compares
+them with the arrays of the Python bindings, so that another layout is an error.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ CONTACT_FIELDS = ("pos", "frame", "geom")
 """The fields of a contact that the kernel reads."""
 
 _STRUCT_NAMES = ("opt.", "nefc", "solver_niter", "ncon")
-"""The beginnings of the names of 32-bit numbers, and of arrays in the struct itself."""
+"""The prefixes of names of fields that are 32-bit integers, or arrays within the struct."""
 
 _SIZES = {
     "char": 1, "mjtByte": 1, "mjtBool": 1, "int": 4, "float": 4, "mjtNum": 8, "double": 8,
@@ -52,14 +52,14 @@ _SIZES = {
 
 
 class MujocoChanged(UwsimError):
-    """The memory layout of this MuJoCo differs from that of the kernel."""
+    """The memory layout of the installed MuJoCo differs from the layout that the kernel expects."""
 
 
 def offsets() -> npt.NDArray[np.int64]:
     """Return the byte offsets of all fields, (n,).
 
-    These are those of `MODEL_FIELDS` in mjModel, `DATA_FIELDS` in mjData and `CONTACT_FIELDS` in
-    mjContact, and the size of mjContact.
+    They are the offsets of `MODEL_FIELDS` in ``mjModel``, of `DATA_FIELDS` in ``mjData`` and of
+    `CONTACT_FIELDS` in ``mjContact``, then the size of ``mjContact``.
     """
     model, data = _fields("mjModel"), _fields("mjData")
     option = _fields("mjOption")
@@ -77,15 +77,15 @@ def offsets() -> npt.NDArray[np.int64]:
 
 
 def check(model: mujoco.MjModel, data: mujoco.MjData, offsets: npt.NDArray[np.int64]) -> None:
-    """Compare the offsets with live arrays and numbers.
+    """Compare offsets with the addresses and values of a live model.
 
     Args:
-        model: the model.
-        data: its state, with a contact.
+        model: a model.
+        data: data of the model, with at least one contact.
         offsets: the offsets.
 
     Raises:
-        MujocoChanged: a pointer or a number is not where it should be.
+        MujocoChanged: a pointer or a number is not at its offset.
     """
     names, n_contact = (*MODEL_FIELDS, *DATA_FIELDS), len(CONTACT_FIELDS) + 1
     for name, offset in zip(names, offsets[:-n_contact].tolist(), strict=True):
@@ -116,7 +116,7 @@ def check(model: mujoco.MjModel, data: mujoco.MjData, offsets: npt.NDArray[np.in
 
 @cache
 def data_slices() -> tuple[dict[str, slice], int]:
-    """Return the bytes of every field of mjData by its name, and the size of mjData."""
+    """Return the slice of bytes of each field of ``mjData`` by name, and the size of ``mjData``."""
     starts: dict[str, int] = {}
     fields = structs.STRUCTS["mjData"].fields
     size, _ = _walk(fields, starts)
@@ -127,7 +127,7 @@ def data_slices() -> tuple[dict[str, slice], int]:
 
 
 def _has_contact_layout(contacts: Any, address: int, layout: npt.NDArray[np.int64]) -> bool:
-    """Check offsets of `CONTACT_FIELDS`, and the size of a contact, against live contacts."""
+    """Compare the offsets of `CONTACT_FIELDS` and the size of a contact with live contacts."""
     *offsets, size = layout.tolist()
     fields = [getattr(contacts, name) for name in CONTACT_FIELDS]  # views, one row per contact
     return len(contacts) > 0 and all(
@@ -150,14 +150,14 @@ def _find(fields: dict[str, int], struct: str, name: str) -> int:
 
 
 def _fields(struct: str) -> dict[str, int]:
-    """Return the byte offsets by name."""
+    """Return the byte offsets of the fields of a struct by name."""
     starts: dict[str, int] = {}
     _walk(structs.STRUCTS[struct].fields, starts)
     return starts
 
 
 def _walk(fields: Any, starts: dict[str, int]) -> tuple[int, int]:
-    """Return size and alignment of a struct; fill ``starts``."""
+    """Return the size and alignment of a struct; write the offsets of its fields to ``starts``."""
     end, max_alignment = 0, 1
     for field in fields:
         size, alignment = _size(field.type)
@@ -169,7 +169,7 @@ def _walk(fields: Any, starts: dict[str, int]) -> tuple[int, int]:
 
 
 def _size(kind: Any) -> tuple[int, int]:
-    """Return size and alignment of a type of `mujoco.introspect`."""
+    """Return the size and alignment of a type of `mujoco.introspect` [bytes]."""
     if hasattr(kind, "fields"):
         return _walk(kind.fields, {})
     if hasattr(kind, "extents"):

@@ -1,18 +1,20 @@
-r"""The Coriolis terms of a free body at the midpoint of a step, which conserve its energy.
+r"""The Coriolis forces of a free body by the implicit midpoint rule, which conserves energy.
 
-MuJoCo evaluates them, and the orientation of the added mass, at the start of a step: a light thin
-body, or one that tumbles, would gain energy at every step. Here they are those of the implicit
-midpoint rule in the axes of the body. With its twist :math:`\nu`, its inertia :math:`A` (rigid and
-added), its momentum :math:`p` and the rate :math:`\delta` of :math:`\nu` over a step of length h,
+MuJoCo evaluates Coriolis forces, and the orientation of the added mass, at the start of a step: a
+light slender body, or a tumbling body, would gain energy in every step. Here they are evaluated by
+the implicit midpoint rule in body axes. With the twist :math:`\nu` of the body, its inertia
+:math:`A` (rigid and added), its momentum :math:`p` and the rate :math:`\delta` of :math:`\nu` over
+a step of length h,
 
 .. math:: S\delta + \tfrac h2\bigl(\delta\times^*(p + \tfrac h2 A\delta) + \nu\times^* A\delta\bigr)
           = G
 
 where :math:`S` is :math:`A` plus the drag that is implicit over the step, :math:`G = S\dot\nu` at
-its start, and :math:`\times^*` the cross product of a twist and a momentum, without that of drag,
-which would spin up a needle about its axis. The rule conserves energy and the lengths of both
-momenta (Hairer, Lubich, Wanner, *Geometric Numerical Integration*, 2006, IV.2). The joints of a
-body count as held. Twists and wrenches: rotational part first, as in MuJoCo.
+the start of the step, and :math:`\times^*` the cross product of a twist and a momentum. Implicit
+drag is not part of the momentum: it would make a needle spin about its axis. The rule conserves the
+energy, and the lengths of linear and angular momentum (Hairer, Lubich, Wanner, *Geometric Numerical
+Integration*, 2006, IV.2). The joints of the body count as fixed. Twists, momenta and wrenches have
+the rotational part first, as in MuJoCo.
 """
 
 from __future__ import annotations
@@ -23,21 +25,25 @@ from ....base.numerics.jit import njit
 from ....base.numerics.memory import Floats
 
 INERTIA, TWIST, MOMENTUM, FORCE, RATE, SUM = 0, 36, 42, 48, 54, 60
-"""The indices of the numbers of one body: A (6, 6), nu, p, G, the solution delta, S (6, 6)."""
+"""The indices in the array b of one body: A (6, 6), nu, p, G, the solution delta, S (6, 6)."""
 _IMAGE, _BASIS, _MATRIX, STEP = 96, 102, 108, 144
+"""The indices of scratch: A delta, p + h/2 A delta, the matrix (6, 6), the residual or correction.
+"""
 NUMBERS = 150
-"""The number of numbers of one body, with scratch."""
+"""The length of the array b of one body."""
 _ROUNDS, _BOUND_ROUNDS = 16, 8
+"""The largest numbers of iterations of `solve_rate` and of `_bound_rate`."""
 _TOLERANCE, _MAX_ERROR, _SLOW_RATIO = 1e-14, 1e-12, 1e-4
-"""The energy of a correction by that of the rate: at which the iteration ends, and which is still
-valid; and by that of the last correction: at which the matrix is computed anew."""
+"""Limits of the energy of a correction: relative to the energy of the rate, at which the iteration
+ends, and at which its result is valid; and relative to the energy of the last correction, above
+which the matrix is computed again."""
 
 
 @njit
 def solve_rate(b: Floats, h: float) -> None:
-    """Find the rate over a step by Newton's method, from the numbers of one body.
+    """Solve for the rate over a step h [s] by Newton's method.
 
-    The matrix is that of the first round while the iteration converges fast.
+    The matrix is that of the first iteration as long as the iteration converges fast.
     """
     for i in range(6):
         b[RATE + i] = 0.0
@@ -69,11 +75,12 @@ def solve_rate(b: Floats, h: float) -> None:
 
 @njit
 def _bound_rate(b: Floats, h: float) -> None:
-    r"""Find a rate that gains no energy, where Newton's method finds none.
+    r"""Find a rate without a gain of energy, if Newton's method does not converge.
 
-    The motion of a body that rotates by more than a radian in a step is wrong in any case, but must
-    not gain speed. With the momentum :math:`p + \tfrac h2 A\delta` of the last round the equation
-    is linear, and the cross product does no work on the twist :math:`\nu + \tfrac h2\delta`.
+    The motion of a body that rotates by more than a radian in a step is inaccurate in any case, but
+    must not gain energy. With the momentum :math:`p + \tfrac h2 A\delta` of the last iteration the
+    equation is linear, and the cross product does no work on the twist
+    :math:`\nu + \tfrac h2\delta`.
     """
     for i in range(6):
         b[_IMAGE + i] = 0.0
@@ -93,7 +100,7 @@ def _bound_rate(b: Floats, h: float) -> None:
 
 @njit
 def multiply(b: Floats, matrix: int, vector: int, k: int) -> None:
-    """Write the symmetric matrix (6, 6) at ``matrix`` times the vector at ``vector`` to ``k``."""
+    """Write the product of the symmetric matrix (6, 6) at ``matrix`` and a vector (6,) to ``k``."""
     t0, t1, t2, t3, t4, t5 = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     for j in range(6):
         x, row = b[vector + j], matrix + 6 * j
@@ -108,7 +115,7 @@ def multiply(b: Floats, matrix: int, vector: int, k: int) -> None:
 
 @njit
 def cross(b: Floats, twist: int, momentum: int, k: int, share: float) -> None:
-    """Add ``share`` of twist x* momentum to the six numbers at ``k``."""
+    """Add ``share`` times the cross product of a twist and a momentum to the wrench at ``k``."""
     wx, wy, wz, vx, vy, vz = (
         b[twist], b[twist + 1], b[twist + 2], b[twist + 3], b[twist + 4], b[twist + 5]
     )  # fmt: skip
@@ -126,7 +133,7 @@ def cross(b: Floats, twist: int, momentum: int, k: int, share: float) -> None:
 
 @njit
 def _residual(b: Floats, h: float) -> None:
-    """Write the residual to ``STEP``, where the sum times the rate is."""
+    """Replace S delta at ``STEP`` by the residual of the equation."""
     for i in range(6):
         b[STEP + i] = b[FORCE + i] - b[STEP + i]
         b[_BASIS + i] = b[MOMENTUM + i] + 0.5 * h * b[_IMAGE + i]
@@ -136,7 +143,7 @@ def _residual(b: Floats, h: float) -> None:
 
 @njit
 def _jacobian(b: Floats, h: float) -> None:
-    """Compute the derivative of the residual by the rate, with the sign turned, row by row."""
+    """Write the negative derivative of the residual by the rate to ``_MATRIX``, by rows."""
     g = 0.5 * h
     wx, wy, wz = g * b[TWIST], g * b[TWIST + 1], g * b[TWIST + 2]
     vx, vy, vz = g * b[TWIST + 3], g * b[TWIST + 4], g * b[TWIST + 5]
@@ -156,7 +163,7 @@ def _jacobian(b: Floats, h: float) -> None:
 
 @njit
 def _subtract_momentum(b: Floats, g: float) -> None:
-    """Subtract the cross product with the momentum at the middle from ``_MATRIX``; g = h/2."""
+    """Subtract the derivative of rate x* (midpoint momentum) from ``_MATRIX``; g = h/2."""
     for block, part in ((0, 0), (3, 3), (18, 3)):
         _subtract_skew(
             b, _MATRIX + block,
@@ -168,7 +175,7 @@ def _subtract_momentum(b: Floats, g: float) -> None:
 
 @njit
 def _subtract_skew(b: Floats, k: int, x: float, y: float, z: float) -> None:
-    """Subtract the matrix of x cross from a block in rows of 6."""
+    """Subtract the skew-symmetric matrix of (x, y, z) from a block (3, 3) at k in rows of 6."""
     b[k + 1] += z
     b[k + 2] -= y
     b[k + 6] -= z
@@ -179,10 +186,10 @@ def _subtract_skew(b: Floats, k: int, x: float, y: float, z: float) -> None:
 
 @njit
 def _factorise(b: Floats) -> None:
-    """Replace ``_MATRIX`` by its factors, L below the diagonal and U, in place.
+    """Replace ``_MATRIX`` by its LU factors in place, with the inverse pivots on the diagonal.
 
-    It needs no pivoting: the symmetric part of the matrix is the inertia, positive definite, and
-    the other terms are small beside it or skew, so that no pivot vanishes.
+    No pivoting is needed: the symmetric part of the matrix is the inertia, which is positive
+    definite. The other terms are small or skew-symmetric, so that no pivot vanishes.
     """
     for k in range(6):
         row = _MATRIX + 6 * k
@@ -198,14 +205,14 @@ def _factorise(b: Floats) -> None:
 
 @njit
 def substitute(b: Floats) -> None:
-    """Solve the six equations whose factors are in ``_MATRIX`` for ``STEP``, in place."""
+    """Solve the linear equations with the factors in ``_MATRIX`` for ``STEP``, in place."""
     _solve_lower(b)
     _solve_upper(b)
 
 
 @njit
 def _solve_lower(b: Floats) -> float:
-    """Solve for L; return twice the kinetic energy of the solution, roughly."""
+    """Solve with the factor L; return an estimate of twice the kinetic energy of the solution."""
     energy = 0.0
     for i in range(6):
         row = _MATRIX + 6 * i
@@ -237,7 +244,12 @@ def rotation_rate(
     z: float,
     h: float,
 ) -> tuple[float, float, float]:
-    r"""Return the rate of a vector that rotates for h: :math:`(e^{h[\omega]} - 1)\,x / h`."""
+    r"""Return the mean rate of change of a vector that rotates for a time h [s].
+
+    .. math:: (e^{h[\omega]_\times} - 1)\,x / h
+
+    with the vector (x, y, z) and the angular velocity :math:`\omega` = (wx, wy, wz) [rad/s].
+    """
     angle2 = h * h * (wx * wx + wy * wy + wz * wz)
     c1, c2 = 1.0 - angle2 / 6.0, 0.5 * h
     if angle2 > 1e-8:

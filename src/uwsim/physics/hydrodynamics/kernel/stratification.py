@@ -1,8 +1,8 @@
-"""Water whose density changes with depth: linear between levels, constant above and below them.
+"""Stratified water, whose density is linear between given depths and constant outside of them.
 
-Buoyancy, added mass and drag of a body, and the forces on a fin, are proportional to the density
-there. Not modelled: the rate of change of added mass by it, internal waves, and the effect of
-moving bodies on the layers.
+Buoyancy, added mass and drag of a body, and the forces on a fin, are proportional to the density at
+the body or fin. Not modelled: forces by the rate of change of the added mass, internal waves,
+mixing of the water by moving bodies.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from . import fields as f
 
 @njit
 def density_ratio(m: int, o: Ints64, height: float) -> float:
-    """Return the density at a height in W [m], relative to that of the model's water."""
+    """Return the density at a height in the world [m], divided by that of the model's water."""
     world = view_doubles(read_int64(m + o[f.BODY_USER]), BODY_COLUMNS)
     if world[N_LEVELS] == 0.0:
         return 1.0
@@ -24,11 +24,11 @@ def density_ratio(m: int, o: Ints64, height: float) -> float:
 
 @njit
 def density_excess(world: Floats, depth: float) -> float:
-    """Return the excess density of water at a depth [m], relative to the model's water.
+    """Return the density at a depth divided by that of the model's water, minus 1.
 
     Args:
-        world: the row of the world body.
-        depth: the depth below the still surface.
+        world: the row of the world's body.
+        depth: the depth below the still surface [m].
     """
     n = int(world[N_LEVELS])
     k = 1

@@ -1,8 +1,9 @@
-"""The submerged fraction of a shape, and the centre of that part.
+"""The submerged fraction of a shape, and the centre of its submerged part.
 
-Volumes are exact for spheres, ellipsoids and boxes at any attitude, and for cylinders that are
-upright or whose end discs do not cross the surface. Other volumes of cylinders are quadratures over
-24 chords, accurate to about a thousandth. The water surface is a horizontal plane.
+Results are exact for spheres, ellipsoids and boxes at any attitude, and for cylinders that are
+upright or whose end discs do not cross the surface. For other cylinders they are computed by a
+quadrature over 24 chords, with an error of about a thousandth. The water surface is a horizontal
+plane.
 """
 
 from __future__ import annotations
@@ -16,9 +17,10 @@ from ....base.numerics.memory import Floats
 from ..columns import BOX, CYLINDER, ELLIPSOID, SHRINKING_SPHERE, SPHERE
 
 CHORDS = 24
+"""The number of chords of the quadrature over a cylinder."""
 _CORNERS = np.array([[i & 1, i >> 1 & 1, i >> 2 & 1] for i in range(8)]) - 0.5
 _PATHS = np.array([[1, 3], [1, 5], [2, 3], [2, 6], [4, 5], [4, 6]])
-"""A box is six tetrahedra along the edges from corner 0 to corner 7."""
+"""The two middle corners of each of six tetrahedra that form a box; the others are 0 and 7."""
 
 
 @njit
@@ -29,16 +31,18 @@ def compute_submersion(
 
     Args:
         shape: the number of the shape; see `columns`.
-        a: the first length [m]: radius; half-axis; edge.
-        b: the second length [m]: half-axis; edge; length of a cylinder, about z.
-        c: the third length [m].
-        up_x: the first component of the vertical in the shape's axes, a unit vector.
-        up_y: the second component.
-        up_z: the third component.
+        a: the radius of a sphere or cylinder, the first semi-axis of an ellipsoid, or the first
+            edge of a box [m].
+        b: the second semi-axis or edge, or the length of a cylinder, whose axis is z [m].
+        c: the third semi-axis or edge [m].
+        up_x: the x component of the upward unit vector in the axes of the shape.
+        up_y: its y component.
+        up_z: its z component.
         depth: the depth of the shape's centre below the surface [m].
 
     Returns:
-        The fraction 0..1, and the centre of the submerged part in the shape's axes [m].
+        The fraction 0..1, and the centre of the submerged part relative to the shape's centre, in
+        the axes of the shape [m].
     """
     size, up, centre = np.empty(3), np.empty(3), np.zeros(3)
     size[0], size[1], size[2] = a, b, c
@@ -74,7 +78,7 @@ def _fraction(shape: float, size: Floats, up: Floats, depth: float, centre: Floa
 
 @njit
 def _ball(a: float, b: float, c: float, up: Floats, depth: float, centre: Floats) -> float:
-    """Return the fraction of an ellipsoid: a stretched unit sphere, with the same fractions."""
+    """Return the fraction of an ellipsoid, which is a stretched unit sphere."""
     reach = math.sqrt((a * up[0]) ** 2 + (b * up[1]) ** 2 + (c * up[2]) ** 2)
     if reach <= 0.0 or depth >= reach:
         return 1.0
@@ -92,7 +96,7 @@ def _ball(a: float, b: float, c: float, up: Floats, depth: float, centre: Floats
 
 @njit
 def _box(size: Floats, up: Floats, depth: float, centre: Floats) -> float:
-    """Return the fraction of a box: of six tetrahedra, each cut by the plane exactly."""
+    """Return the fraction of a box, from the submerged parts of six tetrahedra."""
     points = np.empty((4, 3))  # [m]
     heights = np.empty(4)  # above the surface [m]
     total = size[0] * size[1] * size[2] / 6.0
@@ -113,7 +117,14 @@ def _box(size: Floats, up: Floats, depth: float, centre: Floats) -> float:
 
 @njit
 def _tetrahedron(points: Floats, heights: Floats, total: float, moment: Floats) -> float:
-    """Return the volume below height 0; add volume times centroid to ``moment``."""
+    """Return the volume of a tetrahedron below the surface.
+
+    Args:
+        points: the corners, which are sorted by height, (4, 3) [m].
+        heights: the heights of the corners above the surface, (4,) [m].
+        total: the volume of the tetrahedron [m3].
+        moment: the sum to which the submerged volume times its centroid is added, (3,) [m4].
+    """
     for i in range(1, 4):  # sort, lowest first
         j = i
         while j > 0 and heights[j] < heights[j - 1]:
@@ -159,7 +170,10 @@ def _tetrahedron(points: Floats, heights: Floats, total: float, moment: Floats) 
 
 @njit
 def _tip(points: Floats, heights: Floats, corner: int, total: float, moment: Floats) -> float:
-    """Return the volume (> 0) of the corner that the plane cuts off; ``total`` may be negative."""
+    """Return the positive volume of the corner that the surface cuts off a tetrahedron.
+
+    With a negative ``total``, the corner is subtracted from ``moment``; see `_tetrahedron`.
+    """
     share = 1.0
     for i in range(4):
         if i != corner:
@@ -177,7 +191,7 @@ def _tip(points: Floats, heights: Floats, corner: int, total: float, moment: Flo
 
 @njit
 def _cylinder(radius: float, length: float, up: Floats, depth: float, centre: Floats) -> float:
-    """Return the fraction of a cylinder: chords along the level direction give rectangles."""
+    """Return the fraction of a cylinder, by a quadrature over rectangles parallel to its axis."""
     tilt = math.sqrt(up[0] * up[0] + up[1] * up[1])
     x, y = (up[0] / tilt, up[1] / tilt) if tilt > 1e-12 else (1.0, 0.0)
     volume, x_moment, z_moment = 0.0, 0.0, 0.0
@@ -195,13 +209,16 @@ def _cylinder(radius: float, length: float, up: Floats, depth: float, centre: Fl
     centre[0] = x * x_moment / volume
     centre[1] = y * x_moment / volume
     centre[2] = z_moment / volume
-    # sum of 4 (length/2) r sin^2 over the nodes, exact: the volume by the same rule
+    # divided by the volume of the whole cylinder by the same quadrature
     return volume / (length * radius * (CHORDS + 1))
 
 
 @njit
 def _rectangle(a: float, b: float, up_x: float, up_z: float, depth: float, piece: Floats) -> None:
-    """Compute area and first moments of the part of [-a, a] x [-b, b] where up . p <= depth."""
+    """Compute the submerged part of the rectangle [-a, a] x [-b, b], where up . p <= depth.
+
+    Its area and its first moments along x and z are written into ``piece``, (3,).
+    """
     piece[:] = 0.0
     px, pz, ph = -a, -b, -a * up_x - b * up_z - depth
     for i in range(1, 5):
@@ -218,7 +235,7 @@ def _rectangle(a: float, b: float, up_x: float, up_z: float, depth: float, piece
                 ex, ez = px + share * (qx - px), pz + share * (qz - pz)
             _edge(sx, sz, ex, ez, piece)
         px, pz, ph = qx, qz, qh
-    # close along the waterline: from where the outline leaves the water to where it enters it
+    # close the outline along the waterline, from where it leaves the water to where it enters it
     _waterline(a, b, up_x, up_z, depth, piece)
     piece[1] /= 3.0
     piece[2] /= 3.0
@@ -235,7 +252,7 @@ def _edge(sx: float, sz: float, ex: float, ez: float, piece: Floats) -> None:
 
 @njit
 def _waterline(a: float, b: float, up_x: float, up_z: float, depth: float, piece: Floats) -> None:
-    """Add the edge of the surface across the rectangle."""
+    """Add the edge along the waterline, if the surface crosses the rectangle."""
     leave_x, leave_z, back_x, back_z, n_crossings = 0.0, 0.0, 0.0, 0.0, 0
     px, pz, ph = -a, -b, -a * up_x - b * up_z - depth
     for i in range(1, 5):

@@ -1,13 +1,13 @@
-r"""Thrusters: static thrust curve, reduced by the inflow.
+r"""Thrusters: a static thrust curve, reduced by the inflow.
 
 A propeller of diameter D with n revolutions per second in an inflow of the speed V has the thrust
 
 .. math:: T = \rho n^2 D^4 K_T(J), \qquad J = \frac{V}{n D}
 
-(Carlton, *Marine Propellers and Propulsion*, ch. 6). The curve of the command is the thrust at
-rest, :math:`T_0 = \rho n^2 D^4 K_T(0)`, which determines n: the thrust is
-:math:`T_0 K_T(J) / K_T(0)`. Inflow from behind has no effect. Backwards the propeller has the same
-coefficients.
+(Carlton, *Marine Propellers and Propulsion*, ch. 6), with the advance ratio J. The thrust curve
+states the static thrust :math:`T_0 = \rho n^2 D^4 K_T(0)` for a command, which determines n; the
+thrust is :math:`T_0 K_T(J) / K_T(0)`. Inflow from behind has no effect. The coefficients are the
+same for backward thrust.
 
 Not modelled: inflow across the propeller's axis, cavitation, the drag of a stopped propeller.
 """
@@ -32,15 +32,15 @@ from .flow import actuator_site, add_force, site_velocity, submersion, water_den
 
 @njit
 def add_thrust(m: int, d: int, o: Ints64, i: int, table: Floats, dt: float, work: Floats) -> None:
-    """Add the thrust of a thruster, by its rotor a time ``dt`` later.
+    """Add the thrust of a thruster with its rotor state after a time ``dt``.
 
     Args:
         m: the address of the model.
         d: the address of the data.
         o: the offsets of the fields.
-        i: the number of the actuator.
-        table: the thruster's row.
-        dt: the time [s].
+        i: the actuator id of the thruster.
+        table: the row of the thruster.
+        dt: the time from now [s].
         work: the rows of the bodies.
     """
     n, nbody = read_int64(m + o[f.NACTUATOR]), read_int64(m + o[f.NBODY])
@@ -64,7 +64,14 @@ def add_thrust(m: int, d: int, o: Ints64, i: int, table: Floats, dt: float, work
 
 @njit
 def inflow_loss(table: Floats, thrust: float, speed: float, density: float) -> float:
-    """Return the share of thrust at rest [N] that a propeller loses at a speed ahead [m/s]."""
+    """Return the share of its static thrust that a propeller loses by inflow.
+
+    Args:
+        table: the row of the thruster.
+        thrust: the static thrust [N].
+        speed: the velocity through the water along the direction of thrust [m/s].
+        density: the density of the water [kg/m3].
+    """
     if thrust == 0.0:
         return 0.0
     inflow = (1.0 - table[c.WAKE]) * (speed if thrust > 0.0 else -speed)
@@ -78,7 +85,7 @@ def inflow_loss(table: Floats, thrust: float, speed: float, density: float) -> f
 
 @njit
 def thrust_coefficient(table: Floats, advance: float) -> float:
-    """Return KT at an advance ratio from 0 on: linear between the points and beyond the last."""
+    """Return KT at an advance ratio, linear between the points and extrapolated beyond the last."""
     n = int(table[c.N_ADVANCE])
     k = 1
     while k < n - 1 and table[c.ADVANCE + 2 * k] < advance:
@@ -91,18 +98,18 @@ def thrust_coefficient(table: Floats, advance: float) -> float:
 
 @njit
 def lag_share(time_constant: float, time: float) -> float:
-    """Return the share of a step that a first-order lag covers in a time, 0..1."""
+    """Return the share of a step input that a first-order lag reaches after a time [s], 0..1."""
     if time_constant <= 0.0:
         return 1.0
     x = time / time_constant
     if x < 0.01:
-        return x * (1.0 - x * (0.5 - x * (1.0 / 6.0 - x / 24.0)))  # fast, to 1e-12
+        return x * (1.0 - x * (0.5 - x * (1.0 / 6.0 - x / 24.0)))  # a fast series, exact to 1e-12
     return -math.expm1(-x)
 
 
 @njit
 def static_thrust(table: Floats, command: float) -> float:
-    """Return the thrust at rest [N]: dead zone, polynomial of the command's sign, saturation."""
+    """Return the static thrust for a command [N], with dead zone, thrust curve and saturation."""
     x = abs(command) - table[c.DEAD_ZONE]
     if x <= 0.0:
         return 0.0
