@@ -70,7 +70,7 @@ PLAN = np.dtype(
         ("flow", np.int64),  # the addresses of a `WaterFunction` and its parameters
         ("flow_parameters", np.int64),
         ("needs_points", np.int64),  # 1 if this function reads the positions of the points
-        ("follows_surface", np.int64),  # 1 if it needs the middles of the submerged parts
+        ("follows_surface", np.int64),  # 1 for heights of the submerged parts' centres
         ("n_water", np.int64),  # the number of further steps in which this function is called
     ],
     align=True,

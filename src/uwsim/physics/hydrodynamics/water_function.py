@@ -33,7 +33,8 @@ class WaterFunction:
     needs_points: bool = False
     """True if the function reads the points, which must then be up to date."""
     follows_surface: bool = False
-    """True if the point of a body that pierces the surface is the middle of its submerged part."""
+    """True if the point of a body that pierces the surface has the height of the centre of its
+    submerged part."""
     is_steady: bool = False
     """True if the motion in the first step of a run holds for all other steps."""
     memory_owners: tuple[object, ...] = field(default=())

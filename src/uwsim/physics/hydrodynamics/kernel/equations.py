@@ -84,18 +84,18 @@ def reference_point(table: Floats, xpos: Floats, axes: Floats, com: Floats) -> t
 def surface_plane(
     table: Floats, axes: Floats, height: float, surface: float, water: Floats
 ) -> tuple[Three, float]:
-    """Return the plane of the surface at a body: its normal, and the depth below it.
+    """Return the plane that approximates the water surface at a body.
 
     Args:
-        table: the body's table.
-        axes: world_from_body.
-        height: the height of the reference point in W [m].
-        surface: the height of the still surface in W [m].
-        water: the body's row of the water.
+        table: the row of the body.
+        axes: ``world_from_body``.
+        height: the height of the reference point in the world [m].
+        surface: the height of the still water in the world [m].
+        water: the row of the water at the body in ``userdata``.
 
     Returns:
-        The normal in the axes of the body, which is the vertical under a level surface, and the
-        depth of the reference point below the plane [m].
+        The upward unit normal of the plane in body axes, which is vertical for a level surface, and
+        the depth of the reference point below the plane [m].
     """
     a, b = water[c.SLOPE_X], water[c.SLOPE_Y]
     if a == 0.0 and b == 0.0:
@@ -104,7 +104,7 @@ def surface_plane(
     up = to_body(axes, -a / size, -b / size, 1.0 / size)
     x, y, z = table[c.CENTRE], table[c.CENTRE + 1], table[c.CENTRE + 2]
     centre_height = height + axes[6] * x + axes[7] * y + axes[8] * z
-    depth = (surface + water[c.ELEVATION] - centre_height) / size  # of the centre
+    depth = (surface + water[c.ELEVATION] - centre_height) / size  # of the centre of buoyancy
     return up, depth + (up[0] * x + up[1] * y + up[2] * z)
 
 
@@ -116,7 +116,7 @@ def submerged_part(table: Floats, up: Three, depth: float) -> tuple[float, Three
 
     Args:
         table: the row of the body.
-        up: the upward unit vector in body axes.
+        up: the upward unit normal of the surface in body axes.
         depth: the depth of the reference point below the surface [m].
     """
     x, y, z = table[c.CENTRE], table[c.CENTRE + 1], table[c.CENTRE + 2]
@@ -138,7 +138,7 @@ def entered_share(
 
     Args:
         table: the row of the body.
-        up: the upward unit vector in body axes.
+        up: the upward unit normal of the surface in body axes.
         depth: the depth of the reference point below the surface [m].
         fraction: the submerged fraction of the body.
         nu: the twist relative to the water during the step.

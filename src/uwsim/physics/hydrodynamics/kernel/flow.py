@@ -1,4 +1,4 @@
-"""The water at a point of a body: its flow at a propeller or a fin, its surface, its density."""
+"""The flow at a propeller or fin, its submersion, and the addition of its force to its body."""
 
 from __future__ import annotations
 
@@ -85,17 +85,17 @@ def submersion(m: int, d: int, o: Ints64, site: int, body: int, radius: float) -
 
 @njit
 def submerged_middle(m: int, d: int, o: Ints64, body: int, height: float) -> float:
-    """Return the height of the middle of the submerged part of a body in W [m].
+    """Return the height in the world of the centre of a body's submerged part [m].
 
-    It is that below the surface of the last step.
+    The surface is that of the last step.
 
     Args:
         m: the address of the model.
         d: the address of the data.
         o: the offsets of the fields.
-        body: the number of the body.
-        height: the height of the whole body's centre, which is returned unless the body pierces the
-            surface.
+        body: the id of the body.
+        height: the height of the point at which the water acts on the whole body [m], which is
+            returned unless the body pierces the surface.
     """
     tables = read_int64(m + o[f.BODY_USER])
     table = view_doubles(tables + 8 * c.BODY_COLUMNS * body, c.BODY_COLUMNS)

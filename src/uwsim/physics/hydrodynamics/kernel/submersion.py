@@ -2,8 +2,7 @@
 
 Results are exact for spheres, ellipsoids and boxes at any attitude, and for cylinders that are
 upright or whose end discs do not cross the surface. For other cylinders they are computed by a
-quadrature over 24 chords, with an error of about a thousandth. The water surface is a horizontal
-plane.
+quadrature over 24 chords, with an error of about a thousandth. The water surface is a plane.
 """
 
 from __future__ import annotations
@@ -35,7 +34,7 @@ def compute_submersion(
             edge of a box [m].
         b: the second semi-axis or edge, or the length of a cylinder, whose axis is z [m].
         c: the third semi-axis or edge [m].
-        up_x: the x component of the upward unit vector in the axes of the shape.
+        up_x: the x component of the upward unit normal of the surface, in the axes of the shape.
         up_y: its y component.
         up_z: its z component.
         depth: the depth of the shape's centre below the surface [m].
