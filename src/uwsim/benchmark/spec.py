@@ -77,6 +77,6 @@ class BenchmarkSpec(Spec):
     @property
     def parts(self) -> tuple[MeasureSpec | TriggerSpec | SceneUpdaterSpec, ...]:
         """All measures, triggers and updaters of the file."""
-        gates = [gate for spec in self.measures for gate in (spec.start_on, spec.stop_on)]
+        triggers = [trigger for spec in self.measures for trigger in (spec.start_on, spec.stop_on)]
         updaters = chain(self.scene_updater)
-        return (*self.measures, *gates, self.start_on, self.stop_on, *updaters)
+        return (*self.measures, *triggers, self.start_on, self.stop_on, *updaters)

@@ -62,7 +62,7 @@ class Collision(Measure):
 
     def __init__(self, spec: CollisionSpec, world: World) -> None:
         self._world, self._target = world, spec.target
-        self._is_original = "collision" in world.compatibility
+        self._counts_first_body_only = "collision" in world.compatibility
         self._is_reset = "restart" in world.compatibility
         self._ends_at_contact = spec.stop_on_contact
         self._end_reason: str | None = None
@@ -81,7 +81,7 @@ class Collision(Measure):
     def update(self) -> None:
         """Evaluate one more step."""
         contacts = self._world.contacts(self._target)
-        if self._is_original:
+        if self._counts_first_body_only:
             contacts = [contact for contact in contacts if contact.is_first]
         self._n_steps += 1
         if contacts:
@@ -95,7 +95,7 @@ class Collision(Measure):
 
     def _approach_speed(self, contacts: Sequence[Contact]) -> float:
         """Return s, the mean approach speed of the contacts that close [m/s]."""
-        if self._is_original:
+        if self._counts_first_body_only:
             name = next((contact.other for contact in contacts if contact.own_speed > 0.0), None)
             speeds = [contact.own_speed for contact in contacts if contact.other == name]
         else:

@@ -131,13 +131,13 @@ class PathFollowing(Measure):
     ) -> None:
         self._world, self._target, self._frame, self._inbox = world, target, frame, inbox
         self._topic, self._statistic = spec.topic, spec.value
-        self._is_original = "path-ise" in world.compatibility
+        self._has_original_ise = "path-ise" in world.compatibility
         self._adds_position = "path-frame" in world.compatibility
         self._keeps_repeats = "path-repeats" in world.compatibility
         self._refuses_points = "path-point" in world.compatibility
         if spec.value != "last":
             self.unit = "m"  # type: ignore[misc]  # depends on u:value
-        ise = {"ise": "m s"} if self._is_original else {}
+        ise = {"ise": "m s"} if self._has_original_ise else {}
         self.detail_units = {**DETAIL_UNITS, **STATISTIC_UNITS, **ise}  # type: ignore[misc]
         self._path: Polyline | None = None
         self._waypoints: list[int] = []  # the index of the point at which each segment begins
@@ -210,7 +210,7 @@ class PathFollowing(Measure):
                 "iae": self._iae,
                 "distance": self._signal.last_sample[0],
                 "waypoint": float(self._waypoints[self._segment]),
-                "ise": self._iae if self._is_original else self._ise,
+                "ise": self._iae if self._has_original_ise else self._ise,
                 "share": self._farthest_length / length if length > 0.0 else None,
             }
         return {**parts, **self._signal.details}
@@ -274,7 +274,7 @@ class PathFollowing(Measure):
 
     def _integrate(self, last_distance: float, distance: float, duration: float) -> None:
         """Add a step of ``duration`` [s] between two distances [m] to the integrals."""
-        if self._is_original:
+        if self._has_original_ise:
             self._iae += distance * duration
             return
         self._iae += (last_distance + distance) * duration / 2.0

@@ -83,14 +83,14 @@ class PositionError(Measure):
         self._body, self._inbox, self._topic = body, inbox, spec.topic
         self._statistic = spec.value
         self._localized_from_world = world.world_from_localized.inverse()
-        is_original = "position-frame" in world.compatibility
-        self._frame_from_world = Pose.identity() if is_original else self._localized_from_world
+        uses_world_frame = "position-frame" in world.compatibility
+        self._frame_from_world = Pose.identity() if uses_world_frame else self._localized_from_world
         self._goal: Array | None = None  # in L, or in W with position-frame (3,) [m]
         if inbox is None:
             localized_from_goal = Pose(np.array(spec.position), np.eye(3))  # in L
             self._goal = (
                 world.world_from_localized @ localized_from_goal
-                if is_original
+                if uses_world_frame
                 else localized_from_goal
             ).position
         self._signal = Signal(("x", "y", "z"))

@@ -158,7 +158,7 @@ class BagFogUpdater(SceneUpdater):
         self._stage, self._spec, self._path, self._truth = stage, spec, path, truth
         if truth is not None:
             stage.bus.hide_topic(truth.topic)
-        self._is_original = "bag-fog" in stage.world.compatibility
+        self._has_original_fog = "bag-fog" in stage.world.compatibility
         self._image_topic, self._info_topic = spec.topics
         self._density = spec.density(spec.first_value)  # [1/m]
         self._recording: Recording | None = None
@@ -256,7 +256,7 @@ class BagFogUpdater(SceneUpdater):
 
     def _add_fog(self, decoded_image: DecodedImage) -> npt.NDArray[np.uint8]:
         thickness = (self._density * self._spec.image_depth) ** 2
-        if not self._is_original:
+        if not self._has_original_fog:
             return add_fog(decoded_image.pixels, math.exp(-thickness), self._stage.fog_colour)
         if decoded_image.pixels.ndim == 2:
             return np.ascontiguousarray(decoded_image.pixels)

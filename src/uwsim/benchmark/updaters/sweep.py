@@ -18,8 +18,8 @@ class SweepSpec(SceneUpdaterSpec):
     """An updater whose value increases by a step from level to level."""
 
     uses_float32: ClassVar[bool] = False
-    """True if the number of levels is computed in float32, as in the original UWSim; otherwise it
-    is computed in float64 (`sweep_values`)."""
+    """True if the original UWSim computes the number of levels in float32; False: in float64
+    (`sweep_values`)."""
 
     initial_value: float
     """The value of the first level."""
