@@ -68,11 +68,11 @@ class WaterMotion:
         self.waves = bind_waves(
             scene.ocean_state.waves, sea_settings(scene), context, self.state.wave_scale
         )
-        """The waves; None of a level surface."""
+        """The waves; None if the surface is level."""
         # the flow and the vehicles for which the functions are valid, and the functions
         self._water_cache: _CachedFunction[WaterFunction] = None, (), None, None
         self._drift_cache: _CachedFunction[DriftFunction] = None, (), None, None
-        # the functions of the currents, and with waves
+        # the function for currents alone, and the function for currents and waves
         self._wave_cache: tuple[WaterFunction | None, WaterFunction | None] = None, None
         # the flow for which the functions are valid; the functions by vehicle and number of points
         self._point_cache: tuple[Flow, dict[tuple[str, int], CompiledFunction | None]] = (
@@ -89,13 +89,14 @@ class WaterMotion:
         self.state.added_flow = current
 
     def set_wave_height(self, height: float | None) -> None:
-        """Set the significant wave height; None gives that of the scene.
+        """Set the significant wave height.
 
         Args:
-            height: the significant wave height of all wave systems together [m].
+            height: the significant wave height of all wave systems together [m]; None: the height
+                in the scene file.
 
         Raises:
-            UwsimError: the scene has no waves of which the height could change.
+            UwsimError: the scene has no waves whose height could change.
         """
         stated_height = 0.0 if self.waves is None else self.waves.significant_height
         if height is not None and stated_height == 0.0:
@@ -107,7 +108,7 @@ class WaterMotion:
 
     @property
     def surface_function(self) -> CompiledFunction | None:
-        """The function of the surface, see `uwsim.world.mounts.read_surface`; None if level."""
+        """The function of the surface for compiled code (`read_surface`); None if it is level."""
         return None if self.waves is None else self.waves.surface_function
 
     @property
@@ -163,7 +164,7 @@ class WaterMotion:
         timestep: float,
         vehicles: Sequence[str],
     ) -> WaterFunction | None:
-        """Return the motion of the water without waves, as `motion_during`."""
+        """Return the function of the water's motion in currents alone; see `motion_during`."""
         flow = self._flow
         if flow.is_still:
             return None
@@ -237,7 +238,7 @@ class WaterMotion:
         return _spread_rows(motions, numbers, self._localized_from_world.rotation)
 
     def motion_at(self, points: Array, time: float, vehicles: Sequence[str]) -> WaterRow:
-        r"""Return the motion of the water at points, in W.
+        r"""Return the motion of the water at points in currents alone, in W.
 
         The acceleration is the material derivative, of the water that passes a point. The pressure
         of the water gives a body the same acceleration:
@@ -351,7 +352,7 @@ def _spread_rows(motions: Array, numbers: npt.NDArray[np.int64], turn: Array) ->
 
 
 def sea_settings(scene: SceneSpec) -> SeaSettings:
-    """Return the settings of a scene's sea that wave systems may need."""
+    """Return the elements of <oceanState> that wave systems may need."""
     ocean = scene.ocean_state
     return SeaSettings(
         depth=ocean.depth,

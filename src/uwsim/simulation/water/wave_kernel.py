@@ -1,13 +1,14 @@
-r"""Waves added to the currents of a scene, in compiled code.
+r"""The motion of the water in currents and waves, in compiled code, in the world frame W.
 
-At each body the orbital motion is added to the motion of the currents, and the acceleration is that
-of the water which passes the point,
+At each body the orbital velocity :math:`u_w` of the waves is added to the velocity :math:`u_c` of
+the currents. The acceleration is the material derivative, of the water that passes the body,
 
 .. math:: \frac{Du}{Dt} = \frac{Du_c}{Dt} + \frac{\partial u_w}{\partial t}
     + ((u_c + u_w) \cdot \nabla) u_w
 
-with the exact gradient of the waves. Waves have no rotation. Not modelled: the shear of a current
-in the orbital motion, :math:`(u_w \cdot \nabla) u_c`, and the Doppler shift of waves in a current.
+with the exact gradient of the waves. The orbital motion has no rotation. Not modelled: the shear of
+a current in the orbital motion, :math:`(u_w \cdot \nabla) u_c`, and the Doppler shift of waves in a
+current.
 """
 
 from __future__ import annotations
@@ -35,33 +36,33 @@ from ...waves.kernel import WAVES, compute_wave_motion
 
 WAVY_WATER = np.dtype(
     [
-        ("currents", FUNCTION),
+        ("currents", FUNCTION),  # 0: no currents
         ("waves", np.int64),  # the address of a record of `WAVES`
-        ("n", np.int64),  # bodies
-        ("rows", np.int64),  # the address of the rows of the currents, (n, WATER_ROW)
+        ("n", np.int64),  # the number of bodies
+        ("rows", np.int64),  # the address of rows for the currents alone, (n, WATER_ROW)
     ]
 )
-"""The water of a scene with waves, for compiled code."""
+"""The record of the water of a scene with waves, for compiled code."""
 DRIFT_IN_WAVES = np.dtype(
     [
-        ("currents", FUNCTION),
+        ("currents", FUNCTION),  # 0: no currents
         ("waves", np.int64),  # the address of a record of `WAVES`
-        ("n", np.int64),  # vehicles
+        ("n", np.int64),  # the number of vehicles
         ("timestep", np.float64),  # [s]
     ]
 )
-"""The kinematic vehicles of a scene with waves, for compiled code."""
+"""The record of kinematic vehicles that drift in currents and waves, for compiled code."""
 POINTS_IN_WAVES = np.dtype([("currents", FUNCTION), ("waves", np.int64), ("n", np.int64)])
-"""The record of points around one vehicle in a scene with waves, for compiled code."""
+"""The record of n points of one vehicle in a scene with waves, for compiled code."""
 
 Record = Any
 
 
 def add_waves(currents: WaterFunction | None, waves: Waves, n: int) -> WaterFunction:
-    """Return the function of the water under waves.
+    """Return the function that computes the motion of the water in currents and waves.
 
     Args:
-        currents: the function of the water without waves; None: it is still.
+        currents: the function that computes it in currents alone; None: no currents.
         waves: the waves.
         n: the number of bodies.
     """
@@ -81,10 +82,10 @@ def add_waves(currents: WaterFunction | None, waves: Waves, n: int) -> WaterFunc
 def add_waves_to_drift(
     currents: DriftFunction | None, waves: Waves, n: int, timestep: float
 ) -> DriftFunction:
-    """Return the function of kinematic vehicles that drift in currents and waves.
+    """Return the function that lets kinematic vehicles drift in currents and waves.
 
     Args:
-        currents: the function of the drift in the currents; None: there are none.
+        currents: the function for the drift in currents alone; None: no currents.
         waves: the waves.
         n: the number of vehicles.
         timestep: the length of a step [s].
@@ -99,10 +100,10 @@ def add_waves_to_drift(
 
 
 def add_waves_to_points(currents: CompiledFunction, waves: Waves, n: int) -> CompiledFunction:
-    """Return the function of the velocity of the water at some points, with waves.
+    """Return the function that computes the velocity of the water at points, with waves.
 
     Args:
-        currents: the function of the velocity of the currents.
+        currents: the function that computes the velocity of the currents alone.
         waves: the waves.
         n: the number of points.
     """
@@ -116,7 +117,13 @@ def add_waves_to_points(currents: CompiledFunction, waves: Waves, n: int) -> Com
 
 
 def write_wavy_water(parameters: int, values: int, time: float) -> None:
-    """Write the motion of the water under waves; see `WaterFunction`."""
+    """Write the motion of the water in currents and waves; see `WaterFunction`.
+
+    Args:
+        parameters: the address of a `WAVY_WATER` record.
+        values: the address of the rows, (n, `WATER_ROW`).
+        time: the time in the middle of the step [s].
+    """
     water = carray(pointer(parameters), (1,), WAVY_WATER)[0]
     waves = carray(pointer(water.waves), (1,), WAVES)[0]
     rows = view_doubles(values, WATER_ROW * water.n).reshape((water.n, WATER_ROW))
@@ -137,7 +144,7 @@ def write_wavy_water(parameters: int, values: int, time: float) -> None:
 
 @njit
 def _add_motion(motion: Array, row: Array) -> None:
-    """Add the motion under waves, see `waves.kernel`, to the row of a body."""
+    """Add the motion in waves, as `compute_wave_motion` returns it, to the row of a body."""
     for j in range(3):
         row[VELOCITY + j] += motion[k.VELOCITY + j]
     u, v, w = row[VELOCITY], row[VELOCITY + 1], row[VELOCITY + 2]
@@ -152,7 +159,13 @@ def _add_motion(motion: Array, row: Array) -> None:
 
 
 def drift_in_waves(parameters: int, values: int, time: float) -> None:
-    """Move vehicles by a step; see `DriftFunction`."""
+    """Move vehicles with currents and waves by one step.
+
+    Args:
+        parameters: the address of a `DRIFT_IN_WAVES` record.
+        values: the address of the poses in W, (n, 7); see `DriftFunction`.
+        time: the time at the end of the step [s].
+    """
     record = carray(pointer(parameters), (1,), DRIFT_IN_WAVES)[0]
     waves = carray(pointer(record.waves), (1,), WAVES)[0]
     poses = view_doubles(values, 7 * record.n).reshape((record.n, 7))
@@ -169,7 +182,13 @@ def drift_in_waves(parameters: int, values: int, time: float) -> None:
 
 
 def write_velocities_in_waves(parameters: int, values: int, time: float) -> None:
-    """Write velocities after the points, see `uwsim.world.mounts.read_water`."""
+    """Write the velocities of the water behind the points; see `uwsim.world.mounts.read_water`.
+
+    Args:
+        parameters: the address of a `POINTS_IN_WAVES` record.
+        values: the address of n points in W [m], then of n velocities in W [m/s], (2, n, 3).
+        time: the time [s].
+    """
     record = carray(pointer(parameters), (1,), POINTS_IN_WAVES)[0]
     waves = carray(pointer(record.waves), (1,), WAVES)[0]
     call(record.currents.function, record.currents.parameters, values, time)
