@@ -26,7 +26,6 @@ from uwsim.optics.lamp_light import (
     compute_target_radiance,
     find_lit_part,
 )
-from uwsim.optics.transmission import compute_full_field
 
 CAMERA = (0.0, 0.0, 0.0)
 TABLED_ANGLE = math.radians(22.0)
@@ -227,16 +226,6 @@ def test_a_lamp_in_clear_water_obeys_the_inverse_square_law() -> None:
     irradiance = compute_lamp_irradiance(water, lamp_at(0.3), point, normal)
     assert radiance[0] == pytest.approx(1.0 / (math.pi * 4.0), rel=1e-12)
     assert irradiance[0] == pytest.approx(0.25, rel=1e-12)
-
-
-def test_irradiance_and_blur_give_the_light_of_a_wide_field() -> None:
-    """The way back of a wide field is h; the two agree within 8 % to an optical depth of 2."""
-    water = water_of(PHASES["FF"], 1.0, 0.85)
-    for distance in (0.5, 1.0, 2.0):
-        point, normal = np.array([0.0, 0.0, distance]), np.array([0.0, 0.0, -1.0])
-        irradiance = compute_lamp_irradiance(water, lamp_at(0.1), point, normal)
-        radiance = irradiance * compute_full_field(water, distance) / math.pi
-        assert radiance[0] == pytest.approx(signal_of(water, lamp_at(0.1), distance), rel=0.08)
 
 
 def test_a_soft_lobe_is_smooth_and_a_hard_one_is_a_step() -> None:
