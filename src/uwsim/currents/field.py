@@ -60,7 +60,7 @@ class FieldSpec(CurrentSpec):
     Before the first and after the last time, the velocity is that of the first or last time."""
 
     def bind(self, context: SceneContext) -> Field:
-        """Read the file.
+        """Read the grid from the file.
 
         Raises:
             AssetError: the file is unusable.
@@ -69,7 +69,7 @@ class FieldSpec(CurrentSpec):
         return Field(grid, start=self.start, outer_water=self.outside)
 
     def files(self, context: SceneContext) -> dict[str, Path]:
-        """Return the file."""
+        """Return the path of the file, by its name in the scene."""
         return {self.file: context.find(self.file)}
 
 

@@ -52,12 +52,12 @@ class ConstituentSpec(Spec):
 
     @property
     def angular_rate(self) -> float:
-        """The angular rate [rad/s]."""
+        """The angular rate of the constituent [rad/s]."""
         return math.radians(DEGREES_PER_HOUR[self.name]) / 3600.0
 
     @property
     def period(self) -> float:
-        """The period [s]."""
+        """The period of the constituent [s]."""
         return 2.0 * math.pi / self.angular_rate
 
 

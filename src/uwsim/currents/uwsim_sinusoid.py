@@ -30,7 +30,7 @@ from .flow_function import QUERY, FlowFunction, Record, write_everywhere
 from .random_table import ROWS, RandomTable
 
 MIN_PERIOD = 0.01
-"""The shortest period [s]."""
+"""The shortest period of a sine that a file may state [s]."""
 RATE = 60.0
 """The rate at which random factors are drawn; they are constant between draws [Hz]."""
 

@@ -36,7 +36,7 @@ class ForceSpec(Spec, abc.ABC):
 
 
 class Force(abc.ABC):
-    """A bound force.
+    """A force of a running simulation.
 
     The wrenches are computed at the beginning of each step from the poses, velocities and water
     motion at that time, and are constant in the world frame W until the end of the step. The error

@@ -121,8 +121,8 @@ class Engine:
         return self._water is not None
 
     @property
-    def places_bodies(self) -> bool:
-        """True if the pose of a body is set in every step, because it is carried or lifted."""
+    def needs_single_steps(self) -> bool:
+        """True if steps must be taken one by one, as a body is carried or lifted in every step."""
         return self.grips.is_carrying or self.lift.is_active
 
     def has_dynamics(self, index: int) -> bool:

@@ -35,11 +35,11 @@ class EngineFlags(ExternalValue):
         self._model = model
 
     def value(self) -> int:
-        """Return the flags."""
+        """Return MuJoCo's ``disableflags``."""
         return int(self._model.opt.disableflags)
 
     def set(self, value: object) -> None:
-        """Set the flags."""
+        """Set MuJoCo's ``disableflags``."""
         if not isinstance(value, int):
             raise wrong_scene_error()
         self._model.opt.disableflags = value

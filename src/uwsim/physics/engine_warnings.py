@@ -121,7 +121,7 @@ def speed_limits(model: mujoco.MjModel) -> npt.NDArray[np.int64]:
 
 
 def _max_angular_speed(model: mujoco.MjModel, body: int) -> int:
-    """Return the greatest angular speed of a body; that of a loose object follows from `RIM_SPEED`.
+    """Return the greatest angular speed of a body; `RIM_SPEED` limits it for a loose object.
 
     The radius of the object is half the second longest edge of its bounding box, of the thickest
     shape if there are several.

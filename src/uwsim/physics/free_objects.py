@@ -1,11 +1,11 @@
 r"""Inertia and hydrodynamics of loose objects, from the boxes around their shapes.
 
 The drag is :math:`\tfrac12\rho C_d A v|v|` for each pair of faces of the box, with :math:`C_d` =
-1.05. The added mass in translation is that of plates and prisms in DNV-RP-H103 (2011, appendix A),
-in rotation that of an ellipsoid with the proportions and volume of the box (Lamb). The displaced
-volume is that of the box unless ``u:volume`` states another. An object whose only shape is a sphere
-has :math:`C_d` = 0.47 in all directions. The file's ``linearDamping`` and ``angularDamping``, times
-mass and inertia, are added as linear damping.
+1.05. The translational added mass follows from plates and prisms in DNV-RP-H103 (2011, appendix A),
+the rotational added mass from an ellipsoid with the proportions and volume of the box (Lamb). The
+displaced volume is the volume of the box unless ``u:volume`` states another. An object whose only
+shape is a sphere has :math:`C_d` = 0.47 in all directions. The file's ``linearDamping`` and
+``angularDamping``, times mass and inertia, are added as linear damping.
 """
 
 from __future__ import annotations

@@ -15,8 +15,8 @@ FULL_EFFORT = 100.0
 """The greatest effort of a joint below which stiffness and damping of its servo are proportional to
 it [N m]."""
 LEVER = 0.1
-"""The lever arm that converts the stiffness [N m/rad] and inertia [kg m2] of a revolute joint to
-those of a prismatic joint, in N/m and kg [m]."""
+"""The lever arm [m] that converts the stiffness [N m/rad] and the inertia [kg m2] of a revolute
+joint to the stiffness [N/m] and the mass [kg] of a prismatic joint."""
 STIFF_FRICTION = [0.9999, 0.9999, 0.001, 0.5, 2.0]
 """The impedance of the dry friction of joints; with the engine's default a held joint creeps."""
 GEAR = (500.0, 10.0)

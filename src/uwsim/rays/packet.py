@@ -63,8 +63,8 @@ def fill_lanes(
 def bounds_of(low: Point, high: Point) -> Bounds:
     """Return the bounds of the inverses of directions between ``low`` and ``high``.
 
-    Where the bounds of a component have different signs, so have those of its inverse, and the
-    inverses lie outside them; `box_entry` treats this case.
+    If the bounds of a component have different signs, the inverses of values between them lie
+    outside the returned bounds; `box_entry` treats this case.
     """
     x, y, z = _inverses(low[0], high[0]), _inverses(low[1], high[1]), _inverses(low[2], high[2])
     return (x[0], y[0], z[0]), (x[1], y[1], z[1])

@@ -107,7 +107,7 @@ class SceneStepper:
             or self._forces
             or self._contacts.has_overlaps
             or not engine.is_dynamic
-            or engine.places_bodies
+            or engine.needs_single_steps
             or water.needs_positions(self._submerged_names)
         ):
             return 1, False
@@ -150,7 +150,7 @@ class SceneStepper:
             return False
         return (
             not engine.is_dynamic
-            or engine.places_bodies  # a held object has to follow a vehicle that has drifted
+            or engine.needs_single_steps  # a held object has to follow a vehicle that has drifted
             or bool(self._forces)
             or any(
                 v.state.prescribed_motion.part is not None for v in self._kinematic_vehicles

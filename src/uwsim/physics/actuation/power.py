@@ -6,9 +6,9 @@ Carlton, *Marine Propellers and Propulsion*, ch. 8), the electric power at the t
 .. math:: P = \frac{|T|^{3/2}}{\eta \sqrt{2 \rho A}}, \qquad A = \pi r^2
 
 with the density :math:`\rho` of the water and the radius r of the propeller. The *efficiency*
-:math:`\eta` is that of the motor and its electronics times the propeller's figure of merit, which a
-duct may raise up to :math:`\sqrt 2`. Instead, a file may state measured power as a polynomial of
-the thrust,
+:math:`\eta` is the product of the efficiency of the motor with its electronics and the propeller's
+figure of merit, which a duct may raise up to :math:`\sqrt 2`. Instead, a file may state measured
+power as a polynomial of the thrust,
 
 .. math:: P = c_1 |T| + c_2 |T|^2 + \dots
 

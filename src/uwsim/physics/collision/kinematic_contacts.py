@@ -27,9 +27,9 @@ class KinematicBodyState(Record):
     """The last displacement of a kinematic body."""
 
     pose: Pose
-    """The present pose."""
+    """The last recorded pose in W, the world frame."""
     previous_pose: Pose
-    """The pose before the last displacement."""
+    """The pose in W before the last displacement."""
     jumps: JumpState
     """The time of the last displacement."""
 

@@ -179,7 +179,7 @@ def install(model: mujoco.MjModel) -> Hydrodynamics:
     Raises:
         NoWater: the model was not prepared, or its options exclude the callback.
         CallbackTaken: another function is installed in the slot.
-        MujocoChanged: the layout of this MuJoCo differs from that of the kernel.
+        MujocoChanged: the layout of this MuJoCo differs from what the kernel expects.
     """
     _check(model)
     water = attach(model)
@@ -193,7 +193,7 @@ def attach(model: mujoco.MjModel) -> Hydrodynamics:
 
     Raises:
         CallbackTaken: another function is installed in the slot.
-        MujocoChanged: the layout of this MuJoCo differs from that of the kernel.
+        MujocoChanged: the layout of this MuJoCo differs from what the kernel expects.
     """
     self_test()
     if callback.has_slot():

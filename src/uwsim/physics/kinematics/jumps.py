@@ -43,7 +43,7 @@ class JumpTimes:
     def __init__(self, timestep: float, *, last_step: int | None = None, n_steps: int = 0) -> None:
         self._timestep, self._max_steps = timestep, max(1, round(MAX_JUMP / timestep))
         self.state = JumpState(-self._max_steps if last_step is None else last_step, n_steps)
-        """The last jump."""
+        """The step of the last jump, and the number of steps over which it is spread."""
 
     @property
     def n_steps(self) -> int:
