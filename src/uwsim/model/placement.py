@@ -148,11 +148,11 @@ class Floor:
     def no_ground_error(self, kind: str, spec: VehicleSpec | ObjectSpec) -> Diagnostic:
         """Return the error that there is no ground below a body."""
         x, y, _ = spec.position
-        place = "at this point" if len(self.ground) else "in this scene"
+        location_text = "at this point" if len(self.ground) else "in this scene"
         return diagnostic_at(
             spec.on_floor,
             f"<u:onFloor>: no ground under the {kind} {spec.name!r} at x {x:g}, y {y:g} of the "
-            f"file's frame. Expected an object 'terrain' or with <u:solid> 1 {place}",
+            f"file's frame. Expected an object 'terrain' or with <u:solid> 1 {location_text}",
             file=self._scene.path,
         )
 

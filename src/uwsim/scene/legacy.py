@@ -129,8 +129,8 @@ def _unwrap(kept_tag: str = "") -> Rule:
         if moved_children:
             names = ", ".join(dict.fromkeys(f"<{child.tag}>" for child in moved_children))
             diagnostics.warning(node, f"{names} in <{node.tag}>: read as in <{parent.tag}>")
-        for place, child in enumerate(moved_children, start=parent.index(node) + 1):
-            parent.insert(place, child)
+        for index, child in enumerate(moved_children, start=parent.index(node) + 1):
+            parent.insert(index, child)
         is_empty = not any(isinstance(child.tag, str) for child in node)
         if is_empty and not keeps_echo:
             _remove(node)

@@ -151,9 +151,9 @@ def find_focus(simulation: Simulation) -> Focus:
     ]
     if vehicles:
         points = np.concatenate([corners for _, corners in vehicles])
-        middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
+        centre = 0.5 * (points.min(axis=0) + points.max(axis=0))
         reach = max(OBJECT_DISTANCE, 3.0 * _radius(points))
-        nearby = [entry for entry in small_objects if _distance(entry[1], middle) <= reach]
+        nearby = [entry for entry in small_objects if _distance(entry[1], centre) <= reach]
         focus_parts = vehicles + nearby
     else:
         focus_parts = small_objects or [(part.id, corners) for part, corners in part_corners]
@@ -178,11 +178,11 @@ def _group_vehicles(part_corners: Sequence[tuple[Part, Array]]) -> list[tuple[in
     first_points = np.concatenate(
         [corners for part, corners in part_corners if part.vehicle == part_corners[0][0].vehicle]
     )
-    middle = 0.5 * (first_points.min(axis=0) + first_points.max(axis=0))
+    centre = 0.5 * (first_points.min(axis=0) + first_points.max(axis=0))
     near_vehicles = {
         part.vehicle
         for part, corners in part_corners
-        if _distance(corners, middle) <= MAX_VEHICLE_DISTANCE
+        if _distance(corners, centre) <= MAX_VEHICLE_DISTANCE
     }
     return [(part.id, corners) for part, corners in part_corners if part.vehicle in near_vehicles]
 
@@ -251,8 +251,8 @@ def _find_centre(simulation: Simulation, route: str) -> Array:
             continue
         if body.box is None:
             return body.world_from_body.position
-        middle = 0.5 * (np.array(body.box.lower) + np.array(body.box.upper))
-        centre: Array = body.world_from_body.transform(middle[None])[0]
+        body_centre = 0.5 * (np.array(body.box.lower) + np.array(body.box.upper))
+        centre: Array = body.world_from_body.transform(body_centre[None])[0]
         return centre
     return np.zeros(3)
 

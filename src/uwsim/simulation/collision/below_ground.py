@@ -74,7 +74,7 @@ class BelowGround:
         self._bodies = [*_list_bodies(model, engine)]
         self._grounds = model.grounds if self._bodies else ()
         self._start_points = [body.world_points() for body in self._bodies]
-        centres = np.array([places[0] for places in self._start_points]).reshape(-1, 3)
+        centres = np.array([points[0] for points in self._start_points]).reshape(-1, 3)
         size = len(self._bodies), len(self._grounds)
         self.state = BelowGroundState(centres, np.zeros(size, bool), np.zeros(size, bool))
         """The result of the last check."""
@@ -95,14 +95,14 @@ class BelowGround:
             return
         elapsed_time = (step - self.state.step) * self._timestep
         self.state.n_periods, self.state.step = n_periods, step
-        places = [body.world_points() for body in self._bodies]
+        points_by_body = [body.world_points() for body in self._bodies]
         for i, k in np.ndindex(self.state.is_below.shape):
-            depth = self._grounds[k].depth(places[i])
-            is_below = self._has_passed(i, k, places[i][0], depth, elapsed_time)
+            depth = self._grounds[k].depth(points_by_body[i])
+            is_below = self._has_passed(i, k, points_by_body[i][0], depth, elapsed_time)
             if is_below and self.state.is_below[i, k]:
                 self._fail(self._bodies[i], self._grounds[k], step, depth)
             self.state.is_below[i, k] = is_below
-        self.state.centres = np.array([box_points[0] for box_points in places])
+        self.state.centres = np.array([box_points[0] for box_points in points_by_body])
 
     def _has_passed(self, i: int, k: int, centre: Array, depth: float, elapsed_time: float) -> bool:
         """Return whether body i has passed through ground k.

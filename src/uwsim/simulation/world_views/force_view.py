@@ -72,7 +72,9 @@ class ForceView:
         self.surface_height = spec.ocean_state.ocean_surface_height
         """The height of the water's surface in W [m]."""
         self.water_velocity = scene.water.velocity
+        """The function that returns the velocity of the water at points; see `ForceWorld`."""
         self.stream = scene.stream
+        """The function that returns the random generator of a stream's name."""
         depths, densities = np.array(scene.model.density_levels).T
         self._depths, self._densities = depths, densities  # (n,) [m], (n,) [kg/m3]
 
