@@ -117,8 +117,9 @@ class FakeActuators:
 class FakeWorld:
     """A `uwsim.world.World` and a `uwsim.world.Stage`; time advances only by `advance`.
 
-    Updaters change ``fog``, ``light_rate``, ``camera_noise``, ``joints``, ``current`` and
-    ``put_backs``. Tests set ``contacts_by_body``, ``forces_by_body`` and ``actuators_by_vehicle``.
+    Updaters change ``fog``, ``light_rate``, ``camera_noise``, ``joints``, ``current``,
+    ``wave_height`` and ``put_backs``. Tests set ``contacts_by_body``, ``forces_by_body`` and
+    ``actuators_by_vehicle``.
     """
 
     def __init__(
@@ -142,6 +143,7 @@ class FakeWorld:
         self.fog_colour = (0.0, 0.05, 0.3)
         self.light_rate: float | None = None
         self.camera_noise: float | None = None
+        self.wave_height: float | None = None
         self.joints: dict[str, dict[int, float]] = {}
         self.current: Flow | None = None
         self.put_backs: list[tuple[str, float]] = []
@@ -229,6 +231,9 @@ class FakeWorld:
 
     def set_current(self, current: Flow | None) -> None:
         self.current = current
+
+    def set_wave_height(self, height: float | None) -> None:
+        self.wave_height = height
 
     def put_back(self, vehicle: str) -> None:
         if vehicle not in self.vehicles:

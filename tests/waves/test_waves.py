@@ -261,6 +261,14 @@ def test_waves_run_in_the_direction_of_l_whatever_its_axes() -> None:
     assert waves.elevation(moved[None], 1.7)[0] == pytest.approx(0.1, rel=1e-9)
 
 
+def test_a_sea_of_height_0_is_level() -> None:
+    components = JonswapSpec(significant_height=0.0, peak_period=5.0).components(
+        sea(), stream(1, "s")
+    )
+    assert not components.amplitude.any()
+    assert components.angular_frequency.all()
+
+
 def test_the_same_seed_gives_the_same_sea() -> None:
     spec = JonswapSpec(significant_height=1.0, peak_period=6.0, spreading=20.0)
     first, second, other = (spec.components(sea(), stream(seed, "s")) for seed in (4, 4, 5))

@@ -17,11 +17,17 @@ from .updaters import (
     SceneFogUpdaterSpec,
     SceneLightUpdaterSpec,
     SceneUpdaterSpec,
+    SeaStateUpdaterSpec,
     chain,
     interval,
 )
 
-SETTER_SPECS = (CameraNoiseUpdaterSpec, SceneFogUpdaterSpec, SceneLightUpdaterSpec)
+SETTER_SPECS = (
+    CameraNoiseUpdaterSpec,
+    SceneFogUpdaterSpec,
+    SceneLightUpdaterSpec,
+    SeaStateUpdaterSpec,
+)
 """The updaters that set one value; if two of one type are nested, the outer has no effect."""
 
 

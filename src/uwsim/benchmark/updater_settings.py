@@ -26,16 +26,21 @@ def updater_element(updater: SceneUpdaterSpec) -> str:
     return names.get(type(updater), updater.name)
 
 
+def updater_path(updater: SceneUpdaterSpec) -> str:
+    """Return the first name of the paths of an updater's values: its element without ``u:``."""
+    return updater_element(updater).removeprefix("u:")
+
+
 def is_updater_path(benchmark: BenchmarkSpec, path: str) -> bool:
     """Return whether a path begins with the name of one of the benchmark's updaters."""
-    return path.partition(".")[0] in map(updater_element, chain(benchmark.scene_updater))
+    return path.partition(".")[0] in map(updater_path, chain(benchmark.scene_updater))
 
 
 def check_path_start(benchmark: BenchmarkSpec, scene: SceneSpec, path: str, value: str) -> None:
     """Raise BadSetting, with a list of the valid names, if the first name of a path is unknown."""
     name = path.partition(".")[0].partition("[")[0].removeprefix("u:")
     known_names = [field.label.removeprefix("u:") for field in fields_of(type(scene))]
-    known_names += map(updater_element, chain(benchmark.scene_updater))
+    known_names += map(updater_path, chain(benchmark.scene_updater))
     known_names.append("algorithm")
     if name and name not in known_names:
         raise BadSetting(
@@ -51,7 +56,7 @@ def locate_in_benchmark(benchmark: Any, path: str) -> ValueLocation:
     owner, field = benchmark, "scene_updater"
     updater: SceneUpdaterSpec | None = benchmark.scene_updater
     while updater is not None:
-        is_found = updater_element(updater) == name
+        is_found = updater_path(updater) == name
         steps.append(Step(owner, field, None, name if is_found else ""))
         if is_found:
             location = locate(updater, rest)
@@ -59,7 +64,7 @@ def locate_in_benchmark(benchmark: Any, path: str) -> ValueLocation:
                 (*steps, *location.steps), location.owner, location.field, location.components
             )
         owner, field, updater = updater, "child", updater.child
-    known_names = [*map(updater_element, chain(benchmark.scene_updater))]
+    known_names = [*map(updater_path, chain(benchmark.scene_updater))]
     raise BadSetting(
         f"the benchmark has no updater <{name}>.{did_you_mean(name, known_names)} "
         f"There are: {', '.join(known_names)}."

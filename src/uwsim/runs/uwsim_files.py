@@ -55,6 +55,7 @@ LEVEL_NAMES = {
     "iteration": "Iteration",
     "light": "Light",
     "noise": "Noise",
+    "waveHeight": "WaveHeight",
 }
 """The name of each swept parameter in the files of the original UWSim."""
 

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -81,14 +81,13 @@ def draw_components(
     log_minimum = math.log(MIN_FREQUENCY_RATIO * spectrum.peak_frequency)
     log_maximum = math.log(MAX_FREQUENCY_RATIO * spectrum.peak_frequency)
     nodes = exp(np.linspace(log_minimum, log_maximum, N_NODES))  # (N_NODES,) [rad/s]
-    density = spectrum.density(nodes)
-    energy = _integrate(density, nodes)  # (N_NODES,) [m2], of the frequencies below each node
-    energy *= spectrum.significant_height**2 / 16.0 / energy[-1]
-    share = 0.5 * energy / energy[-1] + 0.5 * (log(nodes) - log_minimum) / (
-        log_maximum - log_minimum
-    )
+    density = replace(spectrum, significant_height=1.0).density(nodes)
+    energy = _integrate(density, nodes)  # (N_NODES,), of the frequencies below each node
+    energy /= energy[-1]
+    share = 0.5 * energy + 0.5 * (log(nodes) - log_minimum) / (log_maximum - log_minimum)
     edges = np.interp(np.linspace(0.0, 1.0, n + 1), share, nodes)  # (n + 1,) [rad/s]
-    band_energy = np.diff(np.interp(edges, nodes, energy))
+    variance = spectrum.significant_height**2 / 16.0  # [m2]
+    band_energy = variance * np.diff(np.interp(edges, nodes, energy))  # (n,) [m2]
     frequency = edges[:-1] + rng.random(n) * np.diff(edges)
     angles = np.zeros(n) if spreading is None else _draw_angles(spreading, n, rng)
     return WaveComponents(

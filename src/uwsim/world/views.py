@@ -78,10 +78,7 @@ class Stage(TimedWorld, Protocol):
 
     @property
     def world(self) -> World:
-        """The view for measures: bodies, cameras, contacts, and the active compatibility quirks."""
-
-    def stream(self, name: str) -> np.random.Generator:
-        """Return the random generator of a name, which the seed of the run determines."""
+        """The view for measures: bodies, cameras, contacts, random streams, and quirks."""
 
     @property
     def vehicles(self) -> tuple[str, ...]:
@@ -113,6 +110,9 @@ class Stage(TimedWorld, Protocol):
 
     def set_current(self, current: Flow | None) -> None:
         """Add a flow to the currents of the scene; None removes it."""
+
+    def set_wave_height(self, height: float | None) -> None:
+        """Set the significant wave height [m]; None: the scene's; raise UwsimError if no waves."""
 
     def put_back(self, vehicle: str) -> None:
         """Return a vehicle to its pose in the scene, at rest; raise UnknownName if none."""

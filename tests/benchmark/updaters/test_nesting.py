@@ -27,6 +27,7 @@ from uwsim.benchmark.updaters import (
     SceneFogUpdaterSpec,
     SceneLightUpdaterSpec,
     SceneUpdaterSpec,
+    SeaStateUpdaterSpec,
     SphericalSpec,
     apply_level,
     bind_updaters,
@@ -82,6 +83,9 @@ MAKE: dict[str, Callable[[Path], SceneUpdaterSpec]] = {
     ),
     "sceneLightUpdater": lambda folder: SceneLightUpdaterSpec(
         initial_value=0.5, final_value=1.1, step=0.5, interval=1.0
+    ),
+    "u:seaStateUpdater": lambda folder: SeaStateUpdaterSpec(
+        initial_value=0.0, final_value=0.6, step=0.5, interval=1.0
     ),
 }  # fmt: skip
 """Element -> a sweep of two or three levels."""
@@ -143,6 +147,8 @@ class Values:
             return world.fog == pytest.approx(1.0 / value)
         if element == "sceneLightUpdater":
             return world.light_rate == value
+        if element == "u:seaStateUpdater":
+            return world.wave_height == value
         return element == "repeat"
 
 

@@ -35,6 +35,7 @@ LEVEL_WORDS = {
     "noise": "camera noise",
     "none": "",
     "visibilityRange": "visibility range",
+    "waveHeight": "significant wave height",
 }
 """The words for a swept parameter in the label of an axis."""
 

@@ -15,6 +15,7 @@ from .none import NoneSpec, NoneUpdater
 from .repeat import Repeat, RepeatSpec
 from .scene_fog_updater import SceneFogUpdaterSpec
 from .scene_light_updater import SceneLightUpdaterSpec
+from .sea_state_updater import SeaStateUpdaterSpec
 from .sweep import Setter, SweepSpec, sweep_values
 from .updater import (
     MAX_LEVELS,
@@ -45,6 +46,7 @@ UPDATERS: dict[str, type[SceneUpdaterSpec]] = {
     "repeat": RepeatSpec,
     "sceneFogUpdater": SceneFogUpdaterSpec,
     "sceneLightUpdater": SceneLightUpdaterSpec,
+    "u:seaStateUpdater": SeaStateUpdaterSpec,
 }
 """The spec of each element, in alphabetical order."""
 
@@ -68,6 +70,7 @@ __all__ = [
     "SceneLightUpdaterSpec",
     "SceneUpdater",
     "SceneUpdaterSpec",
+    "SeaStateUpdaterSpec",
     "Setter",
     "SphericalSpec",
     "SweepSpec",

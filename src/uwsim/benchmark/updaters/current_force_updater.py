@@ -163,7 +163,7 @@ class CurrentForceUpdater(SceneUpdater):
 
     def _set_current(self, value: float, *, delay: float) -> None:
         stage, spec = self._stage, self._spec
-        sinusoid = spec.current(value).bind(SceneContext(stream=stage.stream))
+        sinusoid = spec.current(value).bind(SceneContext(stream=stage.world.stream))
         offset = spec.time_offset
         current = DelayedCurrent(sinusoid, start=stage.time, delay=delay, offset=offset)
         if not spec.publish_as_force:

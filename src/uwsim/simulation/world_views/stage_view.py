@@ -26,8 +26,8 @@ class StageView(SceneView):
         self.set_fog = scene.scenery.set_fog
         self.set_light_rate = scene.scenery.set_light_rate
         self.set_current = scene.water.set
+        self.set_wave_height = scene.water.set_wave_height
         self.create_timer = scene.schedule.create_timer
-        self.stream = scene.stream
 
     @property
     def fog_colour(self) -> tuple[float, float, float]:
