@@ -239,10 +239,10 @@ def test_what_a_vehicle_can_pass_through_is_named_until_the_file_says_that_it_is
     assert status(str(file)) == 0
     said = capsys.readouterr().out
     assert (
-        f"{file}:7: warning: simulated vehicles pass through objects without <physics>: 'wreck'"
+        f"{file}:7: warning: vehicles with dynamics pass through objects without <physics>: 'wreck'"
         in said
     )
-    assert f"{file}:6: warning: vehicle 'other': simulated vehicles pass through it" in said
+    assert f"{file}:6: warning: vehicle 'other': vehicles with dynamics pass through it" in said
     assert "'terrain'" not in said
     file.write_text(
         GHOSTLY.replace("osg</file> </object>\n<object>", "osg</file> <u:solid>0</u:solid> "

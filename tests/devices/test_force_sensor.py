@@ -38,7 +38,7 @@ def box(z: float, physics: PhysicsSpec) -> ObjectSpec:
 
 
 def in_water(mass: float) -> SceneSpec:
-    """A simulated vehicle with a box of 1 l above it."""
+    """A vehicle with dynamics with a box of 1 l above it."""
     rov = VehicleSpec(
         name="rov", file="bluerov2_heavy.urdf", dynamics="bluerov2_heavy",
         position=(0.0, 0.0, -5.0), parts=(sensor(),),

@@ -1,4 +1,4 @@
-"""What a simulated vehicle draws, against closed forms of its rotors, its arm and its faults."""
+"""What a vehicle with dynamics draws, against closed forms of its rotors, its arm and its faults."""
 
 from __future__ import annotations
 

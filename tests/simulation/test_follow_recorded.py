@@ -1,4 +1,4 @@
-"""A simulated vehicle that follows a recording: its sensors measure the recorded motion."""
+"""A vehicle with dynamics that follows a recording: its sensors measure the recorded motion."""
 
 from __future__ import annotations
 

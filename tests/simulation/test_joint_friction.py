@@ -1,4 +1,4 @@
-"""``<dynamics>`` of a URDF: damping and dry friction of the joints of a simulated vehicle."""
+"""``<dynamics>`` of a URDF: damping and dry friction of the joints of a vehicle with dynamics."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Joints of simulated vehicles that mimic joints which cannot move, or none."""
+"""Joints of vehicles with dynamics that mimic joints which cannot move, or none."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Commands of a simulated vehicle other than twists, and what it tells of itself."""
+"""Commands of a vehicle with dynamics other than twists, and what it tells of itself."""
 
 from dataclasses import replace
 

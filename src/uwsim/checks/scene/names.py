@@ -159,7 +159,7 @@ def passable_objects(scene: CheckedScene) -> Iterator[Diagnostic]:
     if specs:
         yield scene.warning(
             specs[0],
-            f"simulated vehicles pass through objects without <physics>: {_list_objects(specs)}. "
+            f"vehicles with dynamics pass through objects without <physics>: {_list_objects(specs)}. "
             "<u:solid>1</u:solid> in the object makes it solid; <u:solid>0</u:solid> accepts the "
             "warning",
         )
@@ -196,7 +196,7 @@ def passable_vehicles(scene: CheckedScene) -> Iterator[Diagnostic]:
             continue
         links = robots[index].links if index in robots else ()
         if vehicle.dynamics is None:
-            message = "simulated vehicles pass through it: it has no <u:dynamics>"
+            message = "vehicles with dynamics pass through it: it has no <u:dynamics>"
         elif links and not any(link.solids for link in links):
             message = "it passes through everything: no link has a <collision> or a <visual>"
         else:
