@@ -76,8 +76,8 @@ def _plausibility_warnings() -> str:
         "`uwsim check`, and `uwsim bench` and `uwsim render` before they begin, warn about values "
         "that are valid but unlikely. `<u:accept>NAME</u:accept>` in a vehicle, or "
         "`buoyancy`, `places` and `start` in an object, accepts the value. All warnings but "
-        "`passable`, `size` and `start` concern vehicles with dynamics, and loose objects in a scene "
-        "with one.", "",
+        "`passable`, `size` and `start` concern vehicles with dynamics, and loose objects in a "
+        "scene with one.", "",
         "| name | warns when |", "|---|---|",
     ]  # fmt: skip
     return "\n".join(

@@ -28,7 +28,7 @@ OFF_AXIS = ImuSpec(
 
 
 def simulation_with(*parts: object, rate: int = 500) -> Simulation:
-    """A vehicle with dynamics with these sensors; each imu is published on the topic of its name."""
+    """A vehicle with dynamics with these sensors; each IMU has its own topic."""
     topics: list[InterfaceSpec] = [
         ImuToROSImuSpec(name=part.name, topic=part.name, rate=rate)
         for part in parts

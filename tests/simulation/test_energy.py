@@ -1,4 +1,4 @@
-"""What a vehicle with dynamics draws, against closed forms of its rotors, its arm and its faults."""
+"""The power of a vehicle with dynamics, against closed forms of its rotors, arm and faults."""
 
 from __future__ import annotations
 

@@ -159,9 +159,9 @@ def passable_objects(scene: CheckedScene) -> Iterator[Diagnostic]:
     if specs:
         yield scene.warning(
             specs[0],
-            f"vehicles with dynamics pass through objects without <physics>: {_list_objects(specs)}. "
-            "<u:solid>1</u:solid> in the object makes it solid; <u:solid>0</u:solid> accepts the "
-            "warning",
+            "vehicles with dynamics pass through objects without <physics>: "
+            f"{_list_objects(specs)}. <u:solid>1</u:solid> in the object makes it solid; "
+            "<u:solid>0</u:solid> accepts the warning",
         )
 
 
