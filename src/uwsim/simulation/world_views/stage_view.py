@@ -39,7 +39,7 @@ class StageView(SceneView):
         return find_file(name, named_by, self._data_path)
 
     def set_camera_noise(self, std: float) -> None:
-        """Set the noise of virtual cameras: standard deviation, as a share of full brightness [1]."""
+        """Set the noise of virtual cameras: standard deviation, as a share of full scale [1]."""
         for name in self._sensors.cameras:
             self._sensors.camera(name).state.std = std
 
