@@ -18,6 +18,7 @@ from .phase_fit import (
     fit_transform_terms,
 )
 from .phase_function import PhaseFunction
+from .phase_mixture import PhaseMixture
 from .phase_table import PhaseTable
 from .transmission import (
     compute_ambient_veil,
@@ -26,6 +27,7 @@ from .transmission import (
     compute_led_signal,
     compute_modulation_transfer,
 )
+from .water_file import WaterFile, read_water, write_water
 
 __all__ = [
     "WATERS",
@@ -35,8 +37,10 @@ __all__ = [
     "Medium",
     "NamedWater",
     "PhaseFunction",
+    "PhaseMixture",
     "PhaseTable",
     "SmallAngleTerms",
+    "WaterFile",
     "compute_ambient_veil",
     "compute_blur_weights",
     "compute_direct",
@@ -52,4 +56,6 @@ __all__ = [
     "fit_backward_cubic",
     "fit_encircled_terms",
     "fit_transform_terms",
+    "read_water",
+    "write_water",
 ]
