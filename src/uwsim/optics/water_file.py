@@ -174,8 +174,8 @@ class _Reader:
     def _read_numbers(self, document: dict[str, Any], key: str) -> tuple[float, ...] | None:
         numbers = document.get(key)
         if not isinstance(numbers, list):
-            found = "missing" if key not in document else f"{numbers!r:.40}"
-            self._report(key, f"{key} is {found}; expected a list of numbers")
+            content = "missing" if key not in document else f"{numbers!r:.40}"
+            self._report(key, f"{key} is {content}; expected a list of numbers")
             return None
         if not all(_is_number(number) for number in numbers):
             self._report(key, f"{key} has an entry that is no finite number; expected numbers")
