@@ -11,7 +11,7 @@ from ..acoustics import SeaWater
 from ..base.geometry import Triple
 from ..currents import CURRENTS, CurrentSpec
 from ..schema import MAX_DISTANCE, NAMESPACE, REQUIRED_BY_DTD, Numbers, Original, Spec, element
-from ..waves import WAVE_SYSTEMS, WaveSystemSpec
+from ..waves import WAVE_SYSTEMS, SeaSettings, WaveSystemSpec
 from .seawater import sea_water_density
 
 NIGHT_BLUE: Triple = (0.0, 0.05, 0.3)
@@ -125,6 +125,17 @@ class OceanStateSpec(Spec):
         choice={f"{{{NAMESPACE}}}{name}": spec for name, spec in WAVE_SYSTEMS.items()},
     )  # fmt: skip
     """The wave systems of the surface, which add up; when absent the surface is level."""
+
+    @property
+    def sea(self) -> SeaSettings:
+        """The settings of the sea that wave systems may need."""
+        return SeaSettings(
+            depth=self.depth,
+            wind=(self.windx, self.windy),
+            wind_speed=self.wind_speed,
+            reflection_damping=self.reflection_damping,
+            wave_scale=self.wave_scale,
+        )
 
     @property
     def sea_water(self) -> SeaWater:

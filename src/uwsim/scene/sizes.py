@@ -1,15 +1,16 @@
-"""Limits on the number of pixels, beams, bins and rays of sensors; order of clipping planes."""
+"""Limits on numbers of pixels, beams, rays and waves; order of clipping planes; sea settings."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ..schema import Diagnostics
+from ..schema import NAMESPACE, Diagnostics, line_of
 from ..sensors.sonar.multibeam_sensor import MultibeamSensorSpec
 from ..sensors.sonar.profiling_sonar import ProfilingSonarSpec
 from ..sensors.sonar.spec import SonarSpec
 from ..sensors.virtual_camera import VirtualCameraSpec
 from ..sensors.virtual_range_image import VirtualRangeImageSpec
+from ..waves import find_sea_errors
 from .spec import SceneSpec
 
 MAX_PIXELS = 7680 * 4320
@@ -25,7 +26,12 @@ MAX_RAYS = 1_000_000
 
 
 def check_sizes(scene: SceneSpec, diagnostics: Diagnostics) -> None:
-    """Report sensors that exceed these limits, and cameras or sonars with an empty range."""
+    """Report sensors that exceed these limits, empty ranges, and seas that waves cannot have."""
+    ocean = scene.ocean_state
+    for message in find_sea_errors(ocean.waves, ocean.sea):
+        element = message.partition(">")[0].removeprefix("<")
+        tag = element.replace("u:", f"{{{NAMESPACE}}}")
+        diagnostics.error(line_of(ocean, tag), message)
     n_total = 0
     for image in _cameras(scene):
         n = image.resw * image.resh

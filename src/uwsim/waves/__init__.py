@@ -9,7 +9,7 @@ from .pierson_moskowitz import PiersonMoskowitzSpec
 from .regular_wave import RegularWaveSpec
 from .spectrum import Spectrum
 from .uwsim_ocean import UwsimOceanSpec
-from .wave_system import MAX_HEIGHT, SeaSettings, WaveSystemSpec
+from .wave_system import MAX_HEIGHT, SeaSettings, WaveSystemSpec, find_sea_errors
 from .waves import WaterUnderWaves, Waves, bind_waves
 
 WAVE_SYSTEMS: dict[str, type[WaveSystemSpec]] = {
@@ -35,5 +35,6 @@ __all__ = [
     "Waves",
     "bind_waves",
     "draw_components",
+    "find_sea_errors",
     "wave_numbers",
 ]

@@ -19,6 +19,7 @@ stand still.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -34,6 +35,8 @@ GRID_SIZE = 64
 """The number of wave vectors along each axis."""
 TILE_SIZE = 256.0
 """The edge of the tile [m]."""
+MAX_SETTING = 1000.0
+"""The greatest value of a setting of UWSim's ocean [m/s, or 1]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -44,6 +47,28 @@ class UwsimOceanSpec(WaveSystemSpec):
         "components", namespaced=True, default=200, minimum=1, maximum=MAX_COMPONENTS
     )
     """The number of components: those of the most energy, scaled to the energy of all."""
+
+    @property
+    def n_components_at_most(self) -> int:
+        """The number of components."""
+        return self.n_components
+
+    def sea_errors(self, sea: SeaSettings) -> Iterator[str]:
+        """Yield the errors of the settings of UWSim's ocean, which only this system uses."""
+        settings = {
+            "windSpeed": sea.wind_speed,
+            "reflectionDamping": sea.reflection_damping,
+            "waveScale": sea.wave_scale,
+        }
+        for name, value in settings.items():
+            if not 0.0 <= value <= MAX_SETTING:
+                yield (
+                    f"<{name}> is {value:g}; <u:uwsimOcean> expects a number >= 0 and <= "
+                    f"{MAX_SETTING:g}"
+                )
+        for name, value in zip(("windx", "windy"), sea.wind, strict=True):
+            if not abs(value) <= MAX_SETTING:
+                yield f"<{name}> is {value:g}; <u:uwsimOcean> expects at most {MAX_SETTING:g}"
 
     def components(self, sea: SeaSettings, rng: np.random.Generator) -> WaveComponents:
         """Draw its components."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import abc
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,6 +15,10 @@ MAX_HEIGHT = 40.0
 """The largest wave height in a file [m]; the highest that was measured at sea is some 30 m."""
 MAX_COMPONENTS = 4000
 """The largest number of components of a wave system."""
+MAX_TOTAL_COMPONENTS = 20_000
+"""The largest number of components of all wave systems of a scene."""
+MAX_DEPTH = 1e5
+"""The greatest depth of the water [m]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -36,6 +41,15 @@ class SeaSettings:
 class WaveSystemSpec(Spec, abc.ABC):
     """The spec of a wave system."""
 
+    @property
+    def n_components_at_most(self) -> int:
+        """The largest number of components that it can have."""
+        return 1
+
+    def sea_errors(self, sea: SeaSettings) -> Iterable[str]:
+        """Return errors of the settings that only this system uses, each with its element first."""
+        return ()
+
     @abc.abstractmethod
     def components(self, sea: SeaSettings, rng: np.random.Generator) -> WaveComponents:
         """Draw its components."""
@@ -54,3 +68,24 @@ class IrregularWavesSpec(WaveSystemSpec, abc.ABC):
         "components", namespaced=True, default=200, minimum=1, maximum=MAX_COMPONENTS
     )
     """The number of sinusoidal components."""
+
+    @property
+    def n_components_at_most(self) -> int:
+        """The number of components."""
+        return self.n_components
+
+
+def find_sea_errors(systems: Sequence[WaveSystemSpec], sea: SeaSettings) -> Iterator[str]:
+    """Yield errors of the settings that wave systems cannot use, each with its element first.
+
+    Args:
+        systems: the wave systems of a scene; without any there are no errors.
+        sea: the settings of the sea.
+    """
+    if systems and not 0.0 < sea.depth <= MAX_DEPTH:
+        yield f"<depth> is {sea.depth:g}; <u:waves> expects a depth > 0 and <= {MAX_DEPTH:g} m"
+    n = sum(system.n_components_at_most for system in systems)
+    if n > MAX_TOTAL_COMPONENTS:
+        yield f"<u:waves> has {n} components; expected at most {MAX_TOTAL_COMPONENTS} in all"
+    for system in systems:
+        yield from system.sea_errors(sea)

@@ -15,10 +15,11 @@ from ..base.numerics.elementwise import arctan2, exp
 from ..base.numerics.jit import njit
 from ..base.numerics.linear import product
 from ..currents import SceneContext
+from ..errors import UwsimError
 from . import kernel as k
 from .components import WaveComponents
 from .dispersion import wave_numbers
-from .wave_system import SeaSettings, WaveSystemSpec
+from .wave_system import SeaSettings, WaveSystemSpec, find_sea_errors
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -165,10 +166,15 @@ def bind_waves(
         context: the properties of the scene.
         scale: the factor on all amplitudes, (1,), which may change [1].
 
+    Raises:
+        UwsimError: the sea has settings that the wave systems cannot use.
+
     Wave system number i draws from the random stream ``scene/waves/i``.
     """
     if not specs:
         return None
+    for error in find_sea_errors(specs, sea):
+        raise UwsimError(f"In <oceanState>, {error}.")
     systems = [
         spec.components(sea, context.stream(f"scene/waves/{i}")) for i, spec in enumerate(specs)
     ]

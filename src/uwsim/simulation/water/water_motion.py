@@ -23,7 +23,7 @@ from ...model.robots import find_file
 from ...model.scene_model import SceneModel
 from ...physics.hydrodynamics.water_function import DriftFunction, WaterFunction
 from ...scene.spec import SceneSpec
-from ...waves import SeaSettings, bind_waves
+from ...waves import bind_waves
 from ...world import Flow
 from .drift_kernel import drift_function
 from .point_kernel import point_function
@@ -66,7 +66,7 @@ class WaterMotion:
         self.state = WaterState()
         """The state: the added flow and the scale of the waves."""
         self.waves = bind_waves(
-            scene.ocean_state.waves, sea_settings(scene), context, self.state.wave_scale
+            scene.ocean_state.waves, scene.ocean_state.sea, context, self.state.wave_scale
         )
         """The waves; None if the surface is level."""
         # the flow and the vehicles for which the functions are valid, and the functions
@@ -349,18 +349,6 @@ def _spread_rows(motions: Array, numbers: npt.NDArray[np.int64], turn: Array) ->
                         total += motions[t, kind, numbers[i], j] * turn[j, k]
                     rows[t, i, 3 * kind + k] = total
     return rows
-
-
-def sea_settings(scene: SceneSpec) -> SeaSettings:
-    """Return the elements of <oceanState> that wave systems may need."""
-    ocean = scene.ocean_state
-    return SeaSettings(
-        depth=ocean.depth,
-        wind=(ocean.windx, ocean.windy),
-        wind_speed=ocean.wind_speed,
-        reflection_damping=ocean.reflection_damping,
-        wave_scale=ocean.wave_scale,
-    )
 
 
 def water_motion(
