@@ -1,6 +1,7 @@
 """Optics of water: phase functions, media, and what they do to images and lamps."""
 
 from .blur import compute_blur_weights, compute_level_transforms
+from .conversions import Quantity, View, WaterEstimate, convert_water
 from .fournier_forand import FournierForand
 from .henyey_greenstein import HenyeyGreenstein
 from .lamp_light import (
@@ -9,7 +10,7 @@ from .lamp_light import (
     compute_lamp_veil,
     compute_target_radiance,
 )
-from .medium import Medium, find_coefficient_errors
+from .medium import PETZOLD_AVERAGE, Medium, find_coefficient_errors
 from .named_waters import WATERS, NamedWater, find_water
 from .phase_fit import (
     SmallAngleTerms,
@@ -30,6 +31,7 @@ from .transmission import (
 from .water_file import WaterFile, read_water, write_water
 
 __all__ = [
+    "PETZOLD_AVERAGE",
     "WATERS",
     "FournierForand",
     "HenyeyGreenstein",
@@ -39,7 +41,10 @@ __all__ = [
     "PhaseFunction",
     "PhaseMixture",
     "PhaseTable",
+    "Quantity",
     "SmallAngleTerms",
+    "View",
+    "WaterEstimate",
     "WaterFile",
     "compute_ambient_veil",
     "compute_blur_weights",
@@ -51,6 +56,7 @@ __all__ = [
     "compute_level_transforms",
     "compute_modulation_transfer",
     "compute_target_radiance",
+    "convert_water",
     "find_coefficient_errors",
     "find_water",
     "fit_backward_cubic",

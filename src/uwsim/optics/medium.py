@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -26,6 +26,8 @@ MAX_CHANNELS = 64
 """The greatest number of channels or spectral bands."""
 MAX_COEFFICIENT = 1000.0
 """The greatest absorption or scattering coefficient [1/m]; milk has about 700."""
+PETZOLD_AVERAGE = FournierForand(1.10, 3.5835)
+"""The phase function that stands for Petzold's average of turbid sea water; the default."""
 KIRK_FACTOR = 0.256
 """The factor of Kirk's formula, for a sun at the zenith."""
 
@@ -46,7 +48,7 @@ class Medium:
     """The absorption coefficient a of each channel [1/m]."""
     scattering: tuple[float, ...]
     """The scattering coefficient b of each channel [1/m]."""
-    phase_function: PhaseFunction = field(default_factory=FournierForand)
+    phase_function: PhaseFunction = PETZOLD_AVERAGE
     """The phase function, the same for all channels."""
 
     def __post_init__(self) -> None:
@@ -61,11 +63,13 @@ class Medium:
         cls,
         beam_attenuation: Sequence[float],
         scattering: Sequence[float],
-        phase_function: PhaseFunction | None = None,
+        phase_function: PhaseFunction = PETZOLD_AVERAGE,
     ) -> Medium:
         """Return the medium with the beam attenuation c and the scattering b [1/m] per channel.
 
-        The phase function is that of Fournier and Forand unless another is given.
+        Raises:
+            BadSetting: a coefficient is invalid, or b is greater than c.
+            SeveralErrors: several are.
         """
         errors = ErrorCollector()
         for number, (c, b) in enumerate(zip(beam_attenuation, scattering, strict=False), start=1):
@@ -82,7 +86,7 @@ class Medium:
         return cls(
             absorption=(*differences, *remainder),
             scattering=tuple(scattering),
-            phase_function=FournierForand() if phase_function is None else phase_function,
+            phase_function=phase_function,
         )
 
     @property

@@ -16,7 +16,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..errors import UnknownName
-from .fournier_forand import FournierForand
 from .medium import Medium
 
 Coefficients = tuple[float, float, float]
@@ -88,7 +87,7 @@ WATERS: dict[str, NamedWater] = {
 
 
 def find_water(name: str) -> Medium:
-    """Return the water of a name, with Fournier and Forand's default phase function.
+    """Return the water of a name, with the default phase function.
 
     Raises:
         UnknownName: no water has this name; the message gives the nearest one.
@@ -96,8 +95,4 @@ def find_water(name: str) -> Medium:
     water = WATERS.get(name)
     if water is None:
         raise UnknownName("water", name, WATERS)
-    return Medium(
-        absorption=water.absorption,
-        scattering=water.scattering,
-        phase_function=FournierForand(),
-    )
+    return Medium(absorption=water.absorption, scattering=water.scattering)
