@@ -62,9 +62,9 @@ class PhaseTables:
 
 def tabulate(phase: PhaseFunction) -> PhaseTables:
     """Tabulate the angle as a function of the share, and ln p."""
-    fine = np.append(0.0, np.geomspace(1e-9, math.pi, 400_000))
-    shares = phase.compute_cumulative(fine)
-    angles = np.interp(np.linspace(0.0, 1.0, N_SHARES), shares, fine)
+    fine_angles = np.append(0.0, np.geomspace(1e-9, math.pi, 400_000))
+    shares = phase.compute_cumulative(fine_angles)
+    angles = np.interp(np.linspace(0.0, 1.0, N_SHARES), shares, fine_angles)
     log_angles = np.linspace(LOG_MIN_ANGLE, LOG_PI, N_ANGLES)
     return PhaseTables(angles, np.log(phase.compute_density(np.exp(log_angles))))
 
@@ -143,7 +143,7 @@ def trace_lamp_veil(tables: PhaseTables, scene: LampScene, n_paths: int, seed: i
         scene.offset,
         scene.ray,
     )
-    single = _scatter_once(
+    single_scattering = _scatter_once(
         np.zeros(3),
         scene.ray,
         tables.log_density,
@@ -161,7 +161,7 @@ def trace_lamp_veil(tables: PhaseTables, scene: LampScene, n_paths: int, seed: i
         for _ in range(N_BATCHES)
     ]
     rest = _average(values)
-    return Estimate(scattering * (single + rest.value), scattering * rest.error)
+    return Estimate(scattering * (single_scattering + rest.value), scattering * rest.error)
 
 
 def trace_ambient_field(
@@ -415,35 +415,38 @@ def _look_up(log_density: FloatArray, log_angle: float) -> float:
 
 
 @njit
-def _measure_angle(first: FloatArray, second: FloatArray) -> float:
+def _measure_angle(first_direction: FloatArray, second_direction: FloatArray) -> float:
     """Measure the angle between two unit vectors, exactly also if it is small."""
-    x = first[1] * second[2] - first[2] * second[1]
-    y = first[2] * second[0] - first[0] * second[2]
-    z = first[0] * second[1] - first[1] * second[0]
-    return math.atan2(math.sqrt(x * x + y * y + z * z), np.sum(first * second))
+    x = first_direction[1] * second_direction[2] - first_direction[2] * second_direction[1]
+    y = first_direction[2] * second_direction[0] - first_direction[0] * second_direction[2]
+    z = first_direction[0] * second_direction[1] - first_direction[1] * second_direction[0]
+    return math.atan2(math.sqrt(x * x + y * y + z * z), np.sum(first_direction * second_direction))
 
 
 @njit
 def _find_lit_part(
-    relative: FloatArray, direction: FloatArray, end: float, edge_cosine: float
+    lamp_offset: FloatArray, direction: FloatArray, end: float, edge_cosine: float
 ) -> tuple[float, float]:
     """Find the part of a ray inside the cone along z; positions are relative to the lamp."""
     square = edge_cosine**2
     a = direction[2] ** 2 - square
-    b = direction[2] * relative[2] - square * np.sum(direction * relative)
-    c = relative[2] ** 2 - square * np.sum(relative * relative)
+    b = direction[2] * lamp_offset[2] - square * np.sum(direction * lamp_offset)
+    c = lamp_offset[2] ** 2 - square * np.sum(lamp_offset * lamp_offset)
     if abs(a) < 1e-14:
         a = 1e-14
     root = math.sqrt(max(b * b - a * c, 0.0))
-    first, last = (-b - root) / a, (-b + root) / a
-    if first > last:
-        first, last = last, first
+    near_crossing, far_crossing = (-b - root) / a, (-b + root) / a
+    if near_crossing > far_crossing:
+        near_crossing, far_crossing = far_crossing, near_crossing
     if a > 0.0:
-        low, high = (last, math.inf) if direction[2] > 0.0 else (-math.inf, first)
+        low, high = (far_crossing, math.inf) if direction[2] > 0.0 else (-math.inf, near_crossing)
     else:
-        if b * b - a * c <= 0.0 or relative[2] + 0.5 * (first + last) * direction[2] <= 0.0:
+        if (
+            b * b - a * c <= 0.0
+            or lamp_offset[2] + 0.5 * (near_crossing + far_crossing) * direction[2] <= 0.0
+        ):
             return 0.0, 0.0
-        low, high = first, last
+        low, high = near_crossing, far_crossing
     return max(low, 0.0), min(high, end)
 
 
@@ -460,17 +463,17 @@ def _scatter_once(
     weights: FloatArray,
 ) -> float:
     """Integrate p exp(-c (t + d)) / d^2 along a ray to the plane, inside the lamp's cone."""
-    relative = position.copy()
-    relative[0] -= offset
+    lamp_offset = position.copy()
+    lamp_offset[0] -= offset
     end = math.inf
     if direction[2] > 0.0:
         end = (distance - position[2]) / direction[2]
-    start, end = _find_lit_part(relative, direction, end, edge_cosine)
+    start, end = _find_lit_part(lamp_offset, direction, end, edge_cosine)
     if end <= start:
         return 0.0
-    foot = -np.sum(relative * direction)
-    nearest = relative + foot * direction
-    height = max(math.sqrt(np.sum(nearest * nearest)), 1e-9)
+    foot = -np.sum(lamp_offset * direction)
+    foot_vector = lamp_offset + foot * direction
+    height = max(math.sqrt(np.sum(foot_vector * foot_vector)), 1e-9)
     # The scattering angle is that between the ray and the direction from the lamp, reversed.
     low = math.log(max(math.atan2(height, foot - start), 1e-7))
     high = math.log(max(math.atan2(height, foot - end), 1e-7))
@@ -502,7 +505,7 @@ def _trace_lamp_veil(
     weights: FloatArray,
 ) -> float:
     total = 0.0
-    position, direction, to_lamp, turned = np.zeros(3), np.zeros(3), np.zeros(3), np.zeros(3)
+    position, direction, to_lamp, new_direction = np.zeros(3), np.zeros(3), np.zeros(3), np.zeros(3)
     reach = distance / ray[2]
     probability = -math.expm1(-attenuation * reach)
     for _ in range(n_paths):
@@ -517,13 +520,21 @@ def _trace_lamp_veil(
             to_lamp[:] = -position
             to_lamp[0] += offset
             to_lamp /= math.sqrt(np.sum(to_lamp * to_lamp))
-            turned[:] = to_lamp if generator.random() < LAMP_SHARE else direction
+            new_direction[:] = to_lamp if generator.random() < LAMP_SHARE else direction
             angle = _sample_angle(angles, generator.random())
-            _turn(turned, angle, 2.0 * math.pi * generator.random())
-            scattered = _look_up(log_density, math.log(_measure_angle(turned, direction) + 1e-12))
-            drawn = _look_up(log_density, math.log(_measure_angle(turned, to_lamp) + 1e-12))
-            weight /= 1.0 - LAMP_SHARE + LAMP_SHARE * math.exp(min(drawn - scattered, 500.0))
-            direction[:] = turned
+            _turn(new_direction, angle, 2.0 * math.pi * generator.random())
+            log_scattered_density = _look_up(
+                log_density, math.log(_measure_angle(new_direction, direction) + 1e-12)
+            )
+            log_drawn_density = _look_up(
+                log_density, math.log(_measure_angle(new_direction, to_lamp) + 1e-12)
+            )
+            weight /= (
+                1.0
+                - LAMP_SHARE
+                + LAMP_SHARE * math.exp(min(log_drawn_density - log_scattered_density, 500.0))
+            )
+            direction[:] = new_direction
             if weight < 1e-12:
                 break
             total += weight * _scatter_once(

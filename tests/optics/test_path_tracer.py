@@ -52,10 +52,10 @@ def spread_of_row(row: dict[str, str]) -> tuple[FloatArray, FloatArray]:
 
 
 def assert_near(
-    scores: FloatArray, direct: FloatArray | float, expected: FloatArray, table_error: float
+    scores: FloatArray, direct_light: FloatArray | float, expected: FloatArray, table_error: float
 ) -> None:
     """Compare the means of scores (n_paths, m), plus direct light, with a table."""
-    values = scores.mean(axis=0) + direct
+    values = scores.mean(axis=0) + direct_light
     errors = np.hypot(scores.std(axis=0) / math.sqrt(N_PATHS), table_error * expected)
     assert (np.abs(values - expected) <= N_SIGMAS * errors + 6e-5).all()
 
@@ -86,13 +86,13 @@ def test_the_modulation_transfer_is_that_of_the_tables(row: dict[str, str]) -> N
 
 @pytest.mark.parametrize("row", read_rows("edge"), ids=name_of_row)
 def test_an_edge_is_that_of_the_tables(row: dict[str, str]) -> None:
-    """A point of the white half plane is on the ring of a path with a known probability."""
+    """Use the known probability that a point of a path's ring is on the white half plane."""
     weights, radii = spread_of_row(row)
     places = np.array(PLACES)
     ratio = np.clip(places / np.maximum(radii[:, None], 1e-12), -1.0, 1.0)
     scores = weights[:, None] * (1.0 - np.arccos(ratio) / math.pi)
-    direct = np.where(places > 0.0, math.exp(-float(row["optical_depth"])), 0.0)
-    assert_near(scores, direct, values_of(row, PLACES), 3e-3)
+    direct_light = np.where(places > 0.0, math.exp(-float(row["optical_depth"])), 0.0)
+    assert_near(scores, direct_light, values_of(row, PLACES), 3e-3)
 
 
 @pytest.mark.parametrize("row", read_rows("led"), ids=name_of_row)
@@ -112,7 +112,7 @@ def test_the_light_of_a_source_is_that_of_the_tables(row: dict[str, str]) -> Non
 
 @pytest.mark.parametrize("row", read_rows("lamp"), ids=lambda row: "-".join(list(row.values())[:3]))
 def test_the_signal_of_a_lamp_is_that_of_the_tables(row: dict[str, str]) -> None:
-    """The tables have the second reflection too: 4 % at most."""
+    """Allow for the second reflection in the tables, 4 % at most."""
     c, distance, offset = (float(value) for value in list(row.values())[:3])
     if offset < distance * math.tan(math.radians(29.0)):
         scene = LampScene(c, 0.85, distance, offset)
@@ -125,7 +125,7 @@ def test_the_signal_of_a_lamp_is_that_of_the_tables(row: dict[str, str]) -> None
 @pytest.mark.slow
 @pytest.mark.parametrize("row", read_rows("lamp"), ids=lambda row: "-".join(list(row.values())[:3]))
 def test_the_veil_of_a_lamp_is_that_of_the_tables(row: dict[str, str]) -> None:
-    """Each row of the table has the largest of the errors of its five pixels."""
+    """Use the error of each row, the largest of its five pixels."""
     c, distance, offset = (float(value) for value in list(row.values())[:3])
     table_error = float(row["error_percent"]) / 100.0
     for pixel in PIXELS:
@@ -160,7 +160,7 @@ def test_the_veil_is_that_of_mitsuba(
 def test_a_white_plane_in_the_light_of_a_lamp_is_that_of_mitsuba(
     c: float, distance: float, offset: float, radiance: float, error: float
 ) -> None:
-    """Its picture has all reflections: the first one, the veil and up to 4 % more."""
+    """Allow for more reflections in the picture, up to 4 %."""
     scene = LampScene(c, 0.85, distance, offset)
     signal = trace_lamp_signal(tables_of("HG"), scene, n_paths=100_000, seed=6)
     veil = trace_lamp_veil(tables_of("HG"), scene, n_paths=20_000, seed=7)

@@ -27,7 +27,7 @@ MODELS = [
 ]
 FREQUENCIES = np.geomspace(0.15, 200.0, 101)  # [cycles/rad]
 ANGLES = np.geomspace(1e-3, math.radians(30.0), 101)  # [rad]
-PUBLISHED = SmallAngleTerms(weights=(0.127, 0.341, 0.517), angles=(0.0009, 0.0141, 0.093))
+REFERENCE_TERMS = SmallAngleTerms(weights=(0.127, 0.341, 0.517), angles=(0.0009, 0.0141, 0.093))
 """The terms of Fournier and Forand's default in the reference tables of this project."""
 
 
@@ -52,7 +52,9 @@ def test_the_fit_agrees_with_the_published_terms() -> None:
     terms = fit_transform_terms(FournierForand())
     frequencies = FREQUENCIES[FREQUENCIES > 0.3]
     np.testing.assert_allclose(
-        terms.compute_transform(frequencies), PUBLISHED.compute_transform(frequencies), atol=0.006
+        terms.compute_transform(frequencies),
+        REFERENCE_TERMS.compute_transform(frequencies),
+        atol=0.006,
     )
 
 
@@ -70,7 +72,7 @@ def test_the_cubic_gives_the_backward_density(phase: PhaseFunction) -> None:
 
 
 @pytest.mark.parametrize(
-    ("phase", "published"),
+    ("phase", "reference_cubic"),
     [
         (HenyeyGreenstein(0.9), (0.2098, 0.6724, 1.5020, -5.0793)),
         (FournierForand(), (0.0441, 1.1578, 1.4895, -5.4774)),
@@ -78,10 +80,12 @@ def test_the_cubic_gives_the_backward_density(phase: PhaseFunction) -> None:
     ids=str,
 )
 def test_the_cubic_agrees_with_the_published_one(
-    phase: PhaseFunction, published: tuple[float, ...]
+    phase: PhaseFunction, reference_cubic: tuple[float, ...]
 ) -> None:
     cosines = np.linspace(-1.0, math.cos(math.radians(75.0)), 100)
-    difference = np.polyval(fit_backward_cubic(phase), cosines) - np.polyval(published, cosines)
+    difference = np.polyval(fit_backward_cubic(phase), cosines) - np.polyval(
+        reference_cubic, cosines
+    )
     np.testing.assert_allclose(difference, 0.0, atol=0.012)
 
 

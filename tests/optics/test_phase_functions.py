@@ -59,7 +59,7 @@ def test_the_shares_of_small_angles_are_those_published(
 
 
 @pytest.mark.parametrize(
-    ("phase", "ratio", "cosine", "at_180"),
+    ("phase", "ratio", "cosine", "backward_density"),
     [
         (HenyeyGreenstein(0.9), 0.0229, 0.900, 2.20e-3),
         (HenyeyGreenstein(0.924), 0.01699, 0.924, 1.634e-3),
@@ -68,11 +68,11 @@ def test_the_shares_of_small_angles_are_those_published(
     ids=str,
 )
 def test_backscatter_and_mean_cosine_are_those_published(
-    phase: PhaseFunction, ratio: float, cosine: float, at_180: float
+    phase: PhaseFunction, ratio: float, cosine: float, backward_density: float
 ) -> None:
     assert phase.backscatter_ratio == pytest.approx(ratio, abs=5e-5)
     assert phase.mean_cosine == pytest.approx(cosine, abs=5e-4)
-    assert float(phase.compute_density(math.pi)) == pytest.approx(at_180, rel=2e-3)
+    assert float(phase.compute_density(math.pi)) == pytest.approx(backward_density, rel=2e-3)
 
 
 @pytest.mark.parametrize("phase", MODELS, ids=str)

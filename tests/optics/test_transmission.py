@@ -28,7 +28,7 @@ from uwsim.optics.transmission import (
     compute_modulation_transfer,
 )
 
-COLOURED = Medium(absorption=(0.4, 0.1, 0.05), scattering=(0.3, 0.35, 0.5))
+RGB_WATER = Medium(absorption=(0.4, 0.1, 0.05), scattering=(0.3, 0.35, 0.5))
 DEPTHS = np.array([0.0, 0.1, 1.0, 3.0, 10.0])
 
 
@@ -45,7 +45,7 @@ def test_direct_light_and_whole_fields_are_those_of_the_tables(row: dict[str, st
 
 @pytest.mark.parametrize("row", read_rows("transfer"), ids=name_of_row)
 def test_the_modulation_transfer_is_that_of_the_tables(row: dict[str, str]) -> None:
-    """The error is 1.1 % to an optical depth of 2, and 2.4 % to 4."""
+    """Allow 1.1 % to an optical depth of 2, and 2.4 % to 4."""
     largest_error = 0.011 if float(row["optical_depth"]) <= 2.0 else 0.024
     transfer = compute_modulation_transfer(water_of_row(row), FREQUENCIES, 1.0)[:, 0]
     np.testing.assert_allclose(transfer, values_of(row, FREQUENCIES), rtol=largest_error)
@@ -62,16 +62,16 @@ def test_the_light_of_a_small_source_is_that_of_the_tables(row: dict[str, str]) 
 
 @pytest.mark.parametrize("row", read_rows("edge"), ids=name_of_row)
 def test_an_edge_of_five_levels_is_that_of_the_tables(row: dict[str, str]) -> None:
-    """The error is 2.4 % of the scattered part."""
+    """Allow 2.4 % of the scattered part."""
     water = water_of_row(row)
     weights = compute_blur_weights(water, 1.0)[:, 0]
-    direct, field = compute_direct(water, 1.0)[0], compute_full_field(water, 1.0)[0]
+    direct_light, field = compute_direct(water, 1.0)[0], compute_full_field(water, 1.0)[0]
     places = np.array(PLACES)
-    edge = np.where(places > 0.0, direct, 0.0)
+    edge = np.where(places > 0.0, direct_light, 0.0)
     edge = edge + sum(
         weight * ndtr(places / sigma) for weight, sigma in zip(weights, SIGMAS, strict=True)
     )
-    np.testing.assert_allclose(edge, values_of(row, PLACES), atol=0.024 * (field - direct))
+    np.testing.assert_allclose(edge, values_of(row, PLACES), atol=0.024 * (field - direct_light))
 
 
 @pytest.mark.parametrize("distance", [0.0, 0.3, 2.0, 15.0])
@@ -81,10 +81,14 @@ def test_a_white_target_in_an_isotropic_field_is_invisible(
 ) -> None:
     """Direct, blurred and veiling light of equal radiance make that radiance at every range."""
     water = Medium(absorption=(0.4, 0.1, 0.05), scattering=(0.3, 0.35, 0.5), phase_function=phase)
-    ambient = np.array([0.2, 0.7, 1.3])
-    arriving = compute_direct(water, distance) + compute_blur_weights(water, distance).sum(axis=0)
-    radiance = arriving * ambient + compute_ambient_veil(water, ambient, distance)
-    np.testing.assert_allclose(radiance, ambient, rtol=1e-12)
+    ambient_radiance = np.array([0.2, 0.7, 1.3])
+    arriving_share = compute_direct(water, distance) + compute_blur_weights(water, distance).sum(
+        axis=0
+    )
+    radiance = arriving_share * ambient_radiance + compute_ambient_veil(
+        water, ambient_radiance, distance
+    )
+    np.testing.assert_allclose(radiance, ambient_radiance, rtol=1e-12)
 
 
 @pytest.mark.parametrize("row", read_rows("full_field"), ids=lambda row: row["optical_depth"])
@@ -106,10 +110,10 @@ def test_ambient_pictures_of_uniform_targets_are_those_of_the_reference(
 
 
 def test_the_blur_weights_are_positive_and_complete() -> None:
-    weights = compute_blur_weights(COLOURED, DEPTHS)
+    weights = compute_blur_weights(RGB_WATER, DEPTHS)
     assert weights.shape == (5, 5, 3)
     assert weights.min() >= 0.0
-    total = compute_full_field(COLOURED, DEPTHS) - compute_direct(COLOURED, DEPTHS)
+    total = compute_full_field(RGB_WATER, DEPTHS) - compute_direct(RGB_WATER, DEPTHS)
     np.testing.assert_allclose(weights.sum(axis=-2), total, atol=1e-12)
 
 
@@ -121,17 +125,17 @@ def test_the_transforms_of_the_levels_decrease_with_the_frequency() -> None:
 
 def test_ranges_of_any_shape_are_computed_at_once() -> None:
     ranges = np.array([[0.5, 1.0], [2.0, 4.0]])
-    assert compute_direct(COLOURED, ranges).shape == (2, 2, 3)
-    transfer = compute_modulation_transfer(COLOURED, 3.0, ranges)
+    assert compute_direct(RGB_WATER, ranges).shape == (2, 2, 3)
+    transfer = compute_modulation_transfer(RGB_WATER, 3.0, ranges)
     assert transfer.shape == (2, 2, 3)
-    alone = compute_modulation_transfer(COLOURED, 3.0, 2.0)
-    np.testing.assert_array_equal(transfer[1, 0], alone)
+    transfer_of_pixel = compute_modulation_transfer(RGB_WATER, 3.0, 2.0)
+    np.testing.assert_array_equal(transfer[1, 0], transfer_of_pixel)
 
 
 def test_the_limits_of_the_modulation_transfer_are_the_whole_field_and_direct_light() -> None:
-    transfer = compute_modulation_transfer(COLOURED, np.array([0.0, 1e6]), 1.5)
-    np.testing.assert_allclose(transfer[0], compute_full_field(COLOURED, 1.5), rtol=1e-12)
-    np.testing.assert_allclose(transfer[1], compute_direct(COLOURED, 1.5), rtol=1e-3)
+    transfer = compute_modulation_transfer(RGB_WATER, np.array([0.0, 1e6]), 1.5)
+    np.testing.assert_allclose(transfer[0], compute_full_field(RGB_WATER, 1.5), rtol=1e-12)
+    np.testing.assert_allclose(transfer[1], compute_direct(RGB_WATER, 1.5), rtol=1e-3)
 
 
 def test_water_that_only_absorbs_obeys_beers_law() -> None:
@@ -148,7 +152,7 @@ def test_water_that_only_absorbs_obeys_beers_law() -> None:
 
 def test_a_narrow_angle_sees_direct_light_and_a_wide_one_most_of_the_rest() -> None:
     water = Medium(absorption=(0.15,), scattering=(0.85,))
-    narrow = compute_led_signal(water, 1.0, 1e-8)
-    wide = compute_led_signal(water, 1.0, math.pi)
-    assert narrow[0] == pytest.approx(math.exp(-1.0), rel=0.01)
-    assert wide[0] == pytest.approx(math.exp(-0.15), rel=1e-6)
+    narrow_signal = compute_led_signal(water, 1.0, 1e-8)
+    wide_signal = compute_led_signal(water, 1.0, math.pi)
+    assert narrow_signal[0] == pytest.approx(math.exp(-1.0), rel=0.01)
+    assert wide_signal[0] == pytest.approx(math.exp(-0.15), rel=1e-6)

@@ -41,7 +41,7 @@ from uwsim.optics.transmission import (
 HELD_OUT = [HenyeyGreenstein(0.93), FournierForand(1.07, 3.7), FournierForand(1.18, 3.75)]
 PHASES = [*HELD_OUT, HenyeyGreenstein(0.95), FournierForand(1.15, 4.0), FournierForand()]
 WATERS = [(0.7, 0.35), (0.92, 1.2), (0.75, 3.1), (0.92, 3.8)]
-"""Albedo and optical depth."""
+"""The albedos and optical depths."""
 FREQUENCIES = np.array([0.4, 2.0, 6.0, 20.0, 60.0])
 PLACES = np.array([-0.2, -0.05, -0.02, 0.02, 0.05, 0.2])
 HALF_ANGLES = np.radians([0.3, 0.7, 1.5, 4.0, 8.0])
@@ -81,7 +81,7 @@ def name_case(value: object) -> str:
 def test_direct_light_is_within_1_percent(
     phase: PhaseFunction, albedo: float, depth: float
 ) -> None:
-    """Light that a beam of no width keeps: the limit of the tracer's fine detail."""
+    """Compare with the limit of the tracer's fine detail."""
     assert compute_direct(water_of(phase, depth / 2.0, albedo), 2.0)[0] == pytest.approx(
         math.exp(-depth), rel=1e-12
     )
@@ -116,12 +116,12 @@ def test_an_edge_is_within_3_percent_of_the_scattered_part(
     weights, radii = spread_of(phase, albedo, depth)
     ratio = np.clip(PLACES / np.maximum(radii[:, None], 1e-12), -1.0, 1.0)
     means, chance = summarise(weights[:, None] * (1.0 - np.arccos(ratio) / math.pi))
-    direct = np.where(PLACES > 0.0, math.exp(-depth), 0.0)
+    direct_light = np.where(PLACES > 0.0, math.exp(-depth), 0.0)
     levels = compute_blur_weights(water_of(phase, depth, albedo), 1.0)[:, 0]
-    edge = direct + sum(
+    edge = direct_light + sum(
         level * ndtr(PLACES / sigma) for level, sigma in zip(levels, SIGMAS, strict=True)
     )
-    assert (np.abs(edge - direct - means) <= 0.03 * weights.mean() + chance).all()
+    assert (np.abs(edge - direct_light - means) <= 0.03 * weights.mean() + chance).all()
 
 
 @pytest.mark.parametrize(("phase", "albedo", "depth"), CASES[::2] + CASES[1::4], ids=name_case)
@@ -164,7 +164,7 @@ def test_the_signal_of_a_lamp_is_within_10_percent(phase: PhaseFunction, scene: 
 @pytest.mark.parametrize("phase", PHASES, ids=name_case)
 @pytest.mark.parametrize("scene", LAMPS, ids=name_case)
 def test_the_veil_of_a_lamp_is_within_15_percent(phase: PhaseFunction, scene: LampScene) -> None:
-    """It is within 20 % for the phase function of minerals, whose bb/b is 0.078."""
+    """Allow 20 % for the phase function of minerals, whose bb/b is 0.078."""
     estimate = trace_lamp_veil(tables_of(phase), scene, n_paths=20_000, seed=24)
     veil = compute_lamp_veil(
         water_of(phase, scene.beam_attenuation, scene.albedo),
@@ -189,7 +189,7 @@ def blur_centre(image: FloatArray, radii: FloatArray, sigma: float) -> float:
 def test_a_blurred_image_of_a_lit_plane_is_within_10_percent(
     phase: PhaseFunction, scene: LampScene
 ) -> None:
-    """A renderer blurs the lit plane instead of using the formula of wide targets."""
+    """Blur the lit plane, as a renderer does, instead of using the formula of wide targets."""
     water = water_of(phase, scene.beam_attenuation, scene.albedo)
     radii = np.geomspace(1e-5, 4.0, 4000)  # of the image, x/f
     points = np.stack([radii, np.zeros_like(radii), np.ones_like(radii)], axis=1) * scene.distance

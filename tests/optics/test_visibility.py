@@ -43,7 +43,7 @@ def lamp_at(offset: float) -> Lamp:
 def test_the_fog_of_a_water_depends_on_the_scale(
     frequency: float | None, transfer: float, fog: float
 ) -> None:
-    """The example of the reference: c = 1/m, b/c = 0.85, at 1.36 m."""
+    """Compare with the example of the reference: c = 1/m, b/c = 0.85, at 1.36 m."""
     assert compute_transfer(EXAMPLE, DISTANCE, frequency)[0] == pytest.approx(transfer, abs=0.0015)
     assert compute_fog_density(EXAMPLE, DISTANCE, frequency)[0] == pytest.approx(fog, abs=0.0015)
 
@@ -65,12 +65,12 @@ def test_fog_and_beam_attenuation_of_sharp_detail(fog: float, expected: float) -
 
 @pytest.mark.parametrize(("frequency", "expected"), [(None, 1.65), (10.0, 2.6)])
 def test_the_papers_limit_in_physical_units(frequency: float | None, expected: float) -> None:
-    """The contrast of 0.107 at 1.36 m; b/c = 0.85."""
-    found = find_attenuation_of_contrast(
+    """Find c for the contrast of 0.107 at 1.36 m; b/c = 0.85."""
+    attenuation = find_attenuation_of_contrast(
         0.107, DISTANCE, albedo=0.85, phase_function=FournierForand(), frequency=frequency
     )
-    assert found == pytest.approx(expected, abs=0.05)
-    water = water_of(FournierForand(), found, 0.85)
+    assert attenuation == pytest.approx(expected, abs=0.05)
+    water = water_of(FournierForand(), attenuation, 0.85)
     assert compute_transfer(water, DISTANCE, frequency)[0] == pytest.approx(0.107, rel=1e-9)
 
 
@@ -97,7 +97,7 @@ def test_water_without_attenuation_has_no_limits() -> None:
 
 @pytest.mark.parametrize("row", read_rows("lamp"), ids=lambda row: "-".join(list(row.values())[:3]))
 def test_the_contrast_in_a_lamps_light_is_that_of_the_tables(row: dict[str, str]) -> None:
-    """From errors of 10 % in signal and 15 % in veil: 0.06 at most."""
+    """Allow 0.06, which follows from errors of 10 % in signal and 15 % in veil."""
     c, distance, offset = (float(value) for value in list(row.values())[:3])
     if offset <= distance * math.tan(math.radians(22.0)):
         contrast = compute_lamp_contrast(water_of(PHASES["FF"], c, 0.85), lamp_at(offset), distance)
@@ -135,7 +135,7 @@ ESTIMATE = WaterEstimate(
 
 def deviation_of(name: str) -> tuple[float, float]:
     """Return value and standard deviation of the quantity whose name begins so."""
-    matches = [each for each in convert_water(ESTIMATE) if each.name.startswith(name)]
+    matches = [quantity for quantity in convert_water(ESTIMATE) if quantity.name.startswith(name)]
     assert matches
     return matches[0].value, matches[0].standard_deviation
 
@@ -161,9 +161,9 @@ def test_the_deviation_of_contrast_follows_from_absorption_and_scattering() -> N
         estimate, lambda water: float(compute_transfer(water, DISTANCE, frequency)[0])
     )
     transform = float(FournierForand().compute_transform(frequency))
-    relative = DISTANCE * math.hypot(s_a, (1.0 - transform) * s_b)
+    relative_deviation = DISTANCE * math.hypot(s_a, (1.0 - transform) * s_b)
     transfer = float(compute_transfer(EXAMPLE, DISTANCE, frequency)[0])
-    assert deviation / transfer == pytest.approx(relative, rel=0.01)
+    assert deviation / transfer == pytest.approx(relative_deviation, rel=0.01)
 
 
 def test_deviations_agree_with_random_samples() -> None:
@@ -191,7 +191,7 @@ def test_every_quantity_of_water_without_error_has_no_deviation_but_that_of_its_
         WaterEstimate(beam_attenuation=0.5, scattering=0.5, phase_function=HenyeyGreenstein(0.9)),
         View(distance=2.0),
     )
-    deviations = {each.name for each in quantities if each.standard_deviation > 0.0}
+    deviations = {quantity.name for quantity in quantities if quantity.standard_deviation > 0.0}
     assert deviations <= {"diffuse attenuation Kd", "Secchi depth"}
 
 
