@@ -24,6 +24,7 @@ from uwsim.optics.transmission import (
     compute_ambient_veil,
     compute_direct,
     compute_full_field,
+    compute_led_halo,
     compute_led_signal,
     compute_modulation_transfer,
 )
@@ -58,6 +59,24 @@ def test_the_light_of_a_small_source_is_that_of_the_tables(row: dict[str, str]) 
     largest_error = errors[sum(float(row["optical_depth"]) > limit for limit in (1.0, 2.0))]
     signal = compute_led_signal(water_of_row(row), 1.0, np.radians(angles))[:, 0]
     np.testing.assert_allclose(signal, values_of(row, angles, "P "), rtol=largest_error)
+
+
+@pytest.mark.parametrize("row", read_rows("led"), ids=name_of_row)
+def test_the_halo_of_a_small_source_is_that_of_the_tables(row: dict[str, str]) -> None:
+    angles = (0.5, 1.0, 2.0, 5.0, 10.0)
+    depth = float(row["optical_depth"])
+    largest_error = 0.08 if depth <= 1.0 else 0.13 if depth <= 2.0 else 0.25
+    halo = compute_led_halo(water_of_row(row), 1.0, np.radians(angles))[:, 0]
+    np.testing.assert_allclose(halo, values_of(row, angles, "halo "), rtol=largest_error)
+
+
+def test_the_halo_is_the_derivative_of_the_light_within_an_angle() -> None:
+    angles = np.array([0.01, 0.1])
+    step = 1e-4 * angles
+    low, high = (compute_led_signal(RGB_WATER, 1.5, angles + sign * step) for sign in (-1, 1))
+    rings = 2.0 * math.pi * np.sin(angles) * 2.0 * step  # [sr]
+    expected = (high - low) / rings[:, None]
+    np.testing.assert_allclose(compute_led_halo(RGB_WATER, 1.5, angles), expected, rtol=2e-3)
 
 
 @pytest.mark.parametrize("row", read_rows("edge"), ids=name_of_row)

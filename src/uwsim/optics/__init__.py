@@ -25,6 +25,7 @@ from .transmission import (
     compute_ambient_veil,
     compute_direct,
     compute_full_field,
+    compute_led_halo,
     compute_led_signal,
     compute_modulation_transfer,
 )
@@ -52,6 +53,7 @@ __all__ = [
     "compute_full_field",
     "compute_lamp_irradiance",
     "compute_lamp_veil",
+    "compute_led_halo",
     "compute_led_signal",
     "compute_level_transforms",
     "compute_modulation_transfer",

