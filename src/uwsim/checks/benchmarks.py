@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator
 from pathlib import Path
+
+import numpy as np
 
 from ..algorithms import load_algorithm
 from ..benchmark.truth_checks import truth_diagnostics
 from ..benchmark.unknown_names import find_unknown_names
-from ..benchmark.updaters import ArmMoveUpdaterSpec, chain
+from ..benchmark.updaters import ArmMoveUpdaterSpec, SeaStateUpdaterSpec, chain
 from ..errors import BadSetting, Diagnostic
 from ..schema import Diagnostics, parse
+from .scene.waves import describe_breaking
 from .subjects import CheckedBenchmark
 
 
@@ -54,6 +58,22 @@ def arm_positions(benchmark: CheckedBenchmark) -> Iterable[Diagnostic]:
                     message = f"joint {joint.name!r} at {value:g} is limited to {limited_value:g}"
                     diagnostics.warning(child, message)
     return diagnostics.to_list()
+
+
+def breaking_levels(benchmark: CheckedBenchmark) -> Iterator[Diagnostic]:
+    """Warn of wave heights of levels at which the waves of the scene would break."""
+    ocean = benchmark.model.scene.ocean_state
+    rng = np.random.default_rng(0)  # only the height of UWSim's ocean depends on it
+    heights = [system.components(ocean.sea, rng).significant_height for system in ocean.waves]
+    height = math.hypot(*heights)  # of all systems together [m]
+    for updater in chain(benchmark.spec.scene_updater):
+        if not isinstance(updater, SeaStateUpdaterSpec) or height == 0.0:
+            continue
+        value = updater.values()[-1]
+        texts = (describe_breaking(system, ocean.sea, value / height) for system in ocean.waves)
+        if text := next(filter(None, texts), ""):
+            message = f"at {updater.parameter} {value:g} m, {text}"
+            yield benchmark.warning(updater, message, "finalValue")
 
 
 def recorded_truths(benchmark: CheckedBenchmark) -> Iterable[Diagnostic]:

@@ -15,9 +15,10 @@ from .model import (
     steps,
     thrust,
     vehicles,
+    wave_lengths,
 )
 from .rule import Need, Rule
-from .scene import angles, comms, forces, models, names, not_simulated, shared_names, water
+from .scene import angles, comms, forces, models, names, not_simulated, shared_names, water, waves
 from .scene import sensor_directions as directions
 from .subjects import CheckedBenchmark, CheckedRobot, CheckedScene
 
@@ -67,6 +68,7 @@ SCENE_RULES: tuple[Rule[CheckedScene], ...] = (
     Rule(angles.angles_in_degrees, Need.SPEC, in_runs=True),
     Rule(water.unstable_water, Need.SPEC),
     Rule(water.slow_currents, Need.SPEC),
+    Rule(waves.breaking_waves, Need.SPEC, in_runs=True),
     Rule(forces.forces_on_bodies, Need.SPEC, in_runs=True),
     Rule(models.projectors, Need.SPEC),
     Rule(models.model_files, Need.SPEC),
@@ -78,6 +80,7 @@ SCENE_RULES: tuple[Rule[CheckedScene], ...] = (
     Rule(VEHICLE_NUMBERS, Need.MODEL, in_runs=True),
     Rule(bottom.velocity_logs, Need.MODEL, in_runs=True),
     Rule(starts.start_poses, Need.MODEL, in_runs=True),
+    Rule(wave_lengths.long_vehicles, Need.MODEL, in_runs=True),
     Rule(OBJECT_NUMBERS, Need.MODEL, in_runs=True),
     Rule(steps.thin_objects, Need.MODEL, in_runs=True),
     Rule(meshes.fixed_meshes, Need.MODEL, in_runs=True),
@@ -90,5 +93,6 @@ BENCHMARK_RULES: tuple[Rule[CheckedBenchmark], ...] = (
     Rule(benchmarks.names_in_scene, Need.MODEL),
     Rule(benchmarks.arm_positions, Need.MODEL),
     Rule(benchmarks.recorded_truths, Need.MODEL),
+    Rule(benchmarks.breaking_levels, Need.MODEL),
 )
 """Rules about a benchmark file."""

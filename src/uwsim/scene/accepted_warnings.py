@@ -12,7 +12,7 @@ from typing import Literal
 
 VehicleWarning = Literal[
     "balance", "bottom", "buoyancy", "drag", "friction", "inertia", "passable", "places", "size",
-    "start", "strength", "thrust",
+    "start", "strength", "thrust", "waves",
 ]  # fmt: skip
 """The names of warnings about a vehicle."""
 ObjectWarning = Literal["buoyancy", "places", "start"]
@@ -33,6 +33,7 @@ PLAUSIBILITY_WARNINGS: Mapping[VehicleWarning, str] = {
     "start": "It begins in or under the ground, or above the water.",
     "strength": "A thruster would accelerate it by more than 50 m/s2.",
     "thrust": "Its thrusters cannot drive surge, sway, heave and yaw.",
+    "waves": "It is longer than a fifth of the waves, which it would diffract.",
 }
 """The condition of each warning, by the name of the warning."""
 

@@ -83,7 +83,7 @@ class OceanStateSpec(Spec):
     wind_speed: float = element(default=12.0, original=Original(is_window_setting=True))
     """The wind speed of the wave spectrum [m/s]."""
     depth: float = element(default=1000.0, original=Original(is_window_setting=True))
-    """The depth of the water, only for the speed of waves; it adds no floor [m]."""
+    """The depth of the water, only for waves; it adds no floor [m]."""
     reflection_damping: float = element(default=0.35, original=Original(is_window_setting=True))
     """The factor on waves that travel against the wind [1]."""
     wave_scale: float = element(default=1e-7, original=Original(is_window_setting=True))

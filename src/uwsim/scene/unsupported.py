@@ -51,6 +51,13 @@ UNSIMULATED_ELEMENTS: dict[tuple[str, str], str] = {
 
 ORIGINAL_PHYSICS_ELEMENTS = (("simParams", "enablePhysics"), ("simParams", "gravity"))
 """The elements that are simulated if ``enablePhysics`` is 1 and no vehicle has ``u:dynamics``."""
+DEPTH_ELEMENT = ("oceanState", "depth")
+"""The element that is simulated in a scene with ``<u:waves>``."""
+OCEAN_ELEMENTS = tuple(
+    ("oceanState", name)
+    for name in ("windx", "windy", "windSpeed", "reflectionDamping", "waveScale")
+)
+"""The elements that are simulated in a scene with ``<u:uwsimOcean>`` in its ``<u:waves>``."""
 LIMIT_ELEMENTS = ("minLinearLimit", "maxLinearLimit", "minAngularLimit", "maxAngularLimit")
 """The limits in ``<physics>`` of an object, which are not simulated."""
 
@@ -60,10 +67,16 @@ DISABLED_TEXTS = {"disableShaders": "0", "enablePhysics": "0", "showpath": "0"}
 
 READ_ONLY = "read, not simulated yet"
 ONLY_WITHOUT_DYNAMICS = "simulated where no vehicle has u:dynamics"
+ONLY_WITH_WAVES = "simulated in a scene with u:waves"
+ONLY_WITH_OCEAN = "simulated in a scene with u:uwsimOcean"
 
 
 def describe_limit(parent: str, name: str) -> str:
     """Describe what is not simulated of an element below ``parent``; empty if it is simulated."""
     if (parent, name) in ORIGINAL_PHYSICS_ELEMENTS:
         return ONLY_WITHOUT_DYNAMICS
+    if (parent, name) == DEPTH_ELEMENT:
+        return ONLY_WITH_WAVES
+    if (parent, name) in OCEAN_ELEMENTS:
+        return ONLY_WITH_OCEAN
     return READ_ONLY if (parent, name) in UNSIMULATED_ELEMENTS else ""

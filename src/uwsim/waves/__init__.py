@@ -9,7 +9,13 @@ from .pierson_moskowitz import PiersonMoskowitzSpec
 from .regular_wave import RegularWaveSpec
 from .spectrum import Spectrum
 from .uwsim_ocean import UwsimOceanSpec
-from .wave_system import MAX_HEIGHT, SeaSettings, WaveSystemSpec, find_sea_errors
+from .wave_system import (
+    MAX_HEIGHT,
+    IrregularWavesSpec,
+    SeaSettings,
+    WaveSystemSpec,
+    find_sea_errors,
+)
 from .waves import WaterUnderWaves, Waves, bind_waves
 
 WAVE_SYSTEMS: dict[str, type[WaveSystemSpec]] = {
@@ -23,6 +29,7 @@ WAVE_SYSTEMS: dict[str, type[WaveSystemSpec]] = {
 __all__ = [
     "MAX_HEIGHT",
     "WAVE_SYSTEMS",
+    "IrregularWavesSpec",
     "JonswapSpec",
     "PiersonMoskowitzSpec",
     "RegularWaveSpec",

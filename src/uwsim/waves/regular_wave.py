@@ -13,6 +13,7 @@ import numpy as np
 
 from ..schema import element
 from .components import WaveComponents
+from .dispersion import wave_numbers
 from .wave_system import MAX_HEIGHT, SeaSettings, WaveSystemSpec
 
 
@@ -28,6 +29,10 @@ class RegularWaveSpec(WaveSystemSpec):
     """The direction of travel, from x of L towards y [rad]."""
     phase: float = element(namespaced=True, default=0.0)
     """The phase at the origin of L at time 0: a crest is there with 0 [rad]."""
+
+    def peak_number(self, sea: SeaSettings) -> float:
+        """Return its wave number [rad/m]."""
+        return float(wave_numbers(np.array([2.0 * np.pi / self.period]), sea.depth)[0])
 
     def components(self, sea: SeaSettings, rng: np.random.Generator) -> WaveComponents:
         """Return its single component; nothing is drawn."""

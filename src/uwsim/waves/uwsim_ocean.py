@@ -70,6 +70,12 @@ class UwsimOceanSpec(WaveSystemSpec):
             if not abs(value) <= MAX_SETTING:
                 yield f"<{name}> is {value:g}; <u:uwsimOcean> expects at most {MAX_SETTING:g}"
 
+    def peak_number(self, sea: SeaSettings) -> float:
+        """Return the wave number of the wave vector with the most power [rad/m]."""
+        kx, ky, power = wave_power(sea)
+        peak = int(np.argmax(power))
+        return math.hypot(kx[peak], ky[peak]) if power[peak] > 0.0 else 0.0
+
     def components(self, sea: SeaSettings, rng: np.random.Generator) -> WaveComponents:
         """Draw its components."""
         real_part, imaginary_part = rng.standard_normal((2, GRID_SIZE, GRID_SIZE))

@@ -10,6 +10,8 @@ import numpy as np
 
 from ..schema import Spec, element
 from .components import WaveComponents
+from .dispersion import wave_numbers
+from .spectrum import Spectrum
 
 MAX_HEIGHT = 40.0
 """The largest wave height in a file [m]; the highest that was measured at sea is some 30 m."""
@@ -46,6 +48,10 @@ class WaveSystemSpec(Spec, abc.ABC):
         """The largest number of components that it can have."""
         return 1
 
+    @abc.abstractmethod
+    def peak_number(self, sea: SeaSettings) -> float:
+        """Return the wave number of the waves with the most energy; 0 without waves [rad/m]."""
+
     def sea_errors(self, sea: SeaSettings) -> Iterable[str]:
         """Return errors of the settings that only this system uses, each with its element first."""
         return ()
@@ -68,6 +74,16 @@ class IrregularWavesSpec(WaveSystemSpec, abc.ABC):
         "components", namespaced=True, default=200, minimum=1, maximum=MAX_COMPONENTS
     )
     """The number of sinusoidal components."""
+
+    @property
+    @abc.abstractmethod
+    def spectrum(self) -> Spectrum:
+        """The spectrum of the elevation."""
+
+    def peak_number(self, sea: SeaSettings) -> float:
+        """Return the wave number of the spectrum's peak [rad/m]."""
+        frequency = np.array([self.spectrum.peak_frequency])
+        return float(wave_numbers(frequency, sea.depth)[0])
 
     @property
     def n_components_at_most(self) -> int:

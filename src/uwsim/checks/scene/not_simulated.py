@@ -8,8 +8,10 @@ from lxml import etree
 
 from ...errors import Diagnostic
 from ...scene.unsupported import (
+    DEPTH_ELEMENT,
     DISABLED_TEXTS,
     LIMIT_ELEMENTS,
+    OCEAN_ELEMENTS,
     ORIGINAL_PHYSICS_ELEMENTS,
     READ_ONLY,
     UNSIMULATED_ELEMENTS,
@@ -32,13 +34,20 @@ def unsimulated_elements(root: etree._Element) -> Iterator[tuple[int, str]]:
     physics_text = (root.findtext("simParams/enablePhysics") or "").strip()
     has_original_physics = physics_text == "1" and not is_dynamic
     has_physics = is_dynamic or has_original_physics
+    waves = f"oceanState/{{{NAMESPACE}}}waves"
+    has_waves = root.find(waves) is not None
+    has_ocean = root.find(f"{waves}/{{{NAMESPACE}}}uwsimOcean") is not None
     for node in root.iter("*"):
         parent = node.getparent()
         if parent is None:
             continue
         tags = (str(parent.tag), str(node.tag))
         kind = UNSIMULATED_ELEMENTS.get(tags)
-        if tags in ORIGINAL_PHYSICS_ELEMENTS and has_original_physics:
+        if (
+            (tags in ORIGINAL_PHYSICS_ELEMENTS and has_original_physics)
+            or (has_waves and tags == DEPTH_ELEMENT)
+            or (has_ocean and tags in OCEAN_ELEMENTS)
+        ):
             kind = None
         elif has_physics and parent.tag == "physics" and node.tag in LIMIT_ELEMENTS:
             kind = "limits of objects"
