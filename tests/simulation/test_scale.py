@@ -148,9 +148,9 @@ def test_contacts_know_how_large_a_vehicle_is(
     assert bool(simulation.world.contacts.find("arm")) is touches
 
 
-def test_a_simulated_vehicle_with_a_scale_is_refused_with_the_way_out(tmp_path: Path) -> None:
+def test_a_vehicle_with_dynamics_and_a_scale_is_refused_with_the_way_out(tmp_path: Path) -> None:
     vehicle = VehicleSpec(
         name="g", file="data/scenes/g500ARM5.urdf", dynamics="g500_physical", scale_factor=EVEN
     )
-    with pytest.raises(SceneError, match=r"'g' is simulated.*<scaleFactor>.*URDF"):
+    with pytest.raises(SceneError, match=r"'g' has <u:dynamics>.*<scaleFactor>.*URDF"):
         begin(scene_of(vehicle), is_blind=True)
