@@ -53,7 +53,7 @@ def load(
         data_path: more folders in which files are searched.
         udp_address: the address of this computer at which vehicles with ``<fdm>`` receive UDP
             packets, such as ``127.0.0.1``; None: they receive none, so that runs are repeatable.
-        is_blind: publish black images on topics, and render nothing for them.
+        is_blind: True to publish black images on topics, and to render nothing for them.
 
     Raises:
         UwsimError: a file, a name or a setting is invalid; the message has all errors of the file.

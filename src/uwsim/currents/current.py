@@ -91,7 +91,7 @@ class Current(abc.ABC):
         """Return the compiled function of the current; None if only Python can evaluate it.
 
         Args:
-            vehicles: the names of the vehicles, in the order of their numbers in a query.
+            vehicles: the names of the vehicles, in the order of their indices in a query.
         """
         return None
 

@@ -22,7 +22,7 @@ QUERY = np.dtype(
     [
         ("n", np.int64),  # the number of points
         ("points", np.int64),  # the address of the points in L, (n, 3) [m]
-        ("vehicles", np.int64),  # the address of the vehicle's number at each point, (n,); 0: none
+        ("vehicles", np.int64),  # the address of the vehicle's index at each point, (n,); 0: none
         ("velocity", np.int64),  # the address of the velocities in L, (n, 3) [m/s]
         ("acceleration", np.int64),  # the address of the accelerations [m/s2]; 0: not needed
     ]
@@ -55,7 +55,7 @@ def query_of(vehicles: npt.NDArray[np.int64]) -> tuple[npt.NDArray[Any], ...]:
     """Return a record of `QUERY`, (1,), and the arrays it refers to, with a point for each vehicle.
 
     Args:
-        vehicles: the number of the vehicle at each point, (n,).
+        vehicles: the index of the vehicle at each point, (n,).
 
     Returns:
         The record; then the vehicles, points, velocities and accelerations.

@@ -82,7 +82,7 @@ class TargetCurrent(Current):
 
 
 TARGET = np.dtype([("flow", FUNCTION), ("target", np.int64)])
-"""The parameters of `flow_target`: a current, and the number of the vehicle that it acts on."""
+"""The parameters of `flow_target`: a current, and the index of the vehicle that it acts on."""
 
 
 def flow_target(parameters_address: int, query_address: int, time: float) -> None:

@@ -48,7 +48,7 @@ def unit(name: str, text: str) -> tuple[float, bool]:
         text: the attribute ``units`` of the variable; empty for SI units.
 
     Raises:
-        ValueError: the unit is unknown; the message lists the expected units.
+        ValueError: the unit is unknown; the error message lists the expected units.
     """
     words = text.strip().lower()
     kind = "time" if name == "t" else "speed" if name in ("u", "v", "w") else "length"

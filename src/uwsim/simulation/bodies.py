@@ -53,7 +53,7 @@ class SceneBodies:
         The name of a link may contain slashes itself, as in ``rov/bluerov2/base_link``.
 
         Raises:
-            UnknownName: no body matches; the message lists the bodies.
+            UnknownName: no body matches; the error message lists the bodies.
         """
         nodes = [node.strip() for node in name.strip().strip("/").split("/")]
         if nodes[0] == "localizedWorld" and len(nodes) > 1:

@@ -41,9 +41,10 @@ class LiveScene:
         model: the compiled scene.
         udp_address: the address of this computer at which ``<fdm>`` receives packets; None: none.
         stream_prefix: the prefix of the names of random streams.
-        runs_code: run Python code that the scene names; False: a current that needs it is still.
+        runs_code: True to run the Python code to which the scene refers; False: a current that
+            requires such code is zero.
         pool: the pool of renderers; None: the scene has a renderer of its own.
-        is_blind: True: images on topics are black, and need no renderer.
+        is_blind: True to publish black images on topics, and to render nothing for them.
     """
 
     def __init__(

@@ -28,7 +28,8 @@ class PhysicalScene:
     Args:
         model: the compiled scene.
         stream_prefix: the prefix of the names of random streams.
-        runs_code: run Python code that the scene names; False: a current that needs it is still.
+        runs_code: True to run the Python code to which the scene refers; False: a current that
+            requires such code is zero.
         pool: the pool of renderers; None: the scene has a renderer of its own.
     """
 

@@ -1,4 +1,4 @@
-"""The sensors of a scene, by element and name, and the topics on which they publish."""
+"""The sensors of a scene, by XML element and name, and the topics on which they publish."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ from .world_views.sensor_view import SensorView
 
 
 class SceneSensors:
-    """The sensors of a scene, and its devices that measure.
+    """The sensors of a scene, and its devices with measurements, for example force sensors.
 
-    Of several sensors with the same element and name, the last is found.
+    If several sensors have the same element and name, only the last is kept.
 
     Args:
         model: the compiled scene.
@@ -44,10 +44,10 @@ class SceneSensors:
         self.cameras = tuple(self._cameras)
         """The names of the virtual cameras, in the file's order."""
         self.faulty_topics: list[FaultyTopic] = []
-        """The topics whose messages faults change."""
+        """The topics on which simulated faults modify the messages."""
 
     def add(self, element: str, name: str, device: Sensor) -> None:
-        """Add a device that measures."""
+        """Add a device with measurements, by its XML element and name."""
         self._sensors[element, name] = device
 
     def camera(self, name: str) -> VirtualCamera:
@@ -57,7 +57,11 @@ class SceneSensors:
         return self._cameras[name]
 
     def sensor(self, name: str, elements: tuple[str, ...]) -> Sensor:
-        """Return a sensor or measuring device of one of these elements; or raise UnknownName."""
+        """Return the sensor, or device with measurements, of one of these XML elements and a name.
+
+        Raises:
+            UnknownName: there is none.
+        """
         sensors = {
             sensor_name: sensor
             for (element, sensor_name), sensor in self._sensors.items()
@@ -68,7 +72,7 @@ class SceneSensors:
         return sensors[name]
 
     def has_faults(self, sensor: str) -> bool:
-        """Return whether faults change the messages of a sensor before they are published."""
+        """Return whether faults modify the messages of a sensor before they are published."""
         parts = [part for vehicle in self._spec.vehicles for part in vehicle.parts_of(FaultSpec)]
         return any(part.sensor == sensor for part in parts)
 

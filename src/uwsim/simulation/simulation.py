@@ -36,8 +36,9 @@ class Simulation:
             seed of every random stream.
         stream_prefix: the prefix of the name of every random stream.
         pool: the pool of renderers; None: the simulation has its own renderer.
-        is_blind: images on topics are black, and nothing is rendered for them.
-        runs_code: run Python code that the scene names; False: a current that needs it is still.
+        is_blind: True to publish black images on topics, and to render nothing for them.
+        runs_code: True to run the Python code to which the scene refers; False: a current that
+            requires such code is zero.
         udp_address: the address of this computer at which ``<fdm>`` receives packets; None: none.
     """
 
@@ -186,7 +187,8 @@ class Simulation:
         For an existing topic without a subscriber, a warning is printed on standard error, once.
 
         Raises:
-            UnknownName: there is no such topic; the message suggests the nearest with a subscriber.
+            UnknownName: there is no such topic; the error message suggests the nearest topic with a
+                subscriber.
             BadSetting: the topic carries another type of message.
             BadMessage: a field of the message has the wrong type or shape.
         """
@@ -199,7 +201,7 @@ class Simulation:
         while their topic is read: call this once, then advance.
 
         Raises:
-            UnknownName: there is no such topic; the message suggests the nearest name.
+            UnknownName: there is no such topic; the error message suggests the nearest name.
         """
         return self._access.latest_message(topic)
 
@@ -212,7 +214,7 @@ class Simulation:
         """Call a service and return its response.
 
         Raises:
-            UnknownName: no node offers the service; the message suggests the nearest name.
+            UnknownName: no node offers the service; the error message suggests the nearest name.
             BadMessage: the request has the wrong type.
         """
         return self.bus.services.call(service, request)
@@ -226,7 +228,7 @@ class Simulation:
             frame: ``L`` (the frame of files and topics), ``W`` (z up), or another body's name.
 
         Raises:
-            UnknownName: there is no such body; the message suggests the nearest name.
+            UnknownName: there is no such body; the error message suggests the nearest name.
         """
         world_from_body = self.world.bodies.find(name).world_from_body
         return placing.world_from_frame(self.world, frame).inverse() @ world_from_body
@@ -241,7 +243,8 @@ class Simulation:
             frame: the reference frame, as in `pose`.
 
         Raises:
-            UnknownName: there is no such vehicle, object or frame; the message suggests a name.
+            UnknownName: there is no such vehicle, object or frame; the error message suggests the
+                nearest name.
             BadSetting: the pose is not finite, or farther than 1e6 m from the origin.
             UwsimError: the object is fixed, or a vehicle holds it.
         """
@@ -254,7 +257,7 @@ class Simulation:
         The linear velocity [m/s] is first, then the angular velocity [rad/s].
 
         Raises:
-            UnknownName: there is no such vehicle; the message suggests the nearest name.
+            UnknownName: there is no such vehicle; the error message suggests the nearest name.
             UwsimError: the vehicle is kinematic.
         """
         vehicle = self.world.vehicles.find(name)
@@ -265,10 +268,12 @@ class Simulation:
         return vehicle.velocity
 
     def image(self, camera: str) -> RenderedImage:
-        """Render the present image of a camera without noise: colour, range and part numbers.
+        """Render the present image of a camera without noise.
+
+        The image has the colour, the range, and the id of the link or object in each pixel.
 
         Raises:
-            UnknownName: there is no such camera; the message suggests the nearest name.
+            UnknownName: there is no such camera; the error message suggests the nearest name.
             NoGraphics: no OpenGL context can be created.
         """
         view, scenery = self.world.sensors.camera(camera), self.world.scenery
@@ -287,7 +292,7 @@ class Simulation:
                 ``simulation.world.sensors.camera(name).world_from_camera``.
 
         Raises:
-            UnknownName: there is no such frame; the message suggests the nearest name.
+            UnknownName: there is no such frame; the error message suggests the nearest name.
         """
         return oriented_boxes(
             self.world.scenery, placing.world_from_frame(self.world, frame).inverse()
@@ -298,7 +303,11 @@ class Simulation:
         self.world.scenery.set_fog(arguments.check_number("set_fog", density))
 
     def set_light(self, rate: float) -> None:
-        """Set the factor on the light, by default 1; raise BadSetting if it is negative."""
+        """Set the factor by which the light is scaled, 1 by default.
+
+        Raises:
+            BadSetting: the factor is negative.
+        """
         self.world.scenery.set_light_rate(arguments.check_number("set_light", rate))
 
     def set_current(self, velocity: Sequence[float] | Flow | None) -> None:
@@ -309,8 +318,9 @@ class Simulation:
                 `Flow`; None: no added current.
 
         Raises:
-            BadSetting: the velocity is not three numbers, or one exceeds the fastest current. If a
-                `Flow` raises an exception or returns a wrong shape, `advance` raises BadSetting.
+            BadSetting: the velocity is not three numbers, or a component exceeds
+                `uwsim.currents.current.MAX_SPEED`. If a `Flow` raises an exception or returns a
+                wrong shape, `advance` raises BadSetting.
         """
         self.world.water.set(arguments.flow_of(velocity))
 
@@ -352,7 +362,7 @@ class Simulation:
         return node
 
     def save(self) -> bytes:
-        """Return `state` as bytes, exact to the bit.
+        """Return `state` as bytes, bit-exact.
 
         Raises:
             UwsimError: an attached algorithm has no ``save`` and ``restore``.

@@ -190,7 +190,12 @@ class Actuators(Protocol):
 
 @runtime_checkable
 class Flow(Protocol):
-    """The motion of the water (`uwsim.currents`); points, velocities, accelerations are in L."""
+    """The motion of the water (`uwsim.currents`).
+
+    Points, velocities and accelerations are in L, the frame of the scene file. ``vehicles`` has the
+    name of the vehicle at each point, ``""`` for none, since some currents act on selected vehicles
+    only; an empty sequence means that no point belongs to a vehicle.
+    """
 
     @property
     def is_uniform(self) -> bool:

@@ -14,7 +14,7 @@ from ...currents.constant import Constant
 from ...currents.current import MAX_SPEED
 from ...errors import BadSetting, short_repr
 from ...world import Flow
-from .program_flow import ProgramFlow
+from .user_flow import UserFlow
 
 MAX_COORDINATE = 1e6
 """The greatest coordinate in W at which a body can be placed [m]."""
@@ -80,7 +80,7 @@ def check_pose(name: str, world_from_frame: Pose, frame_from_body: Pose) -> Pose
 
 
 def flow_of(velocity: Sequence[float] | Flow | None) -> Flow | None:
-    """Return the flow for a velocity in L, (3,) [m/s], or for a `Flow` object of the program.
+    """Return the flow for a velocity in L, (3,) [m/s], or for a `Flow` object of the user.
 
     Raises:
         BadSetting: the velocity is not three numbers up to `MAX_SPEED`; or the `Flow` is a class,
@@ -92,7 +92,7 @@ def flow_of(velocity: Sequence[float] | Flow | None) -> Flow | None:
         name = velocity.__name__
         raise BadSetting(f"set_current({name}): expected a flow, not its class: {name}().")
     if isinstance(velocity, Flow):
-        return ProgramFlow(velocity)
+        return UserFlow(velocity)
     try:
         x, y, z = (float(component) for component in velocity)
     except (TypeError, ValueError, OverflowError):

@@ -25,7 +25,8 @@ def place(scene: LiveScene, name: str, world_from_body: Pose) -> None:
         world_from_body: the pose in W of the frame that `SceneBodies.find` returns for this name.
 
     Raises:
-        UnknownName: there is no such vehicle or object; the message suggests the nearest name.
+        UnknownName: there is no such vehicle or object; the error message suggests the nearest
+            name.
         UwsimError: the object is fixed, or a vehicle holds it.
     """
     vehicles = scene.vehicles

@@ -83,7 +83,8 @@ class TopicAccess:
         """Publish a message; the first message on a topic without a subscriber prints a warning.
 
         Raises:
-            UnknownName: there is no such topic; the message suggests the nearest with a subscriber.
+            UnknownName: there is no such topic; the error message suggests the nearest topic with a
+                subscriber.
             BadSetting: the topic carries another type of message.
             BadMessage: a field of the message has the wrong type or shape.
         """
@@ -107,7 +108,7 @@ class TopicAccess:
         """Return the newest message on a topic; None before the first.
 
         Raises:
-            UnknownName: there is no such topic; the message suggests the nearest name.
+            UnknownName: there is no such topic; the error message suggests the nearest name.
         """
         name = topic.strip().lstrip("/")
         if name not in self._inboxes:

@@ -121,7 +121,7 @@ class Scenery:
         self.state.water = replace(self.state.water, fog=density)
 
     def set_light_rate(self, rate: float) -> None:
-        """Set the factor on the light of the scene [1]; 1 by default."""
+        """Set the factor by which the light of the scene is scaled [1]; 1 by default."""
         self.state.light = replace(self.state.light, rate=rate)
 
     def world_from_mesh(self, part: Part) -> npt.NDArray[np.float64]:

@@ -19,7 +19,7 @@ class SceneSegmenter:
     Args:
         scenery: the rendering of the scene.
         rays: the ray casting against the scene.
-        is_blind: cast rays instead of rendering.
+        is_blind: True to cast rays instead of rendering.
     """
 
     def __init__(self, scenery: Scenery, rays: SceneRays, *, is_blind: bool) -> None:

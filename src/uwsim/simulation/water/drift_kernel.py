@@ -18,7 +18,9 @@ from ...physics.step_kernel import engine_rotation
 DRIFT = np.dtype(
     [
         ("flow", FUNCTION),
-        ("query", np.int64),  # the address of a record of `QUERY`, with one point for each vehicle
+        # the address of a record of dtype `QUERY` (a request for the flow at points), with one
+        # point for each vehicle
+        ("query", np.int64),
         ("timestep", np.float64),  # [s]
         ("rotation", np.float64, (3, 3)),  # of L in W
         ("position", np.float64, 3),  # of L in W [m]
@@ -38,7 +40,7 @@ def drift_function(
     Args:
         flow: the compiled function of the flow, in L.
         world_from_localized: the pose of L in W.
-        vehicles: the number of each vehicle in ``flow``, (n,).
+        vehicles: the index of each vehicle in ``flow``, (n,).
         timestep: the length of a step [s].
     """
     query, *arrays = query_of(vehicles)
@@ -71,8 +73,8 @@ def drift(parameters: int, values: int, time: float) -> None:
     for i in range(query.n):
         x, y, z = poses[i, 0], poses[i, 1], poses[i, 2]
         for k in range(3):
-            turn = record.inverse_rotation[k]
-            point = turn[0] * x + turn[1] * y + turn[2] * z
+            row = record.inverse_rotation[k]
+            point = row[0] * x + row[1] * y + row[2] * z
             points[3 * i + k] = point + record.inverse_position[k]
     call(record.flow.function, record.flow.parameters, record.query, time)
     for i in range(query.n):
@@ -80,7 +82,9 @@ def drift(parameters: int, values: int, time: float) -> None:
             points[3 * i + k] += velocities[3 * i + k] * record.timestep
         x, y, z = points[3 * i], points[3 * i + 1], points[3 * i + 2]
         for k in range(3):
-            turn = record.rotation[k]
-            poses[i, k] = turn[0] * x + turn[1] * y + turn[2] * z + record.position[k]
+            row = record.rotation[k]
+            poses[i, k] = row[0] * x + row[1] * y + row[2] * z + record.position[k]
+        # the attitude is kept as in `WaterMotion.drifted_pose`, whose `Pose` has a rotation matrix:
+        # the same bytes need the same conversions
         rotation = engine_rotation(poses[i, 3], poses[i, 4], poses[i, 5], poses[i, 6])
         write_quaternion(rotation, poses[i, 3:7])

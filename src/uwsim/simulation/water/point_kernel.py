@@ -77,11 +77,11 @@ def write_velocities(parameters: int, values: int, time: float) -> None:
     )
     for i in range(query.n):
         for k in range(3):
-            turn = water.rotation[k]
+            row = water.rotation[k]
             points[3 * i + k] = (
-                turn[0] * rows[0, i, 0]
-                + turn[1] * rows[0, i, 1]
-                + turn[2] * rows[0, i, 2]
+                row[0] * rows[0, i, 0]
+                + row[1] * rows[0, i, 1]
+                + row[2] * rows[0, i, 2]
                 + water.position[k]
             )
     call(water.flow.function, water.flow.parameters, water.query, time)

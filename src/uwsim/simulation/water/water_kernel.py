@@ -160,8 +160,8 @@ def localize(water: Record, rows: Array, points: Array) -> None:
     for i in range(water.n):
         x, y, z = rows[i, POINT], rows[i, POINT + 1], rows[i, POINT + 2]
         for k in range(3):
-            turn = water.rotation[k]
-            points[3 * i + k] = turn[0] * x + turn[1] * y + turn[2] * z + water.position[k]
+            row = water.rotation[k]
+            points[3 * i + k] = row[0] * x + row[1] * y + row[2] * z + water.position[k]
 
 
 @njit

@@ -359,7 +359,8 @@ def water_motion(
     Args:
         model: the compiled scene.
         stream: a function that returns the random generator of a stream's name.
-        runs_code: run Python code that the scene names; False: a current that needs it is still.
+        runs_code: True to run the Python code to which the scene refers; False: a current that
+            requires such code is zero.
     """
     scene = model.scene
     context = SceneContext(

@@ -17,7 +17,7 @@ class SensorView(SceneView):
 
     Args:
         scene: the scene.
-        is_blind: compute depth images by ray casting, not by rendering.
+        is_blind: True to compute depth images by ray casting, not by rendering.
     """
 
     def __init__(self, scene: PhysicalScene, *, is_blind: bool) -> None:

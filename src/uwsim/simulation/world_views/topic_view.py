@@ -20,7 +20,7 @@ class TopicView(SceneView):
         scene: the scene.
         sensors: the sensors of the scene, and its devices that measure.
         markers: the markers that programs have spawned.
-        is_blind: True: images are black, and nothing is rendered.
+        is_blind: True to publish black images, and to render nothing.
     """
 
     def __init__(

@@ -1,4 +1,7 @@
-"""A flow of water whose class a program defines, with checks of what it returns."""
+"""A water flow defined by the user's Python program, with checks of the values that it returns.
+
+L is the localized world, the frame of the scene file.
+"""
 
 from __future__ import annotations
 
@@ -14,11 +17,13 @@ from ...errors import BadSetting, UwsimError, short_repr, type_and_text
 from ...world import Flow
 
 
-class ProgramFlow(Current):
-    """A `Flow` object of the program; error messages name its class.
+class UserFlow(Current):
+    """A `Flow` object of the user's Python program; error messages name its class.
+
+    The arguments ``vehicles`` are as in `uwsim.world.Flow`.
 
     Args:
-        flow: the object of the program.
+        flow: the object of the user's program.
 
     Raises:
         BadSetting: ``is_uniform`` or ``is_still`` of the flow raises.
@@ -31,16 +36,19 @@ class ProgramFlow(Current):
 
     @property
     def is_uniform(self) -> bool:
-        """The velocity is the same at all positions."""
+        """True if the velocity is the same at all positions."""
         return self._is_uniform
 
     @property
     def is_still(self) -> bool:
-        """The velocity is always zero."""
+        """True if the velocity is always zero."""
         return self._is_still
 
     def flow_function(self, vehicles: Sequence[str]) -> FlowFunction | None:
-        """Return the compiled function of a flow that is a current of uwsim; else None."""
+        """Return the compiled function of the flow.
+
+        None if the flow is not one of uwsim's own currents, or only Python can evaluate it.
+        """
         return flow_function_of(self._flow, vehicles)
 
     def velocity(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
