@@ -68,7 +68,7 @@ def simulation(host: Host, *options: str, **variables: str) -> None:
     )
     assert run.stderr is not None
     text = ""
-    while not ("listening at" in text or "one was started at" in text):
+    while not ("listening on" in text or "one was started at" in text):
         line = run.stderr.readline()
         assert line, text
         text += line

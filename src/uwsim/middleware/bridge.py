@@ -145,7 +145,10 @@ class Bridge(ABC):
         """Send a message to the external subscribers of its topic, without waiting."""
 
     def call_external_service(self, name: str, request: object) -> Future[object]:
-        """Call a service that an external program offers. In the thread of the simulation."""
+        """Call a service that an external program offers.
+
+        Called in the thread of the simulation.
+        """
         raise UwsimError(f"{type(self).__name__} calls no external services.")
 
     def read_all(self, topic: str) -> None:  # noqa: B027 - most transports lose no messages
@@ -155,21 +158,23 @@ class Bridge(ABC):
         """Return whether ``topic`` has an external publisher; True if that cannot be detected."""
         return True
 
-    def send_to(self, sender: str, topic: str, message: object) -> None:
-        """Send a message to one program, or to all if the transport cannot. Any thread.
+    def send_to(self, client_name: str, topic: str, message: object) -> None:
+        """Send a message to one program, or to all if the transport cannot select one.
 
-        ``sender`` is the name of the program in its messages.
+        ``client_name`` is the name of the program: the ``sender`` of its messages in `put`. May be
+        called from any thread.
         """
         self.send(topic, message)
 
-    def report_error(self, sender: str, text: str) -> None:  # noqa: B027 - not every transport can
-        """Report an error in a program's messages to the program, if possible. Any thread.
+    def report_error(self, client_name: str, text: str) -> None:  # noqa: B027 - only some can
+        """Report an error in a program's messages to the program, if the transport can.
 
-        ``sender`` is the name of the program in its messages.
+        ``client_name`` is the name of the program: the ``sender`` of its messages in `put`. May be
+        called from any thread.
         """
 
     def put(self, topic: str, message: object, sender: str = "") -> None:
-        """Accept a message from outside for the next step boundary. Any thread.
+        """Accept a message from outside for the next step boundary. May be called from any thread.
 
         ``sender`` is empty if the transport cannot distinguish senders.
         """
@@ -182,9 +187,10 @@ class Bridge(ABC):
         self.arrivals.add(name, message, sender, size)
 
     def request(self, name: str, request: object, sender: str = "") -> Future[object]:
-        """Call a service of the bus; the response comes at a step boundary. Any thread.
+        """Call a service of the bus; the response comes at a step boundary.
 
-        ``sender`` is the client, as in `put`. The future's exception is an UwsimError.
+        ``sender`` is the client, as in `put`. The future's exception is an UwsimError. May be
+        called from any thread.
         """
         name = name.lstrip("/")
         future: Future[object] = Future()
@@ -202,7 +208,10 @@ class Bridge(ABC):
         return future
 
     def step(self) -> None:
-        """Exchange messages and calls at a step boundary. In the thread of the simulation only."""
+        """Exchange messages and calls at a step boundary.
+
+        Called only in the thread of the simulation.
+        """
         if self.bus.revision != self._revision:
             self._report_changes()
         if self._signal.has_work:

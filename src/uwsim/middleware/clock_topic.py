@@ -58,5 +58,8 @@ class ClockTopic:
         self._publish()
 
     def send_at_next_step(self) -> None:
-        """Publish the time at the next step boundary, for a new subscriber. Any thread."""
+        """Publish the time at the next step boundary, for a new subscriber.
+
+        May be called from any thread.
+        """
         self._last_time = -math.inf

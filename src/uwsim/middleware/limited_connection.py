@@ -64,7 +64,7 @@ class ConnectionLimits:
         self._open_connections.pop(connection, None)
 
     def abort_all(self) -> None:
-        """Abort every connection; its transport is closed in the next turn of the loop."""
+        """Abort every connection; the next iteration of the event loop closes its transport."""
         for connection in tuple(self._open_connections):
             connection.transport.abort()
 
@@ -108,14 +108,14 @@ class LimitedConnection(ServerConnection):
         )
         self._limits = limits
         self._budget = WorkBudget(limits.share, limits.burst)
-        self.is_exempt: Callable[[], bool] = lambda: False
+        self.has_no_time_limit: Callable[[], bool] = lambda: False
         """The function that returns whether the connection has no time limit."""
         self.report_pause: Callable[[], None] = lambda: None
         """The function that is called when reading is paused."""
 
     def spend(self, seconds: float) -> None:
-        """Count work for this connection [s], unless it is exempt."""
-        if self.is_exempt():
+        """Count work for this connection [s], unless the connection has no time limit."""
+        if self.has_no_time_limit():
             return
         self._budget.spend(min(seconds, MAX_COST))
         if self._limits.work is not None:
@@ -123,7 +123,7 @@ class LimitedConnection(ServerConnection):
 
     async def handle(self, frame: str | bytes, handler: Callable[[str | bytes], None]) -> None:
         """Handle a frame when the budget allows it, then pause if the client exceeds its share."""
-        is_large = len(frame) >= LARGE_FRAME and not self.is_exempt()
+        is_large = len(frame) >= LARGE_FRAME and not self.has_no_time_limit()
         while is_large and (delay := self._limits.large_frames.delay) > 0.0:
             await asyncio.sleep(min(delay + PAUSE, MAX_SLEEP))
             if self.state is not State.OPEN:
@@ -139,7 +139,7 @@ class LimitedConnection(ServerConnection):
     @property
     def pause(self) -> float:
         """The time for which the connection is not read [s]; 0: it may be read now."""
-        if self.is_exempt():
+        if self.has_no_time_limit():
             return 0.0
         shared_delay = 0.0 if self._limits.work is None else self._limits.work.delay
         delay = max(self._budget.delay, shared_delay)

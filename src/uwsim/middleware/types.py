@@ -84,7 +84,7 @@ def message_class(name: str) -> type:
     """Return the class of a message type by its ROS 1 or ROS 2 name.
 
     Raises:
-        UnknownName: there is no such type; the message suggests the nearest name.
+        UnknownName: there is no such type; the error message suggests the nearest name.
     """
     type_name = full_name(name)
     message_type = _classes().get(type_name) or ros2_store().types.get(type_name)

@@ -72,7 +72,7 @@ def scored_under_attack(benchmark: Path, out: Path) -> dict[str, Any]:
         assert bench.stderr is not None
         for line in bench.stderr:
             said += line
-            if "listening at ws://" in line:
+            if "listening on ws://" in line:
                 program.append(line.split()[-1])
                 threading.Thread(target=attack, args=program[-1:], daemon=True).start()
             if client is None and "was refused: secret" in line:

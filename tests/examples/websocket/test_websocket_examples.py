@@ -51,7 +51,7 @@ def scored_outside(
         assert bench.stderr is not None
         for line in bench.stderr:
             said += line
-            if "listening at ws://" in line and client is None:
+            if "listening on ws://" in line and client is None:
                 uri = line.split()[-1]
                 client = subprocess.Popen(
                     [sys.executable, *program, "--uri", uri], cwd=EXAMPLES, text=True

@@ -197,7 +197,7 @@ def test_a_flood_of_messages_waits_in_the_sockets(
     publisher = FakePublisher(graph, "/cmd", Float64)
     connection = publisher.accept()
     connection.sendall(add_length(to_ros1(Float64(data=1.0))) * N_FLOOD)
-    wait_until(lambda: any("faster than it is read" in line for line in graph.lines))
+    wait_until(lambda: any("faster than uwsim reads" in line for line in graph.lines))
     assert 0 < sim.arrivals.n_arrived["cmd"] < N_FLOOD
     connection.close()
     publisher.close()

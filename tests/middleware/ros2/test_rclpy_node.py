@@ -148,11 +148,11 @@ def test_types_that_rclpy_lacks_are_told_a_package_a_line_and_the_rest_goes_on(
     simulator.step()
     topics, services = (line.removeprefix("uwsim: : ") for line in simulator.lines)
     assert topics == (
-        "not on the graph: /rov/second_sonar, /rov/sonar. rclpy has no marine_acoustic_msgs: "
-        "apt install ros-$ROS_DISTRO-marine-acoustic-msgs; or set UWSIM_ROS2=dds, which does "
-        "not need rclpy"
+        "not on the graph: /rov/second_sonar, /rov/sonar. The ROS 2 package marine_acoustic_msgs "
+        "is not installed: apt install ros-$ROS_DISTRO-marine-acoustic-msgs; or set "
+        "UWSIM_ROS2=dds, which does not need rclpy"
     )
-    assert services.startswith("not on the graph: /autoInit. rclpy")
+    assert services.startswith("not on the graph: /autoInit. The ROS 2 package ")
     simulator.step()
     assert len(simulator.lines) == 2, "once"
     source = """

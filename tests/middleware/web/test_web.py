@@ -420,7 +420,7 @@ def test_other_computers_need_a_token_and_a_used_port_is_one_line(setting: Setti
         WebOptions(host="0.0.0.0")
     with pytest.raises(BadSetting, match="--web 70000"):
         WebOptions(port=70000)
-    with pytest.raises(BadSetting, match="cannot listen at 127"):
+    with pytest.raises(BadSetting, match="cannot listen on 127"):
         WebBridge(Bus(), lambda: 0.0, WebOptions(port=setting.bridge.port))
 
 

@@ -43,11 +43,14 @@ class Arrivals:
             receive(message, sender)
 
     def is_tapped(self, name: str) -> bool:
-        """Return whether the messages of a topic are passed on at once. Any thread."""
+        """Return whether the messages of a topic are passed on at once.
+
+        May be called from any thread.
+        """
         return name in self._taps
 
     def add(self, name: str, message: object, sender: str, size: int) -> None:
-        """Add a message of ``size`` bytes from ``sender``. Any thread."""
+        """Add a message of ``size`` bytes from ``sender``. May be called from any thread."""
         with self._signal.lock:
             if self._signal.is_closed:
                 return

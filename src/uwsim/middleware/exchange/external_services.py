@@ -47,15 +47,18 @@ class ExternalServices:
         """The number of calls of external services so far."""
 
     def __contains__(self, name: str) -> bool:
-        """Return whether a service on the bus is external. In the thread of the simulation."""
+        """Return whether a service on the bus is external.
+
+        Called in the thread of the simulation.
+        """
         return name in self._names
 
     def offer(self, name: str, service: Service) -> None:
-        """Offer a service of an external program. Any thread."""
+        """Offer a service of an external program. May be called from any thread."""
         self._add((name.lstrip("/"), service))
 
     def withdraw(self, name: str) -> None:
-        """Withdraw a service of an external program. Any thread."""
+        """Withdraw a service of an external program. May be called from any thread."""
         self._add((name.lstrip("/"), None))
 
     def take(self) -> list[Offer]:

@@ -44,22 +44,22 @@ class Subscribers:
         """The number of messages sent to external subscribers so far."""
 
     def add(self, topic: str) -> None:
-        """Count one more subscriber of ``topic``. Any thread."""
+        """Count one more subscriber of ``topic``. May be called from any thread."""
         self.change(topic, 1)
 
     def remove(self, topic: str) -> None:
-        """Count one subscriber fewer of ``topic``. Any thread."""
+        """Count one subscriber fewer of ``topic``. May be called from any thread."""
         self.change(topic, -1)
 
     def change(self, topic: str, n: int) -> None:
-        """Count ``n`` more subscribers of ``topic``. Any thread."""
+        """Count ``n`` more subscribers of ``topic``. May be called from any thread."""
         with self._signal.lock:
             self._changes.append((topic.lstrip("/"), n))
             self._signal.mark_urgent()
         self._signal.wake()
 
     def is_read(self, topic: str) -> bool:
-        """Return whether ``topic`` has a subscriber. In the thread of the simulation."""
+        """Return whether ``topic`` has a subscriber. Called in the thread of the simulation."""
         return self._n_subscribers[topic.lstrip("/")] > 0
 
     def take(self) -> list[Change]:

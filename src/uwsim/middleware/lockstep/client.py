@@ -173,7 +173,7 @@ class LockStepClient:
         return () if admission is None else admission.take_refusals()
 
     def receive(self, topic: str, content: dict[str, Any], sender: str) -> None:
-        """Accept a message of the client on a topic of lock-step. Any thread.
+        """Accept a message of the client on a topic of lock-step. May be called from any thread.
 
         Messages of another ``sender`` with the same name, and answers before the join, are ignored.
         """

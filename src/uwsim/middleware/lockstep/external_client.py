@@ -51,7 +51,7 @@ def make_admission(spec: ClientSpec, report: Report) -> Admission:
     return TopicOwners(None if is_free else (output.topic for output in spec.outputs), report)
 
 
-def report_refusal(bridge: Bridge, sender: str, text: str) -> None:
-    """Report a refusal to the log and to the refused sender."""
+def report_refusal(bridge: Bridge, client_name: str, text: str) -> None:
+    """Report a refusal to the log and to the refused program."""
     bridge.log.report(text, kind="refused: does not take part")
-    bridge.report_error(sender, text)
+    bridge.report_error(client_name, text)

@@ -170,11 +170,11 @@ class Ros1Bridge(Bridge):
         if publication is not None:
             publication.send(message)
 
-    def send_to(self, sender: str, topic: str, message: object) -> None:
+    def send_to(self, client_name: str, topic: str, message: object) -> None:
         """Send a message to the subscribers of one node."""
         publication = self._publications.get(f"/{topic}")
         if publication is not None:
-            publication.send(message, target_node=sender)
+            publication.send(message, target_node=client_name)
 
     def _publish_clock(self) -> None:
         if self._clock_is_read():

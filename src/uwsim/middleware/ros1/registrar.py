@@ -93,7 +93,10 @@ class Registrar:
             )
 
     def update(self, topic: str, uris: list[str]) -> None:
-        """Pass on an update from the master: the publishers of a topic. Any thread."""
+        """Pass on an update from the master: the publishers of a topic.
+
+        May be called from any thread.
+        """
         with self._update_lock:
             self._updated_topics.add(topic)
             self._publishers(topic, uris)

@@ -164,8 +164,8 @@ class Subscription:
 
     def report_flood(self, sender: str) -> None:
         """Report that the messages of a publisher wait."""
-        line = f"{self.topic}: {sender} publishes faster than it is read; its messages wait"
-        self._log.report(line, kind=f"faster than it is read {self.topic}")
+        line = f"{self.topic}: {sender} publishes faster than uwsim reads; its messages are delayed"
+        self._log.report(line, kind=f"flood {self.topic}")
 
     def report(self, uri: str, error: PeerError) -> None:
         """Report an error of a publisher."""

@@ -20,14 +20,14 @@ def list_sockets() -> set[str]:
     """Return the identifiers of the open sockets of this process."""
     names = set()
     with suppress(OSError):
-        for number in os.listdir(FILE_DESCRIPTORS):
+        for descriptor in os.listdir(FILE_DESCRIPTORS):
             with suppress(OSError):
-                names.add(os.readlink(FILE_DESCRIPTORS / number))
+                names.add(os.readlink(FILE_DESCRIPTORS / descriptor))
     return {name for name in names if name.startswith("socket:")}
 
 
 def bind_to_loopback(old_sockets: set[str]) -> bool:
-    """Make all new UDP sockets of this process receive from the loopback interface only.
+    """Restrict the new UDP sockets that listen on all addresses to the loopback interface.
 
     Args:
         old_sockets: the result of `list_sockets` before the new sockets were opened.
@@ -39,7 +39,7 @@ def bind_to_loopback(old_sockets: set[str]) -> bool:
     for udp_socket in _new_udp_sockets(old_sockets):
         with udp_socket:
             if udp_socket.getsockname()[0] not in WILDCARD_ADDRESSES:
-                continue
+                continue  # the socket is bound to one address, so it hears no other interface
             try:
                 udp_socket.setsockopt(socket.SOL_SOCKET, socket.SO_BINDTODEVICE, DEVICE)
             except (OSError, AttributeError):  # Linux before 5.7 allows root only
@@ -48,11 +48,11 @@ def bind_to_loopback(old_sockets: set[str]) -> bool:
 
 
 def _new_udp_sockets(old_sockets: set[str]) -> Iterator[socket.socket]:
-    for number in os.listdir(FILE_DESCRIPTORS) if FILE_DESCRIPTORS.is_dir() else ():
+    for descriptor in os.listdir(FILE_DESCRIPTORS) if FILE_DESCRIPTORS.is_dir() else ():
         with suppress(OSError):
-            name = os.readlink(FILE_DESCRIPTORS / number)
+            name = os.readlink(FILE_DESCRIPTORS / descriptor)
             if name.startswith("socket:") and name not in old_sockets:
-                new_socket = socket.socket(fileno=os.dup(int(number)))
+                new_socket = socket.socket(fileno=os.dup(int(descriptor)))
                 is_udp = new_socket.type == socket.SOCK_DGRAM
                 if is_udp and new_socket.family in (socket.AF_INET, socket.AF_INET6):
                     yield new_socket

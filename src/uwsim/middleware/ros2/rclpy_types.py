@@ -1,8 +1,8 @@
-"""The classes of rclpy for types of the bus; they come from compiled packages of ROS 2.
+"""The Python message classes of the installed ROS 2 packages, for the types of the bus.
 
 A message is passed to rclpy as CDR bytes, in the layout of uwsim's own definition. A class of rclpy
-is therefore used only if it has the same fields. Missing types are reported in one line for each
-package.
+is therefore used only if it has the same fields. `RclpyTypes.faults` returns one line for each
+reason why endpoints have no class: a missing package, a missing type, or different fields.
 """
 
 from __future__ import annotations
@@ -15,9 +15,9 @@ from rosbags.interfaces import Nodetype
 
 from ..types import FOLDER, PLACEHOLDER, WireService, ros2_store, wire_type
 
-BASES = {"bool": "boolean", "byte": "octet", "char": "uint8", "float32": "float"}
-BASES |= {"float64": "double"}
-"""The types of fields that have other names in rclpy."""
+RCLPY_NAMES = {"bool": "boolean", "byte": "octet", "char": "uint8", "float32": "float"}
+RCLPY_NAMES |= {"float64": "double"}
+"""The names in rclpy of types of fields, by their names in rosbags, where the two differ."""
 OWN_PACKAGE = "underwater_sensor_msgs"
 """The package that comes with uwsim."""
 
@@ -26,7 +26,7 @@ class RclpyTypes:
     """The classes of rclpy for types of the bus, and a list of the types without a class."""
 
     def __init__(self) -> None:
-        self._missing_types: defaultdict[str, set[str]] = defaultdict(set)  # endpoints by reason
+        self._endpoints_by_reason: defaultdict[str, set[str]] = defaultdict(set)
 
     def message(self, type: type, topic: str) -> Any | None:
         """Return the class of the messages on ``topic``; None if rclpy has no such class."""
@@ -36,16 +36,19 @@ class RclpyTypes:
 
     def service(self, kind: WireService, name: str) -> Any | None:
         """Return the class of the type of the service ``name``; None if rclpy has no such class."""
-        halves = (kind.request.ros2_name, kind.response.ros2_name)
-        return self._find(kind.ros2_name, halves, name)
+        request, response = kind.request.ros2_name, kind.response.ros2_name
+        return self._find(kind.ros2_name, (request, response), name)
 
     def faults(self) -> list[str]:
-        """Return a line for each package or type that was found missing since the last call."""
-        missing_types, self._missing_types = self._missing_types, defaultdict(set)
+        """Return one line for each reason found since the last call.
+
+        A reason is a missing package, a missing type, or different fields.
+        """
+        endpoints_by_reason, self._endpoints_by_reason = self._endpoints_by_reason, defaultdict(set)
         return [
             f"not on the graph: {', '.join(f'/{name}' for name in sorted(names))}. {reason}; or "
             "set UWSIM_ROS2=dds, which does not need rclpy"
-            for reason, names in sorted(missing_types.items())
+            for reason, names in sorted(endpoints_by_reason.items())
         ]
 
     def _find(self, name: str, layouts: tuple[str, ...], endpoint_name: str) -> Any | None:
@@ -54,12 +57,13 @@ class RclpyTypes:
         if cls is not None and all(has_same_fields(layout) for layout in layouts):
             return cls
         if cls is not None:
-            reason = f"{name} has other fields in rclpy's {package} than in uwsim"
+            reason = f"The installed {package} defines {name} with other fields than uwsim"
         elif importlib.util.find_spec(package) is not None:
-            reason = f"rclpy's {package} has no {name}"
+            reason = f"The installed {package} has no {name}"
         else:
-            reason = f"rclpy has no {package}: {install_command(package)}"
-        self._missing_types[reason].add(endpoint_name)
+            command = install_command(package)
+            reason = f"The ROS 2 package {package} is not installed: {command}"
+        self._endpoints_by_reason[reason].add(endpoint_name)
         return None
 
 
@@ -115,7 +119,7 @@ def _type_text(description: Any) -> str:
         return f"{package}/{base}"
     if kind == Nodetype.BASE:
         base, bound = content
-        return f"{base}<{bound}>" if bound else BASES.get(base, base)
+        return f"{base}<{bound}>" if bound else RCLPY_NAMES.get(base, base)
     item, length = _type_text(content[0]), content[1]
     if kind == Nodetype.ARRAY:
         return f"{item}[{length}]"

@@ -29,7 +29,7 @@ class ClientServices:
         self._providers: dict[str, tuple[Client, ...]] = {}
 
     def advertise(self, name: str, service: Service, client: Client) -> None:
-        """Offer a service of a client on the bus. Any thread."""
+        """Offer a service of a client on the bus. May be called from any thread."""
         accept = partial(self.advertise, name, service, client)
         admission = self._admission()
         if admission and not admission.may_offer(name, client.name, accept):
@@ -38,7 +38,7 @@ class ClientServices:
         self._services.offer(name, service)
 
     def unadvertise(self, name: str, client: Client) -> None:
-        """Withdraw a service of a client. In the thread of the server."""
+        """Withdraw a service of a client. Called in the thread of the server."""
         providers = self._providers.pop(name, ())
         other_providers = tuple(provider for provider in providers if provider is not client)
         if other_providers:
@@ -47,7 +47,7 @@ class ClientServices:
             self._services.withdraw(name)
 
     def call(self, name: str, request: object) -> Future[object]:
-        """Call a service of a client. In the thread of the simulation."""
+        """Call a service of a client. Called in the thread of the simulation."""
         providers = self._providers.get(name)
         if not providers:
             raise UwsimError(f"Service /{name}: its server has left.")

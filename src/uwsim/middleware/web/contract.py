@@ -10,7 +10,7 @@ from typing import Protocol
 from ..admission import Admission
 from ..log import Log
 from .outgoing import EncodedMessage
-from .queue import Lane
+from .queue import SubscriptionQueue
 
 
 @dataclass(eq=False)
@@ -19,7 +19,7 @@ class Subscription:
 
     topic: str
     """The topic, without a leading slash."""
-    lane: Lane
+    queue: SubscriptionQueue
     """The queue of messages to send."""
     throttle: float
     """The shortest time between two messages [s of wall time]."""
@@ -42,23 +42,26 @@ class Client(Protocol):
         """The name of the client in the log."""
 
     def has_advertised(self, topic: str) -> bool:
-        """Return whether the client has advertised a topic. Any thread."""
+        """Return whether the client has advertised a topic. May be called from any thread."""
 
     def has_subscribed(self, topic: str) -> bool:
-        """Return whether the client has subscribed to a topic. Any thread."""
+        """Return whether the client has subscribed to a topic. May be called from any thread."""
 
     def post(self, subscription: Subscription, message: EncodedMessage) -> None:
-        """Send a message of a subscription. Any thread."""
+        """Send a message of a subscription. May be called from any thread."""
 
     def call(self, name: str, request: object) -> Future[object]:
-        """Call a service that the client offers. Any thread."""
+        """Call a service that the client offers. May be called from any thread."""
 
     def reply(self, content: dict[str, object]) -> None:
-        """Send a JSON object, after all messages that wait already. Any thread."""
+        """Send a JSON object, after all messages that wait already.
+
+        May be called from any thread.
+        """
 
 
 class SessionBridge(Protocol):
-    """The bridge, as the session of a client uses it. In the thread of the server."""
+    """The bridge, as the session of a client uses it in the thread of the server."""
 
     log: Log
     """The log of the transport."""

@@ -17,7 +17,7 @@ COMPRESSED_SUFFIX = "/compressed"
 
 
 class WebGraph:
-    """Topics and services of a bus, and the clients that use them. Any thread.
+    """The topics and services of a bus, and the clients that use them, for any thread.
 
     Args:
         clock: a function that returns the simulation time [s].

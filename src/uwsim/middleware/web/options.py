@@ -53,5 +53,5 @@ class WebOptions:
                 test_socket.bind(address)
         except OSError as error:
             raise BadSetting(
-                f"--web {self.port}: cannot listen at {self.host}: {error.strerror or error}."
+                f"--web {self.port}: cannot listen on {self.host}: {error.strerror or error}."
             ) from None

@@ -10,18 +10,19 @@ from dataclasses import dataclass, field
 from .outgoing import EncodedMessage
 
 MAX_BYTES = 64 * 2**20
-"""The maximum size of all messages that wait for one client [bytes]."""
+"""The size of all messages that wait for one client, above which older messages of the same
+subscription are dropped [bytes]; one message of each subscription is always kept."""
 MAX_MESSAGES = 1000
 """The maximum number of waiting messages of one subscription; replies count as one."""
 
 
 @dataclass(eq=False)
-class Lane:
+class SubscriptionQueue:
     """The part of a client's queue with the messages of one subscription, or with the replies."""
 
     compression: str = "none"
     """The encoding of the messages."""
-    length: int = MAX_MESSAGES
+    max_length: int = MAX_MESSAGES
     """The maximum number of messages."""
     items: deque[EncodedMessage | str] = field(default_factory=deque)
     """The messages, oldest first."""
@@ -37,45 +38,45 @@ class OutQueue:
     def __init__(self, wake: Callable[[], None]) -> None:
         self._wake = wake
         self._lock = threading.Lock()
-        self._order: deque[Lane] = deque()
+        self._order: deque[SubscriptionQueue] = deque()
         self._n_bytes = 0
         self.n_dropped = 0
         """The number of messages dropped so far."""
 
-    def put(self, lane: Lane, item: EncodedMessage | str) -> int:
-        """Put an item at the end; return the number of messages dropped for it."""
+    def put(self, queue: SubscriptionQueue, item: EncodedMessage | str) -> int:
+        """Put an item at the end of a queue; return the number of messages dropped for it."""
         with self._lock:
             n_dropped_before, was_empty = self.n_dropped, not self._order
-            lane.items.append(item)
-            self._order.append(lane)
+            queue.items.append(item)
+            self._order.append(queue)
             self._n_bytes += size_of(item)
-            while len(lane.items) > lane.length or (
-                self._n_bytes > MAX_BYTES and len(lane.items) > 1
+            while len(queue.items) > queue.max_length or (
+                self._n_bytes > MAX_BYTES and len(queue.items) > 1
             ):
-                self._n_bytes -= size_of(lane.items.popleft())
-                self._order.remove(lane)  # the first entry: that of the dropped message
+                self._n_bytes -= size_of(queue.items.popleft())
+                self._order.remove(queue)  # the first entry, which is that of the dropped message
                 self.n_dropped += 1
             n_dropped = self.n_dropped - n_dropped_before
         if was_empty:  # else the writer is awake already
             self._wake()
         return n_dropped
 
-    def take(self) -> tuple[Lane, EncodedMessage | str] | None:
+    def take(self) -> tuple[SubscriptionQueue, EncodedMessage | str] | None:
         """Remove and return the oldest item; None if the queue is empty."""
         with self._lock:
             if not self._order:
                 return None
-            lane = self._order.popleft()
-            item = lane.items.popleft()
+            queue = self._order.popleft()
+            item = queue.items.popleft()
             self._n_bytes -= size_of(item)
-            return lane, item
+            return queue, item
 
-    def forget(self, lane: Lane) -> None:
-        """Drop the messages of a lane."""
+    def forget(self, queue: SubscriptionQueue) -> None:
+        """Drop the messages of a subscription."""
         with self._lock:
-            self._n_bytes -= sum(map(size_of, lane.items))
-            lane.items.clear()
-            self._order = deque(other_lane for other_lane in self._order if other_lane is not lane)
+            self._n_bytes -= sum(map(size_of, queue.items))
+            queue.items.clear()
+            self._order = deque(other for other in self._order if other is not queue)
 
 
 def size_of(item: EncodedMessage | str) -> int:

@@ -33,15 +33,15 @@ class WebReaders:
         self._latched: dict[str, EncodedMessage] = {}
 
     def __contains__(self, topic: str) -> bool:
-        """Return whether a client reads a topic. Any thread."""
+        """Return whether a client reads a topic. May be called from any thread."""
         return topic in self._readers
 
     def readers_of(self, topic: str) -> tuple[Reader, ...]:
-        """Return the clients that read a topic. Any thread."""
+        """Return the clients that read a topic. May be called from any thread."""
         return self._readers.get(topic, ())
 
     def add(self, topic: str, client: Client, subscription: Subscription) -> None:
-        """Add a subscription of a client. In the thread of the server."""
+        """Add a subscription of a client. Called in the thread of the server."""
         latched = self._latched.get(topic)
         self._readers[topic] = (*self.readers_of(topic), (client, subscription))
         if latched is not None:
@@ -54,7 +54,7 @@ class WebReaders:
             self._subscribers.add(subscription.source)
 
     def remove(self, topic: str, subscription: Subscription) -> None:
-        """Remove a subscription of a client. In the thread of the server."""
+        """Remove a subscription of a client. Called in the thread of the server."""
         readers = tuple(entry for entry in self.readers_of(topic) if entry[1] is not subscription)
         if readers:
             self._readers[topic] = readers
@@ -64,7 +64,7 @@ class WebReaders:
             self._subscribers.remove(subscription.source)
 
     def send(self, topic: str, message: object) -> None:
-        """Send a message to all readers of its topic. In the thread of the simulation."""
+        """Send a message to all readers of its topic. Called in the thread of the simulation."""
         is_latched = topic in LATCHED
         if is_latched or topic in self:
             encoded_message = EncodedMessage(topic, message, size_of(message))
@@ -75,7 +75,10 @@ class WebReaders:
             self.post(image_topic, EncodedMessage(image_topic, message, size_of(message), as_jpeg))
 
     def post(self, topic: str, message: EncodedMessage, *, client_name: str | None = None) -> None:
-        """Send a message to the readers of a topic, or to the client of that name. Any thread."""
+        """Send a message to the readers of a topic, or to the client of that name.
+
+        May be called from any thread.
+        """
         for client, subscription in self.readers_of(topic):
             if client_name is None or client.name == client_name:
                 client.post(subscription, message)

@@ -30,7 +30,7 @@ class Republications:
         self._topics: dict[Client, list[str]] = {}
 
     def begin(self, arguments: object, client: Client, goal: str = "") -> str:
-        """Publish transforms for a client; return the topic. In the thread of the server.
+        """Publish transforms for a client; return the topic. Called in the thread of the server.
 
         For the ``goal`` of an action, they are published as its feedback.
 
@@ -45,13 +45,13 @@ class Republications:
         return topic
 
     def cancel(self, goal: str) -> None:
-        """End the request for a goal. In the thread of the server."""
+        """End the request for a goal. Called in the thread of the server."""
         topic = self._republisher.goal_topic(goal)
         if topic is not None:
             self._republisher.withdraw(topic)
 
     def end(self, client: Client) -> None:
-        """End the requests of a client. In the thread of the server."""
+        """End the requests of a client. Called in the thread of the server."""
         for topic in self._topics.get(client, []):
             self._republisher.withdraw(topic)
         if client in self._topics:
@@ -62,7 +62,10 @@ class Republications:
                 self._subscribers.remove(source)
 
     def send(self, topic: str, message: object) -> None:
-        """Store a topic's transforms, send the messages due. In the thread of the simulation."""
+        """Store a topic's transforms, send the messages due.
+
+        Called in the thread of the simulation.
+        """
         if topic not in SOURCES or not self._topics or not isinstance(message, TFMessage):
             return
         self._republisher.store(message)

@@ -41,20 +41,22 @@ LOCAL_PAGES = re.compile(r"https?://(localhost|127\.0\.0\.1|\[::1\])(:\d+)?")
 """The pattern of the origins of pages on this computer, which may always connect."""
 MAX_FRAME = 16 * 2**20
 """The maximum length of a client's frame [bytes]."""
-SMALL_FRAME, N_LARGE = 2**20, 8
-"""The maximum length of a frame [bytes] of clients that connect while `N_LARGE` others are
-connected, which bounds the memory for unfinished frames."""
+SMALL_FRAME = 2**20
+"""The maximum length of a frame of clients beyond the first `N_LARGE` [bytes], which bounds the
+memory for unfinished frames."""
+N_LARGE = 8
+"""The number of clients that may send frames up to `MAX_FRAME`."""
 MAX_FRAMES = 2
 """The maximum number of waiting frames of one client; while they wait, no more are read."""
 CLIENT_SHARE, CLIENT_BURST = 0.02, 0.05
-"""The budget for reading one client: the share of the wall time, and the longest burst [s]."""
+"""The budget for reading one client: the fraction of the wall time, and the longest burst [s]."""
 ALL_SHARE, ALL_BURST = 0.04, 0.1
-"""The budget for reading all clients together, except large frames, and except clients for which a
-run in lock-step waits."""
+"""The budget for reading all clients together, as for one client. It does not apply to large
+frames, and to clients for which a run in lock-step waits."""
 MAX_CLIENTS = 64
 """The maximum number of clients."""
 PING_INTERVAL, PING_TIMEOUT = 20.0, 300.0
-"""The interval of pings, and the time limit for their answers [s]."""
+"""The interval of pings, and the time limit for the pongs that answer them [s]."""
 CLOSE_TIMEOUT = 2.0
 """The timeout of closing [s of wall time]."""
 
@@ -69,7 +71,7 @@ class WebBridge(Bridge):
         log: the log for events.
 
     Raises:
-        BadSetting: the server cannot listen at the address.
+        BadSetting: the server cannot listen on the address.
     """
 
     traits = TransportTraits(relays_between_clients=True)
@@ -106,9 +108,9 @@ class WebBridge(Bridge):
         except OSError as error:
             self._thread.join()
             raise BadSetting(
-                f"--web {options.port}: cannot listen at {options.host}: {error.strerror or error}."
+                f"--web {options.port}: cannot listen on {options.host}: {error.strerror or error}."
             ) from None
-        self.log.report(f"listening at ws://{options.host}:{self.port}", kind="listening")
+        self.log.report(f"listening on ws://{options.host}:{self.port}", kind="listening")
 
     def on_topics(self, topics: Mapping[str, TopicEndpoints]) -> None:
         """Store the topics of the bus for the clients."""
@@ -123,10 +125,10 @@ class WebBridge(Bridge):
         self._readers.send(topic, message)
         self._republications.send(topic, message)
 
-    def send_to(self, sender: str, topic: str, message: object) -> None:
+    def send_to(self, client_name: str, topic: str, message: object) -> None:
         """Send a message to one client, if it reads the topic."""
         content = EncodedMessage(topic, message, size_of(message))
-        self._readers.post(topic, content, client_name=sender)
+        self._readers.post(topic, content, client_name=client_name)
 
     def _tick(self) -> None:
         """Publish the time if it is due; at the first step boundary, begin to serve clients.
@@ -150,10 +152,10 @@ class WebBridge(Bridge):
         """Return whether a client has advertised ``topic``."""
         return any(session.has_advertised(topic) for session in tuple(self._sessions))
 
-    def report_error(self, sender: str, text: str) -> None:
+    def report_error(self, client_name: str, text: str) -> None:
         """Send an error to a client, as a status message."""
         for session in tuple(self._sessions):
-            if session.name == sender:
+            if session.name == client_name:
                 session.reply({"op": "status", "level": "error", "msg": text})
 
     def call_external_service(self, name: str, request: object) -> Future[object]:
@@ -222,16 +224,16 @@ class WebBridge(Bridge):
         return None
 
     async def _serve_client(self, connection: ServerConnection) -> None:
-        """Serve one client until it leaves."""
+        """Serve one client until it disconnects."""
         assert isinstance(connection, LimitedConnection)
         name = f"client {_peer(connection)}"
         session = Session(self, self._parts, self._loop, name)
         self._sessions.add(session)
-        self.log.report(f"{name} has come", kind="has come")
+        self.log.report(f"{name} connected", kind="connected")
         writer = asyncio.create_task(_write(connection, session))
-        connection.is_exempt = lambda: session.is_waited_for
+        connection.has_no_time_limit = lambda: session.is_waited_for
         connection.report_pause = lambda: self.log.report(
-            f"{name} sends faster than it is read; its frames wait", kind="faster than it is read"
+            f"{name} sends faster than the server reads; its frames are delayed", kind="flood"
         )
         protocol = connection.protocol
         if len(self._sessions) > N_LARGE:
@@ -249,7 +251,7 @@ class WebBridge(Bridge):
                 self.admission.remove(name)
             self._sessions.discard(session)
             reason = connection.close_reason or connection.close_code or "its connection broke"
-            self.log.report(f"{name} has left ({reason})", kind="has left")
+            self.log.report(f"{name} disconnected ({reason})", kind="disconnected")
 
 
 async def _stop_accepting(server: Server) -> None:

@@ -26,7 +26,7 @@ from .frame_republisher import ACTION_TOPICS, CANCEL, GOAL
 from .frame_republisher import SERVICE as REPUBLISH
 from .graph import WebGraph
 from .outgoing import COMPRESSIONS, EncodedMessage
-from .queue import MAX_MESSAGES, Lane, OutQueue
+from .queue import MAX_MESSAGES, OutQueue, SubscriptionQueue
 from .readers import WebReaders
 from .republications import Republications
 
@@ -67,7 +67,7 @@ class Session:
         self._bridge, self._parts, self._loop, self._name = bridge, parts, loop, name
         self._wake_event = asyncio.Event()
         self._queue = OutQueue(self._wake)
-        self._replies = Lane(length=10 * MAX_MESSAGES)
+        self._replies = SubscriptionQueue(max_length=10 * MAX_MESSAGES)
         self._subscriptions: dict[str, Subscription] = {}
         self._advertised_types: dict[str, type] = {}
         self._services: set[str] = set()
@@ -104,12 +104,15 @@ class Session:
             self.reply({"op": "status", "level": "error", "msg": str(error), "id": frame_id})
 
     def post(self, subscription: Subscription, message: EncodedMessage) -> None:
-        """Send a message unless the last one was sent too recently. Any thread."""
+        """Send a message unless the last one was sent too recently.
+
+        May be called from any thread.
+        """
         now = time.monotonic()
         if now - subscription.last_time < subscription.throttle:
             return
         subscription.last_time = now
-        if self._queue.put(subscription.lane, message):
+        if self._queue.put(subscription.queue, message):
             self._bridge.log.report(
                 f"{self._name} reads /{subscription.topic} too slowly; the oldest are dropped",
                 kind=f"{self._name} is slow",
@@ -127,7 +130,10 @@ class Session:
         return admission is not None and admission.is_waited_for(self._name)
 
     def reply(self, content: dict[str, Any]) -> None:
-        """Send a JSON object, after all messages that wait already. Any thread."""
+        """Send a JSON object, after all messages that wait already.
+
+        May be called from any thread.
+        """
         text = json.dumps({key: value for key, value in content.items() if value is not None})
         self._queue.put(self._replies, text)
 
@@ -138,11 +144,11 @@ class Session:
             if (entry := self._queue.take()) is not None:
                 break
             await self._wake_event.wait()
-        lane, item = entry
-        return item if isinstance(item, str) else item.frame(lane.compression)
+        queue, item = entry
+        return item if isinstance(item, str) else item.frame(queue.compression)
 
     def call(self, name: str, request: object) -> Future[object]:
-        """Call a service that the client offers. Any thread."""
+        """Call a service that the client offers. May be called from any thread."""
         future: Future[object] = Future()
         kind = service_of(cast(Any, type(request)))
         assert kind is not None
@@ -157,11 +163,11 @@ class Session:
         return future
 
     def has_advertised(self, topic: str) -> bool:
-        """Return whether the client has advertised ``topic``. Any thread."""
+        """Return whether the client has advertised ``topic``. May be called from any thread."""
         return topic in self._advertised_types
 
     def has_subscribed(self, topic: str) -> bool:
-        """Return whether the client has subscribed to ``topic``. Any thread."""
+        """Return whether the client has subscribed to ``topic``. May be called from any thread."""
         return topic in self._subscriptions
 
     def close(self) -> None:
@@ -243,8 +249,8 @@ class Session:
         self._limit(self._subscriptions)
         subscription = self._subscriptions.get(topic)
         if subscription is None:
-            lane = Lane(compression=compression, length=min(length, MAX_MESSAGES))
-            subscription = Subscription(topic=topic, lane=lane, throttle=throttle)
+            queue = SubscriptionQueue(compression=compression, max_length=min(length, MAX_MESSAGES))
+            subscription = Subscription(topic=topic, queue=queue, throttle=throttle)
             self._subscriptions[topic] = subscription
             self._parts.readers.add(topic, self, subscription)
         subscription.ids.add(frame.get("id") if isinstance(frame.get("id"), str) else None)
@@ -265,7 +271,7 @@ class Session:
     def _drop(self, topic: str) -> None:
         subscription = self._subscriptions.pop(topic)
         self._parts.readers.remove(topic, subscription)
-        self._queue.forget(subscription.lane)
+        self._queue.forget(subscription.queue)
 
     def _call_service(self, frame: dict[str, Any]) -> None:
         name = name_in(frame, "service")
