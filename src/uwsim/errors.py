@@ -8,14 +8,14 @@
         SceneError         ... a scene or robot file
         BenchmarkError     ... a benchmark file
         PluginError        ... a plugin
-      UnknownName          an unknown name; the message gives the nearest known one
-      AssetNotFound        a file that was not found; the message lists the folders searched
+      UnknownName          an unknown name; the error message gives the nearest known one
+      AssetNotFound        a file that was not found; the error message lists the folders searched
       AssetError           a file that was found and cannot be used
       BadSetting           a command-line setting or a parameter that cannot be used
       BadMessage           an invalid message or request for its topic or service
       NotAllowed           a use of the node that is forbidden to algorithms under test
-      MissingExtra         an optional dependency that is missing; the message names it
-      NoGraphics           no OpenGL context; the message names the package to install
+      MissingExtra         an optional dependency that is missing; the error message names it
+      NoGraphics           no OpenGL context; the error message names the package to install
       RunFailed            a run that failed
         ClientLost         ... because a client in lock-step did not answer
         SimulationFailed   ... because a motion is impossible, or the engine stopped

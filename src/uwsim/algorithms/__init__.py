@@ -56,7 +56,7 @@ def load_algorithm(name: str, table: Mapping[str, type[Algorithm]] = ALGORITHMS)
         table: the classes of algorithms by name.
 
     Raises:
-        BadSetting: there is no such algorithm; the message lists the valid names.
+        BadSetting: there is no such algorithm; the error message lists the valid names.
     """
     if ":" not in name:
         if name not in table:

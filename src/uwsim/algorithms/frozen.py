@@ -1,4 +1,4 @@
-"""``frozen``: a sham baseline (the control), which publishes estimates but evaluates no image."""
+"""``frozen``: a control condition for benchmarks, which publishes estimates but reads no image."""
 
 from __future__ import annotations
 
@@ -13,19 +13,23 @@ from .tracker_node import INPUT_PARAMETERS, TrackerNode
 
 
 class FrozenTracker(TrackerNode):
-    """A sham baseline (the control): repeats the last quad of autoInit and is never lost."""
+    """A control condition for benchmarks (null tracker).
+
+    It repeats the quad that the service ``autoInit`` set last, and never reports the loss of the
+    target.
+    """
 
     PARAMETERS: ClassVar[Mapping[str, float | str]] = {**INPUT_PARAMETERS}
 
     def make_tracker(self, image: Grey, quad: Array) -> Tracker:
         """Make a tracker that repeats ``quad`` (4, 2) [px]."""
-        return Echo(quad)
+        return ConstantTracker(quad)
 
     def loss_test(self) -> None:
-        """Return None, as this algorithm is never lost."""
+        """Return None, as this algorithm never reports the loss of the target."""
 
 
-class Echo(Tracker):
+class ConstantTracker(Tracker):
     """A tracker that returns the quad (4, 2) [px] that was set last."""
 
     def __init__(self, quad: Array) -> None:

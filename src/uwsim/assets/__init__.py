@@ -67,7 +67,7 @@ def load_model(
         data_path: Further folders to search.
 
     Raises:
-        AssetNotFound: There is neither a file nor a stand-in; the message lists the folders.
+        AssetNotFound: There is neither a file nor a stand-in; the error message lists the folders.
         AssetError: The file was found and cannot be read.
     """
     path = _model_path(name, named_by, data_path)

@@ -31,7 +31,7 @@ def scene_file(
     A scene that a file names (``named_by``) is in a folder that is searched.
 
     Raises:
-        AssetNotFound: there is no such scene; the message lists folders and the nearest name.
+        AssetNotFound: there is no such scene; the error message lists folders and the nearest name.
     """
     return _resolve_file(name, "scenes", data_path, named_by)
 

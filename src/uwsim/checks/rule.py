@@ -60,7 +60,7 @@ class Rule(Generic[S]):
 
         Raises:
             UwsimError: the function raised an exception, or yielded an object that is not a
-                Diagnostic; the message names the function.
+                Diagnostic; the error message names the function.
         """
         try:
             with context or nullcontext():

@@ -28,7 +28,7 @@ def find_robot(name: str, named_by: str, data_path: tuple[Path, ...]) -> Path:
     """Return the path of a robot file, or of the bundled robot file with the same file name.
 
     Raises:
-        AssetNotFound: there is neither; the message lists the folders searched.
+        AssetNotFound: there is neither; the error message lists the folders searched.
     """
     try:
         return find_file(name, named_by, data_path)
@@ -54,7 +54,7 @@ def read_robots(scene: SceneSpec, data_path: tuple[Path, ...]) -> dict[int, Robo
     """Find and read the URDF of every vehicle; return the robots by vehicle number.
 
     Raises:
-        AssetNotFound: a file is not found; the message lists the folders searched.
+        AssetNotFound: a file is not found; the error message lists the folders searched.
         SceneError: a file is invalid.
     """
     arguments = dict(scene.expansion.arguments)

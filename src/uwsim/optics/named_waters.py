@@ -90,7 +90,7 @@ def find_water(name: str) -> Medium:
     """Return the water of a name, with the default phase function.
 
     Raises:
-        UnknownName: no water has this name; the message gives the nearest one.
+        UnknownName: no water has this name; the error message gives the nearest one.
     """
     water = WATERS.get(name)
     if water is None:

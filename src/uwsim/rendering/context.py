@@ -26,7 +26,7 @@ def create_context() -> moderngl.Context:
     """Create a headless context through EGL, on a GPU if there is one, else on Mesa's llvmpipe.
 
     Raises:
-        NoGraphics: there is no usable OpenGL; the message states what to install.
+        NoGraphics: there is no usable OpenGL; the error message states what to install.
     """
     failures: list[Exception] = []
     for device in range(N_DEVICES):

@@ -169,7 +169,8 @@ def apply_setting(spec: T, path: str, value: str) -> T:
     (`xacro_arguments`) changes nothing here.
 
     Raises:
-        BadSetting: the path is unknown, or the value is invalid; the message lists valid ones.
+        BadSetting: the path is unknown, or the value is invalid; the error message lists valid
+            ones.
     """
     if path.startswith(XACRO_PREFIX):
         return spec

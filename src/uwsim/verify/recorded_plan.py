@@ -101,7 +101,7 @@ def check_inputs(recorded_inputs: Inputs, current_inputs: Inputs) -> None:
     Benchmark, scene and plugins are not compared, as they are found by their hashes.
 
     Raises:
-        ResultError: files differ; the message names each of them.
+        ResultError: files differ; the error message names each of them.
     """
     old_inputs, new_inputs = (
         Inputs(assets=inputs.assets, algorithm=inputs.algorithm)

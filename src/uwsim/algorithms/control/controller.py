@@ -5,13 +5,15 @@ d to the target [m], the position error in the axes of the camera is [m]
 
 .. math:: e = (c - o) \, d / f
 
-d is a *parameter*, since a camera cannot measure it. The commanded velocity is
+The control law receives e forward and to starboard, which are up and right in the image. d is a
+*parameter*, since a camera cannot measure it. The commanded velocity is
 
 .. math:: u = K_p e + K_i \int e \, dt, \qquad |u_i| \le u_{max}
 
 The integral of an axis is held constant while the command of the axis is at the limit and the error
 would increase the integral further (anti-windup by clamping). dt is the time between two estimates.
-Not modelled: an error of d, and a tilt of the vehicle.
+The published twist has x forward and y to starboard, not to port as in REP 103. Errors in d and
+tilt of the vehicle are not modelled.
 """
 
 from __future__ import annotations

@@ -14,7 +14,9 @@ from ...base.numerics.jit import njit
 def propagate(covariance: Array, rotation: Array, force: Array, dt: float, noise: Array) -> Array:
     """Compute the covariance ``F P F' + Q dt`` of the error state after a time step, (15, 15).
 
-    F is the transition matrix of the error state, and Q the density of the process noise.
+    F is the transition matrix of the error state, and Q the (diagonal) spectral density of the
+    process noise. The 15 error states are, with three components each: position, velocity and
+    attitude in navigation axes, then the biases of gyroscope and accelerometer in base axes.
 
     Args:
         covariance: the covariance P before the step, (15, 15).
@@ -52,35 +54,39 @@ def rotate_by(rotation: Array, vector: Array, *, in_base: bool) -> Array:
         return rotation.copy()
     x, y, z = x / angle, y / angle, z / angle
     s, c = math.sin(angle), 1.0 - math.cos(angle)
-    turn = np.empty((3, 3))
-    turn[0, 0], turn[0, 1], turn[0, 2] = (
+    delta = np.empty((3, 3))
+    delta[0, 0], delta[0, 1], delta[0, 2] = (
         1.0 - c * (y * y + z * z),
         c * x * y - s * z,
         c * x * z + s * y,
     )
-    turn[1, 0], turn[1, 1], turn[1, 2] = (
+    delta[1, 0], delta[1, 1], delta[1, 2] = (
         c * x * y + s * z,
         1.0 - c * (x * x + z * z),
         c * y * z - s * x,
     )
-    turn[2, 0], turn[2, 1], turn[2, 2] = (
+    delta[2, 0], delta[2, 1], delta[2, 2] = (
         c * x * z - s * y,
         c * y * z + s * x,
         1.0 - c * (x * x + y * y),
     )
-    return _product(rotation, turn) if in_base else _product(turn, rotation)
+    if in_base:
+        return _product(rotation, delta)
+    return _product(delta, rotation)
 
 
 @njit
 def rotation_between(rotation: Array, other: Array) -> Array:
     """Return the rotation vector (3,) [rad] of ``other @ rotation.T``, of at most half a turn."""
-    turn = _product_transposed(other, rotation)
-    axis = np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
+    delta = _product_transposed(other, rotation)
+    axis = np.array(
+        [delta[2, 1] - delta[1, 2], delta[0, 2] - delta[2, 0], delta[1, 0] - delta[0, 1]]
+    )
     axis *= 0.5
     sine = math.sqrt(axis[0] ** 2 + axis[1] ** 2 + axis[2] ** 2)
     if sine < 1e-12:
         return axis
-    return axis * (math.atan2(sine, 0.5 * (turn[0, 0] + turn[1, 1] + turn[2, 2] - 1.0)) / sine)
+    return axis * (math.atan2(sine, 0.5 * (delta[0, 0] + delta[1, 1] + delta[2, 2] - 1.0)) / sine)
 
 
 @njit
@@ -89,7 +95,7 @@ def squared_distance(covariance: Array, jacobian: Array, error: Array, variance:
 
     Args:
         covariance: the covariance of the error state, (15, 15).
-        jacobian: the derivatives of the values by the error state, (m, 15).
+        jacobian: the derivatives of the values with respect to the error state, (m, 15).
         error: the measured minus the expected values, (m,).
         variance: the variance of each measured value.
     """
@@ -107,7 +113,7 @@ def correct(
 ) -> tuple[Array, Array]:
     """Return the correction of the error state (15,), and the corrected covariance (15, 15).
 
-    The covariance is computed in Joseph's form. `squared_distance` describes the arguments.
+    The covariance is computed in Joseph form. `squared_distance` describes the arguments.
     """
     cross_covariance = _product_transposed(covariance, jacobian)  # (15, m)
     innovation_covariance = _innovation_covariance(covariance, jacobian, variance)
