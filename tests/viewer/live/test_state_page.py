@@ -323,9 +323,9 @@ LENGTHS = """() => {
     const boxes = (LABELS)()
     CanvasRenderingContext2D.prototype.lineTo = to
     const [[left], [right]] = lines.slice(-3)
-    const { lens, worldFromCamera } = uwsim.page.views.viewCamera(
+    const { intrinsics, worldFromCamera } = uwsim.page.views.viewCamera(
         uwsim.page.picture.canvas.clientWidth, uwsim.page.picture.canvas.clientHeight)
-    return [boxes.map(([text]) => text), (right - left) / lens.fx, worldFromCamera[11]]
+    return [boxes.map(([text]) => text), (right - left) / intrinsics.fx, worldFromCamera[11]]
 }""".replace("LABELS", LABELS)
 
 
@@ -376,8 +376,8 @@ def test_the_view_of_the_file_is_one_of_its_own(browser: Any, server: LiveServer
     page.keyboard.press("p")
     eye = page.evaluate(f"Array.from({sight}.worldFromCamera)")
     assert [eye[3], eye[7], eye[11]] == pytest.approx(camera.position, abs=1e-6)
-    lens = page.evaluate(f"{sight}.lens")
-    wanted = 2 * math.degrees(math.atan(lens["height"] / 2 / lens["fy"]))
+    intrinsics = page.evaluate(f"{sight}.intrinsics")
+    wanted = 2 * math.degrees(math.atan(intrinsics["height"] / 2 / intrinsics["fy"]))
     assert wanted == pytest.approx(camera.fov)
     page.evaluate("uwsim.page.views.drag(0.1, 0.1, false)")
     page.keyboard.press("Shift+O")

@@ -2,13 +2,13 @@
 import uPlot from "uplot";
 import type { Samples } from "./player";
 
-const HEIGHT = 96; // of a chart [px]
+const HEIGHT = 96; // height of a chart [px]
 const N_OPEN_CHARTS = 8; // number of charts that are unfolded initially
 const COLOURS = [ // readable on light and dark, and of different lightness for colour-blind users
   "#2f8fef", "#e8820c", "#1fa367", "#a45ee5", "#e5484d", "#12a5b8", "#b58900", "#d6409f", "#6e7fd9", "#7a8b3a",
 ];
 
-/** Return the value of the last sample at or before a time; null: nothing was measured. */
+/** Return the value of the last sample at or before a time [s]; null if there is none, or it has no value. */
 export function valueAt(curve: Samples, time: number): number | null {
   let [low, high] = [0, curve.times.length];
   while (low < high) {
@@ -22,11 +22,12 @@ export function valueAt(curve: Samples, time: number): number | null {
 interface Chart {
   curve: Samples;
   plot: uPlot;
-  cursor: HTMLElement;
-  value: HTMLElement;
-  drawnTime: number | undefined; // time of the last sample
+  cursor: HTMLElement; // the vertical line at the displayed time
+  value: HTMLElement; // the value at the displayed time, in the caption
+  drawnTime: number | undefined; // time of the last sample that is drawn [s]
 }
 
+/** The charts of some curves in an element of the page; a click calls `seek` with the time. */
 export class Curves {
   private charts: Chart[] = [];
   private time = 0;
@@ -39,18 +40,19 @@ export class Curves {
     new ResizeObserver(() => this.resize()).observe(container);
   }
 
+  /** Replace all charts by charts of other curves. */
   set(curves: Samples[]): void {
     for (const { plot } of this.charts) plot.destroy();
     this.container.replaceChildren();
     this.charts = curves.map((curve, i) => this.chart(curve, i));
   }
 
-  /** Draw all charts again, in the present colours. */
+  /** Draw all charts again, in the colours of the present theme. */
   redraw(): void {
     for (const { plot } of this.charts) plot.redraw(false);
   }
 
-  /** Move the cursor, and draw new samples of a live run. */
+  /** Move the cursors to a time [s], and draw new samples of a running simulation. */
   show(time: number, curves: Samples[]): void {
     this.time = time;
     const isSame = curves.length === this.charts.length && curves.every((curve, i) => curve === this.charts[i].curve);
@@ -63,17 +65,18 @@ export class Curves {
         chart.drawnTime = lastTime;
         chart.plot.setData([chart.curve.times, chart.curve.values]);
       }
-      this.point(chart);
+      this.moveCursor(chart);
     }
   }
 
   /** Move the cursor of a chart to the displayed time. */
-  private point({ plot, cursor }: Chart): void {
+  private moveCursor({ plot, cursor }: Chart): void {
     const x = plot.valToPos(this.time, "x");
     cursor.hidden = !(x >= 0 && x <= plot.over.clientWidth);
     cursor.style.transform = `translateX(${x}px)`;
   }
 
+  /** Make the chart of a curve; `number` is its position on the page, from 0. */
   private chart(curve: Samples, number: number): Chart {
     const figure = document.createElement("figure");
     const caption = document.createElement("figcaption");
@@ -101,7 +104,7 @@ export class Curves {
     return { curve, plot, cursor, value, drawnTime: curve.times.at(-1) };
   }
 
-  private options({ names, isShare }: Samples, colour: string): uPlot.Options {
+  private options({ names, isFraction }: Samples, colour: string): uPlot.Options {
     const style = (name: string) => getComputedStyle(this.container).getPropertyValue(name).trim();
     const axis = (): uPlot.Axis => ({
       stroke: () => style("--soft"),
@@ -114,10 +117,14 @@ export class Curves {
       height: HEIGHT,
       legend: { show: false },
       cursor: { y: false, drag: { x: false, y: false }, points: { show: false } },
-      scales: { x: { time: false }, y: { range: rangeOf(names, isShare) } },
+      scales: { x: { time: false }, y: { range: rangeOf(names, isFraction) } },
       axes: [
         { ...axis(), size: 20, gap: 2 },
-        { ...axis(), size: 44, gap: 2, space: 12, values: (_, ticks, __, ___, step) => ticks.map((value) => tick(value, step)), ...(names?.length ? { incrs: [1, 2, 5, 10] } : {}) },
+        {
+          ...axis(), size: 44, gap: 2, space: 12,
+          values: (_, ticks, __, ___, step) => ticks.map((value) => tickText(value, step)),
+          ...(names?.length ? { incrs: [1, 2, 5, 10] } : {}),
+        },
       ],
       series: [
         {},
@@ -136,15 +143,15 @@ export class Curves {
     const width = Math.max(120, this.container.clientWidth - 20);
     for (const chart of this.charts) {
       chart.plot.setSize({ width, height: HEIGHT });
-      this.point(chart);
+      this.moveCursor(chart);
     }
   }
 }
 
-/** Return the limits of the y axis: all named values; 0 and 1 of a share; else around the samples. */
-function rangeOf(names?: string[], isShare?: boolean): uPlot.Range.MinMax | uPlot.Scale.Range {
+/** Return the limits of the y axis: those of the named values; 0 and 1 for a fraction; else limits around the samples. */
+function rangeOf(names?: string[], isFraction?: boolean): uPlot.Range.MinMax | uPlot.Scale.Range {
   if (names?.length) return [0, names.length];
-  if (isShare) return [0, 1];
+  if (isFraction) return [0, 1];
   return (_, low, high) => {
     if (low === null || high === null) return [0, 1];
     const isFlat = high - low < 1e-5 * Math.max(Math.abs(low), Math.abs(high), 1e-6); // the resolution of float32
@@ -154,20 +161,21 @@ function rangeOf(names?: string[], isShare?: boolean): uPlot.Range.MinMax | uPlo
   };
 }
 
-/** Return the text of a tick of an axis, whose ticks have a distance of `step`. */
-function tick(value: number, step: number): string {
+/** Return the text of a tick on an axis with the tick spacing `step`. */
+function tickText(value: number, step: number): string {
   const digits = [0, 1, 2, 3, 4, 5].find((n) => Math.abs(step * 10 ** n - Math.round(step * 10 ** n)) < 1e-6) ?? 9;
   if (Math.abs(value) >= 1e5 || digits > 5) return value === 0 ? "0" : value.toExponential(1);
   return String(Number(value.toFixed(digits)));
 }
 
-/** Return the indices of samples between two gaps: they have no line and are drawn as dots. */
+/** Return the indices of the samples between two gaps: no line leads to them, so that they are drawn as dots. */
 function isolatedSamples(plot: uPlot, series: number): number[] {
   const values = plot.data[series] as (number | null)[];
   const isGap = (i: number): boolean => values[i] === null || values[i] === undefined;
   return [...values.keys()].filter((i) => !isGap(i) && isGap(i - 1) && isGap(i + 1));
 }
 
+/** Return a value with its unit, or its name if the values have names. */
 function valueText({ unit, names }: Samples, value: number | null): string {
   if (value === null) return "–";
   if (names?.length) return names[value - 1] ?? "none yet";

@@ -1,15 +1,19 @@
-// Poses and matrices as in uwsim.base.geometry: 4 x 4 matrices row by row, quaternions w x y z.
+// Poses and matrices as in uwsim.base.geometry: 4 x 4 matrices in row-major order, quaternions w x y z.
 
+/** A 4 x 4 matrix in row-major order. */
 export type Matrix = Float64Array;
+/** A vector x y z. */
 export type Vector = ArrayLike<number>;
-/** Position [m] and quaternion: x y z w x y z. */
+/** A position [m] and a quaternion: x y z w x y z. */
 export type Pose = ArrayLike<number>;
 
-export interface Lens {
+/** The intrinsics of a pinhole camera [px], with the distances of the near and far plane [m]. */
+export interface Intrinsics {
   width: number;
   height: number;
   fx: number;
   fy: number;
+  /** The principal point; (0, 0) is the centre of the upper left pixel. */
   cx: number;
   cy: number;
   skew: number;
@@ -25,6 +29,7 @@ export function identity(): Matrix {
   return matrix([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]);
 }
 
+/** Return the matrix product a b. */
 export function product(a: Matrix, b: Matrix): Matrix {
   const out = new Float64Array(16);
   for (let i = 0; i < 16; i += 4)
@@ -33,6 +38,7 @@ export function product(a: Matrix, b: Matrix): Matrix {
   return out;
 }
 
+/** Return the matrix of a pose whose seven numbers begin at `offset`; its quaternion need not have unit length. */
 export function fromPose(pose: Pose, offset = 0): Matrix {
   const [x, y, z] = [pose[offset], pose[offset + 1], pose[offset + 2]];
   const length = Math.hypot(pose[offset + 3], pose[offset + 4], pose[offset + 5], pose[offset + 6]) || 1;
@@ -45,7 +51,7 @@ export function fromPose(pose: Pose, offset = 0): Matrix {
   ]);
 }
 
-/** Return the pose of a rigid transform. */
+/** Return the pose (x y z w x y z) of a rigid transform. */
 export function toPose(m: Matrix): number[] {
   const signs = [[1, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]]; // of w, x, y, z
   const squares = signs.map(([a, b, c]) => Math.max(0, 1 + a * m[0] + b * m[5] + c * m[10]));
@@ -69,11 +75,12 @@ export function inverse(m: Matrix): Matrix {
   ]);
 }
 
+/** Return the determinant of the upper left 3 x 3. */
 export function determinant(m: Matrix): number {
   return dot([m[0], m[1], m[2]], cross([m[4], m[5], m[6]], [m[8], m[9], m[10]]));
 }
 
-/** Return the inverse transpose of the upper left 3 x 3, in a 4 x 4. */
+/** Return the inverse transpose of the upper left 3 x 3, which transforms normals, in a 4 x 4 matrix. */
 export function normalMatrix(m: Matrix): Matrix {
   const rows = [0, 4, 8].map((i) => [m[i], m[i + 1], m[i + 2]]);
   const d = 1 / determinant(m);
@@ -81,6 +88,7 @@ export function normalMatrix(m: Matrix): Matrix {
   return matrix([...[a, b, c].flatMap((row) => [row[0] * d, row[1] * d, row[2] * d, 0]), 0, 0, 0, 1]);
 }
 
+/** Transform a point. */
 export function transform(m: Matrix, p: Vector): [number, number, number] {
   return [
     m[0] * p[0] + m[1] * p[1] + m[2] * p[2] + m[3],
@@ -89,16 +97,17 @@ export function transform(m: Matrix, p: Vector): [number, number, number] {
   ];
 }
 
-/** Rotate a direction by the rotation of a matrix. */
+/** Multiply a direction by the upper left 3 x 3 of a matrix. */
 export function rotate(m: Matrix, v: Vector): [number, number, number] {
   return [dot([m[0], m[1], m[2]], v), dot([m[4], m[5], m[6]], v), dot([m[8], m[9], m[10]], v)];
 }
 
-/** Rotate a direction by the inverse of the rotation of a matrix. */
+/** Multiply a direction by the transpose of the upper left 3 x 3, the inverse of a rotation. */
 export function rotateBack(m: Matrix, v: Vector): [number, number, number] {
   return [dot([m[0], m[4], m[8]], v), dot([m[1], m[5], m[9]], v), dot([m[2], m[6], m[10]], v)];
 }
 
+/** Return the translation of a transform: the origin of its source frame in the target frame. */
 export function origin(m: Matrix): [number, number, number] {
   return [m[3], m[7], m[11]];
 }
@@ -111,16 +120,18 @@ export function cross(a: Vector, b: Vector): [number, number, number] {
   return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 }
 
+/** Return a + factor b. */
 export function plus(a: Vector, b: Vector, factor = 1): [number, number, number] {
   return [a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]];
 }
 
+/** Return the unit vector in the direction of a vector; 0 for 0. */
 export function unit(a: Vector): [number, number, number] {
   const length = Math.hypot(a[0], a[1], a[2]) || 1;
   return [a[0] / length, a[1] / length, a[2] / length];
 }
 
-/** Return world from camera (OpenGL axes) for a camera at `eye` that looks towards `target`. */
+/** Return the pose in W of a camera (OpenGL axes) at `eye` that looks towards `target`. */
 export function lookAt(eye: Vector, target: Vector, up: Vector = [0, 0, 1]): Matrix {
   const back = unit(plus(eye, target, -1));
   let right = cross(up, back);
@@ -133,21 +144,25 @@ export function lookAt(eye: Vector, target: Vector, up: Vector = [0, 0, 1]): Mat
   ]);
 }
 
-/** Return the lens with a vertical field of view; a window narrower than 4:3 keeps the horizontal field of 4:3. */
-export function lensOf(width: number, height: number, fovy: number): Lens {
+/**
+ * Return the intrinsics for an image size [px] and a vertical field of view `fovy` [rad].
+ *
+ * An image narrower than 4:3 has the horizontal field of view of a 4:3 image, so that its vertical one is larger.
+ */
+export function intrinsicsOf(width: number, height: number, fovy: number): Intrinsics {
   const focal = Math.min(height, 0.75 * width) / (2 * Math.tan(fovy / 2));
   const centre = { cx: (width - 1) / 2, cy: (height - 1) / 2 };
   return { width, height, fx: focal, fy: focal, ...centre, skew: 0, near: 0.05, far: 2000 };
 }
 
-/** Return the matrix from camera to clip space; with `isFlipped`, the first row of pixels is the image's top. */
-export function clipFromCamera(lens: Lens, isFlipped: boolean): Matrix {
-  const { width: w, height: h, near, far } = lens;
+/** Return the matrix from the camera's frame to clip space; with `isFlipped`, row 0 of the framebuffer is the image's top. */
+export function clipFromCamera(intrinsics: Intrinsics, isFlipped: boolean): Matrix {
+  const { width: w, height: h, near, far } = intrinsics;
   const span = far - near;
   const s = isFlipped ? 1 : -1;
   return matrix([
-    (2 * lens.fx) / w, (2 * lens.skew) / w, 1 - (2 * lens.cx + 1) / w, 0,
-    0, (-2 * s * lens.fy) / h, s * (1 - (2 * lens.cy + 1) / h), 0,
+    (2 * intrinsics.fx) / w, (2 * intrinsics.skew) / w, 1 - (2 * intrinsics.cx + 1) / w, 0,
+    0, (-2 * s * intrinsics.fy) / h, s * (1 - (2 * intrinsics.cy + 1) / h), 0,
     0, 0, -(far + near) / span, (-2 * far * near) / span,
     0, 0, -1, 0,
   ]);

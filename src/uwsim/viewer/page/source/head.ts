@@ -1,5 +1,5 @@
 // Types of the head, whose format and units viewer/head.py describes.
-import type { Lens } from "./geometry";
+import type { Intrinsics } from "./geometry";
 
 /** A reference to an array of a pack: offset of its first byte, number of elements, their type. */
 export type Ref = [number, number, string];
@@ -36,7 +36,7 @@ export interface Mount {
   pose: number[];
 }
 
-export interface Camera extends Mount, Lens {
+export interface Camera extends Mount, Intrinsics {
   grey: boolean;
 }
 

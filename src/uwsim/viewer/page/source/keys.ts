@@ -3,10 +3,11 @@ import type { Controls } from "./controls";
 import { element, fillHelp, toggleHelp } from "./panels";
 
 const SUNS = ["clear", "dusk", "cloudy"];
-const KEY_DRAG = 0.03; // the drag that one key press stands for, as a fraction of the view
+const KEY_DRAG = 0.03; // the drag that is equivalent to one press of an arrow key, as a fraction of the view's height
 
+/** The actions of keys and of the pointer. */
 export class Keyboard {
-  private dragState: { x: number; y: number; shifts: boolean } | null = null;
+  private dragState: { x: number; y: number; isPan: boolean } | null = null;
 
   constructor(private readonly page: Controls) {
     const view = element("view");
@@ -15,8 +16,8 @@ export class Keyboard {
     view.addEventListener("pointerdown", (event) => {
       if ((event.target as Element).closest("button, .stick")) return;
       view.setPointerCapture(event.pointerId);
-      const shifts = event.button !== 0 || event.shiftKey;
-      this.dragState = { x: event.clientX, y: event.clientY, shifts };
+      const isPan = event.button !== 0 || event.shiftKey;
+      this.dragState = { x: event.clientX, y: event.clientY, isPan };
     });
     view.addEventListener("pointermove", (event) => this.drag(event));
     view.addEventListener("pointerup", () => (this.dragState = null));
@@ -33,7 +34,7 @@ export class Keyboard {
     this.showHelp();
   }
 
-  /** Write the list of keys; called again when the pilot's keys arrive. */
+  /** Write the help; called again when the server has sent the pilot's keys. */
   showHelp(): void {
     fillHelp(this.groups());
   }
@@ -42,11 +43,11 @@ export class Keyboard {
     if (!this.dragState) return;
     const size = element("view").clientHeight;
     const [dx, dy] = [event.clientX - this.dragState.x, event.clientY - this.dragState.y];
-    this.page.views.drag(dx / size, dy / size, this.dragState.shifts);
+    this.page.views.drag(dx / size, dy / size, this.dragState.isPan);
     Object.assign(this.dragState, { x: event.clientX, y: event.clientY });
   }
 
-  /** Rotate the view by arrow keys; with Shift, move it. */
+  /** Rotate the view with the arrow keys; move it with Shift and the arrow keys. */
   private turnView(event: KeyboardEvent): void {
     const steps: Record<string, [number, number]> = {
       ArrowLeft: [KEY_DRAG, 0], ArrowRight: [-KEY_DRAG, 0], ArrowUp: [0, KEY_DRAG], ArrowDown: [0, -KEY_DRAG],
@@ -65,9 +66,9 @@ export class Keyboard {
     const isField = target instanceof HTMLSelectElement || target instanceof HTMLInputElement;
     if (isField && !/^[a-z?]$/.test(event.key)) return;
     if (event.key === " " && target instanceof HTMLButtonElement) return;
-    if (/^(Home|End)$/.test(event.key) && element("help").contains(target)) return; // these scroll the help
-    if (page.link?.takeKey(event)) return;
-    // Shift is allowed, because the same letter without Shift may be a key of the pilot
+    if (/^(Home|End)$/.test(event.key) && element("help").contains(target)) return; // these keys scroll the help
+    if (page.link?.handlePilotKey(event)) return;
+    // with Shift, a letter has the page's function even if it is a key of the pilot
     const key = event.shiftKey ? event.key.toLowerCase() : event.key;
     const action = this.actions()[key];
     if (!action) return;
@@ -105,8 +106,8 @@ export class Keyboard {
       m: () => page.show("map"),
       p: () => page.show("file"),
       z: () => page.toggle("state"),
-      h: () => page.views.home(),
-      k: () => page.views.hold(),
+      h: () => page.views.restoreInitial(),
+      k: () => page.views.toggleFollowing(),
       r: () => page.reset(),
       "+": () => page.views.zoom(0.9),
       "=": () => page.views.zoom(0.9),
@@ -118,7 +119,7 @@ export class Keyboard {
       t: () => page.toggle("trails"),
       y: () => page.clearTrails(),
       s: () => page.toggle("sonars"),
-      n: () => page.theme(),
+      n: () => page.toggleTheme(),
       "1": sun(0),
       "2": sun(1),
       "3": sun(2),

@@ -1,4 +1,4 @@
-// The link to a running simulation: messages from it and to it (their format: viewer/head.py).
+// The link to a running simulation: the messages that it sends and receives (viewer/head.py documents their format).
 import type { Controls } from "./controls";
 import type { Level, Marker } from "./head";
 import { toPose } from "./geometry";
@@ -10,10 +10,11 @@ import type { Reading } from "./display/quantities";
 import { Topics, type TopicMessage } from "./display/topics";
 import type { ViewCamera } from "./views";
 
-const HEADER = 16; // length of the header of binary messages [byte]
-const MAX_ROW_WAIT = 100; // greatest time that an image waits to be drawn with the next row [ms]
-const MAX_WIDTH = 640; // greatest width of a view that the server draws [px]
+const HEADER_LENGTH = 16; // length of the header of binary messages [byte]
+const MAX_ROW_WAIT = 100; // longest time for which the drawing of a camera's image waits for the next row of motion [ms]
+const MAX_WIDTH = 640; // greatest width of an image of the view that the server draws [px]
 
+/** The text messages from the simulation. */
 type Message =
   | {
       type: "state"; paused: boolean; speed: number; resets: boolean; vehicle: number;
@@ -26,29 +27,32 @@ type Message =
   | { type: "markers"; markers: Marker[] }
   | { type: "end"; why: string };
 
+/** The connection to a running simulation. */
 export class Link {
   readonly pilot = new Pilot((message, isNew) => {
     this.send(message);
-    if (isNew) this.page?.picture.skipRests();
+    if (isNew) this.page?.picture.skipPauses();
   });
   readonly topics = new Topics((names) => this.send({ type: "topics", names }));
   private page: Controls | null = null;
   private stream: Stream | null = null;
-  private lastRequest = "";
-  private readonly imageNumbers: number[] = []; // the number of the newest image of each camera
+  private lastRequest = ""; // the last request for an image of the view
+  private readonly imageNumbers: number[] = []; // the number of images received so far from each camera
   /** True if the simulation allows a reset to its initial state. */
   allowsReset = false;
 
   constructor(
     private readonly socket: WebSocket,
     readonly pack: Pack,
+    /** The messages that arrived before the page was built. */
     private readonly earlyEvents: MessageEvent<ArrayBuffer | string>[],
-    /** True if the server draws, because this browser cannot. */
+    /** True if the server draws the view, because this browser has no WebGL 2. */
     private readonly isServerDrawn: boolean,
   ) {
     socket.onclose = () => this.end("The simulation has ended.");
   }
 
+  /** Pass messages to the page and its player from now on. */
   begin(page: Controls, stream: Stream): void {
     this.page = page;
     this.stream = stream;
@@ -63,28 +67,30 @@ export class Link {
     this.send({ type: "images", cameras, rate: 10, width: this.page?.picture.pictureWidth() });
   }
 
-  /** Request an image of the view, if this browser cannot draw it. */
-  requestView({ worldFromCamera, camera, lens }: ViewCamera): void {
+  /** Request an image of the view from the server, if this browser cannot draw it. */
+  requestView({ worldFromCamera, camera, intrinsics }: ViewCamera): void {
     if (!this.isServerDrawn) return;
-    const share = Math.min(1, MAX_WIDTH / lens.width);
-    const [width, height] = [lens.width, lens.height].map((size) => Math.round(share * size));
+    const fraction = Math.min(1, MAX_WIDTH / intrinsics.width);
+    const [width, height] = [intrinsics.width, intrinsics.height].map((size) => Math.round(fraction * size));
     const pose = toPose(worldFromCamera).map((value) => Math.round(1e4 * value) / 1e4);
-    const fovy = 2 * Math.atan(lens.height / 2 / lens.fy);
+    const fovy = 2 * Math.atan(intrinsics.height / 2 / intrinsics.fy);
     const message = { type: "view", camera: camera?.name ?? null, pose, width, height, fovy };
     const text = JSON.stringify(message);
     if (text !== this.lastRequest) this.send(message);
     this.lastRequest = text;
   }
 
+  /** Send an action of the user, such as `pause` or `reset`; `speed` is the real-time factor of the action `speed`. */
   control(action: string, speed?: number): void {
     this.send({ type: "control", action, ...(speed === undefined ? {} : { speed }) });
   }
 
   /** Apply a key of the pilot; return false if the key is not the pilot's. */
-  takeKey(event: KeyboardEvent): boolean {
-    return this.pilot.takeKey(event);
+  handlePilotKey(event: KeyboardEvent): boolean {
+    return this.pilot.handlePilotKey(event);
   }
 
+  /** Return the lines of the help for the pilot's keys, below their title. */
   helpGroups(): Record<string, { keys: string; action: string }[]> {
     return { Pilot: this.pilot.help() };
   }
@@ -99,11 +105,11 @@ export class Link {
     if (typeof event.data === "string") return this.handleMessage(JSON.parse(event.data) as Message, page, stream);
     const view = new DataView(event.data);
     const [kind, index] = [view.getUint8(0), view.getUint8(1)];
-    if (kind === 0) location.reload(); // another scene has begun
-    if (kind === 1) stream.push(view.getFloat64(8, true), new Float32Array(event.data, HEADER));
-    if (kind === 2) void this.showImage(index, event.data.slice(HEADER), page, stream);
-    if (kind === 4) stream.setSand(index, new Float32Array(event.data, HEADER));
-    if (kind === 3 && this.isServerDrawn) this.showView(event.data.slice(HEADER));
+    if (kind === 0) location.reload(); // the server shows another scene now
+    if (kind === 1) stream.push(view.getFloat64(8, true), new Float32Array(event.data, HEADER_LENGTH));
+    if (kind === 2) void this.showImage(index, event.data.slice(HEADER_LENGTH), page, stream);
+    if (kind === 4) stream.setSand(index, new Float32Array(event.data, HEADER_LENGTH));
+    if (kind === 3 && this.isServerDrawn) this.showView(event.data.slice(HEADER_LENGTH));
   }
 
   private handleMessage(message: Message, page: Controls, stream: Stream): void {
@@ -126,11 +132,11 @@ export class Link {
     const number = (this.imageNumbers[index] ?? 0) + 1;
     this.imageNumbers[index] = number;
     const image = await createImageBitmap(new Blob([data], { type: "image/jpeg" }));
-    if (this.imageNumbers[index] !== number) return image.close(); // a newer one has arrived
+    if (this.imageNumbers[index] !== number) return image.close(); // a newer image has arrived
     page.picture.show(index, image);
     const { end } = stream;
     setTimeout(() => {
-      if (stream.end === end) stream.version += 1; // else it was drawn with a row
+      if (stream.end === end) stream.version += 1; // else the image was drawn with a row
     }, MAX_ROW_WAIT);
   }
 
@@ -146,13 +152,14 @@ export class Link {
   }
 }
 
+/** Show a JPEG image in an element. */
 function show(image: HTMLImageElement, data: ArrayBuffer): void {
   const oldUrl = image.src;
   image.src = URL.createObjectURL(new Blob([data], { type: "image/jpeg" }));
   if (oldUrl) URL.revokeObjectURL(oldUrl);
 }
 
-/** Open the socket of the page's server; resolve when the head has arrived. */
+/** Connect to the server of the page; the promise resolves when the head has arrived. */
 export function connect(isServerDrawn: boolean): Promise<Link> {
   const scheme = location.protocol === "https:" ? "wss:" : "ws:";
   const socket = new WebSocket(`${scheme}//${location.host}/socket${location.search}`);
@@ -168,7 +175,7 @@ export function connect(isServerDrawn: boolean): Promise<Link> {
         return;
       }
       hasHead = true;
-      unpack(new Uint8Array(data.slice(HEADER))).then(
+      unpack(new Uint8Array(data.slice(HEADER_LENGTH))).then(
         (pack) => resolve(new Link(socket, pack, earlyEvents, isServerDrawn)), reject,
       );
     };

@@ -1,6 +1,6 @@
 // The entry point of the page: it shows the replay that the page contains, or a live view.
 import { connect } from "./live";
-import { fromText, unpack } from "./pack";
+import { decodeBase85, unpack } from "./pack";
 import { Page } from "./page";
 import { element } from "./panels";
 import { graphics, Picture } from "./picture";
@@ -18,7 +18,7 @@ async function begin(): Promise<void> {
     const data = document.getElementById("pack");
     const gl = graphics(element<HTMLCanvasElement>("image"));
     const link = data ? null : await connect(gl === null);
-    const pack = link ? link.pack : await unpack(fromText(data!.textContent ?? ""));
+    const pack = link ? link.pack : await unpack(decodeBase85(data!.textContent ?? ""));
     const picture = await Picture.make(gl, pack);
     const player: Player = link ? new Stream(pack.head) : new Replay(pack);
     const rays = new Rays(pack);

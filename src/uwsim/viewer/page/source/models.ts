@@ -1,4 +1,4 @@
-// Meshes and textures on the GPU, and their instances in the scene, which consist of pieces.
+// Meshes and textures on the GPU, and the instances of meshes in the scene, which are drawn in pieces.
 import type { Head, Visual } from "./head";
 import {
   determinant, dot, fromPose, matrix, normalMatrix, product, transform, rotate, unit,
@@ -8,33 +8,47 @@ import type { Pack } from "./pack";
 import { Sand, type Removal } from "./sand";
 import { ATTRIBUTES } from "./drawing/shaders";
 
-/** A run of adjacent triangles with its bounds in W, as in uwsim.rendering.gpu_model. */
+/** A range of adjacent triangles of an instance, with its bounds in W, as in uwsim.rendering.gpu_model. */
 export interface Piece {
   instance: Instance;
+  /** The position of the first vertex index in the mesh's list of triangles. */
   firstIndex: number;
+  /** The number of vertex indices, three for each triangle. */
   count: number;
+  /** The centre of the bounding sphere [m]. */
   centre: [number, number, number];
+  /** The radius of the bounding sphere [m]. */
   radius: number;
+  /** The corners of the bounding box along the axes of the mesh [m]. */
   corners: [number, number, number][];
+  /** The unit normal of a flat piece; 0 if the piece is not flat. */
   normal: [number, number, number];
+  /** The greatest number of texels on a length of 1 m [1/m]. */
   density: number;
 }
 
+/** A mesh of the scene at the pose of its body. */
 export class Instance {
   readonly pieces: Piece[];
   worldFromMesh: Matrix = matrix(new Array(16).fill(0));
+  /** The matrix that transforms normals from the mesh to W. */
   normals: Matrix = this.worldFromMesh;
+  /** True if the transform mirrors the mesh, so that its triangles are clockwise. */
   isMirrored = false;
   private readonly bodyFromMesh: Matrix;
 
   constructor(
+    /** The index of the instance in `Models.instances`. */
     readonly number: number,
     readonly visual: Visual,
+    /** The name of the body to which the mesh belongs. */
     readonly body: string,
-    readonly array: WebGLVertexArrayObject | null,
+    readonly vertexArray: WebGLVertexArrayObject | null,
     readonly texture: WebGLTexture | null,
+    /** True if the texture is repeated outside of 0 .. 1. */
     readonly repeats: boolean,
-    readonly hasWideIndices: boolean,
+    readonly hasUint32Indices: boolean,
+    /** The pieces in the frame of the mesh, in the format `pieces` of the head. */
     private readonly pieceRows: number[][],
   ) {
     this.bodyFromMesh = matrix(visual.matrix);
@@ -51,7 +65,7 @@ export class Instance {
     this.worldFromMesh = worldFromMesh;
     this.normals = normalMatrix(worldFromMesh);
     this.isMirrored = determinant(worldFromMesh) < 0;
-    const [stretch, densityScale] = [stretchBound(worldFromMesh), stretchBound(this.normals)];
+    const [stretch, densityFactor] = [stretchBound(worldFromMesh), stretchBound(this.normals)];
     this.pieceRows.forEach((row, i) => {
       const piece = this.pieces[i];
       piece.centre = transform(worldFromMesh, row.slice(2, 5));
@@ -62,26 +76,28 @@ export class Instance {
       );
       const normal = row.slice(12, 15);
       piece.normal = dot(normal, normal) > 0 ? unit(rotate(this.normals, normal)) : [0, 0, 0];
-      piece.density = row[15] * densityScale;
+      piece.density = row[15] * densityFactor;
     });
     return true;
   }
 }
 
-/** Return the square root of the largest row sum of A'A, an upper bound of how A stretches a vector. */
+/** Return an upper bound of |A v| / |v| for the 3 x 3 part A of a matrix: the square root of the largest row sum of |A'A|. */
 function stretchBound(m: Matrix): number {
   const columns = [0, 1, 2].map((i) => [m[i], m[4 + i], m[8 + i]]);
   const sums = columns.map((a) => columns.reduce((sum, b) => sum + Math.abs(dot(a, b)), 0));
   return Math.sqrt(Math.max(...sums));
 }
 
+/** The instances of the meshes of a scene, and the present poses of its bodies. */
 export class Models {
   readonly instances: Instance[] = [];
-  /** The version of the poses, which grows with each motion. */
+  /** A counter that is incremented whenever a body or the sand has moved. */
   version = 0;
+  /** The projector's pattern; empty if there is no projector. */
   readonly patterns: WebGLTexture[] = [];
-  private readonly bodies = new Map<string, Matrix>();
-  private readonly radii = new Map<number, number>();
+  private readonly bodies = new Map<string, Matrix>(); // world from body, by the body's name
+  private readonly radii = new Map<number, number>(); // half the longest side of a model [m], by its number in the scene
   private readonly sand: { heap: Sand; positions: WebGLBuffer; normals: WebGLBuffer }[] = [];
 
   private constructor(
@@ -89,7 +105,7 @@ export class Models {
     private readonly gl: WebGL2RenderingContext | null,
   ) {}
 
-  /** Load meshes and textures; without WebGL, only the poses of bodies. */
+  /** Load the meshes and textures of a pack; without WebGL, only the poses of the bodies. */
   static async load(gl: WebGL2RenderingContext | null, pack: Pack): Promise<Models> {
     const models = new Models(pack.head, gl);
     models.place(new Map());
@@ -100,7 +116,7 @@ export class Models {
     );
     if (projector) models.patterns.push(images[projector.pattern]);
     const gpuMeshes = meshes.map((_, i) => upload(gl, pack, i));
-    const arrays = gpuMeshes.map(({ array }) => array);
+    const vertexArrays = gpuMeshes.map(({ vertexArray }) => vertexArray);
     for (const heap of pack.head.sand ?? []) {
       const positions = pack.numbers(meshes[heap.mesh].positions) as Float32Array;
       models.sand.push({ heap: new Sand(heap, positions), ...gpuMeshes[heap.mesh] });
@@ -110,17 +126,17 @@ export class Models {
         const { texture, mesh } = visual;
         const image = texture === null ? null : images[texture];
         const repeats = texture !== null && textures[texture].repeats;
-        const hasWideIndices = meshes[mesh].triangles[2] === "u4";
+        const hasUint32Indices = meshes[mesh].triangles[2] === "u4";
         const [n, pieces] = [models.instances.length, meshes[mesh].pieces];
         models.instances.push(
-          new Instance(n, visual, body.name, arrays[mesh], image, repeats, hasWideIndices, pieces),
+          new Instance(n, visual, body.name, vertexArrays[mesh], image, repeats, hasUint32Indices, pieces),
         );
       }
     models.place(new Map());
     return models;
   }
 
-  /** Set the poses of all bodies to world from body; bodies that are not in `poses` to their initial pose. */
+  /** Set the poses of all bodies (world from body); a body that is not in `poses` has its initial pose. */
   place(poses: Map<string, Matrix>): void {
     for (const body of this.head.bodies)
       this.bodies.set(body.name, poses.get(body.name) ?? fromPose(body.pose));
@@ -128,10 +144,10 @@ export class Models {
     for (const instance of this.instances) hasMoved = instance.place(this.body(instance.body)) || hasMoved;
     if (!hasMoved) return;
     this.version += 1;
-    this.measure();
+    this.computeRadii();
   }
 
-  /** Show a heap with its remaining sand. */
+  /** Set the sand of the heap with an index, from the removals so far, or from the heights of its columns [m]. */
   setSand(number: number, sand: Removal[] | Float32Array): void {
     const { gl } = this;
     const { heap, positions, normals } = this.sand[number] ?? {};
@@ -145,28 +161,29 @@ export class Models {
     this.version += 1;
   }
 
-  /** Return the present heights of the columns of a heap [m]. */
+  /** Return the present heights of the columns of a heap above its corner [m]. */
   heights(number: number): Float32Array {
     return this.sand[number]?.heap.heights ?? new Float32Array();
   }
 
+  /** Return the present pose of a body in W; the identity if there is no such body. */
   body(name: string): Matrix {
     return this.bodies.get(name) ?? fromPose([0, 0, 0, 1, 0, 0, 0]);
   }
 
-  /** Return the matrix to W from a part that is mounted on a body (null: on W). */
+  /** Return the pose in W of a part that is mounted on a body; if `body` is null, its pose is given in W. */
   worldFromMount(mount: { body: string | null; pose: number[] }): Matrix {
     const bodyFromMount = fromPose(mount.pose);
     return mount.body === null ? bodyFromMount : product(this.body(mount.body), bodyFromMount);
   }
 
-  /** Return half the longest side of the box around all pieces of a model [m]. */
+  /** Return half the longest side of the box around the bounding spheres of a model's pieces [m]. */
   radius(instance: Instance): number {
     return this.radii.get(instance.visual.part) ?? 0;
   }
 
   /** Compute the radii of all models. */
-  private measure(): void {
+  private computeRadii(): void {
     const boxes = new Map<number, number[]>();
     for (const { visual, pieces } of this.instances) {
       const box = boxes.get(visual.part) ?? [Infinity, Infinity, Infinity, -Infinity, -Infinity, -Infinity];
@@ -182,16 +199,18 @@ export class Models {
   }
 }
 
+/** The buffers of a mesh on the GPU. */
 interface GpuMesh {
-  array: WebGLVertexArrayObject;
+  vertexArray: WebGLVertexArrayObject;
   positions: WebGLBuffer;
   normals: WebGLBuffer;
 }
 
+/** Upload the mesh with an index to the GPU. */
 function upload(gl: WebGL2RenderingContext, pack: Pack, number: number): GpuMesh {
   const mesh = pack.head.meshes[number];
-  const array = gl.createVertexArray();
-  gl.bindVertexArray(array);
+  const vertexArray = gl.createVertexArray();
+  gl.bindVertexArray(vertexArray);
   const attribute = (name: string, size: number, kind: number, data: ArrayBufferView<ArrayBuffer>): WebGLBuffer => {
     const buffer = gl.createBuffer();
     gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
@@ -208,7 +227,7 @@ function upload(gl: WebGL2RenderingContext, pack: Pack, number: number): GpuMesh
   gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
   gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, numbers(mesh.triangles), gl.STATIC_DRAW);
   gl.bindVertexArray(null);
-  return { array, positions, normals };
+  return { vertexArray, positions, normals };
 }
 
 async function loadTexture(

@@ -1,9 +1,11 @@
-// Lines and labels over an image: frames, trails, beams, contacts, currents, markers, quadrangles.
+// Lines and labels over an image: frames, trails, sonar beams, contacts, currents, markers, tracked quadrangles.
 import type { Camera, Head, Sensor } from "./head";
-import { inverse, origin, plus, transform, type Lens, type Matrix } from "./geometry";
+import { inverse, origin, plus, transform, type Intrinsics, type Matrix } from "./geometry";
 import type { Models } from "./models";
-import type { Snapshot, Player } from "./player";
+import type { Player } from "./player";
+import type { Snapshot } from "./snapshot";
 
+/** The parts of the overlay that can be hidden. */
 export interface OverlaySwitches {
   frames: boolean;
   labels: boolean;
@@ -11,21 +13,21 @@ export interface OverlaySwitches {
   sonars: boolean;
 }
 
-const AXIS_COLOURS = ["#ff5a4f", "#45d96b", "#4aa3ff"]; // of x, y, z
-const NEAR_PLANE = 0.02; // [m] ahead of the camera
+const AXIS_COLOURS = ["#ff5a4f", "#45d96b", "#4aa3ff"]; // colours of the x, y and z axis
+const NEAR_PLANE = 0.02; // depth from which on points are drawn [m]
 
 const LETTER_HEIGHT = 11; // [px]
-const LABEL_LINES = [0, 1, -1, 2, -2, 3, -3, 4, -4, 5, -5]; // tried offsets of a label from its point, in lines
+const LABEL_LINES = [0, 1, -1, 2, -2, 3, -3, 4, -4, 5, -5]; // offsets at which a label is tried, in lines above its point
 
-/** A pen that draws points and lines in W into the image of a camera. */
+/** A pen that draws points and lines, whose coordinates are in W [m], into the image of a camera. */
 class Pen {
-  private readonly labelBoxes: number[][] = []; // left, top, right, bottom [px]
+  private readonly labelBoxes: number[][] = []; // left, top, right, bottom of each label [px]
   private readonly cameraFromWorld: Matrix;
 
   constructor(
     readonly context: CanvasRenderingContext2D,
     worldFromCamera: Matrix,
-    private readonly lens: Lens,
+    private readonly intrinsics: Intrinsics,
   ) {
     this.cameraFromWorld = inverse(worldFromCamera);
   }
@@ -55,6 +57,7 @@ class Pen {
     return cameraPoint[2] < -NEAR_PLANE ? this.pixel(cameraPoint) : null;
   }
 
+  /** Draw a text next to a point, unless it would cover other labels at all offsets. */
   label(point: ArrayLike<number>, text: string, colour = "#ffffff"): void {
     const position = this.project(point);
     if (!position) return;
@@ -72,7 +75,7 @@ class Pen {
     context.fillText(text, x, y);
   }
 
-  /** Return a position near a point for a label that covers no other; null if there is none. */
+  /** Return a position near a pixel at which a label covers no other label; null if there is none [px]. */
   private findSpot([x, y]: [number, number], width: number): [number, number] | null {
     for (const line of LABEL_LINES)
       for (const left of [x + 5, x - 5 - width]) {
@@ -97,6 +100,7 @@ class Pen {
     context.stroke();
   }
 
+  /** Draw a dot with a radius [px]. */
   dot(point: ArrayLike<number>, colour: string, radius: number): void {
     const position = this.project(point);
     if (!position) return;
@@ -106,24 +110,26 @@ class Pen {
     this.context.fill();
   }
 
+  /** Return the pixel of a point in the camera's frame (OpenGL axes). */
   private pixel([x, y, z]: number[]): [number, number] {
-    const { fx, fy, cx, cy, skew } = this.lens;
+    const { fx, fy, cx, cy, skew } = this.intrinsics;
     return [cx + (fx * x + skew * y) / -z + 0.5, cy - (fy * y) / -z + 0.5];
   }
 }
 
-/** Return the first point of a line that is ahead of the near plane; points in the camera's frame [m]. */
+/** Return the first point of a line that is not nearer than the near plane; points in the camera's frame (OpenGL axes) [m]. */
 function clipLine(start: number[], end: number[]): number[] {
   if (start[2] < -NEAR_PLANE) return start;
-  const share = (-NEAR_PLANE - start[2]) / (end[2] - start[2]);
-  return start.map((value, i) => value + share * (end[i] - value));
+  const fraction = (-NEAR_PLANE - start[2]) / (end[2] - start[2]);
+  return start.map((value, i) => value + fraction * (end[i] - value));
 }
 
+/** Draw the overlay of an image; trails begin at their point with the index `trailStart`. */
 export function drawOverlay(
-  context: CanvasRenderingContext2D, worldFromCamera: Matrix, lens: Lens, head: Head,
+  context: CanvasRenderingContext2D, worldFromCamera: Matrix, intrinsics: Intrinsics, head: Head,
   models: Models, player: Player, snapshot: Snapshot, switches: OverlaySwitches, trailStart: number,
 ): void {
-  const pen = new Pen(context, worldFromCamera, lens);
+  const pen = new Pen(context, worldFromCamera, intrinsics);
   for (const { name, at: position, colour, lines } of player.markers(snapshot.time)) {
     for (const line of lines) pen.line(line, colour);
     if (!lines.length) pen.dot(position, colour, 3);
@@ -165,7 +171,7 @@ function drawFrames(pen: Pen, head: Head, models: Models, hasLabels: boolean): v
   }
 }
 
-/** Draw a sensor's beam, up to the measured range, or the fan of its beams. */
+/** Draw the beam of a range sensor up to the measured range, or the outline of the beams of a sonar. */
 function drawSensor(pen: Pen, sensor: Sensor, worldFromSensor: Matrix, snapshot: Snapshot): void {
   const colour = "rgba(120, 220, 255, 0.8)";
   const range = snapshot.signal(`range/${sensor.name}`);
@@ -202,12 +208,12 @@ function drawCurrent(pen: Pen, vehicle: string, base: Matrix, snapshot: Snapshot
   pen.label(end, `current ${speed.toFixed(2)} m/s`, "#b9fff1");
 }
 
-/** Draw the true and the estimated quadrangle over a camera's image, at (left, top) on the canvas [px]. */
+/** Draw the true and the estimated quadrangle of the tracked object over a camera's image at (left, top) of the canvas [px]. */
 export function drawQuads(
-  context: CanvasRenderingContext2D, camera: Camera, lens: Lens, left: number, top: number,
+  context: CanvasRenderingContext2D, camera: Camera, intrinsics: Intrinsics, left: number, top: number,
   snapshot: Snapshot,
 ): void {
-  const factor = lens.fx / camera.fx;
+  const factor = intrinsics.fx / camera.fx;
   for (const [kind, colour, dash] of [
     ["truth", "#45f08b", []],
     ["estimate", "#ff9f43", [6, 4]],
@@ -220,7 +226,7 @@ export function drawQuads(
     context.beginPath();
     for (const [u, v] of points)
       context.lineTo(
-        left + lens.cx + (u - camera.cx) * factor + 0.5, top + lens.cy + (v - camera.cy) * factor + 0.5,
+        left + intrinsics.cx + (u - camera.cx) * factor + 0.5, top + intrinsics.cy + (v - camera.cy) * factor + 0.5,
       );
     context.closePath();
     context.stroke();

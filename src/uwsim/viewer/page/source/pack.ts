@@ -1,13 +1,16 @@
-// Readers of packs and of motion, whose formats viewer/head.py describes.
+// Readers of packs (a scene with its arrays) and of recorded motion; viewer/head.py documents their formats.
 import type { Head, MotionHead, Ref } from "./head";
 import type { Removal } from "./sand";
 
+/** A pack: the head, which describes the scene, and the arrays to which it refers. */
 export class Pack {
   constructor(
     readonly head: Head,
+    /** The bytes of the arrays. */
     private readonly data: ArrayBuffer,
   ) {}
 
+  /** Return the array to which a reference of the head refers. */
   numbers(ref: Ref): Float32Array | Uint32Array | Uint16Array | Int16Array | Int8Array | Uint8Array {
     const [offset, count, kind] = ref;
     switch (kind) {
@@ -32,12 +35,12 @@ export async function gunzip(data: Uint8Array<ArrayBuffer>): Promise<ArrayBuffer
   return new Response(stream).arrayBuffer();
 }
 
-const DIGITS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!#$%/()*+-;,=.?@^_`{|}~";
+const BASE85_DIGITS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz!#$%/()*+-;,=.?@^_`{|}~";
 
-/** Return the bytes that a text of base 85 encodes, four bytes by five digits. */
-export function fromText(text: string): Uint8Array<ArrayBuffer> {
+/** Return the bytes that a base-85 text encodes; five digits encode four bytes. */
+export function decodeBase85(text: string): Uint8Array<ArrayBuffer> {
   const values = new Uint8Array(128);
-  for (let i = 0; i < DIGITS.length; ++i) values[DIGITS.charCodeAt(i)] = i;
+  for (let i = 0; i < BASE85_DIGITS.length; ++i) values[BASE85_DIGITS.charCodeAt(i)] = i;
   const n = Math.ceil(text.length / 5);
   const view = new DataView(new ArrayBuffer(4 * n));
   for (let word = 0; word < n; ++word) {
@@ -49,6 +52,7 @@ export function fromText(text: string): Uint8Array<ArrayBuffer> {
   return new Uint8Array(view.buffer, 0, text.length - n);
 }
 
+/** Read a compressed pack. */
 export async function unpack(data: Uint8Array<ArrayBuffer>): Promise<Pack> {
   const content = await gunzip(data);
   const length = new DataView(content).getUint32(0, true);
@@ -56,48 +60,51 @@ export async function unpack(data: Uint8Array<ArrayBuffer>): Promise<Pack> {
   return new Pack(head, content.slice(4 + length));
 }
 
-/** Rows of poses and signals at a constant rate. */
+/** The recorded motion of a trial: rows of poses and signals at a constant rate. */
 export class Motion {
   constructor(
     readonly head: MotionHead,
-    /** The rows, one after the other, n_rows x n_columns. */
+    /** The rows, one after the other, n_rows x n_columns; the columns are described in viewer/head.py. */
     readonly rows: Float64Array,
     /** The removals of sand, in order. */
     readonly removals: Removal[] = [],
   ) {}
 
+  /** The number of columns. */
   get columns(): number {
     return 7 * this.head.bodies.length + this.head.signals.length;
   }
 
+  /** The simulation time of the last row [s]. */
   get end(): number {
     return this.head.start + Math.max(0, this.head.n - 1) / this.head.rate;
   }
 
-  /** Return the index of the row at or before a time [s]. */
-  frame(time: number): number {
-    return Math.floor(this.rowNumber(time) + 1e-6);
+  /** Return the index of the last row at or before a time [s]. */
+  rowIndex(time: number): number {
+    return Math.floor(this.rowPosition(time) + 1e-6);
   }
 
-  /** Return the number of the row at a time [s], a fraction between two rows. */
-  private rowNumber(time: number): number {
+  /** Return the position of a time [s] among the rows; between two rows, it is not an integer. */
+  private rowPosition(time: number): number {
     return Math.min(Math.max((time - this.head.start) * this.head.rate, 0), this.head.n - 1);
   }
 
-  /** Return the row at a time [s], with poses interpolated between two rows. */
+  /** Return the row at a time [s]: poses are interpolated between two rows; signals are those of the row before. */
   row(time: number): Float64Array {
     const m = this.columns;
-    const index = this.frame(time);
+    const index = this.rowIndex(time);
     const out = this.rows.slice(index * m, (index + 1) * m);
-    const share = this.rowNumber(time) - index;
-    if (share < 1e-6 || index + 1 >= this.head.n) return out;
+    const fraction = this.rowPosition(time) - index;
+    if (fraction < 1e-6 || index + 1 >= this.head.n) return out;
     const nextOffset = (index + 1) * m;
     for (let i = 0; i < 7 * this.head.bodies.length; ++i)
-      out[i] += share * (this.rows[nextOffset + i] - out[i]);
+      out[i] += fraction * (this.rows[nextOffset + i] - out[i]);
     return out;
   }
 }
 
+/** Read a compressed motion file. */
 export async function readMotion(data: Uint8Array<ArrayBuffer>): Promise<Motion> {
   const bytes = new Uint8Array(await gunzip(data));
   const line = bytes.indexOf(10);
@@ -105,7 +112,7 @@ export async function readMotion(data: Uint8Array<ArrayBuffer>): Promise<Motion>
   const n = head.n;
   const m = 7 * head.bodies.length + head.signals.length;
   const planes = bytes.subarray(line + 1);
-  const rows = table(planes, n, m, (column) => {
+  const rows = decodeTable(planes, n, m, (column) => {
     const pose = column % 7 < 3 ? head.length : head.quaternion;
     const isPose = column < 7 * head.bodies.length;
     return isPose ? pose : head.signals[column - 7 * head.bodies.length].step;
@@ -113,8 +120,12 @@ export async function readMotion(data: Uint8Array<ArrayBuffer>): Promise<Motion>
   return new Motion(head, rows, readRemovals(head, planes.subarray(4 * n * m)));
 }
 
-/** Decode a table of n rows and m columns in multiples of `step`; row by row, NaN: no value. */
-function table(planes: Uint8Array, n: number, m: number, step: (column: number) => number): Float64Array {
+/**
+ * Decode a table of n rows and m columns; return it row by row, with NaN where there is no value.
+ *
+ * `planes` are the four bytes of all numbers, the lowest bytes first; `step(column)` is the unit of a column's integers.
+ */
+function decodeTable(planes: Uint8Array, n: number, m: number, step: (column: number) => number): Float64Array {
   const rows = new Float64Array(n * m);
   for (let column = 0; column < m; ++column) {
     const unit = step(column);
@@ -128,11 +139,12 @@ function table(planes: Uint8Array, n: number, m: number, step: (column: number) 
   return rows;
 }
 
+/** Decode the removals of sand, which follow the table of the motion. */
 function readRemovals({ sand }: MotionHead, planes: Uint8Array): Removal[] {
   if (!sand) return [];
-  const numbers = table(planes, sand.n, 5, (column) => (column < 2 ? 1 : sand.grain));
-  return Array.from({ length: sand.n }, (_, row) => {
-    const [frame, heap, x, y, z] = numbers.subarray(5 * row, 5 * row + 5);
-    return { frame, heap, position: Number.isNaN(x) ? null : [x, y, z] };
+  const numbers = decodeTable(planes, sand.n, 5, (column) => (column < 2 ? 1 : sand.grain));
+  return Array.from({ length: sand.n }, (_, i) => {
+    const [rowIndex, heap, x, y, z] = numbers.subarray(5 * i, 5 * i + 5);
+    return { row: rowIndex, heap, position: Number.isNaN(x) ? null : [x, y, z] };
   });
 }

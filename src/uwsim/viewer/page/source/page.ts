@@ -1,4 +1,4 @@
-// The page: the displayed time, and the state that buttons, keys and a running simulation change.
+// The page: the displayed time, and the settings that buttons, keys and a running simulation change.
 import type { Controls, Switch } from "./controls";
 import { Curves } from "./curves";
 import { Keyboard } from "./keys";
@@ -13,7 +13,8 @@ import type { Rays } from "./display/rays";
 import { addSwitches, addViews, markToolbar } from "./display/toolbar";
 import { MODES, type Mode, type Views } from "./views";
 
-const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 5, 10, 20];
+const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 5, 10, 20]; // real-time factors
+
 export class Page implements Controls {
   time = 0;
   isPlaying = false;
@@ -28,9 +29,9 @@ export class Page implements Controls {
   private readonly levels: LevelList;
   private readonly thrusters: Thrusters;
   readonly keyboard: Keyboard;
-  private lastTick = performance.now();
-  private drawnKey = "";
-  note = ""; // a limitation of this browser
+  private lastTick = performance.now(); // wall time of the last call of `tick` [ms]
+  private drawnKey = ""; // the state of the last drawing, as a text
+  note = ""; // a message about a limitation of this browser
 
   constructor(
     readonly pack: Pack,
@@ -57,6 +58,7 @@ export class Page implements Controls {
     this.seek(entry.level.start);
   }
 
+  /** Select the trial with an index. */
   async select(trial: number): Promise<void> {
     if (trial === this.player.trial) return;
     await this.player.select(trial);
@@ -87,12 +89,13 @@ export class Page implements Controls {
     else this.seek(this.time + direction / 30);
   }
 
-  /** UWSim's reset: of a live simulation to its initial state, of a replay to the start of the level. */
+  /** Reset a live simulation to its initial state, as UWSim's key r; in a replay, go to the start of the level. */
   reset(): void {
     if (this.link) this.link.control("reset");
     else this.seek(this.player.levels[indexAt(this.player, this.time)]?.level.start ?? this.player.start);
   }
 
+  /** Set the real-time factor; `isSent` is false if the simulation has reported it. */
   setSpeed(speed: number, isSent = true): void {
     this.speed = speed;
     const choice = element<HTMLSelectElement>("speed");
@@ -101,7 +104,7 @@ export class Page implements Controls {
     if (isSent) this.link?.control("speed", speed);
   }
 
-  /** Show the state of a running simulation. */
+  /** Show whether the running simulation is paused, and its real-time factor (0: no limit). */
   setState(isPaused: boolean, speed: number): void {
     this.isPlaying = !isPaused;
     element("play").textContent = isPaused ? "Play" : "Pause";
@@ -114,7 +117,7 @@ export class Page implements Controls {
     if (nextSpeed !== undefined) this.setSpeed(nextSpeed);
   }
 
-  /** Return the available speeds; 0: no limit. */
+  /** Return the available real-time factors; 0: no limit. */
   private speeds(): number[] {
     return this.link ? [...SPEEDS, 0] : SPEEDS;
   }
@@ -127,7 +130,7 @@ export class Page implements Controls {
     this.refresh();
   }
 
-  /** Return the views that this scene has. */
+  /** Return the views that are available in this scene. */
   private modes(): Mode[] {
     const { cameras, file_view } = this.pack.head;
     return MODES.filter((mode) => (mode !== "camera" || cameras.length) && (mode !== "file" || file_view));
@@ -146,12 +149,12 @@ export class Page implements Controls {
     this.switches.trailStart = this.player.trail(body, this.time).length;
   }
 
-  theme(): void {
+  toggleTheme(): void {
     const root = document.documentElement;
     root.dataset.theme = root.dataset.theme === "dark" ? "light" : "dark";
     this.curves.redraw();
-    this.hud.repaint();
-    this.link?.topics.repaint();
+    this.hud.redrawCurves();
+    this.link?.topics.redrawCurves();
   }
 
   draw(): void {
@@ -174,7 +177,7 @@ export class Page implements Controls {
   }
 
   private tick(now: number): void {
-    requestAnimationFrame((time) => this.tick(time)); // first, so that an error does not end it
+    requestAnimationFrame((time) => this.tick(time)); // first, so that an error below does not end the animation
     const seconds = Math.min(0.25, (now - this.lastTick) / 1000);
     this.lastTick = now;
     if (this.isPlaying && !this.link) {
@@ -183,8 +186,8 @@ export class Page implements Controls {
     }
     // draw only if something has changed
     const { clientWidth, clientHeight } = this.picture.canvas;
-    const state = [this.time, this.player.end, clientWidth, clientHeight, this.views.version, this.player.version];
-    const key = state.join() + JSON.stringify(this.switches);
+    const values = [this.time, this.player.end, clientWidth, clientHeight, this.views.version, this.player.version];
+    const key = values.join() + JSON.stringify(this.switches);
     if (key !== this.drawnKey && !document.hidden && this.picture.isReady()) {
       this.drawnKey = key;
       this.draw();
@@ -214,6 +217,7 @@ export class Page implements Controls {
   }
 }
 
+/** Return an option of the list of real-time factors. */
 function option(speed: number): HTMLOptionElement {
   return new Option(speed ? `${speed}×` : "fastest", String(speed));
 }

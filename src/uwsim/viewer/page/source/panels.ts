@@ -1,13 +1,16 @@
 // The parts of the page around the view: levels, timeline, thrusters, help.
 import type { Head, Level } from "./head";
-import type { Snapshot, Player } from "./player";
+import type { Player } from "./player";
+import type { Snapshot } from "./snapshot";
 
+/** Return the element of the page with an id. */
 export function element<T extends HTMLElement = HTMLElement>(id: string): T {
   const node = document.getElementById(id);
   if (!node) throw new Error(`the page has no element ${id}`);
   return node as T;
 }
 
+/** Make an element with a text and a CSS class. */
 export function make<K extends keyof HTMLElementTagNameMap>(
   tag: K, text = "", className = "",
 ): HTMLElementTagNameMap[K] {
@@ -17,12 +20,13 @@ export function make<K extends keyof HTMLElementTagNameMap>(
   return node;
 }
 
+/** Return the CSS class for a status. */
 function classOf(status: string): string {
   if (status === "ok") return "ok";
   return status === "lost" || status.includes("error") ? "bad" : "other";
 }
 
-/** Return the index of the level of the selected trial at a time [s]; -1 before the first. */
+/** Return the index of the level of the selected trial at a time [s]; -1 before the first level. */
 export function indexAt(player: Player, time: number): number {
   let index = -1;
   player.levels.forEach(({ trial, level }, i) => {
@@ -37,10 +41,11 @@ export function hasNoMotion(player: Player): boolean {
   return levels.length > 0 && levels.every(({ level }) => level.status === "no motion");
 }
 
+/** The list of levels, with the status of the level at the displayed time. */
 export class LevelList {
   private readonly list = element("levels");
-  private current = -2;
-  private lastLevel: Level | null | undefined = null; // at the last update
+  private current = -2; // the index of the marked level; -1: none, -2: the list has changed
+  private lastLevel: Level | null | undefined = null; // the last level of the list at the last update
 
   constructor(
     private readonly player: Player,
@@ -67,16 +72,16 @@ export class LevelList {
     element("why").title = level?.why ?? "";
   }
 
-  /** Draw the parts of the timeline, coloured by status. */
+  /** Mark the levels of the selected trial on the timeline from `start` to `end` [s], coloured by status. */
   mark(start: number, end: number): void {
     const marks = element("marks");
     marks.replaceChildren();
-    const share = (time: number): string => `${(100 * (time - start)) / Math.max(end - start, 1e-9)}%`;
+    const percentage = (time: number): string => `${(100 * (time - start)) / Math.max(end - start, 1e-9)}%`;
     for (const { trial, level } of this.player.levels) {
       if (trial !== this.player.trial) continue;
       const part = make("i", "", classOf(level.status));
-      part.style.left = share(level.start);
-      part.style.width = share(start + level.end - level.start);
+      part.style.left = percentage(level.start);
+      part.style.width = percentage(start + level.end - level.start);
       part.title = `${level.label}: ${level.status}`;
       marks.append(part);
     }
@@ -100,6 +105,7 @@ export class LevelList {
   }
 }
 
+/** The bars that show the commands of the thrusters. */
 export class Thrusters {
   private readonly bars: { signal: string; bar: HTMLElement; value: HTMLElement }[] = [];
 
@@ -123,17 +129,19 @@ export class Thrusters {
       const now = snapshot.signal(signal);
       if (now === undefined) continue;
       hasValues = true;
-      const share = 50 * Math.min(1, Math.abs(now));
-      bar.style.left = `${now < 0 ? 50 - share : 50}%`;
-      bar.style.width = `${share}%`;
+      const width = 50 * Math.min(1, Math.abs(now));
+      bar.style.left = `${now < 0 ? 50 - width : 50}%`;
+      bar.style.width = `${width}%`;
       value.textContent = `${Math.round(100 * now) || 0} %`;
     }
     element("thrusters-box").hidden = !hasValues;
   }
 }
 
+/** Lines of the help: keys and what they do. */
 export type Keys = { keys: string; action: string }[];
 
+/** Write the help, with the keys of each group below the group's title. */
 export function fillHelp(groups: Record<string, Keys>): void {
   const dialog = element<HTMLDialogElement>("help");
   dialog.replaceChildren();

@@ -1,32 +1,37 @@
-// The image of the scene in the selected view, with the cameras' images and the overlay over it.
+// The image of the scene in the selected view, with the overlay and the images of the scene's cameras (pictures).
 import type { Camera, Head, Water } from "./head";
 import type { ActiveLamp } from "./drawing/light";
 import { Models } from "./models";
 import { drawOverlay, drawQuads, type OverlaySwitches } from "./overlay";
 import type { Pack } from "./pack";
 import { element, indexAt, make } from "./panels";
-import type { Snapshot, Player } from "./player";
+import type { Player } from "./player";
+import type { Snapshot } from "./snapshot";
 import { drawCompass } from "./display/compass";
 import { isSoftware, Renderer } from "./drawing/renderer";
-import { fitLens, type ViewCamera, type Views } from "./views";
-import type { Lens } from "./geometry";
+import { fitIntrinsics, type ViewCamera, type Views } from "./views";
+import type { Intrinsics } from "./geometry";
 
-const PICTURE_HEIGHT = 150; // of a camera's image on the page [px]
-const MAX_DRAWING_TIME = 2000; // time after which drawing has failed without an error [ms]
-const HURRY_TIME = 300; // time after a pilot's input in which images are drawn without rests [ms]
-const MAX_REST = 100; // greatest rest between two images that software draws [ms]
+const PICTURE_HEIGHT = 150; // height of a camera's image on the page [px]
+const MAX_DRAWING_TIME = 2000; // time after which an image that is not complete is given up [ms]
+const RESPONSIVE_TIME = 300; // time after a pilot's input in which images are drawn without pauses [ms]
+const MAX_PAUSE = 100; // longest pause between two images of a software renderer [ms]
 
+/** The settings of the image that buttons and keys change. */
 export interface Switches extends OverlaySwitches {
+  /** True to draw the water without fog. */
   clear: boolean;
+  /** True to show the images of the scene's cameras. */
   pictures: boolean;
-  /** The head-up display. */
+  /** True to show the head-up display. */
   state: boolean;
+  /** A key of `suns` of the head; empty: the sun of the scene. */
   sun: string;
   /** The index of the first point of trails. */
   trailStart: number;
 }
 
-/** Return a WebGL2 context of the canvas, antialiased by a GPU only; null without WebGL. */
+/** Return a WebGL 2 context of the canvas, with antialiasing if a GPU draws; null if there is no WebGL 2. */
 export function graphics(canvas: HTMLCanvasElement): WebGL2RenderingContext | null {
   const probe = document.createElement("canvas").getContext("webgl2");
   if (!probe) return null;
@@ -35,16 +40,16 @@ export function graphics(canvas: HTMLCanvasElement): WebGL2RenderingContext | nu
   return canvas.getContext("webgl2", { alpha: false, antialias, powerPreference: "high-performance" });
 }
 
-/** The pace of drawing by a software renderer: rests leave time for other processes; images do not queue up. */
-class Pace {
+/** The pacing of a software renderer: an image begins after the last one is complete and other processes had a pause. */
+class SoftwarePacing {
   private fence: WebGLSync | null = null;
-  private beginTime = 0;
-  private restEnd = 0; // wall time of the end of the rest [ms]
-  private hurryEnd = 0; // wall time from which rests are made again [ms]
+  private beginTime = 0; // wall time of the beginning of the last image [ms]
+  private pauseEnd = 0; // wall time of the end of the pause [ms]
+  private responsiveEnd = 0; // wall time until which there are no pauses [ms]
 
   constructor(private readonly gl: WebGL2RenderingContext) {}
 
-  /** Record that an image has begun to be drawn. */
+  /** Record that the commands of an image have been issued. */
   begin(): void {
     if (this.fence) this.gl.deleteSync(this.fence);
     this.fence = this.gl.fenceSync(this.gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
@@ -52,31 +57,32 @@ class Pace {
     this.beginTime = performance.now();
   }
 
-  /** Draw without rests for a while, after an input. */
-  skipRests(): void {
-    this.hurryEnd = performance.now() + HURRY_TIME;
+  /** Draw without pauses for `RESPONSIVE_TIME`, after an input. */
+  skipPauses(): void {
+    this.responsiveEnd = performance.now() + RESPONSIVE_TIME;
   }
 
-  /** Return true if the last image is complete, and a rest as long as its drawing has passed. */
+  /** Return true if the last image is complete, and a pause as long as its drawing time, `MAX_PAUSE` at most, has passed. */
   isReady(now: number): boolean {
     const { gl, fence } = this;
     const isLost = gl.isContextLost() || now - this.beginTime > MAX_DRAWING_TIME;
     if (fence && (isLost || gl.getSyncParameter(fence, gl.SYNC_STATUS) === gl.SIGNALED)) {
       gl.deleteSync(fence);
       this.fence = null;
-      this.restEnd = Math.min(2 * now - this.beginTime, now + MAX_REST);
+      this.pauseEnd = Math.min(2 * now - this.beginTime, now + MAX_PAUSE);
     }
-    return !this.fence && (now >= this.restEnd || now < this.hurryEnd);
+    return !this.fence && (now >= this.pauseEnd || now < this.responsiveEnd);
   }
 }
 
+/** The image of the scene: the canvas, the renderer, and the overlay. */
 export class Picture {
   readonly canvas = element<HTMLCanvasElement>("image");
   private readonly overlay = element<HTMLCanvasElement>("overlay");
   private readonly renderer: Renderer | null;
   private readonly frames: HTMLElement[] = [];
   private readonly images: ImageBitmap[] = []; // the newest image of each camera, from a running simulation
-  private readonly pace: Pace | null;
+  private readonly pacing: SoftwarePacing | null;
 
   private constructor(
     private readonly gl: WebGL2RenderingContext | null,
@@ -84,7 +90,7 @@ export class Picture {
     readonly models: Models,
   ) {
     this.renderer = gl && new Renderer(gl, head, models);
-    this.pace = gl && isSoftware(gl) ? new Pace(gl) : null;
+    this.pacing = gl && isSoftware(gl) ? new SoftwarePacing(gl) : null;
     for (const camera of head.cameras) {
       const frame = make("figure");
       frame.append(make("figcaption", `${camera.name} · redrawn, no noise`));
@@ -94,7 +100,7 @@ export class Picture {
     }
   }
 
-  /** Make the picture; without WebGL it draws only lines and names, over the images of a live view. */
+  /** Make the image of a pack's scene; without WebGL it draws only the overlay, over the images that a live view receives. */
   static async make(gl: WebGL2RenderingContext | null, pack: Pack): Promise<Picture> {
     return new Picture(gl, pack.head, await Models.load(gl, pack));
   }
@@ -115,38 +121,40 @@ export class Picture {
     const water = this.water(player, snapshot, switches);
     const clearWater = switches.clear ? { ...water, fog: 0 } : water;
     const lamps = this.lamps(snapshot);
-    const { worldFromCamera, observer } = viewCamera;
-    const lens = scaleLens(viewCamera.lens, ratio);
+    const { worldFromCamera, isExternal } = viewCamera;
+    const intrinsics = scaleIntrinsics(viewCamera.intrinsics, ratio);
     const grey = viewCamera.camera?.grey;
-    this.renderer?.draw({ worldFromCamera, lens, water: clearWater, lamps, observer, grey }, null, [0, 0]);
+    this.renderer?.draw({ worldFromCamera, intrinsics, water: clearWater, lamps, isExternal, grey }, null, [0, 0]);
     const context = this.overlay.getContext("2d")!;
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.clearRect(0, 0, w, h);
-    drawOverlay(context, worldFromCamera, viewCamera.lens, head, models, player, snapshot, switches, switches.trailStart);
-    if (viewCamera.camera) drawQuads(context, viewCamera.camera, viewCamera.lens, 0, 0, snapshot);
+    drawOverlay(
+      context, worldFromCamera, viewCamera.intrinsics, head, models, player, snapshot, switches, switches.trailStart,
+    );
+    if (viewCamera.camera) drawQuads(context, viewCamera.camera, viewCamera.intrinsics, 0, 0, snapshot);
     if (views.mode === "map") {
       const hud = element("hud");
-      drawCompass(context, viewCamera.lens, views.height, hud.offsetTop + hud.offsetHeight);
+      drawCompass(context, viewCamera.intrinsics, views.height, hud.offsetTop + hud.offsetHeight);
     }
     this.frames.forEach((frame, i) => (frame.hidden = head.cameras[i] === viewCamera.camera));
     this.drawPictures(context, water, lamps, snapshot, switches, ratio, h);
-    this.pace?.begin();
+    this.pacing?.begin();
     return viewCamera;
   }
 
-  /** Draw the next images without rests. */
-  skipRests(): void {
-    this.pace?.skipRests();
+  /** Draw without pauses for a while, after an input. */
+  skipPauses(): void {
+    this.pacing?.skipPauses();
   }
 
-  /** Return true if the next image of a motion may begin. */
+  /** Return true if the next image may begin. */
   isReady(): boolean {
-    return this.pace?.isReady(performance.now()) ?? true;
+    return this.pacing?.isReady(performance.now()) ?? true;
   }
 
-  /** Return an image of the lens's size as RGBA, row 0 at the top. */
-  image(lens: Lens, worldFromCamera: Float64Array, player: Player, snapshot: Snapshot,
-        switches: Switches, water: Partial<Water> = {}, observer = false, grey = false): Uint8Array {
+  /** Return an image of the size `intrinsics.width` x `intrinsics.height` as RGBA, row 0 at the top; for tests. */
+  image(intrinsics: Intrinsics, worldFromCamera: Float64Array, player: Player, snapshot: Snapshot,
+        switches: Switches, water: Partial<Water> = {}, isExternal = false, grey = false): Uint8Array {
     const { gl, models, renderer } = this;
     if (!gl || !renderer) return new Uint8Array();
     models.place(snapshot.poses);
@@ -155,30 +163,30 @@ export class Picture {
     const stores = [gl.createRenderbuffer(), gl.createRenderbuffer()];
     [gl.RGBA8, gl.DEPTH_COMPONENT24].forEach((format, i) => {
       gl.bindRenderbuffer(gl.RENDERBUFFER, stores[i]);
-      gl.renderbufferStorage(gl.RENDERBUFFER, format, lens.width, lens.height);
+      gl.renderbufferStorage(gl.RENDERBUFFER, format, intrinsics.width, intrinsics.height);
       const attachment = i ? gl.DEPTH_ATTACHMENT : gl.COLOR_ATTACHMENT0;
       gl.framebufferRenderbuffer(gl.FRAMEBUFFER, attachment, gl.RENDERBUFFER, stores[i]);
     });
     const state = {
-      worldFromCamera, lens, lamps: this.lamps(snapshot), observer,
+      worldFromCamera, intrinsics, lamps: this.lamps(snapshot), isExternal,
       water: { ...this.water(player, snapshot, switches), ...water },
       grey,
     };
     renderer.draw(state, buffer, [0, 0], true);
-    const pixels = new Uint8Array(4 * lens.width * lens.height);
-    gl.readPixels(0, 0, lens.width, lens.height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
+    const pixels = new Uint8Array(4 * intrinsics.width * intrinsics.height);
+    gl.readPixels(0, 0, intrinsics.width, intrinsics.height, gl.RGBA, gl.UNSIGNED_BYTE, pixels);
     for (const store of stores) gl.deleteRenderbuffer(store);
     gl.deleteFramebuffer(buffer);
     return pixels;
   }
 
-  /** Return the greatest width of the images of cameras on the page [px]. */
+  /** Return the width of the widest camera image on the page [px]. */
   pictureWidth(): number {
     const shapes = this.head.cameras.map(({ width, height }) => width / height);
     return Math.round(PICTURE_HEIGHT * Math.max(...shapes) * Math.min(devicePixelRatio, 2));
   }
 
-  /** Show an image of a camera from a simulation, from the next drawing on. */
+  /** Set the image of a camera that the simulation has sent; it is shown at the next drawing. */
   show(camera: number, image: ImageBitmap): void {
     if (!this.frames[camera]) return;
     if (this.images[camera]) this.images[camera].close();
@@ -197,7 +205,7 @@ export class Picture {
       if (this.frames[i].hidden) return;
       const box = this.frames[i].getBoundingClientRect();
       const [x, y] = [box.left - origin.left + 1, box.top - origin.top + 1];
-      const lens = fitLens(camera, box.width - 2, box.height - 2);
+      const intrinsics = fitIntrinsics(camera, box.width - 2, box.height - 2);
       // a separate element would cause a new layout of the page for each image
       if (this.images[i]) context.drawImage(this.images[i], x, y, box.width - 2, box.height - 2);
       else {
@@ -206,13 +214,16 @@ export class Picture {
           Math.round(x * ratio), Math.round((height - y - box.height + 2) * ratio),
         ];
         const { grey } = camera;
-        const state = { worldFromCamera, lens: scaleLens(lens, ratio), water, lamps, observer: false, grey };
+        const state = {
+          worldFromCamera, intrinsics: scaleIntrinsics(intrinsics, ratio), water, lamps, isExternal: false, grey,
+        };
         this.renderer?.draw(state, null, corner);
       }
-      drawQuads(context, camera, lens, x, y, snapshot);
+      drawQuads(context, camera, intrinsics, x, y, snapshot);
     });
   }
 
+  /** Return the water at the time of a snapshot, with the fog and light rate of the level or of the signals. */
   private water(player: Player, snapshot: Snapshot, switches: Switches): Water {
     const values = player.levels[indexAt(player, snapshot.time)]?.level.values ?? {};
     const { fog, light_rate } = this.head.water;
@@ -224,6 +235,7 @@ export class Picture {
     };
   }
 
+  /** Return the lamps that are on at the time of a snapshot. */
   private lamps(snapshot: Snapshot): ActiveLamp[] {
     return this.head.lamps
       .map((lamp) => ({ lamp, brightness: snapshot.signal(`lamp/${lamp.name}`) ?? Number(lamp.on) }))
@@ -235,17 +247,17 @@ export class Picture {
   }
 }
 
-/** Return the lens of an image whose sides are scaled by a ratio, and rounded. */
-function scaleLens(lens: Lens, ratio: number): Lens {
-  const [width, height] = [Math.round(lens.width * ratio), Math.round(lens.height * ratio)];
+/** Return the intrinsics of an image that is larger by a ratio; its sides are rounded to whole pixels. */
+function scaleIntrinsics(intrinsics: Intrinsics, ratio: number): Intrinsics {
+  const [width, height] = [Math.round(intrinsics.width * ratio), Math.round(intrinsics.height * ratio)];
   return {
-    ...lens,
+    ...intrinsics,
     width,
     height,
-    fx: lens.fx * ratio,
-    fy: lens.fy * ratio,
-    cx: (lens.cx + 0.5) * ratio - 0.5,
-    cy: (lens.cy + 0.5) * ratio - 0.5,
-    skew: lens.skew * ratio,
+    fx: intrinsics.fx * ratio,
+    fy: intrinsics.fy * ratio,
+    cx: (intrinsics.cx + 0.5) * ratio - 0.5,
+    cy: (intrinsics.cy + 0.5) * ratio - 0.5,
+    skew: intrinsics.skew * ratio,
   };
 }

@@ -1,45 +1,58 @@
-// The inputs of a human pilot: keys, the first gamepad, and sticks on the screen.
+// The inputs of a human pilot: keys, the first gamepad, and on-screen sticks.
 import { element, make } from "./panels";
 
-const REPEAT = 100; // period of messages while an input is active [ms]
-const POLL = 33; // period of reading the gamepad [ms]
-const SIDES = ["left", "right"];
-/** The words for the positive and the negative direction of the axes. */
+const MESSAGE_PERIOD = 100; // period of messages while an input is active [ms]
+const GAMEPAD_PERIOD = 33; // period of reading the gamepad [ms]
+const STICK_SIDES = ["left", "right"];
+/** The words for the positive and the negative direction of each axis. */
 const AXIS_WORDS: Record<string, [string, string]> = {
   surge: ["forward", "back"], sway: ["right", "left"], heave: ["up", "down"], yaw: ["turn right", "left"],
   roll: ["roll right", "left"], pitch: ["pitch up", "down"], lamps: ["lamps brighter", "darker"],
 };
 const STICK_WORDS: Record<string, string> = { yaw: "turn", sway: "left / right" };
-const KEYLINE_TIME = 6000; // time from the first input until the line of keys disappears [ms]
+const KEY_HINTS_TIME = 6000; // time from the first key press until the hints disappear [ms]
 
+/** The present input of the pilot. */
 interface Input {
+  /** The keys that are pressed. */
   keys: string[];
+  /** The axes of the gamepad, -1 .. 1. */
   axes: number[];
+  /** The buttons of the gamepad, 0 .. 1. */
   buttons: number[];
+  /** The on-screen sticks: left x, y, right x, y, -1 .. 1, y up. */
   sticks: number[];
 }
 
-/** The pilot's part of the state of a running simulation. */
+/** The fields of the message `state` that concern the pilot. */
 export interface PilotState {
+  /** True if the simulation accepts the input of a pilot. */
   pilot: boolean;
+  /** The signed axes of each key that has an effect, for example `+surge`. */
   mapping: Record<string, string>;
+  /** All keys of the pilot, including those without effect on this vehicle. */
   reserved: string[];
+  /** The signed axes of the on-screen sticks: left x, y, right x, y; empty: no effect. */
   sticks: string[];
+  /** The name of the joint or thruster of an axis such as `joint1`. */
   names: Record<string, string>;
+  /** The reason why no vehicle can be steered; empty if one can. */
   why: string;
 }
 
+/** The reader of the pilot's inputs; it sends them to the simulation by `send`, whose `isNew` is true if they have changed. */
 export class Pilot {
+  /** True if the simulation accepts the input of a pilot. */
   isOn = false;
-  private mapping: Record<string, string> = {}; // key -> its axes
-  private reason = ""; // why no vehicle can be steered
-  private names: Record<string, string> = {}; // axis -> name of its joint or thruster
-  private reservedKeys = new Set<string>(); // all letters of the pilot, also those without effect on this vehicle
-  private layout = ""; // what the present elements of the page were made for
+  private mapping: Record<string, string> = {}; // as in PilotState
+  private reason = ""; // the reason why no vehicle can be steered
+  private names: Record<string, string> = {}; // as in PilotState
+  private reservedKeys = new Set<string>(); // all keys of the pilot, including those without effect on this vehicle
+  private layout = ""; // the state from which the present elements of the page were made, as a text
   private readonly pressedKeys = new Set<string>();
   private readonly sticks = [0, 0, 0, 0];
-  private lastText = "";
-  private sendTime = 0;
+  private lastText = ""; // the last input that was sent, as JSON
+  private sendTime = 0; // wall time of the last message [ms]
 
   constructor(private readonly send: (message: object, isNew: boolean) => void) {
     document.addEventListener("keyup", (event) => {
@@ -50,42 +63,44 @@ export class Pilot {
       this.pressedKeys.clear();
       this.poll();
     });
-    setInterval(() => this.poll(), POLL);
+    setInterval(() => this.poll(), GAMEPAD_PERIOD);
   }
 
-  /** Apply the pilot's part of the state of a simulation. */
+  /** Apply the pilot's fields of a message `state`. */
   enable(state: PilotState): void {
     this.isOn = state.pilot;
     this.mapping = state.pilot ? state.mapping : {};
     this.reservedKeys = new Set(state.reserved);
     [this.names, this.reason] = [state.names, state.why];
     const layout = JSON.stringify([state.pilot, state.sticks, state.names, state.why]);
-    if (layout === this.layout) return; // a stick may be held
+    if (layout === this.layout) return; // replacing a stick would end a drag
     this.layout = layout;
-    const sticks = SIDES.map((side, i) => this.stick(side, 2 * i, state.sticks.slice(2 * i, 2 * i + 2)));
-    const parts = [...sticks.filter((part) => part !== null), this.reason ? make("p", this.reason, "why") : this.line()];
+    const sticks = STICK_SIDES.map((side, i) => this.stick(side, 2 * i, state.sticks.slice(2 * i, 2 * i + 2)));
+    const parts = [...sticks.filter((part) => part !== null), this.reason ? make("p", this.reason, "why") : this.keyHints()];
     element("pilot").replaceChildren(...parts.filter((part) => part !== null));
     element("pilot").hidden = !state.pilot;
   }
 
-  /** Return true if a letter is a key of the pilot: the page's function of that letter needs Shift. */
+  /** Return true if a key is a key of the pilot; the page's own function of that letter then needs Shift. */
   isReserved(key: string): boolean {
     return this.isOn && this.reservedKeys.has(key);
   }
 
-  takeKey(event: KeyboardEvent): boolean {
+  /** Apply a key of the pilot; return false if the key is not the pilot's. */
+  handlePilotKey(event: KeyboardEvent): boolean {
     const key = event.key.toLowerCase();
     if (event.shiftKey || !this.isReserved(key)) return false;
     event.preventDefault();
-    if (!(key in this.mapping)) return true; // it has no effect on this vehicle
+    if (!(key in this.mapping)) return true; // the key has no effect on this vehicle
     this.pressedKeys.add(key);
     this.poll();
-    this.hideLine();
+    this.hideKeyHints();
     return true;
   }
 
+  /** Return the lines of the help for the pilot's keys. */
   help(): { keys: string; action: string }[] {
-    const pairs = this.pairs();
+    const pairs = this.keyPairs();
     if (!pairs.length) return [{ keys: "–", action: this.reason || "this simulation has no pilot" }];
     const rows = pairs.map(({ axes, plusKeys, minusKeys }) => ({
       keys: `${plusKeys || "–"}  ${minusKeys || "–"}`, action: `${this.namesOf(axes)} +, −`,
@@ -93,20 +108,20 @@ export class Pilot {
     return [...rows, { keys: "Shift", action: "with a letter: the page's own key" }];
   }
 
-  /** Return the axes with the keys of their positive and negative direction. */
-  private pairs(): { axes: string; plusKeys: string; minusKeys: string }[] {
+  /** Return the axes with the keys for their positive and their negative direction. */
+  private keyPairs(): { axes: string; plusKeys: string; minusKeys: string }[] {
     const pairs = new Map<string, string[]>();
     for (const [key, targets] of Object.entries(this.mapping)) {
       if (!targets.trim()) continue;
-      const [axes, way] = splitSign(targets);
+      const [axes, direction] = splitSign(targets);
       const pair = pairs.get(axes) ?? ["", ""];
-      pair[way] += (pair[way] && ", ") + key;
+      pair[direction] += (pair[direction] && ", ") + key;
       pairs.set(axes, pair);
     }
     return [...pairs].map(([axes, [plusKeys, minusKeys]]) => ({ axes, plusKeys, minusKeys }));
   }
 
-  /** Return axes, with joints and thrusters by their names in the vehicle's files. */
+  /** Return the text of some axes, with the names of joints and thrusters from the vehicle's files. */
   private namesOf(axes: string): string {
     return axes.split(" ").map((axis) => {
       const name = this.names[axis.replace("-", "")];
@@ -114,9 +129,9 @@ export class Pilot {
     }).join(" ");
   }
 
-  /** Return the line of keys, which is shown until the first input. */
-  private line(): HTMLElement | null {
-    const pairs = this.pairs();
+  /** Return the key hints, a line that is shown until the first key press; null if no key has an effect. */
+  private keyHints(): HTMLElement | null {
+    const pairs = this.keyPairs();
     if (!pairs.length) return null;
     const line = make("div", "", "keyline");
     for (const { axes, plusKeys, minusKeys } of pairs) {
@@ -135,14 +150,15 @@ export class Pilot {
     return line;
   }
 
-  private hideLine(): void {
+  private hideKeyHints(): void {
     const line = element("pilot").querySelector(".keyline");
     if (line && !line.classList.contains("leaves")) {
       line.classList.add("leaves");
-      setTimeout(() => line.remove(), KEYLINE_TIME);
+      setTimeout(() => line.remove(), KEY_HINTS_TIME);
     }
   }
 
+  /** Read the present input. */
   private input(): Input {
     const pad = navigator.getGamepads?.().find((gamepad) => gamepad !== null);
     return {
@@ -153,20 +169,21 @@ export class Pilot {
     };
   }
 
+  /** Send the present input if it has changed, and at `MESSAGE_PERIOD` while it is active. */
   private poll(): void {
     if (!this.isOn) return;
     const input = this.input();
     const text = JSON.stringify(input);
     const now = performance.now();
     const isAtRest = !input.keys.length && ![...input.axes, ...input.buttons, ...input.sticks].some(Boolean);
-    if (text === this.lastText && (isAtRest || now - this.sendTime < REPEAT)) return;
+    if (text === this.lastText && (isAtRest || now - this.sendTime < MESSAGE_PERIOD)) return;
     const isNew = text !== this.lastText;
     this.lastText = text;
     this.sendTime = now;
     this.send({ type: "input", ...input }, isNew);
   }
 
-  /** Return a stick with its label; null if it has no effect. */
+  /** Return an on-screen stick with its label; null if both of its axes have no effect. `index` is that of x in `sticks`. */
   private stick(side: string, index: number, axes: string[]): HTMLElement | null {
     if (!axes.some((targets) => targets.trim())) return null;
     const [box, label] = [make("div", "", `thumb ${side}`), make("div", "", "label")];
@@ -206,7 +223,7 @@ export class Pilot {
   }
 }
 
-/** Return targets with the sign of the first axis removed from all, and 0 if it was +, 1 if it was -. */
+/** Return signed axes multiplied by the sign of the first one, and 0 if that sign is +, 1 if it is -. */
 function splitSign(targets: string): [string, 0 | 1] {
   const parts = targets.trim().split(/\s+/);
   const flips = parts[0].startsWith("-");

@@ -1,82 +1,59 @@
-// Players: they give the state of a scene at a time, in a trial of a replay or a running simulation.
-import type { Head, Level, Marker, MarkerChange, MotionHead } from "./head";
-import { fromPose, transform, type Matrix } from "./geometry";
+// Players: sources of the state of the scene at a time, for a trial of a replay or for a running simulation.
+import type { Head, Level, Marker, MarkerChange } from "./head";
+import { fromPose, transform } from "./geometry";
 import { readMotion, type Motion, type Pack } from "./pack";
 import type { Removal } from "./sand";
+import { Snapshot } from "./snapshot";
 
+/** The samples of a curve. */
 export interface Samples {
   name: string;
   unit: string;
+  /** The simulation times [s]. */
   times: number[];
+  /** The values in `unit`; null: nothing was measured. */
   values: (number | null)[];
   /** The names of the values 1, 2, ..., for example of phases. */
   names?: string[];
   /** True if the range of the values is 0 to 1. */
-  isShare?: boolean;
+  isFraction?: boolean;
 }
 
-/** The poses of bodies (world from body) and the values of signals at one time. */
-export class Snapshot {
-  readonly poses = new Map<string, Matrix>();
-  private readonly signals = new Map<string, number>();
-
-  constructor(
-    readonly time: number,
-    head: MotionHead | null,
-    row: ArrayLike<number> | null,
-    initialPoses: Record<string, number[]> = {},
-  ) {
-    for (const [name, pose] of Object.entries(initialPoses)) this.poses.set(name, fromPose(pose));
-    if (!head || !row) return;
-    head.bodies.forEach((name, i) => this.poses.set(name, fromPose(row, 7 * i)));
-    const offset = 7 * head.bodies.length;
-    head.signals.forEach((signal, i) => this.signals.set(signal.name, row[offset + i]));
-  }
-
-  /** Return a signal's value; undefined if there is none, or nothing was measured. */
-  signal(name: string): number | undefined {
-    const value = this.signals.get(name);
-    return value === undefined || Number.isNaN(value) ? undefined : value;
-  }
-
-  /** Return the points of the signals prefix/0/x, prefix/0/y, prefix/1/x, ... that have values. */
-  points(prefix: string, parts: string[]): number[][] {
-    const points: number[][] = [];
-    for (let k = 0; ; ++k) {
-      if (!this.signals.has(`${prefix}/${k}/${parts[0]}`)) return points;
-      const point = parts.map((part) => this.signal(`${prefix}/${k}/${part}`));
-      if (point.every((value) => value !== undefined)) points.push(point as number[]);
-    }
-  }
-}
-
+/** A source of the state of the scene. Times are simulation times [s]. */
 export interface Player {
+  /** True for a running simulation. */
   readonly isLive: boolean;
   readonly start: number;
+  /** The end of the trial, or the present time of a running simulation. */
   readonly end: number;
+  /** The curves of the measures. */
   readonly curves: Samples[];
+  /** The levels of all trials, with the index of their trial. */
   readonly levels: { trial: number; level: Level }[];
+  /** The index of the selected trial; -1: none yet. */
   readonly trial: number;
   title: string;
-  /** The version of the data, which grows with changes at an unchanged time. */
+  /** A counter that is incremented when the state changes while the time does not. */
   readonly version: number;
   snapshot(time: number): Snapshot;
   /** Return the speed of the origin of a body [m/s]; null if it is not known. */
   speed(body: string, time: number): number | null;
-  /** Return the positions of a body in W until a time, at about `TRAIL_RATE`. */
+  /** Return the positions of a body in W from the start to a time, at about `TRAIL_RATE` [m]. */
   trail(body: string, endTime: number): number[][];
-  /** Return the spawned markers at a time. */
+  /** Return the spawned markers that exist at a time. */
   markers(time: number): Marker[];
-  /** Return the removals of sand from a heap until a time, in order, or the heights of its columns. */
+  /** Return the removals of sand from a heap up to a time, in order, or the heights of its columns [m]. */
   sand(heap: number, time: number): Removal[] | Float32Array;
+  /** Select the trial with an index, and load its motion and curves. */
   select(trial: number): Promise<void>;
 }
 
 const TRAIL_RATE = 6; // [Hz]
 const SPEED_SPAN = 0.2; // the time over which a speed is computed [s]
-const MAX_SPEED = 30; // the speed above which a motion is a jump [m/s]
-const TICKS = 1e4; // the number of ticks in a second, the unit of the times of curves
+const MAX_SPEED = 30; // the speed above which a displacement counts as a jump [m/s]
+const TICK_RATE = 1e4; // [Hz]; the times of curves are stored in ticks of 0.1 ms
 
+/** The recorded state of the scene in the trials of a replay. */
 export class Replay implements Player {
   readonly isLive = false;
   readonly levels: { trial: number; level: Level }[];
@@ -110,11 +87,8 @@ export class Replay implements Player {
     if (!trialHead) return;
     this.title = trialHead.title;
     this.curves = trialHead.curves.map(({ name, unit, times, values, names, is_share }) => ({
-      name,
-      unit,
-      names,
-      isShare: is_share,
-      times: Array.from(this.pack.numbers(times), (tick) => tick / TICKS),
+      name, unit, names, isFraction: is_share,
+      times: Array.from(this.pack.numbers(times), (tick) => tick / TICK_RATE),
       values: Array.from(this.pack.numbers(values), (v) => (Number.isNaN(v) ? null : v)),
     }));
     if (trialHead.motion)
@@ -139,10 +113,10 @@ export class Replay implements Player {
   markers(time: number): Marker[] {
     const [motion, markerLog] = [this.motion, this.motion?.head.markers];
     if (!motion || !markerLog) return [];
-    const frame = motion.frame(time);
+    const row = motion.rowIndex(time);
     const changes = new Map<string, MarkerChange>();
     for (const change of markerLog.changes) {
-      if (change[0] > frame) break;
+      if (change[0] > row) break;
       if (change.length > 2) changes.set(change[1], change);
       else changes.delete(change[1]);
     }
@@ -154,8 +128,8 @@ export class Replay implements Player {
   }
 
   sand(heap: number, time: number): Removal[] {
-    const frame = this.motion?.frame(time) ?? -1;
-    return this.motion?.removals.filter((removal) => removal.heap === heap && removal.frame <= frame) ?? [];
+    const row = this.motion?.rowIndex(time) ?? -1;
+    return this.motion?.removals.filter((removal) => removal.heap === heap && removal.row <= row) ?? [];
   }
 
   trail(body: string, endTime: number): number[][] {
@@ -173,7 +147,7 @@ export class Replay implements Player {
   }
 }
 
-/** Return the speed between two positions; null at a jump. */
+/** Return the mean speed between two positions [m/s]; null if the displacement is a jump, such as a reset. */
 function speedOf(start: number[], end: number[], seconds: number): number | null {
   const speed = Math.hypot(...end.map((value, i) => value - start[i])) / seconds;
   return seconds > 0 && speed < MAX_SPEED ? speed : null;
@@ -190,16 +164,18 @@ export class Stream implements Player {
   title: string;
   version = 0;
   private spawnedMarkers: Marker[] = [];
-  /** The heights of the columns of the heaps that have changed, by the heap's number. */
+  /** The heights of the columns [m] of each heap that has changed, by the heap's index. */
   private readonly heights = new Map<number, Float32Array>();
   private row: ArrayLike<number> | null = null;
-  private readonly recentRows: { time: number; row: ArrayLike<number> }[] = []; // of the last SPEED_SPAN
+  private readonly recentRows: { time: number; row: ArrayLike<number> }[] = []; // rows of the last SPEED_SPAN
+  /** The rows since the last reset, at `TRAIL_RATE` at most. */
   private readonly trails: { time: number; row: ArrayLike<number> }[] = [];
 
   constructor(private readonly head: Head) {
     this.title = head.title;
   }
 
+  /** Add the newest row, of a simulation time [s]. */
   push(time: number, row: ArrayLike<number>): void {
     const lastRow = this.trails.at(-1);
     if (time === this.end) this.version += 1; // a reset during a pause
@@ -220,6 +196,7 @@ export class Stream implements Player {
     return speedOf(ends[0], ends[1], lastRow.time - firstRow.time);
   }
 
+  /** Add a sample to a curve. */
   sample(name: string, unit: string, time: number, value: number | null): void {
     let curve = this.curves.find((samples) => samples.name === name);
     if (!curve) {

@@ -1,15 +1,19 @@
-// Heaps of sand, and the removal of sand by a dredge, as in uwsim.simulation.scenery.sand.
+// Heaps of sand, from which a dredge removes sand, as in uwsim.simulation.scenery.sand.
 import type { Heap } from "./head";
 
-/** A removal of sand at a position, from a frame on. */
+/** A removal of sand at a position. */
 export interface Removal {
-  frame: number;
+  /** The index of the row of the motion from which on the sand is removed. */
+  row: number;
+  /** The index of the heap. */
   heap: number;
-  /** The position of the dredge from the heap's corner [m]; null: the whole heap is restored. */
+  /** The position of the dredge in the heap's frame, relative to its corner [m]; null: the whole heap is restored. */
   position: [number, number, number] | null;
 }
 
+/** A heap of sand: a grid of columns with heights above the heap's corner. */
 export class Sand {
+  /** The present heights [m]; column (i, j) has the index i * (columns along y) + j. */
   readonly heights: Float32Array<ArrayBuffer>;
   private readonly initialHeights: Float32Array;
   private removals: Removal[] = [];
@@ -17,7 +21,7 @@ export class Sand {
 
   constructor(
     private readonly heap: Heap,
-    /** The positions of the mesh's vertices, x y z each. */
+    /** The initial positions of the mesh's vertices, the tops of the columns, x y z each [m]. */
     private readonly positions: Float32Array,
   ) {
     this.initialHeights = Float32Array.from(
@@ -34,7 +38,7 @@ export class Sand {
     return true;
   }
 
-  /** Show the heap after some removals, in order; return true if it has changed. */
+  /** Compute the heights after all removals so far, in order; return true if they have changed. */
   apply(removals: Removal[]): boolean {
     const oldRemovals = this.removals;
     const isContinuation =
@@ -49,7 +53,7 @@ export class Sand {
     return true;
   }
 
-  /** Return the positions [m] and normals (32767 is 1) of the heap's vertices. */
+  /** Return the positions [m] and normals (1 is stored as 32767) of the heap's vertices. */
   surface(): { positions: Float32Array<ArrayBuffer>; normals: Int16Array<ArrayBuffer> } {
     const { heap, heights } = this;
     const [nx, ny] = heap.columns;
@@ -71,20 +75,21 @@ export class Sand {
     return { positions, normals };
   }
 
+  /** Lower the columns whose tops are nearer than the dredge's radius to its position [m]. */
   private remove([x, y, z]: [number, number, number]): void {
     const { heap, heights } = this;
     const [nx, ny] = heap.columns;
-    const reach = heap.reach ** 2;
-    const range = (at: number, n: number): [number, number] => [
-      Math.max(0, Math.floor((at - heap.reach) / heap.cell)),
-      Math.min(n - 1, Math.ceil((at + heap.reach) / heap.cell)),
+    const squaredRadius = heap.reach ** 2;
+    const range = (position: number, n: number): [number, number] => [
+      Math.max(0, Math.floor((position - heap.reach) / heap.cell)),
+      Math.min(n - 1, Math.ceil((position + heap.reach) / heap.cell)),
     ];
     const [[low, high], [first, last]] = [range(x, nx), range(y, ny)];
     for (let i = low; i <= high; ++i)
       for (let j = first; j <= last; ++j) {
         const k = i * ny + j;
-        const distance = (i * heap.cell - x) ** 2 + (j * heap.cell - y) ** 2 + (heights[k] - z) ** 2;
-        if (distance < reach) heights[k] = Math.max(0, heights[k] - heap.bite);
+        const squaredDistance = (i * heap.cell - x) ** 2 + (j * heap.cell - y) ** 2 + (heights[k] - z) ** 2;
+        if (squaredDistance < squaredRadius) heights[k] = Math.max(0, heights[k] - heap.bite);
       }
   }
 }

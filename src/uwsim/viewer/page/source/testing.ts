@@ -3,6 +3,7 @@ import type { Controls } from "./controls";
 import { valueAt } from "./curves";
 import { indexAt } from "./panels";
 
+/** Set `window.uwsim` to the interface of the page. */
 export function expose(page: Controls): void {
   const { player, picture } = page;
   Object.assign(window, {
@@ -12,15 +13,15 @@ export function expose(page: Controls): void {
       go: (index: number) => page.go(index),
       time: () => page.time,
       level: () => indexAt(player, page.time),
-      /** The value of each measure at the cursor, by its name. */
+      /** The value of each measure at the displayed time, by the measure's name. */
       curves: () => Object.fromEntries(player.curves.map((c) => [c.name, valueAt(c, page.time)])),
-      /** World from body, 4 x 4, row by row. */
+      /** The pose of a body in W as a 4 x 4 matrix, row by row. */
       body: (name: string) => Array.from(picture.models.body(name)),
       /** The markers at the displayed time. */
       markers: () => player.markers(page.time),
       /** The heights of the columns of a heap of sand [m]. */
       sand: (number: number) => Array.from(picture.models.heights(number)),
-      /** A camera's image in its own size, RGBA, base64. */
+      /** The image of a camera in the camera's resolution: RGBA, row 0 at the top, as base64. */
       image: (name: string, water = {}) => {
         const camera = page.pack.head.cameras.find((candidate) => candidate.name === name)!;
         const snapshot = player.snapshot(page.time);

@@ -1,5 +1,5 @@
 // The north arrow and the scale bar of the map view.
-import type { Lens } from "../geometry";
+import type { Intrinsics } from "../geometry";
 
 const MAX_SCALE_LENGTH = 130; // [px]
 const LEFT = 18; // left edge of arrow and bar [px]
@@ -9,10 +9,10 @@ const LEFT = 18; // left edge of arrow and bar [px]
  *
  * The bar has the scale of the plane `depth` metres below the camera; `top` is the first free row [px].
  */
-export function drawCompass(context: CanvasRenderingContext2D, lens: Lens, depth: number, top: number): void {
+export function drawCompass(context: CanvasRenderingContext2D, intrinsics: Intrinsics, depth: number, top: number): void {
   const [x, y] = [LEFT + 10, top + 22];
-  const metres = roundedDown((MAX_SCALE_LENGTH * depth) / lens.fx);
-  const length = (metres * lens.fx) / depth;
+  const metres = roundDown((MAX_SCALE_LENGTH * depth) / intrinsics.fx);
+  const length = (metres * intrinsics.fx) / depth;
   context.save();
   context.setLineDash([]);
   context.shadowColor = "rgba(0, 12, 24, 0.9)";
@@ -41,7 +41,7 @@ export function drawCompass(context: CanvasRenderingContext2D, lens: Lens, depth
 }
 
 /** Return the greatest number of the form 1, 2 or 5 times a power of ten that is at most `value`. */
-function roundedDown(value: number): number {
+function roundDown(value: number): number {
   const power = 10 ** Math.floor(Math.log10(value));
   const digit = [5, 2, 1].find((candidate) => candidate * power <= value * (1 + 1e-9)) ?? 1;
   return Number((digit * power).toPrecision(1));

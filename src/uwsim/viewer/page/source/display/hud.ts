@@ -1,26 +1,30 @@
-// The head-up display: numbers of the vehicle's state over the view; a click on one shows its curve.
+// The head-up display: the values of the vehicle's state, over the view; a click on a value shows its curve.
 import { Curves } from "../curves";
 import { element, make } from "../panels";
-import type { Snapshot, Player, Samples } from "../player";
+import type { Player, Samples } from "../player";
+import type { Snapshot } from "../snapshot";
 import { titleOf, type Quantities, type Quantity } from "./quantities";
 
-const DISPLAY_PERIOD = 100; // between two updates [ms]
-const INITIAL_CURVES = ["depth", "speed"]; // shown initially in a live view without measures
-const UNITS: Record<string, string> = { deg: "°", "1": "×" };
+const DISPLAY_PERIOD = 100; // least time between two updates in a live view [ms]
+const INITIAL_CURVES = ["depth", "speed"]; // curves that a live view without measures shows initially
+/** The signs of units that are not written as they are. */
+const UNIT_SIGNS: Record<string, string> = { deg: "°", "1": "×" };
 
+/** The elements of a value on the page. */
 interface Cell {
   button: HTMLButtonElement;
   value: HTMLElement;
 }
 
+/** The head-up display. */
 export class Hud {
-  private readonly cells = new Map<string, Cell>();
-  private readonly selection = new Set<string>();
+  private readonly cells = new Map<string, Cell>(); // by the name of the quantity
+  private readonly selection = new Set<string>(); // names of the quantities whose curves are shown
   private readonly curves: Curves;
-  private hasSelection = false; // true after the initial selection, or one by the user
-  private displayTime = 0; // of the last update [ms]
+  private hasSelection = false; // true after the initial selection or a selection by the user
+  private displayTime = 0; // wall time of the last update [ms]
   private isUpdatePending = false;
-  private lastState: [Snapshot, number, boolean] | null = null;
+  private lastState: [Snapshot, number, boolean] | null = null; // the last arguments of `show`
   private values: Quantity[] = [];
 
   constructor(
@@ -32,7 +36,7 @@ export class Hud {
     this.curves = new Curves(element("state"), seek);
   }
 
-  /** Show the state of a vehicle, by its index, in a snapshot. */
+  /** Show the state of the vehicle with an index at the time of a snapshot; hide the display if `isOn` is false. */
   show(snapshot: Snapshot, vehicle: number, isOn: boolean): void {
     this.lastState = [snapshot, vehicle, isOn];
     const now = performance.now();
@@ -44,7 +48,7 @@ export class Hud {
       this.values.forEach((quantity) => this.fill(quantity));
     }
     else if (!this.isUpdatePending) {
-      this.isUpdatePending = true; // show it later, even if no other state follows
+      this.isUpdatePending = true; // show this state later if no newer state arrives
       setTimeout(() => {
         this.isUpdatePending = false;
         this.show(...this.lastState!);
@@ -57,8 +61,8 @@ export class Hud {
     if (curves.length) this.curves.show(snapshot.time, curves);
   }
 
-  /** Draw the curves again, in the present colours. */
-  repaint(): void {
+  /** Draw the curves again, in the colours of the present theme. */
+  redrawCurves(): void {
     this.curves.redraw();
   }
 
@@ -104,11 +108,11 @@ export class Hud {
   }
 }
 
-/** Return the text of a value, with a number of digits that depends on its unit. */
+/** Return the text of a value with its unit, on which the number of digits depends. */
 export function textOf(value: number | null, unit: string): string {
   if (value === null) return "–";
   const digits = { deg: 1, m: 2, "m/s": 2, N: 1, "%": 0 }[unit] ?? 2;
   const text = value.toFixed(digits).replace(/^-(0(\.0*)?)$/, "$1");
-  const sign = UNITS[unit] ?? ` ${unit}`;
+  const sign = UNIT_SIGNS[unit] ?? ` ${unit}`;
   return `${text.replace("-", "−")}${sign}`;
 }

@@ -1,30 +1,35 @@
-// Quantities of a vehicle's state, from its motion and from a simulation's readings, with their history.
+// The quantities of a vehicle's state: those of its motion, and the readings that a running simulation sends.
 import type { Head } from "../head";
 import { fromPose, origin, plus, type Matrix } from "../geometry";
-import type { Snapshot, Player, Samples } from "../player";
+import type { Player, Samples } from "../player";
+import type { Snapshot } from "../snapshot";
 import type { Rays } from "./rays";
 
 const MAX_ALTITUDE = 200; // the length of the ray down from the vehicle [m]
-const HISTORY_RATE = 5; // [Hz]
-const MAX_SAMPLES = 6000; // samples of a history
-const MAX_REPLAY_SAMPLES = 1200; // samples of a curve of a replay
-const DEGREES = 180 / Math.PI;
+const HISTORY_RATE = 5; // greatest rate of the samples of a curve [Hz]
+const MAX_SAMPLES = 6000; // greatest number of samples of a curve in a live view
+const MAX_REPLAY_SAMPLES = 1200; // greatest number of samples of a curve in a replay
+const DEGREES = 180 / Math.PI; // degrees in a radian
 
-/** A quantity; its name is as `depth`, `joint/Slew` or `force/wrist`. */
+/** A quantity of a vehicle's state. */
 export interface Quantity {
+  /** The name, for example `depth`, `joint/Slew` or `force/wrist`. */
   name: string;
   unit: string;
+  /** The value in `unit`; null: there is none at this time. */
   value: number | null;
 }
 
+/** A quantity in a message of a running simulation. */
 export type Reading = [name: string, unit: string, value: number | null];
 
+/** The quantities of the displayed vehicle, with their curves. */
 export class Quantities {
   private readonly histories = new Map<string, Samples>();
-  private readings: Reading[] = []; // the newest, of a running simulation
+  private readings: Reading[] = []; // the newest readings of a running simulation
   private storeTime = -Infinity; // simulation time of the last stored quantities [s]
-  private trial = -1;
-  private vehicle = 0;
+  private trial = -1; // index of the trial to which the histories belong, in a replay
+  private vehicle = 0; // index of the displayed vehicle
 
   constructor(
     private readonly head: Head,
@@ -38,7 +43,7 @@ export class Quantities {
     return haveChanged;
   }
 
-  /** Return all quantities of a vehicle, by its index, in a snapshot. */
+  /** Return all quantities of the vehicle with an index at the time of a snapshot. */
   compute(snapshot: Snapshot, player: Player, vehicle: number): Quantity[] {
     this.vehicle = vehicle;
     const readings = this.readings.map(([name, unit, value]) => ({ name, unit, value }));
@@ -60,7 +65,7 @@ export class Quantities {
     }
   }
 
-  /** Return the curve of a quantity; in a replay, the curve of the whole trial. */
+  /** Return the curve of a quantity: so far in a live view, over the whole trial in a replay. */
   history({ name, unit }: Quantity, player: Player): Samples {
     if (player.isLive) return this.historyOf(name, unit);
     if (player.trial !== this.trial) this.histories.clear();
@@ -85,7 +90,7 @@ export class Quantities {
     return history;
   }
 
-  /** Compute quantities from poses and currents; `onlyName` may name the only one that is needed. */
+  /** Compute the quantities that depend on poses and currents; with `onlyName`, the costly altitude only if that is its name. */
   private motionQuantities(snapshot: Snapshot, player: Player, onlyName = ""): Quantity[] {
     const vehicle = this.head.vehicles[this.vehicle];
     if (!vehicle) return [];
@@ -114,21 +119,22 @@ export class Quantities {
     return initialBody && fromPose(initialBody.pose)[10] < 0 ? -1 : 1;
   }
 
+  /** Return the height of a position above the surface below it [m]; null if there is none within `MAX_ALTITUDE`. */
   private altitude(position: number[], vehicle: string, snapshot: Snapshot): number | null {
     const bottom = plus(position, [0, 0, -MAX_ALTITUDE]);
     const bodyPose = (body: string): Matrix => poseOf(this.head, snapshot, body);
-    const share = this.rays.cast(position, bottom, bodyPose, (body) => body.vehicle === vehicle);
-    return share < 1 ? share * MAX_ALTITUDE : null;
+    const fraction = this.rays.cast(position, bottom, bodyPose, (body) => body.vehicle === vehicle);
+    return fraction < 1 ? fraction * MAX_ALTITUDE : null;
   }
 }
 
-/** Return the matrix from a body to W. */
+/** Return the pose of a body in W. */
 function poseOf(head: Head, snapshot: Snapshot, body: string): Matrix {
   const initialBody = head.bodies.find(({ name }) => name === body);
   return snapshot.poses.get(body) ?? fromPose(initialBody?.pose ?? [0, 0, 0, 1, 0, 0, 0]);
 }
 
-/** Return the title of a quantity on the page: of `joint/Slew` only the name in the vehicle's file. */
+/** Return the title of a quantity on the page: `Slew` for `joint/Slew`, `wrist force` for `force/wrist`. */
 export function titleOf(name: string): string {
   const [kind, title] = [name.split("/")[0], name.slice(name.indexOf("/") + 1)];
   if (title === name || kind === "joint") return title;

@@ -5,18 +5,19 @@ import {
 } from "../geometry";
 import type { Pack } from "../pack";
 
-const MIN_OPACITY = 0.5; // least opacity of a surface that stops a ray [1]
+const MIN_OPACITY = 0.5; // least opacity of a surface that rays hit [1]
 
+/** Ray casts against the meshes of a pack. */
 export class Rays {
   constructor(private readonly pack: Pack) {}
 
   /**
-   * Return the fraction of the way from `start` to `end` (in W) at the first surface; 1: no surface.
+   * Return the fraction of the way from `start` to `end` (in W [m]) at which the first surface is hit; 1: no surface.
    *
-   * `bodyPose` returns world from body; rays pass through bodies for which `isSkipped` returns true.
+   * `bodyPose` returns the pose of a body in W; rays pass through bodies for which `isSkipped` returns true.
    */
   cast(start: Vector, end: Vector, bodyPose: (body: string) => Matrix, isSkipped: (body: Head["bodies"][0]) => boolean): number {
-    let nearestShare = 1;
+    let nearestFraction = 1;
     for (const body of this.pack.head.bodies) {
       if (!body.visuals.length || isSkipped(body)) continue;
       const worldFromBody = bodyPose(body.name);
@@ -25,27 +26,28 @@ export class Rays {
         const meshFromWorld = inverseOf(product(worldFromBody, matrix(visual.matrix)));
         if (!meshFromWorld) continue;
         const [a, b] = [transform(meshFromWorld, start), transform(meshFromWorld, end)];
-        nearestShare = Math.min(nearestShare, this.hitMesh(visual, a, b, nearestShare));
+        nearestFraction = Math.min(nearestFraction, this.hitMesh(visual, a, b, nearestFraction));
       }
     }
-    return nearestShare;
+    return nearestFraction;
   }
 
-  private hitMesh(visual: Visual, start: Vector, end: Vector, nearestShare: number): number {
+  /** Return the fraction at which a ray in the frame of a mesh hits it, or `nearestFraction` if that is smaller. */
+  private hitMesh(visual: Visual, start: Vector, end: Vector, nearestFraction: number): number {
     const mesh = this.pack.head.meshes[visual.mesh];
     const ray = plus(end, start, -1);
     const square = dot(ray, ray);
     for (const piece of mesh.pieces) {
       const centre = plus([piece[2], piece[3], piece[4]], start, -1);
-      const share = square > 0 ? Math.min(nearestShare, Math.max(0, dot(centre, ray) / square)) : 0;
-      const offset = plus(centre, ray, -share);
+      const fraction = square > 0 ? Math.min(nearestFraction, Math.max(0, dot(centre, ray) / square)) : 0;
+      const offset = plus(centre, ray, -fraction);
       if (dot(offset, offset) > piece[5] * piece[5]) continue;
       const positions = this.pack.numbers(mesh.positions);
       const triangles = this.pack.numbers(mesh.triangles);
       for (let i = piece[0]; i < piece[0] + piece[1]; i += 3)
-        nearestShare = Math.min(nearestShare, hitTriangle(positions, triangles, i, start, ray));
+        nearestFraction = Math.min(nearestFraction, hitTriangle(positions, triangles, i, start, ray));
     }
-    return nearestShare;
+    return nearestFraction;
   }
 }
 
@@ -71,11 +73,11 @@ function hitTriangle(
   const [qx, qy, qz] = [sy * ez - sz * ey, sz * ex - sx * ez, sx * ey - sy * ex];
   const v = (dx * qx + dy * qy + dz * qz) / determinant;
   if (v < 0 || u + v > 1) return Infinity;
-  const share = (fx * qx + fy * qy + fz * qz) / determinant;
-  return share >= 0 ? share : Infinity;
+  const fraction = (fx * qx + fy * qy + fz * qz) / determinant;
+  return fraction >= 0 ? fraction : Infinity;
 }
 
-/** Return the inverse of an affine matrix with any scale; null if it has none. */
+/** Return the inverse of an affine transform; null if it is singular. */
 function inverseOf(m: Matrix): Matrix | null {
   const rows = [0, 1, 2].map((i) => [m[4 * i], m[4 * i + 1], m[4 * i + 2]]);
   const columns = [cross(rows[1], rows[2]), cross(rows[2], rows[0]), cross(rows[0], rows[1])];

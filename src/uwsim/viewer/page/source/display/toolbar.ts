@@ -41,7 +41,7 @@ export function addViews(page: Controls, modes: Mode[], cameras: string[]): void
 /** Add a button for each switch that applies to the scene. */
 export function addSwitches(page: Controls): void {
   const { sensors, cameras, vehicles } = page.pack.head;
-  const subjects: Record<string, number> = { // the number of things that a switch would show
+  const subjects: Record<string, number> = { // the number of items that a switch shows or hides
     sonars: sensors.length, pictures: cameras.length, state: vehicles.length,
   };
   for (const [name, [label, tooltip]] of Object.entries(SWITCHES)) {

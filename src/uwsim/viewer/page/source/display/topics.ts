@@ -1,24 +1,29 @@
-// Topics of a running simulation that the user has selected: the newest values, and their curves.
+// The topics of a running simulation that the user has selected: the values of the newest message, and their curves.
 import { Curves } from "../curves";
 import { element, make } from "../panels";
 import type { Samples } from "../player";
 
 const MAX_SAMPLES = 3000; // greatest number of samples of a curve
-const MAX_TOPICS = 16; // greatest number of topics at once, the limit of the server
+const MAX_TOPICS = 16; // greatest number of selected topics, a limit of the server
 
+/** The fields of a message of a topic. */
 export interface TopicMessage {
   type: "topic";
+  /** The name of the topic. */
   name: string;
+  /** The simulation time at which the message was published [s]. */
   time: number;
   fields: [path: string, value: number | string | null][];
+  /** True if further fields have been left out. */
   is_cut: boolean;
 }
 
+/** The selected topics. */
 export class Topics {
   private readonly cards = new Map<string, Card>();
-  private types: Record<string, string> = {};
+  private types: Record<string, string> = {}; // message type by topic
 
-  /** `request` sends the names of the selected topics to the simulation. */
+  /** `request` sends the names of all selected topics to the simulation. */
   constructor(private readonly request: (names: string[]) => void) {
     const choice = element<HTMLSelectElement>("topic");
     choice.addEventListener("change", () => {
@@ -40,15 +45,16 @@ export class Topics {
     this.cards.get(message.name)?.showMessage(message);
   }
 
-  /** Draw the curves of all shown topics. */
+  /** Draw the curves of all selected topics, with the cursor at a time [s]. */
   show(time: number): void {
     for (const card of this.cards.values()) card.show(time);
   }
 
-  repaint(): void {
+  redrawCurves(): void {
     for (const card of this.cards.values()) card.curves.redraw();
   }
 
+  /** Select a topic. */
   add(name: string): void {
     if (!name || this.cards.has(name) || this.cards.size >= MAX_TOPICS) return;
     const card = new Card(name, this.types[name] ?? "", () => {
@@ -61,6 +67,7 @@ export class Topics {
   }
 }
 
+/** The part of the page that shows a topic. */
 class Card {
   readonly box = make("div", "", "topic");
   readonly curves: Curves;

@@ -1,28 +1,29 @@
-// Lamps, a projector, and the shadow maps of them and of the sun, as in uwsim.rendering.lights.
+// Lamps and the projector, and the shadow maps of all lights, as in uwsim.rendering.lights.
 import type { Lamp, Projector } from "../head";
 import {
-  clipFromCamera, columns, inverse, origin, product, type Lens, type Matrix, matrix,
+  clipFromCamera, columns, inverse, origin, product, type Intrinsics, type Matrix, matrix,
 } from "../geometry";
 import type { Piece } from "../models";
 import { Programs } from "./shaders";
-import type { Slots } from "./slots";
-import { fit, findVisible, TO_TEXTURE } from "./visibility";
+import type { InstanceBlocks } from "./instance_blocks";
+import { findVisible, fitSunView, TEXTURE_FROM_CLIP } from "./visibility";
 
-const SMALL_MAP = 512; // edge of the sun's shadow map [texel]
-const LARGE_MAP = 1024; // its edge if texels of the small map are too large [texel]
-const FINE_TEXEL = 0.008; // largest texel of the small map [m]
-const TILE = 512; // edge of a lamp's shadow map [texel]
-const MAX_HALF_ANGLE = (80 * Math.PI) / 180; // of a lamp with a shadow map [rad]
-const LAMP_MARGIN = 1.02; // ratio of the field of a lamp's map to the lamp's cone
+const SMALL_MAP = 512; // edge of the sun's smaller shadow map [texel]
+const LARGE_MAP = 1024; // edge of the sun's larger shadow map [texel]
+const FINE_TEXEL = 0.008; // largest size of a texel for which the smaller map is used [m]
+const LAMP_MAP_SIZE = 512; // edge of a lamp's shadow map [texel]
+const MAX_HALF_ANGLE = (80 * Math.PI) / 180; // greatest half angle of the cone that a lamp's shadow map covers [rad]
+const LAMP_MARGIN = 1.02; // ratio of the field of view of a lamp's shadow map to the lamp's cone
 const MAX_SIDE = 1024; // longest side of a projector's shadow map [texel]
 
-/** A lamp that is on; its intensity is the present one. */
+/** A lamp that is on. */
 export interface ActiveLamp {
+  /** The lamp with its present intensity. */
   lamp: Lamp;
   worldFromLamp: Matrix;
 }
 
-/** A depth texture with its framebuffer. */
+/** A depth texture that shaders compare depths with, and its framebuffer. */
 export class DepthMap {
   readonly texture: WebGLTexture;
   private readonly buffer: WebGLFramebuffer;
@@ -51,7 +52,7 @@ export class DepthMap {
     this.begin(0, 0, width, height);
   }
 
-  /** Clear a part of the map, and draw there from now on. */
+  /** Clear a rectangle of the map, and draw into that rectangle from now on [texel]. */
   begin(x: number, y: number, width: number, height: number): void {
     const gl = this.gl;
     gl.bindFramebuffer(gl.FRAMEBUFFER, this.buffer);
@@ -65,63 +66,73 @@ export class DepthMap {
   }
 }
 
-/** The shadow maps of sun, lamps and projector, and the values with which shaders read them. */
+/** The shadow maps of the sun, lamps and projector, and the values that shaders need to read them. */
 export class Shadows {
-  private readonly suns: Record<number, DepthMap>;
+  private readonly suns: Record<number, DepthMap>; // the shadow maps of the sun by their edge [texel]
+  /** The shadow map of the sun that was drawn last. */
   sunMap: DepthMap;
+  /** The transform from W to the texture coordinates of `sunMap` and the depth in it. */
   textureFromWorld = matrix([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]);
+  /** The distance by which surfaces are lifted along their normals, so that they do not shade themselves [m]. */
   lift = 0;
+  /** The shadow maps of up to four lamps, as the quarters of one texture. */
   lampMaps: DepthMap | null = null;
   projectorMap: DepthMap | null = null;
-  private sunKey = "";
-  private readonly lampKeys: string[] = [];
+  private sunKey = ""; // what `sunMap` was drawn from, as a text
+  private readonly lampKeys: string[] = []; // what each lamp's shadow map was drawn from, as a text
 
   constructor(
     private readonly gl: WebGL2RenderingContext,
     private readonly programs: Programs,
-    private readonly slots: Slots,
+    private readonly instanceBlocks: InstanceBlocks,
   ) {
     const maps = [SMALL_MAP, LARGE_MAP].map((size) => [size, new DepthMap(gl, size, size)]);
     this.suns = Object.fromEntries(maps) as Record<number, DepthMap>;
     this.sunMap = this.suns[SMALL_MAP];
   }
 
-  castSun(casters: Piece[], sun: number[], version: number): void {
+  /** Draw the sun's shadow map if casters or the version of the poses have changed; `sun` points towards the sun in W. */
+  updateSunShadows(casters: Piece[], sun: number[], version: number): void {
     const key = `${version} ${sun} ${casters.map((p) => `${p.instance.number}.${p.firstIndex}`)}`;
     if (key === this.sunKey) return;
     this.sunKey = key;
-    const [clip, edge] = fit(casters, sun);
+    const [clipFromWorld, edge] = fitSunView(casters, sun);
     const size = edge / SMALL_MAP <= FINE_TEXEL ? SMALL_MAP : LARGE_MAP;
     this.sunMap = this.suns[size];
-    this.textureFromWorld = product(TO_TEXTURE, clip);
+    this.textureFromWorld = product(TEXTURE_FROM_CLIP, clipFromWorld);
     this.lift = (1.5 * edge) / size;
     this.sunMap.begin(0, 0, size, size);
-    this.draw(casters, clip);
+    this.draw(casters, clipFromWorld);
   }
 
-  castLamps(lamps: ActiveLamp[], pieces: Piece[], version: number): void {
-    this.lampMaps ??= new DepthMap(this.gl, 2 * TILE, 2 * TILE);
+  /** Draw the shadow maps of the lamps that have changed. */
+  updateLampShadows(lamps: ActiveLamp[], pieces: Piece[], version: number): void {
+    this.lampMaps ??= new DepthMap(this.gl, 2 * LAMP_MAP_SIZE, 2 * LAMP_MAP_SIZE);
     lamps.forEach(({ lamp, worldFromLamp }, tile) => {
       const key = lamp.shadow ? `${version} ${lamp.half_angle} ${worldFromLamp}` : "none";
       if (key === this.lampKeys[tile]) return;
       this.lampKeys[tile] = key;
-      this.lampMaps!.begin(TILE * (tile % 2), TILE * (tile >> 1), TILE, TILE);
-      if (lamp.shadow) this.castFrom(worldFromLamp, lampLens(lamp), pieces);
+      const [column, row] = [tile % 2, tile >> 1];
+      this.lampMaps!.begin(LAMP_MAP_SIZE * column, LAMP_MAP_SIZE * row, LAMP_MAP_SIZE, LAMP_MAP_SIZE);
+      if (lamp.shadow) this.drawShadowMap(worldFromLamp, lampIntrinsics(lamp), pieces);
     });
   }
 
-  castProjector(worldFromProjector: Matrix, lens: Lens, pieces: Piece[]): void {
-    this.projectorMap ??= new DepthMap(this.gl, lens.width, lens.height);
-    this.projectorMap.begin(0, 0, lens.width, lens.height);
-    this.castFrom(worldFromProjector, lens, pieces);
+  /** Draw the shadow map of the projector. */
+  updateProjectorShadows(worldFromProjector: Matrix, intrinsics: Intrinsics, pieces: Piece[]): void {
+    this.projectorMap ??= new DepthMap(this.gl, intrinsics.width, intrinsics.height);
+    this.projectorMap.begin(0, 0, intrinsics.width, intrinsics.height);
+    this.drawShadowMap(worldFromProjector, intrinsics, pieces);
   }
 
-  private castFrom(worldFromLight: Matrix, lens: Lens, pieces: Piece[]): void {
-    const clip = clipFromCamera(lens, true);
-    const casters = findVisible(pieces, { worldFromCamera: worldFromLight, clip, lens });
+  /** Draw the shadow map of a light with a pose and intrinsics. */
+  private drawShadowMap(worldFromLight: Matrix, intrinsics: Intrinsics, pieces: Piece[]): void {
+    const clip = clipFromCamera(intrinsics, true);
+    const casters = findVisible(pieces, { worldFromCamera: worldFromLight, clip, intrinsics });
     this.draw(casters.filter(isOpaque), product(clip, inverse(worldFromLight)), true);
   }
 
+  /** Draw the depths of pieces into the current map. */
   private draw(casters: Piece[], clipFromWorld: Matrix, isFlipped = false): void {
     const gl = this.gl;
     gl.enable(gl.DEPTH_TEST);
@@ -129,8 +140,8 @@ export class Shadows {
     gl.enable(gl.POLYGON_OFFSET_FILL);
     gl.polygonOffset(1.5, 2);
     gl.useProgram(this.programs.get("shadow", {}));
-    this.slots.fill(clipFromWorld);
-    for (const piece of casters) this.slots.drawPiece(piece, isFlipped);
+    this.instanceBlocks.fill(clipFromWorld);
+    for (const piece of casters) this.instanceBlocks.drawPiece(piece, isFlipped);
     gl.disable(gl.POLYGON_OFFSET_FILL);
   }
 }
@@ -139,13 +150,16 @@ export function isOpaque(piece: Piece): boolean {
   return piece.instance.visual.opacity >= 1;
 }
 
-function lampLens(lamp: Lamp): Lens {
-  const focal = TILE / 2 / (LAMP_MARGIN * Math.tan(Math.min(lamp.half_angle, MAX_HALF_ANGLE)));
-  const c = (TILE - 1) / 2;
-  return { width: TILE, height: TILE, fx: focal, fy: focal, cx: c, cy: c, skew: 0, near: 0.1, far: 20 };
+/** Return the intrinsics of a lamp's shadow map. */
+function lampIntrinsics(lamp: Lamp): Intrinsics {
+  const focal = LAMP_MAP_SIZE / 2 / (LAMP_MARGIN * Math.tan(Math.min(lamp.half_angle, MAX_HALF_ANGLE)));
+  const c = (LAMP_MAP_SIZE - 1) / 2;
+  const [width, height] = [LAMP_MAP_SIZE, LAMP_MAP_SIZE];
+  return { width, height, fx: focal, fy: focal, cx: c, cy: c, skew: 0, near: 0.1, far: 20 };
 }
 
-export function projectorLens(projector: Projector, columns: number, rows: number): Lens {
+/** Return the intrinsics of a projector's shadow map, for a pattern of some columns and rows [px]. */
+export function projectorIntrinsics(projector: Projector, columns: number, rows: number): Intrinsics {
   const scale = MAX_SIDE / Math.max(rows, columns);
   const width = Math.max(1, Math.round(scale * columns));
   const height = Math.max(1, Math.round(scale * rows));
@@ -157,18 +171,18 @@ export function projectorLens(projector: Projector, columns: number, rows: numbe
 }
 
 /** Return the values of the uniform block Lamps (lamps.glsl), for at most four lamps. */
-export function lampBlock(lamps: ActiveLamp[], worldFromCamera: Matrix): Float32Array<ArrayBuffer> {
+export function lampBlockValues(lamps: ActiveLamp[], worldFromCamera: Matrix): Float32Array<ArrayBuffer> {
   const block = new Float32Array(4 * 16 + 3 * 16);
   const cameraFromWorld = inverse(worldFromCamera);
   lamps.forEach(({ lamp, worldFromLamp }, tile) => {
     const [x, y] = [0.25 + 0.5 * (tile % 2), 0.25 + 0.5 * (tile >> 1)];
     const tileFromClip = matrix([0.25, 0, 0, x, 0, 0.25, 0, y, 0, 0, 0.5, 0.5, 0, 0, 0, 1]);
-    const map = product(tileFromClip, clipFromCamera(lampLens(lamp), true));
+    const map = product(tileFromClip, clipFromCamera(lampIntrinsics(lamp), true));
     block.set(columns(product(product(map, inverse(worldFromLamp)), worldFromCamera)), 16 * tile);
     const cameraFromLamp = product(cameraFromWorld, worldFromLamp);
     const cosOuter = Math.cos(lamp.half_angle);
     const cosInner = Math.cos((1 - lamp.softness) * lamp.half_angle);
-    const texel = (2 * LAMP_MARGIN * Math.tan(lamp.half_angle)) / TILE;
+    const texel = (2 * LAMP_MARGIN * Math.tan(lamp.half_angle)) / LAMP_MAP_SIZE;
     const m = cameraFromLamp;
     block.set([...origin(m), cosOuter], 64 + 4 * tile);
     block.set([m[2], m[6], m[10], 1 / Math.max(cosInner - cosOuter, 1e-5)], 80 + 4 * tile);
@@ -178,15 +192,15 @@ export function lampBlock(lamps: ActiveLamp[], worldFromCamera: Matrix): Float32
 }
 
 /** Return the values of the uniform block Projector (projector.glsl). */
-export function projectorBlock(
-  projector: Projector, worldFromProjector: Matrix, lens: Lens, worldFromCamera: Matrix,
+export function projectorBlockValues(
+  projector: Projector, worldFromProjector: Matrix, intrinsics: Intrinsics, worldFromCamera: Matrix,
 ): Float32Array<ArrayBuffer> {
   const projectorFromCamera = product(inverse(worldFromProjector), worldFromCamera);
-  const map = product(TO_TEXTURE, clipFromCamera(lens, true));
+  const map = product(TEXTURE_FROM_CLIP, clipFromCamera(intrinsics, true));
   const m = inverse(projectorFromCamera);
   return Float32Array.from([
     ...columns(product(map, projectorFromCamera)),
     ...origin(m), projector.laser ? 1 : 0,
-    m[2], m[6], m[10], 1.5 / Math.min(lens.fx, lens.fy),
+    m[2], m[6], m[10], 1.5 / Math.min(intrinsics.fx, intrinsics.fy),
   ]);
 }

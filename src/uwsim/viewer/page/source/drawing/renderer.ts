@@ -1,18 +1,18 @@
 // The renderer: it draws a scene through its water with the shaders of uwsim.rendering.renderer.
 import type { Head, Water } from "../head";
 import {
-  clipFromCamera, columns, inverse, matrix, origin, product, rotateBack, unit, type Lens, type Matrix,
+  clipFromCamera, columns, inverse, matrix, origin, product, rotateBack, unit, type Intrinsics, type Matrix,
 } from "../geometry";
 import {
-  isOpaque, lampBlock, projectorBlock, projectorLens, Shadows, type ActiveLamp,
+  isOpaque, lampBlockValues, projectorBlockValues, projectorIntrinsics, Shadows, type ActiveLamp,
 } from "./light";
 import type { Models, Piece } from "../models";
 import { BLOCKS, Programs, UNITS, type Switches } from "./shaders";
-import { Slots } from "./slots";
-import { findVisible, canSkipMipmaps, reachingCasters, type Eye } from "./visibility";
+import { InstanceBlocks } from "./instance_blocks";
+import { findVisible, canSkipMipmaps, castersInView, type Eye } from "./visibility";
 
 const MAX_CASTER_RADIUS = 5; // radius above which a model casts no shadow of the sun [m]
-const MAX_LAMPS = 4;
+const MAX_LAMPS = 4; // number of lamps that the shaders can light a scene with
 
 /** Return true if WebGL is drawn by software on the CPU. */
 export function isSoftware(gl: WebGL2RenderingContext): boolean {
@@ -21,22 +21,23 @@ export function isSoftware(gl: WebGL2RenderingContext): boolean {
   return /swiftshader|llvmpipe|software|softpipe/i.test(renderer);
 }
 
-/** The state that determines an image, besides the poses. */
+/** The values that determine an image, in addition to the poses of the bodies. */
 export interface RenderState {
+  /** The pose of the camera in W, with OpenGL axes. */
   worldFromCamera: Matrix;
-  lens: Lens;
+  intrinsics: Intrinsics;
   water: Water;
   lamps: ActiveLamp[];
-  /** True for a view from outside: there is air above the water, and hidden parts are visible. */
-  observer: boolean;
-  /** True if the image is in grey, as a grey camera gives it. */
+  /** True for an external view: there is air above the water, and the parts that cameras do not draw are visible. */
+  isExternal: boolean;
+  /** True if the image is greyscale, as the image of a greyscale camera. */
   grey?: boolean;
 }
 
 export class Renderer {
   private readonly isSoftware: boolean;
   private readonly programs: Programs;
-  private readonly slots: Slots;
+  private readonly instanceBlocks: InstanceBlocks;
   private readonly shadows: Shadows;
   private readonly blocks: Record<string, WebGLBuffer> = {};
   private readonly samplers: WebGLSampler[];
@@ -48,8 +49,8 @@ export class Renderer {
   ) {
     this.isSoftware = isSoftware(gl);
     this.programs = new Programs(gl);
-    this.slots = new Slots(gl, models);
-    this.shadows = new Shadows(gl, this.programs, this.slots);
+    this.instanceBlocks = new InstanceBlocks(gl, models);
+    this.shadows = new Shadows(gl, this.programs, this.instanceBlocks);
     this.samplers = [gl.CLAMP_TO_EDGE, gl.REPEAT].map((wrap) => {
       const sampler = gl.createSampler();
       gl.samplerParameteri(sampler, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
@@ -60,32 +61,32 @@ export class Renderer {
     });
   }
 
-  /** Draw into a part of a framebuffer (null: the canvas), x and y from its lower left [px]. */
+  /** Draw an image into a framebuffer (null: the canvas), with the image's lower left corner at the pixel `corner` [px]. */
   draw(state: RenderState, target: WebGLFramebuffer | null, corner: [number, number], isFlipped = false): void {
     const { gl, models } = this;
-    const { worldFromCamera, lens, water } = state;
-    const clip = clipFromCamera(lens, isFlipped);
-    const eye: Eye = { worldFromCamera, clip, lens };
+    const { worldFromCamera, intrinsics, water } = state;
+    const clip = clipFromCamera(intrinsics, isFlipped);
+    const eye: Eye = { worldFromCamera, clip, intrinsics };
     const pieces = models.instances
-      .filter((piece) => state.observer || !piece.visual.hidden)
+      .filter((piece) => state.isExternal || !piece.visual.hidden)
       .flatMap((piece) => piece.pieces);
     const visiblePieces = findVisible(pieces, eye);
     const switches: Switches = { COLOUR: 0 };
     if (water.fog === 0) switches.NO_FOG = 1;
-    else if (water.clip && !state.observer) switches.FOG_CLIP = 1;
+    else if (water.clip && !state.isExternal) switches.FOG_CLIP = 1;
     if (state.grey) switches.GREY = 1;
-    if (state.observer) Object.assign(switches, { AIR: 1, POLISHED: 1 });
-    if (state.observer && !this.isSoftware) switches.SOFT = 1;
+    if (state.isExternal) Object.assign(switches, { AIR: 1, POLISHED: 1 });
+    if (state.isExternal && !this.isSoftware) switches.SOFT = 1;
     const sun = unit(this.head.suns[water.sun].direction);
-    const hasShadows = water.shadows && this.castSun(pieces, visiblePieces, sun, eye);
+    const hasShadows = water.shadows && this.updateSunShadows(pieces, visiblePieces, sun, eye);
     if (hasShadows) switches.SHADOWS = 1;
     this.lightScene(state, pieces, switches);
     this.fillFrame(state, clip, sun);
-    this.slots.fill(inverse(worldFromCamera), rotationOf(worldFromCamera));
+    this.instanceBlocks.fill(inverse(worldFromCamera), rotationOf(worldFromCamera));
     gl.bindFramebuffer(gl.FRAMEBUFFER, target);
-    gl.viewport(corner[0], corner[1], lens.width, lens.height);
+    gl.viewport(corner[0], corner[1], intrinsics.width, intrinsics.height);
     gl.enable(gl.SCISSOR_TEST);
-    gl.scissor(corner[0], corner[1], lens.width, lens.height);
+    gl.scissor(corner[0], corner[1], intrinsics.width, intrinsics.height);
     gl.depthMask(true);
     gl.clear(gl.DEPTH_BUFFER_BIT);
     gl.enable(gl.DEPTH_TEST);
@@ -106,12 +107,13 @@ export class Renderer {
     gl.bindVertexArray(null);
   }
 
-  private castSun(pieces: Piece[], visiblePieces: Piece[], sun: number[], eye: Eye): boolean {
+  /** Update the sun's shadow map; return true if a piece casts a shadow into the image. */
+  private updateSunShadows(pieces: Piece[], visiblePieces: Piece[], sun: number[], eye: Eye): boolean {
     const candidates = pieces.filter(
       (piece) => isOpaque(piece) && this.models.radius(piece.instance) <= MAX_CASTER_RADIUS,
     );
-    const casters = reachingCasters(candidates, visiblePieces, sun, eye);
-    if (casters.length) this.shadows.castSun(casters, sun, this.models.version);
+    const casters = castersInView(candidates, visiblePieces, sun, eye);
+    if (casters.length) this.shadows.updateSunShadows(casters, sun, this.models.version);
     this.bind(UNITS.shadow_map, this.shadows.sunMap.texture);
     return casters.length > 0;
   }
@@ -120,20 +122,20 @@ export class Renderer {
     const lamps = state.lamps.slice(0, MAX_LAMPS);
     if (lamps.length) {
       switches.LAMPS = lamps.length;
-      this.shadows.castLamps(lamps, pieces, this.models.version);
+      this.shadows.updateLampShadows(lamps, pieces, this.models.version);
       this.bind(UNITS.lamp_maps, this.shadows.lampMaps!.texture);
-      this.fill("Lamps", lampBlock(lamps, state.worldFromCamera));
+      this.fill("Lamps", lampBlockValues(lamps, state.worldFromCamera));
     }
     const { projector } = this.head;
     if (!projector) return;
     switches.PROJECTOR = 1;
     const { width, height } = this.head.textures[projector.pattern];
     const worldFromProjector = this.models.worldFromMount(projector);
-    const lens = projectorLens(projector, width, height);
-    this.shadows.castProjector(worldFromProjector, lens, pieces);
+    const intrinsics = projectorIntrinsics(projector, width, height);
+    this.shadows.updateProjectorShadows(worldFromProjector, intrinsics, pieces);
     this.bind(UNITS.projector_map, this.shadows.projectorMap!.texture);
     this.bind(UNITS.projector_pattern, this.models.patterns[0]);
-    this.fill("Projector", projectorBlock(projector, worldFromProjector, lens, state.worldFromCamera));
+    this.fill("Projector", projectorBlockValues(projector, worldFromProjector, intrinsics, state.worldFromCamera));
   }
 
   private drawPiece(piece: Piece, eye: Eye, switches: Switches, isFlipped: boolean): void {
@@ -144,7 +146,7 @@ export class Renderer {
       gl.bindSampler(UNITS.base_map, canSkipMipmaps(piece, eye) ? this.samplers[Number(repeats)] : null);
     }
     gl.useProgram(this.programs.get("surface", texture ? { ...switches, TEXTURED: 1 } : switches));
-    this.slots.drawPiece(piece, isFlipped);
+    this.instanceBlocks.drawPiece(piece, isFlipped);
   }
 
   private drawBackground(switches: Switches): void {
@@ -156,8 +158,8 @@ export class Renderer {
     gl.drawArrays(gl.TRIANGLES, 0, 3);
   }
 
-  private fillFrame({ worldFromCamera: m, lens, water }: RenderState, clip: Matrix, sun: number[]): void {
-    const { near, far } = lens;
+  private fillFrame({ worldFromCamera: m, intrinsics, water }: RenderState, clip: Matrix, sun: number[]): void {
+    const { near, far } = intrinsics;
     const { ambient: ambientLight, specular, suns } = this.head;
     const rate = water.light_rate;
     const waterRate = water.follows_light === false ? 1 : rate;
@@ -195,6 +197,7 @@ export class Renderer {
   }
 }
 
+/** Return the rotation from W to the camera's frame, as a 4 x 4 matrix. */
 function rotationOf(worldFromCamera: Matrix): Matrix {
   const m = worldFromCamera;
   return matrix([m[0], m[4], m[8], 0, m[1], m[5], m[9], 0, m[2], m[6], m[10], 0, 0, 0, 0, 1]);

@@ -1,4 +1,4 @@
-// The shader files of the renderer, compiled for WebGL2, as in uwsim.rendering.program.
+// The shaders of uwsim.rendering, compiled for WebGL 2, as in uwsim.rendering.program.
 import backgroundFragment from "../../../../rendering/shaders/background.frag.glsl";
 import backgroundVertex from "../../../../rendering/shaders/background.vert.glsl";
 import frame from "../../../../rendering/shaders/frame.glsl";
@@ -39,7 +39,7 @@ const FILES: Record<string, string> = {
   "water.glsl": water,
 };
 
-const PRELUDE = `#version 300 es
+const SHADER_HEADER = `#version 300 es
 precision highp float;
 precision highp int;
 precision highp sampler2D;
@@ -58,13 +58,16 @@ export const UNITS: Record<string, number> = {
 /** The location of each attribute. */
 export const ATTRIBUTES: Record<string, number> = { vertex: 0, vertex_normal: 1, uv: 2, tint: 3 };
 
+/** The preprocessor macros of a program, by name. */
 export type Switches = Record<string, number>;
 
+/** The programs that have been compiled so far. */
 export class Programs {
   private readonly programs = new Map<string, WebGLProgram>();
 
   constructor(private readonly gl: WebGL2RenderingContext) {}
 
+  /** Return the program EFFECT.vert.glsl, EFFECT.frag.glsl with some macros. */
   get(effect: string, switches: Switches): WebGLProgram {
     const key = effect + JSON.stringify(switches);
     let program = this.programs.get(key);
@@ -73,6 +76,7 @@ export class Programs {
   }
 }
 
+/** Return the text of a shader file with its `#include` lines replaced; each file is included once. */
 function source(file: string, includes: Set<string>): string {
   if (includes.has(file)) return "";
   includes.add(file);
@@ -81,6 +85,7 @@ function source(file: string, includes: Set<string>): string {
   return text.replace(/^#include "([\w.]+)"$/gm, (_, name: string) => source(name, includes));
 }
 
+/** Compile and link a program. */
 function build(gl: WebGL2RenderingContext, effect: string, switches: Switches): WebGLProgram {
   const defines = Object.entries(switches).map(([name, value]) => `#define ${name} ${value}\n`);
   const program = gl.createProgram();
@@ -89,7 +94,7 @@ function build(gl: WebGL2RenderingContext, effect: string, switches: Switches): 
     [gl.FRAGMENT_SHADER, "frag"],
   ] as const) {
     const shader = gl.createShader(kind)!;
-    gl.shaderSource(shader, PRELUDE + defines.join("") + source(`${effect}.${end}.glsl`, new Set()));
+    gl.shaderSource(shader, SHADER_HEADER + defines.join("") + source(`${effect}.${end}.glsl`, new Set()));
     gl.compileShader(shader);
     gl.attachShader(program, shader);
   }

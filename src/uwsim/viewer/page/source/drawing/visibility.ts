@@ -1,24 +1,25 @@
-// The selection of pieces that are in view, and of those that may cast the sun's shadow on them, as in
+// The selection of the pieces in view, and of the pieces whose shadow in the sun may fall on them, as in
 // uwsim.rendering.instance, lights.sun_shadow and minification.
 import {
-  cross, dot, matrix, origin, plus, transform, rotateBack, unit, inverse, type Lens, type Matrix,
+  cross, dot, matrix, origin, plus, transform, rotateBack, unit, inverse, type Intrinsics, type Matrix,
 } from "../geometry";
 import type { Piece } from "../models";
 
-/** A camera: its pose, the matrix from camera to clip space, and its lens. */
+/** The camera of an image. */
 export interface Eye {
   worldFromCamera: Matrix;
+  /** The matrix from the camera's frame to clip space. */
   clip: Matrix;
-  lens: Lens;
+  intrinsics: Intrinsics;
 }
 
-const LOW_SUN = 0.3; // sine of the elevation below which the sun is low [1]
-const MARGIN = 0.05; // distance by which shadows may reach beyond boxes [m]
-const MAX_TEXELS = Math.SQRT2; // greatest number of texels along a pixel without mipmaps
-const TO_TEXTURE = matrix([0.5, 0, 0, 0.5, 0, 0.5, 0, 0.5, 0, 0, 0.5, 0.5, 0, 0, 0, 1]);
-export { TO_TEXTURE };
+const LOW_SUN = 0.3; // sine of the sun's elevation below which shadow axes are perpendicular to the sunbeams [1]
+const MARGIN = 0.05; // distance by which a shadow may reach beyond the bounding box of its caster [m]
+const MAX_TEXELS = Math.SQRT2; // greatest number of texels along a pixel for which mipmaps can be skipped
+/** The transform from clip space (-1 .. 1) to texture coordinates and depth (0 .. 1). */
+export const TEXTURE_FROM_CLIP = matrix([0.5, 0, 0, 0.5, 0, 0.5, 0, 0.5, 0, 0, 0.5, 0.5, 0, 0, 0, 1]);
 
-/** Return the six planes of the frustum in the camera's frame, n . p + d >= 0 inside. */
+/** Return the six planes [nx, ny, nz, d] of the view frustum in the camera's frame; inside, n . p + d >= 0. */
 function frustum(clip: Matrix): number[][] {
   const rows = [0, 4, 8, 12].map((i) => [clip[i], clip[i + 1], clip[i + 2], clip[i + 3]]);
   const planes = [1, -1].flatMap((sign) =>
@@ -30,7 +31,7 @@ function frustum(clip: Matrix): number[][] {
   });
 }
 
-/** Return the pieces whose bounds reach into the frustum, near ones first. */
+/** Return the pieces whose bounds intersect the view frustum, in ascending order of distance. */
 export function findVisible(pieces: Piece[], eye: Eye): Piece[] {
   const planes = frustum(eye.clip);
   const cameraFromWorld = inverse(eye.worldFromCamera);
@@ -45,8 +46,12 @@ export function findVisible(pieces: Piece[], eye: Eye): Piece[] {
   return visiblePieces.sort((a, b) => a[0] - b[0]).map(([, piece]) => piece);
 }
 
-/** Return the casters that may cast a shadow on a receiver; `sun` is the unit vector towards the sun in W. */
-export function reachingCasters(casters: Piece[], receivers: Piece[], sun: number[], eye: Eye): Piece[] {
+/**
+ * Return the casters whose shadow may fall on a part of a receiver that is in view.
+ *
+ * `sun` is the unit vector towards the sun in W.
+ */
+export function castersInView(casters: Piece[], receivers: Piece[], sun: number[], eye: Eye): Piece[] {
   const frame = shadowAxes(sun);
   const position = origin(eye.worldFromCamera);
   const back = [eye.worldFromCamera[2], eye.worldFromCamera[6], eye.worldFromCamera[10]];
@@ -68,12 +73,13 @@ export function reachingCasters(casters: Piece[], receivers: Piece[], sun: numbe
   });
 }
 
-/** Return the axes of coordinates of W whose first two are constant along a sunbeam. */
+/** Return three axes in W; the coordinates along the first two are constant along a sunbeam. */
 function shadowAxes(sun: number[]): number[][] {
   if (sun[2] < LOW_SUN) return [...axesOf(sun), sun];
   return [[1, 0, -sun[0] / sun[2]], [0, 1, -sun[1] / sun[2]], sun];
 }
 
+/** Return the least and greatest coordinate of some points along each axis of a frame. */
 function bounds(points: number[][], frame: number[][]): [number, number][] {
   return frame.map((axis) => {
     const values = points.map((point) => dot(axis, point));
@@ -81,7 +87,7 @@ function bounds(points: number[][], frame: number[][]): [number, number][] {
   });
 }
 
-/** Return the rays to the corners of the image, 1 m deep, in W. */
+/** Return the vectors, in W, from the camera to the corners of its image at a depth of 1 m. */
 function cornerRays({ clip, worldFromCamera: m }: Eye): number[][] {
   const corners = [[-1, -1], [-1, 1], [1, -1], [1, 1]];
   return corners.map(([u, v]) => {
@@ -91,14 +97,15 @@ function cornerRays({ clip, worldFromCamera: m }: Eye): number[][] {
   });
 }
 
+/** Return two unit vectors that are perpendicular to each other and to the direction of the sun. */
 function axesOf(sun: number[]): [number[], number[]] {
   const down = [-sun[0], -sun[1], -sun[2]];
   const sideAxis = unit(cross(down, Math.abs(sun[2]) < 0.9 ? [0, 0, 1] : [1, 0, 0]));
   return [sideAxis, cross(sideAxis, down)];
 }
 
-/** Return the matrix from W to clip space of the sun's view of all casters, and the edge of that view [m]. */
-export function fit(casters: Piece[], sun: number[]): [Matrix, number] {
+/** Return a parallel projection along the sunbeams that contains all casters (clip space from W), and its width [m]. */
+export function fitSunView(casters: Piece[], sun: number[]): [Matrix, number] {
   const axes = [...axesOf(sun), [-sun[0], -sun[1], -sun[2]]];
   const low = [Infinity, Infinity, Infinity];
   const high = [-Infinity, -Infinity, -Infinity];
@@ -108,7 +115,7 @@ export function fit(casters: Piece[], sun: number[]): [Matrix, number] {
       high[i] = Math.max(high[i], dot(axis, centre) + radius);
     });
   const half = Math.max(high[0] - low[0], high[1] - low[1]) / 2;
-  const reach = 20; // distance below the casters up to which shadows fall [m]
+  const reach = 20; // distance behind the casters up to which shadows fall [m]
   const scale = [1 / half, 1 / half, 2 / (high[2] + reach - low[2])];
   const middle = [(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (high[2] + reach + low[2]) / 2];
   const rows = axes.flatMap((axis, i) => [
@@ -117,7 +124,7 @@ export function fit(casters: Piece[], sun: number[]): [Matrix, number] {
   return [matrix([...rows, 0, 0, 0, 1]), 2 * half];
 }
 
-/** Return true if a pixel of a flat piece covers too few texels for mipmaps to have an effect. */
+/** Return true if no pixel of a flat piece covers more than `MAX_TEXELS` texels, so that mipmaps have no effect. */
 export function canSkipMipmaps(piece: Piece, eye: Eye): boolean {
   if (!(piece.density > 0) || dot(piece.normal, piece.normal) === 0) return false;
   const cameraFromWorld = inverse(eye.worldFromCamera);
@@ -128,7 +135,7 @@ export function canSkipMipmaps(piece: Piece, eye: Eye): boolean {
   const distance = Math.min(...points.map((point) => Math.abs(dot(normal, point))));
   const maxDistance = Math.max(...points.map((point) => Math.hypot(...point)));
   const tilt = Math.hypot(normal[0], normal[1]);
-  const focal = Math.min(eye.lens.fx, eye.lens.fy);
+  const focal = Math.min(eye.intrinsics.fx, eye.intrinsics.fy);
   const footprint = (Math.max(...depths) / focal) * (1 + (tilt * maxDistance) / distance);
   return piece.density * footprint <= MAX_TEXELS;
 }

@@ -1,12 +1,12 @@
-// The poses of the instances of a scene, in the uniform blocks of the shaders.
+// The uniform blocks with the transforms of the instances of a scene.
 import { columns, product, type Matrix } from "../geometry";
 import type { Models, Piece } from "../models";
 import { BLOCKS } from "./shaders";
 
 const STRIDE = 256; // distance between the blocks of two instances [byte]
 
-/** The uniform blocks of all instances, for one camera at a time. */
-export class Slots {
+/** The uniform blocks of all instances for one camera, and the drawing of pieces with them. */
+export class InstanceBlocks {
   private readonly values: Float32Array<ArrayBuffer>;
   private readonly buffer: WebGLBuffer;
 
@@ -18,6 +18,7 @@ export class Slots {
     this.buffer = gl.createBuffer();
   }
 
+  /** Set the transforms from each mesh to the camera's frame; with `rotation` (camera from world), those of normals, too. */
   fill(cameraFromWorld: Matrix, rotation?: Matrix): void {
     this.models.instances.forEach((instance, i) => {
       const offset = (STRIDE / 4) * i;
@@ -28,14 +29,15 @@ export class Slots {
     this.gl.bufferData(this.gl.UNIFORM_BUFFER, this.values, this.gl.STREAM_DRAW);
   }
 
+  /** Draw the triangles of a piece. */
   drawPiece({ instance, firstIndex, count }: Piece, isFlipped: boolean): void {
     const gl = this.gl;
     if (instance.visual.two_sided) gl.disable(gl.CULL_FACE);
     else gl.enable(gl.CULL_FACE);
     gl.frontFace(instance.isMirrored !== isFlipped ? gl.CW : gl.CCW);
     gl.bindBufferRange(gl.UNIFORM_BUFFER, BLOCKS.Instance, this.buffer, STRIDE * instance.number, 160);
-    gl.bindVertexArray(instance.array);
-    const [kind, size] = instance.hasWideIndices ? [gl.UNSIGNED_INT, 4] : [gl.UNSIGNED_SHORT, 2];
+    gl.bindVertexArray(instance.vertexArray);
+    const [kind, size] = instance.hasUint32Indices ? [gl.UNSIGNED_INT, 4] : [gl.UNSIGNED_SHORT, 2];
     gl.drawElements(gl.TRIANGLES, count, kind, size * firstIndex);
   }
 }
