@@ -318,7 +318,7 @@ def open_trials(
 
 def write_film(trials: list[RecordedTrial], spec: FilmSpec, out: Path) -> str:
     """Write a film, and show progress; return a line that describes the file."""
-    from ..viewer.film.film import Reel, n_frames_of, save_film
+    from ..viewer.film.film import TrialSequenceFilm, n_frames_of, save_film
     from ..viewer.film.processes import DrawingProcesses, count_processes
 
     n_frames = sum(n_frames_of(trial, spec) for trial in trials)
@@ -333,7 +333,9 @@ def write_film(trials: list[RecordedTrial], spec: FilmSpec, out: Path) -> str:
     raise_on_interrupt()
     try:
         with (
-            closing(DrawingProcesses(trials, spec, n) if n > 1 else Reel(trials, spec)) as film,
+            closing(
+                DrawingProcesses(trials, spec, n) if n > 1 else TrialSequenceFilm(trials, spec)
+            ) as film,
             progress("film", n_frames, unit="images") as on_frame,
         ):
             save_film(film, out, count_frame)

@@ -11,9 +11,9 @@ from .pack import as_text
 
 FOLDER = Path(__file__).parent / "page"
 """The folder with the parts of the page; ``scripts/page`` builds ``page.js`` from ``source``."""
-NO_CONNECTION, SOCKET = "'none'", "'self' ws: wss:"
-"""The values of ``connect-src`` in the page's content security policy: of a replay, of a live
-view."""
+NO_CONNECTION, WEBSOCKET_CONNECTION = "'none'", "'self' ws: wss:"
+"""The values of ``connect-src`` in the page's content security policy, for a replay and for a live
+view, respectively."""
 
 
 def document(title: str, pack: bytes | None) -> str:
@@ -21,14 +21,15 @@ def document(title: str, pack: bytes | None) -> str:
 
     Args:
         title: the title of the page.
-        pack: the data of a replay (`head`); None: the page receives it over a WebSocket.
+        pack: the compressed data of a replay, in the format of `uwsim.viewer.head`; None: the page
+            receives the data over a WebSocket.
     """
     data = ""
     if pack is not None:
         data = f'<script type="application/octet-stream" id="pack">{as_text(pack)}</script>'
     parts = {
         "title": html.escape(title),
-        "connect": SOCKET if pack is None else NO_CONNECTION,
+        "connect": WEBSOCKET_CONNECTION if pack is None else NO_CONNECTION,
         "style": _read("uplot.css") + _read("page.css"),
         "data": data,
         "script": re.sub(r"</(?=script)", r"<\\/", _read("page.js"), flags=re.IGNORECASE),

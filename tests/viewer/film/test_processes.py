@@ -11,7 +11,7 @@ import pytest
 from uwsim.cli import main
 from uwsim.errors import RunFailed, UnknownName
 from uwsim.viewer.film.encoder import as_rgb
-from uwsim.viewer.film.film import FilmSpec, Reel, n_frames_of, save_film
+from uwsim.viewer.film.film import FilmSpec, TrialSequenceFilm, n_frames_of, save_film
 from uwsim.viewer.film.processes import DrawingProcesses, count_processes
 from uwsim.viewer.recorded import RecordedTrial
 
@@ -27,7 +27,7 @@ def drawing(trial: RecordedTrial) -> Iterator[DrawingProcesses]:
 @pytest.mark.slow
 def test_two_processes_draw_the_images_of_one(trial: RecordedTrial) -> None:
     # two trials, and images between those of the inset, which comes ten times a second
-    with closing(Reel([trial, trial], SPEC)) as reel:
+    with closing(TrialSequenceFilm([trial, trial], SPEC)) as reel:
         alone = list(reel.frames(as_rgb))
         assert reel.draw(len(alone) - 1).tobytes() == alone[-1]
     n = 2 * n_frames_of(trial, SPEC)

@@ -1,1 +1,1 @@
-"""Films of recorded trials: an outside view, the image of a camera, curves and a clock."""
+"""Films of recorded trials: an external view, the image of a camera, curves and a clock."""

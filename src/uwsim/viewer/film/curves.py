@@ -12,7 +12,7 @@ from ..recorded import Curve, RecordedLevel
 from .overlay import COLOURS, GREY, INK, PANEL, Pixels, blend, draw_lines, write_text
 
 MAX_CURVES = 4
-"""The greatest number of curves at once."""
+"""The greatest number of curves of several measures."""
 MAX_MEASURE_CURVES = 6
 """The greatest number of curves of a single measure, with the further columns of its log."""
 CELL_GAP = 16
@@ -24,8 +24,9 @@ def select_curves(level: RecordedLevel, names: tuple[str, ...]) -> list[Curve]:
 
     Args:
         level: the level.
-        names: the names of the curves; empty: the first measures that have a log. If only one
-            measure has a log, all columns of its log.
+        names: the names of the curves; empty: those of the first `MAX_CURVES` recorded measures,
+            which are the measures with a log. If there is only one, all columns of its log, up to
+            `MAX_MEASURE_CURVES`.
     """
     if names:
         by_name = {curve.measure: curve for curve in _drop_empty((*level.curves, *level.details))}
@@ -112,27 +113,27 @@ class CurvePanel:
             _Cell(
                 curve=curve,
                 name=short_name(curve.measure, curves),
-                colour=COLOURS[number % len(COLOURS)],
-                x=(number // n_rows) * cell_width,
-                y=(number % n_rows) * cell_height,
+                colour=COLOURS[index % len(COLOURS)],
+                x=(index // n_rows) * cell_width,
+                y=(index % n_rows) * cell_height,
                 width=cell_width - CELL_GAP,
                 height=cell_height - CELL_GAP // 2,
             )
-            for number, curve in enumerate(curves)
+            for index, curve in enumerate(curves)
         ]
 
     def _cursor_x(self, time: float, width: int) -> int:
         level = self._level
-        share = (time - level.start_time) / max(level.end_time - level.start_time, 1e-9)
-        return round(min(max(share, 0.0), 1.0) * (width - 2))
+        fraction = (time - level.start_time) / max(level.end_time - level.start_time, 1e-9)
+        return round(min(max(fraction, 0.0), 1.0) * (width - 2))
 
     def _line(self, cell: _Cell) -> Array:
         """Return the points of a curve's line in the panel, (n, 2) [px]."""
         level, curve = self._level, cell.curve
         low, high = scale_limits(curve.values)
         plot_height = max(1, cell.height - self._name_height - 3)
-        share = (curve.times - level.start_time) / max(level.end_time - level.start_time, 1e-9)
-        x = cell.x + share * (cell.width - 2)
+        fractions = (curve.times - level.start_time) / max(level.end_time - level.start_time, 1e-9)
+        x = cell.x + fractions * (cell.width - 2)
         y = cell.y + self._name_height + (1.0 - (curve.values - low) / (high - low)) * plot_height
         return np.column_stack([x, y])
 

@@ -53,9 +53,9 @@ class Encoder(Protocol):
     """An encoder of the images of a film, one after the other."""
 
     def add(self, frame: bytes) -> None:
-        """Append an image, packed by the function that `packing_of` returns for the film's path."""
+        """Append an image, as the bytes to which `conversion_for` the film's path converts it."""
 
-    def close(self, *, is_to_keep: bool) -> None:
+    def close(self, *, keeps_file: bool) -> None:
         """Write the file with the images so far, or discard it."""
 
 
@@ -83,12 +83,12 @@ def check_film_path(path: Path, *, overwrite: bool, other_suffixes: Sequence[str
         )
 
 
-Packing = Callable[[Pixels], bytes]
-"""A function that returns an image, (h, w, 3), as the bytes that an encoder expects."""
+ImageConversion = Callable[[Pixels], bytes]
+"""A function that converts an image, (h, w, 3), to the bytes that an encoder expects."""
 
 
-def packing_of(path: Path) -> Packing:
-    """Return the function that packs images for the encoder of a path, by the path's suffix."""
+def conversion_for(path: Path) -> ImageConversion:
+    """Return the function that converts images for the encoder of a path, by the path's suffix."""
     return as_rgb if path.suffix.lower() == WEBP else as_yuv
 
 
@@ -153,7 +153,7 @@ class FfmpegEncoder:
         )
 
     def add(self, frame: bytes) -> None:
-        """Append an image, packed by `as_yuv`.
+        """Append an image, converted by `as_yuv`.
 
         Raises:
             RunFailed: ffmpeg failed.
@@ -165,11 +165,11 @@ class FfmpegEncoder:
             raise self._failure() from None
         self._n_frames += 1
 
-    def close(self, *, is_to_keep: bool) -> None:
+    def close(self, *, keeps_file: bool) -> None:
         """Write the film with the images so far, or discard it."""
         assert self._process.stdin is not None
         try:
-            if not is_to_keep or self._n_frames == 0:
+            if not keeps_file or self._n_frames == 0:
                 self._process.kill()
                 self._process.wait()
                 with suppress(OSError):
@@ -223,7 +223,7 @@ class WebpEncoder:
         self._frames: list[Image.Image] = []
 
     def add(self, frame: bytes) -> None:
-        """Append an image, packed by `as_rgb`.
+        """Append an image, converted by `as_rgb`.
 
         Raises:
             RunFailed: the film has too many images.
@@ -235,9 +235,9 @@ class WebpEncoder:
             )
         self._frames.append(Image.frombytes("RGB", self._size, frame))
 
-    def close(self, *, is_to_keep: bool) -> None:
+    def close(self, *, keeps_file: bool) -> None:
         """Write the file with the images so far, or discard it."""
-        if not is_to_keep or not self._frames:
+        if not keeps_file or not self._frames:
             return
         self._path.parent.mkdir(parents=True, exist_ok=True)
         first_frame, *frames = self._frames

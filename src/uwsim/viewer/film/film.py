@@ -17,7 +17,7 @@ from ...simulation import Simulation
 from ..recorded import RecordedLevel, RecordedTrial
 from . import overlay
 from .curves import CurvePanel, select_curves
-from .encoder import Chapter, Packing, encoder_of, packing_of
+from .encoder import Chapter, ImageConversion, conversion_for, encoder_of
 from .markers import draw_markers
 from .overlay import Pixels
 from .paths import CameraPath, ViewKind
@@ -48,17 +48,19 @@ class FilmSpec:
     inset: bool = True
     """True if an inset shows the image of a camera."""
     curves: tuple[str, ...] = ()
-    """The names of the curves that are drawn; empty: those of the first measures."""
+    """The names of the curves that are drawn; empty: those of the first four recorded measures, or
+    all columns of the only one (`curves.select_curves`)."""
     has_curves: bool = True
     """True if curves are drawn."""
     start: float | None = None
     """The simulation time of the first image [s]; None: the beginning of the trial."""
     end: float | None = None
-    """The simulation time of the last image [s]; None: the end of the trial."""
+    """The simulation time at which the film ends [s]; None: the end of the trial."""
     samples: int = 1
-    """The samples of a pixel of the outside view along each axis; 2 gives smooth edges."""
+    """The samples of a pixel of an external view along each axis; 2 gives smooth edges. All kinds
+    of view but ``camera`` are external."""
     fog: bool = False
-    """True if the outside view has the water's fog; images of cameras always have it."""
+    """True if an external view has the water's fog; images of cameras always have it."""
 
 
 class Film:
@@ -70,8 +72,9 @@ class Film:
         simulation: the scene, if it is open (`trial_scene.open_scene`); None: it is opened here.
 
     Raises:
-        BadSetting: the span from start to end is empty, or a measure has no curve.
-        UnknownName: there is no such camera.
+        BadSetting: the span from start to end is empty, or the view is ``camera`` and the scene has
+            no virtual camera.
+        UnknownName: there is no such camera or curve.
     """
 
     def __init__(
@@ -95,26 +98,26 @@ class Film:
         self._panels: dict[int, CurvePanel] = {}
         self._inset: tuple[float, Pixels] | None = None  # simulation time [s], and image
 
-    def time_of(self, frame: int) -> float:
-        """Return the simulation time of an image [s]."""
-        return self.start + frame * self.spec.speed / self.spec.rate
+    def time_of(self, index: int) -> float:
+        """Return the simulation time of an image [s] by its index, 0 <= index < `n_frames`."""
+        return self.start + index * self.spec.speed / self.spec.rate
 
-    def frames(self, pack: Packing) -> Iterator[bytes]:
-        """Draw all images, each packed."""
-        for number in range(self.n_frames):
-            yield pack(self.draw(self.time_of(number)))
+    def frames(self, to_bytes: ImageConversion) -> Iterator[bytes]:
+        """Draw all images, each converted to the bytes that the encoder expects."""
+        for index in range(self.n_frames):
+            yield to_bytes(self.draw(self.time_of(index)))
 
     def draw(self, time: float) -> Pixels:
-        """Draw the image of a simulation time [s], (h, w, 3)."""
+        """Draw the image at a simulation time [s], (h, w, 3)."""
         self._scene.show_time(time)
         frame = np.empty((self.spec.size[1], self.spec.size[0], 3), np.uint8)
         frame[: self._head_height] = frame[self._strip_top :] = overlay.PANEL
         frame[self._head_height : self._strip_top] = self._view_image(time)
-        number, level = self._level(time)
+        level_index, level = self._level(time)
         if self._inset_size is not None:
             self._draw_inset(frame, time)
-        if level is not None and number is not None and self.spec.has_curves:
-            self._panel(number, level).draw(frame, time)
+        if level is not None and level_index is not None and self.spec.has_curves:
+            self._panel(level_index, level).draw(frame, time)
         self._draw_status(frame, time, level)
         return frame
 
@@ -130,10 +133,10 @@ class Film:
         return shown_levels(self._trial, self.spec)
 
     def _level(self, time: float) -> tuple[int | None, RecordedLevel | None]:
-        """Return the level that is measured at a time, with its number, if there is one."""
-        for number, level in reversed(list(enumerate(self._trial.levels))):
+        """Return the level that is measured at a time, with its index, if there is one."""
+        for index, level in reversed(list(enumerate(self._trial.levels))):
             if level.start_time - 1e-9 <= time <= level.end_time + 1e-9:
-                return number, level
+                return index, level
         return None, None
 
     def _find_camera(self) -> str | None:
@@ -150,36 +153,38 @@ class Film:
             assert self._camera is not None
             return self._camera_image(self._camera, self._view_size, time)
         scenery = self._scene.simulation.world.scenery
-        pose, lens = self._path.pose(time), self._path.intrinsics
+        pose, intrinsics = self._path.pose(time), self._path.intrinsics
         output = scenery.render_view(
             pose,
-            lens,
+            intrinsics,
             targets={"colour"},
             fog=None if self.spec.fog else 0.0,
             samples=self.spec.samples,
         )
         assert output.colour is not None
         markers = self._scene.markers(time)
-        return draw_markers(output.colour.view(np.uint8), markers, pose, lens, self._letter_height)
+        image = output.colour.view(np.uint8)
+        return draw_markers(image, markers, pose, intrinsics, self._letter_height)
 
     def _camera_image(self, name: str, size: tuple[int, int], time: float) -> Pixels:
         """Return a camera's image without noise, with the true and the estimated quadrangle."""
         scene = self._scene.simulation.world
         camera = scene.sensors.camera(name)
-        lens = fit_lens(camera.intrinsics, size)
+        intrinsics = fit_intrinsics(camera.intrinsics, size)
         output = scene.scenery.render_clean(
-            camera.world_from_camera, lens, targets={"colour"}, is_polished=camera.is_polished
+            camera.world_from_camera, intrinsics, targets={"colour"}, is_polished=camera.is_polished
         )
         assert output.colour is not None
         image = output.colour.view(np.uint8)
         if camera.is_grey:
             image = np.repeat(grey_truncated(image)[..., None], 3, axis=2)
-        scale = lens.width / camera.intrinsics.width
+        scale = intrinsics.width / camera.intrinsics.width
         for kind, colour in (("truth", overlay.TRUTH), ("estimate", overlay.ESTIMATE)):
             corners = self._scene.corners(kind, name, time)
             if corners is not None:
                 image = overlay.draw_quadrangle(image, (corners + 0.5) * scale - 0.5, colour)
-        return image if (lens.width, lens.height) == size else centre_image(image, size)
+        has_size = (intrinsics.width, intrinsics.height) == size
+        return image if has_size else centre_image(image, size)
 
     def _draw_inset(self, frame: Pixels, time: float) -> None:
         """Draw a camera's image at the right of the strip; it changes ten times a second.
@@ -198,7 +203,9 @@ class Film:
         x, y = self.spec.size[0] - width - MARGIN, self._strip_top + MARGIN
         overlay.paste(frame, self._inset[1], x, y)
         name = self._camera
-        overlay.write_text(frame, name, (x, y + height + 3), self._small_letters, overlay.GREY)
+        overlay.write_text(
+            frame, name, (x, y + height + 3), self._small_letter_height, overlay.GREY
+        )
 
     @property
     def _head_height(self) -> int:
@@ -211,7 +218,7 @@ class Film:
         return max(2, round(BAR_SHARE * self.spec.size[1]))
 
     @property
-    def _small_letters(self) -> int:
+    def _small_letter_height(self) -> int:
         """The height of the letters of the inset's name [px]."""
         return max(10, round(0.8 * self._letter_height))
 
@@ -235,20 +242,20 @@ class Film:
         if not self._has_inset:
             return None
         assert self._camera is not None
-        lens = self._scene.simulation.world.sensors.camera(self._camera).intrinsics
+        intrinsics = self._scene.simulation.world.sensors.camera(self._camera).intrinsics
         strip = self.spec.size[1] - self._bar_height - self._strip_top
-        height = strip - 2 * MARGIN - round(1.2 * self._small_letters)
-        width = min(round(height * lens.width / lens.height), self.spec.size[0] // 2)
-        return width, min(height, round(width * lens.height / lens.width))
+        height = strip - 2 * MARGIN - round(1.2 * self._small_letter_height)
+        width = min(round(height * intrinsics.width / intrinsics.height), self.spec.size[0] // 2)
+        return width, min(height, round(width * intrinsics.height / intrinsics.width))
 
-    def _panel(self, number: int, level: RecordedLevel) -> CurvePanel:
-        if number not in self._panels:
+    def _panel(self, index: int, level: RecordedLevel) -> CurvePanel:
+        if index not in self._panels:
             width, height = self.spec.size
             inset = 0 if self._inset_size is None else self._inset_size[0] + MARGIN
             top = self._strip_top + MARGIN
             box = MARGIN, top, width - 2 * MARGIN - inset, height - self._bar_height - MARGIN - top
-            self._panels = {number: CurvePanel(level, self.spec.curves, box, self._letter_height)}
-        return self._panels[number]
+            self._panels = {index: CurvePanel(level, self.spec.curves, box, self._letter_height)}
+        return self._panels[index]
 
     def _draw_status(self, frame: Pixels, time: float, level: RecordedLevel | None) -> None:
         """Draw title, level and clock at the top, and the progress bar at the bottom."""
@@ -261,16 +268,16 @@ class Film:
             colour = overlay.STATUS.get(level.status, overlay.FAILURE)
             overlay.write_text(frame, level.status, (x, top), size, colour)
         overlay.write_text(frame, f"{time:.1f} s", (width - MARGIN, top), size, right=True)
-        share = (time - self.start) / (self._end - self.start)
+        fraction = (time - self.start) / (self._end - self.start)
         frame[height - self._bar_height :] = overlay.PANEL
-        frame[height - self._bar_height :, : round(share * width)] = overlay.COLOURS[0]
+        frame[height - self._bar_height :, : round(fraction * width)] = overlay.COLOURS[0]
         for _, shown_level in self._shown_levels():
             mark = round((shown_level.start_time - self.start) / (self._end - self.start) * width)
             if 0 < mark < width:
                 frame[height - self._bar_height :, mark] = overlay.INK
 
 
-class Reel:
+class TrialSequenceFilm:
     """A film of several trials of one result and seed, one after the other.
 
     Args:
@@ -294,18 +301,18 @@ class Reel:
         self.n_frames = sum(film.n_frames for film in self._films)
         """The number of images."""
 
-    def frames(self, pack: Packing) -> Iterator[bytes]:
-        """Draw all images, each packed."""
-        for number in range(self.n_frames):
-            yield pack(self.draw(number))
+    def frames(self, to_bytes: ImageConversion) -> Iterator[bytes]:
+        """Draw all images, each converted to the bytes that the encoder expects."""
+        for index in range(self.n_frames):
+            yield to_bytes(self.draw(index))
 
-    def draw(self, number: int) -> Pixels:
-        """Draw an image by its number, 0 <= number < `n_frames`, (h, w, 3)."""
+    def draw(self, index: int) -> Pixels:
+        """Draw an image by its index, 0 <= index < `n_frames`, (h, w, 3)."""
         for film in self._films:
-            if number < film.n_frames:
+            if index < film.n_frames:
                 break
-            number -= film.n_frames
-        return film.draw(film.time_of(number))
+            index -= film.n_frames
+        return film.draw(film.time_of(index))
 
     def chapters(self) -> list[Chapter]:
         """Return the chapters of all trials."""
@@ -339,7 +346,7 @@ def n_frames_of(trial: RecordedTrial, spec: FilmSpec) -> int:
 
 
 def shown_levels(trial: RecordedTrial, spec: FilmSpec) -> list[tuple[int, RecordedLevel]]:
-    """Return the levels that a film shows, each with its number."""
+    """Return the levels that a film shows, each with its index."""
     start, end = span_of(trial, spec)
     levels = enumerate(trial.levels)
     return [(i, level) for i, level in levels if level.end_time > start and level.start_time < end]
@@ -372,14 +379,14 @@ def chapters_of(trials: Sequence[RecordedTrial], spec: FilmSpec) -> list[Chapter
 
 
 class FrameSource(Protocol):
-    """A source of the images of a film: `Film`, `Reel` or `processes.DrawingProcesses`."""
+    """A source of a film's images: `Film`, `TrialSequenceFilm` or `processes.DrawingProcesses`."""
 
     @property
     def spec(self) -> FilmSpec:
         """The settings of the film."""
 
-    def frames(self, pack: Packing) -> Iterator[bytes]:
-        """Draw all images, each packed."""
+    def frames(self, to_bytes: ImageConversion) -> Iterator[bytes]:
+        """Draw all images, each converted to the bytes that the encoder expects."""
 
     def chapters(self) -> list[Chapter]:
         """Return the chapters of the film."""
@@ -396,23 +403,24 @@ def save_film(film: FrameSource, path: Path, on_frame: Callable[[], object] = la
         on_frame: the callback after each image.
     """
     encoder = encoder_of(path, film.spec.size, film.spec.rate, film.chapters())
-    is_to_keep = False
+    keeps_file = False
     try:
-        for frame in film.frames(packing_of(path)):
+        for frame in film.frames(conversion_for(path)):
             encoder.add(frame)
             on_frame()
-        is_to_keep = True
+        keeps_file = True
     except KeyboardInterrupt:
-        is_to_keep = True
+        keeps_file = True
         raise
     finally:
-        encoder.close(is_to_keep=is_to_keep)
+        encoder.close(keeps_file=keeps_file)
 
 
-def fit_lens(lens: Intrinsics, size: tuple[int, int]) -> Intrinsics:
+def fit_intrinsics(intrinsics: Intrinsics, size: tuple[int, int]) -> Intrinsics:
     """Return a camera's intrinsics, scaled to the largest image of its aspect ratio in a size."""
-    scale = min(size[0] / lens.width, size[1] / lens.height)
-    return lens.with_size(max(1, round(scale * lens.width)), max(1, round(scale * lens.height)))
+    scale = min(size[0] / intrinsics.width, size[1] / intrinsics.height)
+    width, height = round(scale * intrinsics.width), round(scale * intrinsics.height)
+    return intrinsics.with_size(max(1, width), max(1, height))
 
 
 def centre_image(image: Pixels, size: tuple[int, int]) -> Pixels:
@@ -428,4 +436,4 @@ def _check_curves(trial: RecordedTrial, spec: FilmSpec) -> None:
     measures = dict.fromkeys(curve.measure for curve in curves)
     for name in spec.curves:
         if name not in measures:
-            raise UnknownName("measure with a log", name, tuple(measures))
+            raise UnknownName("recorded measure", name, tuple(measures))

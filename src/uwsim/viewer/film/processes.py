@@ -19,8 +19,8 @@ from ...runs.executors.parent_watch import exit_with_parent, start_ignoring_inte
 from ...runs.executors.worker import make_picklable
 from ...runs.own_process.process import describe_exit
 from ..recorded import RecordedTrial
-from .encoder import Chapter, Packing
-from .film import FilmSpec, Reel, chapters_of, n_frames_of
+from .encoder import Chapter, ImageConversion
+from .film import FilmSpec, TrialSequenceFilm, chapters_of, n_frames_of
 
 MAX_PROCESSES = 16
 """The greatest number of processes that draw one film; more would wait for the encoder."""
@@ -51,7 +51,7 @@ class DrawingProcesses:
     ``if __name__ == "__main__"``.
 
     Args:
-        trials: the trials of the film (`Reel`).
+        trials: the trials of the film (`TrialSequenceFilm`).
         spec: the settings of the film.
         n: the number of processes.
     """
@@ -64,13 +64,13 @@ class DrawingProcesses:
         self._parent_ends: list[Connection] = []  # each child ends when its pipe's end is closed
         self._processes: list[SpawnProcess] = []
 
-    def _start(self, pack: Packing) -> None:
+    def _start(self, to_bytes: ImageConversion) -> None:
         context = multiprocessing.get_context("spawn")
         with set_environment(ENVIRONMENT):
             for k in range(self._n):
                 pipe, child_pipe = context.Pipe(duplex=False)
                 child_end, parent = context.Pipe(duplex=False)
-                job = self._trials, self.spec, pack
+                job = self._trials, self.spec, to_bytes
                 process = context.Process(
                     target=draw_blocks, args=(job, k, self._n, child_pipe, child_end)
                 )
@@ -85,21 +85,21 @@ class DrawingProcesses:
         """Return the chapters of all trials."""
         return chapters_of(self._trials, self.spec)
 
-    def frames(self, pack: Packing) -> Iterator[bytes]:
-        """Start the processes; yield the images in order, each packed.
+    def frames(self, to_bytes: ImageConversion) -> Iterator[bytes]:
+        """Start the processes; yield the images in order, each converted to the encoder's bytes.
 
         Raises:
             RunFailed: a process has ended.
             UwsimError: an image cannot be drawn.
         """
-        self._start(pack)
-        for number in range(sum(n_frames_of(trial, self.spec) for trial in self._trials)):
-            index = number // BLOCK_SIZE % self._n
+        self._start(to_bytes)
+        for frame_index in range(sum(n_frames_of(trial, self.spec) for trial in self._trials)):
+            process_index = frame_index // BLOCK_SIZE % self._n
             try:
-                frame = self._pipes[index].recv_bytes()
+                frame = self._pipes[process_index].recv_bytes()
             except (EOFError, OSError):
-                self._processes[index].join(EXIT_TIMEOUT)
-                reason = describe_exit(self._processes[index].exitcode)
+                self._processes[process_index].join(EXIT_TIMEOUT)
+                reason = describe_exit(self._processes[process_index].exitcode)
                 raise RunFailed(f"A process that draws the film has ended: {reason}.") from None
             if frame.startswith(ERROR_PREFIX):
                 raise pickle.loads(frame.removeprefix(ERROR_PREFIX))
@@ -116,7 +116,7 @@ class DrawingProcesses:
 
 
 def draw_blocks(
-    job: tuple[Sequence[RecordedTrial], FilmSpec, Packing],
+    job: tuple[Sequence[RecordedTrial], FilmSpec, ImageConversion],
     offset: int,
     n: int,
     pipe: Connection,
@@ -125,25 +125,25 @@ def draw_blocks(
     """Draw every n-th block of a film, and send its images; end when the parent process ends.
 
     Args:
-        job: the trials, the settings of the film, and the function that packs images.
+        job: the trials, the settings of the film, and the function that converts images to bytes.
         offset: the index of the first block.
         n: the number of processes.
         pipe: the pipe to which the images are sent.
         parent: a pipe that is closed when the parent process ends.
     """
     exit_with_parent(parent)
-    trials, spec, pack = job
+    trials, spec, to_bytes = job
     frames: queue.Queue[bytes | None] = queue.Queue(QUEUE_SIZE)
     sender = threading.Thread(target=_send, args=(frames, pipe))
     sender.start()
     try:
-        reel = Reel(trials, spec)
+        film = TrialSequenceFilm(trials, spec)
         try:
-            for number in range(reel.n_frames):
-                if number // BLOCK_SIZE % n == offset:
-                    frames.put(pack(reel.draw(number)))
+            for frame_index in range(film.n_frames):
+                if frame_index // BLOCK_SIZE % n == offset:
+                    frames.put(to_bytes(film.draw(frame_index)))
         finally:
-            reel.close()
+            film.close()
     except Exception as error:
         frames.put(ERROR_PREFIX + pickle.dumps(make_picklable(error)))
     finally:
