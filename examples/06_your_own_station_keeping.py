@@ -7,7 +7,7 @@ above a flight recorder while the arm reaches down; all other parts of `grasp` s
 import numpy as np
 
 import uwsim
-from uwsim.algorithms.grasp import Grasp, Motion
+from uwsim.algorithms.grasp import Grasp, TrackingState
 from uwsim.messages import String
 
 GAIN = 0.5  # of the position error [1/s]
@@ -21,11 +21,11 @@ class AdaptiveLaw:
     def __init__(self) -> None:
         self.current = np.zeros(3)  # north, east, down [m/s]
 
-    def step(self, motion: Motion, dt: float) -> tuple[np.ndarray, float]:
+    def step(self, state: TrackingState, dt: float) -> tuple[np.ndarray, float]:
         """Return the velocity through the water and the yaw rate, in the vehicle's axes."""
-        self.current -= ADAPTATION_GAIN * dt * np.clip(motion.error, -0.3, 0.3)
-        velocity = np.clip(GAIN * motion.error, -0.3, 0.3) + motion.goal_velocity - self.current
-        return motion.rotation.T @ velocity, 0.5 * motion.heading_error
+        self.current -= ADAPTATION_GAIN * dt * np.clip(state.error, -0.3, 0.3)
+        velocity = np.clip(GAIN * state.error, -0.3, 0.3) + state.goal_velocity - self.current
+        return state.rotation.T @ velocity, 0.5 * state.heading_error
 
 
 class MyGrasp(Grasp):

@@ -8,11 +8,14 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 import uwsim
 from tests.results.test_result import make
 from tests.support.compared_results import entries, make_result
+from uwsim.algorithms import grasp
+from uwsim.algorithms.grasp.perception import grasp_point_of
 from uwsim.analysis.comparison import Comparison, compare, shared_column
 from uwsim.base.deprecation import deprecated_name, renamed_parameters
 from uwsim.benchmark.measures.distance import Distance
@@ -147,6 +150,36 @@ def test_the_old_name_of_the_reason_of_a_measure_without_value_works() -> None:
         return Odometer
 
     assert warned(define, "why", "missing_reason").missing_reason == "the odometer is broken"
+
+
+@pytest.mark.parametrize(
+    ("old_name", "new_name"),
+    [("Motion", "TrackingState"), ("Station", "StationController"), ("Target", "TargetEstimate")],
+)
+def test_the_old_names_of_the_parts_of_the_grasp_work(old_name: str, new_name: str) -> None:
+    new_class = getattr(grasp, new_name)
+    assert warned(lambda: getattr(grasp, old_name), old_name, new_name) is new_class
+
+
+def test_a_model_and_a_view_of_the_grasp_with_old_names_work() -> None:
+    class Sphere:
+        def grip(self, pose: grasp.BoxPose) -> np.ndarray:
+            return pose.position
+
+        def closing_heading(self, pose: grasp.BoxPose) -> float:
+            return 0.0
+
+    model: Any = Sphere()
+    pose = grasp.BoxPose(position=np.array([1.0, 2.0, 3.0]), heading=0.0)
+    grasp_point = warned(lambda: grasp_point_of(model), "grip", "grasp_point")
+    assert grasp_point(pose).tolist() == [1.0, 2.0, 3.0]
+    assert grasp_point_of(grasp.BoxSpec())(pose)[2] < 3.0
+    pinhole = grasp.Pinhole(fx=1.0, fy=1.0, cx=0.0, cy=0.0, width=2, height=2)
+    navigation_from_camera = uwsim.Pose(np.zeros(3), np.eye(3))
+    view = grasp.View(
+        pinhole=pinhole, navigation_from_camera=navigation_from_camera, seabed_depth=4.0
+    )
+    assert warned(lambda: view.bottom, "bottom", "seabed_depth") == 4.0
 
 
 @pytest.mark.parametrize(

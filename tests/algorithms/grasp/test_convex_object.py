@@ -15,7 +15,7 @@ from uwsim.algorithms.grasp import (
     ConvexObject,
     ConvexPerception,
     Grasp,
-    Target,
+    TargetEstimate,
     View,
 )
 from uwsim.algorithms.grasp.box import wrap_half_turn
@@ -39,8 +39,8 @@ def drawn(model: ConvexObject, pose: BoxPose, seen: View, seed: int = 0) -> np.n
     return np.clip(np.rint(small + noise), 0, 255).astype(np.uint8)
 
 
-def look(model: ConvexObject, pose: BoxPose, seen: View, n: int = 4) -> Target:
-    target = Target()
+def look(model: ConvexObject, pose: BoxPose, seen: View, n: int = 4) -> TargetEstimate:
+    target = TargetEstimate()
     perception = ConvexPerception(ColourDetector(), model)
     for i in range(n):
         perception.observe(drawn(model, pose, seen, i), seen, target, 0.1 * i)
@@ -58,7 +58,7 @@ def test_place_and_heading_of_an_object_are_found(
     assert found is not None
     assert np.linalg.norm(found.position - true.position) < 0.02
     assert abs(math.remainder(found.heading - heading, 2.0 * math.pi)) < 0.15
-    assert np.linalg.norm(model.grip(found) - model.grip(true)) < 0.025
+    assert np.linalg.norm(model.grasp_point(found) - model.grasp_point(true)) < 0.025
 
 
 def test_the_place_of_a_round_object_is_found() -> None:
@@ -68,7 +68,7 @@ def test_the_place_of_a_round_object_is_found() -> None:
     true = BoxPose(position=np.array([-0.7, 0.2, BOTTOM]), heading=1.0)
     target = look(model, true, view(1.5))
     assert target.pose is not None
-    assert np.linalg.norm(model.grip(target.pose) - model.grip(true)) < 0.02
+    assert np.linalg.norm(model.grasp_point(target.pose) - model.grasp_point(true)) < 0.02
 
 
 @pytest.mark.parametrize("angle", [0.0, 0.7, -1.2])
@@ -83,7 +83,7 @@ def test_what_has_another_outline_is_not_the_object() -> None:
     small = ConvexObject(points=WEDGE, grip_point=np.zeros(3))
     large = ConvexObject(points=2.0 * WEDGE, grip_point=np.zeros(3))
     pose = BoxPose(position=np.array([-0.7, 0.0, BOTTOM]), heading=0.3)
-    target = Target()
+    target = TargetEstimate()
     seen = view(1.5)
     sighting = ConvexPerception(ColourDetector(), large).observe(
         drawn(small, pose, seen), seen, target, 0.0
@@ -95,5 +95,5 @@ def test_what_has_another_outline_is_not_the_object() -> None:
 def test_the_bundled_grasp_takes_the_box_by_default() -> None:
     grasp = Grasp()
     pose = BoxPose(position=np.array([1.0, 2.0, 4.9]), heading=0.4)
-    assert grasp.model().grip(pose)[2] == pytest.approx(4.9 - grasp.box().handle_height)
+    assert grasp.model().grasp_point(pose)[2] == pytest.approx(4.9 - grasp.box().handle_height)
     assert grasp.model().closing_heading(pose) == pytest.approx(0.4)

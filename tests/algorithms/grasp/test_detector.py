@@ -14,7 +14,7 @@ FOG = (5.0, 33.0, 43.0)
 VIEW = View(
     pinhole=Pinhole(width=320, height=240, fx=208.0, fy=208.0, cx=159.5, cy=119.5),
     navigation_from_camera=Pose.identity(),
-    bottom=1.7,
+    seabed_depth=1.7,
 )
 """From 1.7 m above the bottom."""
 

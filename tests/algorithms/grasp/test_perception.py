@@ -10,7 +10,7 @@ from uwsim.algorithms.grasp.box import BoxPose, wrap_half_turn
 from uwsim.algorithms.grasp.box_pose import Sighting, pose_from_face, pose_from_outline
 from uwsim.algorithms.grasp.detector import ColourDetector
 from uwsim.algorithms.grasp.perception import Perception
-from uwsim.algorithms.grasp.target import Target
+from uwsim.algorithms.grasp.target import TargetEstimate
 from uwsim.base.geometry import Pose
 from uwsim.base.numerics.linear import transform_points
 
@@ -25,7 +25,7 @@ def track(image: np.ndarray, quad: np.ndarray) -> DirectTracker | str:
 def off(sighting: Sighting | None, true: BoxPose) -> tuple[float, float]:
     """Distance of the handle [m] and of the heading [rad]."""
     assert sighting is not None
-    away = float(np.linalg.norm(BOX.grip(sighting.pose) - BOX.grip(true)))
+    away = float(np.linalg.norm(BOX.grasp_point(sighting.pose) - BOX.grasp_point(true)))
     return away, abs(wrap_half_turn(sighting.pose.heading - true.heading))
 
 
@@ -64,7 +64,7 @@ def test_the_corners_of_the_face_give_the_pose() -> None:
 
 
 def test_a_box_that_is_seen_again_and_again_is_tracked_and_its_place_gets_surer() -> None:
-    true, seen, target = pose(-0.7, 0.1, 0.4), view(), Target()
+    true, seen, target = pose(-0.7, 0.1, 0.4), view(), TargetEstimate()
     perception = Perception(ColourDetector(), track, BOX)
     deviations = []
     for k in range(30):
@@ -72,12 +72,12 @@ def test_a_box_that_is_seen_again_and_again_is_tracked_and_its_place_gets_surer(
         deviations.append(target.deviation)
     assert perception.is_tracking
     assert target.pose is not None
-    assert np.linalg.norm(BOX.grip(target.pose) - BOX.grip(true)) < 0.05
+    assert np.linalg.norm(BOX.grasp_point(target.pose) - BOX.grasp_point(true)) < 0.05
     assert deviations[-1] < 0.5 * deviations[0]
 
 
 def test_a_track_ends_when_the_box_is_gone() -> None:
-    true, seen, target = pose(-0.7, 0.1, 0.4), view(), Target()
+    true, seen, target = pose(-0.7, 0.1, 0.4), view(), TargetEstimate()
     perception = Perception(ColourDetector(), track, BOX)
     for k in range(10):
         perception.observe(draw(true, seen, seed=k), seen, target, 0.1 * k)
@@ -87,7 +87,7 @@ def test_a_track_ends_when_the_box_is_gone() -> None:
 
 
 def test_a_target_ignores_one_wrong_sighting_and_believes_many() -> None:
-    target = Target()
+    target = TargetEstimate()
     right = Sighting(pose=pose(0, 0, 0), covariance=1e-4 * np.eye(6), residual=0.1)
     wrong = Sighting(pose=pose(1, 0, 0), covariance=1e-4 * np.eye(6), residual=0.1)
     for k in range(5):
@@ -101,7 +101,7 @@ def test_a_target_ignores_one_wrong_sighting_and_believes_many() -> None:
 
 
 def test_the_front_of_a_box_is_its_back() -> None:
-    target = Target()
+    target = TargetEstimate()
     for heading in (0.1, 0.1 + np.pi, 0.1 - np.pi):
         one = Sighting(pose=pose(0, 0, heading), covariance=1e-4 * np.eye(6), residual=0.1)
         assert target.update(one, 0.0)

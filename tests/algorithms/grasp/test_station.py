@@ -3,16 +3,16 @@
 import numpy as np
 import pytest
 
-from uwsim.algorithms.grasp.station import LAG, Motion, Station
+from uwsim.algorithms.grasp.station import LAG, StationController, TrackingState
 from uwsim.algorithms.grasp.task import square_spiral
 
 
-def keep(law: Station, current: tuple[float, float], seconds: float = 60.0) -> np.ndarray:
+def keep(law: StationController, current: tuple[float, float], seconds: float = 60.0) -> np.ndarray:
     """Where the vehicle is in the end, from (0.5, 0, 0), with its goal at the origin."""
     dt, position, through = 0.05, np.array([0.5, 0.0, 0.0]), np.zeros(3)
     water = np.array([*current, 0.0])
     for _ in range(round(seconds / dt)):
-        motion = Motion(
+        motion = TrackingState(
             error=-position,
             heading_error=0.0,
             velocity=through + water,
@@ -25,8 +25,8 @@ def keep(law: Station, current: tuple[float, float], seconds: float = 60.0) -> n
     return position
 
 
-def station(ki: float, *, feeds_forward: bool) -> Station:
-    return Station(kp=0.6, ki=ki, feeds_forward=feeds_forward, limit=0.4)
+def station(ki: float, *, feeds_forward: bool) -> StationController:
+    return StationController(kp=0.6, ki=ki, feeds_forward=feeds_forward, limit=0.4)
 
 
 def test_a_proportional_law_is_off_by_the_current_over_its_gain() -> None:

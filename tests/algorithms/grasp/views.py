@@ -21,7 +21,7 @@ def view(height: float = 1.5, tilt: float = 0.5) -> View:
     return View(
         pinhole=PINHOLE,
         navigation_from_camera=Pose(np.array([0.0, 0.0, BOTTOM - height]), rotation),
-        bottom=BOTTOM,
+        seabed_depth=BOTTOM,
     )
 
 

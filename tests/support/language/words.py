@@ -90,7 +90,7 @@ PRESENT_PARTICIPLES = word_set(
 """Forms in -ing that describe a noun; those that are nouns (``heading``) are absent."""
 NOT_PARTICIPLES = word_set(
     """bed bleed breed deed embed exceed feed greed heed hundred led misled need overspeed proceed
-    reed sched seed shed shred sled speed steed succeed weed zed"""
+    reed sched seabed seed shed shred sled speed steed succeed weed zed"""
 )
 """Nouns and verbs in -ed; the other words in -ed are regular participles."""
 

@@ -7,6 +7,9 @@ are in the navigation frame of the vehicle: north, east, down, origin at the wat
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING, Any
+
+from ...base.deprecation import warn_old_name
 from .arm import Arm5e, Kinematics, Reach
 from .box import BoxPose, BoxSpec
 from .box_pose import Sighting
@@ -15,8 +18,8 @@ from .convex_object import ConvexObject, ConvexPerception
 from .detector import ColourDetector, Detector, Outline, outline_of
 from .grasp import Grasp
 from .perception import GraspModel, ObjectPerception, Perception
-from .station import Motion, Station, StationLaw
-from .target import Target
+from .station import StationController, StationLaw, TrackingState
+from .target import TargetEstimate
 from .variants import GraspBlindClose, GraspNothing, GraspP, GraspTruth
 
 __all__ = [
@@ -34,16 +37,28 @@ __all__ = [
     "GraspP",
     "GraspTruth",
     "Kinematics",
-    "Motion",
     "ObjectPerception",
     "Outline",
     "Perception",
     "Pinhole",
     "Reach",
     "Sighting",
-    "Station",
+    "StationController",
     "StationLaw",
-    "Target",
+    "TargetEstimate",
+    "TrackingState",
     "View",
     "outline_of",
 ]
+
+_OLD_NAMES = {"Motion": TrackingState, "Station": StationController, "Target": TargetEstimate}
+"""The classes by their deprecated names."""
+
+if not TYPE_CHECKING:  # with a `__getattr__`, a type checker would accept every name
+
+    def __getattr__(name: str) -> Any:
+        """Return a class by its deprecated name."""
+        if name not in _OLD_NAMES:
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+        warn_old_name(name, _OLD_NAMES[name].__name__)
+        return _OLD_NAMES[name]

@@ -152,8 +152,8 @@ def _solve_joints(
     for _ in range(_N_ITERATIONS):
         coordinates = _grip_coordinates(joints, table)
         error[:3] = position - coordinates[:3]
-        turn = heading - coordinates[3]
-        error[3] = _HEADING_WEIGHT * (turn - math.pi * math.floor(turn / math.pi + 0.5))
+        angle = heading - coordinates[3]
+        error[3] = _HEADING_WEIGHT * (angle - math.pi * math.floor(angle / math.pi + 0.5))
         distance = math.sqrt(error[0] ** 2 + error[1] ** 2 + error[2] ** 2)
         if distance + abs(error[3]) < least_error:
             best_joints, least_error = joints.copy(), distance + abs(error[3])

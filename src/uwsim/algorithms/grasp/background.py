@@ -1,6 +1,6 @@
-"""The brightness of the bottom without objects: a smooth function of the image coordinates.
+"""The brightness of the seabed without objects: a smooth function of the image coordinates.
 
-The effects of fog and water colour increase with the distance, so the brightness of the bottom
+The effects of fog and water colour increase with the distance, so the brightness of the seabed
 varies over the image. It is modelled by a polynomial of second degree in the image coordinates,
 which is fitted twice by least squares, the second time without the outliers of the first fit.
 

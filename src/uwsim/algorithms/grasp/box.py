@@ -40,7 +40,7 @@ class BoxSpec:
         x, y, z = (edge / 2.0 for edge in self.size)
         return np.array([[-x, -y, z], [-x, y, z], [x, y, z], [x, -y, z]])
 
-    def grip(self, pose: BoxPose) -> Array:
+    def grasp_point(self, pose: BoxPose) -> Array:
         """Return the centre of the handle's bar in the navigation frame, (3,) [m]."""
         position: Array = pose.position + rotate(
             pose.rotation, np.array([0.0, 0.0, self.handle_height])
@@ -90,9 +90,9 @@ class BoxPose:
         y_axis = pose.rotation[:, 1]
         heading = math.atan2(float(y_axis[0]), -float(y_axis[1]))
         level_rotation = product(rotation_z(heading), rotation_x(math.pi))
-        turn = product(level_rotation.T, pose.rotation)
-        tilt_y = math.atan2(float(turn[0, 2]), float(turn[0, 0]))
-        tilt_x = math.atan2(float(turn[2, 1]), float(turn[1, 1]))
+        relative_rotation = product(level_rotation.T, pose.rotation)
+        tilt_y = math.atan2(float(relative_rotation[0, 2]), float(relative_rotation[0, 0]))
+        tilt_x = math.atan2(float(relative_rotation[2, 1]), float(relative_rotation[1, 1]))
         return BoxPose(position=pose.position.copy(), heading=heading, tilt=(tilt_x, tilt_y))
 
 

@@ -8,7 +8,7 @@ The support of a shape along a direction is the largest coordinate of its points
 direction. :math:`h_k(x)` is the support of the projected visible painted faces along direction k,
 :math:`h_k` the support of the detected outline, and :math:`\sigma` its standard deviation [px]. The
 second sum is the prior with the mean :math:`m` and the standard deviations :math:`p`: the box rests
-on the bottom with a small tilt. If the top face is tracked, the first sum is over the image
+on the seabed with a small tilt. If the top face is tracked, the first sum is over the image
 coordinates of its corners instead. The covariance of x is the inverse of the normal matrix.
 """
 
@@ -30,14 +30,14 @@ from .normal_equations import cholesky_solve
 TILT_DEVIATION = 0.03
 """The standard deviation of the tilt in the prior [rad]."""
 DEPTH_DEVIATION = 0.018
-"""The standard deviation of the depth of the box in the prior, relative to the bottom [m]."""
+"""The standard deviation of the depth of the box in the prior, relative to the seabed [m]."""
 GRAZING_TANGENT = 0.3
 """The tangent of the angle between the view and a side below which the detector may miss the
 side."""
 UNKNOWN_DEVIATION = 10.0
 """The standard deviation of unknown coordinates in the prior [m, rad]."""
 MIN_KNOWN_DIRECTIONS = 12
-"""The least number of directions with a known support for a fit."""
+"""The minimum number of directions with a known support for a fit."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -67,7 +67,7 @@ def pose_from_outline(
     """
     if outline.is_known.sum() < MIN_KNOWN_DIRECTIONS:
         return None
-    centre = view.intersect_plane(*outline.centre, view.bottom - box.size[2] / 2.0)
+    centre = view.intersect_plane(*outline.centre, view.seabed_depth - box.size[2] / 2.0)
     if centre is None:
         return None
     u, v = outline.centre
@@ -131,7 +131,7 @@ def _sighting(vector: Array, normal: Array, residual: float, source: str) -> Sig
 def _prior(start: Array, view: View, box: BoxSpec) -> Array:
     """Return the mean pose vector of the prior and the inverse variances, (2, 6)."""
     expected = start.copy()
-    expected[2] = view.bottom - box.size[2] / 2.0
+    expected[2] = view.seabed_depth - box.size[2] / 2.0
     expected[4:] = tilt_on_slope(view.slopes, float(start[3]))
     sigma, tilt_sigma = UNKNOWN_DEVIATION, TILT_DEVIATION
     deviations = np.array([sigma, sigma, DEPTH_DEVIATION, sigma, tilt_sigma, tilt_sigma])
@@ -139,10 +139,10 @@ def _prior(start: Array, view: View, box: BoxSpec) -> Array:
 
 
 def tilt_on_slope(slopes: tuple[float, float], heading: float) -> tuple[float, float]:
-    """Return the tilt of a box that lies on a sloping bottom [rad].
+    """Return the tilt of a box that lies on a sloping seabed [rad].
 
     Args:
-        slopes: the slopes of the bottom's depth to the north and to the east [1].
+        slopes: the slopes of the seabed's depth to the north and to the east [1].
         heading: the heading of the box [rad].
     """
     north, east = slopes

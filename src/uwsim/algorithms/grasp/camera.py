@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...base.deprecation import deprecated_name
 from ...base.geometry import Array, Pose
 from ...base.numerics.linear import rotate
 from ...messages import CameraInfo
@@ -42,17 +43,23 @@ class Pinhole:
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class View:
-    """A camera with its pose at the time of an image, and the bottom below it."""
+    """A camera with its pose at the time of an image, and the seabed below it."""
 
     pinhole: Pinhole
     """The intrinsics of the camera."""
     navigation_from_camera: Pose
     """The pose of the camera (OpenCV's axes) in the navigation frame."""
-    bottom: float
-    """The depth of the bottom at the estimated position of the box; without an estimate, on the
+    seabed_depth: float
+    """The depth of the seabed at the estimated position of the box; without an estimate, on the
     axis of the camera [m]."""
     slopes: tuple[float, float] = (0.0, 0.0)
-    """The slopes of the bottom's depth to the north and to the east [1]."""
+    """The slopes of the seabed's depth to the north and to the east [1]."""
+
+    @property
+    @deprecated_name("seabed_depth")
+    def bottom(self) -> float:
+        """The deprecated name of `seabed_depth`."""
+        return self.seabed_depth
 
     def project(self, points: Array) -> Array:
         """Project points of the navigation frame (n, 3) [m] to the image, (n, 2) [px].

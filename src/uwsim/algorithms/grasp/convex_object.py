@@ -1,6 +1,6 @@
 r"""The model and perception of an object of any shape, which is grasped at a given point.
 
-The object rests on the bottom. Its position and heading :math:`x = (north, east, \psi)` minimise
+The object rests on the seabed. Its position and heading :math:`x = (north, east, \psi)` minimise
 
 .. math:: \sum_k \frac{(h_k(x) - h_k)^2}{\sigma^2}
 
@@ -25,7 +25,7 @@ from .box import BoxPose, wrap_half_turn
 from .box_pose import MIN_KNOWN_DIRECTIONS, TILT_DEVIATION, Sighting
 from .camera import View
 from .detector import DIRECTIONS, Detector, Outline, Pixels
-from .target import Target
+from .target import TargetEstimate
 
 N_HEADINGS = 6
 """The number of initial headings of the fit."""
@@ -38,14 +38,14 @@ OUTLINE_DEVIATION = 1.0
 MAX_RESIDUAL = 3.0
 """The largest residual of a fit that is accepted [px]."""
 DEPTH_DEVIATION = 0.02
-"""The standard deviation of the object's depth, which is that of the bottom's depth [m]."""
+"""The standard deviation of the object's depth, which is that of the seabed's depth [m]."""
 ROUND_HEADING_DEVIATION = 0.5
 """The standard deviation of the heading of a round object, which is not observable [rad]."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class ConvexObject:
-    """The model of an object that rests on the bottom; its frame has z up."""
+    """The model of an object that rests on the seabed; its frame has z up."""
 
     points: Array
     """The corners of the convex hull in the frame of the object, (n, 3) [m]."""
@@ -62,7 +62,7 @@ class ConvexObject:
         """The z coordinate of the lowest point [m]."""
         return float(self.points[:, 2].min())
 
-    def grip(self, pose: BoxPose) -> Array:
+    def grasp_point(self, pose: BoxPose) -> Array:
         """Return the point that the jaw grasps in the navigation frame, (3,) [m]."""
         position: Array = pose.position + rotate(pose.rotation, self.grip_point)
         return position
@@ -86,7 +86,9 @@ class ConvexPerception:
     def reset(self) -> None:
         """Do nothing, as there is no state between images."""
 
-    def observe(self, image: Pixels, view: View, target: Target, time: float) -> Sighting | None:
+    def observe(
+        self, image: Pixels, view: View, target: TargetEstimate, time: float
+    ) -> Sighting | None:
         """Update the target from an image; see `uwsim.algorithms.grasp.ObjectPerception`."""
         sightings = [
             sighting
@@ -103,7 +105,7 @@ def fit_pose(outline: Outline, view: View, model: ConvexObject) -> Sighting | No
     """Fit the pose of an object to an outline; return None if no fit is good enough."""
     if outline.is_known.sum() < MIN_KNOWN_DIRECTIONS:
         return None
-    depth = view.bottom + model.min_z
+    depth = view.seabed_depth + model.min_z
     centre = view.intersect_plane(*outline.centre, depth)
     if centre is None:
         return None

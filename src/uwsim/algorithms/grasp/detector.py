@@ -2,10 +2,10 @@ r"""Detection of an orange box in an image by its colour, and of its outline.
 
 The colour score of a pixel is :math:`s = 2R - G - B`. Water reduces the contrast of scores but
 keeps their order: fog of the transmission T changes s to :math:`T s` plus an offset that varies
-slowly over the image (`Background`, the score of the bottom). A connected region of pixels whose
+slowly over the image (`Background`, the score of the seabed). A connected region of pixels whose
 score is above a threshold is called a blob.
 
-1. The threshold is a share of the largest score above the bottom, the peak, which must exceed
+1. The threshold is a fraction of the largest score above the seabed, the peak, which must exceed
    `MIN_CONTRAST` standard deviations of the noise.
 2. Blobs far larger than the box, such as the arm in front of the camera, are removed, and the
    threshold is computed again.
@@ -38,17 +38,18 @@ Pixels = npt.NDArray[np.uint8]
 N_DIRECTIONS = 32
 """The number of directions along which the support of an outline is computed."""
 MIN_CONTRAST = 7.0
-"""The least peak of the score above the bottom, in standard deviations of the bottom [1]."""
+"""The minimum peak of the score above the seabed, in standard deviations of the seabed [1]."""
 MIN_SCORE = 6.0
-"""The least peak of the score above the bottom [grey levels]."""
+"""The minimum peak of the score above the seabed [grey levels]."""
 THRESHOLD_SHARE = 0.17
-"""The threshold of the score above the bottom, as a share of the peak [1]."""
+"""The threshold of the score above the seabed, as a fraction of the peak [1]."""
 MIN_RED = 5.0
-"""The least increase of red from the bottom to a blob [grey levels]."""
+"""The minimum increase of red from the seabed to a blob [grey levels]."""
 MIN_RED_SHARE = 0.2
-"""The least increase of red from the bottom to a blob, as a share of the increase of its score [1].
+"""The minimum increase of red from the seabed to a blob, as a fraction of the increase of its score
+[1].
 
-The share is 0.3 or more for the box, and 0.15 for a hull in fog."""
+The fraction is 0.3 or more for the box, and 0.15 for a hull in fog."""
 DARK_PERCENTILE = 10.0
 """The percentile of the red channel of an image that is taken as the red of the water [%]."""
 BORDER_WIDTH = 2
@@ -76,7 +77,7 @@ class Outline:
     area: float
     """The area of the convex hull [px^2]."""
     contrast: float
-    """The peak of the score above the bottom, in standard deviations of the bottom [1]."""
+    """The peak of the score above the seabed, in standard deviations of the seabed [1]."""
 
 
 class Detector(Protocol):
@@ -90,11 +91,11 @@ class ColourDetector:
     """A detector of orange blobs and of their outlines."""
 
     def __init__(self, *, band: float = 0.03, min_size: float = 0.1, max_size: float = 0.4) -> None:
-        """Create a detector for objects of some size on the bottom.
+        """Create a detector for objects of some size on the seabed.
 
         Args:
             band: the width of gaps that are closed [m].
-            min_size: the least root of the area of an object [m].
+            min_size: the minimum root of the area of an object [m].
             max_size: the largest root of the area of an object [m].
         """
         self._band, self._min_size, self._max_size = band, min_size, max_size
@@ -108,10 +109,10 @@ class ColourDetector:
         """
         import cv2
 
-        height = view.bottom - float(view.navigation_from_camera.position[2])
+        height = view.seabed_depth - float(view.navigation_from_camera.position[2])
         if height <= 0.1:
             return []
-        scale = view.pinhole.fx / height  # [px/m] on the bottom
+        scale = view.pinhole.fx / height  # [px/m] on the seabed
         half = image[::2, ::2]
         score = cv2.blur(colour_score(half), (3, 3)).astype(np.float32)
         background = Background.fit(score, 2)
@@ -141,10 +142,10 @@ class ColourDetector:
         A bounding box is left, top, right, bottom in the whole image [px], with a margin.
 
         Args:
-            excess: the score of every second pixel minus the score of the bottom; large blobs in it
+            excess: the score of every second pixel minus the score of the seabed; large blobs in it
                 are set to 0.
-            noise: the standard deviation of the bottom's score.
-            scale: the number of these pixels in a metre of the bottom [px/m].
+            noise: the standard deviation of the seabed's score.
+            scale: the number of these pixels in a metre of the seabed [px/m].
         """
         import cv2
 
@@ -175,13 +176,13 @@ class ColourDetector:
     ) -> tuple[float, Array] | None:
         """Return the area [px^2] and corners (n, 2) [px] of the largest convex hull of a blob.
 
-        The result is None if the hull is too small or too large, or not redder than the bottom.
+        The result is None if the hull is too small or too large, or not redder than the seabed.
 
         Args:
             part: a part of the image around the blob, (h, w, 3).
-            background: the score and the red of the bottom in this part, (h, w) each.
-            threshold: the threshold of the score above the bottom.
-            scale: the number of pixels in a metre of the bottom [px/m].
+            background: the score and the red of the seabed in this part, (h, w) each.
+            threshold: the threshold of the score above the seabed.
+            scale: the number of pixels in a metre of the seabed [px/m].
         """
         import cv2
 

@@ -43,7 +43,7 @@ from .camera import Pinhole, View
 from .detector import ColourDetector, Detector
 from .perception import GraspModel, ObjectPerception, Perception
 from .phases import PHASES, Phase
-from .station import Station, StationLaw
+from .station import StationController, StationLaw
 from .task import Task, square_spiral
 from .vehicle_interface import VehicleInterface
 
@@ -52,8 +52,8 @@ PERIOD = 0.1
 OPENCV_FROM_OPENGL: Array = np.diag([1.0, -1.0, -1.0])
 """The rotation between the camera axes of OpenCV (y down, z forward) and OpenGL (y up, z back)."""
 SEARCH_HEIGHT = 2.6
-"""The height of the base over the bottom during the search, at which arm and camera are clear of
-the bottom [m]."""
+"""The height of the base over the seabed during the search, at which arm and camera are clear of
+the seabed [m]."""
 
 
 class Grasp:
@@ -116,7 +116,7 @@ class Grasp:
     # -- the parts, which a derived class can replace ------------------------------------------
 
     def navigation(self, node: Node) -> Navigator:
-        """Make the estimator of the vehicle's pose and velocity, and of the bottom's depth."""
+        """Make the estimator of the vehicle's pose and velocity, and of the seabed's depth."""
         position = parse_triple("dvl_place", self._parameters["dvl_place"])
         topics = {name: self.text(name) for name in ("imu_topic", "dvl_topic", "depth_topic")}
         return Navigator(node, topics, NavigationSpec(dvl_place=position))
@@ -140,7 +140,7 @@ class Grasp:
 
     def controller(self) -> StationLaw:
         """Make the control law of the station keeping."""
-        return Station(
+        return StationController(
             kp=self.number("kp"),
             ki=self.number("ki"),
             feeds_forward=self.number("feed_forward") > 0.0,
@@ -214,20 +214,20 @@ class Grasp:
         self.task.perception.observe(pixels_of(message), view, self.task.target, self._node.now)
 
     def _view(self, pinhole: Pinhole) -> View:
-        """Return the present view; its bottom is at the target, or else on the camera's axis."""
-        bottom = self._navigator.bottom
+        """Return the present view, with the depth of the seabed at the target, if there is one."""
+        seabed = self._navigator.bottom
         camera = self._navigator.pose @ self._base_from_camera
         if self.task.target.pose is not None:
             position = self.task.target.pose.position
         else:
             view_axis = camera.rotation[:, 2]
-            height = bottom.depth_at(camera.position) - float(camera.position[2])
+            height = seabed.depth_at(camera.position) - float(camera.position[2])
             position = camera.position + view_axis * (height / max(float(view_axis[2]), 0.2))
         return View(
             pinhole=pinhole,
             navigation_from_camera=camera,
-            bottom=bottom.depth_at(position),
-            slopes=bottom.slopes,
+            seabed_depth=seabed.depth_at(position),
+            slopes=seabed.slopes,
         )
 
     def _tick(self) -> None:
@@ -255,8 +255,8 @@ class Grasp:
     def _start_search(self, now: float) -> None:
         vehicle, task = self.vehicle, self.task
         vehicle.goal_heading, self._last_time = vehicle.heading, now
-        bottom = self._navigator.bottom.depth_at(vehicle.pose.position)
-        task.search_depth = bottom - SEARCH_HEIGHT
+        seabed_depth = self._navigator.bottom.depth_at(vehicle.pose.position)
+        task.search_depth = seabed_depth - SEARCH_HEIGHT
         task.pattern = square_spiral(
             vehicle.pose.position,
             vehicle.goal_heading,

@@ -2,16 +2,18 @@ r"""Station keeping: a control law that computes a twist from the position and h
 
 The commanded velocity through the water is proportional and integral in the position error e,
 
-.. math:: u = K_p e + K_i \int e \, dt - \hat c
+.. math:: u = K_p e + K_i \int e \, dt + v_g - \hat c
 
-with the estimated water current :math:`\hat c` as feedforward. A vehicle with the command u moves
+with the velocity of the goal :math:`v_g` and the estimated water current :math:`\hat c` as
+feedforward. The vertical component of :math:`\hat c` is zero. A vehicle with the command u moves
 at the velocity :math:`u_f` through the water, which is u after a first-order lag, and at v over
 ground, which the navigation estimates. Therefore, with the time constant T,
 
 .. math:: \hat c' = (v - u_f - \hat c) / T
 
 Without integral and feedforward, a steady current c leaves the offset :math:`c / K_p`. The length
-of the first two terms is limited; at the limit, the integral is held constant.
+of the sum of the first two terms is limited; at the limit, the integral is held constant. The yaw
+rate is proportional to the heading error, and limited to `MAX_YAW_RATE`.
 """
 
 from __future__ import annotations
@@ -29,11 +31,13 @@ LAG = 0.5
 """The time constant of the vehicle's velocity in response to a command [s]."""
 CURRENT_TIME_CONSTANT = 3.0
 """The time constant T of the estimate of the current [s]."""
+MAX_YAW_RATE = 0.3
+"""The largest commanded yaw rate [rad/s]."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class Motion:
-    """The motion of a vehicle relative to its goal."""
+class TrackingState:
+    """The errors and velocities of a vehicle that tracks its goal."""
 
     error: Array
     """The goal minus the position of the base, navigation axes, (3,) [m]."""
@@ -53,11 +57,11 @@ class StationLaw(Protocol):
     current: Array
     """The estimate of the water current, navigation axes, (3,) [m/s]; zero if not estimated."""
 
-    def step(self, motion: Motion, dt: float) -> tuple[Array, float]:
+    def step(self, state: TrackingState, dt: float) -> tuple[Array, float]:
         """Compute the command.
 
         Args:
-            motion: the motion of the vehicle relative to its goal.
+            state: the errors and velocities of the vehicle relative to its goal.
             dt: the time since the last call [s].
 
         Returns:
@@ -65,7 +69,7 @@ class StationLaw(Protocol):
         """
 
 
-class Station:
+class StationController:
     """A proportional-integral control law with the water current as feedforward."""
 
     def __init__(
@@ -83,34 +87,35 @@ class Station:
         self._kp, self._ki, self._limit, self._turn_gain = kp, ki, limit, turn_gain
         self._feeds_forward = feeds_forward
         self._integral = np.zeros(3)  # of the error, navigation axes [m s]
-        self._response = np.zeros(3)  # velocity through the water after the lag [m/s]
+        self._water_velocity = np.zeros(3)  # through the water, after the lag [m/s]
         self._command = np.zeros(3)  # commanded velocity, navigation axes [m/s]
         self.current = np.zeros(3)
         """The estimate of the water current, navigation axes, (3,) [m/s]."""
 
-    def step(self, motion: Motion, dt: float) -> tuple[Array, float]:
+    def step(self, state: TrackingState, dt: float) -> tuple[Array, float]:
         """Compute the command; see `StationLaw`."""
-        self._estimate(motion.velocity, dt)
-        integral = self._integral + motion.error * dt
-        correction = self._kp * motion.error + self._ki * integral
+        self._estimate(state.velocity, dt)
+        integral = self._integral + state.error * dt
+        correction = self._kp * state.error + self._ki * integral
         speed = length(correction)
         if speed > self._limit:
             correction = correction * (self._limit / speed)
         else:
             self._integral = integral
-        command = correction + motion.goal_velocity - self.current
+        command = correction + state.goal_velocity - self.current
         self._command = command
-        body_velocity = rotate_back(motion.rotation, command)
-        return body_velocity, float(np.clip(self._turn_gain * motion.heading_error, -0.3, 0.3))
+        body_velocity = rotate_back(state.rotation, command)
+        yaw_rate = self._turn_gain * state.heading_error
+        return body_velocity, float(np.clip(yaw_rate, -MAX_YAW_RATE, MAX_YAW_RATE))
 
     def _estimate(self, velocity: Array, dt: float) -> None:
         """Update the estimate of the current from the velocity over ground (3,) [m/s]."""
-        share = 1.0 - math.exp(-dt / LAG)
-        self._response = self._response + share * (self._command - self._response)
+        gain = 1.0 - math.exp(-dt / LAG)
+        self._water_velocity = self._water_velocity + gain * (self._command - self._water_velocity)
         if not self._feeds_forward:
             return
-        share = 1.0 - math.exp(-dt / CURRENT_TIME_CONSTANT)
-        self.current = self.current + share * (velocity - self._response - self.current)
+        gain = 1.0 - math.exp(-dt / CURRENT_TIME_CONSTANT)
+        self.current = self.current + gain * (velocity - self._water_velocity - self.current)
         self.current[2] = 0.0
 
 

@@ -27,7 +27,7 @@ MAX_REJECTED = 8
 """The greatest number of sightings in a row that are rejected without a restart."""
 
 
-class Target:
+class TargetEstimate:
     """The estimate of the pose of the box."""
 
     def __init__(self) -> None:

@@ -9,9 +9,9 @@ import numpy as np
 
 from ...base.geometry import Array
 from .arm import DOWN_POSTURE
-from .perception import GraspModel, ObjectPerception
+from .perception import GraspModel, ObjectPerception, grasp_point_of
 from .station import horizontal_length
-from .target import Target
+from .target import TargetEstimate
 from .vehicle_interface import VehicleInterface
 
 APPROACH_HEIGHT = 0.30
@@ -38,9 +38,10 @@ class Task:
         publish_status: Callable[[str], None],
     ) -> None:
         self.vehicle, self.perception, self.model = vehicle, perception, model
+        self._grasp_point = grasp_point_of(model)
         self.publish_status = publish_status
         """The function that publishes a text on ``algorithmStatus``."""
-        self.target = Target()
+        self.target = TargetEstimate()
         """The estimate of the object's pose."""
         self.now = 0.0
         """The simulation time [s]."""
@@ -74,10 +75,10 @@ class Task:
         return self._tolerance + 0.04 * horizontal_length(self.vehicle.law.current)
 
     @property
-    def grip(self) -> Array:
+    def grasp_point(self) -> Array:
         """The point of the target that the jaw grasps, navigation frame, (3,) [m]."""
         assert self.target.pose is not None
-        return self.model.grip(self.target.pose)
+        return self._grasp_point(self.target.pose)
 
     @property
     def closing_heading(self) -> float:
@@ -115,7 +116,7 @@ class Task:
             The goal minus the position of the base, navigation axes, (3,) [m].
         """
         vehicle = self.vehicle
-        goal = self.grip - np.array([0.0, 0.0, height])
+        goal = self.grasp_point - np.array([0.0, 0.0, height])
         posture = vehicle.joints if is_settled else DOWN_POSTURE
         base = vehicle.base_position_for(goal, posture)
         self.set_goal(base)
@@ -134,7 +135,7 @@ class Task:
         self.keep_station(height)
         vehicle = self.vehicle
         vehicle.closing_heading = self.closing_heading
-        vehicle.grip_goal = self.grip - np.array([0.0, 0.0, height])
+        vehicle.grip_goal = self.grasp_point - np.array([0.0, 0.0, height])
         error: Array = vehicle.grip_goal - vehicle.grip
         return error
 

@@ -15,19 +15,19 @@ from ...base.geometry import Array, Pose
 from ...base.numerics.linear import length, rotate
 from ...messages import JointState, Twist, TwistStamped, Vector3, WrenchStamped, header
 from .arm import DOWN_POSTURE, FOLDED_POSTURE, JAW, JAW_CLOSED, JAW_OPEN, JOINTS, Kinematics
-from .station import Motion, StationLaw
+from .station import StationLaw, TrackingState
 
 MAX_COMPENSATION = 0.08
 """The largest position error of the vehicle along an axis that the arm compensates [m]."""
 MIN_JOINT_CHANGE = 0.004
-"""The least change of a joint command that is published [rad]."""
+"""The minimum change of a joint command that is published [rad]."""
 WRIST_WEIGHT = 0.1
 """The weight of a sample in the smoothed force of the wrist [1]; at 50 Hz it gives a time constant
 of 0.2 s."""
 MIN_GRIP_OPENING = 0.02
-"""The least opening of the fingers, beyond the closed position, when they hold an object [rad]."""
+"""The minimum opening of fingers, beyond the closed position, when they hold an object [rad]."""
 MIN_GRIP_TORQUE = 2.0
-"""The least torque of the fingers' drive when they hold an object [N m]."""
+"""The minimum torque of the fingers' drive when they hold an object [N m]."""
 MAX_REST_SPEED = 0.02
 """The speed below which a joint is at rest [rad/s]."""
 
@@ -162,8 +162,8 @@ class VehicleInterface:
 
     def wrist_angle_for(self, closing_heading: float) -> float:
         """Return the position of the wrist's joint, nearest to 0, for a closing heading [rad]."""
-        turn = closing_heading - self.goal_heading
-        return turn - math.pi * math.floor(turn / math.pi + 0.5)
+        angle = closing_heading - self.goal_heading
+        return angle - math.pi * math.floor(angle / math.pi + 0.5)
 
     def on_joints(self, message: JointState) -> None:
         """Set the measured state of arm and jaw."""
@@ -184,14 +184,14 @@ class VehicleInterface:
         error = np.zeros(3) if self.goal is None else self.goal - self.pose.position
         heading_error = self.goal_heading - self.heading
         heading_error -= 2.0 * math.pi * math.floor(heading_error / (2.0 * math.pi) + 0.5)
-        motion = Motion(
+        state = TrackingState(
             error=error,
             heading_error=heading_error,
             velocity=self.velocity,
             rotation=self.pose.rotation,
             goal_velocity=self.goal_velocity,
         )
-        (x, y, z), rate = self.law.step(motion, dt)
+        (x, y, z), rate = self.law.step(state, dt)
         return TwistStamped(
             header=header(time),
             twist=Twist(

@@ -1,4 +1,4 @@
-"""Estimation of a vehicle's pose, and of the bottom below it, from DVL, IMU and depth sensor."""
+"""Estimation of a vehicle's pose, and of the seabed below it, from DVL, IMU and depth sensor."""
 
 from __future__ import annotations
 

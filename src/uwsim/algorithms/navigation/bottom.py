@@ -1,4 +1,4 @@
-"""Estimation of the plane of the bottom below a vehicle from the four beams of a DVL.
+"""Estimation of the plane of the seabed below a vehicle from the four beams of a DVL.
 
 Positions are in the navigation frame (north, east, down), whose origin is at the water surface.
 """
@@ -18,7 +18,7 @@ BEAM_ANGLE = math.radians(30.0)
 N_AVERAGED_PINGS = 20
 """The number of pings over which the plane is averaged."""
 MAX_RESIDUAL = 0.05
-"""The largest vertical distance of a beam's point from the plane, for a flat bottom [m]."""
+"""The largest vertical distance of a beam's point from the plane, for a flat seabed [m]."""
 
 _BEAM_AZIMUTHS = [math.radians(45.0 + 90.0 * k) for k in range(4)]
 """The directions of the beams about the axis of the DVL, from x towards y [rad]."""
@@ -37,7 +37,7 @@ BEAMS: Array = np.array(
 
 
 class BottomPlane:
-    """The depth of the bottom as ``a + b north + c east``, averaged over several pings."""
+    """The depth of the seabed as ``a + b north + c east``, averaged over several pings."""
 
     def __init__(self) -> None:
         self._plane: Array | None = None  # a [m], b, c (3,)
@@ -45,7 +45,7 @@ class BottomPlane:
 
     @property
     def is_known(self) -> bool:
-        """True if the depth of the bottom is known."""
+        """True if the depth of the seabed is known."""
         return self._plane is not None
 
     @property
@@ -56,7 +56,7 @@ class BottomPlane:
         return float(self._plane[1]), float(self._plane[2])
 
     def depth_at(self, position: Array) -> float:
-        """Return the depth of the bottom [m] at a position; NaN if it is not known.
+        """Return the depth of the seabed [m] at a position; NaN if it is not known.
 
         ``position`` begins with the north and east coordinates [m].
         """
@@ -66,7 +66,7 @@ class BottomPlane:
         return float(a + b * position[0] + c * position[1])
 
     def set_depth(self, depth: float) -> None:
-        """Set the plane to a level bottom at a depth [m]."""
+        """Set the plane to a level seabed at a depth [m]."""
         self._plane = np.array([depth, 0.0, 0.0])
 
     def update(self, ranges: Array, navigation_from_dvl: Pose) -> None:

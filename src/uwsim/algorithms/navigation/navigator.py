@@ -45,7 +45,7 @@ class Navigator:
         self.filter = NavigationFilter(spec or NavigationSpec())
         """The filter that estimates the motion of the vehicle."""
         self.bottom = BottomPlane()
-        """The plane of the bottom below the vehicle, in the navigation frame."""
+        """The plane of the seabed below the vehicle, in the navigation frame."""
         node.subscribe(topics["imu_topic"], Imu, self._on_imu)
         node.subscribe(topics["dvl_topic"], DVL, self._on_dvl)
         node.subscribe(topics["depth_topic"], Pressure, self._on_depth)
