@@ -6,8 +6,11 @@ import { element } from "./panels";
 import { graphics, Picture } from "./picture";
 import { Replay, Stream, type Player } from "./player";
 import { Rays } from "./display/rays";
-import { expose } from "./testing";
+import { exposeToConsole } from "./testing";
 import { Views } from "./views";
+
+const NO_GRAPHICS =
+  "This browser does not support WebGL 2: the page shows no 3-D view, only the results (levels and curves).";
 
 async function begin(): Promise<void> {
   const isDark = matchMedia("(prefers-color-scheme: dark)").matches;
@@ -17,13 +20,14 @@ async function begin(): Promise<void> {
   try {
     const data = document.getElementById("pack");
     const gl = graphics(element<HTMLCanvasElement>("image"));
-    const link = data ? null : await connect(gl === null);
+    const isServerDrawn = gl === null; // without WebGL, the server of a live view draws it
+    const link = data ? null : await connect(isServerDrawn);
     const pack = link ? link.pack : await unpack(decodeBase85(data!.textContent ?? ""));
     const picture = await Picture.make(gl, pack);
     const player: Player = link ? new Stream(pack.head) : new Replay(pack);
     const rays = new Rays(pack);
     const page = new Page(pack, player, picture, new Views(pack.head, picture.models, rays), link, rays);
-    page.note = gl || link ? "" : "This browser has no WebGL 2: the page shows only levels and curves.";
+    page.note = gl || link ? "" : NO_GRAPHICS;
     message.textContent = page.note;
     link?.begin(page, player as Stream);
     const levelIndex = Number(new URLSearchParams(location.hash.slice(1)).get("level") ?? 0);
@@ -31,7 +35,7 @@ async function begin(): Promise<void> {
       await page.select(player.levels[levelIndex]?.trial ?? 0);
       page.seek(player.levels[levelIndex] ? player.levels[levelIndex].level.start : player.start);
     }
-    expose(page);
+    exposeToConsole(page);
   } catch (error) {
     message.textContent = error instanceof Error ? error.message : String(error);
     throw error;

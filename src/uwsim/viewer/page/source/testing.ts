@@ -4,7 +4,7 @@ import { valueAt } from "./curves";
 import { indexAt } from "./panels";
 
 /** Set `window.uwsim` to the interface of the page. */
-export function expose(page: Controls): void {
+export function exposeToConsole(page: Controls): void {
   const { player, picture } = page;
   Object.assign(window, {
     uwsim: {
