@@ -14,11 +14,13 @@ import pytest
 import uwsim
 from tests.results.test_result import make
 from tests.support.compared_results import entries, make_result
+from tests.support.fakes import FakeWorld
 from uwsim.algorithms import grasp
 from uwsim.algorithms.grasp.perception import grasp_point_of
 from uwsim.analysis.comparison import Comparison, compare, shared_column
 from uwsim.base.deprecation import deprecated_name, renamed_parameters
 from uwsim.benchmark.measures.distance import Distance
+from uwsim.benchmark.measures.time import Time
 from uwsim.messages import CameraInfo
 from uwsim.results.result import RefusedMessages
 from uwsim.runs.own_process.child import ChildNode
@@ -150,6 +152,50 @@ def test_the_old_name_of_the_reason_of_a_measure_without_value_works() -> None:
         return Odometer
 
     assert warned(define, "why", "missing_reason").missing_reason == "the odometer is broken"
+
+
+def test_a_measure_that_stops_by_the_old_name_is_stopped() -> None:
+    def define() -> type[Time]:
+        class Stopwatch(Time):
+            def went_off(self) -> None:
+                calls.append("before")
+                warned(super().went_off, "went_off", "stop")
+                calls.append("after")
+
+        return Stopwatch
+
+    calls: list[str] = []
+    world = FakeWorld(timestep=0.5)
+    measure = warned(define, "went_off", "stop")(world)
+    measure.start()
+    world.advance()
+    measure.stop()
+    assert calls == ["before", "after"]
+    assert measure.value == 0.5
+
+
+def test_a_bundled_measure_can_be_stopped_by_the_old_name() -> None:
+    world = FakeWorld(timestep=0.5)
+    measure: Any = Time(world)
+    measure.start()
+    world.advance()
+    warned(measure.went_off, "went_off", "stop")
+    assert measure.value == 0.5
+
+
+def test_the_old_name_of_the_phase_of_a_measure_works() -> None:
+    def define() -> type[Distance]:
+        class Journey(Distance):
+            @property
+            def moment(self) -> str | None:
+                return f"{warned(lambda: super(Journey, self).moment, 'moment', 'current_phase')}"
+
+        return Journey
+
+    journey = object.__new__(warned(define, "moment", "current_phase"))
+    assert journey.current_phase == "None"
+    measure: Any = object.__new__(Distance)
+    assert warned(lambda: measure.moment, "moment", "current_phase") is None
 
 
 @pytest.mark.parametrize(

@@ -55,14 +55,14 @@ def page() -> str:
     """Return ``docs/dialect.md``."""
     from uwsim.scene.reader import ROOT
     from uwsim.scene.spec import SceneSpec
-    from uwsim.scene.unsupported import describe_limit
+    from uwsim.scene.unsupported import describe_limitation
 
     parts = [HEAD]
     described_specs: set[type] = set()
     for parent, name, cls in _specs("", ROOT, SceneSpec):
         if cls not in described_specs:
             described_specs.add(cls)
-            limit = describe_limit(parent, qualified_name(name))
+            limit = describe_limitation(parent, qualified_name(name))
             parts.append(_section(name, cls, limit=limit, homes=_scene_homes()))
     return "\n".join([*parts, _plausibility_warnings(), _old_names()])
 
@@ -178,7 +178,7 @@ def _section(
         limit: the limit of its simulation; empty: none.
         homes: links to sections of specs; others have sections on this page.
     """
-    from uwsim.scene.unsupported import describe_limit
+    from uwsim.scene.unsupported import describe_limitation
 
     doc = (inspect.getdoc(cls) or "").strip()
     module = sys.modules[cls.__module__].__doc__ or ""
@@ -194,7 +194,7 @@ def _section(
     lines += ["| element | content | default | meaning |", "|---|---|---|---|"]
     for field in fields_of(cls):
         mark = " (attribute)" if field.xml.attribute else ""
-        part = "" if title is not None else describe_limit(name, qualified_name(field.label))
+        part = "" if title is not None else describe_limitation(name, qualified_name(field.label))
         meaning = _markdown(field.doc) + (f" *({part})*" if part else "")
         cells = (f"`{field.label}`{mark}", _kind(field, homes), _default(field), meaning)
         lines.append("| " + " | ".join(cell.replace("|", "\\|") for cell in cells) + " |")

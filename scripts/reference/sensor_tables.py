@@ -12,7 +12,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from uwsim.checks.benchmark_tables import bundled_tables
-from uwsim.cli.list import devices, find_limit, qualified_name, sensors
+from uwsim.cli.list import devices, find_limitation, qualified_name, sensors
 from uwsim.schema import fields_of
 from uwsim.schema.names import prefixed_name
 from uwsim.sensors import SENSORS
@@ -32,7 +32,7 @@ def _sensors(*, is_simulated: bool) -> str:
     """Return the table of sensors, with their elements besides name and link."""
     rows = []
     for name, summary in sensors(bundled_tables()).items():
-        if is_simulated is (find_limit("sensors", name) == ""):
+        if is_simulated is (find_limitation("sensors", name) == ""):
             labels = [
                 field.label
                 for field in fields_of(SENSORS[qualified_name(name)])
@@ -46,7 +46,7 @@ def _devices(*, is_simulated: bool) -> str:
     rows = [
         (_element_link(name), summary)
         for name, summary in devices(bundled_tables()).items()
-        if is_simulated is (find_limit("devices", name) == "")
+        if is_simulated is (find_limitation("devices", name) == "")
     ]
     return _table(("element", "what it is"), rows)
 
@@ -62,7 +62,7 @@ def _topics(*, is_simulated: bool) -> str:
             f"`{element}`" for element in elements if element.lower().endswith("topic")
         )
         is_publisher = not spec.subscribes and (topics or spec.message_types())
-        if is_publisher and is_simulated is (find_limit("interfaces", name) == ""):
+        if is_publisher and is_simulated is (find_limitation("interfaces", name) == ""):
             rate = f"{elements['rate'].default:g} Hz" if "rate" in elements else "-"
             rows.append((_element_link(name), summary, topics or "-", rate))
     return _table(("element of `<rosInterfaces>`", "what it does", "topics", "default rate"), rows)

@@ -340,7 +340,7 @@ def test_the_line_of_the_plugin_that_raised_is_named(tmp_path: Path) -> None:
         own.module().f()
     with (
         pytest.raises(RunFailed, match=r"own\.py:2: KeyError: 'x' \(at noon\)"),
-        attribute_errors_to([own], moment=lambda: "at noon"),
+        attribute_errors_to([own], describe_progress=lambda: "at noon"),
     ):
         own.module().f()
     with pytest.raises(KeyError), attribute_errors_to([own]):
@@ -358,7 +358,7 @@ def test_the_line_of_the_plugin_that_raised_is_named(tmp_path: Path) -> None:
 )
 def test_whatever_a_plugin_raises_is_one_line(tmp_path: Path, error: str, said: str) -> None:
     own = read_plugin(plugin(tmp_path, f"def f():\n    raise {error}\nALGORITHMS = {{}}\n"))
-    with pytest.raises(RunFailed) as caught, attribute_errors_to([own], moment=str):
+    with pytest.raises(RunFailed) as caught, attribute_errors_to([own], describe_progress=str):
         own.module().f()
     assert str(caught.value).endswith(f"{said} ()")
 

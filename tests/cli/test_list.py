@@ -15,7 +15,7 @@ from uwsim.benchmark.measures import MEASURES
 from uwsim.checks.benchmark_tables import bundled_tables
 from uwsim.checks.scene.not_simulated import unsimulated_elements
 from uwsim.cli import main
-from uwsim.cli.list import KINDS, find_limit
+from uwsim.cli.list import KINDS, find_limitation
 from uwsim.cli.options.descriptions import first_line, head_comment, remove_title
 from uwsim.model.robots import find_file
 from uwsim.scene.hydrodynamics.vehicle_file import read_vehicle
@@ -77,7 +77,7 @@ def test_the_marks_are_those_that_check_gives_a_file(kind: str) -> None:
         scene = etree.fromstring(
             f"<UWSimScene xmlns:u='urn:uwsim:1'><{parent}><{name}/></{parent}></UWSimScene>"
         )
-        assert bool([*unsimulated_elements(scene)]) == bool(find_limit(kind, name)), name
+        assert bool([*unsimulated_elements(scene)]) == bool(find_limitation(kind, name)), name
 
 
 def test_every_sensor_device_and_interface_is_simulated(

@@ -13,7 +13,7 @@ from uwsim.devices.device import DeviceSpec
 from uwsim.devices.fault import FaultSpec, ThrusterFault
 from uwsim.devices.fault_times import FaultTimes
 from uwsim.scene.mounts import MountFrames
-from uwsim.scene.unsupported import describe_limit
+from uwsim.scene.unsupported import describe_limitation
 from uwsim.scene.vehicle import VehicleSpec
 from uwsim.simulation.vehicles import SceneVehicle
 
@@ -45,7 +45,7 @@ def vehicle_on(state: FakeState) -> SceneVehicle:
 @pytest.mark.parametrize("name", DEVICES)
 def test_a_device_without_bind_is_reported_as_read_only(name: str) -> None:
     spec = DEVICES[name]
-    assert bool(describe_limit("vehicle", name)) is not hasattr(spec, "bind")
+    assert bool(describe_limitation("vehicle", name)) is not hasattr(spec, "bind")
     assert issubclass(spec, DeviceSpec) is hasattr(spec, "bind")
 
 

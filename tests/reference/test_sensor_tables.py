@@ -11,7 +11,7 @@ from scripts.reference.sensor_tables import fill_tables
 from uwsim import messages
 from uwsim.checks import check_file
 from uwsim.devices import DEVICES
-from uwsim.scene.unsupported import UNSIMULATED_ELEMENTS, describe_limit
+from uwsim.scene.unsupported import UNSIMULATED_ELEMENTS, describe_limitation
 from uwsim.schema.names import prefixed_name
 from uwsim.sensors import SENSORS
 from uwsim.topics import INTERFACES
@@ -39,7 +39,7 @@ def test_a_table_without_rows_is_a_word(monkeypatch: pytest.MonkeyPatch) -> None
 
 @pytest.mark.parametrize("name", [*SENSORS, *DEVICES])
 def test_every_sensor_and_device_is_in_the_half_that_is_true(name: str) -> None:
-    part = REST if describe_limit("vehicle", name) else SIMULATED
+    part = REST if describe_limitation("vehicle", name) else SIMULATED
     other = SIMULATED if part is REST else REST
     assert f"| [`<{prefixed_name(name)}>`]" in part
     assert f"| [`<{prefixed_name(name)}>`]" not in other
@@ -49,7 +49,7 @@ def test_every_simulated_publisher_has_its_message_and_its_own_paragraph() -> No
     prose = re.sub(r"<!-- table.*?<!-- end of table -->", "", SIMULATED, flags=re.DOTALL)
     for tag, spec in INTERFACES.items():
         summary = (spec.__doc__ or "").split("\n")[0]
-        if summary.startswith("Publishes") and not describe_limit("rosInterfaces", tag):
+        if summary.startswith("Publishes") and not describe_limitation("rosInterfaces", tag):
             assert f"<{prefixed_name(tag)}>" in prose, tag
             if spec is SensorToROSSpec:  # its message is that of the sensor that it names
                 continue

@@ -182,7 +182,7 @@ def test_the_axes_that_thrusters_drive(
     found = allocate(thrusters, ORIGIN, stiffness)
     assert found.axes == axes
     # what is driven is driven alone, and as said
-    assert found.driven_wrenches @ found.allocation_matrix == pytest.approx(
+    assert found.driven_wrenches @ found.inverse_allocation_matrix == pytest.approx(
         np.eye(len(axes)), abs=1e-9
     )
 

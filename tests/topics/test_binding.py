@@ -14,7 +14,7 @@ from uwsim.base.record import NoState
 from uwsim.devices import DEVICES
 from uwsim.messages import Float64
 from uwsim.scene.reader import read_scene
-from uwsim.scene.unsupported import describe_limit
+from uwsim.scene.unsupported import describe_limitation
 from uwsim.schema import fields_of
 from uwsim.schema.names import prefixed_name
 from uwsim.sensors import SENSORS
@@ -35,7 +35,7 @@ SCENE = Path(str(resources.files("uwsim"))) / "data" / "scenes" / "visibility-sc
 @pytest.mark.parametrize("name", [name for name in INTERFACES if name != "SimulatedDeviceROS"])
 def test_what_has_no_bind_is_reported_as_read_only(name: str) -> None:
     spec = INTERFACES[name]
-    assert bool(describe_limit("rosInterfaces", name)) is not spec.is_simulated()
+    assert bool(describe_limitation("rosInterfaces", name)) is not spec.is_simulated()
     assert bool(spec.message_types()) is spec.is_simulated()
 
 

@@ -1,4 +1,7 @@
-"""The import of the report, in a module that imports fast, so that a process can start first."""
+"""The deferred import of the report writer.
+
+This module is cheap to import, so a worker process can be started before the slow import.
+"""
 
 from __future__ import annotations
 
@@ -7,7 +10,7 @@ from pathlib import Path
 
 
 def load_reporter() -> Callable[[Path], object]:
-    """Import and return the function that writes the report of a result; the import is slow."""
+    """Import and return `write_report`; the import is slow."""
     from .report import write_report
 
     return write_report

@@ -13,15 +13,15 @@ def repeats_note(n_results: int, n_levels: int, repeats: int) -> str | None:
         n_levels: the number of levels of the sweep.
         repeats: the number of repeats (seeds) of each algorithm.
     """
-    is_alone = n_results < 2
-    if is_alone and repeats == 1:
+    is_single = n_results < 2
+    if is_single and repeats == 1:
         return None
     from .comparison.repeats import min_repeats  # statistics take a second to load
 
     sweep_repeats, level_repeats = min_repeats(n_results, n_levels)
-    if is_alone and repeats >= level_repeats:
+    if is_single and repeats >= level_repeats:
         return None
-    plan = "comparing this result with one other" if is_alone else f"comparing {n_results} results"
+    plan = "comparing this result with one other" if is_single else f"comparing {n_results} results"
     need_text = f"needs at least {sweep_repeats} repeats"
     if n_levels > 1:
         need_text += f" for the sweep as a whole and {level_repeats} for single levels"

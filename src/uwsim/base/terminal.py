@@ -26,7 +26,7 @@ def print_warnings(diagnostics: Iterable[Diagnostic]) -> None:
         print(clean_text(str(warning)), file=sys.stderr)
 
 
-def ignore_casts() -> None:
+def suppress_cast_warnings() -> None:
     """Suppress numpy's warnings of casts of numbers that are too large for the new type.
 
     Such numbers become infinite, which is checked elsewhere. The setting is for all threads of the

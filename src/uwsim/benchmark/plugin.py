@@ -160,14 +160,14 @@ def format_exception(error: BaseException) -> str:
 
 @contextmanager
 def attribute_errors_to(
-    plugins: Sequence[Plugin], *, moment: Callable[[], str] | None = None
+    plugins: Sequence[Plugin], *, describe_progress: Callable[[], str] | None = None
 ) -> Iterator[None]:
     """Replace an exception raised by a plugin's code by an error that names its file and line.
 
     Args:
         plugins: the plugins in use.
-        moment: a function that describes the present level and time of a running benchmark; None
-            while files are read.
+        describe_progress: a function that describes the present level and time of a running
+            benchmark; None while files are read.
 
     Raises:
         PluginError: a plugin raised an exception while files were read.
@@ -186,8 +186,10 @@ def attribute_errors_to(
                 line = _line_of_attribute(error, plugin)
             if line is not None:
                 message = format_exception(error)
-                if moment is not None:
-                    raise RunFailed(f"{plugin.path}:{line}: {message} ({moment()})") from error
+                if describe_progress is not None:
+                    raise RunFailed(
+                        f"{plugin.path}:{line}: {message} ({describe_progress()})"
+                    ) from error
                 raise plugin.diagnostic(message, line) from error
         raise
 

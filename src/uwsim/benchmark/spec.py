@@ -63,7 +63,7 @@ class BenchmarkSpec(Spec):
     patience: float | None = element(
         default=None, attribute=True, namespaced=True, exclusive_minimum=0.0
     )
-    """The longest wait for the start trigger, in simulation time [s]; None: 10 s."""
+    """The timeout for the start trigger, in simulation time [s]; None: 10 s."""
     timestep: float | None = element(
         default=None, attribute=True, namespaced=True, exclusive_minimum=0.0, maximum=0.02
     )

@@ -15,7 +15,7 @@ from typing import Annotated
 import typer
 
 from ..base.numerics.compiling import on_slow_start
-from ..base.terminal import ignore_casts
+from ..base.terminal import suppress_cast_warnings
 from ..version import __version__
 from .exit_status import INTERRUPT_STATUS, exit_status, format_error
 from .old_options import reject_old_options
@@ -168,7 +168,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     all_words = list(sys.argv[1:] if arguments is None else arguments)
     words = [word for word in all_words if word != TRACEBACK] or ["--help"]
     on_slow_start(report_compilation)
-    ignore_casts()
+    suppress_cast_warnings()
     try:
         reject_old_options(words, COMMANDS)
         application = build_application(words)

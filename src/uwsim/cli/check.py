@@ -44,7 +44,11 @@ def check(
     ] = None,
     is_strict: Annotated[
         bool,
-        option(INPUT, "--strict", help="Also check the order of elements for the original UWSim."),
+        option(
+            INPUT,
+            "--strict",
+            help="Also check the order of elements, which the original UWSim prescribes.",
+        ),
     ] = False,
     xacro: XacroOption = None,
     as_json: JsonOption = False,
@@ -55,7 +59,7 @@ def check(
 
     Python code that these files name is located but not run; the code of a --plugin is run.
 
-    The exit status is 0 without errors, else 2; an element that is read and not simulated yet is a
+    The exit status is 0 without errors, else 2; an element that is read but not simulated yet is a
     warning. With --json: {"files": [{"file", "diagnostics": [{"file", "line", "severity",
     "message"}]}], "n_errors"}.
     """

@@ -40,8 +40,9 @@ def list_names(
 ) -> None:
     """List the names that can be used on the command line and in files, with a description of each.
 
-    Elements of a scene that uwsim reads and does not simulate are marked. With --json: {KIND:
-    [{"name", "summary", "limit"}]}; limit is empty if the element is fully simulated.
+    Elements of a scene that uwsim reads but does not simulate are marked. With --json: {KIND:
+    [{"name", "summary", "limit"}]}; "limit" states the limitation of the simulation of an element,
+    and is empty if it is fully simulated.
     """
     if kind is not None and kind not in KINDS:
         raise UnknownName("kind of names", kind, KINDS)
@@ -57,8 +58,8 @@ def list_names(
         table.add_column(no_wrap=True, style="bold")
         table.add_column()
         for entry, description in entries.items():
-            limit = find_limit(name, entry)
-            table.add_row(entry, Text(description + (f" [{limit}]" if limit else "")))
+            limitation = find_limitation(name, entry)
+            table.add_row(entry, Text(description + (f" [{limitation}]" if limitation else "")))
         if kind is None:
             console.print(name, style="underline")
         console.print(table)
@@ -69,17 +70,17 @@ def list_names(
 def entry_documents(kind: str, entries: Mapping[str, str]) -> list[dict[str, str]]:
     """Return the entries of a kind as JSON documents."""
     return [
-        {"name": name, "summary": summary, "limit": find_limit(kind, name)}
+        {"name": name, "summary": summary, "limit": find_limitation(kind, name)}
         for name, summary in entries.items()
     ]
 
 
-def find_limit(kind: str, name: str) -> str:
-    """Return the limit of the simulation of an element; empty if there is none."""
-    from ..scene.unsupported import describe_limit
+def find_limitation(kind: str, name: str) -> str:
+    """Return the limitation of the simulation of an element; empty if there is none."""
+    from ..scene.unsupported import describe_limitation
 
     parent = {"sensors": "vehicle", "devices": "vehicle", "interfaces": "rosInterfaces"}.get(kind)
-    return "" if parent is None else describe_limit(parent, qualified_name(name))
+    return "" if parent is None else describe_limitation(parent, qualified_name(name))
 
 
 def scenes(tables: Tables) -> dict[str, str]:

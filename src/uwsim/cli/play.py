@@ -12,7 +12,7 @@ from ..base.interrupts import raise_on_interrupt
 from ..base.terminal import print_warnings, warn
 from ..errors import ErrorCollector
 from ..runs.foreign_code import announce_code, refuse_code
-from ..runs.stand_ins import warn_of_stand_ins
+from ..runs.substituted_files import warn_of_substituted_files
 from .options.connections import ConnectionOptions, open_connections
 from .options.help_texts import INPUT, option
 from .options.options import DataPathOption, NoCodeOption, SettingOptions
@@ -84,7 +84,7 @@ def play(
     run_settings = check_run_options(program_options, output, changes, connections, errors)
     errors.raise_errors()
     announce_code(spec)
-    warn_of_stand_ins(spec, folders)
+    warn_of_substituted_files(spec, folders)
     model = compile_scene(spec, seed=seed, data_path=folders)
     with BagReader(recording) as reader, Simulation(model) as simulation:
         print_warnings(model_warnings(model))

@@ -12,7 +12,7 @@ from ..base.terminal import print_warnings
 from ..errors import BadSetting, ErrorCollector
 from ..runs.foreign_code import announce_code, refuse_code
 from ..runs.planning.option_values import compatibility_of, pairs_of
-from ..runs.stand_ins import warn_of_stand_ins
+from ..runs.substituted_files import warn_of_substituted_files
 from .options.help_texts import INPUT, OUTPUT, option
 from .options.options import DataPathOption, NoCodeOption, SceneArgument, SettingOptions
 from .output.image_files import save_depth, save_ids, save_image
@@ -139,7 +139,7 @@ def render(
     assert spec is not None
     assert view_request is not None
     announce_code(spec)
-    warn_of_stand_ins(spec, folders)
+    warn_of_substituted_files(spec, folders)
     model = compile_scene(spec, seed=seed, data_path=folders, compatibility=quirks)
     simulation = Simulation(model)
     try:

@@ -20,7 +20,7 @@ from ..runs.foreign_code import announce_code, refuse_code
 from ..runs.planning.make_plan import ALGORITHM_PREFIX, check_parameters
 from ..runs.planning.option_values import compatibility_of, number_or_text, pairs_of
 from ..runs.program import load_program
-from ..runs.stand_ins import warn_of_stand_ins
+from ..runs.substituted_files import warn_of_substituted_files
 from .options.connections import ConnectionOptions, open_connections
 from .options.live import LiveOptions
 from .options.options import DataPathOption, NoCodeOption, SceneArgument, SettingOptions
@@ -40,7 +40,7 @@ UNITS = {"ms": 1e-3, "s": 1.0, "min": 60.0, "h": 3600.0}
 """The units of durations, in seconds."""
 DURATION = re.compile(r"\s*(\d+\.?\d*|\.\d+)\s*([a-z]*)\s*")
 MAX_DURATION = 1e8
-"""The longest simulation time; a longer one is an error [s]."""
+"""The longest simulation time [s]; a longer one is an error."""
 
 
 def run(
@@ -58,9 +58,9 @@ def run(
     """Run a scene for a time, and list its topics; with --hz, the rates of their messages.
 
     Time is simulation time: the scene runs as fast as possible, and waits for your program, whose
-    callbacks take no simulation time. Same files, program and seed: the same messages, and the
-    same bytes of the recording. Without --hz and --record, images that no program reads are not
-    drawn. Ctrl-C ends the run; the recording is complete up to that time.
+    callbacks take no simulation time. The same files, program and seed give the same messages, and
+    the same bytes of the recording. Without --hz and --record, images that no program reads are not
+    rendered. Ctrl-C ends the run; the recording is complete up to that time.
 
     With --view the scene runs in real time in a browser, where the user pilots its first vehicle,
     unless a program runs.
@@ -87,7 +87,7 @@ def run(
     errors.raise_errors()
     assert spec is not None
     announce_code(spec)
-    warn_of_stand_ins(spec, folders)
+    warn_of_substituted_files(spec, folders)
     model = compile_scene(spec, seed=seed, data_path=folders, compatibility=quirks)
     with Simulation(model, udp_address=program_options.udp_address) as simulation:
         print_warnings(model_warnings(model))
@@ -109,7 +109,7 @@ def run(
 
 @contextmanager
 def open_image_process(simulation: Simulation, connections: ConnectionOptions) -> Iterator[None]:
-    """Draw images in a separate process, if the run is in real time with external programs."""
+    """Render images in a separate process, if the run is in real time with external programs."""
     if not connections.is_connected or connections.real_time_factor == 0 or connections.client:
         yield
         return
@@ -189,7 +189,9 @@ def check_run_options(
         if program_options.program is not None:
             program = load_program(program_options.program, ALGORITHMS)
         elif settings:
-            raise BadSetting(f"--set {settings[0]} sets a parameter of a --program; there is none.")
+            raise BadSetting(
+                f"--set {settings[0]} sets a parameter of a program, but no --program is given."
+            )
     parameters = {
         name.removeprefix(ALGORITHM_PREFIX): number_or_text(value)
         for name, value in pairs_of(settings, errors)
@@ -209,10 +211,14 @@ def scene_settings(changes: SettingOptions) -> list[str]:
 
 
 def read_duration(text: str) -> float:
-    """Return a duration [s] from a text such as ``10s``, ``2min``, ``0.5``; raise BadSetting."""
+    """Parse a duration such as ``10s``, ``2min`` or ``0.5``; return it in seconds.
+
+    Raises:
+        BadSetting: the text is not a duration, or the duration is longer than `MAX_DURATION`.
+    """
     match = DURATION.fullmatch(text)
     if match is None:
-        raise BadSetting(f"--for {text!r}: expected a time, as 10s, 500ms, 2min or 1h.")
+        raise BadSetting(f"--for {text!r}: expected a duration such as 10s, 500ms, 2min or 1h.")
     number, unit = float(match[1]), match[2] or "s"
     if unit not in UNITS:
         hint = did_you_mean(unit, UNITS)

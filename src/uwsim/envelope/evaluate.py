@@ -109,7 +109,7 @@ class Evaluations:
         if key not in self._trials:
             indices = itertools.count(seed * TRIALS_PER_SEED)
             index = next(i for i in indices if i not in self._used_indices)
-            self._add(Trial(index=index, repeat=0, seed=seed, levels=(level,), is_alone=True))
+            self._add(Trial(index=index, repeat=0, seed=seed, levels=(level,), is_independent=True))
         return self._trials[key]
 
     def _add(self, trial: Trial) -> None:
@@ -122,7 +122,9 @@ class Evaluations:
         match head:
             case {"seed": int(seed), "levels": [[*values]]} if len(values) == len(names):
                 level = Level(tuple(zip(names, values, strict=True)))
-                self._add(Trial(index=index, repeat=0, seed=seed, levels=(level,), is_alone=True))
+                self._add(
+                    Trial(index=index, repeat=0, seed=seed, levels=(level,), is_independent=True)
+                )
 
 
 class _JobQueue(JobQueue):

@@ -42,11 +42,11 @@ class Part:
     model: Model
     """The meshes and textures."""
     vehicle: int | None
-    """The number of the vehicle; None for an object."""
+    """The index of the vehicle; None for an object."""
     link: str
     """The link of the vehicle; empty for an object."""
     object: int | None
-    """The number of the object; None for a link."""
+    """The index of the object; None for a link."""
     frame_from_mesh: npt.NDArray[np.float64]
     """The pose of the mesh frame in the frame of the link or object, (4, 4) [m]. It includes the
     scale of the mesh or object, but not the scale of the vehicle."""

@@ -39,7 +39,7 @@ def find_robot(name: str, named_by: str, data_path: tuple[Path, ...]) -> Path:
         return path
 
 
-def robot_stand_ins(scene: SceneSpec, data_path: tuple[Path, ...] = ()) -> dict[str, Path]:
+def substitute_robots(scene: SceneSpec, data_path: tuple[Path, ...] = ()) -> dict[str, Path]:
     """Return the bundled robot file for each robot file that is not found, by its name."""
     named_by = Path(scene.path).parent if scene.path else None
     replacements = {

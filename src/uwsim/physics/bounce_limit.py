@@ -1,17 +1,18 @@
 r"""The limit on the energy of loose objects that bounce.
 
 A contact with a coefficient of restitution is a soft spring (`restitution`). In a long step a body
-may penetrate a relief by more than the width of one of its facets. It may then be far behind
+may penetrate a terrain mesh by more than the width of one of its facets. It may then be far behind
 another facet, whose spring would eject it. Therefore the mechanical energy
 
-.. math:: E = \tfrac12 \nu^T (M + M_A)\,\nu - (m - \rho V)\, g \cdot x
+.. math:: E = \tfrac12 \nu^T (M + M_A)\,\nu - g \cdot (m\,x_g - \rho V x_b)
 
 of an object that touches only fixed bodies is limited to its value before the contact: above the
-limit, the velocity is reduced. Here :math:`\nu` is the twist, :math:`M` and :math:`M_A` the rigid
-and added mass, m the mass, :math:`\rho V` the displaced mass, g the gravity and x the position. For
-loose objects that touch each other, the sum of their energies is limited. In moving water, the work
-of the water raises the limit. Objects that touch other moving bodies (a gripper, a vehicle) have no
-limit. The limit is only computed in scenes with a coefficient of restitution.
+limit, the velocity is reduced. Here :math:`\nu` is the twist, :math:`M` the inertia of the body,
+:math:`M_A` the added mass, m the mass, :math:`\rho V` the displaced mass, g the gravity vector,
+:math:`x_g` the centre of mass and :math:`x_b` the centre of buoyancy, all in the world frame W.
+For loose objects that touch each other, the sum of their energies is limited. In moving water, the
+work of the water raises the limit. Objects that touch other moving bodies (a gripper, a vehicle)
+have no limit. The limit is only computed in scenes with a coefficient of restitution.
 """
 
 from __future__ import annotations
@@ -46,9 +47,9 @@ class BounceLimit:
     """The limit on the energy of loose objects that bounce.
 
     Args:
-        model: the engine's model.
-        data: the engine's state.
-        bodies: the engine's numbers of the loose objects.
+        model: MuJoCo's model.
+        data: MuJoCo's data.
+        bodies: the MuJoCo body IDs of the loose objects.
     """
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, bodies: Sequence[int]) -> None:
@@ -56,7 +57,7 @@ class BounceLimit:
         self._objects = [_LooseBody(model, data, body) for body in bodies]
         self.is_on = True
         """True if the limit applies: while no vehicle holds an object."""
-        self._indices = {body.number: i for i, body in enumerate(self._objects)}
+        self._indices = {body.body_id: i for i, body in enumerate(self._objects)}
         self._fixed = model.body_weldid == 0  # mask of the bodies that never move
         self.state = BounceState(
             np.array([body.energy() for body in self._objects]),
@@ -131,15 +132,16 @@ class BounceLimit:
 class _LooseBody:
     """A loose object with its rigid and added inertia, and its centres of mass and buoyancy.
 
-    r_g is the position of the centre of mass, r_b that of the centre of buoyancy, in body axes.
+    r_g and r_b are the positions of the centres of mass and buoyancy in the body's frame [m].
     """
 
     def __init__(self, model: mujoco.MjModel, data: mujoco.MjData, body: int) -> None:
-        self.number = body
-        dof = int(model.body_dofadr[body])
-        place = int(model.jnt_qposadr[model.body_jntadr[body]])
-        self._q, self.velocity = data.qpos[place : place + 7], data.qvel[dof : dof + 6]
-        self._qacc, self._qacc_smooth = data.qacc[dof : dof + 6], data.qacc_smooth[dof : dof + 6]
+        self.body_id = body
+        dof_start = int(model.body_dofadr[body])
+        qpos_start = int(model.jnt_qposadr[model.body_jntadr[body]])
+        dofs = slice(dof_start, dof_start + 6)
+        self._q, self.velocity = data.qpos[qpos_start : qpos_start + 7], data.qvel[dofs]
+        self._qacc, self._qacc_smooth = data.qacc[dofs], data.qacc_smooth[dofs]
         self._timestep, self._gravity = float(model.opt.timestep), model.opt.gravity
         self._mass = float(model.body_mass[body])
         self._r_g = model.body_ipos[body].copy()  # (3,) [m]
@@ -183,9 +185,11 @@ class _LooseBody:
 
     def _potential_energy(self) -> float:
         """Return the energy of weight and buoyancy [J]."""
-        lever = self._mass * self._r_g - self._displaced_mass * self._r_b
-        moment = (self._mass - self._displaced_mass) * self._q[:3] + rotate(self._rotation(), lever)
-        return -dot(self._gravity, moment)
+        first_moment_body = self._mass * self._r_g - self._displaced_mass * self._r_b
+        mass_difference = self._mass - self._displaced_mass
+        # m x_g - rho V x_b [kg m]
+        first_moment = mass_difference * self._q[:3] + rotate(self._rotation(), first_moment_body)
+        return -dot(self._gravity, first_moment)
 
     def _rotation(self) -> Array:
         matrix = np.empty(9)
@@ -195,9 +199,9 @@ class _LooseBody:
 
 def _rigid_inertia(model: mujoco.MjModel, body: int) -> Array:
     """Return the rigid inertia of a body about its origin, in its axes, linear first, (6, 6)."""
-    mass, turn = float(model.body_mass[body]), np.empty(9)
-    mujoco.mju_quat2Mat(turn, model.body_iquat[body])
-    axes = turn.reshape(3, 3)
+    mass, rotation = float(model.body_mass[body]), np.empty(9)
+    mujoco.mju_quat2Mat(rotation, model.body_iquat[body])
+    axes = rotation.reshape(3, 3)
     s = _skew(model.body_ipos[body])
     inertia = np.zeros((6, 6))
     inertia[:3, :3] = mass * np.eye(3)

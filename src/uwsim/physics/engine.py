@@ -191,7 +191,7 @@ class Engine:
         """Set the external wrenches on bodies, which act in all steps until the next call.
 
         Args:
-            wrenches: for each wrench, the engine's number of the body, a point in the body's frame
+            wrenches: for each wrench, the MuJoCo ID of the body, a point in the body's frame
                 (3,) [m], and the force and the torque about this point, in W, (6,) [N, N m].
         """
         self.poses.refresh()

@@ -6,7 +6,7 @@ it, but only between two ``mjData``, each with an arena of megabytes. The bytes 
 a few kilobytes, so that thousands of copies can be stored, saved and compared. Pointers into the
 arena are stored as offsets from its beginning, so that the bytes fit any data of the same model.
 
-Diagnostics of the solver and its timers are not included.
+The arrays of solver statistics (``solver``) and of timers (``timer``) are not included.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ FIRST_FIELD, LAST_FIELD = "ncon", "energy"
 
 
 @dataclass(frozen=True, slots=True)
-class EngineNumbers:
+class EngineSnapshot:
     """The content of MuJoCo's data as bytes."""
 
     counts: bytes
@@ -69,18 +69,20 @@ class EngineMemory(ExternalValue):
         words = {n: struct[fields[n]].view(np.uint64) for n in ("buffer", "arena", "parena")}
         buffer, self._base = int(words["buffer"][0]), int(words["arena"][0])
         if not buffer <= data.xpos.ctypes.data < buffer + data.nbuffer:
-            raise MujocoChanged("The arrays of MuJoCo are not where its description states.")
+            raise MujocoChanged(
+                "MuJoCo's arrays are not in the buffer that its struct layout describes."
+            )
         self._arrays = _view(buffer, data.nbuffer)
         self._arena = _view(self._base, data.narena)
-        self._n_counts = sum(part.stop - part.start for part in self._counts)
+        self._counts_size = sum(part.stop - part.start for part in self._counts)
         self._arena_size = words["parena"]
 
-    def value(self) -> EngineNumbers:
+    def value(self) -> EngineSnapshot:
         """Return the present content."""
         addresses = self._addresses
         offsets = addresses - np.uint64(self._base - 1)
         offsets[addresses == 0] = 0
-        return EngineNumbers(
+        return EngineSnapshot(
             b"".join([self._bytes[part] for part in self._counts]),
             offsets.tobytes(),
             self._arrays.tobytes(),
@@ -88,12 +90,12 @@ class EngineMemory(ExternalValue):
         )
 
     def set(self, value: object) -> None:
-        """Set the content; raise UwsimError if it is that of another model."""
-        if not isinstance(value, EngineNumbers):
+        """Set the content; raise UwsimError if it is the content of another model's data."""
+        if not isinstance(value, EngineSnapshot):
             raise wrong_scene_error()
         offsets = np.frombuffer(value.offsets, np.uint64)
         lengths = len(value.counts), len(offsets), len(value.arrays)
-        own_lengths = self._n_counts, len(self._addresses), len(self._arrays)
+        own_lengths = self._counts_size, len(self._addresses), len(self._arrays)
         if lengths != own_lengths or len(value.arena) > len(self._arena):
             raise wrong_scene_error()
         if offsets.max(initial=0) > len(value.arena) + 1:  # an empty array may begin at the end

@@ -26,7 +26,7 @@ class Hold:
     """The link that holds an object, and the object's pose on it."""
 
     vehicle: int
-    """The number of the vehicle."""
+    """The index of the vehicle."""
     link: str
     """The name of the link."""
     link_from_object: Pose
@@ -38,7 +38,7 @@ class GripsState(Record):
     """The objects that are held."""
 
     grasps: dict[int, Hold] = field(default_factory=dict)
-    """The hold of each held object, by the number of the object."""
+    """The hold of each held object, by the index of the object."""
 
 
 class Grips:

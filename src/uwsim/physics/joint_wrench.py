@@ -53,7 +53,7 @@ WORKSPACE = np.dtype(
 JOINT_WRENCH = np.dtype(
     [
         ("mount", np.int64),  # the address of a record of `link_kernel.MOUNT`
-        ("body", np.int64),  # the engine's number of the link
+        ("body", np.int64),  # the MuJoCo body ID of the link
         ("workspace", np.int64),  # the address of a record of `WORKSPACE`; 0 without dynamics
     ]
 )
@@ -82,7 +82,7 @@ class JointWrench:
         """Return a sampler of the force [N] and the torque [N m] in the frame of a mount, (6,).
 
         Args:
-            body: the engine's number of the link.
+            body: the MuJoCo body ID of the link.
             mount: the frame on the link.
             has_dynamics: true if the vehicle of the link has dynamics; else all numbers are 0.
         """
@@ -137,7 +137,7 @@ def compute_wrench(space: Record, body: int, point: Array, wrench: Array) -> Non
 
     Args:
         space: a record of `WORKSPACE`.
-        body: the engine's number of the body.
+        body: the MuJoCo ID of the body.
         point: an array that begins with the point of the torque, in W, (3,) or longer [m].
         wrench: receives the force and the torque, (6,) [N, N m].
     """

@@ -32,7 +32,7 @@ class PosesState(Record):
     """The set poses in W of objects that are not bodies of the engine, by number."""
     carriers: dict[int, tuple[int, str, Pose]] = field(default_factory=dict)
     """The vehicle, the link, and the pose in the link's frame of each object that follows a link,
-    by the number of the object."""
+    by the index of the object."""
 
 
 class Poses:
@@ -85,11 +85,11 @@ class Poses:
             self.state.is_stale = False
 
     def base(self, index: int) -> int:
-        """Return the engine's number of a vehicle's base."""
+        """Return the MuJoCo body ID of a vehicle's base."""
         return self._bases[index]
 
     def link_body(self, index: int, link: str) -> int:
-        """Return the engine's number of a vehicle's link."""
+        """Return the MuJoCo body ID of a vehicle's link."""
         return self._links[index, link]
 
     def engine_body(self, vehicle: int | None, link: str, index: int | None) -> int:
@@ -98,9 +98,9 @@ class Poses:
         A link of a scaled vehicle and an object that follows a link have none.
 
         Args:
-            vehicle: the number of the vehicle; None for an object.
+            vehicle: the index of the vehicle; None for an object.
             link: the name of the link.
-            index: the number of the object; None without one.
+            index: the index of the object; None without one.
         """
         if vehicle is not None:
             return -1 if vehicle in self._scales else self._links[vehicle, link]
@@ -129,7 +129,7 @@ class Poses:
         """Return the record of a part mounted on a link, for `mount_pose` and for compiled code.
 
         Args:
-            index: the number of the vehicle.
+            index: the index of the vehicle.
             link: the name of the link.
             link_from_part: the pose of the part in the frame of the link.
         """
@@ -163,7 +163,7 @@ class Poses:
         self.state.placed_poses[index] = world_from_object
 
     def loose_body(self, index: int) -> int | None:
-        """Return the engine's number of an object; None if it is not a body of the engine."""
+        """Return the MuJoCo ID of an object; None if it is not a body of the engine."""
         return self._loose_bodies.get(index)
 
     def read_frames(self, bodies: npt.NDArray[np.intp]) -> Array:
@@ -178,7 +178,7 @@ class Poses:
         computed again after the next `mark_stale`.
 
         Args:
-            bodies: the engine's numbers of the bodies.
+            bodies: the MuJoCo IDs of the bodies.
             rows: the position in W [m] and quaternion (wxyz) of each body, (n, 7).
         """
         self.refresh()
@@ -207,7 +207,7 @@ class Poses:
         """Return the positions in W of points that are fixed to bodies, (n, 3) [m].
 
         Args:
-            bodies: the engine's number of the body of each point, (n,).
+            bodies: the MuJoCo ID of the body of each point, (n,).
             on_bodies: the points in the frames of their bodies, (n, 3) [m].
         """
         self.refresh()

@@ -28,7 +28,7 @@ class ScaledLinks:
     Args:
         model: the engine's model, whose relative link poses are changed here.
         robot: the links and joints of the vehicle.
-        index: the number of the vehicle.
+        index: the index of the vehicle.
         scale: the scale along the axes of the base [1].
     """
 

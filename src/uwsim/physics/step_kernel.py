@@ -28,7 +28,13 @@ from .hydrodynamics.columns import ELEVATION, OMEGA, SLOPE_X, SLOPE_Y, WATER_COL
 from .hydrodynamics.kernel import fields as f
 from .hydrodynamics.kernel.flow import submerged_middle
 from .hydrodynamics.kernel.free_bodies import move_to_end, move_to_middle
-from .hydrodynamics.water_function import POINT, ROTATION, SURFACE, VELOCITY, WATER_ROW
+from .hydrodynamics.water_function import (
+    ANGULAR_VELOCITY,
+    POINT,
+    SURFACE,
+    VELOCITY,
+    WATER_ROW_LENGTH,
+)
 from .islands import choose_islands
 
 _MINVAL = 1e-15  # mjMINVAL
@@ -60,17 +66,23 @@ PLAN = np.dtype(
         ("warnings", np.int64),  # the address of MuJoCo's counters of warnings
         ("n_warnings", np.int64),
         ("warning_stride", np.int64),  # the number of bytes from one counter to the next
-        ("submerged_bodies", np.int64),  # the address of the numbers of bodies in the water
+        ("submerged_bodies", np.int64),  # the address of the MuJoCo IDs of bodies in the water
         ("n_submerged_bodies", np.int64),
         ("samples", np.int64),  # the address of a record of `sampling.TABLE`; 0: no samples
         ("step_offset", np.int64),  # the simulation's step count minus ``step``
         ("kinematics", np.int64),  # the address of ``mj_kinematics``
         ("points", np.int64),  # the address of the bodies' reference points, in body axes [m]
-        ("water_rows", np.int64),  # the address of the water's motion at them, `WATER_ROW` each
+        (
+            "water_rows",
+            np.int64,
+        ),  # the address of the water's motion at them, (n, `WATER_ROW_LENGTH`)
         ("flow", np.int64),  # the addresses of a `WaterFunction` and its parameters
         ("flow_parameters", np.int64),
         ("needs_points", np.int64),  # 1 if this function reads the positions of the points
-        ("follows_surface", np.int64),  # 1 for heights of the submerged parts' centres
+        (
+            "uses_submerged_centre",
+            np.int64,
+        ),  # 1: heights of points are at submerged parts' centres
         ("n_water", np.int64),  # the number of further steps in which this function is called
     ],
     align=True,
@@ -200,7 +212,7 @@ def set_water(plan: Record, o: Ints64) -> None:
     """Set the motion of the water for the step that begins, evaluated at the middle of the step."""
     d, n = plan.data, plan.n_submerged_bodies
     bodies = view_int64s(plan.submerged_bodies, n)
-    rows = view_doubles(plan.water_rows, WATER_ROW * n).reshape((n, WATER_ROW))
+    rows = view_doubles(plan.water_rows, WATER_ROW_LENGTH * n).reshape((n, WATER_ROW_LENGTH))
     if plan.needs_points != 0:
         points = view_doubles(plan.points, 3 * n)
         for i in range(n):
@@ -211,7 +223,7 @@ def set_water(plan: Record, o: Ints64) -> None:
                 rows[i, POINT + k] = (
                     origin[k] + axes[3 * k] * x + axes[3 * k + 1] * y + axes[3 * k + 2] * z
                 )
-            if plan.follows_surface != 0:
+            if plan.uses_submerged_centre != 0:
                 rows[i, POINT + 2] = submerged_middle(
                     plan.model, d, o, bodies[i], rows[i, POINT + 2]
                 )
@@ -223,7 +235,7 @@ def set_water(plan: Record, o: Ints64) -> None:
         for k in range(6):
             userdata[start + k] = rows[i, VELOCITY + k]
         for k in range(3):
-            userdata[start + OMEGA + k] = rows[i, ROTATION + k]
+            userdata[start + OMEGA + k] = rows[i, ANGULAR_VELOCITY + k]
         userdata[start + ELEVATION] = rows[i, SURFACE]
         userdata[start + SLOPE_X] = rows[i, SURFACE + 1]
         userdata[start + SLOPE_Y] = rows[i, SURFACE + 2]

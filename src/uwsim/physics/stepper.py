@@ -25,7 +25,7 @@ from .engine_warnings import StepCheck
 from .hydrodynamics import callback
 from .hydrodynamics.columns import OMEGA, WATER_COLUMNS
 from .hydrodynamics.hydrodynamics import Hydrodynamics
-from .hydrodynamics.water_function import WATER_ROW, DriftFunction, WaterFunction
+from .hydrodynamics.water_function import WATER_ROW_LENGTH, DriftFunction, WaterFunction
 
 AUTOPILOT_PERIOD = 0.02
 """The period of the autopilots [s]."""
@@ -41,7 +41,7 @@ def _word(name: str) -> int:
 _STEP, _SAMPLES, _OFFSET = map(_word, ("step", "samples", "step_offset"))
 _FLOW, _FLOW_PARAMETERS = map(_word, ("flow", "flow_parameters"))
 _NEEDS_POINTS, _N_WATER = map(_word, ("needs_points", "n_water"))
-_FOLLOWS_SURFACE = _word("follows_surface")
+_USES_SUBMERGED_CENTRE = _word("uses_submerged_centre")
 _DRIFT, _DRIFT_PARAMETERS = map(_word, ("drift", "drift_parameters"))
 
 
@@ -62,7 +62,7 @@ class Stepper:
         autopilots: the autopilots of the vehicles with dynamics.
         servos: the servos of the vehicles with dynamics.
         kinematic_joints: the free joints of the kinematic vehicles.
-        submerged_bodies: the engine's numbers of the n bodies that the water acts on.
+        submerged_bodies: the MuJoCo IDs of the n bodies that the water acts on.
         reference_points: the points at which the water acts, in body axes, (n, 3) [m].
         check: the checks after a step.
         bounce_limit: the limit on the energy of objects that bounce; None if no object does.
@@ -111,7 +111,7 @@ class Stepper:
         plan["warnings"], plan["n_warnings"] = counters.ctypes.data, len(counters)
         plan["warning_stride"] = counters.strides[0]
         self._bodies, self._points = list(submerged_bodies), np.ascontiguousarray(reference_points)
-        self._rows = np.zeros((len(submerged_bodies), WATER_ROW))  # of the water at these bodies
+        self._rows = np.zeros((len(submerged_bodies), WATER_ROW_LENGTH))  # the water's motion
         plan["points"], plan["water_rows"] = address_of(self._points), address_of(self._rows)
         self.state = StepperState()
         """The state of the stepper."""
@@ -194,7 +194,7 @@ class Stepper:
             self.state.has_flow = True
             words[_FLOW], words[_FLOW_PARAMETERS] = water.function, water.address
             words[_NEEDS_POINTS], words[_N_WATER] = water.needs_points, 1 if water.is_steady else n
-            words[_FOLLOWS_SURFACE] = water.follows_surface
+            words[_USES_SUBMERGED_CENTRE] = water.uses_submerged_centre
             return
         words[_NEEDS_POINTS] = words[_N_WATER] = 0
         if self.state.has_flow:

@@ -72,7 +72,7 @@ def bounds_of(low: Point, high: Point) -> Bounds:
 
 @njit
 def _inverses(low: float, high: float) -> tuple[float, float]:
-    """Return the inverses of two bounds of a component, in rising order."""
+    """Return the inverses of two bounds of a component, in ascending order."""
     inverse_low, inverse_high = inverse(low), inverse(high)
     if inverse_low < inverse_high:
         return inverse_low, inverse_high

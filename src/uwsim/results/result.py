@@ -25,7 +25,7 @@ Kind = Literal["run", "level", "measure", "detail", "score", "status", "time"]
 Cell = float | int | str | None
 Json = Mapping[str, object]
 
-FLOOR = "floor_"
+ERROR_FLOOR_PREFIX = "floor_"
 """The prefix of the facts with the error floor of a measure."""
 
 

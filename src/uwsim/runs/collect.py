@@ -21,15 +21,18 @@ from ..results.result import (
     Variation,
 )
 from ..results.run_info import RunInfo
-from ..results.stored.stored_row import StoredEnd, StoredPicture, StoredRow, ValueWithUnit
+from ..results.stored.stored_row import StoredEnd, StoredImage, StoredRow, ValueWithUnit
 from .planning.plan import Plan, Trial
-from .trial.floor import largest_floors
+from .trial.error_floor import largest_error_floors
 
 
 def collect(
     plan: Plan, inputs: Inputs, info: RunInfo, stored_trials: Sequence[tuple[Trial, StoredTrial]]
 ) -> tuple[Result, list[Log], float]:
     """Collect the rows on disk, in the order of the plan.
+
+    The facts of the result are values measured for the whole run, such as the contrast of the
+    image. They are taken from the first finished trial; error floors are the largest of all trials.
 
     Args:
         plan: the plan of the run.
@@ -44,7 +47,7 @@ def collect(
     columns = _columns(plan, [row for _, row in rows])
     start_times, simulated_s = _times(rows)
     end_times = [
-        row.duration + (0.0 if trial.is_alone else start)
+        row.duration + (0.0 if trial.is_independent else start)
         for (trial, row), start in zip(rows, start_times, strict=True)
     ]
     ends = [(trial, content.end) for trial, content in stored_trials if content.end is not None]
@@ -68,13 +71,13 @@ def collect(
             for number, (_, row) in enumerate(rows)
             for name, reason in row.missing.items()
         ),
-        facts={**facts, **largest_floors(end.facts for _, end in ends)},
+        facts={**facts, **largest_error_floors(end.facts for _, end in ends)},
         variations=variations_of(plan),
         image_streams=tuple(stream for trial, end in ends for stream in _streams(trial, end)),
         images=tuple(
-            _image(number, picture)
+            _image(number, stored_image)
             for number, (_, row) in enumerate(rows)
-            for picture in row.pictures
+            for stored_image in row.pictures
         ),
         refused_messages=tuple(
             RefusedMessages(row=number, sender=sender, topic_or_service=name, n=n)
@@ -148,7 +151,7 @@ def _logs(
 
 
 def _streams(trial: Trial, end: StoredEnd) -> list[ImageStream]:
-    level = trial.values[0] if trial.is_alone else None
+    level = trial.values[0] if trial.is_independent else None
     return [
         ImageStream(seed=trial.seed, level=level, topic=topic, frames=frames, sha256=sha256)
         for topic, frames, sha256 in end.streams
@@ -209,13 +212,13 @@ def _units(rows: Iterable[Mapping[str, ValueWithUnit]]) -> dict[str, str]:
     return {name: unit for name, (_, unit) in units.items()}
 
 
-def _image(row: int, picture: StoredPicture) -> SavedImage:
+def _image(row: int, stored_image: StoredImage) -> SavedImage:
     return SavedImage(
         row=row,
-        camera=picture.camera,
-        file=picture.file,
-        truth=picture.truth,
-        estimate=picture.estimate,
+        camera=stored_image.camera,
+        file=stored_image.file,
+        truth=stored_image.truth,
+        estimate=stored_image.estimate,
     )
 
 

@@ -17,7 +17,7 @@ class AttachableBody:
     kind: Literal["vehicle", "object"]
     """The kind of body."""
     index: int
-    """The number of the vehicle or object in the scene."""
+    """The index of the vehicle or object in the scene."""
     link: str = ""
     """The name of the link; empty for an object."""
 
@@ -31,7 +31,7 @@ def attachable_bodies(
 
     Args:
         scene: the scene.
-        robots: the robots by the number of the vehicle in the scene.
+        robots: the robots by the index of the vehicle in the scene.
     """
     bodies: dict[str, AttachableBody] = {}
     for index, robot in robots.items():

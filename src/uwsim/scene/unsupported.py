@@ -71,8 +71,13 @@ ONLY_WITH_WAVES = "simulated in a scene with u:waves"
 ONLY_WITH_OCEAN = "simulated in a scene with u:uwsimOcean"
 
 
-def describe_limit(parent: str, name: str) -> str:
-    """Describe what is not simulated of an element below ``parent``; empty if it is simulated."""
+def describe_limitation(parent: str, name: str) -> str:
+    """Return the limitation of the simulation of an element; empty if it is fully simulated.
+
+    Args:
+        parent: the name of the element's parent element.
+        name: the qualified name of the element.
+    """
     if (parent, name) in ORIGINAL_PHYSICS_ELEMENTS:
         return ONLY_WITHOUT_DYNAMICS
     if (parent, name) == DEPTH_ELEMENT:

@@ -110,7 +110,7 @@ def name_bodies(model: SceneModel, engine: Engine) -> dict[str, SceneBody]:
 
 
 def _object_boxes(model: SceneModel) -> dict[int, Box]:
-    """Return the bounding box of each object that has a visual, by the number of the object."""
+    """Return the bounding box of each object that has a visual, by the index of the object."""
     boxes = {part.object: part.model.box for part in model.parts if part.object is not None}
     if "box-scale" in model.compatibility:
         return boxes
@@ -182,7 +182,7 @@ def scaled_box(
 
 
 def find_contact_body(name: str, scene: SceneSpec) -> tuple[Literal["vehicle", "object"], int]:
-    """Return the kind and the number of the vehicle or object with this name.
+    """Return the kind and the index of the vehicle or object with this name.
 
     Raises:
         UnknownName: there is no such vehicle or object.

@@ -70,9 +70,9 @@ class MovingLink:
     """A link of a vehicle, and the objects from which its motion is read."""
 
     index: int
-    """The number of the vehicle in the scene."""
+    """The index of the vehicle in the scene."""
     body: int
-    """The engine's number of the body of the link."""
+    """The MuJoCo ID of the link's body."""
     motion: LinkMotion
     """The motion of points on links."""
     prescribed_motion: Callable[[], PrescribedMotion | None]
@@ -134,7 +134,7 @@ class CompiledVehicle:
         name: the name ``vehicle/root link``.
         root: the name of the root link, whose frame is the base frame.
         joints: the names of the joints in the joint vector.
-        index: the number of the vehicle in the scene.
+        index: the index of the vehicle in the scene.
         engine: the engine, which stores the pose of the vehicle.
         prescribed_twist: returns the twist of the base if the motion is prescribed: linear in W
             [m/s], angular in the axes of the base [rad/s], (6,); None if forces move the vehicle.

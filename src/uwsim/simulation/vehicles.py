@@ -48,7 +48,7 @@ class SceneVehicle:
     The number of a vehicle identifies it: several vehicles may share a name.
 
     Args:
-        index: the number of the vehicle in the scene.
+        index: the index of the vehicle in the scene.
         frames: the frames of the vehicle's links and mounts at its pose in the scene file.
         engine: the engine, which stores the poses of the links.
         step: returns the number of steps taken so far.
@@ -59,7 +59,7 @@ class SceneVehicle:
     ) -> None:
         self._frames, self._engine, self._step = frames, engine, step
         self.index = index
-        """The number of the vehicle in the scene."""
+        """The index of the vehicle in the scene."""
         self.name = frames.vehicle.name
         """The name of the vehicle in the scene."""
         self.joint_names = tuple(joint.name for joint in frames.robot.movable_joints)

@@ -69,7 +69,7 @@ def test_a_sweep_of_lengths_shows_the_prediction_as_a_length() -> None:
     figure = value_plot(replace(result, columns=(length, *others), rows=rows), "corners")
     assert figure.axes[0].get_xlabel() == "attenuation length [m]"
     assert vertical_lines(figure)[-1] == pytest.approx(1.0 / F_STAR)
-    assert f"predicted at {1.0 / F_STAR:.2f} m, $f^*$ = {F_STAR:.2f} m⁻¹" in words(figure)
+    assert f"predicted loss at {1.0 / F_STAR:.2f} m, $f^*$ = {F_STAR:.2f} m⁻¹" in words(figure)
 
 
 def test_without_a_loss_and_without_facts_there_is_no_such_line() -> None:

@@ -314,7 +314,7 @@ def test_the_floor_is_what_the_run_has_measured_and_not_what_its_name_suggests(
     facts = {"floor_corners": (2.8794, "px"), "floor_centroid": (1.6345, "px")}
     text = page_of(replace(named, facts={**named.facts, **facts}), tmp_path).text
     assert "at the level with the greatest error: corners 2.88 px, centroid 1.63 px." in text
-    assert "floor of corners: the score of a perfect tracker" in text
+    assert "error floor of corners, of a perfect tracker" in text
 
 
 def endings_of(page: Page) -> dict[str, str]:
@@ -377,7 +377,7 @@ def test_captions_say_unit_statistic_and_what_bands_are(tmp_path: Path) -> None:
         "Figure 2. corners [px], mean over each level.",
         "Points: means over 3 repeats (seeds 1 to 3).",
         "Bands: 95 % intervals of that mean",
-        "corners: mean over each level; total = corners+centroid; ended_at: running time when",
+        "corners: mean over each level; total = corners+centroid; ended_at: simulation time at",
     ):
         assert said in text, said
 
@@ -487,9 +487,9 @@ def test_the_prediction_is_given_only_where_fog_is_swept(tmp_path: Path) -> None
     base = visibility_result()
     current = (Column(name="current", kind="level", unit="m/s"), *base.columns[1:])
     text = page_of(replace(base, columns=current), tmp_path).text
-    assert "loss predicted" not in text
+    assert "predicted loss" not in text
     assert "the paper's fog" not in text
-    assert "loss predicted at f*" in page_of(base, tmp_path).text
+    assert "predicted loss of tracking (fog f*)" in page_of(base, tmp_path).text
 
 
 def test_without_pixels_their_floor_is_not_reported(tmp_path: Path) -> None:

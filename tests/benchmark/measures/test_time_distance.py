@@ -99,7 +99,7 @@ def test_a_time_that_goes_on_again_begins_anew_in_the_original() -> None:
         for _ in range(n):
             world.advance()
             time.update()
-        time.went_off()
+        time.stop()
     assert time.value == 1.5
 
 

@@ -12,7 +12,7 @@ from uwsim.physics.hydrodynamics.water_function import (
     POINT,
     SURFACE,
     VELOCITY,
-    WATER_ROW,
+    WATER_ROW_LENGTH,
     WaterFunction,
 )
 
@@ -25,7 +25,7 @@ def ask(function: int, parameters: int, rows: np.ndarray, time: float) -> np.nda
 
 def rows_of(water: WaterFunction, points: np.ndarray, times: Sequence[float]) -> np.ndarray:
     """Return velocity, acceleration and rotation at points at some times, (times, n, 9)."""
-    found, rows = [], np.zeros((len(points), WATER_ROW))
+    found, rows = [], np.zeros((len(points), WATER_ROW_LENGTH))
     rows[:, POINT:VELOCITY] = points
     for time in times[:1] if water.is_steady else times:
         found.append(ask(water.function, water.address, rows, time)[:, VELOCITY:SURFACE].copy())

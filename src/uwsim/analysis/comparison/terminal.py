@@ -19,11 +19,13 @@ from .sentences import needed_text, p_text, sentences, short_verdict
 
 STYLES: dict[CellVerdict, str] = {"better": "green", "worse": "red", "too few": "yellow"}
 LEGEND = (
-    "A line has n, the pairs with a value from both, and the difference with its 95 % interval. "
-    "Effect sizes are Hedges' g, and A: the probability that a repeat of the second is better. "
-    "The sign-flip test gives p after Holm's correction. Repeats that ended ok: first : second. "
-    "Repeats needed would show the observed difference in 4 of 5 experiments. "
-    "See docs/statistics.md."
+    "Each line gives n, the number of repeats with a value in both results. "
+    "It gives the difference with its 95 % interval, and its effect size g (Hedges). "
+    "A is the probability that a repeat of the second result is better. "
+    "p is the p-value of the sign-flip test after Holm's correction. "
+    "The column ok gives the numbers of repeats that ended ok, first : second. "
+    "The column needs gives the number of repeats with which the observed difference would be "
+    "detected in 4 of 5 experiments. See docs/statistics.md."
 )
 OMITTED_COLUMNS = ("a", "g", "ok", "n")
 """The columns that a narrow terminal omits, in this order, by their field of `ComparisonLine`. They
@@ -54,7 +56,7 @@ class ComparisonLine:
     level: tuple[str, ...]
     """The values of the swept parameters, outermost first."""
     n: str
-    """The number of pairs with a value in both results."""
+    """The number of repeats with a value in both results (paired repeats)."""
     first_mean: str
     """The mean of the first result."""
     second_mean: str
@@ -72,9 +74,9 @@ class ComparisonLine:
     verdict: str
     """The verdict in a few words (`short_verdict`)."""
     repeats_needed: str
-    """The number of repeats that would show a difference."""
-    is_shown: bool
-    """True if one result is better."""
+    """The number of repeats with which the observed difference would be detected."""
+    is_conclusive: bool
+    """True if the comparison shows that one result is better; the line is then bold."""
 
 
 def lines(comparison: Comparison, pair: PairComparison) -> tuple[ComparisonLine, ...]:
@@ -159,7 +161,7 @@ def _table(comparison: Comparison, pair: PairComparison, width: int) -> Table:
         )
     for i, row in enumerate(rows):
         cells = [Text(column.cells[i]) for column in columns]
-        table.add_row(*cells, style="bold" if row.is_shown else "")
+        table.add_row(*cells, style="bold" if row.is_conclusive else "")
     return table
 
 
@@ -215,7 +217,7 @@ def _line(
         else f"{success.first.successes} : {success.second.successes} of {success.first.n}",
         verdict=short_verdict(pair, d),
         repeats_needed=needed_text(comparison, d),
-        is_shown=d.verdict in ("first", "second"),
+        is_conclusive=d.verdict in ("first", "second"),
     )
 
 

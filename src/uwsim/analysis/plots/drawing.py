@@ -241,9 +241,9 @@ def draw_prediction(axes: Axes, result: Result, has_label: bool = True) -> None:
     if low <= x <= high:
         axes.axvline(x, color=GREY, linewidth=1.1, linestyle=(0, (1, 1.5)), zorder=2)
         if has_label:
-            _write_above_axes(axes, x, f"loss predicted at {text}", GREY, line=0)
+            _write_above_axes(axes, x, f"predicted loss at {text}", GREY, line=0)
     elif has_label:
-        _write_above_axes(axes, high, f"loss predicted beyond these levels, {text}", GREY, line=0)
+        _write_above_axes(axes, high, f"predicted loss beyond these levels, {text}", GREY, line=0)
 
 
 def _two_decimals(number: float) -> str:

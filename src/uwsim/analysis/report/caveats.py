@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...results.result import FLOOR, Result
+from ...results.result import ERROR_FLOOR_PREFIX, Result
 from ..plots import is_fog_swept
 from .outcomes import Ending
 
@@ -18,7 +18,7 @@ MAX_STATIC_SHIFT = 0.05
 """The motion in the image below which the target counts as static [px]."""
 
 
-def floor_text(result: Result) -> str | None:
+def error_floor_text(result: Result) -> str | None:
     """Return the errors of a perfect tracker, ``corners 2.88 px, centroid 1.63 px``.
 
     The run has measured them (facts ``floor_...``). None if a perfect tracker has no error; an
@@ -30,9 +30,9 @@ def floor_text(result: Result) -> str | None:
         return None
     messages = []
     for name in result.facts:
-        fact = result.fact(name) if name.startswith(FLOOR) else None
+        fact = result.fact(name) if name.startswith(ERROR_FLOOR_PREFIX) else None
         if fact is not None:
-            messages.append(f"{name.removeprefix(FLOOR)} {fact[0]:.3g} {fact[1]}")
+            messages.append(f"{name.removeprefix(ERROR_FLOOR_PREFIX)} {fact[0]:.3g} {fact[1]}")
     return ", ".join(messages)
 
 

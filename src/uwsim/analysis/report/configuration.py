@@ -9,7 +9,7 @@ from pathlib import Path
 from ...results.code_paths import names_text
 from ...results.command import bench_words
 from ...results.refused_lines import refused_lines
-from ...results.result import FLOOR, Result
+from ...results.result import ERROR_FLOOR_PREFIX, Result
 from ..plots import algorithm_of, repeats_of, written_unit
 
 FACTS = {
@@ -157,8 +157,8 @@ def facts(result: Result) -> list[tuple[str, str]]:
 
 
 def _fact_name(name: str) -> str:
-    if name.startswith(FLOOR):
-        return f"floor of {name.removeprefix(FLOOR)}: the score of a perfect tracker"
+    if name.startswith(ERROR_FLOOR_PREFIX):
+        return f"error floor of {name.removeprefix(ERROR_FLOOR_PREFIX)}, of a perfect tracker"
     return FACTS.get(name, name)
 
 

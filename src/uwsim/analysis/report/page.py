@@ -5,8 +5,8 @@ The page is made from the result directory alone (``result.json``, logs, images,
 its style. A content security policy forbids scripts and other files, and every name from a file is
 escaped.
 
-If the result directory has a folder ``control``, the same benchmark run with `frozen`, every plot
-shows its values as a dashed line.
+The folder ``control``, if present, holds the result of a baseline that ignores the images (the
+algorithm ``frozen``). Every plot then shows it as a dashed line.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ from ..plots import (
 )
 from ..templates import data_url, template
 from .captions import Notes, caption_over_time, figure_caption, marks_text, seeds_text, statistic_of
-from .caveats import floor_text, is_static, optics_texts
+from .caveats import error_floor_text, is_static, optics_texts
 from .configuration import (
     command,
     facts,
@@ -64,14 +64,14 @@ MAX_OPEN_STREAMS = 6
 
 @dataclass(frozen=True, kw_only=True)
 class Card:
-    """One of the main numbers at the top of the page."""
+    """One of the main values at the top of the page."""
 
     label: str
-    """The name of the number."""
+    """The name of the value."""
     value: str
-    """The number with its unit."""
+    """The value with its unit."""
     note: str = ""
-    """The levels of the number, or the reason for it."""
+    """The levels to which the value applies, or the reason for the status."""
 
 
 def write_report(path: Path, *, pdf: bool = False) -> Path:
@@ -112,7 +112,17 @@ def render(
     control: Result | None = None,
     check_note: str | None = None,
 ) -> str:
-    """Return the HTML of the report; ``check_note`` is the text that `check_rows` returns."""
+    """Return the HTML of the report.
+
+    Args:
+        result: the result.
+        directory: the directory of the result.
+        plots: the files of the plots over the levels.
+        run_plots: the plots over the time of a run.
+        control: the result of the baseline `frozen`; None without one.
+        check_note: the note on rows that could not be checked against their journals; None if all
+            were checked (`check_rows`).
+    """
     ending_groups = endings(result)
     provenance, notes = load_provenance(directory), load_measures(directory)
     images = shown_images(result, directory)
@@ -151,7 +161,7 @@ def render(
         max_open_streams=MAX_OPEN_STREAMS,
         logs=logs_text(logs_of(directory)),
         is_static=is_static(result),
-        floor=floor_text(result),
+        error_floor=error_floor_text(result),
         optics=optics_texts(result, ending_groups),
         provenance=provenance_texts(provenance),
         version=result.run.version or "?",
@@ -220,7 +230,7 @@ def _cards(result: Result, ending_groups: Sequence[Ending]) -> list[Card]:
     if star is not None and is_fog_swept(result):
         note = "fog at which the patch's ZNCC should fall to its threshold"
         value = f"{rounded_text(star[0], star[0])}{_unit_suffix(star[1])}"
-        cards.append(Card(label="loss predicted at f*", value=value, note=note))
+        cards.append(Card(label="predicted loss of tracking (fog f*)", value=value, note=note))
     for column in result.columns_of_kind("score") + result.columns_of_kind("measure"):
         means = [e for e in intervals_of(result, column.name) if e.interval.mean is not None]
         if not means:
@@ -273,7 +283,7 @@ def _value_notes(result: Result, notes: Notes) -> list[str]:
     if result.columns_of_kind("time"):
         is_independent = result.run.mode == "independent"
         origin = "from its start" if is_independent else "summed over the levels"
-        messages.append(f"ended_at: running time when the level ended, {origin}")
+        messages.append(f"ended_at: simulation time at the end of the level, {origin}")
     return messages
 
 

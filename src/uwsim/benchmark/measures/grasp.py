@@ -380,7 +380,7 @@ class Grasp(Measure):
         return "timeout", f"{target} was not touched before the time was over"
 
     @property
-    def moment(self) -> str | None:
+    def current_phase(self) -> str | None:
         """The present phase of the algorithm."""
         return self._phases.name
 

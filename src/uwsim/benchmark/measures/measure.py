@@ -7,10 +7,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import ClassVar, Literal
 
-from ...base.deprecation import warn_old_name
+from ...base.deprecation import accept_old_members
 from ...schema import Spec, element
 from ...world import Body, World
 from ..triggers import NeverSpec, OnInitSpec, TriggerSpec
+
+OLD_NAMES = {"why": "missing_reason", "went_off": "stop", "moment": "current_phase"}
+"""The new name of each deprecated member of a measure."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -64,7 +67,7 @@ class Measure(abc.ABC):
     """A quantity that is measured while it is active: between its start and its stop trigger.
 
     A measure is bound anew for every level. `start` is called at the first step at which it is
-    active, `update` at every later step, and `went_off` at the first step at which it is inactive
+    active, `update` at every later step, and `stop` at the first step at which it is inactive
     again, or when the level ends.
     """
 
@@ -86,7 +89,7 @@ class Measure(abc.ABC):
     def update(self) -> None:
         """Evaluate the world after one more step."""
 
-    def went_off(self) -> None:  # noqa: B027 - most measures ignore it
+    def stop(self) -> None:  # noqa: B027 - most measures ignore it
         """Stop, at the first step at which the measure is inactive, or the last of the level."""
 
     @property
@@ -95,11 +98,9 @@ class Measure(abc.ABC):
         """The value so far; None when there was nothing to measure."""
 
     def __init_subclass__(cls) -> None:
-        """Accept the old name ``why`` of `missing_reason` in a plugin."""
+        """Accept old names of members in a plugin."""
         super().__init_subclass__()
-        if "why" in vars(cls):
-            warn_old_name("why", "missing_reason", stacklevel=4)  # class body, ABCMeta
-            cls.missing_reason = vars(cls)["why"]  # type: ignore[method-assign]
+        accept_old_members(cls, OLD_NAMES, stacklevel=5)  # class body, ABCMeta
 
     @property
     def missing_reason(self) -> str | None:
@@ -166,7 +167,7 @@ class Measure(abc.ABC):
         return None
 
     @property
-    def moment(self) -> str | None:
+    def current_phase(self) -> str | None:
         """The name of the present phase, of which the report shows an image; None: no image."""
         return None
 
@@ -177,3 +178,6 @@ class Measure(abc.ABC):
 
     def close(self) -> None:  # noqa: B027 - most measures have no subscription
         """End the measure's subscriptions."""
+
+
+accept_old_members(Measure, OLD_NAMES)

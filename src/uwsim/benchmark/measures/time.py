@@ -64,7 +64,7 @@ class Time(Measure):
             self._n_steps += self._world.step - self._last_step
         self._last_step = self._world.step
 
-    def went_off(self) -> None:
+    def stop(self) -> None:
         """Add the step at which the measure stopped."""
         self.update()
         self._is_known = True

@@ -97,7 +97,7 @@ def _is_coupled(allocation: Allocation, axis: int) -> bool:
 
 def _describe_coupling(allocation: Allocation, axis: int) -> str:
     # the force along the axis for a unit wrench of each driven axis
-    shares = product(allocation.wrenches[axis], allocation.allocation_matrix)
+    shares = product(allocation.wrenches[axis], allocation.inverse_allocation_matrix)
     pairs = zip(allocation.axes, shares, strict=True)
     coupled_axes = [AXES[a] for a, share in pairs if abs(share) > 1e-3]
     return f"{AXES[axis]} is driven only together with {' and '.join(coupled_axes)}"

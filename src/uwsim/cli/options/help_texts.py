@@ -1,6 +1,7 @@
 """The help texts of commands, and the errors of their options.
 
-Options are in the groups that `option` sets; arguments have the names that the user types.
+Options are shown in the groups that `option` sets; positional arguments are shown by their metavar,
+such as ``SCENE``.
 """
 
 from __future__ import annotations
@@ -34,7 +35,10 @@ Completion = Callable[[str], list[tuple[str, str]]]
 
 
 def option(group: str, *names: str, **arguments: Any) -> Any:
-    """Return an option that help texts show in a group; ``arguments`` are those of typer."""
+    """Return an option that help texts show in a group.
+
+    The names and ``arguments`` are passed to `typer.Option`.
+    """
     return typer.Option(*names, rich_help_panel=group, **arguments)
 
 

@@ -16,7 +16,8 @@ if TYPE_CHECKING:
 
 MILLIMETRES_PER_METRE = 1000.0
 MAX_DEPTH_MM = 65535
-"""The largest value of a 16-bit depth image [mm], which greater depths have as well."""
+"""The largest value of a 16-bit depth image [mm]; greater depths are clipped to it. Pixels without
+a surface are 0."""
 
 
 def save_image(path: Path, pixels: np.ndarray) -> Path:
@@ -39,7 +40,7 @@ def save_depth(out: Path, image: RenderedImage) -> list[Path]:
 
 
 def save_ids(out: Path, image: RenderedImage, names: dict[int, str]) -> list[Path]:
-    """Write an image with the number of the body in each pixel, and a table of the names."""
+    """Write an image with the segmentation ID of the body in each pixel, and a table of names."""
     assert image.ids is not None
     numbers, counts = np.unique(image.ids, return_counts=True)
     legend = sibling_path(out, "-ids.csv")

@@ -7,7 +7,7 @@ from typing import Any
 
 from ...devices.device import DeviceSpec
 from ...scene.spec import SceneSpec
-from ...scene.unsupported import describe_limit
+from ...scene.unsupported import describe_limitation
 from ...schema.names import prefixed_name
 from ...simulation import Simulation
 from ...topics import InterfaceSpec, element_name
@@ -38,7 +38,7 @@ def topic_rows(scene: SceneSpec, simulation: Simulation) -> list[Fields]:
                     "rate_hz": None if is_subscribed else getattr(interface, "rate", None),
                     "of": _source_name(interface),
                     "interface": prefixed_name(name),
-                    "limit": describe_limit("rosInterfaces", name),
+                    "limit": describe_limitation("rosInterfaces", name),
                 }
             )
     rows += _device_topics(scene, types)

@@ -72,7 +72,7 @@ def hull_of(scene: ResolvedScene, index: int) -> Hull | None:
 
     Args:
         scene: the scene with its robots.
-        index: the number of the vehicle.
+        index: the index of the vehicle.
 
     Raises:
         UwsimError: a mesh cannot be read.

@@ -162,7 +162,7 @@ def fixed_faces(
 
     Args:
         scene: the spec of the scene.
-        index: the number of the object.
+        index: the index of the object.
         physics: the physics of the object.
         data_path: the folders that are searched for files.
     """
@@ -205,7 +205,7 @@ def contact_mesh(
 
     Args:
         scene: the spec of the scene.
-        index: the number of the object.
+        index: the index of the object.
         physics: the physics of the object.
         data_path: the folders that are searched for files.
     """

@@ -36,7 +36,7 @@ class SolidGround:
 
     Args:
         scene: the spec of the scene.
-        index: the number of the object.
+        index: the index of the object.
         data_path: the folders that are searched for files.
     """
 

@@ -9,8 +9,8 @@ rows, the first in the order `AXIS_PRIORITY` is driven, and the others are not.
 
 Roll and pitch that are not driven are held by weight and buoyancy alone. A force whose thrusts also
 exert a moment about roll or pitch is therefore limited, so that the hull tilts by at most
-`MAX_TILT`. If less than half of the heave force would remain, the thrusters drive pitch instead of
-heave.
+`MAX_TILT`. If less than half of the heave force would remain, or if the hull does not right itself
+and heave would tilt it, the thrusters drive pitch instead of heave.
 
 Not modelled: forces of fins; motion of thrusters on links, whose initial positions are used.
 """
@@ -50,13 +50,15 @@ class Allocation:
     """The thrust allocation of a vehicle with n thrusters that drive k axes, in base axes."""
 
     axes: tuple[int, ...]
-    """The indices of the driven axes, in rising order."""
+    """The indices of the driven axes, in ascending order."""
     wrenches: Array
     """The force and moment about the reference point per newton of each thruster, (6, n) [1, m]."""
     driven_wrenches: Array
-    """The rows of `wrenches` for the driven axes, (k, n)."""
-    allocation_matrix: Array
-    """The thrusts per unit of force or moment along each driven axis, (n, k) [1, 1/m]."""
+    """The rows of `wrenches` for the driven axes, (k, n): the thruster allocation matrix (TAM) of
+    UUV Simulator without the other axes."""
+    inverse_allocation_matrix: Array
+    """The pseudo-inverse of `driven_wrenches`: the thrusts per unit of force or moment along each
+    driven axis, (n, k) [1, 1/m]."""
     max_forces: Array
     """The force along each axis that tilts the hull by `MAX_TILT`, (6,) [N]; inf if none does."""
     min_thrusts: Array
@@ -73,13 +75,13 @@ class Allocation:
 
     def force_limits(self, axis: int) -> tuple[float, float]:
         """Return the lower and upper limit of the force or moment along a driven axis [N, N m]."""
-        column = self.allocation_matrix[:, self.axes.index(axis)]
+        column = self.inverse_allocation_matrix[:, self.axes.index(axis)]
         limits = _thruster_limits(column, self.min_thrusts, self.max_thrusts)
         return -min(-limits[0], self.max_forces[axis]), min(limits[1], self.max_forces[axis])
 
     def thruster_limits(self, axis: int) -> tuple[float, float]:
         """Return the limits of `force_limits` without the limit on the tilt of the hull."""
-        column = self.allocation_matrix[:, self.axes.index(axis)]
+        column = self.inverse_allocation_matrix[:, self.axes.index(axis)]
         return _thruster_limits(column, self.min_thrusts, self.max_thrusts)
 
 
@@ -101,11 +103,14 @@ def allocate(
     axes = driven_axes(wrenches, AXIS_PRIORITY)
     allocation = _allocation(wrenches, axes, min_thrusts, max_thrusts, stiffness)
     if HEAVE in axes and PITCH not in axes:
-        level = driven_axes(wrenches, [axis for axis in AXIS_PRIORITY if axis != HEAVE])
+        other_axes = [axis for axis in AXIS_PRIORITY if axis != HEAVE]
+        axes_without_heave = driven_axes(wrenches, other_axes)
         heave = max(allocation.thruster_limits(HEAVE))
         is_weak = stiffness <= 0.0 and _tilting_moments(allocation, HEAVE)[PITCH] > MIN_LEVER
-        if PITCH in level and (is_weak or allocation.max_forces[HEAVE] < MIN_HEAVE_SHARE * heave):
-            return _allocation(wrenches, level, min_thrusts, max_thrusts, stiffness)
+        if PITCH in axes_without_heave and (
+            is_weak or allocation.max_forces[HEAVE] < MIN_HEAVE_SHARE * heave
+        ):
+            return _allocation(wrenches, axes_without_heave, min_thrusts, max_thrusts, stiffness)
     return allocation
 
 
@@ -132,7 +137,7 @@ def thrusters_on_base(
 
 
 def driven_axes(wrenches: Array, order: Sequence[int]) -> tuple[int, ...]:
-    """Return the driven axes, in rising order.
+    """Return the driven axes, in ascending order.
 
     An axis is driven if its row is linearly independent of the rows of axes with higher priority.
 
@@ -144,8 +149,8 @@ def driven_axes(wrenches: Array, order: Sequence[int]) -> tuple[int, ...]:
     axes = []
     for axis in order:
         residual = wrenches[axis].copy()
-        for unit in basis:
-            residual -= dot(residual, unit) * unit
+        for basis_row in basis:
+            residual -= dot(residual, basis_row) * basis_row
         norm = length(residual)
         if norm > MIN_LEVER:
             basis.append(residual / norm)
@@ -163,7 +168,7 @@ def wrench(thruster: ThrusterSpec, reference: Array) -> Array:
 
 @lru_cache(maxsize=256)
 def thrust_curve(thruster: ThrusterSpec) -> tuple[Array, Array]:
-    """Return the thrust curve: thrusts [N] and their commands [1], both in rising order."""
+    """Return the thrust curve: thrusts [N] and their commands [1], both in ascending order."""
     commands = np.linspace(*thruster.limits, N_POINTS)
     backward = thruster.forward if thruster.backward is None else thruster.backward
     thrusts = []
@@ -182,21 +187,21 @@ def _allocation(
     wrenches: Array, axes: tuple[int, ...], min_thrusts: Array, max_thrusts: Array, stiffness: float
 ) -> Allocation:
     driven_wrenches = np.ascontiguousarray(wrenches[list(axes)])  # (k, n)
-    allocation_matrix = np.ascontiguousarray(pseudo_inverse(driven_wrenches, rcond=1e-6))
+    inverse_allocation_matrix = np.ascontiguousarray(pseudo_inverse(driven_wrenches, rcond=1e-6))
     allocation = Allocation(
         axes=axes,
         wrenches=wrenches,
         driven_wrenches=driven_wrenches,
-        allocation_matrix=allocation_matrix,
+        inverse_allocation_matrix=inverse_allocation_matrix,
         max_forces=np.full(6, np.inf),
         min_thrusts=min_thrusts,
         max_thrusts=max_thrusts,
     )
     for axis in (SURGE, SWAY, HEAVE):
         if axis in axes and stiffness > 0.0:
-            lever = max(_tilting_moments(allocation, axis))
-            if lever > 0.0:
-                allocation.max_forces[axis] = stiffness * math.sin(MAX_TILT) / lever
+            moment_per_newton = max(_tilting_moments(allocation, axis))
+            if moment_per_newton > 0.0:
+                allocation.max_forces[axis] = stiffness * math.sin(MAX_TILT) / moment_per_newton
     return allocation
 
 
@@ -205,7 +210,7 @@ def _tilting_moments(allocation: Allocation, axis: int) -> Array:
 
     The other elements are 0.
     """
-    thrusts = allocation.allocation_matrix[:, allocation.axes.index(axis)]
+    thrusts = allocation.inverse_allocation_matrix[:, allocation.axes.index(axis)]
     moments = np.abs(product(allocation.wrenches, thrusts))
     for other in range(6):
         if other not in (ROLL, PITCH) or other in allocation.axes:
@@ -214,7 +219,10 @@ def _tilting_moments(allocation: Allocation, axis: int) -> Array:
 
 
 def _thruster_limits(column: Array, min_thrusts: Array, max_thrusts: Array) -> tuple[float, float]:
-    """Return the negative and positive factor of thrusts (n,) at which a thruster saturates."""
+    """Return the greatest negative and positive multiples of thrusts that the thrusters can exert.
+
+    At these multiples of the thrust vector ``column``, (n,), the first thruster saturates.
+    """
     limits = []
     for sign in (-1.0, 1.0):
         thrusts = sign * column

@@ -258,7 +258,7 @@ def _thruster_records(
     rows = np.ascontiguousarray(allocation.wrenches[wrench_axes])
     records = np.zeros(len(thrusters), THRUSTER)
     records["min_thrust"], records["max_thrust"] = allocation.min_thrusts, allocation.max_thrusts
-    records["allocation"][:, :n_axes] = allocation.allocation_matrix
+    records["allocation"][:, :n_axes] = allocation.inverse_allocation_matrix
     records["wrench"][:, :n_axes] = allocation.driven_wrenches.T
     records["wrench_allocation"][:, : len(wrench_axes)] = pseudo_inverse(rows, rcond=1e-6)
     for record, thruster in zip(records, thrusters, strict=True):

@@ -67,7 +67,11 @@ THRUSTER = np.dtype(
         ("allocation", _FLOAT, (6,)),  # thrust per force or moment along each driven axis [1, 1/m]
         ("wrench", _FLOAT, (6,)),  # force or moment along each driven axis per thrust [1, m]
         ("wrench_allocation", _FLOAT, (6,)),  # thrust per unit of each axis of a commanded wrench
-        ("thrusts", _FLOAT, (N_POINTS,)),  # the thrusts of the curve's points, in rising order [N]
+        (
+            "thrusts",
+            _FLOAT,
+            (N_POINTS,),
+        ),  # the thrusts of the curve's points, ascending [N]
         ("commands", _FLOAT, (N_POINTS,)),  # the commands of the curve's points [1]
     ],
     align=True,

@@ -39,7 +39,7 @@ from ..poses import Mount
 CONTACT_WRENCH = np.dtype(
     [
         ("mount", np.int64),  # the address of a record of `link_kernel.MOUNT`
-        ("body", np.int64),  # the engine's number of the link
+        ("body", np.int64),  # the MuJoCo body ID of the link
         ("model", np.int64),  # addresses of MuJoCo's structs, and of the offsets of their fields
         ("data", np.int64),
         ("offsets", np.int64),
@@ -65,7 +65,7 @@ def contact_sampler(
     Args:
         model: the engine's model.
         data: the engine's state.
-        body: the engine's number of the link.
+        body: the MuJoCo body ID of the link.
         mount: the frame on the link.
         prepare: a function that updates the poses, and returns whether the engine's contacts are
             those of these poses.

@@ -127,7 +127,7 @@ class EngineContacts:
         """Return a sampler of the wrench of the contacts on a link; see `contact_sampler`.
 
         Args:
-            body: the engine's number of the link.
+            body: the MuJoCo body ID of the link.
             mount: the frame on the link.
         """
         return contact_sampler(self._model, self._data, body, mount, self._prepare)

@@ -22,7 +22,7 @@ import numpy.typing as npt
 from ...base.geometry import Array
 
 WORLD = 0
-"""The engine's number of the world's body, which has all fixed shapes."""
+"""The MuJoCo ID of the world's body, which has all fixed shapes."""
 N_LISTED_SHAPES = 2
 """The number of fixed shapes that the engine lists; with one shape it would not use the tree."""
 MAX_DEPTH = 40

@@ -29,7 +29,7 @@ N_LEVELS, LEVELS = 3, 4  # of stratified water: their number; depth [m], density
 MAGIC_NUMBER = 0.0196_1998  # marks a model with these tables
 
 # the row of any other body
-KIND, THETA, DISPLACED_MASS = 0, 1, 2  # a kind below, implicitness of drag [1], mass of water [kg]
+KIND, DRAG_IMPLICITNESS, DISPLACED_MASS = 0, 1, 2  # a kind below, [1], mass of displaced water [kg]
 CENTRE, SHAPE, SIZE = 3, 6, 7  # centre of buoyancy from the reference point [m], shape, size [m]
 REFERENCE = 10  # the reference point, about which the matrices are, in body axes (3,) [m]
 REACH = 13  # greatest distance of a point of the shape from the centre of buoyancy [m]

@@ -21,16 +21,18 @@ _HIGH_SURFACE = 1e9  # a height of the surface above all bodies [m]
 
 
 def correct_inverse_weights(model: mujoco.MjModel) -> None:
-    """Recompute the inverse weights of a model from its mass matrix with added mass at ``qpos0``.
+    """Recompute the inverse weights and the mean inertia of a model in water, at ``qpos0``.
 
-    Trees of bodies do not depend on each other. Each is inverted separately, so that the time is
-    proportional to their number.
+    They follow from the mass matrix with added mass. Kinematic trees do not depend on each other.
+    Their matrices are inverted separately, so that the time is proportional to their number.
     """
     if model.nv == 0:
         return
     starts = model.tree_dofadr.tolist()
     dofs = [slice(a, a + n) for a, n in zip(starts, model.tree_dofnum.tolist(), strict=True)]
-    inverses = _inverted_masses(model, dofs)
+    blocks = _mass_matrices(model, dofs)
+    model.stat.meaninertia = float(np.concatenate([np.diag(block) for block in blocks]).mean())
+    inverses = [inverse(block) for block in blocks]
     diagonal = np.concatenate([np.diag(block) for block in inverses])  # (nv,)
     data = mujoco.MjData(model)
     mujoco.mj_kinematics(model, data)
@@ -51,27 +53,30 @@ def correct_inverse_weights(model: mujoco.MjModel) -> None:
             continue
         tree = int(model.body_treeid[body])
         mujoco.mj_jacBodyCom(model, data, jacobian[:3], jacobian[3:], body)
-        spread = _spread(jacobian[:, dofs[tree]], inverses[tree])
-        model.body_invweight0[body] = spread[:3].mean(), spread[3:].mean()
+        inverse_inertias = _inverse_inertia_diagonal(jacobian[:, dofs[tree]], inverses[tree])
+        model.body_invweight0[body] = inverse_inertias[:3].mean(), inverse_inertias[3:].mean()
     if model.ntendon:
         rows = _tendon_jacobian(model, data)
         parts = zip(dofs, inverses, strict=True)
-        model.tendon_invweight0[:] = sum(_spread(rows[:, part], block) for part, block in parts)
+        model.tendon_invweight0[:] = sum(
+            _inverse_inertia_diagonal(rows[:, part], block) for part, block in parts
+        )
 
 
-def _spread(rows: np.ndarray, inverse_mass: np.ndarray) -> np.ndarray:
+def _inverse_inertia_diagonal(rows: np.ndarray, inverse_mass: np.ndarray) -> np.ndarray:
     """Return the diagonal of ``J M^-1 J^T``."""
     return np.asarray(np.einsum("ij,jk,ik->i", rows, inverse_mass, rows))
 
 
-def _inverted_masses(model: mujoco.MjModel, dofs: Sequence[slice]) -> list[np.ndarray]:
-    """Return the inverse mass matrix of each tree, in water at ``qpos0``, without implicit drag."""
-    surface, thetas = model.body_user[0, c.SURFACE], model.body_user[1:, c.THETA].copy()
+def _mass_matrices(model: mujoco.MjModel, dofs: Sequence[slice]) -> list[np.ndarray]:
+    """Return the mass matrix of each tree, in water at ``qpos0``, without implicit drag."""
+    surface = model.body_user[0, c.SURFACE]
+    implicitness = model.body_user[1:, c.DRAG_IMPLICITNESS].copy()
     flags = model.opt.enableflags
     data = mujoco.MjData(model)
     try:
         model.body_user[0, c.SURFACE] = _HIGH_SURFACE
-        model.body_user[1:, c.THETA] = 0.0
+        model.body_user[1:, c.DRAG_IMPLICITNESS] = 0.0
         model.opt.enableflags &= ~int(mujoco.mjtEnableBit.mjENBL_SLEEP)
         mujoco.mj_resetData(model, data)
         mujoco.mj_fwdPosition(model, data)
@@ -79,14 +84,12 @@ def _inverted_masses(model: mujoco.MjModel, dofs: Sequence[slice]) -> list[np.nd
         callback.add_water(model, data)
     finally:
         model.body_user[0, c.SURFACE] = surface
-        model.body_user[1:, c.THETA] = thetas
+        model.body_user[1:, c.DRAG_IMPLICITNESS] = implicitness
         model.opt.enableflags = flags
-    blocks = [_block(model, data, tree_dofs) for tree_dofs in dofs]
-    model.stat.meaninertia = float(np.concatenate([np.diag(block) for block in blocks]).mean())
-    return [inverse(block) for block in blocks]
+    return [_tree_mass_matrix(model, data, tree_dofs) for tree_dofs in dofs]
 
 
-def _block(model: mujoco.MjModel, data: mujoco.MjData, dofs: slice) -> np.ndarray:
+def _tree_mass_matrix(model: mujoco.MjModel, data: mujoco.MjData, dofs: slice) -> np.ndarray:
     """Return the mass matrix of one tree, (n, n); MuJoCo stores its lower triangle."""
     n = dofs.stop - dofs.start
     block = np.zeros((n, n))

@@ -36,7 +36,7 @@ class SubmergedBodies:
         self._poses = poses
         bodies = set() if water is None else {*water.bodies, *map(poses.base, vehicles)}
         self.bodies = np.array(sorted(bodies), np.int64)
-        """The engine's numbers of the bodies, (n,)."""
+        """The MuJoCo IDs of the bodies, (n,)."""
         points = (
             [] if water is None else [water.reference_point(body) for body in self.bodies.tolist()]
         )
@@ -48,7 +48,7 @@ class SubmergedBodies:
         """
         parts = [model.body(body).name.split("/") for body in self.bodies.tolist()]
         self.vehicles = tuple(int(part[1]) if part[0] == "vehicle" else None for part in parts)
-        """The number of the vehicle to which each body belongs; None for an object."""
+        """The index of the vehicle to which each body belongs; None for an object."""
 
     def positions(self) -> Array:
         """Return the present positions in W of the points at which the water acts, (n, 3) [m]."""

@@ -88,7 +88,7 @@ def body_row(body: BodyHydrodynamics, density: float) -> npt.NDArray[np.float64]
     is_full = any(np.any(m - np.diag(np.diag(m))) for m in (added_mass, linear, quadratic))
     is_full = is_full or bool(np.any(lift))
     row[c.KIND] = c.FULL_MATRICES if is_full else c.DIAGONAL_MATRICES
-    row[c.THETA] = body.implicitness
+    row[c.DRAG_IMPLICITNESS] = body.implicitness
     row[c.LAW] = _LAWS[body.drag_law]
     row[c.DISPLACED_MASS] = density * body.volume
     row[c.REFERENCE : c.REFERENCE + 3] = body.reference

@@ -12,18 +12,20 @@ from ...base.geometry import Array
 from ...base.numerics.calls import address_of, call
 from ...base.numerics.jit import njit
 
-POINT, VELOCITY, ACCELERATION, ROTATION, SURFACE, WATER_ROW = 0, 3, 6, 9, 12, 15
-"""The columns of the row of a body, in W: a point [m], the velocity [m/s], the acceleration [m/s2]
-and the angular velocity [rad/s] of the water at the point, and the elevation of the surface above
-it [m] with its slopes along x and y [1]; the last is the length of a row."""
+POINT, VELOCITY, ACCELERATION, ANGULAR_VELOCITY, SURFACE = 0, 3, 6, 9, 12
+"""The first columns in the row of a body, all in the world frame W: a point [m], the velocity
+[m/s], acceleration [m/s2] and angular velocity [rad/s] of the water at the point, and the elevation
+of the surface above the point [m] with the slopes of the surface along x and y [1]."""
+WATER_ROW_LENGTH = 15
+"""The number of columns in the row of a body."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class WaterFunction:
-    """A compiled function of the water's motion; see `uwsim.base.numerics.calls`.
+    """A compiled function that computes the water's motion; see `uwsim.base.numerics.calls`.
 
-    Its values are a row of `WATER_ROW` numbers for each body: it reads the point and writes the
-    other numbers. Its time is the middle of the step.
+    The array ``values`` has a row of `WATER_ROW_LENGTH` numbers for each body. The function reads
+    the point and writes the other numbers. The argument ``time`` is the middle of the step.
     """
 
     function: int
@@ -32,7 +34,7 @@ class WaterFunction:
     """The array whose address the function receives."""
     needs_points: bool = False
     """True if the function reads the points, which must then be up to date."""
-    follows_surface: bool = False
+    uses_submerged_centre: bool = False
     """True if the point of a body that pierces the surface has the height of the centre of its
     submerged part."""
     is_steady: bool = False
@@ -48,10 +50,12 @@ class WaterFunction:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class DriftFunction:
-    """A compiled function that moves kinematic vehicles with the water, at the start of each step.
+    """A compiled function that moves kinematic vehicles with the water.
 
-    See `uwsim.base.numerics.calls`. Its values are the poses in W of all kinematic vehicles,
-    position [m] and quaternion (wxyz), (n, 7), which it changes. Its time is the end of the step.
+    It is called at the start of each step and moves the vehicles to their poses at the end of the
+    step; see `uwsim.base.numerics.calls`. The array ``values`` has the poses of all kinematic
+    vehicles in the world frame W, position [m] and quaternion (wxyz), (n, 7). The argument ``time``
+    is the end of the step.
     """
 
     function: int

@@ -52,7 +52,7 @@ class Lift:
         """Begin to lift a body with a free joint, and the bodies attached to it.
 
         Args:
-            body: the engine's number of the body.
+            body: the MuJoCo ID of the body.
             rise: the height of the lift [m].
         """
         n_steps = max(1, math.ceil(rise / (LIFT_SPEED * self._model.opt.timestep)))

@@ -76,7 +76,7 @@ class LinkMotion:
         """Return the arrays of the joint motion of a kinematic vehicle.
 
         Args:
-            index: the number of the vehicle.
+            index: the index of the vehicle.
 
         Returns:
             The speeds [m/s, rad/s] and the accelerations [m/s2, rad/s2] of all degrees of freedom
@@ -90,7 +90,7 @@ class LinkMotion:
         """Return the motion of a point on a body, in W.
 
         Args:
-            body: the engine's number of the body.
+            body: the MuJoCo ID of the body.
             point: the point in W, (3,) [m].
             vehicle: the kinematic vehicle of the body, whose `joint_rates` are used; None for a
                 body with dynamics.
@@ -103,7 +103,7 @@ class LinkMotion:
         """Return the joints that move a body, as a record for compiled code.
 
         Args:
-            body: the engine's number of the body.
+            body: the MuJoCo ID of the body.
             vehicle: the kinematic vehicle of the body, whose `joint_rates` are used; None for a
                 body with dynamics.
         """

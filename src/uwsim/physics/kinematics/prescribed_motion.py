@@ -63,7 +63,7 @@ class PrescribedMotion:
         model: the engine's model.
         data: the engine's state.
         joints: the vehicle's joints in the model, the free joint of its base first.
-        index: the number of the vehicle.
+        index: the index of the vehicle.
         links: the motion of points on links.
     """
 

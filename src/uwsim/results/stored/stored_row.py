@@ -16,7 +16,7 @@ Sample = Sequence[Any]
 
 
 @dataclass(frozen=True, kw_only=True)
-class StoredPicture:
+class StoredImage:
     """The last image of a camera in a level."""
 
     camera: str
@@ -53,7 +53,7 @@ class StoredRow:
     """The samples of each measure that has a log."""
     log_headers: Mapping[str, tuple[str, ...]]
     """The columns of each measure's samples after the time, with units."""
-    pictures: tuple[StoredPicture, ...]
+    pictures: tuple[StoredImage, ...]
     """The cameras' last images."""
     fingerprint: str | None
     """The fingerprint of every body's motion and of every image since the trial began."""
@@ -77,7 +77,7 @@ class StoredRow:
             logs=record["logs"],
             log_headers={name: tuple(header) for name, header in record["log_headers"].items()},
             pictures=tuple(
-                StoredPicture(
+                StoredImage(
                     camera=picture["camera"],
                     file=picture["file"],
                     truth=_corners(picture["truth"]),

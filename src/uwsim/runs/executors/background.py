@@ -16,7 +16,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import TYPE_CHECKING, Self, TypeAlias, Union, cast
 
-from ...base.terminal import ignore_casts
+from ...base.terminal import suppress_cast_warnings
 from ...errors import RunFailed, UwsimError
 from .parent_watch import exit_with_parent, start_ignoring_interrupts
 
@@ -118,7 +118,7 @@ class BackgroundProcess(JobRunner):
 def _serve(pipe: Connection, parent: Connection, reporter: Reporter) -> None:
     """Execute jobs until the parent has ended or closes the pipe."""
     exit_with_parent(parent)
-    ignore_casts()
+    suppress_cast_warnings()
     with suppress(Exception):  # slow, so it is done while levels run; `_run_job` reports errors
         reporter()
     gc.freeze()  # loaded modules remain

@@ -21,7 +21,7 @@ from multiprocessing.process import BaseProcess
 
 from ...base.environment import set_environment
 from ...base.interrupts import is_user_interrupt
-from ...base.terminal import ignore_casts
+from ...base.terminal import suppress_cast_warnings
 from ...simulation import NO_CALLS, Calls, Counter, Cut, unfinished_call
 from ..own_process.process import CALL_TIMEOUT, describe_exit
 from ..planning.trial_cache import TrialCache
@@ -237,7 +237,7 @@ def work(
         limit: the longest call into an algorithm in a process of its own [s of wall time].
     """
     exit_with_parent(parent)
-    ignore_casts()
+    suppress_cast_warnings()
     cache = TrialCache()
     try:
         while (job := pipe.recv()) is not None:

@@ -19,7 +19,7 @@ from ...base.files.file_names import file_names
 from ...errors import RunFailed
 from ...results import journal
 from ...results.atomic_file import atomic_write
-from ...results.stored.stored_row import StoredEnd, StoredPicture, StoredRow
+from ...results.stored.stored_row import StoredEnd, StoredImage, StoredRow
 from ...simulation import Calls
 from ..input_watch import InputWatch
 from ..planning.plan import Plan, Trial
@@ -85,7 +85,7 @@ def run_trial(
         recorder: the recorder of the messages.
 
     Raises:
-        NeverStarted: the start trigger did not go on within the benchmark's patience.
+        NeverStarted: the start trigger did not go on within `Plan.start_timeout`.
     """
     outcomes = execute(plan, trial, cache=cache, calls=calls, observer=observer, recorder=recorder)
     for n, outcome in enumerate(outcomes):
@@ -154,9 +154,9 @@ def make_picklable(error: BaseException) -> Exception:
             return error
     except Exception:
         pass
-    stand_in = RunFailed(f"{type(error).__name__}: {error}")
-    stand_in.add_note(error.__notes__[-1])
-    return stand_in
+    substitute = RunFailed(f"{type(error).__name__}: {error}")
+    substitute.add_note(error.__notes__[-1])
+    return substitute
 
 
 def _png(pixels: npt.NDArray[np.uint8]) -> bytes:
@@ -177,7 +177,7 @@ def _row(row: LevelRow, images: dict[str, str]) -> StoredRow:
         logs=row.logs,
         log_headers=row.log_headers,
         pictures=tuple(
-            StoredPicture(
+            StoredImage(
                 camera=snapshot.camera,
                 file=images[snapshot.camera],
                 truth=snapshot.truth,

@@ -1,4 +1,4 @@
-"""The process of an algorithm: ``python -m uwsim.runs.own_process.child FD``.
+"""The process of an algorithm: ``python -m uwsim.runs.own_process.child FD PARENT_PID``.
 
 It receives frames through one socket, answers each, and has no other access to the simulation.
 
@@ -6,16 +6,16 @@ It receives frames through one socket, answers each, and has no other access to 
 
     from the simulation                 answer, when the algorithm has returned
       make  path, plugins, class          done  published, value, violated rule
-      start now, parameters, random       raised  published, kind, message, text
+      start now, parameters, rng_state    raised  published, kind, message, text
       call  callback, now, message
-      parameters  given
+      parameters  defaults
       names_read                          (names of parameters that the algorithm has read)
-      given / refused                   (the reply to a request of the algorithm)
+      accepted / refused                  (the reply to a request of the algorithm)
 
 During a call the algorithm may request the functions of its node (`ask`), so the frames nest as
 function calls do. A message that the simulation is certain to accept needs no answer of its own: it
 is sent with the next frame of any kind (``published``: a list of frames, each with the number of a
-publisher and a message).
+publisher and a message). The request ``flush`` sends the published messages at once.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ from ...base.deprecation import deprecated_name
 from ...base.exceptions import describe_exception
 from ...base.files.source_module import source_module
 from ...base.message_fields import find_invalid_field
-from ...base.terminal import ignore_casts
+from ...base.terminal import suppress_cast_warnings
 from ...base.tracked_parameters import TrackedParameters, untracked_parameters
 from ...bus import Bus
 from ...errors import BadSetting, NotAllowed, UwsimError
@@ -78,7 +78,9 @@ class ChildNode:
 
     def subscribe(self, topic: str, type: type[M], callback: Callable[[M], None]) -> None:
         """Call ``callback`` with every message on ``topic``."""
-        self._request("subscribe", topic, _check_message_class(type), self._number(callback))
+        self._request(
+            "subscribe", topic, _check_message_class(type), self._register_callback(callback)
+        )
 
     def publisher(self, topic: str, type: type[M]) -> Callable[[M], None]:
         """Return ``publish(message)`` for ``topic``."""
@@ -93,13 +95,13 @@ class ChildNode:
             self._n_bytes += len(frame)
             is_full = len(self._frames) >= MAX_PUBLISHED or self._n_bytes >= MAX_PUBLISHED_BYTES
             if is_full or may_refuse or find_invalid_field(message, converts=False):
-                self._request("take")
+                self._request("flush")
 
         return publish
 
     def serve(self, name: str, type: type[M], handler: Callable[[M], object]) -> None:
         """Advertise a service; ``type`` is the class of its request."""
-        self._request("serve", name, _check_message_class(type), self._number(handler))
+        self._request("serve", name, _check_message_class(type), self._register_callback(handler))
 
     def call(self, name: str, request: object) -> object:
         """Call a service; raise UnknownName if no node advertises it."""
@@ -107,7 +109,7 @@ class ChildNode:
 
     def create_timer(self, period_s: float, callback: Callable[[], None]) -> None:
         """Call ``callback`` every ``period_s`` of simulation time, from now on."""
-        self._request("create_timer", period_s, self._number(callback))
+        self._request("create_timer", period_s, self._register_callback(callback))
 
     @property
     @deprecated_name("rng")
@@ -125,7 +127,7 @@ class ChildNode:
         frames, self._frames, self._n_bytes = self._frames, [], 0
         return frames
 
-    def _number(self, callback: Callable[..., object]) -> int:
+    def _register_callback(self, callback: Callable[..., object]) -> int:
         self.callbacks.append(callback)
         return len(self.callbacks) - 1
 
@@ -205,7 +207,7 @@ class Child:
         self._send(encode(["ask", self._node.take_published(), method, *arguments]))
         while True:
             kind, *rest = self._receive()
-            if kind == "given":
+            if kind == "accepted":
                 return rest[0]
             if kind == "refused":
                 _raise(*rest)
@@ -226,10 +228,12 @@ class Child:
 
 
 def _check_message_class(cls: type) -> type:
-    """Return the class of a message; raise BadSetting if the simulation cannot know the class."""
+    """Return the class of a message; raise BadSetting if the simulation cannot decode it."""
     name = f"{cls.__module__}:{cls.__qualname__}" if isinstance(cls, type) else ""
     if message_class(name) is not cls:
-        raise BadSetting(f"{cls!r} is not a class of messages that its process can exchange.")
+        raise BadSetting(
+            f"{cls!r} is not a message class that the algorithm's process can exchange."
+        )
     return cls
 
 
@@ -258,7 +262,7 @@ def main(descriptor: int, parent_pid: int) -> None:
         descriptor: the file descriptor of the socket.
         parent_pid: the process ID of the simulation.
     """
-    ignore_casts()
+    suppress_cast_warnings()
     os.set_inheritable(descriptor, False)  # not for processes that the algorithm starts
     threading.Thread(target=_exit_with, args=(parent_pid,), daemon=True).start()
     Child(Connection(descriptor)).serve()

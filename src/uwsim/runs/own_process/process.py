@@ -255,7 +255,7 @@ class ProcessAlgorithm:
                 return len(self._publishers) - 1, self._may_refuse(topic)
             case ["publish", bytes() as frame]:
                 self._publish_frame(decode(frame))
-            case ["take"]:
+            case ["flush"]:
                 pass  # the request only delivers published messages, which are published already
             case ["serve", str(name), type() as cls, int(number)]:
                 node.serve(name, cls, self._remote_call(number))
@@ -282,7 +282,7 @@ def _answer_request(
     if refusal := _publish_frames(answer, frames):
         return refusal
     try:
-        return ["given", answer(request)]
+        return ["accepted", answer(request)]
     except CallStopped:
         raise
     except Exception as error:

@@ -17,7 +17,7 @@ from ...world import TIMESTEP
 from ..foreign_code import announce, code_refusal, refuse_code
 from ..named_plugins import named_plugins
 from ..program import load_program
-from ..stand_ins import warn_of_stand_ins
+from ..substituted_files import warn_of_substituted_files
 from .option_values import compatibility_of, levels_of, mode_of, number_or_text, pairs_of
 from .plan_request import PlanRequest
 from .stored_pilot import PREFIX, with_stored_pilot
@@ -220,10 +220,10 @@ def _algorithm(request: PlanRequest, files: _Files) -> type[Algorithm] | None:
 
 
 def print_scene_warnings(plan: Plan) -> None:
-    """Print warnings about stand-ins for missing files and about unlikely values."""
+    """Print warnings about bundled files that replace missing files, and about unlikely values."""
     from ...checks import scene_warnings
 
-    warn_of_stand_ins(plan.scene, plan.data_path)
+    warn_of_substituted_files(plan.scene, plan.data_path)
     print_warnings(scene_warnings(plan.scene, plan.data_path, plan.timestep))
 
 

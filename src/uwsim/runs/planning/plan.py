@@ -24,8 +24,8 @@ from ...scene.variation import Draw, draw
 from ...world import TIMESTEP
 
 Mode = Literal["sequential", "independent"]
-PATIENCE = 10.0
-"""The default of the longest wait for a level to begin [s of simulation time]."""
+START_TIMEOUT = 10.0
+"""The default timeout for the start of a level [s of simulation time]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,7 +40,7 @@ class Trial:
     """The seed of every random stream."""
     levels: tuple[Level, ...]
     """The levels to run, in order."""
-    is_alone: bool
+    is_independent: bool
     """True if the trial is one level of an independent benchmark."""
 
     @property
@@ -51,7 +51,7 @@ class Trial:
     @property
     def stream_prefix(self) -> str:
         """The prefix of the name of every random stream."""
-        if not self.is_alone:
+        if not self.is_independent:
             return ""
         values = ",".join(f"{value:.12g}" for _, value in self.levels[0].values)
         return f"level/{values}/"
@@ -98,11 +98,12 @@ class Plan:
     timestep: float = TIMESTEP
     """The length of a physics step [s]."""
     data_path: tuple[Path, ...] = ()
-    """Folders in which files are searched."""
+    """The folders in which files are searched for (``--data-path``)."""
     is_blind: bool = False
-    """True if images are black, for a control that does not use them."""
+    """True if images are black, as in the control run, whose algorithm (`frozen`) ignores them."""
     inputs: Mapping[int, bytes] = field(default_factory=dict)
-    """The inputs of a pilot in an earlier run, to be sent again: a file for each trial's index."""
+    """The recorded inputs of the pilot of an earlier run, which are sent again: the content of a
+    file for the index of each trial."""
     plugins: tuple[Plugin, ...] = ()
     """The plugins of ``--plugin`` and of the benchmark file, and an algorithm's ``FILE.py``."""
 
@@ -117,14 +118,14 @@ class Plan:
         return self.algorithm.cls.__module__.startswith("uwsim.") and not self.plugins
 
     @property
-    def patience(self) -> float:
-        """The longest wait for a level to begin [s of simulation time]."""
+    def start_timeout(self) -> float:
+        """The timeout for the start of a level (``u:patience``) [s of simulation time]."""
         if self.benchmark.patience is not None:
             return self.benchmark.patience
         client = self.algorithm.client
         if client is not None and client.sync == "none":
             return client.limit * client.speed  # the user starts the program meanwhile
-        return PATIENCE
+        return START_TIMEOUT
 
     def draws(self, seed: int) -> tuple[Draw, ...]:
         """Return the values drawn with a seed: variations of the scene, then of the benchmark."""
@@ -148,7 +149,7 @@ class Plan:
                 repeat=repeat,
                 seed=self.seed + repeat,
                 levels=group,
-                is_alone=self.mode == "independent",
+                is_independent=self.mode == "independent",
             )
             for repeat in range(self.repeats)
             for i, group in enumerate(groups)

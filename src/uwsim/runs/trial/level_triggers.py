@@ -42,15 +42,15 @@ class LevelTriggers:
         start, stop = self._start.is_on(), self._stop.is_on()
         return start and not stop
 
-    def describe_wait(self, patience: float) -> str:
-        """Return the reason why no level began within ``patience`` [s of simulation time]."""
+    def describe_wait(self, timeout: float) -> str:
+        """Return the reason why no level began within ``timeout`` [s of simulation time]."""
         if not self._start.is_on():
             return (
-                f"its startOn ({self._spec.start_on}) did not go on within {patience:g} s of "
+                f"its startOn ({self._spec.start_on}) did not go on within {timeout:g} s of "
                 "simulation time"
             )
         return (
-            f"its stopOn ({self._spec.stop_on}) did not go off within {patience:g} s of simulation "
+            f"its stopOn ({self._spec.stop_on}) did not go off within {timeout:g} s of simulation "
             "time, and with the compatibility stop-once it is not reset"
         )
 

@@ -26,9 +26,9 @@ FIELD_OF_VIEW = np.radians(45.0)
 """The vertical field of view [rad]."""
 DISTANCE = 2.6
 """The distance of the viewpoint from the target [m]."""
-OFFSET = (-0.45, 0.75, 0.35)
-"""The direction from the target to the viewpoint, as components ahead of the vehicle, to its
-starboard, and up; of any length."""
+VIEW_DIRECTION = (-0.45, 0.75, 0.35)
+"""The direction from the target to the viewpoint: its components ahead of the vehicle, to
+starboard, and up. The length of the vector has no effect."""
 INSET_HEIGHT = 0.45
 """The height of the camera's image, relative to the height of the whole image."""
 MAX_IMAGES = 24
@@ -57,7 +57,7 @@ class PhaseImages:
     def update(self, measures: Sequence[TriggeredMeasure]) -> None:
         """Render an image if a phase has ended."""
         for measure in measures:
-            name = measure.measure.moment
+            name = measure.measure.current_phase
             if name is None:
                 continue
             if name != self._phase:
@@ -68,7 +68,7 @@ class PhaseImages:
     def end(self, measures: Sequence[TriggeredMeasure]) -> None:
         """Render an image of the last phase."""
         for measure in measures:
-            if measure.measure.moment is not None:
+            if measure.measure.current_phase is not None:
                 self._render(measure.measure)
                 return
 
@@ -119,7 +119,7 @@ def observer_pose(world_from_vehicle: Pose, target: Array) -> Pose:
     forward = forward / length(forward)
     up = np.array([0.0, 0.0, 1.0])
     starboard = np.cross(forward, up)
-    direction = OFFSET[0] * forward + OFFSET[1] * starboard + OFFSET[2] * up
+    direction = VIEW_DIRECTION[0] * forward + VIEW_DIRECTION[1] * starboard + VIEW_DIRECTION[2] * up
     direction = direction / length(direction)
     return Pose(target + DISTANCE * direction, camera_axes(-direction, up))
 

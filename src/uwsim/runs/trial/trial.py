@@ -38,8 +38,8 @@ from ...simulation.markers import SERVICE as SPAWN_MARKER
 from ..own_process.program import Program, program_of, take_refused_messages
 from ..planning.plan import Plan, Trial
 from ..planning.trial_cache import TrialCache, compile_plan
+from .error_floor import ErrorFloor
 from .fingerprint import Fingerprinter
-from .floor import ErrorFloor
 from .known_corners import known_corners
 from .level_row import LevelRow, TrialEnd, cells_of
 from .level_triggers import LevelTriggers
@@ -85,7 +85,7 @@ def execute(
         recorder: the recorder of the messages.
 
     Raises:
-        NeverStarted: the start trigger did not go on within the benchmark's patience.
+        NeverStarted: the start trigger did not go on within `Plan.start_timeout`.
     """
     calls = calls or Calls()
     with program_of(plan, calls.limit) as program:  # its process starts while the scene is opened
@@ -98,16 +98,18 @@ def execute(
         try:
             with (
                 nullcontext() if recorder is None else recorder.recording(simulation, trial),
-                attribute_errors_to(plan.plugins, moment=partial(_moment, simulation, trial)),
+                attribute_errors_to(
+                    plan.plugins, describe_progress=partial(_describe_time, simulation, trial)
+                ),
                 closing(_Execution(plan, trial, simulation, program, calls, observer)) as execution,
-                attribute_errors_to(plan.plugins, moment=execution.moment),
+                attribute_errors_to(plan.plugins, describe_progress=execution.describe_progress),
             ):
                 yield from execution.rows()
         finally:
             simulation.close()
 
 
-def _moment(simulation: Simulation, trial: Trial) -> str:
+def _describe_time(simulation: Simulation, trial: Trial) -> str:
     return f"seed {trial.seed}, at {simulation.time:g} s"
 
 
@@ -159,17 +161,17 @@ class _Execution:
         self._notes: dict[str, None] = {}
         self._facts: dict[str, Fact] = {}
         self._target_motion: TargetMotion | None = None
-        self._floor: ErrorFloor | None = None
+        self._error_floor: ErrorFloor | None = None
         self._level: Level | None = None  # the latest level
         self._level_start: int | None = None  # the step at which the running level began
         self._n_measured = 0  # the number of measured steps of all levels so far
         has_images = trial.index == 0 and not plan.is_blind
         self._phases = PhaseImages(simulation) if has_images else None
 
-    def moment(self) -> str:
-        """Return the current moment for a message, as ``level fog=0.4, seed 7, at 3.02 s``."""
+    def describe_progress(self) -> str:
+        """Return the level, seed and time for a message: ``level fog=0.4, seed 7, at 3.02 s``."""
         level = f"level {self._level}, " if self._level else ""
-        return level + _moment(self._simulation, self._trial)
+        return level + _describe_time(self._simulation, self._trial)
 
     def rows(self) -> Iterator[LevelRow | TrialEnd]:
         """Run the levels; yield a row for each, and finally the end of the trial."""
@@ -190,7 +192,7 @@ class _Execution:
         except SimulationFailed as error:
             for level in self._trial.levels[n_rows:]:
                 yield self._finish_row(self._failed_row(level, str(error)))
-        for part in (self._target_motion, self._floor):
+        for part in (self._target_motion, self._error_floor):
             self._facts |= {} if part is None else part.facts
         yield TrialEnd(
             facts=self._facts,
@@ -208,12 +210,12 @@ class _Execution:
         self._wait("The benchmark never started")
         if not plan.is_blind:
             self._target_motion = TargetMotion(self._simulation, plan)
-            self._floor = ErrorFloor(self._simulation, plan)
-        floor = self._floor
+            self._error_floor = ErrorFloor(self._simulation, plan)
+        floor = self._error_floor
         last_level: Level | None = None
         for level in self._trial.levels:
             self._level = level
-            if self._trial.is_alone:
+            if self._trial.is_independent:
                 if floor is not None:
                     floor.start()
                 if plan.benchmark.prelude:
@@ -247,7 +249,7 @@ class _Execution:
         return row
 
     def _base_level(self) -> Level:
-        if self._trial.is_alone and not self._plan.benchmark.prelude:
+        if self._trial.is_independent and not self._plan.benchmark.prelude:
             return self._trial.levels[0]
         return initial_level(self._updater)
 
@@ -274,9 +276,9 @@ class _Execution:
         """Advance until a level may begin; return whether that took any time.
 
         Raises:
-            NeverStarted: no level began within the benchmark's patience, or the algorithm failed.
+            NeverStarted: no level began within `Plan.start_timeout`, or the algorithm failed.
         """
-        simulation, node, patience = self._simulation, self._node, self._plan.patience
+        simulation, node, timeout = self._simulation, self._node, self._plan.start_timeout
         start_time = simulation.time
         while not self._triggers.may_begin():
             if node.error is not None:
@@ -284,8 +286,8 @@ class _Execution:
                     f"{message}: algorithm {node.name!r} {node.failure_verb} before: "
                     f"{to_line(node.error)}"
                 )
-            if simulation.time - start_time >= patience:
-                reason = self._triggers.describe_wait(patience)
+            if simulation.time - start_time >= timeout:
+                reason = self._triggers.describe_wait(timeout)
                 question = f"{message}: {reason}. Does algorithm {node.name!r} see to it?"
                 raise NeverStarted(" ".join([question, *node.describe_unpublished_topics()]))
             simulation.advance()
@@ -322,14 +324,14 @@ class _Execution:
 
     def _step_to(self, level: Level, last_level: Level | None) -> None:
         """Bring the scene to a level; the first of a sequence is not a step."""
-        if last_level is None and not self._trial.is_alone:
+        if last_level is None and not self._trial.is_independent:
             begin_level(self._updaters, level)
         else:
             apply_level(self._updaters, level, last_level=last_level)
 
     def _begin(self, level: Level, last_level: Level | None) -> None:
         self._step_to(level, last_level)
-        from_initial = self._base_level() if self._trial.is_alone else last_level
+        from_initial = self._base_level() if self._trial.is_independent else last_level
         self._live_topics.record_change(level, last_level=from_initial)
         self._triggers.arm()
         if self._wait(f"Level {level} never began"):
@@ -367,7 +369,7 @@ class _Execution:
             is_stopped = not self._triggers.is_open()
             ending = _end_of_level(measures)
             # no later level needs the simulation
-            is_over = self._trial.is_alone and monitor.failure is not None
+            is_over = self._trial.is_independent and monitor.failure is not None
             if is_stopped or ending is not None or is_over:
                 break
         for measure in measures:

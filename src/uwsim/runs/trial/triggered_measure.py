@@ -52,8 +52,8 @@ class TriggeredMeasure:
     def value(self) -> object:
         """The measure's value.
 
-        It is None if the measure never started. With the compatibility ``never-started`` it is the
-        start value instead, as in the original UWSim, unless that value is an error there.
+        It is None if the measure never started. With the compatibility quirk ``never-started`` it
+        is the start value instead, unless the original UWSim reports a missing value as an error.
         """
         return self.spec.start_value if self.has_start_value else self.measure.value
 
@@ -73,15 +73,15 @@ class TriggeredMeasure:
         elif is_on:
             self.measure.update()
         elif self._was_on:
-            self.measure.went_off()
+            self.measure.stop()
         if is_on and self._log_due is not None and self._world.step - self._step0 >= self._log_due:
             self._take_log()
         self._was_on = is_on
 
     def end(self) -> None:
-        """Stop the measure with the level."""
+        """Stop the measure at the end of the level."""
         if self._was_on:
-            self.measure.went_off()
+            self.measure.stop()
             self._was_on = False
 
     def close(self) -> None:

@@ -169,7 +169,7 @@ def make_heaps(scene: SceneSpec, corners: Sequence[tuple[int, Array]]) -> tuple[
 
     Args:
         scene: the spec of the scene.
-        corners: for each visible part of an object, the number of the object and the corners of
+        corners: for each visible part of an object, the index of the object and the corners of
             the part's bounding box in W, (n, 3) [m].
     """
     heaps = []

@@ -24,11 +24,11 @@ from ...base.numerics.memory import carray, pointer, view_doubles
 from ...currents.flow_function import QUERY, FlowFunction, query_of
 from ...physics.hydrodynamics.water_function import (
     ACCELERATION,
+    ANGULAR_VELOCITY,
     POINT,
-    ROTATION,
     SURFACE,
     VELOCITY,
-    WATER_ROW,
+    WATER_ROW_LENGTH,
     WaterFunction,
 )
 
@@ -121,11 +121,11 @@ def write_next_rows(parameters: int, values: int, time: float) -> None:
     size = SURFACE - VELOCITY
     source, rows = (
         view_doubles(table.rows, size * table.n),
-        view_doubles(values, WATER_ROW * table.n),
+        view_doubles(values, WATER_ROW_LENGTH * table.n),
     )
     for i in range(table.n):
         for k in range(size):
-            rows[WATER_ROW * i + VELOCITY + k] = source[size * i + k]
+            rows[WATER_ROW_LENGTH * i + VELOCITY + k] = source[size * i + k]
     table.rows += 8 * size * table.n
     table.n_left -= 1
 
@@ -135,12 +135,12 @@ def write_water(parameters: int, values: int, time: float) -> None:
 
     Args:
         parameters: the address of a `WATER` record.
-        values: the address of the rows, (n, `WATER_ROW`).
+        values: the address of the rows, (n, `WATER_ROW_LENGTH`).
         time: the time in the middle of the step [s].
     """
     water = carray(pointer(parameters), (1,), WATER)[0]
     query = carray(pointer(water.at_bodies), (1,), QUERY)[0]
-    rows = view_doubles(values, WATER_ROW * water.n).reshape((water.n, WATER_ROW))
+    rows = view_doubles(values, WATER_ROW_LENGTH * water.n).reshape((water.n, WATER_ROW_LENGTH))
     points = view_doubles(query.points, 3 * water.n)
     if water.is_uniform == 0:
         localize(water, rows, points)
@@ -151,7 +151,9 @@ def write_water(parameters: int, values: int, time: float) -> None:
         add_shear(water, rows, points, velocities, accelerations, time)
     for i in range(water.n):
         globalize(water.rotation, velocities[3 * i : 3 * i + 3], rows[i, VELOCITY:ACCELERATION])
-        globalize(water.rotation, accelerations[3 * i : 3 * i + 3], rows[i, ACCELERATION:ROTATION])
+        globalize(
+            water.rotation, accelerations[3 * i : 3 * i + 3], rows[i, ACCELERATION:ANGULAR_VELOCITY]
+        )
 
 
 @njit
@@ -191,7 +193,7 @@ def add_shear(
         for k in range(3):
             axis_1, axis_2 = (k + 1) % 3, (k + 2) % 3
             rotation[k] = 0.5 * (gradient[axis_2, axis_1] - gradient[axis_1, axis_2])
-        globalize(water.rotation, rotation, rows[i, ROTATION:SURFACE])
+        globalize(water.rotation, rotation, rows[i, ANGULAR_VELOCITY:SURFACE])
 
 
 @njit

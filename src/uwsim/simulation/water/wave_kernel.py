@@ -26,7 +26,7 @@ from ...physics.hydrodynamics.water_function import (
     POINT,
     SURFACE,
     VELOCITY,
-    WATER_ROW,
+    WATER_ROW_LENGTH,
     DriftFunction,
     WaterFunction,
 )
@@ -39,7 +39,7 @@ WAVY_WATER = np.dtype(
         ("currents", FUNCTION),  # 0: no currents
         ("waves", np.int64),  # the address of a record of `WAVES`
         ("n", np.int64),  # the number of bodies
-        ("rows", np.int64),  # the address of rows for the currents alone, (n, WATER_ROW)
+        ("rows", np.int64),  # the address of rows for the currents alone, (n, WATER_ROW_LENGTH)
     ]
 )
 """The record of the water of a scene with waves, for compiled code."""
@@ -62,11 +62,11 @@ def add_waves(currents: WaterFunction | None, waves: Waves, n: int) -> WaterFunc
     """Return the function that computes the motion of the water in currents and waves.
 
     Args:
-        currents: the function that computes it in currents alone; None: no currents.
+        currents: the function that computes the motion in currents alone; None: no currents.
         waves: the waves.
         n: the number of bodies.
     """
-    rows, row = np.zeros((n, WATER_ROW)), np.zeros(1, WAVY_WATER)
+    rows, row = np.zeros((n, WATER_ROW_LENGTH)), np.zeros(1, WAVY_WATER)
     row["waves"], row["n"], row["rows"] = address_of(waves.record), n, address_of(rows)
     if currents is not None:
         row["currents"] = currents.function, currents.address
@@ -74,7 +74,7 @@ def add_waves(currents: WaterFunction | None, waves: Waves, n: int) -> WaterFunc
         function=function_address(write_wavy_water),
         parameters=row,
         needs_points=True,
-        follows_surface=True,
+        uses_submerged_centre=True,
         memory_owners=(currents, waves, rows),
     )
 
@@ -121,13 +121,15 @@ def write_wavy_water(parameters: int, values: int, time: float) -> None:
 
     Args:
         parameters: the address of a `WAVY_WATER` record.
-        values: the address of the rows, (n, `WATER_ROW`).
+        values: the address of the rows, (n, `WATER_ROW_LENGTH`).
         time: the time in the middle of the step [s].
     """
     water = carray(pointer(parameters), (1,), WAVY_WATER)[0]
     waves = carray(pointer(water.waves), (1,), WAVES)[0]
-    rows = view_doubles(values, WATER_ROW * water.n).reshape((water.n, WATER_ROW))
-    currents = view_doubles(water.rows, WATER_ROW * water.n).reshape((water.n, WATER_ROW))
+    rows = view_doubles(values, WATER_ROW_LENGTH * water.n).reshape((water.n, WATER_ROW_LENGTH))
+    currents = view_doubles(water.rows, WATER_ROW_LENGTH * water.n).reshape(
+        (water.n, WATER_ROW_LENGTH)
+    )
     for i in range(water.n):
         for j in range(VELOCITY):
             currents[i, j] = rows[i, j]

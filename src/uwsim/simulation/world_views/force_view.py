@@ -23,7 +23,7 @@ class SceneAttachment:
         vehicle: the name of the body's vehicle; empty for an object.
         pose: a function that returns the present pose of the frame in W.
         motion: a function that returns the present motion of the frame.
-        engine_body: the engine's number of the body; None if forces do not move it.
+        engine_body: the MuJoCo ID of the body; None if forces do not move it.
         position_on_body: the origin of the frame in the frame of the engine's body, (3,) [m].
     """
 
@@ -39,7 +39,7 @@ class SceneAttachment:
         self.name, self.vehicle = name, vehicle
         self._pose, self.motion = pose, motion
         self.engine_body = engine_body
-        """The engine's number of the body; None if forces do not move it."""
+        """The MuJoCo ID of the body; None if forces do not move it."""
         self.position_on_body = position_on_body
         """The position of the frame's origin in the frame of the engine's body, (3,) [m]."""
 

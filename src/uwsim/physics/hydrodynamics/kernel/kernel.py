@@ -295,7 +295,7 @@ def _add_bodies(m: int, d: int, o: Ints64, theta_h: float, work: Floats, with_ma
             fraction *= density_ratio(m, o, centre_height)
         base = f.ROW * body
         work[base + f.IS_ACTIVE] = 1.0
-        step = theta_h * table[c.THETA]
+        step = theta_h * table[c.DRAG_IMPLICITNESS]
         bias = read_six(work, base + f.BIAS)
         omega = to_body(axes, twist[0], twist[1], twist[2])
         rate = bias_acceleration(axes, lever, bias, water, omega)

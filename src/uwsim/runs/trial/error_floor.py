@@ -20,7 +20,7 @@ from ...base.geometry import Array
 from ...base.numerics.linear import length, product, solve
 from ...benchmark.ground_truth import CornersFromCameraSpec, FaceCorners, GroundTruth
 from ...benchmark.measures import EuclideanNormSpec
-from ...results.result import FLOOR
+from ...results.result import ERROR_FLOOR_PREFIX
 from ...results.stored.stored_row import StoredFact
 from ...simulation import Simulation
 from ..planning.plan import Plan
@@ -83,7 +83,8 @@ class ErrorFloor:
     def facts(self) -> dict[str, Fact]:
         """``floor_<measure>`` [px]: the largest mean error of the measure in any level."""
         return {
-            f"{FLOOR}{name}": (round(max(means), 6), "px") for name, means in self._means.items()
+            f"{ERROR_FLOOR_PREFIX}{name}": (round(max(means), 6), "px")
+            for name, means in self._means.items()
         }
 
     def _update(self) -> None:
@@ -112,14 +113,15 @@ def _corners_of(spec: EuclideanNormSpec) -> CornersFromCameraSpec | None:
     return truth if is_published and isinstance(truth, CornersFromCameraSpec) else None
 
 
-def largest_floors(facts: Iterable[Mapping[str, StoredFact]]) -> dict[str, StoredFact]:
-    """Return the largest floor of each measure in several trials."""
-    floors: dict[str, StoredFact] = {}
+def largest_error_floors(facts: Iterable[Mapping[str, StoredFact]]) -> dict[str, StoredFact]:
+    """Return the largest error floor of each measure in several trials."""
+    error_floors: dict[str, StoredFact] = {}
     for trial_facts in facts:
         for name, fact in trial_facts.items():
-            if name.startswith(FLOOR) and (name not in floors or fact[0] > floors[name][0]):
-                floors[name] = fact
-    return floors
+            is_larger = name not in error_floors or fact[0] > error_floors[name][0]
+            if name.startswith(ERROR_FLOOR_PREFIX) and is_larger:
+                error_floors[name] = fact
+    return error_floors
 
 
 def homography(source: Array, target: Array) -> Array | None:

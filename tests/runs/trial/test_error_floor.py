@@ -10,7 +10,12 @@ import pytest
 
 from tests.support.short_benchmark import bench_of, write_benchmark
 from uwsim.runs.executors.executor import run_all
-from uwsim.runs.trial.floor import crossing, homography, largest_floors, transform_points
+from uwsim.runs.trial.error_floor import (
+    crossing,
+    homography,
+    largest_error_floors,
+    transform_points,
+)
 
 SQUARE = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
 SEEN = np.array([[3.0, 4.0], [80.0, 9.0], [70.0, 66.0], [-5.0, 50.0]])
@@ -40,7 +45,7 @@ def test_the_diagonals_of_a_square_seen_askew_cross_where_its_centre_is() -> Non
 
 def test_of_several_units_the_largest_floor_counts() -> None:
     facts = [{"floor_a": [1.0, "px"], "S": [3.0, "1"]}, {"floor_a": [2.0, "px"]}, {}]
-    assert largest_floors(facts) == {"floor_a": [2.0, "px"]}
+    assert largest_error_floors(facts) == {"floor_a": [2.0, "px"]}
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""Warnings about stand-ins for missing files."""
+"""Warnings about bundled files that replace missing files."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ if TYPE_CHECKING:
     from ..scene.spec import SceneSpec
 
 
-def warn_of_stand_ins(scene: SceneSpec, data_path: tuple[Path, ...]) -> None:
+def warn_of_substituted_files(scene: SceneSpec, data_path: tuple[Path, ...]) -> None:
     """Warn of bundled robots of a scene that replace missing files."""
-    from ..model.robots import robot_stand_ins
+    from ..model.robots import substitute_robots
 
-    for name, path in robot_stand_ins(scene, data_path).items():
+    for name, path in substitute_robots(scene, data_path).items():
         place = f"{scene.path}: " if scene.path else ""
         warn(f"{place}robot file {name!r} is not found; the bundled {path.name} is used")
