@@ -7,13 +7,13 @@ its ARM5E; its five thrusters and five joints are commanded at 100 Hz, the water
 
 scenes
     whole steps beside MuJoCo's own step of the same model without water (``engine_us``): over a
-    flat floor, relief and in the tank; with an IMU at 100 Hz and pressure, DVL, range and odometry
-    at 10 Hz with subscribers; eight vehicles; beside loose and fixed boxes.
+    flat floor, a sea floor and in the tank; with an IMU at 100 Hz and pressure, DVL, range and
+    odometry at 10 Hz with subscribers; eight vehicles; beside loose and fixed boxes.
 influences
     the additional cost of a step over still water without sensors: of each current, each sensor
     at 100 Hz with and without a subscriber, an observer of every step, a vehicle that drifts.
 samples
-    CPU time of one sample of each sensor, over relief and beside 1000 loose boxes.
+    CPU time of one sample of each sensor, over a sea floor and beside 1000 loose boxes.
 growth
     a step with increasing numbers of vehicles, sensors and loose boxes.
 """
@@ -238,10 +238,10 @@ def scenes() -> dict[str, object]:
     """Measure whole steps in several scenes."""
     return {
         "flat": measure_step(),
-        "relief": measure_step(ground=steps.relief),
+        "sea floor": measure_step(ground=steps.sea_floor),
         "tank": measure_step(ground=steps.tank),
         "flat, five sensors": measure_step(sensors=USUAL_RATES),
-        "relief, five sensors": measure_step(ground=steps.relief, sensors=USUAL_RATES),
+        "sea floor, five sensors": measure_step(ground=steps.sea_floor, sensors=USUAL_RATES),
         "8 vehicles": measure_step(8),
         "100 loose boxes": measure_step(ground=floor(100)),
         "1000 fixed boxes": measure_step(ground=steps.fixed_boxes),
@@ -292,7 +292,7 @@ def measure_added_cost(**options: object) -> dict[str, float]:
 def samples() -> dict[str, object]:
     """Measure CPU microseconds of a sample of each sensor, one a step."""
     figures: dict[str, object] = {}
-    surroundings = {"relief": steps.relief, "1000 loose boxes": floor(1000)}
+    surroundings = {"sea floor": steps.sea_floor, "1000 loose boxes": floor(1000)}
     for place, ground in surroundings.items():
         rows = {}
         with tempfile.TemporaryDirectory() as folder:

@@ -51,7 +51,7 @@ COUNT = """() => {
 WATCH = """([body, moved]) => {
   const { page } = window.uwsim, draw = page.draw.bind(page), found = [];
   const where = () => {
-    const m = page.player.moment(page.time).poses.get(body);
+    const m = page.player.snapshot(page.time).poses.get(body);
     return [m[3], m[7], m[11]];
   };
   let pressed = null, place = where(); // also where the first key comes before the next drawing
@@ -193,7 +193,7 @@ def measure_receivers() -> Figures:
     with run_scene(PILOTED_SCENE, *SIZE) as (_, url), open_receivers(url, 2) as receivers:
         key_delays = []
         for k in range(N_KEYS):
-            time.sleep(REST_TIME + 0.0137 * k)  # at any moment between two rows and commands
+            time.sleep(REST_TIME + 0.0137 * k)  # at any time between two rows and commands
             key_delays.append(receivers[0].measure_key_delay())
     return {**figures, **delay_figures(f"{name}: key to moved vehicle", key_delays)}
 

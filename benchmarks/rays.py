@@ -33,7 +33,7 @@ from uwsim.sensors.sonar.ray_grid import RayGrid
 from uwsim.simulation import Simulation
 
 SCENES = ("shipwreck-scene", "shapes-scene", "survey-scene", "cirs", "dredging-scene")
-"""The scenes: relief with a wreck, solids, relief with objects, a tank, and sand."""
+"""The scenes: a sea floor with a wreck, solids, a sea floor with objects, a tank, and sand."""
 BOW, HULL = (0.75, 0.0, 0.4), (0.4, 0.0, 0.7)
 """The positions of the sensors in the frame of the vehicle, whose z axis points down [m]."""
 MAX_RANGE = 50.0

@@ -31,7 +31,7 @@ BATCHES = 7
 BATCH_CPU_S = 0.6
 """The approximate CPU time of a batch [s]."""
 CUBE = (0.15, 0.10, 0.075)  # half edges [m]
-RELIEF = (44, 53)  # corners of the sea floor: 43 x 52 cells of two triangles are 4472
+SEA_FLOOR_CORNERS = (44, 53)  # corners of the sea floor: 43 x 52 cells of two triangles are 4472
 VEHICLE = """
   <vehicle> <name>v{i}</name> <file>data/scenes/g500ARM5.urdf</file>
     <jointValues> <joint>0</joint><joint>0</joint><joint>2.2</joint><joint>0</joint>
@@ -65,10 +65,10 @@ def box_file(folder: Path, name: str, half: tuple[float, float, float]) -> str:
     return name
 
 
-def relief_file(folder: Path) -> str:
+def sea_floor_file(folder: Path) -> str:
     """Write a sea floor of dunes and stones as an OBJ file, 26 x 21.5 m, z up."""
     rng = np.random.Generator(np.random.Philox(11))
-    rows, columns = RELIEF
+    rows, columns = SEA_FLOOR_CORNERS
     x, y = 0.5 * np.arange(columns) - 13.0, 0.5 * np.arange(rows) - 10.75
     heights = 0.25 * np.sin(0.7 * x)[None, :] * np.cos(0.5 * y)[:, None]
     heights = np.round(heights + 0.06 * rng.uniform(-1.0, 1.0, (rows, columns)), 5)
@@ -77,8 +77,8 @@ def relief_file(folder: Path) -> str:
         for j in range(columns - 1):
             a = 1 + i * columns + j
             lines += [f"f {a} {a + 1} {a + columns + 1}", f"f {a} {a + columns + 1} {a + columns}"]
-    (folder / "relief.obj").write_text("\n".join(lines) + "\n")
-    return "relief.obj"
+    (folder / "sea-floor.obj").write_text("\n".join(lines) + "\n")
+    return "sea-floor.obj"
 
 
 def floor(folder: Path) -> str:
@@ -87,9 +87,9 @@ def floor(folder: Path) -> str:
     return OBJECT.format(name="floor", file=file, x=0, y=0, z=-3.5, mass=0, kind="box")
 
 
-def relief(folder: Path) -> str:
+def sea_floor(folder: Path) -> str:
     """Return the sea floor at about z = -3."""
-    file = relief_file(folder)
+    file = sea_floor_file(folder)
     return OBJECT.format(name="terrain", file=file, x=0, y=0, z=-3, mass=0, kind="trimesh")
 
 
@@ -125,7 +125,7 @@ def loose_boxes(folder: Path, n: int) -> str:
 SCENES: dict[str, tuple[int, Callable[[Path], str], int]] = {
     "flat floor": (1, floor, 60_000),
     "tank": (1, tank, 45_000),
-    "relief": (1, relief, 45_000),
+    "sea floor": (1, sea_floor, 45_000),
     "8 vehicles": (8, floor, 10_000),
     "1000 static boxes": (1, fixed_boxes, 40_000),
     "100 loose boxes": (1, lambda folder: loose_boxes(folder, 100), 3_000),

@@ -33,7 +33,7 @@ DRAW = """async ([n, isShown]) => {
   for (let i = 0; i < n; i++) {
     page.time = time += 1 / 30;
     page.views.drag(0.002, 0, false);
-    page.picture.draw(page.player, page.player.moment(time), page.views, page.switches);
+    page.picture.draw(page.player, page.player.snapshot(time), page.views, page.switches);
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, pixel);
     if (isShown) await new Promise((done) => requestAnimationFrame(done));
   }

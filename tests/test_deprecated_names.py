@@ -5,6 +5,7 @@ from __future__ import annotations
 import inspect
 import re
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -136,6 +137,8 @@ def test_old_names_of_a_result_work() -> None:
     assert columns == result.columns_of_kind("score")
     reason = warned(lambda: result.why(1, "total"), "why", "reason")
     assert reason == result.reason(1, "total")
+    run: Any = replace(result.run, trial_counts=(1, 3))
+    assert warned(lambda: run.units, "units", "trial_counts") == (1, 3)
 
 
 def test_the_old_name_of_the_trials_of_a_replay_works() -> None:

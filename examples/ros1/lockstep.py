@@ -271,7 +271,7 @@ class LockStep:
         try:
             ServerProxy(self._uri).getPid("/x")
         except OSError:
-            return self._is_registered()  # it may unregister at this moment
+            return self._is_registered()  # it may have unregistered since
         return False
 
     def _is_registered(self):

@@ -53,7 +53,7 @@ def test_a_misspelt_kind_is_reported_with_the_right_one(capsys: pytest.CaptureFi
 
 @pytest.fixture
 def dvl_read_only(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Make the DVL an element that is read and not simulated."""
+    """Make the DVL an element that is read but not simulated."""
     for place in (("vehicle", "dvlSensor"), ("rosInterfaces", "DVLSensorToROS")):
         monkeypatch.setitem(UNSIMULATED_ELEMENTS, place, place[1])
 

@@ -184,7 +184,7 @@ def test_all_errors_of_the_options_are_reported_at_once(
 
 def test_a_parameter_needs_a_program(scene: Path, capsys: pytest.CaptureFixture) -> None:
     assert main(["run", str(scene), "--set", "algorithm.kp=1"]) == 2
-    assert "sets a parameter of a --program; there is none" in capsys.readouterr().err
+    assert "sets a parameter of a program, but no --program is given" in capsys.readouterr().err
 
 
 @pytest.mark.parametrize(

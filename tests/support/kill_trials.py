@@ -1,7 +1,7 @@
 """Disturb runs at random, resume them, and compare them with an undisturbed run.
 
 A trial starts a short ``uwsim bench`` or ``uwsim verify`` and disturbs it: a signal at a random
-moment, SIGKILL at a change of the result directory, or a full disk. Then it checks for a traceback,
+time, SIGKILL at a change of the result directory, or a full disk. Then it checks for a traceback,
 for remaining processes and temporary files, and for incomplete files. It continues with
 ``--resume``, sometimes disturbed again, and compares the bytes of the result with those of an
 undisturbed run. The same ``--seed`` gives the same trials, up to effects of the machine's load.
@@ -260,7 +260,7 @@ def resume_and_compare(workplace: Workplace, out: Path, workers: str) -> list[st
 def run_signal_trial(
     workplace: Workplace, chance: np.random.Generator, out: Path
 ) -> tuple[str, list[str]]:
-    """Send one to three signals at random moments, each to a resumed run."""
+    """Send one to three signals at random times, each to a resumed run."""
     return _run_signalled(workplace, chance, out, str(chance.integers(1, 3)))
 
 

@@ -148,7 +148,7 @@ def test_the_table_has_every_element_of_the_original() -> None:
 def test_type_direction_and_rate(element: str, rates: dict[str, TopicRate]) -> None:
     _, types, rate = TABLE[element]
     if not INTERFACES[element].is_simulated():
-        pytest.skip(f"{element} is read and not simulated yet")
+        pytest.skip(f"{element} is read but not simulated yet")
     for suffix, message_type in types.items():
         found = rates["/tf" if suffix == "/tf" else f"/t/{element}{suffix}"]
         assert found.message_type == message_type

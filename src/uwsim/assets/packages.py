@@ -205,10 +205,10 @@ def _walk(root: Path, depth: int) -> _Index:
     declared_folders: dict[str, list[Path]] = {}
     named_folders: dict[str, list[Path]] = {}
     packages_by_level: list[list[Path]] = []
-    level = [root]
+    parents = [root]
     for _ in range(depth):
         subfolders, packages = [], []
-        for child in _new_children(level, stamps, MAX_FOLDERS):
+        for child in _new_children(parents, stamps, MAX_FOLDERS):
             named_folders.setdefault(child.name, []).append(child)
             if name := _declared_name(child):
                 stamps[child / "package.xml"] = _stamp(child / "package.xml")
@@ -217,7 +217,7 @@ def _walk(root: Path, depth: int) -> _Index:
             else:
                 subfolders.append(child)
         packages_by_level.append(packages)
-        level = subfolders
+        parents = subfolders
     models, rest = _walk_packages(packages_by_level, stamps)
     stamps[root] = _stamp(root)
     groups = (declared_folders, named_folders, models)
@@ -243,19 +243,19 @@ def _walk_packages(
     models: dict[str, list[Path]] = {}
     folders: dict[str, list[Path]] = {}
     limit = len(stamps) + MAX_FOLDERS
-    level: list[Path] = []
+    parents: list[Path] = []
     for packages_here in packages:
-        subfolders = list(islice(_new_children(level, stamps, limit), limit - len(stamps)))
+        subfolders = list(islice(_new_children(parents, stamps, limit), limit - len(stamps)))
         for child in subfolders:
             group = models if os.path.isfile(child / MODEL_FILE) else folders
             group.setdefault(child.name, []).append(child)
-        level = [*subfolders, *packages_here]
+        parents = [*subfolders, *packages_here]
     return models, folders
 
 
-def _new_children(level: Iterable[Path], stamps: dict[Path, int], limit: int) -> Iterator[Path]:
+def _new_children(parents: Iterable[Path], stamps: dict[Path, int], limit: int) -> Iterator[Path]:
     """Yield the subfolders of folders, and add their time stamps, until there are ``limit``."""
-    for folder in level:
+    for folder in parents:
         for child in _children(folder) if len(stamps) < limit else ():
             if child not in stamps:
                 stamps[child] = _stamp(child)

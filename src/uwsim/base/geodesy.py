@@ -48,11 +48,11 @@ class Geodetic:
         sine, cosine = math.sin(self.latitude), math.cos(self.latitude)
         e2 = FLATTENING * (2.0 - FLATTENING)
         curvature = SEMI_MAJOR_AXIS / math.sqrt(1.0 - e2 * sine * sine)
-        level = (curvature + self.altitude) * cosine
+        axis_distance = (curvature + self.altitude) * cosine
         return np.array(
             [
-                level * math.cos(self.longitude),
-                level * math.sin(self.longitude),
+                axis_distance * math.cos(self.longitude),
+                axis_distance * math.sin(self.longitude),
                 ((1.0 - e2) * curvature + self.altitude) * sine,
             ]
         )
@@ -82,13 +82,13 @@ class Geodetic:
         """
         x, y, z = (self.earth_centred + rotate(self.axes, north_east_down)).tolist()
         e2 = FLATTENING * (2.0 - FLATTENING)
-        level = math.hypot(x, y)
-        latitude = math.atan2(z, level * (1.0 - e2))
+        axis_distance = math.hypot(x, y)
+        latitude = math.atan2(z, axis_distance * (1.0 - e2))
         for _ in range(8):
             sine = math.sin(latitude)
             curvature = SEMI_MAJOR_AXIS / math.sqrt(1.0 - e2 * sine * sine)
-            latitude = math.atan2(z + e2 * curvature * sine, level)
+            latitude = math.atan2(z + e2 * curvature * sine, axis_distance)
         sine, cosine = math.sin(latitude), math.cos(latitude)
         root = math.sqrt(1.0 - e2 * sine * sine)
-        altitude = level * cosine + z * sine - SEMI_MAJOR_AXIS * root
+        altitude = axis_distance * cosine + z * sine - SEMI_MAJOR_AXIS * root
         return Geodetic(latitude=latitude, longitude=math.atan2(y, x), altitude=altitude)

@@ -43,7 +43,7 @@ class RobotSearch:
         """The robot files that were found, each once."""
         self.diagnostics: list[Diagnostic] = []
         """Errors and warnings about robot files that are not found, or not at the stated path."""
-        self.stand_ins: set[str] = set()
+        self.substituted_files: set[str] = set()
         """The names of robot files that are not found, and that bundled robots replace."""
         self._file_search, self._diagnostics = file_search, diagnostics
         robots: dict[str, RobotSpec | None] = {}
@@ -60,7 +60,7 @@ class RobotSearch:
             if path := find(name, **self._file_search):
                 remark = location_remark(name, path, **self._file_search)
             elif path := bundled_robot(name):
-                self.stand_ins.add(name)
+                self.substituted_files.add(name)
                 remark = f"robot file {name!r} is not found; the bundled {path.name} is used"
             else:
                 self.diagnostics.append(diagnostic_at(vehicle, self._missing_message(name)))

@@ -122,10 +122,10 @@ class CheckedScene(Subject):
         """The scene with the robots that could be read."""
         return ResolvedScene(scene=self.spec, robots=self.robots, data_path=self.data_path)
 
-    def has_stand_in(self, index: int) -> bool:
+    def has_substitute_robot(self, index: int) -> bool:
         """Return whether a bundled robot replaces a vehicle's robot file, which is not found."""
         name = self.spec.vehicles[index].file
-        return not self._known_parts and name in self.robot_search.stand_ins
+        return not self._known_parts and name in self.robot_search.substituted_files
 
     @cached_property
     def names(self) -> NameResolution:

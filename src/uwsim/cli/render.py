@@ -112,9 +112,9 @@ def render(
     """Draw a scene at time 0: the image of a camera in it, or a view of it.
 
     The image of a virtual camera has its noise and the water. A view has no noise, and air above
-    the water; orbit and top are drawn without fog, unless --set sets it. Without --camera, --view
-    and --from it draws the scene's only virtual camera. Without one it draws the file's viewer,
-    else an orbit view.
+    the water; orbit and top are rendered without fog, unless --set sets it. Without --camera,
+    --view and --from it renders the scene's only virtual camera. Without one it renders the file's
+    viewer, else an orbit view.
     """
     from ..checks import model_warnings
     from ..physics.compile_scene import compile_scene

@@ -216,7 +216,7 @@ def replay(
     """Show a result again: as a page for the browser, or as a film.
 
     It does not run the simulation again: every bench stores the poses of all bodies
-    (units/N.motion). The images are drawn from these, with the fog and the light of the moment,
+    (units/N.motion). The images are rendered from these, with the fog and light at that time, but
     without noise. The page has all levels, all views and the curves of all measures, in one file
     that needs no network. The options from --view to --speed are for films. Levels are chapters.
     The same result and options give the same bytes. The rows of report.html link to

@@ -36,7 +36,7 @@ class RenderedView:
     pixels: npt.NDArray[np.uint8]
     """The pixels, (h, w, 3) or (h, w)."""
     render_clean: Callable[[], RenderedImage]
-    """A function that draws the image without noise, with depth and body numbers."""
+    """A function that draws the image without noise, with depth and segmentation IDs."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -160,10 +160,12 @@ def read_size(text: str) -> tuple[int, int]:
     match = re.fullmatch(r"(\d{1,6})[xX](\d{1,6})", text.strip())
     edges = (int(match[1]), int(match[2])) if match else (0, 0)
     if not all(1 <= edge <= MAX_SIDE for edge in edges):
-        raise BadSetting(f"--size is {text!r}; expected WxH [px], as 800x600, {MAX_SIDE} at most.")
+        raise BadSetting(
+            f"--size is {text!r}; expected WxH [px] such as 800x600, {MAX_SIDE} at most."
+        )
     if edges[0] * edges[1] > MAX_PIXELS:
         raise BadSetting(
             f"--size is {text!r}: {edges[0] * edges[1] / 1e6:.0f} million pixels; at most "
-            f"{MAX_PIXELS / 1e6:.0f} million are drawn, as in 7680x4320."
+            f"{MAX_PIXELS / 1e6:.0f} million are rendered, as in 7680x4320."
         )
     return edges

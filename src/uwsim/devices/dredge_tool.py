@@ -34,9 +34,9 @@ class DredgeToolSpec(DeviceSpec):
     target: str
     """The link on which the tool is mounted."""
     offsetp: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), original=REQUIRED_BY_DTD)
-    """A position [m]: read and not used, as in the original UWSim."""
+    """A position [m]: read but not used, as in the original UWSim."""
     offsetr: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), original=REQUIRED_BY_DTD)
-    """An orientation [rad]: read and not used, as in the original UWSim."""
+    """An orientation [rad]: read but not used, as in the original UWSim."""
 
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> DredgeTool:
         """Mount the tool on its link; raise UnknownName if the vehicle has no such link."""

@@ -45,7 +45,7 @@ class ObjectPickerSpec(DeviceSpec):
     range: float = element(minimum=0)
     """The length of the ray [m]."""
     visible: bool = False
-    """True if the ray is visible; read and not used, as the ray is always drawn."""
+    """True if the ray is visible; read but not used, as the ray is always drawn."""
     position: tuple[float, float, float] = (0.0, 0.0, 0.0)
     """The position of the device in the link's frame [m]."""
     orientation: tuple[float, float, float] = element(default=(0.0, 0.0, 0.0), parts="rpy")

@@ -26,7 +26,7 @@ MAX_KINDS = 100
 """The maximum number of refused pairs of sender and topic that are counted separately."""
 OTHER_KEY = ("other senders", "other topics and services")
 """The pair under which all further refusals are counted."""
-Decision = Literal["take", "hold", "refuse"]
+Decision = Literal["accept", "hold", "refuse"]
 """The decision about a message or an offer; it is held until its sender is admitted."""
 Accept = Callable[[], object]
 """A function that accepts a held message or offer."""
@@ -103,7 +103,7 @@ class Admission(ABC):
     def may_answer(self, name: str, sender: str) -> bool:
         """Return whether to accept the response of an external service from a sender."""
         with self._lock:
-            is_allowed = self._takes_part(sender) or self._on_offer(name, sender) == "take"
+            is_allowed = self._takes_part(sender) or self._on_offer(name, sender) == "accept"
         if not is_allowed:
             self.refuse(sender, f"/{name}")
         return is_allowed
@@ -136,9 +136,9 @@ class Admission(ABC):
     ) -> bool:
         if decision == "hold" and self._hold(sender, accept, size):
             return False
-        if decision != "take":
+        if decision != "accept":
             self.refuse(sender, name)
-        return decision == "take"
+        return decision == "accept"
 
     def _hold(self, sender: str, accept: Accept, size: int) -> bool:
         """Hold a message or offer until its sender is admitted; return whether there is space."""
@@ -158,7 +158,7 @@ class SingleProgram(Admission):
 
     def _on_message(self, topic: str, sender: str) -> Decision:
         if self._takes_part(sender):
-            return "take"
+            return "accept"
         return "refuse" if self._admitted_senders else "hold"
 
     def _on_call(self, name: str, sender: str) -> bool:
@@ -213,14 +213,14 @@ class TopicOwners(Admission):
 
     def _on_message(self, topic: str, sender: str) -> Decision:
         if not sender:
-            return "take"
+            return "accept"
         if topic in self._owners:
-            return "take" if self._owners[topic] == sender else "refuse"
+            return "accept" if self._owners[topic] == sender else "refuse"
         is_open = self._topics is None or topic in self._topics
         if is_open or sender in self._admitted_senders:
             self._owners[topic] = sender
             self.admit(sender)
-            return "take"
+            return "accept"
         return "refuse" if self._is_complete else "hold"
 
     def _on_call(self, name: str, sender: str) -> bool:
@@ -229,7 +229,7 @@ class TopicOwners(Admission):
     def _on_offer(self, name: str, sender: str) -> Decision:
         if sender and sender not in self._admitted_senders and self._is_complete:
             return "refuse"
-        return "take" if self._offerers.setdefault(name, sender) == sender else "refuse"
+        return "accept" if self._offerers.setdefault(name, sender) == sender else "refuse"
 
     @property
     def _is_complete(self) -> bool:

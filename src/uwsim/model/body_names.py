@@ -4,32 +4,32 @@ from __future__ import annotations
 
 
 def vehicle_body(index: int, link: str) -> str:
-    """Return the name in the model of a link of the vehicle number ``index``."""
+    """Return the name in the model of a link of the vehicle at ``index``."""
     return f"vehicle/{index}/{link}"
 
 
 def vehicle_joint(index: int, joint: str) -> str:
-    """Return the name in the model of a joint of the vehicle number ``index``."""
+    """Return the name in the model of a joint of the vehicle at ``index``."""
     return f"vehicle/{index}/joint/{joint}"
 
 
 def vehicle_thruster(index: int, thruster: str) -> str:
-    """Return the name in the model of a thruster of the vehicle number ``index``."""
+    """Return the name in the model of a thruster of the vehicle at ``index``."""
     return f"vehicle/{index}/thruster/{thruster}"
 
 
 def vehicle_fin(index: int, fin: str) -> str:
-    """Return the name in the model of a fin of the vehicle number ``index``."""
+    """Return the name in the model of a fin of the vehicle at ``index``."""
     return f"vehicle/{index}/fin/{fin}"
 
 
 def object_body(index: int) -> str:
-    """Return the name in the model of the object number ``index``."""
+    """Return the name in the model of the object at ``index``."""
     return f"object/{index}"
 
 
 def loose_joint(index: int) -> str:
-    """Return the name in the model of the joint of the loose object number ``index``."""
+    """Return the name in the model of the joint of the loose object at ``index``."""
     return f"object/{index}/joint"
 
 

@@ -44,7 +44,7 @@ MIN_BUOYANCY_CHANGE = 0.1
 
 
 def read_dynamics(resolved_scene: ResolvedScene) -> dict[int, VehicleHydrodynamics]:
-    """Return the hydrodynamics of every vehicle with ``u:dynamics``, by the vehicle's number.
+    """Return the hydrodynamics of every vehicle with ``u:dynamics``, by the vehicle's index.
 
     Raises:
         SceneError: a name is unknown or a file is invalid; the error has every mistake.
@@ -76,7 +76,7 @@ class NameResolution:
 
     def __init__(self, resolved_scene: ResolvedScene, *, is_thorough: bool = False) -> None:
         self.dynamics: dict[int, VehicleHydrodynamics] = {}
-        """The hydrodynamics of each vehicle with dynamics, by the vehicle's number."""
+        """The hydrodynamics of each vehicle with dynamics, by the vehicle's index."""
         self.diagnostics: list[Diagnostic] = []
         """The errors and warnings."""
         scene, robots = resolved_scene.scene, resolved_scene.robots

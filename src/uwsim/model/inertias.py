@@ -28,7 +28,7 @@ def check_inertias(
 
     Args:
         resolved_scene: the scene with its robots.
-        dynamics: the hydrodynamics of each vehicle with dynamics, by the vehicle's number.
+        dynamics: the hydrodynamics of each vehicle with dynamics, by the vehicle's index.
     """
     scene = resolved_scene.scene
     for index, vehicle in dynamics.items():

@@ -83,7 +83,7 @@ class Floor:
     def __init__(self, resolved_scene: ResolvedScene) -> None:
         self._resolved_scene, self._scene = resolved_scene, resolved_scene.scene
         self.faces = ground_faces(resolved_scene.scene, resolved_scene.data_path)
-        """The triangles of each object that is ground, in W, (n, 3, 3) [m], by object number."""
+        """The triangles of each object that is ground, in W, (n, 3, 3) [m], by object index."""
         self.ground = Ground(np.concatenate([np.zeros((0, 3, 3)), *self.faces.values()]))
         """The surface of all these objects together."""
 

@@ -15,7 +15,7 @@ from ..scene.spec import SceneSpec
 from .parts import Part
 
 Owner = tuple[int | None, str, int | None]
-"""The vehicle number and the link of a body, or None, an empty text and the object number."""
+"""The vehicle index and the link of a body, or None, an empty text and the object index."""
 
 
 class RayBodies:

@@ -19,7 +19,7 @@ class ResolvedScene:
     scene: SceneSpec
     """The spec of the scene."""
     robots: Mapping[int, RobotSpec]
-    """The robot of each vehicle, by the vehicle's number in the scene."""
+    """The robot of each vehicle, by the vehicle's index in the scene."""
     data_path: tuple[Path, ...] = ()
     """The folders that are searched for files."""
 
@@ -29,7 +29,7 @@ class SimulatedScene(ResolvedScene):
     """A scene with everything from which the model of the physics engine is compiled."""
 
     dynamics: Mapping[int, VehicleHydrodynamics]
-    """The hydrodynamics of each vehicle with dynamics, by the vehicle's number."""
+    """The hydrodynamics of each vehicle with dynamics, by the vehicle's index."""
     shapes: Mapping[str, tuple[CollisionShape, ...]]
     """The collision shapes of the engine's bodies, by the name of the body."""
     timestep: float

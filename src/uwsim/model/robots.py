@@ -51,7 +51,7 @@ def substitute_robots(scene: SceneSpec, data_path: tuple[Path, ...] = ()) -> dic
 
 
 def read_robots(scene: SceneSpec, data_path: tuple[Path, ...]) -> dict[int, RobotSpec]:
-    """Find and read the URDF of every vehicle; return the robots by vehicle number.
+    """Find and read the URDF of every vehicle; return the robots by vehicle index.
 
     Raises:
         AssetNotFound: a file is not found; the error message lists the folders searched.

@@ -97,7 +97,7 @@ class SceneModel(SimulatedScene):
 
     @cached_property
     def sensor_specs(self) -> tuple[tuple[int, str, BindsSensor], ...]:
-        """The sensors that are not devices: vehicle number, element name and spec of each."""
+        """The sensors that are not devices: vehicle index, element name and spec of each."""
         return tuple(
             (index, element, part)
             for index, vehicle in enumerate(self.scene.vehicles)
@@ -107,7 +107,7 @@ class SceneModel(SimulatedScene):
 
     @cached_property
     def mounted_sensors(self) -> tuple[tuple[int, MountedSensor], ...]:
-        """The sensors and devices with a mounting frame: vehicle number and spec of each."""
+        """The sensors and devices with a mounting frame: vehicle index and spec of each."""
         return tuple(
             (index, part)
             for index, vehicle in enumerate(self.scene.vehicles)
@@ -124,7 +124,7 @@ class SceneModel(SimulatedScene):
 
     @cached_property
     def placed_objects(self) -> Mapping[int, Pose]:
-        """The pose in W of each object that is not a body of the engine, by object number."""
+        """The pose in W of each object that is not a body of the engine, by object index."""
         bodies = {self.engine_model.body(i).name for i in range(self.engine_model.nbody)}
         return {
             index: _round_to_quaternion(

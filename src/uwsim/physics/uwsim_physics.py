@@ -67,7 +67,7 @@ class UwsimPhysics:
         self._model, self._data = model, data
         n_vehicles = len(scene.vehicles)
         joints: list[list[int]] = [[] for _ in range(n_vehicles)]
-        object_joints: list[tuple[int, int]] = []  # the object's number, its joint
+        object_joints: list[tuple[int, int]] = []  # the object's index, its joint
         for joint in range(model.njnt):
             kind, index = model.joint(joint).name.split("/")[:2]
             if kind == "vehicle":

@@ -15,8 +15,8 @@ from . import journal
 from .atomic_file import name_of_draft
 from .provenance import load_provenance
 
-CONTROL = "control"
-"""The folder of the control's own result."""
+CONTROL_FOLDER = "control"
+"""The folder of the result of the control run."""
 REPORT = "report.html"
 """The page with the report of a result."""
 REPLAY = "replay.html"
@@ -33,7 +33,7 @@ FILE_NAMES = re.compile(
 )
 """The paths of the files that uwsim writes into a result directory, or into its subfolder for each
 algorithm; each file may have drafts next to it."""
-FOLDERS = (journal.FOLDER, "plots", "pictures", CONTROL)
+FOLDERS = (journal.FOLDER, "plots", "pictures", CONTROL_FOLDER)
 
 
 @contextmanager

@@ -12,7 +12,7 @@ from pathlib import Path
 
 from ..errors import ResultError
 from .command import bench_words
-from .directory import CONTROL
+from .directory import CONTROL_FOLDER
 from .inputs import Inputs
 from .journal import FOLDER, head_of
 from .provenance import load_provenance
@@ -33,7 +33,7 @@ def describe_missing_result(path: Path) -> str:
         return "no result here but an envelope: its runs are in envelope.json"
     names = sorted(file.parent.name for file in path.glob(f"*/{RESULT}"))
     command = resume_command(path)
-    if names and not (command and names == [CONTROL]):  # the control may end long before its run
+    if names and not (command and names == [CONTROL_FOLDER]):  # the control run may end first
         message = f"holds {len(names)} results ({', '.join(names)}); name one, as {path / names[0]}"
         return message if len(names) > 1 else f"no result here, but in {path / names[0]}"
     if command:
@@ -83,7 +83,7 @@ def _replace_output(words: list[str], directory: Path) -> list[str]:
 
 def _heads_below(directory: Path) -> dict[str, Record]:
     names = sorted(folder.parent.name for folder in directory.glob(f"*/{FOLDER}"))
-    heads = {name: _head(directory / name) for name in names if name != CONTROL}
+    heads = {name: _head(directory / name) for name in names if name != CONTROL_FOLDER}
     return {name: head for name, head in heads.items() if head is not None}
 
 

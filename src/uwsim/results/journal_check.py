@@ -114,7 +114,7 @@ def read_journals(directory: Path) -> Journals:
 
 
 def _n_ended(result: Result) -> int:
-    return 0 if result.run.units is None else result.run.units[0]
+    return 0 if result.run.trial_counts is None else result.run.trial_counts[0]
 
 
 def _keys(result: Result) -> Iterator[Key]:

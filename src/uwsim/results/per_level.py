@@ -40,7 +40,7 @@ class LevelRate:
 
 
 def rows_by_level(result: Result) -> dict[tuple[float, ...], list[int]]:
-    """Return the row numbers of each level (one for each repeat), in the order of execution."""
+    """Return the row indices of each level (one for each repeat), in the order of execution."""
     columns = [result.numbers(column.name) for column in result.columns_of_kind("level")]
     row_numbers: dict[tuple[float, ...], list[int]] = {}
     for row in range(len(result.rows)):

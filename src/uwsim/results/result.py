@@ -53,7 +53,7 @@ class MissingValue:
     """A missing value (a null cell), with the reason."""
 
     row: int
-    """The number of the row, from 0."""
+    """The index of the row, from 0."""
     column: str
     """The name of the column."""
     reason: str
@@ -106,7 +106,7 @@ class SavedImage:
     """A camera's image at the end of a level, kept for the report."""
 
     row: int
-    """The number of the row that the image belongs to, from 0."""
+    """The index of the row that the image belongs to, from 0."""
     camera: str
     """The name of the camera."""
     file: str
@@ -123,7 +123,7 @@ class RefusedMessages:
     """Messages, calls or answers of a program that does not take part, which were refused."""
 
     row: int
-    """The number of the row in whose level they arrived, from 0."""
+    """The index of the row in whose level they arrived, from 0."""
     sender: str
     """The sender, as the transport names it; ``by`` in the file."""
     topic_or_service: str
@@ -149,7 +149,7 @@ class Remark:
     """A note on a row, which does not affect its status."""
 
     row: int
-    """The number of the row, from 0."""
+    """The index of the row, from 0."""
     text: str
     """The measures and the notes on them."""
 

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
+from ..base.deprecation import deprecated_name
 from .stored.record import StoredRecord
 
 
@@ -14,6 +15,7 @@ class RunInfo(StoredRecord):
     """The executed algorithm, its settings and versions; None for values that a result lacks."""
 
     KEY: ClassVar[str] = "run"
+    STORED_KEYS: ClassVar[Mapping[str, str]] = {"trial_counts": "units"}
 
     seed: int | None = None
     """The seed of the first repeat."""
@@ -40,18 +42,24 @@ class RunInfo(StoredRecord):
     physics: str | None = None
     """The version of MuJoCo."""
     renderer: str | None = None
-    """The renderer of the images; ``none`` for a control."""
+    """The renderer of the images; ``none`` for a control run, which has no images."""
     numpy: str | None = None
     """The version of numpy."""
-    units: tuple[int, int] | None = None
-    """The number of finished trials, and of all trials."""
+    trial_counts: tuple[int, int] | None = None
+    """The number of finished trials, and the number of all trials; ``units`` in the file."""
     notes: tuple[str, ...] | None = None
     """Notes for a reader of the result."""
 
     @property
     def is_finished(self) -> bool:
         """True if every trial is finished, as far as the result states it."""
-        return self.units is None or self.units[0] == self.units[1]
+        return self.trial_counts is None or self.trial_counts[0] == self.trial_counts[1]
+
+    @property
+    @deprecated_name("trial_counts")
+    def units(self) -> tuple[int, int] | None:
+        """The old name of `trial_counts`."""
+        return self.trial_counts
 
     @property
     def pairs_of_settings(self) -> tuple[str, ...]:

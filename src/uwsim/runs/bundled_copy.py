@@ -29,8 +29,8 @@ def copyable_names() -> list[str]:
 def copy_bundled(name: str, folder: Path, *, overwrite: bool = False) -> list[Path]:
     """Copy a bundled scene or benchmark with every bundled file that it reads.
 
-    The copied scene finds the copies before the bundled files. Models without a file
-    (stand-ins that uwsim builds) are not copied; the scene names them as before.
+    The copied scene finds the copies before the bundled files. Stand-ins, which are models that
+    uwsim generates, have no file and are not copied; the scene names them as before.
 
     Args:
         name: the name of the scene or benchmark, with or without ``.xml``.

@@ -58,7 +58,7 @@ def collect(
         run=replace(
             info,
             parameters=parameters,
-            units=(len(ends), len(stored_trials)),
+            trial_counts=(len(ends), len(stored_trials)),
             notes=tuple(dict.fromkeys(note for _, end in ends for note in end.notes)),
         ),
         columns=tuple(columns),

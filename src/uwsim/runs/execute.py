@@ -20,7 +20,7 @@ from ..base.terminal import warn
 from ..errors import ErrorCollector, RunFailed
 from ..results.provenance import lasting_provenance, machine, save_beginning, save_provenance
 from ..results.result import Result
-from .control import CONTROL, control_of, needs_control
+from .control_run import CONTROL_ALGORITHM, control_run_of, needs_control_run
 from .executors.background import JobRunner
 from .executors.choose import executor_of
 from .executors.executor import Executor, OnLevel, Outcome, run_each
@@ -202,7 +202,7 @@ def execute(
     Args:
         execution: the runs to execute.
         directory: the context that locks and empties the result directory.
-        open_runner: returns the runner of controls and reports; None for neither of them.
+        open_runner: returns the runner of control runs and reports; None for neither of them.
         callbacks: the functions that are called meanwhile.
 
     Raises:
@@ -216,7 +216,7 @@ def execute(
             _save_provenances(execution, outcome)
         else:
             with open_runner() as runner:
-                outcome = _run_with_controls(execution, runner, callbacks.progress)
+                outcome = _run_with_control_run(execution, runner, callbacks.progress)
                 _save_provenances(execution, outcome)
                 for run, result in outcome.finished_runs(runs):
                     runner.submit(run.out)
@@ -239,37 +239,37 @@ def _run(execution: Execution, progress: Progress) -> Outcome:
         return run_each(runs, execution.executor, on_level=on_level)
 
 
-def _run_with_controls(execution: Execution, runner: JobRunner, progress: Progress) -> Outcome:
-    """Run the trials and the control.
+def _run_with_control_run(execution: Execution, runner: JobRunner, progress: Progress) -> Outcome:
+    """Run the trials and the control run.
 
-    While workers execute trials, the control runs in the background, unless a foreign algorithm
-    could read its rows. If the trials run in this process, the control follows them here: a
-    background process would have to load the simulation first.
+    While workers execute trials, the control run is executed in the background, unless a foreign
+    algorithm could read its rows. If the trials run in this process, the control run follows them
+    here: a background process would have to load the simulation first.
     """
     runs = execution.runs
-    controls = [control_of(run) for run in runs if needs_control(run.plan)]
+    control_runs = [control_run_of(run) for run in runs if needs_control_run(run.plan)]
     is_local = execution.workers in ("0", "1") and len(runs) == 1
     must_wait = any(is_foreign(run.plan) for run in runs)
     if is_local and not must_wait:
         runner, must_wait = runner.local_runner(), True
-    if controls and not must_wait:
-        runner.submit(controls[0])
+    if control_runs and not must_wait:
+        runner.submit(control_runs[0])
     outcome = _run(execution, progress)
-    if controls and outcome.finished_runs(runs):
+    if control_runs and outcome.finished_runs(runs):
         if must_wait:
-            runner.submit(controls[0])
-        _wait_for_controls(runner, controls)
+            runner.submit(control_runs[0])
+        _wait_for_control_run(runner, control_runs)
     return outcome
 
 
-def _wait_for_controls(runner: JobRunner, controls: Sequence[Run]) -> None:
-    """Wait for the control, and copy its result to the other runs; warn if it failed."""
+def _wait_for_control_run(runner: JobRunner, control_runs: Sequence[Run]) -> None:
+    """Wait for the control run, and copy its result to the other runs; warn if it failed."""
     try:
         runner.wait()
-        for other in controls[1:]:  # it does not depend on the algorithm under test
-            shutil.copytree(controls[0].out, other.out, dirs_exist_ok=True)
+        for other in control_runs[1:]:  # it does not depend on the algorithm under test
+            shutil.copytree(control_runs[0].out, other.out, dirs_exist_ok=True)
     except (RunFailed, OSError) as error:
-        warn(f"the report lacks the control {CONTROL!r}, which failed: {error}")
+        warn(f"the report lacks the control run {CONTROL_ALGORITHM!r}, which failed: {error}")
 
 
 def _save_provenances(execution: Execution, outcome: Outcome) -> None:

@@ -95,7 +95,7 @@ class OceanStateSpec(Spec):
     choppy_factor: float = element(default=2.5, original=Original(is_window_setting=True))
     """The factor on the horizontal displacement of points of the surface by waves [1]."""
     crest_foam_height: float = element(default=2.2, original=Original(is_window_setting=True))
-    """The height from which wave crests foam; read and not used, as in the original UWSim [m]."""
+    """The height from which wave crests foam; read but not used, as in the original UWSim [m]."""
     ocean_surface_height: float = element(default=0.0, minimum=-MAX_DISTANCE, maximum=MAX_DISTANCE)
     """The height of the water surface in the world frame W, z up [m]."""
     fog: FogSpec = element(default=FogSpec())

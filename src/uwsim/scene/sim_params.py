@@ -54,7 +54,7 @@ class SimParamsSpec(Spec):
     physics_sub_steps: int = element(default=0, original=Original(is_window_setting=True))
     """The greatest number of physics steps per displayed frame; 0 is automatic."""
     physics_solver: Solver = element(default="Dantzig", original=Original(is_window_setting=True))
-    """The contact solver of the original UWSim; read and not used."""
+    """The contact solver of the original UWSim; read but not used."""
     show_trajectory: tuple[ShowTrajectorySpec, ...] = element(
         default=(), original=Original(is_window_setting=True)
     )

@@ -78,15 +78,15 @@ class NetTracingScriptSpec(Spec):
     """
 
     class_name: str = element(default="", original=REQUIRED_BY_DTD)
-    """The name of a plug-in of the original UWSim: read and not used."""
+    """The name of a plug-in of the original UWSim: read but not used."""
     lib_path: str = ""
-    """The library of the plug-in: read and not used."""
+    """The library of the plug-in: read but not used."""
     log_to_file: str = ""
-    """The log file: read and not used, as a scene writes no files."""
+    """The log file: read but not used, as a scene writes no files."""
     log_to_console: bool = True
-    """The log to the console: read and not used."""
+    """The log to the console: read but not used."""
     async_log: bool = True
-    """The asynchronous log: read and not used."""
+    """The asynchronous log: read but not used."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,4 +1,4 @@
-"""The elements of scene files that are read and not simulated yet."""
+"""The elements of scene files that are read but not simulated yet."""
 
 from __future__ import annotations
 

@@ -54,7 +54,7 @@ class VirtualRangeImageSpec(SensorSpec):
     parameters: CameraParametersSpec | None = None
     """The pinhole model from a calibration."""
     underwater_particles: bool = element(attribute=True, default=False)
-    """An attribute that is read and not used: there are no particles in the water."""
+    """An attribute that is read but not used: there are no particles in the water."""
     std: float = element(namespaced=True, default=0.0, minimum=0, maximum=1000)
     """The standard deviation of the noise of each pixel's depth [m]."""
 

@@ -122,7 +122,7 @@ def _object_boxes(model: SceneModel) -> dict[int, Box]:
 
 
 def _link_boxes(model: SceneModel) -> dict[tuple[int, str], Box]:
-    """Return the box of each link that has a visual, by vehicle number and name of the link."""
+    """Return the box of each link that has a visual, by vehicle index and name of the link."""
     engine = Engine(model)
     boxes = {}
     for index, robot in model.robots.items():

@@ -76,7 +76,7 @@ def vehicle_labels(world: LiveScene) -> tuple[str, ...]:
 
 
 def body_names(world: LiveScene) -> tuple[dict[tuple[int, str], str], dict[int, str]]:
-    """Return unique names of bodies: by vehicle number and link, and by object number."""
+    """Return unique names of bodies: by vehicle index and link, and by object index."""
     labels, objects = vehicle_labels(world), world.model.scene.objects
     links = [
         (i, name)

@@ -45,7 +45,7 @@ class VehicleState(Record):
 class SceneVehicle:
     """One vehicle of a scene (`uwsim.vehicle.Vehicle`, `uwsim.sensors.sensor.Carrier`).
 
-    The number of a vehicle identifies it: several vehicles may share a name.
+    The index of a vehicle identifies it: several vehicles may share a name.
 
     Args:
         index: the index of the vehicle in the scene.

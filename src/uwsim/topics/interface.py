@@ -56,7 +56,7 @@ class TopicSensors(Protocol):
 
 
 class Segmenter(Protocol):
-    """The renderer of images whose pixels are numbers of bodies."""
+    """The renderer of images whose pixels are segmentation IDs."""
 
     @property
     def part_names(self) -> Mapping[int, str]:
@@ -65,7 +65,7 @@ class Segmenter(Protocol):
     def segmentation(
         self, world_from_camera: Pose, intrinsics: Intrinsics
     ) -> npt.NDArray[np.uint16]:
-        """Return the number of the body that each pixel shows, (h, w); 0: none."""
+        """Return the segmentation ID of the body in each pixel, (h, w); 0: none."""
 
 
 class TopicWorld(TimedWorld, Protocol):
@@ -99,7 +99,7 @@ class TopicWorld(TimedWorld, Protocol):
 
     @property
     def segmenter(self) -> Segmenter:
-        """The renderer of images whose pixels are numbers of bodies."""
+        """The renderer of images whose pixels are segmentation IDs."""
 
     def frames(self, *, with_objects: bool) -> Sequence[Frame]:
         """List the frames of vehicles, their links and sensors, and ``with_objects`` of objects."""

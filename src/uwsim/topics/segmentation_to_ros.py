@@ -39,7 +39,7 @@ class SegmentationToROSSpec(InterfaceSpec):
     camera_name: str
     """The name of the camera."""
     image_topic: str
-    """The topic of the images: 16UC1, the number of the body in each pixel, 0 for none."""
+    """The topic of the images: 16UC1, the segmentation ID of the body in each pixel, 0 for none."""
     legend_topic: str
     """The topic of the legend: a JSON object with the name of each body by its number."""
     rate: float = rate_element()

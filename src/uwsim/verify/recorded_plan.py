@@ -175,11 +175,13 @@ def command_words(directory: Path) -> list[str]:
 
     A control run (a sham baseline) has no command of its own, but that of the result it belongs to.
     """
-    from ..results.directory import CONTROL
+    from ..results.directory import CONTROL_FOLDER
     from ..results.provenance import load_provenance
 
     place = directory.absolute()
-    command = load_provenance(place.parent if place.name == CONTROL else place).get("command")
+    command = load_provenance(place.parent if place.name == CONTROL_FOLDER else place).get(
+        "command"
+    )
     words = [str(word) for word in command] if isinstance(command, list) else []
     return [word.partition("=")[2] if word.startswith("--") else word for word in words]
 

@@ -90,7 +90,7 @@ class RecordedTrial:
     directory: Path
     """The result directory."""
     index: int
-    """The number of the trial, from 0."""
+    """The index of the trial, from 0."""
     title: str
     """The title, as ``currents, pi, seed 7``."""
     seed: int
@@ -116,7 +116,7 @@ class RecordedTrial:
 
         Args:
             directory: the result directory.
-            index: the number of the trial, from 0.
+            index: the index of the trial, from 0.
             overrides: the present paths of the files, if they have moved.
 
         Raises:
@@ -189,7 +189,7 @@ def levels_without_motion(
 
     Args:
         directory: the result directory.
-        index: the number of the trial.
+        index: the index of the trial.
         names: the swept parameters, outermost first.
     """
     _, trial = journal.read_any(journal.path_of(directory, index))

@@ -170,11 +170,11 @@ def test_parameters_and_settings_of_an_algorithm_make_no_other_experiment() -> N
 
 def test_versions_and_unfinished_runs_are_remarked() -> None:
     first, second = make_result("esm", {0.0: [1.0]}), make_result("ic", {0.0: [1.0]})
-    other = replace(second, run=replace(second.run, version="0.2.0", units=(3, 12)))
+    other = replace(second, run=replace(second.run, version="0.2.0", trial_counts=(3, 12)))
     assert remarks(entries(first, second)) == ()
     assert remarks(entries(first, other)) == (
         "run with different versions, version: 0.1.0 in esm.result, 0.2.0 in ic.result",
-        "ic is not finished: 3 of 12 units finished",
+        "ic is not finished: 3 of 12 trials are finished",
     )
 
 

@@ -415,8 +415,8 @@ def test_without_provenance_the_command_is_put_together(tmp_path: Path) -> None:
 
 def test_an_unfinished_result_says_so_first(tmp_path: Path) -> None:
     base = visibility_result()
-    text = page_of(replace(base, run=replace(base.run, units=(1, 3))), tmp_path).text
-    assert "Not finished: 1 of 3 parts are finished." in text
+    text = page_of(replace(base, run=replace(base.run, trial_counts=(1, 3))), tmp_path).text
+    assert "Not finished: 1 of 3 trials are finished." in text
     assert "Not finished" not in page_of(base, tmp_path).text
 
 
@@ -487,7 +487,7 @@ def test_the_prediction_is_given_only_where_fog_is_swept(tmp_path: Path) -> None
     base = visibility_result()
     current = (Column(name="current", kind="level", unit="m/s"), *base.columns[1:])
     text = page_of(replace(base, columns=current), tmp_path).text
-    assert "predicted loss" not in text
+    assert "predicted loss of tracking" not in text
     assert "the paper's fog" not in text
     assert "predicted loss of tracking (fog f*)" in page_of(base, tmp_path).text
 

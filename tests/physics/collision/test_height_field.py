@@ -58,7 +58,7 @@ def heights_seen(model: mujoco.MjModel, places: Array) -> Array:
 def heights_of(triangles: Array, places: Array) -> Array:
     """Heights of a mesh at places (n, 2) [m]."""
     ground = Ground(triangles)
-    return np.array([ground.level(np.array([x, y, 50.0])) for x, y in places])
+    return np.array([ground.height_at(np.array([x, y, 50.0])) for x, y in places])
 
 
 PLACES = np.random.default_rng(5).uniform([0.1, -1.9], [7.9, 2.9], (200, 2))

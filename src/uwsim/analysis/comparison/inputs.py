@@ -116,9 +116,11 @@ def remarks(entries: Sequence[Entry]) -> tuple[str, ...]:
             versions = _values_by_source(entries, values)
             texts.append(f"run with different versions, {subject}: {versions}")
     for entry in entries:
-        units = entry.result.run.units
-        if units is not None and not entry.result.run.is_finished:
-            texts.append(f"{entry.name} is not finished: {units[0]} of {units[1]} units finished")
+        counts = entry.result.run.trial_counts
+        if counts is not None and not entry.result.run.is_finished:
+            texts.append(
+                f"{entry.name} is not finished: {counts[0]} of {counts[1]} trials are finished"
+            )
     for subject in dict.fromkeys(entry.check_note for entry in entries if entry.check_note):
         sources = [entry.source for entry in entries if entry.check_note == subject]
         texts.append(f"{' and '.join(sources)}: {subject}")

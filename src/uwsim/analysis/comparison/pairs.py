@@ -77,7 +77,7 @@ def pair_rows(first_entry: Entry, second_entry: Entry, column: str) -> PairedRow
 
 
 def _rows(entry: Entry) -> dict[tuple[int, Level, int], int]:
-    """Return the row number for each key: seed, level, number of earlier rows with these two."""
+    """Return the row index for each key: seed, level, number of earlier rows with these two."""
     seeds = seeds_of(entry.result)
     row_numbers: dict[tuple[int, Level, int], int] = {}
     for level, rows in rows_by_level(entry.result).items():

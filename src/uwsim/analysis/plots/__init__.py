@@ -11,7 +11,7 @@ from .curves import (
     repeats_of,
     written_unit,
 )
-from .drawing import CONTROL, MAX_INSIDE, is_fog_swept
+from .drawing import CONTROL_ALGORITHM, MAX_INSIDE, is_fog_swept
 from .level_plots import (
     OVERVIEW_NAME,
     compare_plot,
@@ -36,7 +36,7 @@ from .style import (
 )
 
 __all__ = [
-    "CONTROL",
+    "CONTROL_ALGORITHM",
     "GREY",
     "INK",
     "LEVEL_WORDS",

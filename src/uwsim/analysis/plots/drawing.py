@@ -22,12 +22,13 @@ from .curves import Curve, algorithm_of, curves_of, label_of, repeats_of, writte
 from .panels import choose_evenly
 from .style import GREY, INK, MARKERS, PALETTE, escape, level_label, shorten_name
 
-CONTROL = "frozen"
-"""The control, an algorithm that repeats its initial corners; its line is dashed in every plot."""
+CONTROL_ALGORITHM = "frozen"
+"""The algorithm of the control run, which repeats its initial corners; its line is dashed in every
+plot."""
 MAX_LEGEND_ENTRIES = 18
 """The greatest number of entries of a legend; of more entries, evenly chosen ones are shown."""
 CONTROL_CLIP_RATIO = 2.5
-"""The factor by which the control must be higher than all other curves to be clipped [1]."""
+"""The factor by which the control run must be higher than all other curves to be clipped [1]."""
 INTEGER_LEVELS = ("armPosition", "iteration")
 """The levels with integer values."""
 LABEL_WIDTH = 28
@@ -73,7 +74,7 @@ def draw_column(
     has_labels: bool = True,
     label_width: int = LABEL_WIDTH,
 ) -> None:
-    """Draw the curves of a column with the control, losses and the predicted loss."""
+    """Draw the curves of a column with the control run, losses and the predicted loss."""
     for i, curve in enumerate(curves):
         style = curve_style(i, len(curves))
         name = shorten_name(curve.name or algorithm_of(result) or column.name)
@@ -83,9 +84,9 @@ def draw_column(
         draw_repeats(axes, curve, style, with_boxes=len(curves) == 1)
         if len(curves) > 1:
             draw_end(axes, curve, style)
-    controls = _curves_of_control(control, column.name)
+    controls = _curves_of_control_run(control, column.name)
     for other in controls:
-        name = f"{CONTROL}, {other.name}" if other.name else CONTROL
+        name = f"{CONTROL_ALGORITHM}, {other.name}" if other.name else CONTROL_ALGORITHM
         if _is_far_above(other, curves):
             name += f": {other.mean_text}, above"
         draw_curve(axes, other, CONTROL_STYLE, name)
@@ -299,7 +300,7 @@ def scale_axes(axes: Axes, curves: Sequence[Curve]) -> None:
     """Set the vertical scale: logarithmic for ratios from 50 to 1000, or else linear from 0.
 
     Negative values leave the scale unchanged. Values below a thousandth of the largest value count
-    as zero (as those of a control that repeats the truth).
+    as zero, such as those of a control run that repeats the truth.
     """
     values = np.array([v for curve in curves for v in curve.mean if not np.isnan(v)])
     if values.size == 0 or values.min() < 0:
@@ -316,7 +317,7 @@ def scale_axes(axes: Axes, curves: Sequence[Curve]) -> None:
 
 
 def _is_far_above(other: Curve, curves: Sequence[Curve]) -> bool:
-    """Return True if an axis with the control would make all other curves flat."""
+    """Return True if an axis with the curve of the control run would make all others flat."""
     spans = [span for curve in curves if (span := curve.span) is not None]
     return (
         other.span is not None
@@ -346,7 +347,7 @@ def with_loss(name: str, curve: Curve) -> str:
     return f"{name} ({curve.loss_text})" if curve.losses else name
 
 
-def _curves_of_control(control: Result | None, column: str) -> list[Curve]:
+def _curves_of_control_run(control: Result | None, column: str) -> list[Curve]:
     if control is None or column not in [c.name for c in control.columns]:
         return []
     return curves_of(control, column)[:1]

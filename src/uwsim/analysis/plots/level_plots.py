@@ -3,9 +3,9 @@
 Every plot is drawn from results alone. Axes have units. A loss (the first level that did not end
 ``ok``) is a vertical line with the level; if several curves share the axes, a cross marks the last
 value before the loss. Bands are 95 % intervals of the mean over repeats. A hollow marker means that
-some repeats have no value. The control (`frozen`, which reads no image) is a dashed line, or only
-named in the legend if its values are far above. If a column has no values, the reason is written on
-the axes. No plot has a title.
+some repeats have no value. The control run (`frozen`, which reads no image) is a dashed line, or
+only named in the legend if its values are far above. If a column has no values, the reason is
+written on the axes. No plot has a title.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from ...errors import ResultError
 from ...results.result import Result
 from .curves import algorithm_of, curves_of, repeats_of
 from .drawing import (
-    CONTROL,
+    CONTROL_ALGORITHM,
     CONTROL_STYLE,
     MAX_INSIDE,
     add_legend,
@@ -45,7 +45,7 @@ MAX_PANELS_IN_COLUMN = 8
 
 
 def value_plot(result: Result, column: str, *, control: Result | None = None) -> Figure:
-    """Draw one column over the levels; ``control`` is the result of the control `frozen`."""
+    """Draw one column over the levels; ``control`` is the result of the control run."""
     curves = curves_of(result, column)
     with styled_figure(_widen_for_legend(SIZE, len(curves))) as figure:
         axes = figure.subplots()
@@ -104,7 +104,7 @@ def compare_plot(
             for curve in curves_of(result, column)
         ]
         for i, (name, result, curve) in enumerate(named_curves):
-            is_control = algorithm_of(result) == CONTROL
+            is_control = algorithm_of(result) == CONTROL_ALGORITHM
             style = CONTROL_STYLE if is_control else curve_style(i, len(named_curves))
             draw_curve(axes, curve, style, with_loss(name, curve))
             draw_end(axes, curve, style)
@@ -134,7 +134,7 @@ def draw_plots(
     Args:
         result: the result to draw.
         directory: the folder for the plots; it is created if it does not exist.
-        control: the result of the control `frozen`; None without a control.
+        control: the result of the control run (`frozen`); None without one.
         pdf: True to write each plot as PDF, too, which takes three times as long.
 
     Returns:

@@ -88,8 +88,8 @@ def marks_text(result: Result, *, has_control: bool) -> str:
         messages.append("Dotted: f*, the predicted loss of a tracker that compares by ZNCC.")
     if has_control:
         messages.append(
-            "Dashed: the control frozen, which reads no image; "
-            "where it is far above, the legend has its values."
+            "Dashed: the control run (frozen), which reads no image; "
+            "where it is far above, the legend states its values."
         )
     return " ".join(messages)
 

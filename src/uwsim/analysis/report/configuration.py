@@ -68,9 +68,10 @@ def command(result: Result, provenance: Mapping[str, object]) -> str:
 def warnings(result: Result, check_note: str | None = None) -> list[str]:
     """Return the warnings: unfinished parts, unchecked rows, clients that are not repeatable."""
     run, messages = result.run, []
-    if run.units is not None and not run.is_finished:
+    if run.trial_counts is not None and not run.is_finished:
+        n_finished, n_trials = run.trial_counts
         messages.append(
-            f"Not finished: {run.units[0]} of {run.units[1]} parts are finished. Use --resume "
+            f"Not finished: {n_finished} of {n_trials} trials are finished. Use --resume "
             "to continue."
         )
     if check_note is not None:

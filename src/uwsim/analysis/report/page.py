@@ -5,8 +5,8 @@ The page is made from the result directory alone (``result.json``, logs, images,
 its style. A content security policy forbids scripts and other files, and every name from a file is
 escaped.
 
-The folder ``control``, if present, holds the result of a baseline that ignores the images (the
-algorithm ``frozen``). Every plot then shows it as a dashed line.
+The folder ``control``, if present, holds the result of the control run: a baseline that ignores the
+images (the algorithm ``frozen``). Every plot then shows it as a dashed line.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from pathlib import Path
 
 from ...errors import ResultError
 from ...results.atomic_file import write_text
-from ...results.directory import CONTROL, REPLAY, REPORT
+from ...results.directory import CONTROL_FOLDER, REPLAY, REPORT
 from ...results.journal import recorded_trials
 from ...results.journal_check import check_rows
 from ...results.log import logs_of
@@ -119,7 +119,7 @@ def render(
         directory: the directory of the result.
         plots: the files of the plots over the levels.
         run_plots: the plots over the time of a run.
-        control: the result of the baseline `frozen`; None without one.
+        control: the result of the control run (`frozen`); None without one.
         check_note: the note on rows that could not be checked against their journals; None if all
             were checked (`check_rows`).
     """
@@ -298,8 +298,8 @@ def _unit_suffix(unit: str | None) -> str:
 
 def _load_control(directory: Path) -> Result | None:
     try:
-        control = load(directory / CONTROL)
+        control = load(directory / CONTROL_FOLDER)
     except ResultError:
         return None
-    check_rows(control, directory / CONTROL)
+    check_rows(control, directory / CONTROL_FOLDER)
     return control

@@ -39,9 +39,9 @@ def sand() -> Texture:
 def _terrain(name: str, n: int, height: float) -> Shape:
     """Return a square of sand dunes about z = 0, n x n pieces."""
     rise = noise(name, 128, 128, cells=3, octaves=5, gain=0.5, tiles=False)
-    relief = cv2.resize(rise, (n + 1, n + 1), interpolation=cv2.INTER_AREA)
+    heights = cv2.resize(rise, (n + 1, n + 1), interpolation=cv2.INTER_AREA)
     y, x = np.meshgrid(*[np.linspace(-REACH, REACH, n + 1)] * 2, indexing="ij")
-    points: Array = np.stack([x, y, height * relief], axis=2)
+    points: Array = np.stack([x, y, height * heights], axis=2)
     return surface(points, np.stack([x, y], axis=2) / 4.0)
 
 

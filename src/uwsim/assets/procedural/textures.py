@@ -95,7 +95,7 @@ def smoothstep(low: float, high: float, value: Grey) -> Grey:
 
 
 def shading(height_map: Grey, strength: float, *, tiles: bool = False) -> Grey:
-    """Return the shading of a relief, about 1: brighter on the slopes that face the top left."""
+    """Return the shading of a height map, about 1: brighter on slopes that face the top left."""
     border = cv2.BORDER_WRAP if tiles else cv2.BORDER_REFLECT
     border_map = cv2.copyMakeBorder(height_map, 1, 1, 1, 1, border)
     slope = border_map[2:, 2:] - border_map[:-2, :-2]

@@ -52,7 +52,7 @@ def unknown_links(scene: CheckedScene) -> Iterator[Diagnostic]:
                 mass = next(
                     robot_link.mass for robot_link in robot.links if robot_link.name == link
                 )
-                if mass <= 0 and not scene.has_stand_in(index):
+                if mass <= 0 and not scene.has_substitute_robot(index):
                     message = f"{format_tag(element)}: its link {link!r} has no mass"
                     yield scene.warning(part, message)
 

@@ -1,4 +1,4 @@
-"""Warnings about elements that are read and not simulated yet."""
+"""Warnings about elements that are read but not simulated yet."""
 
 from __future__ import annotations
 
@@ -21,14 +21,14 @@ from ..subjects import CheckedScene
 
 
 def not_simulated(scene: CheckedScene) -> Iterator[Diagnostic]:
-    """Warn of every kind of element that is read and not simulated yet, with its lines."""
+    """Warn of every kind of element that is read but not simulated yet, with its lines."""
     if scene.document is not None:
         for line, message in unsimulated_elements(scene.document.root):
             yield scene.warning(line, message)
 
 
 def unsimulated_elements(root: etree._Element) -> Iterator[tuple[int, str]]:
-    """Yield a line and a message for each kind of element that is read and not simulated yet."""
+    """Yield a line and a message for each kind of element that is read but not simulated yet."""
     lines: dict[str, list[int]] = {}
     is_dynamic = root.find(f"vehicle/{{{NAMESPACE}}}dynamics") is not None
     physics_text = (root.findtext("simParams/enablePhysics") or "").strip()

@@ -36,7 +36,7 @@ class EnergyModelSpec(Spec):
     turn_on_energy: float = element(default=0.0, original=REQUIRED_BY_DTD, minimum=0)
     """The energy to switch on, once at the start [J]."""
     turn_off_energy: float = element(default=0.0, original=REQUIRED_BY_DTD, minimum=0)
-    """The energy to switch off [J]: read and not used; a device is never switched off."""
+    """The energy to switch off [J]: read but not used; a device is never switched off."""
     p_t_consume: float = element("pTConsume", default=0.660, original=REQUIRED_BY_DTD, minimum=0)
     """The power while sending [W]."""
     p_r_consume: float = element("pRConsume", default=0.395, original=REQUIRED_BY_DTD, minimum=0)
@@ -44,7 +44,7 @@ class EnergyModelSpec(Spec):
     p_idle: float = element("pIdle", default=0.0, original=REQUIRED_BY_DTD, minimum=0)
     """The power while idle [W]."""
     p_t: float = element("pT", default=0.2818, original=REQUIRED_BY_DTD, minimum=0)
-    """The acoustic power [W]: read and not used; ``u:sourceLevel`` gives the source level."""
+    """The acoustic power [W]: read but not used; ``u:sourceLevel`` gives the source level."""
 
     def bind(self) -> EnergyModel:
         """Create the energy model."""
@@ -109,7 +109,7 @@ class AcousticCommsDeviceSpec(DeviceSpec):
     rx_packet_builder: PacketBuilderSpec | None = element(default=None, original=REQUIRED_BY_DTD)
     """The packet builder of the receiver."""
     log_level: str = "off"
-    """The log level: read and not used."""
+    """The log level: read but not used."""
     disable: bool = False
     """True if only the mesh of the device is created."""
     source_level: float | None = element(

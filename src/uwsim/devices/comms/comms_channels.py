@@ -32,7 +32,7 @@ class CustomCommsChannelSpec(Spec):
     min_prop_time: float = element(default=0.0, minimum=0, maximum=MAX_DELAY_MS)
     """The delay at distance zero [ms]."""
     log_level: str = "off"
-    """The log level: read and not used."""
+    """The log level: read but not used."""
 
     @property
     def name(self) -> str:
@@ -64,7 +64,7 @@ class AcousticCommsChannelSpec(Spec):
     noise_lvl: float = element(default=0.0, minimum=-300.0, maximum=300.0)
     """The spectral noise level, to which the noise of the sea is added [dB re 1 uPa2/Hz]."""
     log_level: str = "off"
-    """The log level: read and not used."""
+    """The log level: read but not used."""
     shipping: float | None = element(namespaced=True, default=None, minimum=0.0, maximum=1.0)
     """The shipping density, from 0 (few ships) to 1 [1]. Without it and ``u:windSpeed`` the sea
     makes no noise."""

@@ -77,7 +77,7 @@ class MacProtocolSpec(Spec):
 
 @dataclass(frozen=True, kw_only=True)
 class PacketBuilderSpec(Spec):
-    """A ``<txPacketBuilder>`` or ``<rxPacketBuilder>``, which is read and not used."""
+    """A ``<txPacketBuilder>`` or ``<rxPacketBuilder>``, which is read but not used."""
 
     class_name: str
     """The name of the C++ class that builds packets."""

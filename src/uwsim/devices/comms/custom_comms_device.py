@@ -103,7 +103,7 @@ class CustomCommsDeviceSpec(DeviceSpec):
     intrinsic_delay: float = element(default=0.0, minimum=0, maximum=MAX_DELAY_MS)
     """The delay between the command to send a packet and its transmission [ms]."""
     pr_time_inc_per_meter: float = 0.0
-    """A delay per distance [ms/m]: read and not used, as in the original UWSim."""
+    """A delay per distance [ms/m]: read but not used, as in the original UWSim."""
     jitter: JitterSpec | None = None
     """The random delays."""
     max_distance: float = element(default=99999999.0, minimum=0)
@@ -117,7 +117,7 @@ class CustomCommsDeviceSpec(DeviceSpec):
     rx_packet_builder: PacketBuilderSpec | None = element(default=None, original=REQUIRED_BY_DTD)
     """The packet builder of the receiver."""
     log_level: str = "off"
-    """The log level: read and not used."""
+    """The log level: read but not used."""
     disable: bool = False
     """True if only the mesh of the device is created."""
 

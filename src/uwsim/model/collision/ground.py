@@ -58,7 +58,7 @@ class Ground:
     def __len__(self) -> int:
         return len(self._triangles)
 
-    def level(self, point: Array) -> float | None:
+    def height_at(self, point: Array) -> float | None:
         """Return z of the ground in W at a point's x and y [m]; None if there is no ground.
 
         For a point below ground it is the surface above the point; otherwise it is the next surface
@@ -150,13 +150,13 @@ class Ground:
             & (self._double_areas > 0.0)
         )
         centre = 0.5 * (low + high)
-        levels = [self.level(centre)]
-        if levels[0] is None:
-            levels = [self.level(corner) for corner in body.reshape(-1, 3)]
-        ground_levels = [level for level in levels if level is not None]
-        if not ground_levels:
+        heights = [self.height_at(centre)]
+        if heights[0] is None:
+            heights = [self.height_at(corner) for corner in body.reshape(-1, 3)]
+        ground_heights = [height for height in heights if height is not None]
+        if not ground_heights:
             return None
-        is_near &= self._low[:, 2] <= max(ground_levels) + (high[2] - low[2])
+        is_near &= self._low[:, 2] <= max(ground_heights) + (high[2] - low[2])
         return self._triangles[is_near], self._double_areas[is_near]
 
 

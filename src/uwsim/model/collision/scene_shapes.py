@@ -76,7 +76,7 @@ def collision_shapes(
     Args:
         resolved_scene: the scene with its robots.
         vehicles: the numbers of the vehicles that have contacts.
-        objects: the physics of each object that has contacts, by the object's number.
+        objects: the physics of each object that has contacts, by the object's index.
     """
     scene, data_path = resolved_scene.scene, resolved_scene.data_path
     shapes: dict[str, tuple[CollisionShape, ...]] = {}

@@ -61,8 +61,8 @@ class SolidGround:
             return True
         if self._ground is None:
             return False
-        level = self._ground.level(point)
-        return level is not None and float(point[2]) > level - PLATE_THICKNESS
+        height = self._ground.height_at(point)
+        return height is not None and float(point[2]) > height - PLATE_THICKNESS
 
     def path_length_around(self, start: Array, end: Array) -> float:
         """Compute the shortest horizontal path from one point to another around the edge [m].
@@ -91,8 +91,8 @@ class SolidGround:
             return 0.0
         depth = np.inf
         for point in points:
-            level = self._ground.level(point) if self._ground.covers(point) else None
-            depth = min(depth, 0.0 if level is None else level - float(point[2]))
+            height = self._ground.height_at(point) if self._ground.covers(point) else None
+            depth = min(depth, 0.0 if height is None else height - float(point[2]))
             if depth <= PLATE_THICKNESS:
                 return 0.0
         return float(depth)

@@ -1,4 +1,4 @@
-"""A background process of a run: it draws the report and runs the control.
+"""A background process of a run: it draws the report and executes the control run.
 
 Neither needs OpenGL. The process starts with the run and imports the code of reports before its
 first job. If the process ends early, the process of the run executes the remaining jobs.
@@ -141,7 +141,7 @@ def _run_job(job: BackgroundJob, reporter: Reporter) -> str | None:
     except Exception as error:  # a full disk, a number that no plot can show
         from ...benchmark.plugin import format_exception
 
-        name = "The report" if isinstance(job, Path) else "The control"
+        name = "The report" if isinstance(job, Path) else "The control run"
         message = f"{name} failed: {format_exception(error)}"
         return f"{message}. Finished rows are kept; continue with --resume."
     return None

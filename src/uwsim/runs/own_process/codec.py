@@ -83,17 +83,17 @@ def _to_json(value: Any, arrays: list[bytes], depth: int = 0) -> object:
         return value
     if depth > MAX_DEPTH:
         return {"o": [cls.__name__, _safe_repr(value)]}
-    level = depth + 1
+    depth += 1  # the depth of the parts of the value
     if cls is list:
-        return [_to_json(item, arrays, level) for item in value]
+        return [_to_json(item, arrays, depth) for item in value]
     if cls is tuple:
-        return {"t": [_to_json(item, arrays, level) for item in value]}
+        return {"t": [_to_json(item, arrays, depth) for item in value]}
     if cls is dict:
-        pairs = [(_to_json(k, arrays, level), _to_json(v, arrays, level)) for k, v in value.items()]
+        pairs = [(_to_json(k, arrays, depth), _to_json(v, arrays, depth)) for k, v in value.items()]
         return {"d": [list(pair) for pair in pairs]}
     if hasattr(cls, "__dataclass_fields__") and message_class(name := _qualified_name(cls)) is cls:
         fields = [getattr(value, field) for field in _field_names(cls)]
-        values = (v if v.__class__ in _SCALARS else _to_json(v, arrays, level) for v in fields)
+        values = (v if v.__class__ in _SCALARS else _to_json(v, arrays, depth) for v in fields)
         return {"m": [name, *values]}
     if isinstance(value, _ARRAYS) and value.dtype.kind in "biufSU":
         arrays.append(value.tobytes())
@@ -106,7 +106,7 @@ def _to_json(value: Any, arrays: list[bytes], depth: int = 0) -> object:
         return {"c": _qualified_name(value)}
     base_type = next((cls_ for cls_ in _BASES if isinstance(value, cls_)), None)
     if base_type is not None:
-        return _to_json(base_type(value), arrays, level)
+        return _to_json(base_type(value), arrays, depth)
     return {"o": [cls.__name__, _safe_repr(value)]}
 
 

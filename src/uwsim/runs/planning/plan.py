@@ -35,7 +35,7 @@ class Trial:
     index: int
     """The index in the plan, from 0."""
     repeat: int
-    """The number of the repeat, from 0."""
+    """The index of the repeat, from 0."""
     seed: int
     """The seed of every random stream."""
     levels: tuple[Level, ...]

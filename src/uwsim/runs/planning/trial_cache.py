@@ -9,7 +9,8 @@ from ...simulation import RendererPool
 from .plan import Plan
 
 N_MODELS = 2
-"""The number of models that are kept: trials of a run and of its control may alternate."""
+"""The number of models that are kept: trials of a run and of its control run may
+alternate."""
 
 
 def compile_plan(plan: Plan, seed: int) -> SceneModel:

@@ -211,23 +211,23 @@ class _Execution:
         if not plan.is_blind:
             self._target_motion = TargetMotion(self._simulation, plan)
             self._error_floor = ErrorFloor(self._simulation, plan)
-        floor = self._error_floor
+        error_floor = self._error_floor
         last_level: Level | None = None
         for level in self._trial.levels:
             self._level = level
             if self._trial.is_independent:
-                if floor is not None:
-                    floor.start()
+                if error_floor is not None:
+                    error_floor.start()
                 if plan.benchmark.prelude:
                     self._prelude(level)
             self._begin(level, last_level)
             self._settle(settling_time(self._updater, level, last_level=last_level))
-            if floor is not None:
-                floor.begin()
+            if error_floor is not None:
+                error_floor.begin()
             row = self._run_level(level)
             self._level_start = None
-            if floor is not None:
-                floor.end()
+            if error_floor is not None:
+                error_floor.end()
             yield row
             last_level = level
 

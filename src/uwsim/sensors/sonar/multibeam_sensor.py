@@ -85,7 +85,7 @@ class MultibeamSensorSpec(FanSpec):
     """A ``<multibeamSensor>``."""
 
     underwater_particles: bool = element(attribute=True, default=False)
-    """An attribute that is read and not used: there are no particles in the water."""
+    """An attribute that is read but not used: there are no particles in the water."""
 
 
 class BeamFan:

@@ -84,12 +84,12 @@ class StartDepths:
                 continue
             depth: float | None = None
             if ground.covers(centre):
-                level = ground.level(centre)
-                depth = 0.0 if level is None else level - float(centre[2])
+                surface_z = ground.height_at(centre)
+                depth = 0.0 if surface_z is None else surface_z - float(centre[2])
             elif not max(MIN_LIFT, MAX_SUNK_SHARE * height) < rise < height:
                 continue
-            level = ground.level(pose.position)
-            origin_depth = -np.inf if level is None else level - float(pose.position[2])
+            surface_z = ground.height_at(pose.position)
+            origin_depth = -np.inf if surface_z is None else surface_z - float(pose.position[2])
             return StartDepth(name, rise, depth, origin_depth, height)
         return None
 

@@ -13,7 +13,7 @@ from tests.support.short_benchmark import bench_of, write_benchmark
 from tests.support.short_trial import with_algorithm
 from uwsim.cli import main
 from uwsim.runs import execute
-from uwsim.runs.control import control_of, image_topic
+from uwsim.runs.control_run import control_run_of, image_topic
 from uwsim.runs.executors.background import BackgroundJob, BackgroundProcess
 from uwsim.runs.run import Run
 
@@ -33,14 +33,14 @@ def test_the_control_waits_for_images_of_the_camera_of_the_truth(
     benchmark.write_text(benchmark.read_text().replace("visibility-scene.xml", "own.xml"))
     run = bench_of(benchmark, tmp_path / "out")
     assert image_topic(run.plan) == topic
-    assert control_of(run).plan.algorithm.parameters == parameters
+    assert control_run_of(run).plan.algorithm.parameters == parameters
 
 
 def test_a_control_that_fails_is_a_warning_and_the_run_is_whole(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     def bound_to_fail(run: Run) -> Run:
-        found = control_of(run)
+        found = control_run_of(run)
         no_images = with_algorithm(found.plan, parameters={"image_topic": "/uwsim/camera1_info"})
         return replace(found, plan=no_images)
 
@@ -48,11 +48,11 @@ def test_a_control_that_fails_is_a_warning_and_the_run_is_whole(
     path, out = write_benchmark(tmp_path, "0.2"), tmp_path / "out"
     assert main(["bench", str(path), "--level", "fog=0", "--out", str(out)]) == 0
     said = capsys.readouterr()
-    assert "warning: the report lacks the control 'frozen', which failed: Topic '" in said.err
+    assert "warning: the report lacks the control run 'frozen', which failed: Topic '" in said.err
     assert f"report: {out}/report.html" in said.out
     assert (out / "report.html").is_file()
     uwsim.bench(path, levels={"fog": [0]}, out=tmp_path / "python")
-    assert "warning: the report lacks the control 'frozen', which" in capsys.readouterr().err
+    assert "warning: the report lacks the control run 'frozen', which" in capsys.readouterr().err
     assert (tmp_path / "python" / "report.html").is_file()
 
 
