@@ -44,7 +44,7 @@ def test_a_control_that_fails_is_a_warning_and_the_run_is_whole(
         no_images = with_algorithm(found.plan, parameters={"image_topic": "/uwsim/camera1_info"})
         return replace(found, plan=no_images)
 
-    monkeypatch.setattr(execute, "control_of", bound_to_fail)
+    monkeypatch.setattr(execute, "control_run_of", bound_to_fail)
     path, out = write_benchmark(tmp_path, "0.2"), tmp_path / "out"
     assert main(["bench", str(path), "--level", "fog=0", "--out", str(out)]) == 0
     said = capsys.readouterr()
