@@ -178,7 +178,7 @@ class CopyingExecutor:
 
     def execute(self, queue: Any) -> None:
         """Copy the requested trials."""
-        while (job := queue.take()) is not None:
+        while (job := queue.pop()) is not None:
             folder = job.run.out / "units"
             shutil.copytree(self.intact_result.folder / "out" / "units", folder, dirs_exist_ok=True)
 

@@ -58,7 +58,9 @@ def test_nothing_is_cut_off(tab: Any, tmp_path: Path, name: str) -> None:
         assert tab.evaluate(CUT_OFF) == [], (width, height)
         assert tab.evaluate("document.documentElement.scrollWidth") <= width
     assert tab.evaluate("window.evil") is None
-    wide, narrow = (tab.evaluate(f"uwsim.page.views.viewCamera({w}, 600).intrinsics") for w in (800, 200))
+    wide, narrow = (
+        tab.evaluate(f"uwsim.page.views.viewCamera({w}, 600).intrinsics") for w in (800, 200)
+    )
     assert narrow["fx"] / narrow["width"] == pytest.approx(wide["fx"] / wide["width"])
     assert tab.title() == " ".join(name.split())
     assert tab.locator("#title").inner_text() == name

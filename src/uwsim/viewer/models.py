@@ -18,7 +18,7 @@ WEBP_QUALITY = 95
 MAX_LOSS = 12.0
 """The greatest 99th percentile of the error of a lossy texture [grey levels]; see `_texture`."""
 MAX_EXACT_BYTES = 70_000
-"""The greatest size of a lossless texture [bytes]; a larger one stays lossy."""
+"""The greatest size of a lossless texture [bytes]; a larger texture is stored lossy."""
 
 
 class Models:
@@ -31,14 +31,14 @@ class Models:
     def __init__(self, blob: Blob) -> None:
         self._blob = blob
         self.meshes: list[dict[str, Any]] = []
-        """The entries of the meshes so far, as in the head."""
+        """The entries of ``meshes`` in the head so far."""
         self.textures: list[dict[str, Any]] = []
-        """The entries of the textures so far, as in the head."""
+        """The entries of ``textures`` in the head so far."""
         self._visuals: dict[int, tuple[Model, list[dict[str, Any]]]] = {}
         self._texture_indices: dict[str, int] = {}
 
     def visuals(self, model: Model) -> list[dict[str, Any]]:
-        """Return the visuals of a model, as in the head: one for each of its merged meshes."""
+        """Return the entries of ``visuals`` in the head for a model: one for each merged mesh."""
         if id(model) not in self._visuals:
             visuals = [
                 {

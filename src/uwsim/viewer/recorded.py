@@ -30,9 +30,10 @@ from ..verify.recorded_plan import (
 )
 from ..world import TIMESTEP
 
-PHASE_COLUMN, TIME_PREFIX = "phase", "time."
-"""The heading of a log's column of phase numbers, and the prefix of the names of details with the
-time in a phase."""
+PHASE_COLUMN = "phase"
+"""The heading of the column of a log that contains the numbers of phases."""
+TIME_PREFIX = "time."
+"""The prefix of the names of details that contain the time in a phase."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -40,10 +41,10 @@ class Curve:
     """The samples of a measure in one level."""
 
     measure: str
-    """The name of the measure; for a further column of its log ``MEASURE.COLUMN``, as
-    ``success.height``."""
+    """The name of the measure, or ``MEASURE.COLUMN``, such as ``success.height``, for another
+    column of the measure's log."""
     unit: str
-    """The unit of the value; empty where the log states none."""
+    """The unit of the values; empty if the log does not state it."""
     times: Array
     """The simulation times of the samples, (n,) [s]."""
     values: Array
@@ -53,7 +54,7 @@ class Curve:
 
     @property
     def is_share(self) -> bool:
-        """The kind of the values: True if their unit is 1 and all are from 0 to 1."""
+        """True if the unit of the values is 1 and all values are from 0 to 1."""
         values = self.values[np.isfinite(self.values)]
         has_unit = self.unit == "1" and not self.names
         return has_unit and bool(((values >= 0.0) & (values <= 1.0)).all())
@@ -80,7 +81,7 @@ class RecordedLevel:
     swept_values: Mapping[str, float] = field(default_factory=dict)
     """The value of each swept parameter, outermost first."""
     details: tuple[Curve, ...] = ()
-    """The curves of the further columns of the measures' logs."""
+    """The curves of the other columns of the measures' logs."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

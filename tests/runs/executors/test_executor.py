@@ -111,31 +111,31 @@ def jobs(tmp_path: Path, *sizes: int) -> list[Job]:
 
 def test_a_lost_unit_is_the_next_to_be_played_and_three_times_at_most(tmp_path: Path) -> None:
     queue = JobQueue(jobs(tmp_path, 1, 1))
-    first = queue.take()
+    first = queue.pop()
     assert first is not None
     for _ in range(3):
         queue.report_loss(first, "killed by SIGSEGV")
-        assert queue.take() is first
+        assert queue.pop() is first
         assert queue.failure is None
     queue.report_loss(first, "killed by SIGSEGV")
     assert str(queue.failure) == (
         "trial 0 (esm, seed 0, fog=0.5) lost its worker 4 times, the last time killed by SIGSEGV. "
         "Finished rows are kept; continue with --resume."
     )
-    assert queue.take() is None
+    assert queue.pop() is None
     assert first.run.n_lost == 4
 
 
 def test_a_unit_that_is_lost_twice_in_one_call_is_played_without_it(tmp_path: Path) -> None:
     queue = JobQueue(jobs(tmp_path, 1))
-    first = queue.take()
+    first = queue.pop()
     assert first is not None
     for call in (7, None, 8):
         queue.report_loss(first, "with exit status 0", call)
-        assert queue.take() is first
+        assert queue.pop() is first
         assert first.cut is None
     queue.report_loss(first, "with exit status 0", 7)
-    assert queue.take() is first
+    assert queue.pop() is first
     assert first.cut == Cut(7, "its process ended (with exit status 0)")
     assert queue.failure is None
 
@@ -207,7 +207,7 @@ def test_an_algorithm_that_changes_the_working_directory_takes_no_result_with_it
 def test_every_level_is_reported_once(tmp_path: Path) -> None:
     told: list[None] = []
     queue = JobQueue(jobs(tmp_path, 3), lambda: told.append(None))
-    job = queue.take()
+    job = queue.pop()
     assert job is not None
     queue.report_level(job)
     queue.report_loss(job, "killed by SIGKILL")  # with a second level on disk that it did not tell

@@ -39,7 +39,7 @@ class Desk:
         """Return the requested channels."""
         return self._wanted
 
-    def take_messages(self) -> list[tuple[int, dict[str, Any]]]:
+    def pop_messages(self) -> list[tuple[int, dict[str, Any]]]:
         """Take out the messages of viewers."""
         said, self.said = self.said, []
         return said

@@ -98,7 +98,7 @@ def server_has(server: LiveServer, n: int) -> list[tuple[int, dict[str, Any]]]:
     found: list[tuple[int, dict[str, Any]]] = []
     pause = threading.Event()
     for _ in range(6000):
-        found += server.take_messages()
+        found += server.pop_messages()
         if len(found) >= n:
             return found
         pause.wait(0.01)

@@ -1,6 +1,7 @@
 """A background process of a run: it draws the report and executes the control run.
 
-Neither needs OpenGL. The process starts with the run and imports the code of reports before its
+The control run is the same benchmark with an algorithm that ignores the images (`frozen`). Neither
+job needs OpenGL. The process starts with the run and imports the code of reports before its
 first job. If the process ends early, the process of the run executes the remaining jobs.
 """
 
@@ -33,7 +34,7 @@ class JobRunner:
     """A runner of jobs in this process; each call of `wait` executes one job.
 
     Args:
-        reporter: returns the function that draws a report.
+        reporter: the function that imports and returns the function that draws a report.
     """
 
     def __init__(self, reporter: Reporter) -> None:
@@ -119,9 +120,9 @@ def _serve(pipe: Connection, parent: Connection, reporter: Reporter) -> None:
     """Execute jobs until the parent has ended or closes the pipe."""
     exit_with_parent(parent)
     suppress_cast_warnings()
-    with suppress(Exception):  # slow, so it is done while levels run; `_run_job` reports errors
+    with suppress(Exception):  # a slow import, while levels run; `_run_job` reports its errors
         reporter()
-    gc.freeze()  # loaded modules remain
+    gc.freeze()  # no collection of the loaded modules, which remain in use
     with suppress(EOFError, OSError):  # the parent has ended
         while True:
             pipe.send(_run_job(pipe.recv(), reporter))

@@ -13,14 +13,14 @@ if TYPE_CHECKING:
 
 RAY = "ray"
 MAX_WORKERS = 1024
-"""The greatest number of processes; a greater one is taken for a typing error."""
+"""The greatest number of processes; a greater number is regarded as a typing error."""
 
 CALLBACK_LIMIT = 600.0
-"""The default of the longest call into an algorithm [s of wall time]."""
+"""The default limit on the duration of a call into an algorithm [s of wall time]."""
 
 
 def n_parallel_levels(workers: str) -> int:
-    """Return the number of levels run in parallel; for a cluster, the cores of this machine."""
+    """Return the number of levels that run in parallel; for Ray, the cores of this machine."""
     return max(1, int(workers)) if workers.isdigit() else os.cpu_count() or 1
 
 

@@ -1,8 +1,8 @@
 """The queue of trials, and the protocol of the executors that run them.
 
-An executor takes trials from the queue and reports their outcomes to it. The queue counts how often
-a trial has lost its worker, and skips the trials of failed runs. The executor starts and ends the
-workers.
+An executor removes trials from the queue and reports their outcomes to the queue. The queue counts
+how often a trial has lost its worker, and skips the trials of failed runs. The executor starts and
+ends the workers.
 """
 
 from __future__ import annotations
@@ -31,13 +31,14 @@ from ..trial.trial_observer import TrialObserver
 from .worker import Event, JournalWriter, make_picklable, run_trial
 
 OnLevel = Callable[[], None]
+"""A function that is called for every level that was not on disk before."""
 RESUME_HINT = "Finished rows are kept; continue with --resume."
-"""The option that continues a failed run."""
+"""The sentence at the end of the error of a failed run."""
 MAX_RETRIES = 3
 """The greatest number of repetitions of a trial that has lost its worker."""
 ENVIRONMENT = {"LP_NUM_THREADS": "0", "NUMBA_NUM_THREADS": "1"}
-"""The environment variables of a worker, unless the user has set them: one thread for each library,
-as there is a worker for each core."""
+"""The environment variables of a worker, unless the user has set them: each library uses one
+thread, because there is one worker for each core."""
 
 
 @dataclass(eq=False)
@@ -49,7 +50,7 @@ class Job:
     trial: Trial
     """The trial."""
     cut: Cut | None = None
-    """The call into the algorithm, to be omitted, that ended its process or did not return."""
+    """The call into the algorithm that is omitted, as it ended the process or did not return."""
 
     def __str__(self) -> str:
         levels = self.trial.levels
@@ -63,18 +64,18 @@ class Executor(Protocol):
     """The protocol of an executor of trials."""
 
     def execute(self, queue: JobQueue) -> None:
-        """Take jobs from the queue until it is empty, and report the outcome of each job to it."""
+        """Execute jobs until the queue is empty, and report the outcome of each to the queue."""
 
 
 class JobQueue:
     """The queue of waiting jobs, in order, with the failures of executed jobs.
 
-    If a trial fails, the remaining trials of its run are skipped, as they would fail, too. The
-    other runs continue.
+    If a trial fails, the remaining trials of its run are skipped, because they would fail as well.
+    The other runs continue.
 
     Args:
         jobs: the trials to run.
-        on_level: called for every level that was not on disk before.
+        on_level: the function that is called for every level that was not on disk before.
     """
 
     def __init__(self, jobs: Sequence[Job], on_level: OnLevel = lambda: None) -> None:
@@ -107,10 +108,10 @@ class JobQueue:
 
     @property
     def is_sealed(self) -> bool:
-        """True if a waiting job belongs to a run whose rows its algorithm must not read."""
+        """True if a waiting job belongs to a sealed run, whose rows its algorithm must not read."""
         return any(job.run.seal is not None for job in self._jobs)
 
-    def take(self) -> Job | None:
+    def pop(self) -> Job | None:
         """Remove and return the next job; return None if no job is waiting."""
         return self._jobs.popleft() if self._jobs else None
 
@@ -204,7 +205,7 @@ class SerialExecutor:
         """Execute all jobs of the queue in this process."""
         cache = TrialCache()
         try:
-            while (job := queue.take()) is not None:
+            while (job := queue.pop()) is not None:
                 calls = Calls(limit=self._limit)
                 try:
                     for _ in run_and_record(job, cache, calls, self._observer):
@@ -227,7 +228,7 @@ def run_and_record(
 ) -> Iterator[Event]:
     """Run a trial and write its journal; yield for each level that was not on disk before."""
     if job.run.seal is not None:
-        deny_access_to_memory()  # of this process, which may be a worker
+        deny_access_to_memory()  # this process may be a worker
     writer = JournalWriter(job.run, job.trial)
     directory = Path.cwd()  # an algorithm may change the directory
     try:
@@ -266,7 +267,7 @@ def run_each(
     Args:
         runs: the runs to execute; their trials share the same workers.
         executor: the executor of the trials; None for this process.
-        on_level: called for every level that was not on disk before.
+        on_level: the function that is called for every level that was not on disk before.
     """
     jobs = [Job(run, trial) for run in runs for trial in run.begin()]
     queue = JobQueue(jobs, on_level)

@@ -31,7 +31,7 @@ from .protected_forks import ProtectedForks, can_protect_forks
 from .worker import TrialFailed, make_picklable
 
 EXIT_TIMEOUT = 10.0
-"""The time for a dismissed worker to end before it is killed [s of wall time]."""
+"""The time after which a worker that was requested to end is killed [s of wall time]."""
 POLL_PERIOD = 1.0
 """The longest time between two checks of the duration of calls [s of wall time]."""
 
@@ -79,7 +79,7 @@ class ProcessExecutor:
         try:
             while True:
                 for i, worker in enumerate(workers):
-                    if worker.job is None and (job := queue.take()) is not None:
+                    if worker.job is None and (job := queue.pop()) is not None:
                         if not worker.accepts(job):
                             worker.kill()
                             workers[i] = start()
@@ -101,7 +101,7 @@ class ProcessExecutor:
         for worker in busy_workers:
             worker.report(queue)
             if self._limit is not None and self._poll_period is not None:
-                # time in which this process itself was suspended does not count
+                # the time for which this process itself was suspended does not count
                 worker.watch(queue, min(wait_time, 2 * self._poll_period), self._limit)
 
 
@@ -139,7 +139,7 @@ class WorkerProcess:
             end.close()  # so that a pipe ends when the process at its other end does
         self.job: Job | None = None
         """The job that the worker executes; None if it is idle."""
-        self._algorithm: str | None = None  # the only algorithm that it runs
+        self._algorithm: str | None = None  # the name of the only algorithm that the worker runs
         # the last value of the counter of calls, and the time since it changed [s]
         self._last_count, self._count_age = NO_CALLS, 0.0
 
@@ -162,7 +162,7 @@ class WorkerProcess:
     def report(self, queue: JobQueue) -> None:
         """Report the worker's new events, or its end, to the queue."""
         assert self.job is not None
-        is_alive = self._process.is_alive()  # read first, so that its last reports are received
+        is_alive = self._process.is_alive()  # read before the reports, so that none is missed
         for event in self._reports():
             if isinstance(event, LevelStored):
                 queue.report_level(self.job)

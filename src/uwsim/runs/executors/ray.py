@@ -38,7 +38,7 @@ ADDRESS = "RAY_ADDRESS"
 OBJECT_STORE_SIZE = 256 * 2**20
 """The memory for rows and images within a cluster that is started for the run [bytes]."""
 RAY_ENV = {"RAY_USAGE_STATS_ENABLED": "0", "RAY_ACCEL_ENV_VAR_OVERRIDE_ON_ZERO": "0"}
-"""The environment variables that turn off Ray's telemetry and its advice."""
+"""The environment variables that turn off Ray's telemetry and its warnings on GPU settings."""
 
 
 class RayExecutor:
@@ -53,13 +53,13 @@ class RayExecutor:
 
     Raises:
         MissingExtra: Ray is not installed.
-        BadSetting: no cluster at ``RAY_ADDRESS``.
+        BadSetting: there is no cluster at ``RAY_ADDRESS``.
     """
 
     def __init__(self, cpus: int | None = None) -> None:
         self._address = address()
         if self._address is None and "ray" not in sys.modules and "RAY_AUTH_MODE" not in os.environ:
-            # It remains set: Ray reads it at its import, once in a process.
+            # The variables remain set: Ray reads them at its import, once in a process.
             os.environ["RAY_AUTH_MODE"] = "token"
             os.environ["RAY_AUTH_TOKEN"] = secrets.token_hex(32)
         try:
@@ -73,7 +73,7 @@ class RayExecutor:
     def execute(self, queue: JobQueue) -> None:
         """Execute all jobs of the queue on the cluster."""
         ray = self._ray
-        # Ray prints progress on standard output; the queue reports it better.
+        # Ray prints its progress on standard output; the progress of levels is displayed instead.
         with self._cluster(), redirect_stdout(io.StringIO()):
             n_workers = max(1, int(ray.cluster_resources().get("CPU", 1)))
             worker_class = ray.remote(num_cpus=1, max_restarts=0)(RayWorker)
@@ -82,13 +82,13 @@ class RayExecutor:
             tasks: dict[Any, AssignedJob] = {}
             try:
                 while True:
-                    while len(tasks) < n_workers and (job := queue.take()) is not None:
+                    while len(tasks) < n_workers and (job := queue.pop()) is not None:
                         name = job.run.plan.algorithm.name
                         while pool and pool[-1][1] != name:  # no process runs two algorithms
                             ray.kill(pool.pop()[0])
                         task = AssignedJob(job, pool.pop()[0] if pool else worker_class.remote())
                         tasks[task.begin()] = task
-                    for worker, _ in pool:  # there are no jobs left for them
+                    for worker, _ in pool:  # no jobs are left for the idle workers
                         ray.kill(worker)
                     pool.clear()
                     if not tasks:
@@ -105,7 +105,7 @@ class RayExecutor:
                     task.writer.close()
 
     def _is_over(self, events: Any, task: AssignedJob, queue: JobQueue) -> bool:
-        """Take the next event of a task; return whether it was the last."""
+        """Process the next event of a task; return whether the task has ended."""
         errors = self._ray.exceptions
         try:
             event = self._ray.get(next(events))
@@ -160,7 +160,7 @@ class RayExecutor:
                 )
         except SystemExit:  # Ray's exception for SIGTERM while it starts
             raise KeyboardInterrupt from None
-        except Exception as error:  # of many kinds
+        except Exception as error:  # Ray raises many kinds of exceptions
             place = "a cluster here" if self._address is None else f"{ADDRESS}={self._address}"
             message = " ".join(str(error).split())
             raise RunFailed(f"--workers ray: {place} cannot be used ({message[:300]}).") from error
@@ -170,7 +170,8 @@ def address() -> str | None:
     """Return the address of the cluster; None for a cluster that is started for the run.
 
     Raises:
-        BadSetting: invalid address, or no cluster there; Ray itself would retry for minutes.
+        BadSetting: the address is invalid, or no cluster answers; Ray itself would retry for
+            minutes.
     """
     value = os.environ.get(ADDRESS, "").strip()
     if value in ("", "local"):
@@ -183,7 +184,7 @@ def address() -> str | None:
     try:
         socket.create_connection((host.strip("[]"), int(port)), timeout=5.0).close()
     except (OSError, OverflowError, UnicodeError) as error:
-        raise BadSetting(f"{ADDRESS}={value}: no answer there ({error}).") from None
+        raise BadSetting(f"{ADDRESS}={value}: there is no answer ({error}).") from None
     return value
 
 

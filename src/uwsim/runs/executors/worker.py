@@ -1,7 +1,7 @@
 """The execution of a trial by a worker, and the writing of the trial's journal.
 
-The two may take place on different machines, which exchange numbers, text and the bytes of images,
-but no paths.
+The execution and the writing may be on different machines, which exchange numbers, text and the
+bytes of images, but no paths.
 """
 
 from __future__ import annotations
@@ -31,6 +31,7 @@ from ..trial.trial_observer import TrialObserver
 from ..trial.trial_recorder import TrialRecorder
 
 IMAGES = "pictures"
+"""The folder of the images in the result directory."""
 
 
 @dataclass(frozen=True, kw_only=True)

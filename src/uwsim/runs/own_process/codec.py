@@ -1,10 +1,10 @@
 """The encoding of values as frames (bytes) between the simulation and an algorithm's process.
 
 A frame is JSON, which preserves every float64, followed by the bytes of all arrays. A frame decodes
-to numbers, texts, lists, arrays and message classes that this process has already loaded: no code
-arrives with a frame, and nothing is imported for it. A value that JSON lacks is an object with one
-key: ``t`` tuple, ``d`` dict, ``m`` message, ``a`` array, ``s`` array scalar, ``b`` bytes,
-``c`` message class, ``o`` any other object, as its ``repr``.
+to numbers, texts, lists, arrays, and objects of message classes that this process has already
+loaded: decoding executes no code of the sender and imports nothing. A value that JSON cannot
+represent is an object with one key: ``t`` tuple, ``d`` dict, ``m`` message, ``a`` array, ``s``
+array scalar, ``b`` bytes, ``c`` message class, ``o`` any other object, as its ``repr``.
 """
 
 from __future__ import annotations
@@ -30,11 +30,12 @@ _BASES: tuple[Any, ...] = (bool, int, float, str, list, tuple, dict)
 _SCALARS = frozenset((type(None), bool, int, float, str))
 _CACHE_SIZE = 10_000
 MAX_DEPTH = 100
-"""The greatest depth of nested values in a frame; a deeper value may contain itself."""
+"""The greatest depth of nested values in a frame, which also ends values that contain
+themselves."""
 
 
 class FrameError(Exception):
-    """Bytes that are no frame."""
+    """An error in bytes that should be a frame."""
 
 
 class UnknownValue:
@@ -144,7 +145,7 @@ class _Reader:
             return _class_of(rest)
         if tag == "o":
             return type(str(rest[0]), (UnknownValue,), {})(str(rest[1]))
-        raise ValueError(f"no value is called {tag!r}")
+        raise ValueError(f"unknown tag {tag!r}")
 
     def _message(self, name: str, *values: object) -> object:
         cls = _class_of(name)
@@ -157,14 +158,14 @@ class _Reader:
     def _array(self, tag: str, dtype: str, *shape: int) -> Any:
         kind = np.dtype(dtype)
         if kind.kind not in "biufSU":
-            raise ValueError(f"no array of {dtype!r} is sent")
+            raise ValueError(f"an array of the type {dtype!r} is not allowed")
         n = math.prod(shape)
         array = np.frombuffer(self._bytes(n * kind.itemsize), dtype=kind).reshape(shape)
         return array[()] if tag == "s" else array
 
     def _bytes(self, n: int) -> bytes:
         if not 0 <= n <= len(self._frame) - self._offset:
-            raise ValueError("it is too short")
+            raise ValueError("the bytes of an array are missing")
         self._offset += n
         return self._frame[self._offset - n : self._offset]
 
@@ -178,7 +179,7 @@ def _qualified_name(cls: Hashable) -> str:
 def _class_of(name: str) -> type:
     cls = message_class(name)
     if cls is None:
-        raise ValueError(f"no message is called {name!r}")
+        raise ValueError(f"unknown message class {name!r}")
     return cls
 
 
@@ -217,6 +218,7 @@ def _field_names(cls: Any) -> tuple[str, ...]:
 
 
 def _safe_repr(value: object) -> str:
+    """Return at most 1000 characters of the ``repr`` of a value, which may raise an exception."""
     try:
         return repr(value)[:1000]
     except Exception:

@@ -2,8 +2,8 @@
 
 The node of the algorithm is in the simulation's process (`uwsim.simulation.InProcessNode`). To call
 a callback, the simulation sends a frame to the algorithm's process and waits for the answer;
-meanwhile it executes the algorithm's requests to the node, in order. So events have the same order
-as in one process, no simulation time passes during a call, and the rows are the same.
+meanwhile it executes the algorithm's requests to the node, in order. Therefore the order of events
+and the rows are the same as with one process, and no simulation time passes during a call.
 """
 
 from __future__ import annotations
@@ -33,30 +33,31 @@ from ...simulation import CallStopped
 from .codec import MAX_FRAME, FrameError, decode, encode
 
 PROCESS_ENDED = "its process ended"
-"""The beginning of the reason in a row whose algorithm has ended its process."""
+"""The beginning of the reason in the row of a level in which the algorithm's process ended."""
 CALL_TIMEOUT = "a callback took longer than --callback-limit"
-"""The reason in a row whose algorithm did not return from a call."""
+"""The reason in the row of a level in which the algorithm did not return from a call."""
 CLOCK_PERIOD = 1.0
 """The longest time between two checks of the clock [s of wall time]."""
 END_TIMEOUT = 10.0
 """The time in which a process that has closed its socket must end [s of wall time]."""
 MAX_SOCKET_TIMEOUT = 1e9
 """The longest timeout that is set on a socket [s of wall time]."""
-MODULE = "uwsim.runs.own_process.child"
+CHILD_MODULE = "uwsim.runs.own_process.child"
+"""The module that the algorithm's process executes."""
 
 
 class OwnProcess:
     """A child process that runs an algorithm; a context manager, which kills it at the end.
 
     Args:
-        limit: the longest computation for one request [s of wall time]; None for no limit.
+        limit: the longest wait for the answer to one request [s of wall time]; None: no limit.
     """
 
     def __init__(self, limit: float | None = None) -> None:
         own_socket, child_socket = socket.socketpair()
         with child_socket, block_interrupts():
             self._process = subprocess.Popen(
-                [sys.executable, "-m", MODULE, str(child_socket.fileno()), str(os.getpid())],
+                [sys.executable, "-m", CHILD_MODULE, str(child_socket.fileno()), str(os.getpid())],
                 pass_fds=(child_socket.fileno(),),
                 stdin=subprocess.DEVNULL,
                 env={
@@ -98,12 +99,12 @@ class OwnProcess:
 
         Args:
             frame: the request to the process.
-            answer: executes a request of the algorithm and returns the result; the messages that
-                arrive with the request are published first.
+            answer: the function that executes a request of the algorithm and returns its result;
+                it first receives the messages that arrive with the request, to publish them.
 
         Raises:
             RemoteError: the algorithm raised an exception, or violated a rule.
-            BadSetting: the algorithm refused a parameter in its ``start``.
+            BadSetting: the algorithm rejected a parameter in its ``start``.
             CallStopped: the process has ended, sent bytes that are no frame, or took too long.
         """
         self._send(frame)
@@ -145,7 +146,7 @@ class OwnProcess:
                 return wait_time + time.monotonic() - start
             if self._process.poll() is not None and not self._poll.poll(0):
                 raise self._end_error()  # a child of the process may still hold the socket open
-            # time in which this process itself was suspended does not count
+            # the time for which this process itself was suspended does not count
             wait_time += min(time.monotonic() - start, 2 * period)
         self._process.kill()
         raise CallStopped(CALL_TIMEOUT)
@@ -188,8 +189,8 @@ class ProcessAlgorithm:
         algorithm: the class of the algorithm, which the process imports.
         plugins: the plugins to load in the process; one of them may contain the class.
         settings: the parameters set by the user.
-        may_refuse: returns whether a subscriber of a topic may refuse messages; the algorithm then
-            waits for the answer to each message that it publishes there.
+        may_refuse: the function that returns whether a subscriber of a topic may refuse messages;
+            the algorithm then waits for the answer to each message that it publishes there.
 
     Raises:
         RemoteError: the algorithm cannot be constructed.
@@ -256,7 +257,7 @@ class ProcessAlgorithm:
             case ["publish", bytes() as frame]:
                 self._publish_frame(decode(frame))
             case ["flush"]:
-                pass  # the request only delivers published messages, which are published already
+                pass  # the messages that arrived with the request have been published already
             case ["serve", str(name), type() as cls, int(number)]:
                 node.serve(name, cls, self._remote_call(number))
             case ["call", str(name), request]:
@@ -290,7 +291,7 @@ def _answer_request(
 
 
 def _publish_frames(answer: Callable[[list[Any]], object], frames: list[Any]) -> list[object]:
-    """Publish messages; return the frame of a refusal, or an empty one if all were accepted."""
+    """Publish messages; return the frame with the first refusal, or [] if all were accepted."""
     try:
         for frame in frames:
             answer(["publish", frame])

@@ -19,7 +19,7 @@ from .process import OwnProcess, ProcessAlgorithm
 Program = Callable[[Simulation, Mapping[str, float | str]], Algorithm]
 """The constructor of a simulation's algorithm from the parameters that the user set."""
 OWN_PROCESS, SHARED_PROCESS = "own process, grade (b)", "in process"
-"""The participation of an algorithm class that is not bundled, as a result states it."""
+"""The texts in a result for the participation of an algorithm class that is not bundled."""
 
 
 @contextmanager
@@ -65,10 +65,10 @@ def _client(
     return client
 
 
-def take_refused_messages(algorithm: Algorithm) -> tuple[tuple[str, str, int], ...]:
-    """Return the number of messages refused since the last call.
+def pop_refused_messages(algorithm: Algorithm) -> tuple[tuple[str, str, int], ...]:
+    """Return the numbers of messages that were refused since the last call.
 
-    Messages are refused from external programs that do not take part in the benchmark.
+    Messages of external programs that do not take part in the benchmark are refused.
 
     Returns:
         For each sender and topic or service: the sender, the topic or service, the number.

@@ -31,9 +31,9 @@ SAMPLE_PERIOD = 16
 
 
 class ErrorFloor:
-    """The mean error of a perfect tracker in each measure in pixels, for each level.
+    """The mean error of a perfect tracker in each measure, for each level [px].
 
-    It is empty if no measure initialises a tracker with a quadrangle.
+    There are no values if no measure initialises a tracker with a quadrangle.
     """
 
     def __init__(self, simulation: Simulation, plan: Plan) -> None:
@@ -107,7 +107,7 @@ class ErrorFloor:
 
 
 def _corners_of(spec: EuclideanNormSpec) -> CornersFromCameraSpec | None:
-    """Return the quadrangle with which this measure initialises a tracker, if it does."""
+    """Return the quadrangle with which a measure initialises a tracker; None if it does not."""
     truth = spec.ground_truth
     is_published = isinstance(truth, CornersFromCameraSpec) and truth.publish_on is not None
     return truth if is_published and isinstance(truth, CornersFromCameraSpec) else None

@@ -1,9 +1,9 @@
 """Fingerprints of a trial: hashes of its motion and images that locate where two runs diverge.
 
 The motion of every body is sampled every 16th step and hashed, body by body, from the beginning of
-the trial; so are the images on each topic. Periodically a *checkpoint* is stored: the hashes so
-far, four bytes each. A difference changes all later checkpoints, so the first checkpoint that
-differs locates the steps, and the body or topic, at which two runs diverged.
+the trial; so are the images on each topic. Periodically a *checkpoint* is stored: the hashes
+of all samples so far, four bytes each. A difference changes all later checkpoints, so the first
+checkpoint that differs locates the steps, and the body or topic, at which two runs diverged.
 
 A trial has at most 64 checkpoints: when there are more, every second checkpoint is dropped and the
 period doubles. The cost is a third of a microsecond per step and a few kilobytes per trial,
@@ -23,7 +23,7 @@ from ...simulation import Simulation
 
 SAMPLE_PERIOD = 16
 """The number of steps from one sample to the next."""
-BLOCK = 4
+BLOCK_SIZE = 4
 """The number of samples that are hashed at a time."""
 MAX_CHECKPOINTS = 64
 HASH_SIZE = 4
@@ -85,11 +85,12 @@ class Divergence:
     first_different: int
     """The step of the first checkpoint that differs."""
     parts: tuple[str, ...]
-    """The parts that differ there; empty if the executions have different parts or lengths."""
+    """The parts that differ at that step; empty if the executions have different parts or
+    lengths."""
 
 
 def divergence(a: Checkpoints, b: Checkpoints) -> Divergence | None:
-    """Return where two executions of one trial diverge; None if their checkpoints are equal."""
+    """Return the steps between which two executions of a trial diverge; None if they are equal."""
     if a == b:
         return None
     if a.parts == b.parts:
@@ -109,7 +110,7 @@ class Fingerprinter:
 
     def __init__(self, simulation: Simulation) -> None:
         self._simulation, self._motion = simulation, simulation.world.engine.motion
-        self._block = np.zeros((BLOCK, self._motion.size))
+        self._block = np.zeros((BLOCK_SIZE, self._motion.size))
         self._n = self._step = 0
         ends = np.cumsum([0, *(size for _, size in self._motion.parts)], dtype=int).tolist()
         self._hashes = [
@@ -117,7 +118,7 @@ class Fingerprinter:
             for start, end in itertools.pairwise(ends)
         ]
         self._marks: list[str] = []
-        self._period = SAMPLE_PERIOD * BLOCK
+        self._period = SAMPLE_PERIOD * BLOCK_SIZE
         simulation.watch(self.tick)
 
     def tick(self) -> None:
@@ -128,7 +129,7 @@ class Fingerprinter:
             return
         self._motion.read(self._block[self._n])
         self._n += 1
-        if self._n == BLOCK:
+        if self._n == BLOCK_SIZE:
             self._hash_block()
         if step % self._period == 0:
             self._hash_block()

@@ -14,7 +14,7 @@ from ...world import World
 
 
 class LevelTriggers:
-    """The benchmark's start and stop triggers, read once a step."""
+    """The start and stop triggers of a benchmark, which are read once in each step."""
 
     def __init__(self, spec: BenchmarkSpec, world: World) -> None:
         self._spec, self._world = spec, world

@@ -1,7 +1,7 @@
 """The topics BenchmarkInfo and BenchmarkResults, published while a benchmark runs.
 
-They are topics of the original UWSim. Here they follow simulation time, so that every run publishes
-the same messages. Nothing is computed for a topic without subscribers.
+Both are topics of the original UWSim. Here their rates are in simulation time, so that every run
+publishes the same messages. Nothing is computed for a topic without subscribers.
 """
 
 from __future__ import annotations
@@ -20,21 +20,21 @@ from .triggered_measure import TriggeredMeasure, finite_value
 INFO = "BenchmarkInfo"
 RESULTS = "BenchmarkResults"
 RATE = 10.0
-"""The rate of the messages on both [Hz]."""
+"""The rate of the messages on both topics, in simulation time [Hz]."""
 
 
 class LiveTopics:
     """``BenchmarkInfo`` (std_msgs/String) and ``BenchmarkResults`` (std_msgs/Float32MultiArray).
 
-    Both carry a message every 0.1 s. A message of BenchmarkInfo is empty, except once after the
-    scene was changed: it is ``Updated scene n`` if updater n, counted from the outermost as 1, is
-    the outermost updater that stepped.
+    A message is published on both topics every 0.1 s. A message of BenchmarkInfo is empty, except
+    once after the scene was changed: it is ``Updated scene n`` if updater n, counted from the
+    outermost as 1, is the outermost updater that stepped.
 
     BenchmarkResults is published if the function has ``publishResult``. Its message holds the
     entries of the last 0.1 s, and is mostly empty, as an entry is added every ``publishRate``
     seconds at most. An entry has the updaters' values, outermost first; the running time without
     pauses [s]; every measure's details, in the order of its log in the original UWSim; the score.
-    An entry in which a measure or the score has no value is left out. No algorithm under test
+    An entry is left out if a measure or the score has no value. No algorithm under test
     receives this topic, because the errors reveal the ground truth.
     """
 

@@ -60,7 +60,7 @@ def reported_parameters(
 
 
 def unread_parameters(plan: Plan, algorithm: Algorithm, node: InProcessNode) -> tuple[str, ...]:
-    """Return a note on the user's parameters that an algorithm has never read, if there are any.
+    """Return a note on the user's parameters that an algorithm has never read; () without any.
 
     There is no note on a failed algorithm, which may have failed before it could read them.
     """

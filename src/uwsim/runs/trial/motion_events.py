@@ -1,4 +1,4 @@
-"""Logs of the changes of a scene between motion frames: sand that is dug away, and markers."""
+"""Logs of changes of a scene between frames of its motion: removed sand, and markers."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class SandLog:
                 continue
             self._versions[number] = heap.version
             n = len(self._known_spots[number])
-            if heap.state.spots[:n] != self._known_spots[number]:  # the sand was put back meanwhile
+            if heap.state.spots[:n] != self._known_spots[number]:  # the sand was restored meanwhile
                 self._rows.append((frame, number, NO_VALUE, NO_VALUE, NO_VALUE))
                 n = 0
             self._rows += [(frame, number, *spot) for spot in heap.state.spots[n:]]
@@ -76,12 +76,12 @@ class MarkerLog:
         self.changes += [MarkerChange(frame=frame, name=name, marker=None) for name in names]
         for name, marker in markers.items():
             if old_markers.get(name) is not marker:
-                self._renew(name, marker)
+                self._redraw(name, marker)
                 self.changes.append(
                     MarkerChange(frame=frame, name=name, marker=self._drawings[name])
                 )
 
-    def _renew(self, name: str, marker: Marker) -> None:
+    def _redraw(self, name: str, marker: Marker) -> None:
         """Draw a marker again, with as many points as viewers accept and the track may hold."""
         if name in self._drawings:
             self._n_drawn -= count_points(self._drawings[name])

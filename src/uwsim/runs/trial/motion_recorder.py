@@ -21,9 +21,9 @@ from .triggered_measure import TriggeredMeasure
 
 CORNERS = 8
 """The number of coordinates of a quadrangle in an image: x, y of four corners."""
-BATCH = 300
+BATCH_SIZE = 300
 """The number of rows that are quantised at a time."""
-PIXEL = 0.5
+PIXEL_RESOLUTION = 0.5
 """The resolution of image coordinates [px]."""
 
 
@@ -32,18 +32,18 @@ class MotionRecorder:
 
     Args:
         simulation: the simulation; `start` records its first frame.
-        measures: the measures of the benchmark; the quadrangles that they compare are recorded.
+        measures: the measures of the benchmark, whose true and estimated quadrangles are recorded.
     """
 
     def __init__(self, simulation: Simulation, measures: Sequence[MeasureSpec]) -> None:
         self._simulation = simulation
         self._state = TrackedState(simulation.world)
         self._cameras = _compared_measures(measures)
-        self._measures: dict[str, EuclideanNorm] = {}  # camera -> the measure of this level
+        self._measures: dict[str, EuclideanNorm] = {}  # the measure of this level, by camera
         self._signals = (*self._state.signals, *_corner_signals(self._cameras))
         self._steps = steps_of(len(self._state.bodies), self._signals)
-        self._tables: list[Table] = []  # quantised
-        self._rows: list[Array] = []  # the newest, not yet quantised
+        self._tables: list[Table] = []  # the quantised rows
+        self._rows: list[Array] = []  # the newest rows, not yet quantised
         self._n_rows = 0
         self._levels: list[TrackLevel] = []
         self._sand, self._markers = SandLog(simulation), MarkerLog(simulation)
@@ -89,7 +89,7 @@ class MotionRecorder:
             self._markers.update(self._n_rows)
             self._n_rows += 1
             self._due = round(self._n_rows / (RATE * self._simulation.timestep))
-            if len(self._rows) == BATCH:
+            if len(self._rows) == BATCH_SIZE:
                 self._pack()
 
     def _pack(self) -> None:
@@ -142,7 +142,7 @@ def _compared_measures(measures: Sequence[MeasureSpec]) -> dict[str, str]:
 
 def _corner_signals(cameras: Iterable[str]) -> list[Signal]:
     return [
-        Signal(name=f"{kind}/{camera}/{corner}/{axis}", unit="px", step=PIXEL)
+        Signal(name=f"{kind}/{camera}/{corner}/{axis}", unit="px", step=PIXEL_RESOLUTION)
         for camera in cameras
         for kind in ("truth", "estimate")
         for corner in range(CORNERS // 2)

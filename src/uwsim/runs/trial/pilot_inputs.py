@@ -33,10 +33,11 @@ RATE = 30.0
 
 @dataclass(frozen=True, kw_only=True)
 class StoredInputs:
-    """Inputs of an earlier run."""
+    """The inputs of a pilot in an earlier run."""
 
     axes: tuple[str, ...]
-    """The names of the axes: the first entries of `AXES`, or all of them since this version."""
+    """The names of the axes: `AXES`, or its first entries if an earlier version stored the
+    inputs."""
     values_by_step: Mapping[int, tuple[float, ...]]
     """The values of the axes, -1..1, by step."""
 
@@ -46,9 +47,10 @@ class PilotInputs:
 
     Args:
         simulation: the simulation.
-        read_pilot: returns the pilot's inputs, -1..1 for each axis; None without a pilot.
-        stored_inputs: the inputs of an earlier run, which replace the pilot's; None to read the
-            pilot's.
+        read_pilot: the function that returns the pilot's inputs, -1..1 for each axis; None before
+            the first input.
+        stored_inputs: the inputs of an earlier run, which are used instead of a pilot; None: the
+            inputs of the pilot.
     """
 
     def __init__(
@@ -73,14 +75,14 @@ class PilotInputs:
 
     def _update(self) -> None:
         step = self._simulation.step
-        values = self._now(step)
+        values = self._next_values(step)
         if values is None or (self._stored_inputs is None and not self._is_new(values)):
             return
         self._inputs.append((step, values))
         layout = MultiArrayLayout(dim=[], data_offset=0)
         self._publish(Float64MultiArray(layout=layout, data=np.array(values)))
 
-    def _now(self, step: int) -> tuple[float, ...] | None:
+    def _next_values(self, step: int) -> tuple[float, ...] | None:
         if self._stored_inputs is not None:
             return self._stored_inputs.values_by_step.get(step)
         if self._inputs and step - self._inputs[-1][0] < self._min_steps:
@@ -101,7 +103,7 @@ def read_inputs(data: bytes) -> StoredInputs:
             raise ValueError("made by another version")
         values = {int(entry["step"]): tuple(map(float, entry["values"])) for entry in lines}
         if any(len(v) != len(axes) or not np.isfinite(v).all() for v in values.values()):
-            raise ValueError("a line has not a number for each axis")
+            raise ValueError("a line does not have a finite number for each axis")
     except (ValueError, KeyError, TypeError, OverflowError, RecursionError) as error:
         raise ResultError(f"is no file of a pilot's inputs: {error}") from None
     return StoredInputs(axes=axes, values_by_step=values)

@@ -1,4 +1,4 @@
-"""The topics of a scene with which a pilot drives a vehicle, as parameters of `pilot`."""
+"""The topics by which a pilot steers a vehicle, as parameters of the algorithm `pilot`."""
 
 from __future__ import annotations
 
@@ -9,15 +9,15 @@ from ...topics.ros_odom_to_pat import ROSOdomToPATSpec
 from ...topics.ros_twist_to_pat import ROSTwistToPATSpec
 from ...topics.thruster_commands import ROSThrustersToPATSpec
 
-JAW = ("jaw", "grip", "hand", "finger")
+JAW_WORDS = ("jaw", "grip", "hand", "finger")
 """Words in the name of a joint that opens a gripper."""
 
 
 def pilot_topics(simulation: Simulation) -> dict[str, float | str]:
     """Return the parameters of `uwsim.algorithms.pilot.Pilot` that the scene determines.
 
-    They are for the first vehicle that can be steered, or else for the first vehicle. The result is
-    empty if the scene has no vehicle.
+    The parameters are for the first vehicle that can be steered, or, if no vehicle can be steered,
+    for the first vehicle. The result is empty if the scene has no vehicle.
     """
     world = simulation.world
     if not world.vehicles:
@@ -42,7 +42,7 @@ def pilot_topics(simulation: Simulation) -> dict[str, float | str]:
         parameters["lamp_topics"] = topics
     joints = list(world.vehicles.find(name).joint_names)
     jaw = ""
-    if joints and any(word in joints[-1].lower() for word in JAW):
+    if joints and any(word in joints[-1].lower() for word in JAW_WORDS):
         jaw = joints.pop()
     down = -float(simulation.pose(name, "W").rotation[2, 2])
     return {**parameters, "joints": " ".join(joints), "jaw": jaw, "z_is_down": float(down > 0.0)}

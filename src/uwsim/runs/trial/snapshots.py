@@ -1,4 +1,4 @@
-"""The last images of the cameras in a level, kept for the report."""
+"""The last image of each camera in a level, which the report shows."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def capture(
 ) -> tuple[Snapshot, ...]:
     """Return the last image of every camera that published one.
 
-    An estimate is included only if the algorithm still ``is_tracking``; an old one is not valid.
+    An estimate is included only if ``is_tracking`` is True, as an older estimate is not valid.
     """
     snapshots: dict[str, Snapshot] = {}
     for images in simulation.world.images.values():

@@ -1,4 +1,4 @@
-"""The status of a row, from the algorithm's reports and failures and from the measures."""
+"""The status of a level, from the algorithm's reports and failures and from the measures."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ longer wait the status of the level is ``timeout``."""
 
 
 def was_stopped(name: str, reason: str | None) -> bool:
-    """Return whether a row failed because its algorithm could not be called any more."""
+    """Return whether the reason of a row is that its algorithm can no longer be called."""
     return reason is not None and reason.startswith(f"{name} {STOPPED_VERB} at ")
 
 
 def ended_its_process(name: str, reason: str | None) -> bool:
-    """Return whether a row failed because its algorithm ended its process."""
+    """Return whether the reason of a row is that the algorithm's process ended."""
     return was_stopped(name, reason) and f" s: {PROCESS_ENDED}" in str(reason)
 
 
@@ -49,7 +49,7 @@ class StatusMonitor:
 
     @property
     def lost(self) -> str | None:
-        """The reason and time of the algorithm's loss in this level, or of one that continues."""
+        """The reason and time of the first loss in this level, or of an earlier one that holds."""
         return self._first_loss or self._current_loss
 
     def begin_level(self) -> None:
@@ -84,7 +84,7 @@ class StatusMonitor:
 
         Args:
             measures: the measures of the level.
-            cutoff: the time after which a level without an interval was cut off [s of simulation
+            cutoff: the time after which a level that only stopOn ends was cut off [s of simulation
                 time]; None if it was not cut off.
             ending: the reason for which a measure ended the level; None if no measure did.
         """

@@ -1,4 +1,4 @@
-"""The execution of one trial: an algorithm, a seed, and one level after the other.
+"""The execution of one trial: an algorithm and a seed at one level after the other.
 
 *Sequential*: algorithm and scene continue from level to level. *Independent*: a level is run alone
 and begins with a *prelude*, which is not measured. In the prelude the algorithm starts at the
@@ -35,7 +35,7 @@ from ...errors import NeverStarted, SimulationFailed
 from ...messages import String
 from ...simulation import Calls, Simulation
 from ...simulation.markers import SERVICE as SPAWN_MARKER
-from ..own_process.program import Program, program_of, take_refused_messages
+from ..own_process.program import Program, pop_refused_messages, program_of
 from ..planning.plan import Plan, Trial
 from ..planning.trial_cache import TrialCache, compile_plan
 from .error_floor import ErrorFloor
@@ -57,6 +57,7 @@ from .triggered_measure import TriggeredMeasure, finite_value
 from .visibility import Fact, TargetMotion, visibility_facts
 
 STATUS_TOPIC = "algorithmStatus"
+"""The topic on which an algorithm reports its status."""
 SETTLING_TIME = 1.0
 """The time of the prelude at the initial values, before the ramp [s of simulation time]."""
 RAMP_TIME = 1.0
@@ -88,7 +89,7 @@ def execute(
         NeverStarted: the start trigger did not go on within `Plan.start_timeout`.
     """
     calls = calls or Calls()
-    with program_of(plan, calls.limit) as program:  # its process starts while the scene is opened
+    with program_of(plan, calls.limit) as program:  # a process starts while the scene is opened
         simulation = Simulation(
             compile_plan(plan, trial.seed) if cache is None else cache.model(plan, trial.seed),
             stream_prefix=trial.stream_prefix,
@@ -133,12 +134,12 @@ class _Execution:
         self._updaters = bind_updaters(self._updater, simulation.world.stage_view)
         if "no-markers" in plan.compatibility:
             simulation.bus.services.withdraw(SPAWN_MARKER)
-        simulation.bus.keeps_unread_messages = False  # every reader subscribes
+        simulation.bus.keeps_unread_messages = False  # all readers have subscribed
         self._expression = parse(benchmark.function.text, [m.name for m in benchmark.measures])
-        self._measures = benchmark.measures  # with the specs for the next level
+        self._measures = benchmark.measures  # the specs that the next level uses
         ramp_level(self._updaters, self._base_level())
         for measure in self._bind_measures():
-            measure.close()  # the bus stores the messages that measures read when they start
+            measure.close()  # from now on, the bus stores the messages that measures read first
         self._triggers = LevelTriggers(benchmark, simulation.world.measure_view)
         self._live_topics = LiveTopics(benchmark.function, self._expression, simulation)
         status = simulation.bus.inbox(STATUS_TOPIC, String)
@@ -233,7 +234,7 @@ class _Execution:
 
     def _finish_row(self, row: LevelRow) -> LevelRow:
         """Record the end of a level, and return its row with refused messages."""
-        row = replace(row, refused_messages=take_refused_messages(self._algorithm))
+        row = replace(row, refused_messages=pop_refused_messages(self._algorithm))
         self._motion.end_level(row)
         if self._observer is not None:
             self._observer.end_level(row)
@@ -323,7 +324,7 @@ class _Execution:
             measure.close()
 
     def _step_to(self, level: Level, last_level: Level | None) -> None:
-        """Bring the scene to a level; the first of a sequence is not a step."""
+        """Set the scene to a level; the first level of a sequence does not count as a step."""
         if last_level is None and not self._trial.is_independent:
             begin_level(self._updaters, level)
         else:
@@ -345,7 +346,7 @@ class _Execution:
             self._monitor.read_reports(self._simulation.time)
 
     def _run_level(self, level: Level) -> LevelRow:
-        """Run one level, with newly bound triggers and measures."""
+        """Run one level with newly bound measures; return its row."""
         plan, simulation, monitor = self._plan, self._simulation, self._monitor
         start_step = self._level_start = simulation.step
         monitor.begin_level()
@@ -368,7 +369,7 @@ class _Execution:
             monitor.read_reports(simulation.time)
             is_stopped = not self._triggers.is_open()
             ending = _end_of_level(measures)
-            # no later level needs the simulation
+            # an independent level may end early: no later level continues from its scene
             is_over = self._trial.is_independent and monitor.failure is not None
             if is_stopped or ending is not None or is_over:
                 break

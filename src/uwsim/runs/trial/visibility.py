@@ -38,6 +38,7 @@ from ..planning.plan import Plan
 GREY = np.array([0.299, 0.587, 0.114])
 """Weights of red, green and blue in grey (ITU-R BT.601)."""
 Fact = tuple[float, str]
+"""A value that holds for a whole trial, and its unit."""
 
 
 def visibility_facts(
@@ -99,10 +100,11 @@ def visibility_facts(
 class TargetMotion:
     """The range of motion, in the image, of the first target whose corners are tracked.
 
-    It is sampled every 16th step.
+    The corners are sampled at every 16th step.
     """
 
     SAMPLE_PERIOD = 16
+    """The number of steps from one sample to the next."""
 
     def __init__(self, simulation: Simulation, plan: Plan) -> None:
         self._truth = _first_truth(simulation, plan)
@@ -124,7 +126,7 @@ class TargetMotion:
 
     @property
     def facts(self) -> dict[str, Fact]:
-        """``shift`` [px]: the widest range of a corner's x or y; empty if no corners were seen."""
+        """``shift`` [px]: the widest range of a corner's x or y; empty if none was visible."""
         if not self._low.size:
             return {}
         return {"shift": (float((self._high - self._low).max()), "px")}

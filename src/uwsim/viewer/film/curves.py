@@ -12,9 +12,9 @@ from ..recorded import Curve, RecordedLevel
 from .overlay import COLOURS, GREY, INK, PANEL, Pixels, blend, draw_lines, write_text
 
 MAX_CURVES = 4
-"""The greatest number of curves of several measures."""
+"""The greatest number of curves that are drawn if there are several measures."""
 MAX_MEASURE_CURVES = 6
-"""The greatest number of curves of a single measure, with the further columns of its log."""
+"""The greatest number of curves of a single measure: its value and the other columns of its log."""
 CELL_GAP = 16
 """The space between the cells of two curves [px]."""
 
@@ -66,7 +66,7 @@ class CurvePanel:
 
     Args:
         level: the level.
-        names: the measures whose curves are drawn; empty: the first ones.
+        names: the names of the curves; empty: see `select_curves`.
         box: the left column, top row, width and height in the film's image [px].
         letter_height: the height of the letters [px].
     """
@@ -79,7 +79,7 @@ class CurvePanel:
         letter_height: int,
     ) -> None:
         self._level, self._box, self._letter_height = level, box, letter_height
-        self._name_height = round(1.5 * letter_height)  # of the row with name and value [px]
+        self._name_height = round(1.5 * letter_height)  # height of the row with name and value [px]
         self._cells = self._arrange(select_curves(level, names))
         _, _, width, height = box
         self._background: Pixels = np.full((height, width, 3), PANEL, np.uint8)
@@ -139,7 +139,7 @@ class CurvePanel:
 
 
 def short_name(name: str, curves: Sequence[Curve]) -> str:
-    """Return the displayed name of a curve; without its measure if all are of one measure."""
+    """Return the name of a curve for display; without the measure if all curves belong to one."""
     measures = {curve.measure.partition(".")[0] for curve in curves}
     return name.partition(".")[2] or name if len(measures) == 1 else name
 
@@ -160,7 +160,7 @@ def scale_limits(values: Array) -> tuple[float, float]:
 
 
 def value_at(curve: Curve, time: float) -> float:
-    """Return the value of the last sample of a curve until a time [s]; NaN before the first."""
+    """Return the value of the last sample of a curve up to a time [s]; NaN if there is none."""
     index = int(np.searchsorted(curve.times, time + 1e-9, side="right")) - 1
     return float(curve.values[index]) if index >= 0 else float("nan")
 

@@ -32,7 +32,7 @@ CODECS = {
 WEBP = ".webp"
 SUFFIXES = (*CODECS, WEBP)
 MAX_WEBP_FRAMES = 1200
-"""The greatest number of images of a WebP film; all of them are held in memory."""
+"""The greatest number of images of a WebP film, which are all held in memory."""
 WEBP_QUALITY = 60
 """The quality of WebP images, 0..100."""
 
@@ -149,7 +149,7 @@ class FfmpegEncoder:
             stdin=subprocess.PIPE,
             stdout=self._log,
             stderr=self._log,
-            start_new_session=True,  # Ctrl-C in a terminal does not reach it
+            start_new_session=True,  # so that Ctrl-C in a terminal does not end ffmpeg
         )
 
     def add(self, frame: bytes) -> None:
@@ -186,7 +186,7 @@ class FfmpegEncoder:
             self._folder.cleanup()
 
     def _cut_chapters(self) -> None:
-        """Write the film again, without encoding, with the chapters that were reached."""
+        """Copy the encoded film to a file with only the chapters up to its end."""
         end = self._n_frames / self._rate
         chapters = [replace(c, end=min(c.end, end)) for c in self._chapters if c.start < end]
         metadata = self._draft.with_name("reached")
@@ -255,6 +255,7 @@ class WebpEncoder:
 
 
 def _metadata(chapters: Sequence[Chapter]) -> str:
+    """Return a metadata file of ffmpeg with the chapters."""
     lines = [";FFMETADATA1"]
     for chapter in chapters:
         lines += ["[CHAPTER]", "TIMEBASE=1/1000", f"START={round(1000 * chapter.start)}"]

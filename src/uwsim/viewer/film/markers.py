@@ -14,25 +14,25 @@ from . import overlay
 from .overlay import Pixels
 
 NEAR_DISTANCE = 0.02
-"""The distance from the camera at which lines are cut [m]."""
+"""The depth in front of the camera at which lines are cut off [m]."""
 MAX_PIXEL = 20_000.0
-"""The greatest absolute image coordinate; larger ones are clipped [px]."""
+"""The absolute value to which image coordinates are clipped [px]."""
 
 
 def draw_markers(
     frame: Pixels,
     markers: Mapping[str, DrawnMarker],
     world_from_camera: Pose,
-    lens: Intrinsics,
+    intrinsics: Intrinsics,
     letter_height: int,
 ) -> Pixels:
-    """Return an image with its markers: their lines, or the names of those that have none.
+    """Return an image with markers: their lines, or a dot and the name of a marker without lines.
 
     Args:
         frame: the image, (h, w, 3).
         markers: the markers by their names.
         world_from_camera: the pose of the camera; OpenGL axes.
-        lens: the intrinsics of the camera.
+        intrinsics: the intrinsics of the camera.
         letter_height: the height of the letters [px].
     """
     if not markers:
@@ -46,10 +46,10 @@ def draw_markers(
         camera_from_marker = world_from_camera.inverse() @ world_from_marker
         for line in marker.lines:
             for begin, end in clip_line(camera_from_marker.transform(np.array(line))):
-                ends = np.clip(lens.project(np.stack([begin, end])), -MAX_PIXEL, MAX_PIXEL)
+                ends = np.clip(intrinsics.project(np.stack([begin, end])), -MAX_PIXEL, MAX_PIXEL)
                 pen.line([tuple(point) for point in ends.tolist()], fill=marker.colour, width=2)
         if not marker.lines and camera_from_marker.position[2] < -NEAR_DISTANCE:
-            pixel = lens.project(camera_from_marker.position[None])[0]
+            pixel = intrinsics.project(camera_from_marker.position[None])[0]
             labels.append((name, pixel, marker.colour))
     for name, pixel, colour in labels:
         u, v = (float(value) for value in np.clip(pixel, -MAX_PIXEL, MAX_PIXEL))
@@ -61,7 +61,7 @@ def draw_markers(
 
 
 def clip_line(points: Array) -> list[tuple[Array, Array]]:
-    """Return the segments of a line ahead of the camera, cut at `NEAR_DISTANCE`.
+    """Return the segments of a line in front of the camera, cut off at `NEAR_DISTANCE`.
 
     Args:
         points: the points of the line in the camera's frame (OpenGL axes), (n, 3) [m].
@@ -71,7 +71,7 @@ def clip_line(points: Array) -> list[tuple[Array, Array]]:
         depths = -begin[2] - NEAR_DISTANCE, -end[2] - NEAR_DISTANCE
         if max(depths) <= 0.0:
             continue
-        share = depths[0] / (depths[0] - depths[1]) if min(depths) < 0.0 else 0.0
-        cut = begin + share * (end - begin)
+        fraction = depths[0] / (depths[0] - depths[1]) if min(depths) < 0.0 else 0.0
+        cut = begin + fraction * (end - begin)
         parts.append((cut if depths[0] < 0.0 else begin, cut if depths[1] < 0.0 else end))
     return parts

@@ -18,7 +18,7 @@ INK = (240, 244, 248)
 GREY = (170, 182, 194)
 """The colour of less important text."""
 PANEL = (12, 20, 30)
-"""The colour of the background of text and curves."""
+"""The colour of the background behind text and curves."""
 
 TRUTH = (70, 220, 120)
 """The colour of the true quadrangle in a camera's image."""
@@ -32,7 +32,7 @@ COLOURS = (
     *((90, 190, 255), (255, 180, 80), (150, 230, 120), (240, 130, 200)),
     *((190, 160, 255), (255, 235, 120)),
 )
-"""The colours of curves, in their order."""
+"""The colours of the first, second, ... curve."""
 
 
 @functools.cache
@@ -61,7 +61,9 @@ def write_text(
     *,
     right: bool = False,
 ) -> int:
-    """Write a line of text into a frame, which cuts it off at its edge; return its width [px].
+    """Write a line of text into a frame; return the width of the text [px].
+
+    Text beyond the right or lower edge of the frame is cut off.
 
     Args:
         frame: the image, (h, w, 3).

@@ -18,15 +18,15 @@ from .trial_scene import TrialScene, frame_at
 ViewKind = Literal["orbit", "chase", "fixed", "camera"]
 VIEWS: tuple[ViewKind, ...] = get_args(ViewKind)
 ORBIT_ANGLE = math.radians(25.0)
-"""The greatest angle of the orbit from its middle, to each side [rad]."""
+"""The amplitude of the azimuth in the orbit [rad]."""
 ORBIT_PERIOD = 40.0
-"""The period of the orbit, there and back [s of the film]."""
+"""The period of the azimuth in the orbit [s of simulation time]."""
 SMOOTHING_TIME = 1.5
 """The standard deviation of the Gaussian that smooths the path of the camera [s]."""
 CHASE_DISTANCE = 3.0
-"""The distance of the chase camera behind the vehicle, as a multiple of the subject's radius."""
+"""The distance of the chase camera behind the vehicle, as a multiple of its radius."""
 CHASE_HEIGHT = 1.1
-"""The height of the chase camera above the vehicle, as a multiple of the subject's radius."""
+"""The height of the chase camera above the vehicle, as a multiple of its radius."""
 
 
 def view_kind(text: str) -> ViewKind:
@@ -40,7 +40,10 @@ def view_kind(text: str) -> ViewKind:
 
 @dataclass(frozen=True, eq=False)
 class VehiclePath:
-    """The smoothed path of the first vehicle in W; without a vehicle, the centre of the view."""
+    """The smoothed path of the first vehicle in W.
+
+    In a scene without a vehicle, the position is the centre of the view.
+    """
 
     positions: Array
     """The position in each frame of the track, (n, 3) [m]."""
@@ -49,7 +52,7 @@ class VehiclePath:
 
 
 class CameraPath:
-    """The pose of the outside camera over time.
+    """The pose of the camera of an external view over time.
 
     Args:
         scene: the scene in its state at the first image of the film.

@@ -25,18 +25,19 @@ from .film import FilmSpec, TrialSequenceFilm, chapters_of, n_frames_of
 MAX_PROCESSES = 16
 """The greatest number of processes that draw one film; more would wait for the encoder."""
 MIN_IMAGES = 60
-"""The least number of images for which one more process is started."""
+"""The least number of images for each process."""
 BLOCK_SIZE = 6
-"""The number of consecutive images that one process draws; they share images of the inset."""
+"""The number of consecutive images that one process draws, so that it reuses images of the
+inset."""
 QUEUE_SIZE = BLOCK_SIZE + 2
 """The greatest number of images that wait in a process until they are sent.
 
-With fewer than a block, a process would pause until all blocks before are encoded.
+If it were smaller than a block, a process would wait until all earlier blocks are encoded.
 """
 ERROR_PREFIX = b"uwsim: failed\0"
 """The prefix of a message with an error instead of an image."""
 EXIT_TIMEOUT = 10.0
-"""The greatest time to wait for the exit status of a process that has ended [s]."""
+"""The longest wait for the exit status of a process that has ended [s]."""
 
 
 def count_processes(n_frames: int) -> int:
@@ -61,7 +62,7 @@ class DrawingProcesses:
         """The settings of the film."""
         self._n = n
         self._pipes: list[Connection] = []
-        self._parent_ends: list[Connection] = []  # each child ends when its pipe's end is closed
+        self._parent_ends: list[Connection] = []  # a child ends when its pipe is closed
         self._processes: list[SpawnProcess] = []
 
     def _start(self, to_bytes: ImageConversion) -> None:

@@ -17,12 +17,12 @@ from ..recorded import RecordedTrial
 
 
 class TrialScene:
-    """The scene of a trial, opened, and its recorded motion.
+    """The open scene of a trial, and the trial's recorded motion.
 
     Args:
         trial: the trial.
-        simulation: the simulation of the trial's scene, if it is open; the caller closes it. None:
-            `TrialScene` opens and closes one.
+        simulation: an open simulation of the trial's scene, which the caller closes; None: this
+            object opens one, and `close` closes it.
     """
 
     def __init__(self, trial: RecordedTrial, simulation: Simulation | None = None) -> None:

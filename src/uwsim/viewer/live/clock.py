@@ -1,4 +1,4 @@
-"""The pace of a live view by the wall clock: real-time factor, pause and single steps."""
+"""The pacing of a live view by the wall clock: real-time factor, pause and single steps."""
 
 from __future__ import annotations
 
@@ -9,15 +9,15 @@ from collections.abc import Callable, Mapping
 from ...base.external_values import read_number
 
 MAX_REAL_TIME_FACTOR = 100.0
-"""The greatest real-time factor; a request above it removes the limit [1]."""
+"""The greatest limit on the real-time factor; a request above it removes the limit [1]."""
 MAX_SLEEP = 0.01
-"""The greatest time between two checks of the viewers' messages [s]."""
+"""The longest time between two checks for messages of viewers [s of wall time]."""
 MAX_LAG = 0.25
-"""The greatest lag behind the pace that the simulation makes up [s of the wall clock]."""
+"""The longest lag that the simulation catches up [s of wall time]."""
 
 
 class Clock:
-    """The pace of a simulation.
+    """The pacing of a simulation: when it has to wait before its next step.
 
     Args:
         real_time_factor: the simulation time per wall time [1]; 0: no limit.
@@ -34,13 +34,14 @@ class Clock:
         self.real_time_factor = real_time_factor
         """The simulation time per wall time [1]; 0: no limit."""
         self.is_paused = False
-        """The state of the simulation: True while it is paused."""
+        """True while the simulation is paused."""
         self._wall, self._sleep = wall, sleep
-        self._start = 0.0, 0.0  # simulation time (NaN: at the next check) and wall time [s]
-        self._n_single_steps = 0  # to be made during the pause
+        # the simulation and wall time at which the lead is 0 [s]; NaN: set at the next check
+        self._start = 0.0, 0.0
+        self._n_single_steps = 0  # the number of requested steps while paused
 
     def begin(self, now: float) -> None:
-        """Begin at a simulation time [s] and the present wall time."""
+        """Start the pacing at a simulation time [s] and the present wall time."""
         self._start = now, self._wall()
 
     def apply_control(self, message: Mapping[str, object]) -> bool:
@@ -72,11 +73,11 @@ class Clock:
         self._sleep(min(MAX_SLEEP, max(lead, 0.0005)))
 
     def count_step(self) -> None:
-        """Count a step that the simulation makes next."""
+        """Count the step that the simulation executes next."""
         self._n_single_steps = max(0, self._n_single_steps - 1)
 
     def _lead(self, now: float) -> float:
-        """Return the lead of the simulation over its pace [s of the wall clock]."""
+        """Return the time by which the simulation is ahead of its pacing [s of wall time]."""
         start, wall = self._start
         if math.isnan(start):
             self._start = start, wall = now, self._wall()

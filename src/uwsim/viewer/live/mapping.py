@@ -7,7 +7,7 @@ The axes are `uwsim.algorithms.pilot.AXES`. A user's mapping file replaces parts
     dead_zone = 0.08
     axes = ["yaw", "-heave", "sway", "-surge"]      # for the gamepad's axes 0 to 3
     buttons = ["", "", "", "", "", "", "-jaw", "+jaw"]
-    sticks = ["yaw", "heave", "sway", "surge"]      # on the screen: left x, y, right x, y
+    sticks = ["yaw", "heave", "sway", "surge"]      # on-screen sticks: left x, y, right x, y
 
     [keys]
     w = "+surge"
@@ -50,7 +50,7 @@ class PilotMapping:
     buttons: tuple[str, ...] = ("", "", "", "", "", "", "-jaw", "+jaw")
     """The targets of the gamepad's buttons, in the gamepad's order."""
     sticks: tuple[str, ...] = ("yaw", "heave", "sway", "surge")
-    """The targets of the sticks on the screen: left x, left y, right x, right y."""
+    """The targets of the on-screen sticks: left x, left y, right x, right y."""
     dead_zone: float = 0.08
     """The absolute value up to which an input of gamepad or sticks counts as 0 [1]."""
 
@@ -75,7 +75,7 @@ class PilotMapping:
 
 
 def read_mapping(path: Path) -> PilotMapping:
-    """Read a mapping file; settings that it lacks have their default.
+    """Read a mapping file; a setting that is missing in the file has its default.
 
     Raises:
         BadSetting: the file cannot be read, or names an axis that does not exist.

@@ -9,7 +9,7 @@ from ...algorithms.pilot import N_JOINTS, THRUSTER_AXES, TWIST_AXES
 from ...simulation.live_scene import LiveScene
 from .mapping import PilotMapping
 
-STEERING = ("twist_topic", "odom_topic", "thrusters_topic")
+STEERING_TOPICS = ("twist_topic", "odom_topic", "thrusters_topic")
 """The parameters of `uwsim.algorithms.pilot.Pilot` with the topics that steer a vehicle."""
 
 
@@ -18,11 +18,11 @@ class PilotTargets:
     """The vehicle and the axes that pilots can move."""
 
     vehicle: int
-    """The index of the vehicle in the scene; 0 if none is steered."""
+    """The index of the vehicle in the scene; 0 if no vehicle can be steered."""
     axes: frozenset[str]
     """The axes of `uwsim.algorithms.pilot.AXES` that have an effect."""
     reason: str
-    """The reason why no vehicle can be steered; empty if one can be."""
+    """The reason why no vehicle can be steered; empty if a vehicle can be steered."""
     names: Mapping[str, str]
     """The names of joints and thrusters in the vehicle's files, by the pilot's axis."""
 
@@ -39,14 +39,14 @@ class PilotTargets:
 
 
 def find_pilot_targets(world: LiveScene, parameters: Mapping[str, float | str]) -> PilotTargets:
-    """Return what a pilot can move in a scene.
+    """Find the vehicle and the axes that a pilot can move in a scene.
 
     Args:
         world: the scene.
         parameters: the parameters of the pilot (`uwsim.algorithms.pilot.Pilot`).
     """
     settings = {name: str(value) for name, value in parameters.items()}
-    topics = {settings[name] for name in STEERING if settings.get(name)}
+    topics = {settings[name] for name in STEERING_TOPICS if settings.get(name)}
     axes: set[str] = set()
     names: dict[str, str] = {}
     if settings.get("twist_topic") or settings.get("odom_topic"):

@@ -1,4 +1,4 @@
-"""Readings of a vehicle for the page: joints, forces, battery; and the real-time factor."""
+"""The readings of a live view: a vehicle's joints, forces and battery; the real-time factor."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ from ...errors import UnknownName
 from ...messages import BatteryState, WrenchStamped
 from ...simulation import Simulation
 
-WINDOW = 2.0
+AVERAGING_TIME = 2.0
 """The wall time over which the real-time factor is computed [s]."""
 Reading = tuple[str, str, float | None]
 """A reading: its name, unit, and value; None: there is no value."""
 
 
 class Readings:
-    """The readings of a vehicle; to read them changes nothing in the simulation.
+    """The readings of a vehicle; reading them does not change the simulation.
 
     Args:
         simulation: the simulation.
@@ -39,7 +39,7 @@ class Readings:
         self._has_dynamics = world.engine.has_dynamics(self._vehicle.index)
         for element, part in world.model.scene.vehicles[vehicle].all_parts():
             if isinstance(part, ForceSensorSpec | BatterySpec):
-                with suppress(UnknownName):  # a sensor on a link that does not exist is left out
+                with suppress(UnknownName):  # the link of the sensor does not exist
                     self._sensors.append((part.name, world.sensors.sensor(part.name, (element,))))
         self._are_revolute = tuple(
             j.kind != "prismatic" for j in world.model.robots[vehicle].movable_joints
@@ -71,13 +71,13 @@ class Readings:
                 yield f"battery/{name}", "%", 100.0 * message.percentage
 
     def _real_time_factor(self, wall: float, *, is_paused: bool) -> float | None:
-        """Return simulation time per wall time in the last `WINDOW` [1]; None while paused."""
+        """Return simulation time per wall time in `AVERAGING_TIME` [1]; None while paused."""
         history, now = self._history, self._simulation.time
         if is_paused:
             history.clear()
             return None
         history.append((wall, now))
-        while len(history) > 2 and history[1][0] <= wall - WINDOW:
+        while len(history) > 2 and history[1][0] <= wall - AVERAGING_TIME:
             history.popleft()
         start_wall, start = history[0]
         return (now - start) / (wall - start_wall) if wall - start_wall > 0.25 else None

@@ -33,10 +33,11 @@ HOST = "127.0.0.1"
 MAX_MESSAGE = 4096
 """The greatest size of a viewer's message [byte]."""
 MAX_MESSAGES = 120
-"""The greatest number of messages of a viewer in a second."""
-SHARE, BURST = 0.05, 0.1
-"""The greatest share of the wall time in which messages of a viewer are read [1], and the greatest
-time at once after a pause [s]."""
+"""The greatest number of messages that a viewer may send in a second."""
+READING_FRACTION = 0.05
+"""The greatest fraction of the wall time for reading the messages of one viewer [1]."""
+READING_BURST = 0.1
+"""The longest time for reading the messages of one viewer without a pause [s]."""
 MAX_VIEWERS = 16
 MAX_REQUESTED = 16
 """The greatest number of cameras, and also of topics, that a viewer receives."""
@@ -45,11 +46,12 @@ MAX_WAITING = 256
 WRITE_BUFFER = 64 * 1024
 """The size of the write buffer of a viewer [byte]."""
 CLOSE_TIMEOUT = 1.0
-"""The greatest time to wait for a viewer's answer when it is disconnected [s]."""
+"""The longest wait for a viewer's answer to the closing handshake [s]."""
 START_TIMEOUT = 60.0
-"""The greatest time to wait until the port is open [s]."""
+"""The longest wait until the port is open [s]."""
 
 Message = dict[str, Any]
+"""A message of a viewer, in a format of `uwsim.viewer.head`; ``type`` is ``left`` after its end."""
 
 
 @dataclass(eq=False)
@@ -65,7 +67,7 @@ class Viewer:
     sent_versions: dict[str, int] = field(default_factory=dict)
     """The version that was sent last, by channel."""
     channels: frozenset[str] = frozenset()
-    """The optional channels that the viewer requests."""
+    """The optional channels that the viewer has requested."""
 
 
 class LiveServer:
@@ -89,7 +91,7 @@ class LiveServer:
         self._version = 0
         self._viewers: dict[int, Viewer] = {}
         self._n_viewers = 0
-        self._limits = ConnectionLimits(SHARE, BURST)
+        self._limits = ConnectionLimits(READING_FRACTION, READING_BURST)
         self._messages: deque[tuple[int, Message]] = deque(maxlen=MAX_WAITING)
         self._loop = asyncio.new_event_loop()
         self._stop = asyncio.Event()
@@ -102,7 +104,7 @@ class LiveServer:
         self._start_event.wait(START_TIMEOUT)
         if self._failure is not None:
             self._thread.join(START_TIMEOUT)
-            reason = os.strerror(self._failure.errno or 0)  # asyncio's own text repeats the address
+            reason = os.strerror(self._failure.errno or 0)  # asyncio's text repeats the address
             raise BadSetting(f"--port {port}: cannot be opened: {reason}.")
 
     @property
@@ -135,7 +137,7 @@ class LiveServer:
         with self._lock:
             self._channels = {n: c for n, c in self._channels.items() if not channels(n)}
 
-    def take_messages(self) -> list[tuple[int, Message]]:
+    def pop_messages(self) -> list[tuple[int, Message]]:
         """Remove and return the messages of viewers, oldest first, with the viewers' numbers."""
         with self._lock:
             messages = list(self._messages)
@@ -197,21 +199,26 @@ class LiveServer:
         """Return the response to a request for the page; None accepts a WebSocket."""
         try:
             return self._check_request(request)
-        except (ValueError, LookupError):  # an invalid address, two headers of one name
+        except (ValueError, LookupError):  # an invalid address, or a repeated header
             return _text_response(HTTPStatus.BAD_REQUEST, "The request is invalid.")
 
     def _check_request(self, request: Request) -> Response | None:
         address = urlsplit(request.path)
         token = parse_qs(address.query).get("token", [""])[0]
         if not hmac.compare_digest(token.encode(), self._token.encode()):
-            return _text_response(HTTPStatus.FORBIDDEN, "The address lacks the printed token.")
+            return _text_response(
+                HTTPStatus.FORBIDDEN,
+                "The token is missing or wrong. Open the address that uwsim has printed.",
+            )
         if address.path == "/":
             return _text_response(HTTPStatus.OK, self._page(), kind="text/html")
         if address.path != "/socket":
-            return _text_response(HTTPStatus.NOT_FOUND, "There is nothing here.")
+            return _text_response(HTTPStatus.NOT_FOUND, "There is no such page.")
         origin = request.headers.get("Origin")
         if origin is not None and origin not in self._origins():
-            return _text_response(HTTPStatus.FORBIDDEN, "The page has another origin.")
+            return _text_response(
+                HTTPStatus.FORBIDDEN, "The request comes from a page of another origin."
+            )
         if len(self._viewers) >= MAX_VIEWERS:
             return _text_response(HTTPStatus.SERVICE_UNAVAILABLE, "There are too many viewers.")
         return None

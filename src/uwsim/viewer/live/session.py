@@ -1,4 +1,4 @@
-"""A live session: the views of consecutive simulations, their pace, and their pilots.
+"""A live session: the views of consecutive simulations, their pacing, and their pilots.
 
 Viewers change a simulation only by a pilot's inputs and by resets. The inputs are published on the
 bus, like the commands of any program.
@@ -25,7 +25,7 @@ from .view import LiveView
 from .viewer_requests import Changes, ViewerRequests
 
 REPORT_DELAY = 1.0
-"""The time without a viewer after which the terminal reports that a simulation waits [s]."""
+"""The time without a viewer after which the terminal shows that the simulation waits [s]."""
 
 
 class LiveSession:
@@ -38,7 +38,7 @@ class LiveSession:
         waits_for_page: True if a simulation begins only when there is a viewer.
         allows_reset: True if viewers may reset vehicles and objects; not in a scored run.
         wall: the function that returns the wall time [s].
-        report: the function that reports a wait for a page on the terminal.
+        report: the function that prints a line on the terminal; None: nothing is printed.
     """
 
     def __init__(
@@ -57,7 +57,9 @@ class LiveSession:
         self._requests = ViewerRequests(server, self._clock, mapping)
         self._mapping = mapping
         self._waits_for_page, self._allows_reset = waits_for_page, allows_reset
-        self._pilot_fields: dict[str, Any] = {  # the pilot's part of the message "state"
+        self._pilot_fields: dict[
+            str, Any
+        ] = {  # the fields of the message "state" that concern the pilot
             **{"vehicle": 0, "why": "", "names": {}},
             "sticks": ["", "", "", ""] if mapping is None else list(mapping.sticks),
             "mapping": {} if mapping is None else dict(mapping.keys),
@@ -101,7 +103,7 @@ class LiveSession:
     def _update_pilot_fields(
         self, simulation: Simulation, parameters: Mapping[str, float | str] | None
     ) -> None:
-        """Update the pilot's fields of the message "state"; warn if no vehicle can be steered."""
+        """Update the fields that concern the pilot; warn if no vehicle can be steered."""
         mapping = self._mapping
         if mapping is None or parameters is None:
             return
@@ -117,12 +119,12 @@ class LiveSession:
         }
 
     def _wait_for_page(self) -> None:
-        """Wait until there is a viewer; a page that reloads returns before the report."""
+        """Wait until there is a viewer; a reloaded page returns before the report."""
         report_time = self._wall() + REPORT_DELAY
         while not self._server.n_viewers:
             time.sleep(MAX_SLEEP)
             if self._report is not None and self._wall() >= report_time:
-                self._report(f"waits for a page: open {self._server.url}")
+                self._report(f"waiting for a page: open {self._server.url}")
                 report_time = math.inf
 
     def begin_level(self, level: Level, measures: Sequence[TriggeredMeasure]) -> None:
@@ -150,7 +152,7 @@ class LiveSession:
         self._server.publish("end", json.dumps({"type": "end", "why": reason}))
 
     def _on_step(self, simulation: Simulation, view: LiveView) -> None:
-        """Publish what is due, and wait while the view is paused or ahead of its pace."""
+        """Publish what is due; wait while the simulation is paused or ahead of its pacing."""
         if self.view is not view:
             return
         self._handle_requests(view)
@@ -161,7 +163,7 @@ class LiveSession:
 
     def _handle_requests(self, view: LiveView) -> None:
         changes = self._requests.receive()
-        if Changes.PACE in changes:
+        if Changes.PACING in changes:
             self._publish_state()
         if Changes.RESET in changes and self._allows_reset:
             view.reset()

@@ -29,6 +29,7 @@ MAX_CHARACTERS = 200
 CHANNEL = "?topic/"
 """The prefix of the channel of a topic."""
 Value = float | str | None
+"""The value of a field: a number, a text, or None for a number that is not finite."""
 
 
 class TopicMonitor:
@@ -44,8 +45,8 @@ class TopicMonitor:
         self._bus, self._time, self._wall = bus, time, wall
         self._unsubscribe: dict[str, Callable[[], None]] = {}  # by topic
         self._due: dict[str, float] = {}  # wall time of the next message, by topic [s]
-        self._new_messages: dict[str, str] = {}
-        self._last_list: dict[str, str] = {}
+        self._new_messages: dict[str, str] = {}  # JSON by topic
+        self._last_list: dict[str, str] = {}  # types by topic, as sent last
 
     def changed_list(self) -> str | None:
         """Return the list of all topics as a message, if it has changed."""
@@ -94,8 +95,9 @@ class TopicMonitor:
 def fields_of(message: object, path: str = "") -> Iterator[tuple[str, Value]]:
     """Yield the numbers and texts in a message, with their paths as ``pose.position.x``.
 
-    Of an array, the first `MAX_ENTRIES` entries are yielded, and if it has more, its length as
-    ``NAME.length``. Numbers that are not finite are None. Headers and covariances are left out.
+    The first `MAX_ENTRIES` entries of an array are yielded; if the array has more, its length
+    follows as ``NAME.length``. Numbers that are not finite are None. Headers and covariances are
+    left out.
     """
     if dataclasses.is_dataclass(message):
         for field in dataclasses.fields(message):

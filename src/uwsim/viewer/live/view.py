@@ -38,7 +38,7 @@ from .viewer_requests import MAX_SIDE, ViewerRequests
 RATE = 30.0
 """The rate of rows of poses and signals, in wall time [Hz]."""
 INPUT_DELAY = 0.01
-"""The wall time from a change of a pilot's input to a row that shows its effect [s]."""
+"""The wall time from a change of a pilot's input to the next row [s]."""
 RESET_FIELDS = ("engine", "scenery", "devices", "vehicles")
 """The fields of the state that a reset restores."""
 IMAGE_RATE = 10.0
@@ -85,11 +85,12 @@ class LiveView:
         self._requests = requests
         self._state = TrackedState(simulation.world)
         self._measures: Sequence[TriggeredMeasure] = ()
-        self._n_sent: dict[str, int] = {}
+        self._n_sent: dict[str, int] = {}  # number of samples that were sent, by measure
         self._levels: list[dict[str, Any]] = []
-        self._markers: dict[str, Marker] = {}  # sent last
-        self._sand_versions = [heap.version for heap in simulation.world.scenery.heaps]  # sent last
+        self._markers: dict[str, Marker] = {}  # the markers that were sent last
+        self._sand_versions = [heap.version for heap in simulation.world.scenery.heaps]
         self._n_batches = 0
+        # the wall time at which each kind of content is due [s]
         self._due = {"row": 0.0, "images": 0.0, "samples": 0.0, "readings": 0.0}
         self._early_row_time = math.inf  # the wall time of a row after an input [s]
         self._initial_state = copy_fields(simulation.state, RESET_FIELDS if allows_reset else ())
@@ -111,7 +112,7 @@ class LiveView:
         self._server.publish("levels", json.dumps({"type": "levels", "levels": self._levels}))
 
     def end_level(self, row: LevelRow) -> None:
-        """Publish that a level is over."""
+        """Publish that a level has ended."""
         self._send_samples()
         self._measures = ()
         reason = row.missing_reasons.get("total", "")
@@ -119,13 +120,13 @@ class LiveView:
         self._server.publish("levels", json.dumps({"type": "levels", "levels": self._levels}))
 
     def reset(self) -> None:
-        """Restore the initial state of vehicles, joints and objects, at rest; time goes on."""
+        """Restore the initial state of vehicles, joints and objects, but not the time."""
         assign_fields(self._simulation.state, self._initial_state)
         self._simulation.world.scenery.redraw()
         self.request_row(0.0)
 
     def request_row(self, delay: float = INPUT_DELAY) -> None:
-        """Send a row after ``delay`` [s of wall time], as an input has changed."""
+        """Send a row after ``delay`` [s of wall time], for example because an input has changed."""
         self._early_row_time = min(self._early_row_time, self._wall() + delay)
 
     def close(self) -> None:
@@ -133,7 +134,7 @@ class LiveView:
         self._topics.close()
 
     def publish_due(self, *, is_paused: bool = False) -> None:
-        """Publish what is due at this wall time."""
+        """Publish the contents that are due at this wall time."""
         now = self._wall()
         if now >= self._early_row_time:
             self._early_row_time, self._due["row"] = math.inf, now
@@ -149,12 +150,15 @@ class LiveView:
         if self._is_due("images", now, IMAGE_RATE):
             self._send_images()
             self._send_views()
-            # if rendering is slow, the simulation proceeds between two images
+            # so that the simulation proceeds between two images if rendering is slow
             earliest_time = self._wall() + 0.5 / IMAGE_RATE
             self._due["images"] = max(self._due["images"], earliest_time)
 
     def _is_due(self, content: str, now: float, rate: float) -> bool:
-        """Return whether a kind of content is due at a wall time; schedule the next at a rate."""
+        """Return whether a kind of content is due at a wall time [s]; then schedule the next one.
+
+        ``rate`` is the rate of this kind of content [Hz].
+        """
         if now < self._due[content]:
             return False
         self._due[content] = max(self._due[content] + 1.0 / rate, now)
@@ -211,7 +215,7 @@ class LiveView:
                 self._server.publish(f"sand/{number}", content)
 
     def _send_images(self) -> None:
-        """Send the requested camera images; render those of cameras without a subscriber."""
+        """Send the requested camera images; render the images of cameras without a subscriber."""
         channels = self._server.channels()
         world = self._simulation.world
         for index, name in enumerate(world.sensors.cameras):
@@ -220,12 +224,12 @@ class LiveView:
                 self._server.publish(channel, self._header(IMAGE, index) + encode_jpeg(image))
 
     def _image(self, camera: str, width: int = MAX_SIDE) -> npt.NDArray[np.uint8]:
-        """Return the image of a camera, at most ``width`` [px] wide."""
+        """Return the image of a camera with a width of at most ``width`` [px]."""
         world = self._simulation.world
         view = world.sensors.camera(camera)
-        lens = view.intrinsics
-        size = width, max(1, round(width * lens.height / lens.width))
-        is_smaller = width < lens.width
+        intrinsics = view.intrinsics
+        size = width, max(1, round(width * intrinsics.height / intrinsics.width))
+        is_smaller = width < intrinsics.width
         for images in self._simulation.world.images.values():
             if images.camera.name == camera and images.last_pixels is not None:
                 image = images.last_pixels
@@ -233,9 +237,9 @@ class LiveView:
                     image = cv2.resize(image, size, interpolation=cv2.INTER_AREA).astype(np.uint8)
                 return image
         if is_smaller:  # no more pixels than the page shows
-            lens = lens.with_size(*size)
+            intrinsics = intrinsics.with_size(*size)
         colour = world.scenery.render_clean(
-            view.world_from_camera, lens, targets={"colour"}, is_polished=view.is_polished
+            view.world_from_camera, intrinsics, targets={"colour"}, is_polished=view.is_polished
         ).colour
         assert colour is not None
         pixels = colour.view(np.uint8)

@@ -1,4 +1,4 @@
-"""The requests of viewers: inputs of pilots, views, images, the pace and resets."""
+"""The requests of viewers: inputs of pilots, views, images, pacing and resets."""
 
 from __future__ import annotations
 
@@ -11,15 +11,15 @@ from .mapping import PilotMapping, sum_inputs
 from .server import LiveServer, Message
 
 MAX_SIDE = 1280
-"""The greatest side of a view for a page without WebGL, and width of a camera image [px]."""
+"""The greatest width and height of an image of the view, and width of a camera image [px]."""
 
 
 class Changes(Flag):
     """The kinds of changes that messages of viewers cause."""
 
     NONE = 0
-    PACE = auto()
-    """A change of the pace."""
+    PACING = auto()
+    """A pause, a single step, or a change of the real-time factor."""
     RESET = auto()
     """A request to reset vehicles and objects."""
     INPUT = auto()
@@ -31,13 +31,13 @@ class ViewerRequests:
 
     Args:
         server: the server that receives the viewers' messages.
-        clock: the clock whose pace the viewers control.
+        clock: the pacing that the viewers control.
         mapping: the mapping of keys and sticks; None: viewers cannot pilot.
     """
 
     def __init__(self, server: LiveServer, clock: Clock, mapping: PilotMapping | None) -> None:
         self._server, self._clock, self._mapping = server, clock, mapping
-        self._views: dict[int, Message] = {}
+        self._views: dict[int, Message] = {}  # newest request for a view, by viewer
         self._widths: dict[int, int] = {}  # requested widths of images, by viewer [px]
         self._inputs: dict[int, tuple[float, ...]] = {}  # values of the pilot's axes, by viewer
 
@@ -59,7 +59,7 @@ class ViewerRequests:
     def receive(self) -> Changes:
         """Apply the messages of viewers since the last call; return what they changed."""
         changes = Changes.NONE
-        for viewer, message in self._server.take_messages():
+        for viewer, message in self._server.pop_messages():
             try:
                 changes |= self._handle(viewer, message)
             except Exception as error:  # no message of a viewer may end the run
@@ -69,7 +69,7 @@ class ViewerRequests:
     def _handle(self, viewer: int, message: Message) -> Changes:
         kind = message["type"]
         if kind == "control" and self._clock.apply_control(message):
-            return Changes.PACE
+            return Changes.PACING
         if kind == "control" and message.get("action") == "reset":
             return Changes.RESET
         if kind == "view":
