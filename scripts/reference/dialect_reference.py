@@ -62,8 +62,8 @@ def page() -> str:
     for parent, name, cls in _specs("", ROOT, SceneSpec):
         if cls not in described_specs:
             described_specs.add(cls)
-            limit = describe_limitation(parent, qualified_name(name))
-            parts.append(_section(name, cls, limit=limit, homes=_scene_homes()))
+            limitation = describe_limitation(parent, qualified_name(name))
+            parts.append(_section(name, cls, limitation=limitation, homes=_scene_homes()))
     return "\n".join([*parts, _plausibility_warnings(), _old_names()])
 
 
@@ -166,7 +166,7 @@ def _section(
     cls: type,
     *,
     title: str | None = None,
-    limit: str = "",
+    limitation: str = "",
     homes: Mapping[type, str] = MappingProxyType({}),
 ) -> str:
     """Return the section of an element: description, example and table of its content.
@@ -175,7 +175,7 @@ def _section(
         name: the name of the element.
         cls: the spec of the element.
         title: the title of a member of a family, whose module describes it alone.
-        limit: the limit of its simulation; empty: none.
+        limitation: the limitation of its simulation; empty: none.
         homes: links to sections of specs; others have sections on this page.
     """
     from uwsim.scene.unsupported import describe_limitation
@@ -183,8 +183,8 @@ def _section(
     doc = (inspect.getdoc(cls) or "").strip()
     module = sys.modules[cls.__module__].__doc__ or ""
     lines = [f"## `<{name}>`" if title is None else f"### `{title}`", "", _markdown(doc), ""]
-    if limit:
-        lines += [f"*{_markdown(limit)[0].upper()}{_markdown(limit)[1:]}.*", ""]
+    if limitation:
+        lines += [f"*{_markdown(limitation)[0].upper()}{_markdown(limitation)[1:]}.*", ""]
     block = re.search(r"\.\. code-block:: xml\n\n((?:    .*\n|\n)+)", module)
     first_line = rf"<{re.escape(name)}[ >/]|<(start|stop)On>.*<type>{name}<"
     if block and re.search(first_line, " ".join(block[1].split("\n")[: 1 if title is None else 2])):

@@ -26,13 +26,13 @@ difference with this number of repeats (`min_corrected_p`), so nothing was teste
 class PairedDifference:
     """The paired differences of two results, second minus first.
 
-    Only pairs in which both results have a value count.
+    A repeat that both results have is a paired repeat. Only those with a value in both count.
     """
 
     first: Interval
-    """The mean of the first result over these pairs, with its confidence interval."""
+    """The mean of the first result over these repeats, with its confidence interval."""
     second: Interval
-    """The mean of the second result over these pairs, with its confidence interval."""
+    """The mean of the second result over these repeats, with its confidence interval."""
     difference: Interval
     """The mean of the paired differences, with its confidence interval."""
     cohens_d: float | None
@@ -84,9 +84,9 @@ class Success:
     second: Rate
     """The success rate of the second result."""
     first_only: int
-    """The number of pairs in which only the first result ended ``ok``."""
+    """The number of paired repeats of which only the first result ended ``ok``."""
     second_only: int
-    """The number of pairs in which only the second result ended ``ok``."""
+    """The number of paired repeats of which only the second result ended ``ok``."""
     p: float | None
     """The p-value of McNemar's exact test; None for fewer than two repeats."""
     p_holm: float | None = None
@@ -105,17 +105,17 @@ class LevelStatistics:
     level: Level
     """The values of the swept parameters, outermost first."""
     seeds: tuple[int, ...]
-    """The seeds of the pairs."""
+    """The seeds of the paired repeats."""
     n_only_first: int
-    """The number of pairs in which only the first result has a value."""
+    """The number of paired repeats with a value in the first result alone."""
     n_only_second: int
-    """The number of pairs in which only the second result has a value."""
+    """The number of paired repeats with a value in the second result alone."""
     n_neither: int
-    """The number of pairs in which neither result has a value."""
+    """The number of paired repeats without a value in either result."""
     value: PairedDifference
-    """The differences of the compared column, over the pairs in which both results have a value."""
+    """The differences of the compared column, over the repeats with a value in both results."""
     success: Success | None
-    """The success rates over all pairs; None if a result has no status."""
+    """The success rates over all paired repeats; None if a result has no status."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -231,7 +231,7 @@ class Comparison:
 
 
 def family_size(family: Sequence[PairedDifference]) -> int:
-    """Return the number of tests in Holm's correction; if none is tested, of pairs with a value."""
+    """Return the number of tests in Holm's correction: the tested ones, else all with data."""
     n_tested = sum(d.is_tested for d in family)
     return n_tested or sum(d.difference.n > 0 for d in family) or 1
 
@@ -240,7 +240,7 @@ def min_family_repeats(family: Sequence[PairedDifference]) -> int:
     """Return the least number of repeats at which a test of this family can show a difference.
 
     With m tests of n repeats each, the smallest corrected p is m times :math:`2/2^n`. All tests
-    with a pair are counted, because with more repeats all of them will be tested.
+    with data are counted, because with more repeats all of them will be tested.
     """
     return min_pairs(ALPHA / max(1, sum(d.difference.n > 0 for d in family)))
 
@@ -249,6 +249,6 @@ def min_corrected_p(family: Sequence[PairedDifference]) -> tuple[float | None, .
     """Return the smallest possible p of each test after Holm's correction; None if not tested.
 
     A corrected p never falls when the p of another test rises. So a corrected p is smallest when
-    all tests have their smallest p (`min_p_value`), which depends on their numbers of pairs alone.
+    all tests have their smallest p (`min_p_value`), which depends on n alone.
     """
     return holm([min_p_value(d.difference.n) if d.is_tested else None for d in family])

@@ -224,7 +224,7 @@ def _cards(result: Result, ending_groups: Sequence[Ending]) -> list[Card]:
     cards = [Card(label="rows that ended ok", value=share, note="a row: one level of one repeat")]
     for ending in ending_groups:
         if ending.status != "ok" and ending.n:
-            note = ending.reasons[0][1] if ending.reasons else "no reason was given"
+            note = ending.reasons[0][1] if ending.reasons else "no reason was recorded"
             cards.append(Card(label=f"first {ending.status}", value=ending.first_levels, note=note))
     star = result.fact("f_star")
     if star is not None and is_fog_swept(result):

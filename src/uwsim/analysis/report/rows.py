@@ -106,7 +106,7 @@ def _printed_cell(cell: CellText) -> tuple[str, str]:
 def _cell(result: Result, row: int, column: Column, decimals: int | None) -> tuple[str, str]:
     value = result.rows[row][result.index(column.name)]
     if value is None:
-        reason = result.reason(row, column.name) or "no reason was given"
+        reason = result.reason(row, column.name) or "no reason was recorded"
         is_long = len(reason) > MAX_REASON_LENGTH
         return "–", f"{reason[: MAX_REASON_LENGTH - 1]}…" if is_long else reason
     if isinstance(value, str):

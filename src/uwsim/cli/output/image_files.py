@@ -42,13 +42,13 @@ def save_depth(out: Path, image: RenderedImage) -> list[Path]:
 def save_ids(out: Path, image: RenderedImage, names: dict[int, str]) -> list[Path]:
     """Write an image with the segmentation ID of the body in each pixel, and a table of names."""
     assert image.ids is not None
-    numbers, counts = np.unique(image.ids, return_counts=True)
+    ids, counts = np.unique(image.ids, return_counts=True)
     legend = sibling_path(out, "-ids.csv")
     with atomic_write(legend) as draft, draft.open("w", newline="", encoding="utf-8") as file:
         table = csv.writer(file, lineterminator="\n")
         table.writerow(["id", "name", "pixels"])
-        for number, count in zip(numbers.tolist(), counts.tolist(), strict=True):
-            table.writerow([number, names.get(number, ""), count])
+        for body, count in zip(ids.tolist(), counts.tolist(), strict=True):
+            table.writerow([body, names.get(body, ""), count])
     return [save_image(sibling_path(out, "-ids.png"), image.ids), legend]
 
 

@@ -14,7 +14,7 @@ It receives frames through one socket, answers each, and has no other access to 
 
 During a call the algorithm may request the functions of its node (`ask`), so the frames nest as
 function calls do. A message that the simulation is certain to accept needs no answer of its own: it
-is sent with the next frame of any kind (``published``: a list of frames, each with the number of a
+is sent with the next frame of any kind (``published``: a list of frames, each with the index of a
 publisher and a message). The request ``flush`` sends the published messages at once.
 """
 
@@ -66,7 +66,7 @@ class ChildNode:
         self._types = Bus()  # checks the classes of messages before they are encoded
         self._thread = threading.get_ident()
         self.callbacks: list[Callable[..., object]] = []
-        """The algorithm's callbacks, by the number with which the simulation calls them."""
+        """The algorithm's callbacks, by the index with which the simulation calls them."""
         self.violation: str | None = None
         """The rule that a thread of the algorithm has violated."""
         self.now = 0.0
@@ -84,13 +84,13 @@ class ChildNode:
 
     def publisher(self, topic: str, type: type[M]) -> Callable[[M], None]:
         """Return ``publish(message)`` for ``topic``."""
-        number, may_refuse = self._request("publisher", topic, _check_message_class(type))
+        publisher_index, may_refuse = self._request("publisher", topic, _check_message_class(type))
         check = self._types.publisher(topic, type)
 
         def publish(message: M) -> None:
             check(message)
             self._check_thread()
-            frame = encode([number, message])
+            frame = encode([publisher_index, message])
             self._frames.append(frame)
             self._n_bytes += len(frame)
             is_full = len(self._frames) >= MAX_PUBLISHED or self._n_bytes >= MAX_PUBLISHED_BYTES
@@ -191,9 +191,9 @@ class Child:
         self._node.now, self._node.parameters = now, TrackedParameters(parameters)
         self._algorithm.start(self._node)
 
-    def _call(self, number: int, now: float, *arguments: Any) -> object:
+    def _call(self, callback_index: int, now: float, *arguments: Any) -> object:
         self._node.now = now
-        return self._node.callbacks[number](*arguments)
+        return self._node.callbacks[callback_index](*arguments)
 
     def _parameters(self, defaults: dict[str, Any]) -> object:
         parameters: object = untracked_parameters(getattr(self._algorithm, "parameters", defaults))

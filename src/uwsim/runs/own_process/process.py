@@ -231,12 +231,12 @@ class ProcessAlgorithm:
     def _request(self, *frame: object) -> Any:
         return self._process.request(list(frame), self._execute)
 
-    def _remote_call(self, number: int) -> Callable[..., Any]:
-        """Return a function that calls callback ``number`` in the process."""
+    def _remote_call(self, callback_index: int) -> Callable[..., Any]:
+        """Return a function that calls the callback with this index in the process."""
         node = self._attached_node
 
         def call(*arguments: object) -> object:
-            return self._request("call", number, node.now, *arguments)
+            return self._request("call", callback_index, node.now, *arguments)
 
         return call
 
@@ -249,8 +249,8 @@ class ProcessAlgorithm:
     def _execute(self, command: list[Any]) -> object:
         node = self._attached_node
         match command:
-            case ["subscribe", str(topic), type() as cls, int(number)]:
-                node.subscribe(topic, cls, self._remote_call(number))
+            case ["subscribe", str(topic), type() as cls, int(callback_index)]:
+                node.subscribe(topic, cls, self._remote_call(callback_index))
             case ["publisher", str(topic), type() as cls]:
                 self._publishers.append(node.publisher(topic, cls))
                 return len(self._publishers) - 1, self._may_refuse(topic)
@@ -258,20 +258,20 @@ class ProcessAlgorithm:
                 self._publish_frame(decode(frame))
             case ["flush"]:
                 pass  # the messages that arrived with the request have been published already
-            case ["serve", str(name), type() as cls, int(number)]:
-                node.serve(name, cls, self._remote_call(number))
+            case ["serve", str(name), type() as cls, int(callback_index)]:
+                node.serve(name, cls, self._remote_call(callback_index))
             case ["call", str(name), request]:
                 return node.call(name, request)
-            case ["create_timer", period, int(number)]:
-                node.create_timer(period, self._remote_call(number))
+            case ["create_timer", period, int(callback_index)]:
+                node.create_timer(period, self._remote_call(callback_index))
             case _:
                 raise TypeError(f"{command[0] if command else ''}: wrong arguments")
         return None
 
     def _publish_frame(self, content: Any) -> None:
         match content:
-            case [int(number), message] if 0 <= number < len(self._publishers):
-                self._publishers[number](message)
+            case [int(publisher_index), message] if 0 <= publisher_index < len(self._publishers):
+                self._publishers[publisher_index](message)
             case _:
                 raise TypeError("publish: wrong arguments")
 
