@@ -59,7 +59,7 @@ class BenchOptions:
             "--algorithm",
             metavar="NAME|module:Class",
             help="Algorithm under test: a name of `uwsim list algorithms`, or your own "
-            "module:Class; without it that of the benchmark (u:algorithm). May be repeated: each "
+            "module:Class. The default is the benchmark's (u:algorithm). May be repeated: each "
             "result has a folder in --out.",
             autocompletion=algorithm_names,
         ),

@@ -110,7 +110,7 @@ class EnvelopeOptions:
             INPUT,
             "--algorithm",
             metavar="NAME|module:Class",
-            help="Algorithm under test; without it that of the benchmark.",
+            help="Algorithm under test. The default is the benchmark's (u:algorithm).",
             autocompletion=algorithm_names,
         ),
     ] = None

@@ -67,7 +67,7 @@ class ImageOptions:
             OUTPUT,
             "--size",
             metavar="WxH",
-            help="Size of the image [px], instead of that of the camera, or of resw and resh.",
+            help="Size of the image [px], instead of the camera's size, or of resw and resh.",
         ),
     ] = None
     depth: Annotated[

@@ -135,8 +135,8 @@ class Grips:
             self._poses.state.carriers[index] = hold.vehicle, hold.link, hold.link_from_object
         else:
             pose = hold.link_from_object
-            turn = quaternion_from_rotation(pose.rotation)
-            self._model.eq_data[weld, :10] = [0.0, 0.0, 0.0, *pose.position, *turn]
+            quaternion = quaternion_from_rotation(pose.rotation)
+            self._model.eq_data[weld, :10] = [0.0, 0.0, 0.0, *pose.position, *quaternion]
             self._data.eq_active[weld] = 1
         bit = vehicle_bit(hold.vehicle)
         self._set_bits(index, bit, ALL_BITS & ~bit)  # no contacts with the vehicle's shapes

@@ -47,7 +47,7 @@ SceneOption = Annotated[
         INPUT,
         "--scene",
         metavar="SCENE",
-        help="The scene; without it that of the benchmark (u:scene).",
+        help="The scene. The default is the benchmark's (u:scene).",
         autocompletion=scene_names,
     ),
 ]
@@ -117,8 +117,8 @@ ModeOption = Annotated[
         INPUT,
         "--mode",
         metavar="MODE",
-        help="sequential (a seed's levels in one simulation) or independent (each level alone); "
-        "without it that of the benchmark (u:mode).",
+        help="sequential (a seed's levels in one simulation) or independent (each level alone). "
+        "The default is the benchmark's (u:mode).",
         autocompletion=complete_names(("sequential", "independent")),
     ),
 ]

@@ -73,7 +73,7 @@ WebOriginOption = Annotated[
         CONNECTIONS,
         "--web-origin",
         metavar="ORIGIN",
-        help="Origin of pages that may connect, as https://example.org, besides those of this "
+        help="Origin of pages that may connect, such as https://example.org, besides pages of this "
         "computer; may be repeated.",
     ),
 ]

@@ -144,9 +144,9 @@ def _shapes_of_solid(
     link_from_solid = Pose.from_rpy(solid.position, solid.rpy)
     solid_from_mesh = np.diag([*scale, 1.0])
     if link_scale is not None:
-        turn = link_from_solid.rotation
-        solid_from_mesh[:3, :3] = product(turn.T, product(link_scale, turn)) * scale
-        link_from_solid = Pose(rotate(link_scale, link_from_solid.position), turn)
+        rotation = link_from_solid.rotation
+        solid_from_mesh[:3, :3] = product(rotation.T, product(link_scale, rotation)) * scale
+        link_from_solid = Pose(rotate(link_scale, link_from_solid.position), rotation)
     shapes = convex_shapes(model, solid_from_mesh) if is_finger else None
     if shapes is None:
         shapes = shapes_of(model, solid_from_mesh, "box", is_fixed=False)

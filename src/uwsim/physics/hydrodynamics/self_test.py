@@ -76,9 +76,9 @@ def _energy_is_conserved() -> bool:
     inertia = np.array([2.0, 2.0, 2.0, 1.0, 1.1, 1.2]) + added_mass
 
     def energy() -> float:
-        turn = np.empty(9)
-        mujoco.mju_quat2Mat(turn, data.qpos[3:])
-        velocity = np.concatenate([turn.reshape(3, 3).T @ data.qvel[:3], data.qvel[3:]])
+        rotation = np.empty(9)
+        mujoco.mju_quat2Mat(rotation, data.qpos[3:])
+        velocity = np.concatenate([rotation.reshape(3, 3).T @ data.qvel[:3], data.qvel[3:]])
         return float(0.5 * np.sum(inertia * velocity**2))
 
     start_energy = energy()

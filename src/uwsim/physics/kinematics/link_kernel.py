@@ -77,7 +77,7 @@ def write_frame(mount: Record, frame: Array) -> None:
         frame: receives the position in W [m] and the rotation ``world_from_part`` by rows, (12,).
     """
     origin, axes = view_doubles(mount.origin, 3), view_doubles(mount.axes, 9).reshape((3, 3))
-    shift, turn = compose(axes, origin, mount.rotation, mount.position)
+    position, rotation = compose(axes, origin, mount.rotation, mount.position)
     if mount.base_axes != 0:
         base = view_doubles(mount.base_axes, 9).reshape((3, 3))
         matrix = scaled_axes(base, axes, mount.scale)
@@ -85,11 +85,11 @@ def write_frame(mount: Record, frame: Array) -> None:
             offset = 0.0
             for k in range(3):
                 offset += matrix[i, k] * mount.position[k]
-            shift[i] = origin[i] + offset
+            position[i] = origin[i] + offset
     for i in range(3):
-        frame[i] = shift[i]
+        frame[i] = position[i]
         for k in range(3):
-            frame[3 + 3 * i + k] = turn[i, k]
+            frame[3 + 3 * i + k] = rotation[i, k]
 
 
 @njit

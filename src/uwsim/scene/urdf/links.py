@@ -27,10 +27,10 @@ def read_link(
 ) -> LinkSpec:
     """Read a link."""
     inertial = node.find("inertial")
-    mass, centre, turn = 0.0, ZERO, ZERO
+    mass, centre, rpy = 0.0, ZERO, ZERO
     inertia = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
     if inertial is not None:
-        centre, turn = origin_of(inertial, diagnostics)
+        centre, rpy = origin_of(inertial, diagnostics)
         if (mass_node := inertial.find("mass")) is not None:
             mass = size_of(mass_node, "value", diagnostics, 0.0)
         if (inertia_node := inertial.find("inertia")) is not None:
@@ -46,7 +46,7 @@ def read_link(
         collisions=_shapes(node.findall("collision"), materials, diagnostics),
         mass=mass,
         centre_of_mass=centre,
-        inertia_rpy=turn,
+        inertia_rpy=rpy,
         inertia=inertia,
     )
 

@@ -35,7 +35,7 @@ DRIFT = np.dtype(
 def drift_function(
     flow: FlowFunction, world_from_localized: Pose, vehicles: npt.NDArray[np.int64], timestep: float
 ) -> DriftFunction:
-    """Return the function that lets vehicles drift in a flow.
+    """Return the function that moves kinematic vehicles with a flow.
 
     Args:
         flow: the compiled function of the flow, in L.

@@ -72,7 +72,7 @@ def flow_function(
     Args:
         flow: the compiled function of the flow, in L.
         localized_from_world: the pose of W in L.
-        vehicles: the number in ``flow`` of the vehicle of each body, (n,).
+        vehicles: the index in ``flow`` of the vehicle of each body, (n,).
         is_uniform: True if the flow is the same everywhere.
         is_steady: True if the flow is uniform and the same at all times.
     """

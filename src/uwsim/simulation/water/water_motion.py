@@ -185,7 +185,7 @@ class WaterMotion:
     def drift_function(
         self, vehicles: Sequence[str], timestep: float, end: float
     ) -> DriftFunction | None:
-        """Return the function that lets vehicles drift in compiled steps, as `drifted_pose`.
+        """Return the function that moves vehicles with the water in steps, as `drifted_pose` does.
 
         The result is None if Python has to compute the flow.
 
@@ -196,11 +196,11 @@ class WaterMotion:
         """
         flow, (for_flow, for_vehicles, compiled_flow, function) = self._flow, self._drift_cache
         if flow is not for_flow or vehicles != for_vehicles:
-            numbers, names = _number_names(vehicles)
+            indices, names = _index_names(vehicles)
             compiled_flow, function = flow_function_of(flow, names), None
             if compiled_flow is not None:
                 function = drift_function(
-                    compiled_flow, self._world_from_localized, numbers, timestep
+                    compiled_flow, self._world_from_localized, indices, timestep
                 )
             if self.waves is not None and (function is not None or flow.is_still):
                 function = add_waves_to_drift(function, self.waves, len(vehicles), timestep)
@@ -215,13 +215,13 @@ class WaterMotion:
         """Return the compiled functions of the present flow; None where Python computes it."""
         flow, (for_flow, for_vehicles, compiled_flow, function) = self._flow, self._water_cache
         if flow is not for_flow or vehicles != for_vehicles:
-            numbers, names = _number_names(vehicles)
+            indices, names = _index_names(vehicles)
             compiled_flow, function = flow_function_of(flow, names), None
             if compiled_flow is not None:
                 function = flow_function(
                     compiled_flow,
                     self._localized_from_world,
-                    numbers,
+                    indices,
                     is_uniform=flow.is_uniform,
                     is_steady=flow.is_uniform and is_steady(flow),
                 )
@@ -230,12 +230,12 @@ class WaterMotion:
 
     def _uniform_rows(self, times: Sequence[float], vehicles: Sequence[str]) -> Array:
         """Return the rows for `row_function` of uniform water, computed once for each vehicle."""
-        numbers, names = _number_names(vehicles)
+        indices, names = _index_names(vehicles)
         flow, points = self._flow, np.zeros((len(names), 3))
         motions = np.empty((len(times), 2, len(names), 3))
         for row, time in zip(motions, times, strict=True):
             row[0], row[1] = flow.motion(points, time, names)
-        return _spread_rows(motions, numbers, self._localized_from_world.rotation)
+        return _expand_rows(motions, indices, self._localized_from_world.rotation)
 
     def motion_at(self, points: Array, time: float, vehicles: Sequence[str]) -> WaterRow:
         r"""Return the motion of the water at points in currents alone, in W.
@@ -255,15 +255,19 @@ class WaterMotion:
             uniform water.
         """
         local_points = self._localized_from_world.transform(points)
-        turn = self._localized_from_world.rotation
+        rotation = self._localized_from_world.rotation
         velocity, acceleration = self._flow.motion(local_points, time, vehicles)
         if self._flow.is_uniform:
-            return product(velocity, turn), product(acceleration, turn), None
+            return product(velocity, rotation), product(acceleration, rotation), None
         gradient = self._gradient(local_points, time, vehicles)
         acceleration += np.einsum("nij,nj->ni", gradient, velocity)
         x, y, z = (gradient[:, j, i] - gradient[:, i, j] for i, j in ((1, 2), (2, 0), (0, 1)))
-        rotation = 0.5 * np.stack([x, y, z], axis=1)
-        return product(velocity, turn), product(acceleration, turn), product(rotation, turn)
+        angular_velocity = 0.5 * np.stack([x, y, z], axis=1)
+        return (
+            product(velocity, rotation),
+            product(acceleration, rotation),
+            product(angular_velocity, rotation),
+        )
 
     def _gradient(self, points: Array, time: float, vehicles: Sequence[str]) -> Array:
         """Return the velocity gradient in L, (n, 3, 3) [1/s]: [:, k, j] is du_k / dx_j."""
@@ -326,27 +330,27 @@ class WaterMotion:
         return Pose(position, world_from_base.rotation)
 
 
-def _number_names(vehicles: Sequence[str]) -> tuple[npt.NDArray[np.int64], tuple[str, ...]]:
-    """Return the number of each name in the tuple of distinct names, and that tuple."""
+def _index_names(vehicles: Sequence[str]) -> tuple[npt.NDArray[np.int64], tuple[str, ...]]:
+    """Return the index of each name in the tuple of distinct names, and that tuple."""
     names = tuple(dict.fromkeys(vehicles))
     return np.array([names.index(name) for name in vehicles], dtype=np.int64), names
 
 
 @njit
-def _spread_rows(motions: Array, numbers: npt.NDArray[np.int64], turn: Array) -> Array:
+def _expand_rows(motions: Array, indices: npt.NDArray[np.int64], rotation: Array) -> Array:
     """Rotate velocities and accelerations (times, 2, m, 3) to W, and copy them to each point.
 
     Returns:
         Rows for `row_function`, (times, n, 9).
     """
-    rows = np.zeros((len(motions), len(numbers), 9))
+    rows = np.zeros((len(motions), len(indices), 9))
     for t in range(len(motions)):
         for kind in range(2):
-            for i in range(len(numbers)):
+            for i in range(len(indices)):
                 for k in range(3):
                     total = 0.0
                     for j in range(3):
-                        total += motions[t, kind, numbers[i], j] * turn[j, k]
+                        total += motions[t, kind, indices[i], j] * rotation[j, k]
                     rows[t, i, 3 * kind + k] = total
     return rows
 

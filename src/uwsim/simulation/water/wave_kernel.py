@@ -82,7 +82,7 @@ def add_waves(currents: WaterFunction | None, waves: Waves, n: int) -> WaterFunc
 def add_waves_to_drift(
     currents: DriftFunction | None, waves: Waves, n: int, timestep: float
 ) -> DriftFunction:
-    """Return the function that lets kinematic vehicles drift in currents and waves.
+    """Return the function that moves kinematic vehicles with currents and waves.
 
     Args:
         currents: the function for the drift in currents alone; None: no currents.
