@@ -238,5 +238,5 @@ def test_a_full_disk_is_no_error_of_the_program_that_publishes(
     recorder.start(lambda: 0.0)
     bus.publisher("/depth", Float64)(Float64(data=1.0))
     bus.deliver()
-    with pytest.raises(RunFailed, match="nothing of it is kept"):
+    with pytest.raises(RunFailed, match="the recording is discarded"):
         recorder.check()

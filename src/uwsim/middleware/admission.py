@@ -118,10 +118,10 @@ class Admission(ABC):
             self._known_keys.add(key)
             self._refusal_counts[key] += 1
         if is_new:
-            text = f"{key[1]} of {key[0]} is refused: it does not take part in this run"
+            text = f"{key[1]} from {key[0]} is refused: the sender does not take part in this run"
             self._report(sender, text)
 
-    def take_refusals(self) -> tuple[Refusal, ...]:
+    def pop_refusals(self) -> tuple[Refusal, ...]:
         """Return the refusals since the last call, by sender and topic or service."""
         with self._lock:
             counts, self._refusal_counts = self._refusal_counts, Counter()
@@ -199,7 +199,7 @@ class TopicOwners(Admission):
         self._offerers: dict[str, str] = {}
 
     def is_waited_for(self, sender: str) -> bool:
-        """Return whether the run waits for a sender: it owns one of the given topics."""
+        """Return whether the run waits for a sender: it must own one of the given topics."""
         return self._topics is not None and super().is_waited_for(sender)
 
     def remove(self, sender: str) -> None:

@@ -12,7 +12,7 @@ the simulation:
 
 Any thread of the transport may call:
 
-- ``subscribers.add(topic)`` and ``.remove(topic)``: an external subscriber came or left.
+- ``subscribers.add(topic)`` and ``.remove(topic)``: an external subscriber was added or has left.
   The bridge subscribes on the bus while there is at least one, so that cameras render only for
   subscribers.
 - ``put(topic, message, sender)``: accept a message from outside, with stamps in simulation time
@@ -88,7 +88,7 @@ class TransportTraits:
     needs_discovery: bool = False
     """True if messages are lost until publisher and subscriber have discovered each other."""
     detects_leaving: bool = False
-    """True if the transport notices at once when an external subscriber ends without a message."""
+    """True if the transport detects at once that an external subscriber has ended."""
     needs_invitation: bool = False
     """True if a client in lock-step joins only after the simulation has invited it."""
 
@@ -127,7 +127,7 @@ class Bridge(ABC):
         self.deferred_responses = DeferredResponses(bus.services)
         """The services whose responses come at a later step."""
         self.admission: Admission | None = None
-        """The rule that decides who may publish and call; None: everybody."""
+        """The rule that decides which programs may publish and call; None: all programs."""
         self._revision = -1
         self._topics: dict[str, TopicEndpoints] = {}
         self._services: dict[str, Service] = {}

@@ -124,13 +124,13 @@ def test_after_the_join_only_the_joined_connection_publishes_and_calls() -> None
     assert run.call_error(OWN_SENDER) is None
     assert (run.n_started, [m.data for m in run.estimates.take()]) == (1, [1.0])
     assert run.status.take() == []
-    assert run.client.take_refusals() == (
+    assert run.client.pop_refusals() == (
         (OTHER, "/estimate", 2),
         (OTHER, "/startBench", 1),
         (OTHER, "/status", 1),
         (OTHER, f"/{ACK}", 1),
     )
-    assert run.client.take_refusals() == ()
+    assert run.client.pop_refusals() == ()
     assert {sender for sender, _ in run.bridge.reports} == {OTHER}
 
 
@@ -265,7 +265,7 @@ def test_outputs_belong_to_who_published_them_first_and_else_only_they_publish()
     assert [message.data for message in run.status.take()] == ["tracking"]
     put("status", String(data="failed: falsified"), OTHER)
     assert admission is not None
-    assert (OTHER, "/status", 1) in admission.take_refusals()
+    assert (OTHER, "/status", 1) in admission.pop_refusals()
 
 
 def test_in_real_time_each_topic_belongs_to_who_published_it_first_until_it_leaves() -> None:
@@ -290,6 +290,6 @@ def test_a_flood_of_senders_and_topics_is_counted_without_growing() -> None:
     admission.admit(OWN_SENDER)
     for n in range(10 * MAX_KINDS):
         assert not admission.may_publish(f"t{n % 333}", f"client {n}", lambda: None, 8)
-    refusals = admission.take_refusals()
+    refusals = admission.pop_refusals()
     assert sum(n for _, _, n in refusals) == 10 * MAX_KINDS
     assert len(refusals) == len(lines) == MAX_KINDS + 1

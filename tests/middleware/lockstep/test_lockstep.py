@@ -277,7 +277,7 @@ def test_a_service_that_nobody_offers_is_reported_and_the_run_goes_on() -> None:
     nodes = start_clients(bus, bridge, "a")
     bus.publisher("depth", Float64)(Float64(data=1.0))
     step(bus, nodes)
-    assert any("startBench: nobody offers it" in line for line in bridge.lines)
+    assert any("startBench, but no program offers it" in line for line in bridge.lines)
 
 
 def test_a_client_that_does_not_answer_ends_the_run() -> None:

@@ -58,7 +58,7 @@ def test_another_node_on_the_topic_is_not_heard(graph: Graph, sim: Ros1Bridge) -
             publisher(floats([value]))
         graph.step()
         arrivals.extend(float(message.data[0]) for message in estimates.take())
-        refusals.extend(sim.admission.take_refusals() if sim.admission is not None else ())
+        refusals.extend(sim.admission.pop_refusals() if sim.admission is not None else ())
 
     wait_until(lambda: arrivals and refusals, publish)
     assert set(arrivals) == {1.0}

@@ -53,9 +53,9 @@ def test_a_header_of_rospy_is_read() -> None:
         (b"\xff\xff\xff\xff", "announces 4294967295 bytes"),
         (b"GET / HTTP/1.1\r\n\r\n", "announces 542393671 bytes"),
         (add_length(b"\x01\x00"), "cut off"),
-        (add_length(b"\x03\x00\x00\x00abc"), "not made of fields"),
-        (add_length(b"\xff\x00\x00\x00a=b"), "not made of fields"),
-        (encode_header({"error": "no such topic"}), "it refuses: no such topic"),
+        (add_length(b"\x03\x00\x00\x00abc"), "has an invalid field"),
+        (add_length(b"\xff\x00\x00\x00a=b"), "has an invalid field"),
+        (encode_header({"error": "no such topic"}), "it refused the connection: no such topic"),
     ],
 )
 def test_garbage_is_one_clean_error(

@@ -63,7 +63,7 @@ def test_another_participant_publishes_nothing(
 
     refusals: list[tuple[str, str, int]] = []
     wait_until(
-        lambda: arrivals and refusals, publish, lambda: refusals.extend(admission.take_refusals())
+        lambda: arrivals and refusals, publish, lambda: refusals.extend(admission.pop_refusals())
     )
     assert set(arrivals) == {"tracking"}
     assert {entry[:2] for entry in refusals} == {(participant_name(two[0]), "/status")}
@@ -93,7 +93,7 @@ def test_another_participant_calls_no_service(
         lambda: refusals,
         lambda: writers[0].write(call),  # again: a reader may not know the writer yet
         simulator.step,
-        lambda: refusals.extend(admission.take_refusals()),
+        lambda: refusals.extend(admission.pop_refusals()),
     )
     assert (n, {entry[:2] for entry in refusals}) == ([0], {(participant_name(two[0]), "/reset")})
     wait_until(lambda: n[0], lambda: writers[1].write(call), simulator.step)

@@ -219,7 +219,7 @@ def test_a_reader_that_is_frozen_costs_bounded_memory_and_holds_nobody_up(
             wait_until(partial(arrivals.__contains__, text), lambda: None)
         assert memory() - value_before < 200.0
         wait_until(lambda: not simulator.bus.has_subscribers("camera"), step)
-    reports = f"/camera: a reader has left, or was silent {simulator.bridge._node.lease}"
+    reports = f"/camera: a subscriber has left, or was silent {simulator.bridge._node.lease}"
     assert any(reports in line for line in simulator.lines)
 
 

@@ -1,8 +1,15 @@
 """Autonomous grasping of a black box (a flight recorder) by a vehicle with an arm.
 
-`grasp` is the algorithm, `phases` its state machine; the other modules are parts of it. Positions
-are in the navigation frame of the vehicle: north, east, down, origin at the water surface
-(`uwsim.algorithms.navigation.ekf`).
+The module `grasp` contains the algorithm and `phases` its state machine; the other modules are
+parts of the algorithm. These frames are used:
+
+* the *navigation frame*: axes north, east and down, origin at the water surface above the initial
+  position of the vehicle (`uwsim.algorithms.navigation.ekf`)
+* the *base*: the frame of the vehicle, with x forward, y to starboard and z down
+* the frame of the *box*: origin at the centre, y along the long edges, z out of the top face
+  (`box`)
+* the *grip*: the point between the fingers of the jaw at which they close (`arm`)
+* the *camera*: axes of OpenCV, x right, y down, z forward (`camera`)
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The phases until the lowered arm is over the box: search, detect, station, pregrasp."""
+"""The phases before the lowered arm is over the box: search, detect, station, pregrasp."""
 
 from __future__ import annotations
 

@@ -1,7 +1,8 @@
 r"""Forward and inverse kinematics of the arm ARM5E below the vehicle Girona 500.
 
-The frame of the arm's base is 1.08 m below the frame of the vehicle's base (z down), and rotated by
-half a turn about z. The Denavit-Hartenberg parameters of the joints q1 to q4 are:
+The frame of the vehicle's base has x forward, y to starboard and z down. The frame of the arm's
+base is 1.08 m below it and rotated by half a turn about z, so that its x axis points aft. The
+Denavit-Hartenberg parameters of the joints q1 to q4 are:
 
 ====== ================ ======= ======== =====
 joint  theta            d [m]   a [m]    alpha
@@ -36,7 +37,7 @@ JOINTS = ("Slew", "Shoulder", "Elbow", "JawRotate")
 JAW = "JawOpening"
 """The name of the joint of the fingers."""
 JOINT_LIMITS = np.array([[-1.570796, 0.5488], [0.0, 1.58665], [0.0, 2.15294], [-math.pi, math.pi]])
-"""The lower and upper limit of each joint of the arm, (4, 2) [rad]."""
+"""The lower and upper limit of each of `JOINTS`, (4, 2) [rad]."""
 JAW_OPEN, JAW_CLOSED = 0.55, -0.05
 """The positions of the joint of the fingers when the jaw is open, and closed [rad]."""
 GRIP_OFFSET = 0.135
@@ -60,6 +61,7 @@ _ARM_BASE_DEPTH = 1.08
 _HEADING_WEIGHT = 0.1
 """The weight of an error of the jaw's heading relative to an error of its position [m/rad]."""
 _N_ITERATIONS = 15
+"""The number of iterations of the inverse kinematics."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -1,4 +1,9 @@
-"""The box that is grasped: its shape, its handle and its pose."""
+"""The box that is grasped, a flight recorder: its shape, its handle and its pose.
+
+The navigation frame has the axes north, east and down. The frame of the box has z up if the box
+lies on a level seabed, so its pose vector has the order north, east, depth, heading, tilt about x,
+tilt about y.
+"""
 
 from __future__ import annotations
 
@@ -75,12 +80,12 @@ class BoxPose:
 
     @property
     def vector(self) -> Array:
-        """The pose vector: position, heading and tilt, (6,) [m, rad]."""
+        """The pose vector: position, heading and tilts about x and y, (6,) [m, rad]."""
         return np.array([*self.position.tolist(), self.heading, *self.tilt])
 
     @staticmethod
     def from_vector(vector: Array) -> BoxPose:
-        """Make a pose from a pose vector: position, heading and tilt, (6,) [m, rad]."""
+        """Make a pose from a pose vector: position, heading and tilts, (6,) [m, rad]."""
         x, y, z, heading, about_x, about_y = vector.tolist()
         return BoxPose(position=np.array([x, y, z]), heading=heading, tilt=(about_x, about_y))
 

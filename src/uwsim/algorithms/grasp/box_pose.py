@@ -1,6 +1,8 @@
 r"""Estimation of the pose of a box from its outline, or from the corners of its top face.
 
-The pose vector :math:`x \in R^6` (position, heading and tilt) minimises, by Gauss-Newton,
+The pose vector :math:`x \in R^6` consists of the position of the box in the navigation frame
+(north, east, down), its heading, and its tilts about the x and y axes of the box. It minimises, by
+Gauss-Newton,
 
 .. math:: \sum_k \frac{(h_k(x) - h_k)^2}{\sigma^2} + \sum_i \frac{(x_i - m_i)^2}{p_i^2}
 
@@ -32,8 +34,8 @@ TILT_DEVIATION = 0.03
 DEPTH_DEVIATION = 0.018
 """The standard deviation of the depth of the box in the prior, relative to the seabed [m]."""
 GRAZING_TANGENT = 0.3
-"""The tangent of the angle between the view and a side below which the detector may miss the
-side."""
+"""The tangent of the angle between the line of sight and a side of the box below which the detector
+may miss the side."""
 UNKNOWN_DEVIATION = 10.0
 """The standard deviation of unknown coordinates in the prior [m, rad]."""
 MIN_KNOWN_DIRECTIONS = 12
@@ -47,7 +49,7 @@ class Sighting:
     pose: BoxPose
     """The pose of the object in the navigation frame."""
     covariance: Array
-    """The covariance of position, heading and tilt, (6, 6) [m, rad]."""
+    """The covariance of the pose vector, (6, 6) [m, rad]."""
     residual: float
     """The root mean square residual of the fit [px]."""
     source: str = "outline"
@@ -78,7 +80,7 @@ def pose_from_outline(
         return None
     axis_heading = math.atan2(float(axis_point[1] - centre[1]), float(axis_point[0] - centre[0]))
     best_fit: Sighting | None = None
-    for turn in (0.5, 0.35, 0.65):  # the longest direction may be a diagonal
+    for turn in (0.5, 0.35, 0.65):  # the outline may be widest along a diagonal
         start = np.array([*centre.tolist(), axis_heading + turn * math.pi, 0.0, 0.0])
         sighting = _fit_outline(start, outline, view, box, deviation)
         if sighting is not None and (best_fit is None or sighting.residual < best_fit.residual):
@@ -268,6 +270,7 @@ def _step(
 _DELTA = 1e-4
 """The step of the numerical derivatives [m, rad]."""
 _N_ITERATIONS = 12
+"""The number of iterations of a fit."""
 
 
 @njit

@@ -1,4 +1,8 @@
-"""A pinhole camera: its intrinsics, and its pose at the time of an image."""
+"""A pinhole camera: its intrinsics, and its pose at the time of an image.
+
+The camera has the axes of OpenCV (x right, y down, z forward). The navigation frame has the axes
+north, east and down, so that z is the depth.
+"""
 
 from __future__ import annotations
 
@@ -14,7 +18,7 @@ from ...messages import CameraInfo
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Pinhole:
-    """The intrinsics of a pinhole camera with OpenCV's axes: x right, y down, z forward."""
+    """The intrinsics of a pinhole camera; (0, 0) is the centre of the upper left pixel."""
 
     fx: float
     """The focal length along u [px]."""

@@ -1,6 +1,7 @@
 r"""The model and perception of an object of any shape, which is grasped at a given point.
 
-The object rests on the seabed. Its position and heading :math:`x = (north, east, \psi)` minimise
+The object rests on the seabed, with the z axis of its frame up; the navigation frame has the axes
+north, east and down. Its position and heading :math:`x = (north, east, \psi)` minimise
 
 .. math:: \sum_k \frac{(h_k(x) - h_k)^2}{\sigma^2}
 
@@ -38,7 +39,7 @@ OUTLINE_DEVIATION = 1.0
 MAX_RESIDUAL = 3.0
 """The largest residual of a fit that is accepted [px]."""
 DEPTH_DEVIATION = 0.02
-"""The standard deviation of the object's depth, which is that of the seabed's depth [m]."""
+"""The standard deviation of the depth of the seabed, and therefore of the object [m]."""
 ROUND_HEADING_DEVIATION = 0.5
 """The standard deviation of the heading of a round object, which is not observable [rad]."""
 
@@ -150,7 +151,7 @@ def _fit_from(
 
 
 def _jacobian(vector: Array, depth: float, view: View, model: ConvexObject, n_free: int) -> Array:
-    """Return the derivatives of the support by the first ``n_free`` unknowns, (n, n_free)."""
+    """Return the derivatives of the support with respect to ``n_free`` unknowns, (n, n_free)."""
     support = _support(vector, depth, view, model)
     columns: Sequence[Array] = [
         (_support(vector + STEPS * (np.arange(3) == i), depth, view, model) - support) / STEPS[i]

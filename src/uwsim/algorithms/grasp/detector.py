@@ -10,11 +10,11 @@ score is above a threshold is called a blob.
 2. Blobs far larger than the box, such as the arm in front of the camera, are removed, and the
    threshold is computed again.
 3. Gaps due to bands, lettering and the handle are closed.
-4. The increase of red in a blob must be at least the share `MIN_RED_SHARE` of its score: a dark
-   hull in fog has less green and blue than the water behind it, but hardly more red.
+4. The increase of red in a blob must be at least the fraction `MIN_RED_FRACTION` of its score: a
+   dark hull in fog has less green and blue than the water behind it, but hardly more red.
 5. The outline of a blob is the support of its convex hull (its largest coordinate) along each of
-   `N_DIRECTIONS` directions. It is unknown in a direction in which the blob ends at the border of
-   the image.
+   `N_DIRECTIONS` directions. The support is unknown in a direction in which the blob ends at the
+   border of the image.
 
 Not modelled: other orange objects of the size of the box.
 """
@@ -41,17 +41,17 @@ MIN_CONTRAST = 7.0
 """The minimum peak of the score above the seabed, in standard deviations of the seabed [1]."""
 MIN_SCORE = 6.0
 """The minimum peak of the score above the seabed [grey levels]."""
-THRESHOLD_SHARE = 0.17
+THRESHOLD_FRACTION = 0.17
 """The threshold of the score above the seabed, as a fraction of the peak [1]."""
 MIN_RED = 5.0
 """The minimum increase of red from the seabed to a blob [grey levels]."""
-MIN_RED_SHARE = 0.2
+MIN_RED_FRACTION = 0.2
 """The minimum increase of red from the seabed to a blob, as a fraction of the increase of its score
 [1].
 
 The fraction is 0.3 or more for the box, and 0.15 for a hull in fog."""
 DARK_PERCENTILE = 10.0
-"""The percentile of the red channel of an image that is taken as the red of the water [%]."""
+"""The percentile of the red channel of an image that estimates the red of the water [%]."""
 BORDER_WIDTH = 2
 """The width of the border of an image in which an outline is unknown [px]."""
 MAX_BLOBS = 3
@@ -155,7 +155,7 @@ class ColourDetector:
             peak = float(excess.max())
             if peak < max(MIN_CONTRAST * noise, MIN_SCORE):
                 return 0.0, []
-            threshold = max(THRESHOLD_SHARE * peak, 2.5 * noise)
+            threshold = max(THRESHOLD_FRACTION * peak, 2.5 * noise)
             mask = self._close_gaps(excess > threshold, scale)
             _, labels, stats, _ = cv2.connectedComponentsWithStats(mask)
             large_labels = 1 + np.flatnonzero(stats[1:, cv2.CC_STAT_AREA] > max_area)
@@ -192,7 +192,7 @@ class ColourDetector:
             return None
         layers = excess, part[:, :, 0] - background[1]
         score, red = (float(np.percentile(layer[orange], 90)) for layer in layers)
-        if red < max(MIN_RED_SHARE * score, MIN_RED):
+        if red < max(MIN_RED_FRACTION * score, MIN_RED):
             return None
         mask = self._close_gaps(orange, scale)
         contours, _ = cv2.findContours(mask, cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)

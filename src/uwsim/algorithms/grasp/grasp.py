@@ -4,8 +4,8 @@ It reads only sensors that a real vehicle has: camera, DVL, IMU, depth sensor, j
 efforts of the drives, and a force sensor in the wrist. A derived class can replace each part of the
 algorithm: `Grasp.navigation`, `Grasp.detector`, `Grasp.tracker`, `Grasp.controller` and
 `Grasp.kinematics`; and `Grasp.model` and `Grasp.perception` for an object other than the box.
-`uwsim.algorithms.grasp.phases` describes the state machine. Positions are in the navigation frame:
-north, east, down.
+`uwsim.algorithms.grasp.phases` describes the state machine, and the package
+`uwsim.algorithms.grasp` the frames.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""The phases in which the jaw grasps the handle: align, descend, close."""
+"""The phases in which the jaw grasps the handle of the box: align, descend, close."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The base class of the phases of a grasp."""
+"""The base class of the phases of a grasp (`phases`)."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from .task import Task
 
 
 class Phase(abc.ABC):
-    """A state of the state machine."""
+    """A phase of a grasp: a state of the state machine."""
 
     name: ClassVar[str]
     """The name that is published as the phase."""

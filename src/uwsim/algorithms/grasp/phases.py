@@ -18,7 +18,7 @@ done        keep position
 aborted     keep position; the reason is published
 ==========  ===================================================  =======================
 
-The phase after one that exceeds its `limit` is its `timeout_phase`.
+A phase that exceeds its `limit` is followed by its `timeout_phase`.
 """
 
 from __future__ import annotations

@@ -1,11 +1,12 @@
 r"""The estimate of the pose of the box from the sightings in many images, by a Kalman filter.
 
-The state of the filter is the position, heading and tilt of the box in the navigation frame. The
-box does not move, but the navigation drifts, so the pose has the random walk `DRIFT`. A sighting is
-accepted if its squared Mahalanobis distance from the estimate is at most `GATE`. After more than
-`MAX_REJECTED` rejected sightings in a row, the filter restarts with the last of them. All sightings
-share some errors, for example of the camera's calibration; their covariance is therefore increased
-by `SYSTEMATIC_ERROR`.
+The state of the filter is the pose vector of the box in the navigation frame (north, east, down):
+position, heading, and tilts about the x and y axes of the box. A *sighting* is a measurement of
+this vector from one image (`box_pose`). The box does not move, but the navigation drifts, so the
+pose has the random walk `DRIFT`. A sighting is accepted if its squared Mahalanobis distance from
+the estimate is at most `GATE`. After more than `MAX_REJECTED` rejected sightings in a row, the
+filter restarts with the last of them. All sightings share some errors, for example of the camera's
+calibration; their covariance is therefore increased by `SYSTEMATIC_ERROR`.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from .box import BoxPose, wrap_half_turn
 from .box_pose import Sighting
 
 DRIFT = np.array([0.003, 0.003, 0.001, 0.001, 0.0005, 0.0005])
-"""The random walk of position, heading and tilt, (6,) [m/sqrt(s), rad/sqrt(s)]."""
+"""The random walk of the pose vector, (6,) [m/sqrt(s), rad/sqrt(s)]."""
 SYSTEMATIC_ERROR = np.array([0.01, 0.01, 0.015, 0.02, 0.04, 0.04])
 """The standard deviation of the errors that all sightings share, (6,) [m, rad]."""
 GATE = 30.0

@@ -1,4 +1,8 @@
-"""The state that the phases of a grasp share: vehicle, target, time and parameters."""
+"""The state that the phases of a grasp share: vehicle, target, time and parameters.
+
+Positions are in the navigation frame (north, east, down). The *grip* is the point between the
+fingers of the jaw at which they close (`arm`).
+"""
 
 from __future__ import annotations
 
@@ -15,7 +19,7 @@ from .target import TargetEstimate
 from .vehicle_interface import VehicleInterface
 
 APPROACH_HEIGHT = 0.30
-"""The height of the grip over the handle at which it starts to descend [m]."""
+"""The height over the handle from which the grip descends [m]."""
 
 
 class Task:
@@ -59,7 +63,8 @@ class Task:
         self.attempts = int(numbers["attempts"])
         """The greatest number of attempts."""
         self.lift, self.settle, self.hold = numbers["lift"], numbers["settle"], numbers["hold"]
-        """The height of the lift [m], and the durations of its pause and of the hold [s]."""
+        """The height of the lift [m], the duration of the pause during the lift [s], and the
+        duration of the hold [s]."""
         self.descent = numbers["descent"]
         """The speed at which the grip descends [m/s]."""
         self._tolerance, self._min_load = numbers["tolerance"], numbers["min_load"]

@@ -2,9 +2,10 @@
 
 - ``grasp-p`` has a simpler control law for station keeping.
 - ``grasp-truth`` reads the true poses of vehicle and box from ``/truth/odometry`` and ``/tf``,
-  which no real vehicle can. Its advantage over `grasp` is the cost of perception and navigation.
-- ``grasp-nothing`` and ``grasp-blind-close`` are sham baselines (controls), which do not search for
-  the box. If one of them succeeds, the benchmark is invalid.
+  which no real vehicle can. Its advantage over `grasp` is the loss due to errors of perception and
+  navigation.
+- ``grasp-nothing`` and ``grasp-blind-close`` are sham baselines, which do not search for the box.
+  If one of them succeeds, the benchmark is invalid.
 
 L is the localized world frame, which is used as the navigation frame.
 """
@@ -122,7 +123,7 @@ class TrueNavigator(Navigator):
 
 
 class GraspNothing:
-    """A sham baseline (a control) that does nothing and must never succeed."""
+    """A sham baseline that does nothing and must never succeed."""
 
     PARAMETERS: ClassVar[Mapping[str, float | str]] = {}
 
@@ -134,7 +135,7 @@ class GraspNothing:
 
 
 class GraspBlindClose:
-    """A sham baseline (a control) that descends and closes the jaw again and again, blindly."""
+    """A sham baseline that descends and closes the jaw periodically, without reading images."""
 
     PARAMETERS: ClassVar[Mapping[str, float | str]] = {
         "period": 20.0,

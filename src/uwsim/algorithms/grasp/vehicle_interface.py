@@ -1,7 +1,7 @@
 """The interface of the state machine to the vehicle, its arm, jaw and wrist.
 
-Positions are in the navigation frame: north, east, down. The *grip* is the point between the
-fingers of the jaw (`arm`).
+Positions are in the navigation frame (north, east, down); the frame of the base has x forward, y to
+starboard and z down. The *grip* is the point between the fingers of the jaw (`arm`).
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ class Jaw:
         """The commanded position of the joint of the fingers [rad]."""
         self.position = 0.0
         """The position of the joint of the fingers [rad]."""
-        self._speed = 0.0  # of the fingers [rad/s]
+        self._speed = 0.0  # speed of the fingers [rad/s]
         self._effort = 0.0  # torque of the drive, from its current [N m]
 
     def update(
@@ -127,7 +127,7 @@ class VehicleInterface:
         """The jaw of the arm."""
         self.wrist = Wrist()
         """The wrist of the arm, with its force sensor."""
-        self._sent_command: Array = np.full(5, math.inf)  # last published, arm and jaw [rad]
+        self._sent_command: Array = np.full(5, math.inf)  # last command of arm and jaw [rad]
 
     @property
     def heading(self) -> float:

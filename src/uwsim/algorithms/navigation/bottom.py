@@ -18,7 +18,7 @@ BEAM_ANGLE = math.radians(30.0)
 N_AVERAGED_PINGS = 20
 """The number of pings over which the plane is averaged."""
 MAX_RESIDUAL = 0.05
-"""The largest vertical distance of a beam's point from the plane, for a flat seabed [m]."""
+"""The largest vertical distance of the end of a beam from the plane of an accepted ping [m]."""
 
 _BEAM_AZIMUTHS = [math.radians(45.0 + 90.0 * k) for k in range(4)]
 """The directions of the beams about the axis of the DVL, from x towards y [rad]."""
@@ -32,16 +32,16 @@ BEAMS: Array = np.array(
         for azimuth in _BEAM_AZIMUTHS
     ]
 )
-"""The unit vectors of the beams in the axes of the base, to which those of the DVL are parallel,
-(4, 3)."""
+"""The unit vectors of the beams in the frame of the DVL, (4, 3); its axes are parallel to those of
+the base."""
 
 
 class BottomPlane:
     """The depth of the seabed as ``a + b north + c east``, averaged over several pings."""
 
     def __init__(self) -> None:
-        self._plane: Array | None = None  # a [m], b, c (3,)
-        self._n_pings = 0  # pings in the average
+        self._plane: Array | None = None  # a [m], b [1], c [1], (3,)
+        self._n_pings = 0  # the number of pings in the average
 
     @property
     def is_known(self) -> bool:

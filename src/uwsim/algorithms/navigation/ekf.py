@@ -37,6 +37,7 @@ POSITION, VELOCITY, ATTITUDE = slice(0, 3), slice(3, 6), slice(6, 9)
 GYRO_BIAS, ACCELEROMETER_BIAS = slice(9, 12), slice(12, 15)
 """The parts of the error state."""
 STATE_SIZE = 15
+"""The number of components of the error state."""
 GRAVITY = np.array([0.0, 0.0, 9.81])
 """The gravity in navigation axes, (3,) [m/s2]."""
 GATE = 25.0
@@ -100,8 +101,8 @@ class NavigationFilter:
         deviations = [0.0, 0.0, 0.5, *[0.3] * 3, *[self.spec.attitude] * 3, *[1e-3] * 3, *[0.1] * 3]
         self.covariance: Array = np.diag(np.square(deviations))
         """The covariance of the error state, (15, 15)."""
-        self._time: float | None = None  # of the last sample of the IMU [s]
-        self._n_rejected: dict[str, int] = {}  # of each sensor, in a row
+        self._time: float | None = None  # the time of the last sample of the IMU [s]
+        self._n_rejected: dict[str, int] = {}  # rejected measurements in a row, by sensor
         noise_densities = [self.spec.accelerometer, self.spec.gyro]
         bias_drifts = [self.spec.gyro_drift, self.spec.accelerometer_drift]
         self._noise: Array = np.repeat(np.square([0.0, *noise_densities, *bias_drifts]), 3)
@@ -181,7 +182,7 @@ class NavigationFilter:
         Args:
             sensor: the name of the sensor.
             error: the measured minus the expected values, (m,).
-            jacobian: the derivatives of the values by the error state, (m, 15).
+            jacobian: the derivatives of the values with respect to the error state, (m, 15).
             deviation: the standard deviation of each value.
         """
         if not np.isfinite(error).all():

@@ -1,4 +1,7 @@
-"""A navigation filter that is connected to the topics of the sensors."""
+"""A navigation filter that is connected to the topics of the sensors.
+
+The navigation frame has the axes north, east and down, the base x forward, y to starboard, z down.
+"""
 
 from __future__ import annotations
 
@@ -23,10 +26,10 @@ TOPICS: Mapping[str, str] = {
 class Navigator:
     """A `NavigationFilter` that reads the topics of an IMU, a DVL and a depth sensor.
 
-    The axes of the IMU are assumed to be parallel to those of the base, and of the DVL's velocities
-    the one in ship axes is used. Any algorithm can make a navigator in its `start`. Without a spec,
-    the DVL is assumed to be at the origin of the base. If it is elsewhere, set
-    ``NavigationSpec(dvl_place=...)``; otherwise the estimate drifts.
+    The axes of the IMU are assumed to be parallel to the axes of the base. Of the velocities in a
+    DVL message, the bottom-track velocity in ship axes (``bs_...``) is used. Any algorithm can make
+    a navigator in its `start`. Without a spec, the DVL is assumed to be at the origin of the base.
+    If it is elsewhere, set ``NavigationSpec(dvl_place=...)``; otherwise the estimate drifts.
     """
 
     def __init__(

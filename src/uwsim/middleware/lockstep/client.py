@@ -35,7 +35,7 @@ MAX_ID_LENGTH = 100
 SECRET_ERROR = "secret is missing or another; expected that of UWSIM_CLIENT_SECRET"
 """The error of a join without the secret."""
 MAX_TICKS = 1000
-"""The maximum number of ticks in one step; more come from a client that answers itself."""
+"""The maximum number of ticks in one step; a client whose answers cause new ticks exceeds it."""
 
 
 class LockStepClient:
@@ -167,10 +167,10 @@ class LockStepClient:
         """The parameters, which are empty: the client has its own parameters."""
         return {}
 
-    def take_refusals(self) -> tuple[Refusal, ...]:
+    def pop_refusals(self) -> tuple[Refusal, ...]:
         """Return the refusals since the last call: programs that do not take part have tried to."""
         admission = self._bridge.admission
-        return () if admission is None else admission.take_refusals()
+        return () if admission is None else admission.pop_refusals()
 
     def receive(self, topic: str, content: dict[str, Any], sender: str) -> None:
         """Accept a message of the client on a topic of lock-step. May be called from any thread.
@@ -235,7 +235,10 @@ class LockStepClient:
                 return
             self._is_due = False
             self._tick()
-        raise ClientLost(f"Client {self._name!r} answers its own messages without end.")
+        raise ClientLost(
+            f"Client {self._name!r} causes its own ticks without end: more than {MAX_TICKS} in one "
+            "step."
+        )
 
     def _tick(self) -> None:
         bridge, now = self._bridge, self._node.now
@@ -262,7 +265,9 @@ class LockStepClient:
             if self._bridge.bus.services.is_offered(name):
                 self._node.call(name, Empty())
             else:
-                self._bridge.log.report(f"client {self._name!r} calls {name}: nobody offers it")
+                self._bridge.log.report(
+                    f"client {self._name!r} calls {name}, but no program offers it"
+                )
 
     def _call_client(self, name: str, kind: Service, request: object) -> object:
         """Call a service that the client offers over the topics of lock-step.
@@ -380,7 +385,9 @@ def lockstep_clients(
         BadSetting: there is no transport, or more than one.
     """
     if len(bridges) != 1:
-        raise BadSetting("--client: expected one of --web, --ros1 and --ros2, by which it comes.")
+        raise BadSetting(
+            "--client: expected one of --web, --ros1 and --ros2, by which the client connects."
+        )
     (bridge,) = bridges
     clients = {
         name: LockStepClient(bridge, name, timestep=timestep, limit=limit, secret=secret)

@@ -28,7 +28,7 @@ class ExternalProgram:
         """The parameters, which are empty: the program has its own parameters."""
         return {}
 
-    def take_refusals(self) -> tuple[Refusal, ...]:
+    def pop_refusals(self) -> tuple[Refusal, ...]:
         """Return the refusals since the last call: programs that do not take part have tried to."""
         admission = self._bridge.admission
-        return () if admission is None else admission.take_refusals()
+        return () if admission is None else admission.pop_refusals()

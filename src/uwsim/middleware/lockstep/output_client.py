@@ -202,8 +202,8 @@ class OutputClient(ExternalProgram):
         if n > n_due + self._n_unanswered[topic]:
             raise ClientLost(
                 f"Client {self.name!r} has published {n} messages on /{topic} by "
-                f"{self._node.now:g} s, where {n_due} are due: the run is invalid. Does it go by "
-                "/clock (use_sim_time true before it starts), and is the --output right?"
+                f"{self._node.now:g} s, where {n_due} are due: the run is invalid. Check that the "
+                "node uses /clock (use_sim_time true before it starts), and the --output."
             )
 
     def _n_due(self, output: OutputSpec) -> int:

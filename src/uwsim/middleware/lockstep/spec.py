@@ -116,7 +116,9 @@ def read_output(text: str) -> OutputSpec:
             "/corners=/camera/image."
         )
     if name == input_topic:
-        raise BadSetting(f"--output {text}: a topic does not follow itself.")
+        raise BadSetting(
+            f"--output {text}: the input is the output itself; expected another topic."
+        )
     if schedule[0] not in "+-.0123456789" and not schedule.lower().endswith("hz"):
         return OutputSpec(topic=name, input_topic=input_topic)
     match = RATE.fullmatch(schedule)

@@ -41,11 +41,11 @@ def check_path(path: Path, *, overwrite: bool) -> None:
     if path.suffix.lower() not in FILES:
         raise BadSetting(f"--record {path}: only {' and '.join(FILES)} files are written.")
     if path.is_dir():
-        raise BadSetting(f"--record {path}: is a folder.")
+        raise BadSetting(f"--record {path}: the path is a folder; expected a file.")
     if not path.parent.is_dir():
         raise BadSetting(f"--record {path}: there is no folder {path.parent}.")
     if path.exists() and not overwrite:
-        raise BadSetting(f"--record {path}: exists; --overwrite replaces it.")
+        raise BadSetting(f"--record {path}: the file exists; --overwrite replaces it.")
 
 
 class Recorder:
@@ -133,7 +133,7 @@ class Recorder:
     def check(self) -> None:
         """Raise RunFailed if the file could not be written; it is then deleted."""
         if self._failure:
-            raise RunFailed(f"{self._failure} (the recording; nothing of it is kept)")
+            raise RunFailed(f"{self._failure} (the recording is discarded)")
 
     def keep(self, topic: str, message: object) -> None:
         """Record a message that is not published on the bus; call it after `start`."""

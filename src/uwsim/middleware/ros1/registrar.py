@@ -108,7 +108,7 @@ class Registrar:
         self._thread.join(timeout=20.0)
 
     def give_up(self) -> None:
-        """Register nothing more: the master has given the name of the node to another node."""
+        """Register nothing more, because another node has registered under this node's name."""
         with self._lock:
             self._has_given_up = True
             self._entries = set()
@@ -129,7 +129,7 @@ class Registrar:
                     self._log.report(f"the master: {error}; it is tried again", kind="master lost")
                 self._is_lost = True
             except Exception as error:  # a defect here must not end the registration thread
-                text = f"registering failed: {type(error).__name__}: {error}; it is tried again"
+                text = f"registration failed: {type(error).__name__}: {error}; it is tried again"
                 self._log.report(text, kind="registering")
             self._wake_event.wait(self._poll)
             self._wake_event.clear()
@@ -145,7 +145,9 @@ class Registrar:
         except RefusedCall:
             uri = None
         if uri is not None and uri != self._uri:
-            self._log.report(f"another node is called {self._caller}; this one leaves the graph")
+            self._log.report(
+                f"another node took the name {self._caller}; this one leaves the graph"
+            )
             self.give_up()
         elif uri != self._uri:
             self._log.report("the master was restarted; the node registers again", kind="restarted")
@@ -153,7 +155,7 @@ class Registrar:
                 self._entries = set()
             self._old_parameters = {}
         elif self._is_lost:
-            self._log.report("the master is back", kind="back")
+            self._log.report("the master answers again", kind="back")
         self._is_lost = False
 
     def _reconcile(self) -> None:

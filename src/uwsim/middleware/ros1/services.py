@@ -68,7 +68,7 @@ class IdleClients:
                 is_disconnected = connection not in self._connections
                 self._connections.pop(connection, None)
             if is_disconnected:
-                raise PeerError(f"it sent no request, as {MAX_IDLE} others; it is disconnected")
+                raise PeerError(f"it is idle, like {MAX_IDLE} newer connections; it is closed")
 
 
 def check(kind: WireService, header: dict[str, str]) -> str | None:

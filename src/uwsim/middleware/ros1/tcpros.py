@@ -49,7 +49,7 @@ def decode_header(body: bytes) -> dict[str, str]:
         offset += LENGTH.size
         pair = body[offset : offset + length]
         if len(pair) < length or b"=" not in pair:
-            raise PeerError("its connection header is not made of fields")
+            raise PeerError("its connection header has an invalid field")
         name, _, value = pair.partition(b"=")
         fields[name.decode("utf-8", "replace")] = value.decode("utf-8", "replace")
         offset += length
@@ -73,7 +73,7 @@ def read_header(connection: socket.socket, limit_s: float | None = None) -> dict
         raise PeerError("it closed the connection without a header")
     fields = decode_header(body)
     if "error" in fields:
-        raise PeerError(f"it refuses: {fields['error'][:300]}")
+        raise PeerError(f"it refused the connection: {fields['error'][:300]}")
     return fields
 
 
@@ -128,7 +128,7 @@ def write(connection: socket.socket, data: bytes | memoryview) -> None:
     try:
         connection.sendall(data)
     except TimeoutError:
-        raise PeerError("it does not read") from None
+        raise PeerError("it does not read its messages") from None
     except OSError as error:
         raise PeerError(f"the connection broke: {error.strerror or error}") from error
 

@@ -11,10 +11,12 @@ from contextlib import contextmanager
 
 from ..work_budget import WorkBudget
 
-SHARE, BURST = 0.1, 0.5
-"""The budget for requests: the share of the wall time, and the longest burst [s]."""
+SHARE = 0.1
+"""The greatest share of the wall time for requests [1]."""
+BURST = 0.5
+"""The longest time for requests without a pause [s]."""
 REQUEST_COST = 1e-4
-"""The time that a request takes in addition to the measured time [s]: its thread, its header."""
+"""The time that a request takes in addition to the measured time [s], for its thread and header."""
 DELAY_PER_BYTE = 1e-4
 """The delay of the turn of a request [s/byte], so that the short requests of nodes do not wait for
 a flood of long requests."""

@@ -153,7 +153,7 @@ class XmlRpcServer(ThreadingMixIn, SimpleXMLRPCServer):
 
     def handle_error(self, request: Any, client_address: Any) -> None:
         """Report a request whose connection broke."""
-        self._log.report(f"{self._name}: a request broke off")
+        self._log.report(f"{self._name}: the connection of a request was lost")
 
     def close(self) -> None:
         """Stop listening."""

@@ -103,10 +103,10 @@ class Ros2(Bridge):
         return False
 
     def send(self, topic: str, message: object) -> None:
-        """Queue a message; the oldest are dropped while readers are too slow."""
+        """Queue a message; the oldest messages are dropped while subscribers are too slow."""
         if self._send_queue.put((topic, message), size_of(message)):
             self.log.report(
-                "readers do not keep up; the oldest messages are dropped", kind="outgoing flood"
+                "subscribers do not keep up; the oldest messages are dropped", kind="outgoing flood"
             )
 
     def read_all(self, topic: str) -> None:
@@ -124,7 +124,7 @@ class Ros2(Bridge):
     def _tick(self) -> None:
         """Publish the time if it is due; report if the thread of the node has ended."""
         if self._node.error is not None:
-            self.log.report(f"stopped: {self._node.error}", kind="stopped")
+            self.log.report(f"the node has stopped: {self._node.error}", kind="stopped")
         super()._tick()
 
     def _publish_clock(self) -> None:
@@ -179,8 +179,8 @@ class Ros2(Bridge):
 
     def _refuse_writer(self, name: str) -> None:
         self.log.report(
-            f"/{name}: a publisher offers best effort only; it is not read, as commands must not "
-            "be lost: set its reliability to RELIABLE",
+            f"/{name}: a publisher offers best effort only; its messages are not received, because "
+            "commands must not be lost. Set its reliability to RELIABLE",
             kind=f"best effort {name}",
         )
 
@@ -200,7 +200,7 @@ class Ros2(Bridge):
                 continue
             if not is_sent:
                 self.log.report(
-                    f"/{topic}: a reader does not keep up; messages are dropped",
+                    f"/{topic}: a subscriber does not keep up; messages are dropped",
                     kind=f"behind {topic}",
                 )
 
@@ -218,7 +218,7 @@ class _ReaderCount:
             self._bridge.subscribers.remove(self._topic)
         if n_readers < self._n:
             self._bridge.log.report(
-                f"/{self._topic}: a reader has left, or was silent {self._lease}",
+                f"/{self._topic}: a subscriber has left, or was silent {self._lease}",
                 kind=f"left {self._topic}",
             )
         self._n = n_readers

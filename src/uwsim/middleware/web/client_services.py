@@ -18,8 +18,8 @@ class ClientServices:
 
     Args:
         services: the external services of the bus.
-        admission: a function that returns the rule that decides who may offer services; None:
-            everybody.
+        admission: a function that returns the rule that decides which clients may offer services;
+            None: all clients.
     """
 
     def __init__(
@@ -50,5 +50,5 @@ class ClientServices:
         """Call a service of a client. Called in the thread of the simulation."""
         providers = self._providers.get(name)
         if not providers:
-            raise UwsimError(f"Service /{name}: its server has left.")
+            raise UwsimError(f"Service /{name}: the client that offers it has disconnected.")
         return providers[0].call(name, request)

@@ -66,7 +66,7 @@ class SessionBridge(Protocol):
     log: Log
     """The log of the transport."""
     admission: Admission | None
-    """The rule that decides who may publish and call; None: everybody."""
+    """The rule that decides which programs may publish and call; None: all programs."""
 
     def put(self, topic: str, message: object, sender: str = "") -> None:
         """Accept a message of a client."""

@@ -31,10 +31,12 @@ from .readers import WebReaders
 from .republications import Republications
 
 MAX_KEYS = 200_000
-"""The maximum number of fields in a frame, also of objects in lists. A frame may have twice as many
-opening brackets, and four times as many quotation marks."""
+"""The maximum number of fields in a frame, including those of nested objects.
+
+A frame may have twice as many opening brackets, and four times as many quotation marks.
+"""
 MAX_NAMES = 1000
-"""The maximum number of topics, and of services, of one client."""
+"""The maximum number of topics, and the maximum number of services, of one client."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -74,7 +76,7 @@ class Session:
         self._calls: dict[str, tuple[Future[object], type]] = {}
         self._n_calls, self._has_left = 0, False
         self._lock = threading.Lock()
-        self._joined_as: object = None
+        self._joined_as: object = None  # the name under which the client has joined a run
         self._handlers: dict[str, Callable[[dict[str, Any]], None]] = {
             "advertise": self._advertise,
             "unadvertise": self._unadvertise,
@@ -114,7 +116,8 @@ class Session:
         subscription.last_time = now
         if self._queue.put(subscription.queue, message):
             self._bridge.log.report(
-                f"{self._name} reads /{subscription.topic} too slowly; the oldest are dropped",
+                f"{self._name} reads /{subscription.topic} too slowly; its oldest messages "
+                "are dropped",
                 kind=f"{self._name} is slow",
             )
 
@@ -154,7 +157,7 @@ class Session:
         assert kind is not None
         with self._lock:
             if self._has_left:
-                raise UwsimError(f"{self._name} has left.")
+                raise UwsimError(f"{self._name} has disconnected.")
             self._n_calls += 1
             number = f"call:{self._n_calls}"
             self._calls[number] = future, kind.response
@@ -171,7 +174,7 @@ class Session:
         return topic in self._subscriptions
 
     def close(self) -> None:
-        """Remove all subscriptions and services of the client, which has left."""
+        """Remove all subscriptions and services of the client, which has disconnected."""
         for topic in list(self._subscriptions):
             self._drop(topic)
         for name in self._services:
@@ -182,7 +185,7 @@ class Session:
             self._has_left = True  # from now on, no call waits for the client
         for future, _ in self._calls.values():
             if not future.done():
-                future.set_exception(UwsimError(f"{self._name} has left."))
+                future.set_exception(UwsimError(f"{self._name} has disconnected."))
         if self._joined_as is not None:
             content = {"client": self._joined_as, "left": True}
             self._bridge.put(JOIN, String(data=json.dumps(content)), self._name)
@@ -331,7 +334,7 @@ class Session:
 
     def _limit(self, names: Any) -> None:
         if len(names) >= MAX_NAMES:
-            raise BadMessage(f"One client uses more than {MAX_NAMES} names.")
+            raise BadMessage(f"A client uses more than {MAX_NAMES} names.")
 
 
 def _ignore(frame: dict[str, Any]) -> None:
@@ -398,6 +401,7 @@ def number_in(frame: dict[str, Any], key: str) -> float:
 
 
 def _client_in(text: str) -> object:
+    """Return the field ``client`` of a join message; None if it is missing."""
     try:
         content = read_peer_json(text)
     except ValueError:

@@ -74,7 +74,7 @@ def pop_refused_messages(algorithm: Algorithm) -> tuple[tuple[str, str, int], ..
         For each sender and topic or service: the sender, the topic or service, the number.
     """
     if isinstance(algorithm, LockStepClient | ExternalProgram):
-        return algorithm.take_refusals()
+        return algorithm.pop_refusals()
     return ()
 
 
