@@ -200,7 +200,7 @@ def test_a_service_whose_client_leaves_fails_and_is_withdrawn(setting: Setting) 
     send(client, op="advertise_service", service="/autoInit", type=kind)
     setting.step_until(lambda: setting.bus.services.is_offered("autoInit"))
     client.close()
-    with pytest.raises((RunFailed, UwsimError), match="left"):
+    with pytest.raises((RunFailed, UwsimError), match="disconnected"):
         setting.bus.services.call("autoInit", GTpublish(groundTruth=np.zeros(8, np.float32)))
     setting.step_until(lambda: not setting.bus.services.is_offered("autoInit"))
 
