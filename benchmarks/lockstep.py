@@ -76,7 +76,7 @@ def measure_round_trips(bus: Bus, publish: Callable[[], None], rounds: int) -> l
 
 
 def summarize(times: list[float], target: float | None = None) -> dict[str, object]:
-    """Return median and 95th percentile, and the share of the target."""
+    """Return median and 95th percentile, and the fraction of the target."""
     figures: dict[str, object] = {
         "wall_ms": round(median(times), 4),
         "wall_ms_95": round(sorted(times)[int(0.95 * len(times))], 4),

@@ -100,9 +100,11 @@ def compile_model(
         )
     }
     node, place = base, [0.4, 0.0, -0.45]
-    turn = [0.0, 1.0, 0.0, 0.0]  # z of the arm points down
+    quaternion = [0.0, 1.0, 0.0, 0.0]  # z of the arm points down
     for name, axis, length in ARM:
-        node = node.add_body(name=name, pos=place, quat=turn, mass=3.0, ipos=[0, 0, length / 2])
+        node = node.add_body(
+            name=name, pos=place, quat=quaternion, mass=3.0, ipos=[0, 0, length / 2]
+        )
         node.inertia = [0.03, 0.03, 0.01]
         node.explicitinertial = True
         node.add_joint(name=name, axis=list(axis), armature=0.05)
@@ -112,7 +114,7 @@ def compile_model(
         servo.trntype = mujoco.mjtTrn.mjTRN_JOINT
         servo.set_to_position(kp=400.0, kv=60.0)
         waters[name] = cylinder_water(name, 0.045, length, 3.0)
-        place, turn = [0.0, 0.0, length], [1.0, 0.0, 0.0, 0.0]
+        place, quaternion = [0.0, 0.0, length], [1.0, 0.0, 0.0, 0.0]
     for name, side in (("left", 1.0), ("right", -1.0)):
         jaw = node.add_body(name=name, pos=[0.0, side * (BOX[1] + 0.02), 0.2], mass=0.5,
                             ipos=[0, 0, 0], inertia=[0.001] * 3)  # fmt: skip

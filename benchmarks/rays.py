@@ -75,8 +75,8 @@ def sensor_pose(simulation: Simulation, mount: tuple[float, float, float]) -> Po
     frame = simulation.world.engine.poses.link_frame(0, "base_link")
     heading = np.arctan2(frame[1, 0], frame[0, 0])
     c, s = np.cos(heading), np.sin(heading)
-    turn = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
-    return Pose((frame @ [*mount, 1.0])[:3], turn)
+    rotation = np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
+    return Pose((frame @ [*mount, 1.0])[:3], rotation)
 
 
 def triangles_by_body(scene: RayScene) -> list[Array]:

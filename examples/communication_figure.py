@@ -2,8 +2,8 @@
 
     python examples/communication_figure.py docs/images/packet-delivery.png       20 s
 
-Lines are the formulas. Each point is the share of 400 packets that a simulated receiver gets, with
-its 95 % interval (Wilson). There is one sender, so there are no collisions.
+Lines are the formulas. Each point is the fraction of 400 packets that a simulated receiver gets,
+with its 95 % interval (Wilson). There is one sender, so there are no collisions.
 """
 
 from __future__ import annotations
@@ -83,7 +83,7 @@ def loss_probability(size: int, wind: float, distance: float) -> float:
 
 
 def simulate_delivery(size: int, wind: float, distance: float) -> float:
-    """Simulate a link; return the share of packets that the receiver gets."""
+    """Simulate a link; return the fraction of packets that the receiver gets."""
     network = Network(lambda name: stream(1, f"{size}/{wind}/{distance}/{name}"))
     packet_numbers: list[int] = []
     send = network.join(modem("sender", wind, 0.0, []))

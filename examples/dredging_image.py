@@ -30,9 +30,9 @@ def main() -> None:
         image_before = render_heap(simulation)
         (heap,) = simulation.world.scenery.heaps
         middle = heap.corner[:2] + 0.5 * heap.cell * np.array(heap.heights.shape)
-        for turn in np.linspace(0.0, 2.0 * math.pi * ROUNDS, 12 * ROUNDS, endpoint=False):
-            reach = REACH * (0.5 + 0.5 * math.sin(0.37 * turn))
-            x, y = middle + reach * np.array([math.cos(turn), math.sin(turn)])
+        for angle in np.linspace(0.0, 2.0 * math.pi * ROUNDS, 12 * ROUNDS, endpoint=False):
+            reach = REACH * (0.5 + 0.5 * math.sin(0.37 * angle))
+            x, y = middle + reach * np.array([math.cos(angle), math.sin(angle)])
             heap.dig(np.array([x, y, heap.height(x, y) + 0.02]))
         image_after = render_heap(simulation)
     width, height = SIZE

@@ -55,7 +55,8 @@ class LawnMower:
         command.twist.linear.z = 0.5 * (self.depth - position.z)
         if self.corners:
             x, y = self.corners[0]
-            turn = math.remainder(math.atan2(y - position.y, x - position.x) - yaw, 2.0 * math.pi)
-            command.twist.angular.z = max(-0.3, min(0.3, turn))
-            command.twist.linear.x = self.values["speed"] * max(0.0, math.cos(turn)) ** 3
+            heading = math.atan2(y - position.y, x - position.x)
+            heading_error = math.remainder(heading - yaw, 2.0 * math.pi)
+            command.twist.angular.z = max(-0.3, min(0.3, heading_error))
+            command.twist.linear.x = self.values["speed"] * max(0.0, math.cos(heading_error)) ** 3
         self.publish(command)

@@ -60,10 +60,10 @@ def velocity(odometry: Odometry, goal: list) -> list:
     p, q = odometry.pose.pose.position, odometry.pose.pose.orientation
     ground_velocity = [KP * (g - x) for g, x in zip(goal, (p.x, p.y, p.z), strict=True)]
     axis = (q.x, q.y, q.z)
-    turn = cross(axis, ground_velocity)  # the velocity, rotated by the inverse attitude
+    cross_product = cross(axis, ground_velocity)  # the velocity, rotated by the inverse attitude
     return [
         v - 2.0 * q.w * t + 2.0 * u
-        for v, t, u in zip(ground_velocity, turn, cross(axis, turn), strict=True)
+        for v, t, u in zip(ground_velocity, cross_product, cross(axis, cross_product), strict=True)
     ]
 
 

@@ -115,7 +115,7 @@ class Vehicle(Protocol):
         """
 
     def loss_setter(self, thruster: str) -> Callable[[float], None]:
-        """Return a function that sets the share of the thrust that a thruster loses [0..1].
+        """Return a function that sets the fraction of the thrust that a thruster loses [0..1].
 
         If several functions set losses of one thruster, the greatest loss applies.
 

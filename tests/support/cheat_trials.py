@@ -53,7 +53,7 @@ FUNCTION = '<function publishResult="true">corners</function>'
 FOLDER = "UWSIM_CHEAT_FOLDER"
 """The environment variable of the results' folder."""
 GAIN_THRESHOLD = 0.97
-"""A cheat gains if its score is less than this share of the score of `FirstQuadTracker`."""
+"""A cheat gains if its score is less than this fraction of the score of `FirstQuadTracker`."""
 
 
 class FirstQuadTracker:

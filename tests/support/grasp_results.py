@@ -10,7 +10,7 @@ FOGS, CURRENTS = (0.0, 0.5, 1.0), (0.0, 0.1, 0.2, 0.3)
 
 
 def is_successful(fog: float, current: float, seed: int) -> bool:
-    """Return whether a seed succeeds; the share of seeds falls with fog and current."""
+    """Return whether a seed succeeds; the fraction of seeds falls with fog and current."""
     return seed < 4.5 - 3.0 * fog - 10.0 * current
 
 

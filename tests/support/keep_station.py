@@ -73,10 +73,10 @@ def _velocity(odometry: Odometry) -> list[float]:
     p, q = odometry.pose.pose.position, odometry.pose.pose.orientation
     ground_velocity = [KP * (g - x) for g, x in zip(GOAL, (p.x, p.y, p.z), strict=True)]
     axis = [q.x, q.y, q.z]
-    turn = _cross(axis, ground_velocity)
+    cross_product = _cross(axis, ground_velocity)
     return [
         v - 2.0 * q.w * t + 2.0 * u
-        for v, t, u in zip(ground_velocity, turn, _cross(axis, turn), strict=True)
+        for v, t, u in zip(ground_velocity, cross_product, _cross(axis, cross_product), strict=True)
     ]
 
 

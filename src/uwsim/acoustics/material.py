@@ -17,9 +17,9 @@ backscatter*, Continental Shelf Research 31, 2011). In this model the cross sect
 sphere of radius a is :math:`R^2 a^2 / 4` (for small :math:`s`), and the echo of a large plate at
 the distance h equals that of its image source at the distance 2 h (for any :math:`s`).
 
-The reflection coefficients of bottoms follow from the densities and sound speeds of APL-UW (*High-
+The reflection coefficients of seabeds follow from the densities and sound speeds of APL-UW (*High-
 frequency ocean environmental acoustic models handbook*, TR 9407, 1994, table 2); strengths and
-slopes are typical values. Not modelled: dependence on frequency, penetration of the bottom,
+slopes are typical values. Not modelled: dependence on frequency, penetration of the seabed,
 resonance of thin walls.
 """
 

@@ -68,10 +68,10 @@ class OrbTracker(Tracker):
         template: the template of the quad.
         quad: the corners of the patch, (4, 2) [px].
         features: the greatest number of features in an image.
-        fast_threshold: the least brightness step of a feature [grey level].
+        fast_threshold: the minimum brightness step of a feature [grey level].
         ratio: the greatest ratio of the distances of the nearest and the second nearest neighbour.
         inlier_distance: the greatest distance of an inlier from the homography [px].
-        min_inliers: the least number of inliers of a homography.
+        min_inliers: the minimum number of inliers of a homography.
     """
 
     @deterministic_opencv()

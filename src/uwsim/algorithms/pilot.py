@@ -173,15 +173,15 @@ class Pilot:
         self._publish_thrusts(Float64MultiArray(layout=layout, data=thrusts))
 
     def _publish_twist_command(self, commands: Mapping[str, float]) -> None:
-        speed, turn = float(self.parameters["speed"]), float(self.parameters["turn"])
+        speed, angular_speed = float(self.parameters["speed"]), float(self.parameters["turn"])
         z_sign = 1.0 if float(self.parameters["z_is_down"]) > 0.0 else -1.0
         components = (
             speed * commands["surge"],
             speed * z_sign * commands["sway"],
             -speed * z_sign * commands["heave"],
-            turn * commands["roll"],
-            turn * z_sign * commands["pitch"],
-            turn * z_sign * commands["yaw"],
+            angular_speed * commands["roll"],
+            angular_speed * z_sign * commands["pitch"],
+            angular_speed * z_sign * commands["yaw"],
         )
         twist = parse_twist(" ".join(f"{component:.9g}" for component in components))
         now = self._node.now

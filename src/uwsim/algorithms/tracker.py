@@ -49,7 +49,7 @@ class LossTest:
     if the centre of the quad is outside the image.
 
     Args:
-        zncc_threshold: the least ZNCC of a good estimate, -1..1.
+        zncc_threshold: the minimum ZNCC of a good estimate, -1..1.
         frames: the number of consecutive images without a good estimate after which the target is
             lost.
     """

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from ..viewer.replay import Replay
 
 MIN_SIDE, MAX_SIDE = 160, 7680
-"""The least and greatest width and height of a film [px]."""
+"""The minimum and maximum width and height of a film [px]."""
 MAX_RATE = 120.0
 """The greatest frame rate of a film [Hz]."""
 WEBP_RATE = 10.0

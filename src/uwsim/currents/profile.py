@@ -71,7 +71,7 @@ class LogProfileSpec(CurrentSpec):
     depth: float = element(namespaced=True, exclusive_minimum=0)
     """The depth of the ground below the still surface [m]."""
     roughness: float = element(namespaced=True, default=0.001, exclusive_minimum=0)
-    """The roughness length z0 of the bottom: mud 0.0002, gravel 0.005 [m]."""
+    """The roughness length z0 of the seabed: mud 0.0002, gravel 0.005 [m]."""
 
     def bind(self, context: SceneContext) -> LogProfile:
         """Create the current with the surface height and the vertical of the scene.

@@ -50,7 +50,7 @@ RATE = 50.0
 MAX_ITERATIONS = 30
 """The greatest number of iterations for the common factor of the thrusts."""
 TOLERANCE = 1e-9
-"""The tolerance of the power, as a share of the greatest power."""
+"""The tolerance of the power, as a fraction of the greatest power."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -69,7 +69,7 @@ class BatterySpec(DeviceSpec):
     resistance: float = element(default=0.0, minimum=0.0, maximum=100.0)
     """The internal resistance [ohm]."""
     charge: float = element(default=1.0, minimum=0.0, maximum=1.0)
-    """The state of charge at the start, as a share of the capacity [0..1]."""
+    """The state of charge at the start, as a fraction of the capacity [0..1]."""
     hotel_load: float = element(default=0.0, minimum=0.0, maximum=1e6)
     """The constant power of computers, sensors and lamps [W]."""
 

@@ -15,8 +15,8 @@ r"""A fault of a thruster or a sensor, at given or at random times; an extension
 The kinds of faults of sensors: ``dropout``, no message; ``freeze``, the last message with a new
 time stamp; ``bias``, ``size`` is added to each number; ``latency``, messages arrive ``delay``
 later; ``outliers``, a normally distributed number with the standard deviation ``size`` is added to
-each number. The kinds of faults of thrusters: ``loss``, a share of the thrust is lost; ``dropout``,
-all thrust is lost.
+each number. The kinds of faults of thrusters: ``loss``, a fraction of the thrust is lost;
+``dropout``, all thrust is lost.
 """
 
 from __future__ import annotations
@@ -55,7 +55,7 @@ class FaultSpec(DeviceSpec):
     """``loss`` or ``dropout`` of a thruster; ``dropout``, ``freeze``, ``bias``, ``latency`` or
     ``outliers`` of a sensor."""
     loss: float = element(namespaced=True, default=1.0, minimum=0.0, maximum=1.0)
-    """The share of the thrust that is lost; 1: all of it [1]."""
+    """The fraction of the thrust that is lost; 1: all of it [1]."""
     size: float = element(namespaced=True, default=0.0, minimum=-1e9, maximum=1e9)
     """The bias, or the standard deviation of outliers, in the unit of the field."""
     field: str | None = element(namespaced=True, default=None)

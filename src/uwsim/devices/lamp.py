@@ -53,7 +53,7 @@ class LampSpec(DeviceSpec):
     fov: float = element(namespaced=True, default=60.0, exclusive_minimum=0, maximum=160)
     """The angle of the whole cone [deg]."""
     softness: float = element(namespaced=True, default=0.2, minimum=0, maximum=1)
-    """The share of the half angle over which the light fades towards the edge [1]."""
+    """The fraction of the half angle over which the light fades towards the edge [1]."""
     intensity: float = element(namespaced=True, default=1.0, minimum=0)
     """The radiance of a white surface that faces the lamp at 1 m, without water [1: full scale]."""
     color: tuple[float, float, float] = element(
@@ -94,7 +94,7 @@ class LampState(Record):
     """The state of a lamp."""
 
     brightness: float = 1.0
-    """The share of the intensity at which the lamp shines, 0..1 [1]."""
+    """The fraction of the intensity at which the lamp shines, 0..1 [1]."""
 
 
 class MountedLamp(Device):

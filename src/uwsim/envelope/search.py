@@ -35,7 +35,7 @@ GRID = 8
 FIRST_CUT = (0.25, 0.75)
 """The fractions of the range between which the first cut of a seed is drawn."""
 MIN_DIVISOR = 8
-"""The least ratio of the tolerance to the step to which levels are rounded."""
+"""The minimum ratio of the tolerance to the step to which levels are rounded."""
 
 ExecuteRuns = Callable[[Sequence[tuple[int, float]]], list[bool]]
 """A function that executes runs, given as pairs (seed, level), and returns whether each is broken.

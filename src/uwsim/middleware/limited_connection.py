@@ -21,9 +21,9 @@ FRAME_COST = 5e-5
 LARGE_FRAME = 2**16
 """The length from which a frame is large [characters]."""
 LARGE_SHARE, LARGE_BURST = 0.02, 0.05
-"""The budget for the large frames of all clients: the share of the wall time, and the longest burst
-[s]. It limits also the first large frame of a new connection, for which the connection's own budget
-comes too late. Large frames wait only for each other."""
+"""The budget for the large frames of all clients: the fraction of the wall time, and the longest
+burst [s]. It limits also the first large frame of a new connection, for which the connection's own
+budget comes too late. Large frames wait only for each other."""
 MAX_SLEEP = 1.0
 """The longest time between two checks whether a client whose large frame waits has left [s]."""
 PAUSE = 0.1
@@ -35,7 +35,7 @@ class ConnectionLimits:
     """The limits of the connections of one server.
 
     Args:
-        share: the share of the wall time in which one connection is read.
+        share: the fraction of the wall time in which one connection is read.
         burst: the longest time of reading without a pause [s].
         work: the budget of all connections together; None: no limit.
         max_waiting: the maximum number of open connections that are not admitted yet; beyond it,

@@ -8,10 +8,10 @@ from collections.abc import Callable
 
 
 class WorkBudget:
-    """A limit on the share of wall time for some work (a token bucket); any thread may use it.
+    """A limit on the fraction of wall time for some work (a token bucket); any thread may use it.
 
     Args:
-        share: the share of the wall time, above 0 and at most 1.
+        share: the fraction of the wall time, above 0 and at most 1.
         burst: the longest work that may be done without a pause [s].
         clock: a function that returns the wall time [s].
     """

@@ -40,7 +40,7 @@ PROFILE = f"{U}profile"
 MAX_LISTED_LINKS = 8
 """The greatest number of links that one warning lists."""
 MIN_BUOYANCY_CHANGE = 0.1
-"""The least change of buoyancy in water of another density that is reported [N]."""
+"""The minimum change of buoyancy in water of another density that is reported [N]."""
 
 
 def read_dynamics(resolved_scene: ResolvedScene) -> dict[int, VehicleHydrodynamics]:

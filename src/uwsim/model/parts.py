@@ -28,7 +28,7 @@ from .resolved_scene import ResolvedScene
 
 CommsDeviceSpec = CustomCommsDeviceSpec | AcousticCommsDeviceSpec
 MIN_EDGE = 1e-4
-"""The least edge of a box, cylinder or sphere, as some robot files have flat shapes [m]."""
+"""The minimum edge of a box, cylinder or sphere, as some robot files have flat shapes [m]."""
 
 
 @dataclass(frozen=True, eq=False)

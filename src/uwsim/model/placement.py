@@ -64,7 +64,7 @@ def set_on_floor(resolved_scene: ResolvedScene) -> SceneSpec:
 
 
 def ground_faces(scene: SceneSpec, data_path: tuple[Path, ...]) -> dict[int, Array]:
-    """Return the triangles of the ground in W, (n, 3, 3) [m], by the number of their object."""
+    """Return the triangles of the ground in W, (n, 3, 3) [m], by the index of their object."""
     faces = {}
     for i, spec in enumerate(scene.objects):
         is_fixed = spec.has_contacts(in_water=True) and not spec.solid.is_loose

@@ -26,7 +26,7 @@ class RayBodies:
     Args:
         scene: the spec of the scene.
         parts: the visible parts of the scene.
-        fixed_poses: ``world_from_object`` of each object that never moves, by its number.
+        fixed_poses: ``world_from_object`` of each object that never moves, by its index.
     """
 
     def __init__(

@@ -136,7 +136,7 @@ class SceneModel(SimulatedScene):
 
     @cached_property
     def fixed_objects(self) -> Mapping[int, Pose]:
-        """The pose in W of each object that never moves and cannot be picked up, by number."""
+        """The pose in W of each object that never moves and cannot be picked up, by index."""
         scene = self.scene
         has_picker = any(vehicle.parts_of(ObjectPickerSpec) for vehicle in scene.vehicles)
         return {

@@ -73,7 +73,7 @@ class FournierForand(PhaseFunction):
         ) / (16.0 * math.pi)
 
     def compute_cumulative(self, angle: npt.ArrayLike) -> FloatArray:
-        """Compute the share of the light that is scattered by less than angles [rad]."""
+        """Compute the fraction of the light that is scattered by less than angles [rad]."""
         given_angles = np.asarray(angle, dtype=np.float64)
         angles = np.maximum(given_angles, MIN_ANGLE)
         squares, delta, delta_power, quadratic = self._compute_terms(angles)

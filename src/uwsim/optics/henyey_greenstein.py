@@ -47,7 +47,7 @@ class HenyeyGreenstein(PhaseFunction):
         return density
 
     def compute_cumulative(self, angle: npt.ArrayLike) -> FloatArray:
-        """Compute the share of the light that is scattered by less than angles [rad].
+        """Compute the fraction of the light that is scattered by less than angles [rad].
 
         The form has no difference of near numbers: with s = sin(angle / 2) and the root r, it is
         2 (1 + g) s^2 / (r (r + 1 - g)).

@@ -47,11 +47,11 @@ from .medium import Medium
 from .phase_function import FloatArray, PhaseFunction
 
 MIN_DISTANCE = 0.01
-"""The least distance to a lamp [m]; smaller ones are set to it."""
+"""The minimum distance to a lamp [m]; smaller ones are set to it."""
 MIN_FOOT_DISTANCE = 1e-3
-"""The least distance of a lamp from a ray [m]."""
+"""The minimum distance of a lamp from a ray [m]."""
 VEIL_FORWARD_SHARE = 0.97
-"""The share of scattered light that counts as not scattered in the veil."""
+"""The fraction of scattered light that counts as not scattered in the veil."""
 NODES = (-0.8611363115940526, -0.3399810435848563, 0.3399810435848563, 0.8611363115940526)
 """The points of Gauss and Legendre in -1..1."""
 WEIGHTS = (0.3478548451374538, 0.6521451548625461, 0.6521451548625461, 0.3478548451374538)
@@ -76,7 +76,7 @@ class Lamp:
     half_angle: float
     """The angle between axis and edge of the cone [rad], at most pi (all directions)."""
     softness: float = 0.0
-    """The share of the half-angle over which the light decreases to zero at the edge, 0..1."""
+    """The fraction of the half-angle over which the light decreases to zero at the edge, 0..1."""
 
     def __post_init__(self) -> None:
         errors = ErrorCollector()

@@ -1,8 +1,8 @@
 r"""Water as an optical medium: absorption, scattering and a phase function.
 
-Light on a straight path of length :math:`r` keeps the share :math:`e^{-c r}` without being absorbed
-or scattered, with the beam attenuation :math:`c = a + b`. Daylight decreases with depth by the
-diffuse attenuation, for which J. T. O. Kirk (*Limnol. Oceanogr.* 29, 350 (1984)) fitted
+Light on a straight path of length :math:`r` keeps the fraction :math:`e^{-c r}` without being
+absorbed or scattered, with the beam attenuation :math:`c = a + b`. Daylight decreases with depth by
+the diffuse attenuation, for which J. T. O. Kirk (*Limnol. Oceanogr.* 29, 350 (1984)) fitted
 
 .. math:: K_d = \sqrt{a^2 + 0.256\, a\, b}
 
@@ -102,7 +102,7 @@ class Medium:
 
     @property
     def single_scattering_albedo(self) -> FloatArray:
-        """The share b/c of the attenuated light that is scattered; 0 where c is 0."""
+        """The fraction b/c of the attenuated light that is scattered; 0 where c is 0."""
         attenuation = self.beam_attenuation
         is_empty = attenuation == 0.0
         return np.where(

@@ -1,15 +1,15 @@
 r"""Phase functions: the directions into which water scatters light.
 
-A phase function :math:`p(\theta)` [1/sr] is the share of the scattered light per solid angle at the
-scattering angle :math:`\theta` [rad], with
+A phase function :math:`p(\theta)` [1/sr] is the fraction of the scattered light per solid angle at
+the scattering angle :math:`\theta` [rad], with
 
 .. math::
     2 \pi \int_0^\pi p(\theta) \sin\theta \, d\theta = 1, \qquad
     F(\theta) = 2 \pi \int_0^\theta p(t) \sin t \, dt
 
-The effect of scattering on an image follows from two integrals of the cumulative share :math:`F`.
-The encircled energy of single scattering, for scatterers spread evenly between a point and the
-camera, is the share that arrives within an angle :math:`x`:
+The effect of scattering on an image follows from two integrals of the cumulative fraction
+:math:`F`. The encircled energy of single scattering, for scatterers spread evenly between a point
+and the camera, is the fraction that arrives within an angle :math:`x`:
 
 .. math::
     EE(x) = \int_0^1 F(x / s) \, ds = \frac{x}{\pi} + x \int_x^\pi \frac{F(t)}{t^2} \, dt
@@ -59,11 +59,11 @@ class PhaseFunction(ABC):
 
     @abstractmethod
     def compute_cumulative(self, angle: npt.ArrayLike) -> FloatArray:
-        """Compute the share of the light that is scattered by less than angles [rad]."""
+        """Compute the fraction of the light that is scattered by less than angles [rad]."""
 
     @cached_property
     def backscatter_ratio(self) -> float:
-        """The share of the light that is scattered backwards, bb/b."""
+        """The fraction of the light that is scattered backwards, bb/b."""
         return 1.0 - float(self.compute_cumulative(math.pi / 2))
 
     @cached_property
@@ -74,7 +74,7 @@ class PhaseFunction(ABC):
         return float(np.trapezoid(self.compute_cumulative(angles) * np.sin(angles), angles)) - 1.0
 
     def compute_encircled_energy(self, angle: npt.ArrayLike) -> FloatArray:
-        """Compute the share EE of singly scattered light that arrives within angles [rad]."""
+        """Compute the fraction EE of singly scattered light that arrives within angles [rad]."""
         x = np.clip(np.asarray(angle, dtype=np.float64), MIN_ANGLE, math.pi)
         integral = np.interp(log(x), _LOG_ANGLES, self._encircled_integrals)
         return x / math.pi + x * integral

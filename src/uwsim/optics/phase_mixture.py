@@ -19,14 +19,14 @@ MAX_PARTS = 8
 class PhaseMixture(PhaseFunction):
     r"""The phase function :math:`p = \sum_i w_i\, p_i` of particles of several kinds.
 
-    Kind :math:`i` causes the share :math:`w_i` of the scattering :math:`b`. Single scattering is
+    Kind :math:`i` causes the fraction :math:`w_i` of the scattering :math:`b`. Single scattering is
     linear in the phase function, and so are the encircled energy and the transform Q.
     """
 
     parts: tuple[PhaseFunction, ...]
     """The phase functions of the kinds."""
     weights: tuple[float, ...]
-    """The share of each kind, 0 or more; the shares are divided by their sum."""
+    """The fraction of each kind, 0 or more; the fractions are divided by their sum."""
 
     def __post_init__(self) -> None:
         errors = ErrorCollector()
@@ -60,7 +60,7 @@ class PhaseMixture(PhaseFunction):
         return total
 
     def compute_cumulative(self, angle: npt.ArrayLike) -> FloatArray:
-        """Compute the share of the light that is scattered by less than angles [rad]."""
+        """Compute the fraction of the light that is scattered by less than angles [rad]."""
         angles = np.asarray(angle, dtype=np.float64)
         total = np.zeros_like(angles)
         for part, weight in zip(self.parts, self._shares, strict=True):

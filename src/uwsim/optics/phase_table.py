@@ -80,7 +80,7 @@ class PhaseTable(PhaseFunction):
         return exp(self._interpolate(angle)) / self._integral
 
     def compute_cumulative(self, angle: npt.ArrayLike) -> FloatArray:
-        """Compute the share of the light that is scattered by less than angles [rad]."""
+        """Compute the fraction of the light that is scattered by less than angles [rad]."""
         angles = np.asarray(angle, dtype=np.float64)
         log_angles, shares = self._cumulative_table
         valid_angles = np.clip(angles, MIN_ANGLE, math.pi)

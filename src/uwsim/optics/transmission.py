@@ -43,7 +43,7 @@ from .phase_function import FloatArray, PhaseFunction
 
 
 def compute_direct(water: Medium, distance: npt.ArrayLike) -> FloatArray:
-    """Compute the share D of light that arrives neither absorbed nor scattered.
+    """Compute the fraction D of light that arrives neither absorbed nor scattered.
 
     Args:
         water: the water, of n channels.
@@ -55,7 +55,7 @@ def compute_direct(water: Medium, distance: npt.ArrayLike) -> FloatArray:
 def compute_led_signal(
     water: Medium, distance: npt.ArrayLike, half_angle: npt.ArrayLike
 ) -> FloatArray:
-    """Compute the share P of a small source's light that arrives within an angle around it.
+    """Compute the fraction P of a small source's light that arrives within an angle around it.
 
     P is the irradiance of the camera by light from within the angle, times the squared range and
     divided by the radiant intensity. It holds for wide-angle sources and angles to 10 degrees; the
@@ -174,7 +174,7 @@ def find_field_coefficients(phase: PhaseFunction) -> tuple[float, float]:
 
 
 def _compute_wide_loss(water: Medium, ranges: FloatArray) -> FloatArray:
-    """Compute the share of scattered light that a wide field loses, e0 + k sqrt(a R)."""
+    """Compute the fraction of scattered light that a wide field loses, e0 + k sqrt(a R)."""
     e0, k = find_field_coefficients(water.phase_function)
     loss: FloatArray = e0 + k * np.sqrt(np.array(water.absorption) * ranges)
     return loss

@@ -57,7 +57,7 @@ def find_feature_frequency(width: float, distance: float) -> float:
 def compute_transfer(
     water: Medium, distance: npt.ArrayLike, frequency: float | None = None
 ) -> FloatArray:
-    """Compute the share of contrast that is left of a detail, (..., n).
+    """Compute the fraction of contrast that is left of a detail, (..., n).
 
     Args:
         water: the water, of n channels.
@@ -96,7 +96,7 @@ def find_attenuation_of_contrast(
     phase_function: PhaseFunction,
     frequency: float | None = None,
 ) -> float:
-    """Find the beam attenuation [1/m] that leaves a share of the contrast of a detail.
+    """Find the beam attenuation [1/m] that leaves a fraction of the contrast of a detail.
 
     Args:
         transfer: the share, above 0 and at most 1.

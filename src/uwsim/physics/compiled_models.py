@@ -26,7 +26,7 @@ from ..base.geometry import Array, Pose
 from ..model.collision.shapes import CollisionShape
 
 MIN_SHAPES = 500
-"""The least number of shapes of a model that is cached."""
+"""The minimum number of shapes of a model that is cached."""
 SOURCES = ("base", "schema", "devices", "scene", "model", "physics", "world")
 """The subpackages of uwsim whose source code models depend on."""
 PACKAGES = ("mujoco", "numpy", "scipy", "numba")

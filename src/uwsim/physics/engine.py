@@ -226,7 +226,7 @@ class Engine:
         """Return the vehicles with dynamics and loose objects that now penetrate a fixed body.
 
         Args:
-            depth: the least depth of the penetration along the contact normal [m].
+            depth: the minimum depth of the penetration along the contact normal [m].
         """
         data = copy.copy(self._data)
         mujoco.mj_kinematics(self._model, data)

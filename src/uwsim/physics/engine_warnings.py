@@ -64,7 +64,7 @@ class StepCheck:
         """Raise SimulationFailed for a degree of freedom that is too fast.
 
         Args:
-            step: the number of the step.
+            step: the index of the step.
             dof: the index of the degree of freedom; below 0 if the engine has warned.
         """
         time = step * self._timestep

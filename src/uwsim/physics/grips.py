@@ -48,7 +48,7 @@ class Grips:
         model: the engine's model.
         data: the engine's state.
         poses: the poses of all bodies.
-        dynamics: the numbers of the vehicles with dynamics.
+        dynamics: the indices of the vehicles with dynamics.
         shapes: the engine's collision shapes, by the name of their body.
     """
 

@@ -29,7 +29,7 @@ class PosesState(Record):
     is_stale: bool = True
     """True if the engine's frames are out of date."""
     placed_poses: dict[int, Pose] = field(default_factory=dict)
-    """The set poses in W of objects that are not bodies of the engine, by number."""
+    """The set poses in W of objects that are not bodies of the engine, by index."""
     carriers: dict[int, tuple[int, str, Pose]] = field(default_factory=dict)
     """The vehicle, the link, and the pose in the link's frame of each object that follows a link,
     by the index of the object."""

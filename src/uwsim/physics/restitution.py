@@ -20,12 +20,12 @@ from functools import cache
 BOUNCE_TIME = 0.01
 """The inverse frequency of the spring for short steps [s]."""
 MIN_STEPS = 2.0
-"""The least inverse frequency of the spring, in steps [1]."""
+"""The minimum inverse frequency of the spring, in steps [1]."""
 MIN_RATE = 0.02
 """The product of frequency and step below which shorter steps no longer change the damping [1]."""
 MIN_STIFFNESS = 1.0 / 36.0
-"""The least stiffness of a contact times the square of the step [1]. It moves a body out by a 36th
-of the depth in a step, and returns at most this share of the speed."""
+"""The minimum stiffness of a contact times the square of the step [1]. It moves a body out by a
+36th of the depth in a step, and returns at most this fraction of the speed."""
 PHASES = 16
 """The number of phases over which a bounce is averaged."""
 

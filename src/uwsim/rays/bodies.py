@@ -23,7 +23,7 @@ from .tree import build_nodes
 from .triangle import IntArray, Point, transform_point
 
 BOX_MARGIN = 0.05
-"""The margin of a box on each side, as a share of the radius of the body's ball."""
+"""The margin of a box on each side, as a fraction of the radius of the body's ball."""
 RADIUS_FACTOR = 1.0 + 1e-6
 """The factor by which a radius is enlarged to compensate rounding."""
 MAX_INSERTION_SORT = 24

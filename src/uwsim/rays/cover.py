@@ -24,7 +24,7 @@ class Balls(NamedTuple):
     radius: Array
     """The radii, (n,) [m]."""
     surface: npt.NDArray[np.int32]
-    """The number of the surface that each ball covers, (n,)."""
+    """The index of the surface that each ball covers, (n,)."""
 
 
 def covering_balls(corners: Array) -> Array:

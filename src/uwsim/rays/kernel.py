@@ -38,7 +38,7 @@ from .packet import (
 from .triangle import IntArray, Trees, distance_to_triangle, transform_point
 
 MIN_GROUP_COSINE = 0.97
-"""The least cosine of the angle between the first and any other ray of a group; 14 degrees."""
+"""The minimum cosine of the angle between the first and any other ray of a group; 14 degrees."""
 STACK_SIZE = 128
 """The largest number of nodes that wait while the nearer child is traversed."""
 
@@ -51,7 +51,7 @@ class Hits(NamedTuple):
     normal: Array
     """The unit normal in W, towards the origin of the ray; zero without a hit, (n, 3)."""
     surface: IntArray
-    """The number of the surface that is hit; -1 without a hit, (n,)."""
+    """The index of the surface that is hit; -1 without a hit, (n,)."""
 
 
 @njit

@@ -134,8 +134,8 @@ def cast_request(scenes_address: int, request_address: int, time: float) -> None
     if request.n_scenes == 1:
         return
     scene_hits = Hits(np.empty(n), np.empty((n, 3)), np.empty(n, np.int32))
-    for number in range(1, request.n_scenes):
-        cast_in(scenes[number], origin, directions, starts, reach, scene_hits)
+    for index in range(1, request.n_scenes):
+        cast_in(scenes[index], origin, directions, starts, reach, scene_hits)
         for i in range(n):
             if scene_hits.distance[i] < hits.distance[i]:
                 hits.distance[i], hits.surface[i] = scene_hits.distance[i], scene_hits.surface[i]

@@ -199,7 +199,7 @@ def _fill_bins(
 
 @njit
 def _cheapest_cut(bins: Array, costs: Array) -> int:
-    """Return the first bin of the second child for the least sum of triangles times box area."""
+    """Return the first bin of the second child for the minimum sum of triangles times box area."""
     for cut in range(N_BINS):
         costs[cut] = 0.0
     for is_first in range(2):

@@ -20,7 +20,8 @@ Point = tuple[float, float, float]
 Ray = tuple[float, float, float, float]
 """The direction of a ray (3 components), and the distance at which the ray begins [m]."""
 EDGE_TOLERANCE = 1e-9
-"""The distance outside a triangle at which a ray still hits it, as a share of its side lengths."""
+"""The distance outside a triangle at which a ray still hits it, as a fraction of its side
+lengths."""
 MIN_COMPONENT = 1e-300
 """The replacement of a zero component of a direction."""
 
@@ -36,7 +37,7 @@ class Trees(NamedTuple):
     triangles: Array
     """A corner and two edges of each triangle, in the order of the leaves, (n, 9) [m]."""
     surfaces: IntArray
-    """The surface number of each triangle, and 1 if the surface is two-sided, (n, 2)."""
+    """The surface index of each triangle, and 1 if the surface is two-sided, (n, 2)."""
     roots: IntArray
     """The root node of each body's tree, (b,)."""
     balls: Array

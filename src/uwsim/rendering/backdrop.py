@@ -34,14 +34,14 @@ class Backdrop:
         self._members_key = b"", -1  # numbers of its batches in order, and `Instances.version`
 
     def find(self, instances: Instances, visible_batches: Numbers) -> Numbers:
-        """Return the numbers of the batches of the backdrop: the last of those in view.
+        """Return the indices of the batches of the backdrop: the last of those in view.
 
         If `colours` is None then, these are batches that did not move since the last image, and the
         caller draws and stores them. The result is empty if a batch in view is transparent.
 
         Args:
             instances: all instances.
-            visible_batches: the numbers of the batches in view, in the order of drawing.
+            visible_batches: the indices of the batches in view, in the order of drawing.
         """
         last_version, self._version = self._version, instances.version
         if instances.arrangement != self._arrangement or not instances.are_opaque(visible_batches):

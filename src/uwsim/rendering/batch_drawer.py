@@ -39,9 +39,9 @@ class BatchDrawer:
         self._front: Winding | None = None
         self._two_sided: bool | None = None
 
-    def draw(self, number: int, program: moderngl.Program) -> None:
-        """Draw all triangles of a batch by its number; two-sided batches from both sides."""
-        row, batch = self._batches[number]
+    def draw(self, index: int, program: moderngl.Program) -> None:
+        """Draw all triangles of a batch by its index; two-sided batches from both sides."""
+        row, batch = self._batches[index]
         if row != self._row:
             self._row = row
             self._slots.bind(row)

@@ -210,7 +210,7 @@ def find_far_distances(
     """Compute the distance from a camera to the far side of each batch in its frustum.
 
     Args:
-        numbers: the numbers of the batches to check, (m,).
+        numbers: the indices of the batches to check, (m,).
         spheres: the bounding spheres of all batches in W, (k, 4) [m].
         corners: the corners of the bounding boxes of all batches in W, (k, 8, 3) [m].
         position: the position of the camera in W, (3,) [m].

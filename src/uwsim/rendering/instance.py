@@ -85,7 +85,7 @@ class Instances:
         self.moved_versions = np.delete(self.moved_versions, row)
 
     def find_shown(self, hidden_ids: frozenset[int]) -> Numbers:
-        """Return the numbers of the batches of all instances whose id is not hidden, (m,)."""
+        """Return the indices of the batches of all instances whose id is not hidden, (m,)."""
         self._update_bounds()
         if hidden_ids not in self._shown_by_hidden:
             is_shown = np.array([id not in hidden_ids for id in self.ids], dtype=bool)
@@ -111,12 +111,12 @@ class Instances:
         return self._owners
 
     def find_casters(self, numbers: Numbers, max_radius: float) -> Numbers:
-        """Return the numbers of the batches that cast the sun's shadow.
+        """Return the indices of the batches that cast the sun's shadow.
 
         Transparent batches cast no shadow, nor do batches of large instances.
 
         Args:
-            numbers: the numbers of the batches to check.
+            numbers: the indices of the batches to check.
             max_radius: half the longest side of the largest bounding box that casts a shadow [m].
         """
         self._update_bounds()
@@ -157,7 +157,7 @@ class Instances:
 
     @property
     def numbered_batches(self) -> list[tuple[int, Batch]]:
-        """The batches by number, each with the row of its instance."""
+        """The batches by index, each with the row of its instance."""
         self._update_bounds()
         return self._numbered_batches
 
@@ -266,7 +266,7 @@ class Slots:
 def find_visible(
     instances: Instances, numbers: Numbers, world_from_camera: Pose, planes: Array
 ) -> Numbers:
-    """Return the numbers of the batches whose bounds reach into the frustum, near ones first.
+    """Return the indices of the batches whose bounds reach into the frustum, near ones first.
 
     Both the bounding sphere and the box are checked: the sphere of a wall is much larger than the
     wall. Batches are sorted by the distance to the far side of their spheres: small objects precede
@@ -274,7 +274,7 @@ def find_visible(
 
     Args:
         instances: all instances.
-        numbers: the numbers of the batches to check.
+        numbers: the indices of the batches to check.
         world_from_camera: the pose of the camera.
         planes: the planes of the frustum in the camera's frame, (6, 4).
     """

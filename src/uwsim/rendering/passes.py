@@ -77,7 +77,7 @@ class Passes:
         """
         context = self._context
         batches = self._instances.numbered_batches
-        opacities = [batches[number][1].opacity for number, _, _ in batches_in_view]
+        opacities = [batches[index][1].opacity for index, _, _ in batches_in_view]
         draw = self._surface_pass(target, switches)
         self._clear(target)
         for batch, opacity in zip(batches_in_view, opacities, strict=True):
@@ -119,8 +119,8 @@ class Passes:
         for batch in front:
             draw(*batch)
         depth_drawer, program = self._create_drawer(), self._program("backdrop", target, ())
-        for number, _, _ in back:
-            depth_drawer.draw(number, program)
+        for index, _, _ in back:
+            depth_drawer.draw(index, program)
         if region[2] > 0 and region[3] > 0:
             target.framebuffer.scissor = region
             target.framebuffer.use()
@@ -156,11 +156,11 @@ class Passes:
             defines = tuple((name, 1) for name, value in flags.items() if value)
             return self._program("surface", target, switches + defines)
 
-        def draw(number: int, in_shadow: bool, skips_mipmaps: bool) -> None:
-            texture = batches[number][1].texture
+        def draw(index: int, in_shadow: bool, skips_mipmaps: bool) -> None:
+            texture = batches[index][1].texture
             if texture is not None:
                 self._models.use(texture, SAMPLERS["base_map"], skips_mipmaps=skips_mipmaps)
-            drawer.draw(number, program(in_shadow, texture is not None))
+            drawer.draw(index, program(in_shadow, texture is not None))
 
         return draw
 

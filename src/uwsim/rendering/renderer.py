@@ -253,10 +253,12 @@ class Renderer:
             n_front = len(numbers) - len(backdrop_numbers)
             front, back = batches[:n_front], batches[n_front:]
             if backdrop.colours is None:
-                sunlit_batches = [(number, False, close) for number, _, close in back]
+                sunlit_batches = [(index, False, close) for index, _, close in back]
                 self._passes.draw(target, sunlit_batches, switches)
-                lens, sun = view.intrinsics, sun_direction(light.sun)
-                tiles = compute_tile_bounds(target.read_depths(), world_from_camera, lens, sun)
+                intrinsics, sun = view.intrinsics, sun_direction(light.sun)
+                tiles = compute_tile_bounds(
+                    target.read_depths(), world_from_camera, intrinsics, sun
+                )
                 backdrop.store(target.read_colours(), tiles, backdrop_numbers)
             region = self._find_shaded_region(view, backdrop, casters)
             if region is not None:
@@ -269,20 +271,22 @@ class Renderer:
         self, view: View, backdrop: Backdrop, casters: Numbers
     ) -> Region | None:
         """Return the region of a backdrop where shadows may fall; None if it is too large."""
-        lens, margin = view.intrinsics, SHADOW_MARGIN + 8.0 * self._shadow.lift
+        intrinsics, margin = view.intrinsics, SHADOW_MARGIN + 8.0 * self._shadow.lift
         sun = sun_direction(view.light.sun)
         region = find_shaded_region(backdrop.tiles, self._instances, casters, sun, margin)
         return (
-            region if region[2] * region[3] <= MAX_SHADED_SHARE * lens.width * lens.height else None
+            region
+            if region[2] * region[3] <= MAX_SHADED_SHARE * intrinsics.width * intrinsics.height
+            else None
         )
 
     def _find_backdrop(self, view: View) -> Backdrop | None:
         """Return the backdrop of a view; None if the view cannot have one."""
-        lens, bytes_per_pixel = view.intrinsics, 4 if view.colour_format == "uint8" else 8
-        is_small = bytes_per_pixel * lens.width * lens.height <= MAX_STORED_BYTES
+        intrinsics, bytes_per_pixel = view.intrinsics, 4 if view.colour_format == "uint8" else 8
+        is_small = bytes_per_pixel * intrinsics.width * intrinsics.height <= MAX_STORED_BYTES
         if not is_small or view.targets != {"colour"} or view.lamps or view.projector is not None:
             return None
-        key = view.pose, lens, view.water, view.light, view.hidden_ids, view.colour_format
+        key = view.pose, intrinsics, view.water, view.light, view.hidden_ids, view.colour_format
         backdrop = self._backdrops.pop(key, None) or Backdrop()
         self._backdrops[key] = backdrop
         if len(self._backdrops) > N_VIEWS:

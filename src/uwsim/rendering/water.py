@@ -162,7 +162,9 @@ def clip_distance(
 def submerged_path_share(
     world_z: npt.NDArray[np.float64], eye_z: float, water: Water
 ) -> npt.NDArray[np.float64]:
-    """Compute the share of the path from the camera to points that is under water, any shape, 0..1.
+    """Compute the fraction of the path from the camera to points that is under water, 0..1.
+
+    The result has the shape of ``world_z``.
 
     Args:
         world_z: the z coordinates of the points in W [m].

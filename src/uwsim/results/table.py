@@ -31,7 +31,7 @@ from .result import Column, Result
 
 GAP = "-"
 MIN_REASON_WIDTH = 30
-"""The least width of a column of reasons; if less is left, they are printed under the table."""
+"""The minimum width of a column of reasons; if less is left, they are printed under the table."""
 MAX_DECIMALS = 4
 """The greatest number of decimals of a measure."""
 MAX_FIXED = 1e7

@@ -67,26 +67,26 @@ def collect(
             for (trial, row), end_time in zip(rows, end_times, strict=True)
         ),
         missing_values=tuple(
-            MissingValue(row=number, column=name, reason=reason)
-            for number, (_, row) in enumerate(rows)
+            MissingValue(row=index, column=name, reason=reason)
+            for index, (_, row) in enumerate(rows)
             for name, reason in row.missing.items()
         ),
         facts={**facts, **largest_error_floors(end.facts for _, end in ends)},
         variations=variations_of(plan),
         image_streams=tuple(stream for trial, end in ends for stream in _streams(trial, end)),
         images=tuple(
-            _image(number, stored_image)
-            for number, (_, row) in enumerate(rows)
+            _image(index, stored_image)
+            for index, (_, row) in enumerate(rows)
             for stored_image in row.pictures
         ),
         refused_messages=tuple(
-            RefusedMessages(row=number, sender=sender, topic_or_service=name, n=n)
-            for number, (_, row) in enumerate(rows)
+            RefusedMessages(row=index, sender=sender, topic_or_service=name, n=n)
+            for index, (_, row) in enumerate(rows)
             for sender, name, n in row.refused
         ),
         remarks=tuple(
-            Remark(row=number, text=text)
-            for number, (_, row) in enumerate(rows)
+            Remark(row=index, text=text)
+            for index, (_, row) in enumerate(rows)
             for text in row.remarks
         ),
     )

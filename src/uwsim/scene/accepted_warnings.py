@@ -20,7 +20,7 @@ ObjectWarning = Literal["buoyancy", "places", "start"]
 
 PLAUSIBILITY_WARNINGS: Mapping[VehicleWarning, str] = {
     "balance": "Its centre of buoyancy is below its centre of mass at the start: it turns over.",
-    "bottom": "A DVL detects no bottom at the start.",
+    "bottom": "A DVL detects no seabed at the start.",
     "buoyancy": "Its displaced water is far from its mass, or too much for its shape; for an "
     "object, more than twice its box.",
     "drag": "The drag of a link stops its mass in one step, or it has drag and no mass.",

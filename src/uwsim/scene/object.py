@@ -44,11 +44,11 @@ class PhysicsSpec(Spec):
     is_kinematic: bool = False
     """True if only commands move the object."""
     min_linear_limit: Triple = UNIT_SCALE
-    """The least position on each axis; a minimum above the maximum means free [m]."""
+    """The minimum position on each axis; a minimum above the maximum means free [m]."""
     max_linear_limit: Triple = ZERO
     """The greatest position on each axis; a minimum above the maximum means free [m]."""
     min_angular_limit: Triple = UNIT_SCALE
-    """The least rotation about each axis; a minimum above the maximum means free [rad]."""
+    """The minimum rotation about each axis; a minimum above the maximum means free [rad]."""
     max_angular_limit: Triple = ZERO
     """The greatest rotation about each axis; a minimum above the maximum means free [rad]."""
     volume: float | None = element(namespaced=True, default=None, minimum=0.0)
@@ -114,7 +114,7 @@ class ObjectSpec(Spec):
     physics: PhysicsSpec | None = None
     """The physical properties of the object, in scenes with physics."""
     buried: float = element(attribute=True, default=0.0)
-    """The share of the object's height that is under sand [1]."""
+    """The fraction of the object's height that is under sand [1]."""
     is_solid: bool | None = element("solid", namespaced=True, default=None)
     """1: the object has contacts; without `<physics>` it is fixed, with the faces of its mesh as
     contact surface. 0: everything passes through the object, and it never moves. Without this

@@ -171,7 +171,7 @@ class SceneSpec(Spec):
 
     @property
     def solid_objects_in_water(self) -> dict[int, PhysicsSpec]:
-        """The objects that vehicles with dynamics have contacts with, by number.
+        """The objects that vehicles with dynamics have contacts with, by index.
 
         These are objects with ``<physics>`` or ``u:solid`` 1 and, if a vehicle has dynamics, the
         object ``terrain``; but not objects with ``u:solid`` 0.
@@ -185,7 +185,7 @@ class SceneSpec(Spec):
 
     @property
     def solid_objects(self) -> dict[int, PhysicsSpec]:
-        """The objects that can have contacts, by number.
+        """The objects that can have contacts, by index.
 
         These are the `solid_objects_in_water`. If there are none, or in the physics of the original
         UWSim, these are all objects without ``u:solid`` 0. If there are none, they are fixed:

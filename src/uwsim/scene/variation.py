@@ -48,7 +48,7 @@ class VariationSpec(Spec, abc.ABC):
     @property
     @abc.abstractmethod
     def bounds(self) -> tuple[float, float]:
-        """The least and greatest number that can be drawn, in the unit of the varied value."""
+        """The minimum and maximum number that can be drawn, in the unit of the varied value."""
 
     @property
     @abc.abstractmethod

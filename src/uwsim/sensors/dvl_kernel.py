@@ -30,7 +30,7 @@ DVL = np.dtype(
         ("error_scale", np.float64),  # see `Janus.error_scale`
         ("scale", np.int64),  # the address of the scale factor of each beam, (4,) [1]
         ("std", np.float64),  # noise of each component of a velocity [m/s]
-        ("beam_std", np.float64),  # noise along each beam over the bottom [m/s]
+        ("beam_std", np.float64),  # noise along each beam over the seabed [m/s]
         ("water_std", np.float64),  # noise along each beam through the water [m/s]
         ("range_std", np.float64),  # noise of each range [m]
         ("dropout", np.float64),  # the probability that a beam has no echo
@@ -53,8 +53,8 @@ N_TRACK = 12
 BASE_VELOCITY = 12
 """The index of the velocity in the base frame, after a track's numbers [m/s]."""
 BOTTOM, WATER, HEIGHT, DEPTH, RANGES, BEAM_VELOCITIES = 0, 15, 30, 31, 32, 36
-"""The indices of a sample's values: bottom track, water track, mean height above the bottom [m],
-depth [m], beam ranges [m] and beam velocities over the bottom [m/s]."""
+"""The indices of a sample's values: bottom track, water track, mean height above the seabed [m],
+depth [m], beam ranges [m] and beam velocities over the seabed [m/s]."""
 N_VALUES = 40
 """The number of values of a sample."""
 OWN_SURFACE_GAP = 1e-6

@@ -55,7 +55,7 @@ def _track_fields(letter: str, numbers: Sequence[float], distance: float) -> dic
     Args:
         letter: the first letter of the fields: b for the bottom track, w for the water track.
         numbers: the numbers of the track, and the velocity in the base frame.
-        distance: the mean height above the bottom, or the distance to the layer of water [m].
+        distance: the mean height above the seabed, or the distance to the layer of water [m].
     """
     status = STATUS_INVALID if math.isnan(numbers[k.INSTRUMENT]) else STATUS_VALID
     age = numbers[k.TIME] - numbers[k.LAST_VALID]

@@ -57,13 +57,13 @@ class DvlSensorSpec(SensorSpec):
     beam_angle: float = element(namespaced=True, default=30.0, exclusive_minimum=0, maximum=60)
     """The angle from the z axis of the sensor to each beam [deg]."""
     min_altitude: float = element(namespaced=True, default=0.5, minimum=0, maximum=MAX_DISTANCE)
-    """The least distance to the bottom, along the z axis of the sensor [m]."""
+    """The minimum distance to the seabed, along the z axis of the sensor [m]."""
     max_altitude: float = element(
         namespaced=True, default=81.0, exclusive_minimum=0, maximum=MAX_DISTANCE
     )
-    """The greatest distance to the bottom, along the z axis of the sensor [m]."""
+    """The greatest distance to the seabed, along the z axis of the sensor [m]."""
     beam_std: float = element(namespaced=True, default=0.0, minimum=0, maximum=10)
-    """The standard deviation of the noise of the velocity over the bottom along each beam [m/s]."""
+    """The standard deviation of the noise of the velocity over the seabed along each beam [m/s]."""
     scale_std: float = element(namespaced=True, default=0.0, minimum=0, maximum=1)
     """The standard deviation of the constant scale error of each beam's velocity in a run [1]."""
     water_std: float | None = element(namespaced=True, default=None, minimum=0, maximum=10)
@@ -79,7 +79,7 @@ class DvlSensorSpec(SensorSpec):
     """The distance to the tracked layer of water, along the z axis of the sensor [m]."""
 
     def is_bottom(self, axial_distances: Array) -> Flags:
-        """Return True for beams that detect the bottom at distances along the z axis [m]."""
+        """Return True for beams that detect the seabed at distances along the z axis [m]."""
         is_far_enough: Flags = axial_distances >= self.min_altitude
         return is_far_enough & (axial_distances <= self.max_altitude)
 
@@ -90,7 +90,7 @@ class DvlSensorSpec(SensorSpec):
 
 @dataclass(slots=True)
 class TrackState(Record):
-    """A bottom track or a water track: the velocity over the bottom, or through the water."""
+    """A bottom track or a water track: the velocity over the seabed, or through the water."""
 
     numbers: Array
     """The velocity in the sensor's frame (3) and in W (3) [m/s], the error velocity [m/s], the

@@ -17,7 +17,7 @@ import numpy as np
 import numpy.typing as npt
 
 MIN_BEAMS = 3
-"""The least number of beams that determine a velocity."""
+"""The minimum number of beams that determine a velocity."""
 AZIMUTHS = np.array([45.0, 135.0, 225.0, 315.0])
 """The azimuths of the beams, from x to y [deg]."""
 SIGNS = np.array([1.0, -1.0, 1.0, -1.0])

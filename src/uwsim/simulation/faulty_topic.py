@@ -144,9 +144,9 @@ def make_faults(
     """Return the faults of a sensor for one of its topics, with messages of ``type_``."""
     faults = []
     for vehicle in scene.vehicles:
-        for number, spec in enumerate(vehicle.parts_of(FaultSpec)):
+        for index, spec in enumerate(vehicle.parts_of(FaultSpec)):
             if spec.sensor == sensor:
-                name = f"{vehicle.name}/{sensor}/fault{number}"
+                name = f"{vehicle.name}/{sensor}/fault{index}"
                 faults.append(SensorFault(spec, type_, stream(name), stream(f"{name}/{topic}")))
     return faults
 

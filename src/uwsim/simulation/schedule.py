@@ -154,14 +154,14 @@ class Schedule:
     def defer_to_next_step(self, apply: Callable[[M], None]) -> Callable[[M], None]:
         """Return a function that calls ``apply(message)`` at the start of the next step."""
         self._command_handlers.append(apply)
-        number, state = len(self._command_handlers) - 1, self.state
-        return lambda message: state.commands.append((number, message))
+        index, state = len(self._command_handlers) - 1, self.state
+        return lambda message: state.commands.append((index, message))
 
     def apply_commands(self) -> None:
         """Apply the commands that arrived during the last step, in the order of arrival."""
         commands, self.state.commands = self.state.commands, []
-        for number, message in commands:
-            self._command_handlers[number](message)
+        for index, message in commands:
+            self._command_handlers[index](message)
 
     def tick(self, step: int, *, is_sampled: bool = False) -> None:
         """Take the samples that are due at a step, and call the callbacks that are due.

@@ -19,7 +19,7 @@ from ..scene.sim_params import ShowTrajectorySpec
 from ..world import Body
 
 MIN_SPACING = 0.02
-"""The least distance between two points [m]."""
+"""The minimum distance between two points [m]."""
 SAMPLE_RATE = 60.0
 """The rate at which the position of the body is read [Hz]."""
 MAX_POINTS = 1_000_000

@@ -217,14 +217,16 @@ class SceneVehicle:
         """Return a function that sets a loss of thrust [0..1]; the greatest of several applies."""
         if thruster not in self.thrusters:
             raise UnknownName("thruster", thruster, self.thrusters)
-        number = self.thrusters.index(thruster)
-        losses = self.state.losses.setdefault(number, [])
-        index = len(losses)
+        thruster_index = self.thrusters.index(thruster)
+        losses = self.state.losses.setdefault(thruster_index, [])
+        loss_index = len(losses)
         losses.append(0.0)
 
         def set_loss(loss: float) -> None:
-            self.state.losses[number][index] = loss
-            self._engine.actuation[self.index].set_loss(number, max(self.state.losses[number]))
+            self.state.losses[thruster_index][loss_index] = loss
+            self._engine.actuation[self.index].set_loss(
+                thruster_index, max(self.state.losses[thruster_index])
+            )
 
         return set_loss
 
@@ -321,7 +323,7 @@ class SceneVehicles:
         return None if actuation is None else actuation.actuators()
 
     def __getitem__(self, index: int) -> SceneVehicle:
-        """Return a vehicle by its number in the file."""
+        """Return a vehicle by its index in the file."""
         return self._vehicles[index]
 
     def __iter__(self) -> Iterator[SceneVehicle]:

@@ -22,15 +22,15 @@ Size = tuple[int, int]
 FIELD_OF_VIEW = math.radians(50.0)
 """The vertical field of view of the views that are computed here [rad]."""
 MAX_FILLED_SHARE = 0.8
-"""The largest share of an image, in width and in height, that the focus fills [1]."""
+"""The largest fraction of an image, in width and in height, that the focus fills [1]."""
 OBJECT_DISTANCE = 6.0
-"""The least distance from the vehicles within which objects are part of the focus [m]."""
+"""The minimum distance from the vehicles within which objects are part of the focus [m]."""
 MAX_VEHICLE_DISTANCE = 30.0
 """The distance from the first vehicle beyond which others are left out of a view [m]."""
 MAX_RADIUS = 10.0
 """The largest half diagonal of an object in the focus; larger objects are landscape [m]."""
 MIN_VISIBLE_SHARE = 0.98
-"""The visible share of the focus at which the search for a better view ends [1]."""
+"""The visible fraction of the focus at which the search for a better view ends [1]."""
 ORBIT_BEARINGS = (35.0, -35.0, 145.0, -145.0, 80.0, -80.0, 0.0, 180.0)
 """The tried bearings of the camera from the bow, positive to starboard; the best first [deg]."""
 ORBIT_ELEVATIONS = (25.0, 50.0, 10.0)
@@ -84,17 +84,19 @@ def viewer_view(simulation: Simulation, spec: ViewerCameraSpec, size: Size) -> V
     tracked_point = np.zeros(3)
     if not spec.free_motion and spec.object_to_track:
         tracked_point = _find_centre(simulation, spec.object_to_track)
-    lens = _lens(size, math.radians(spec.fov))
+    intrinsics = _intrinsics_for(size, math.radians(spec.fov))
     if spec.near > 0.0 and spec.far > spec.near:
-        lens = replace(lens, near=spec.near, far=spec.far)
+        intrinsics = replace(intrinsics, near=spec.near, far=spec.far)
     eye, target = tracked_point + spec.position, tracked_point + spec.look_at
-    return View(_look_pose(eye, target - eye, "<camera>"), lens)
+    return View(_look_pose(eye, target - eye, "<camera>"), intrinsics)
 
 
 def view_from(simulation: Simulation, eye: Array, target: Array, size: Size) -> View:
     """Return the view from ``eye`` to ``target`` in L, (3,) [m]; BadSetting if they are equal."""
     points = simulation.world.model.scene.world_from_localized.transform(np.stack([eye, target]))
-    return View(_look_pose(points[0], points[1] - points[0], "--from"), _lens(size, FIELD_OF_VIEW))
+    return View(
+        _look_pose(points[0], points[1] - points[0], "--from"), _intrinsics_for(size, FIELD_OF_VIEW)
+    )
 
 
 def view_from_pose(world_from_camera: Pose, size: Size, field: float = FIELD_OF_VIEW) -> View:
@@ -105,16 +107,16 @@ def view_from_pose(world_from_camera: Pose, size: Size, field: float = FIELD_OF_
         size: the width and height of the image [px].
         field: the vertical field of view [rad].
     """
-    return View(world_from_camera, _lens(size, field), is_clear=True)
+    return View(world_from_camera, _intrinsics_for(size, field), is_clear=True)
 
 
 def top_view(simulation: Simulation, size: Size) -> View:
     """Return the view of the focus from above, with L's x axis upwards unless it is vertical."""
-    focus, lens = find_focus(simulation), _lens(size, FIELD_OF_VIEW)
+    focus, intrinsics = find_focus(simulation), _intrinsics_for(size, FIELD_OF_VIEW)
     top = simulation.world.model.scene.world_from_localized.rotation[:, 0] * [1.0, 1.0, 0.0]
     if length(top) < 0.5:
         top = np.array([0.0, 1.0, 0.0])
-    return View(_frame_focus(focus, camera_axes(-UP, top), lens), lens, is_clear=True)
+    return View(_frame_focus(focus, camera_axes(-UP, top), intrinsics), intrinsics, is_clear=True)
 
 
 def orbit_view(simulation: Simulation, size: Size) -> View:
@@ -123,17 +125,19 @@ def orbit_view(simulation: Simulation, size: Size) -> View:
     Camera positions around the focus are tried one after the other. For each, a small image of all
     parts is compared with an image of the focus alone.
     """
-    focus, lens = find_focus(simulation), _lens(size, FIELD_OF_VIEW)
+    focus, intrinsics = find_focus(simulation), _intrinsics_for(size, FIELD_OF_VIEW)
     best_pose, best_share = None, -1.0
     for elevation, bearing in itertools.product(ORBIT_ELEVATIONS, ORBIT_BEARINGS):
-        pose = _frame_focus(focus, _camera_axes(focus.bow_direction, bearing, elevation), lens)
+        pose = _frame_focus(
+            focus, _camera_axes(focus.bow_direction, bearing, elevation), intrinsics
+        )
         share = _visible_share(simulation, focus, pose)
         if share > best_share + 0.01:
             best_pose, best_share = pose, share
         if share >= MIN_VISIBLE_SHARE:
             break
     assert best_pose is not None
-    return View(best_pose, lens, is_clear=True)
+    return View(best_pose, intrinsics, is_clear=True)
 
 
 def find_focus(simulation: Simulation) -> Focus:
@@ -188,13 +192,13 @@ def _group_vehicles(part_corners: Sequence[tuple[Part, Array]]) -> list[tuple[in
 
 
 def _visible_share(simulation: Simulation, focus: Focus, world_from_camera: Pose) -> float:
-    """Return the share of the focus that no other part hides, the mean over its parts [0..1]."""
-    lens = _lens(VISIBILITY_IMAGE_SIZE, FIELD_OF_VIEW)
+    """Return the fraction of the focus that no other part hides, the mean over its parts [0..1]."""
+    intrinsics = _intrinsics_for(VISIBILITY_IMAGE_SIZE, FIELD_OF_VIEW)
     other_ids = frozenset(part.id for part in simulation.world.scenery.parts) - focus.ids
     shares = []
     focus_ids, scene_ids = (
         simulation.world.scenery.render_view(
-            world_from_camera, lens, targets={"ids"}, hidden_ids=hidden_ids
+            world_from_camera, intrinsics, targets={"ids"}, hidden_ids=hidden_ids
         ).ids
         for hidden_ids in (other_ids, frozenset[int]())
     )
@@ -206,11 +210,13 @@ def _visible_share(simulation: Simulation, focus: Focus, world_from_camera: Pose
     return float(np.mean(shares)) if shares else 0.0
 
 
-def _frame_focus(focus: Focus, axes: Array, lens: Intrinsics) -> Pose:
+def _frame_focus(focus: Focus, axes: Array, intrinsics: Intrinsics) -> Pose:
     """Return the nearest camera pose with these axes in W at which all corners are in the image."""
     offsets = product(focus.corners - focus.centre, axes)  # (n, 3): right, up, towards the eye [m]
     halves = (
-        np.array([lens.width / lens.fx, lens.height / lens.fy]) * 0.5 * MAX_FILLED_SHARE
+        np.array([intrinsics.width / intrinsics.fx, intrinsics.height / intrinsics.fy])
+        * 0.5
+        * MAX_FILLED_SHARE
     )  # (2,) [1]
     sides, depth = offsets[:, :2] / halves, offsets[:, 2:]
     # the eye's distance from the two planes through the corners, right and left, above and below
@@ -225,9 +231,9 @@ def _frame_focus(focus: Focus, axes: Array, lens: Intrinsics) -> Pose:
 
 def _camera_axes(bow_direction: Array, bearing: float, elevation: float) -> Array:
     """Return the axes in W, (3, 3), of a camera at a bearing and an elevation [deg]."""
-    turn, tilt = math.radians(bearing), math.radians(elevation)
+    bearing_angle, tilt = math.radians(bearing), math.radians(elevation)
     starboard = np.cross(bow_direction, UP)
-    direction = math.cos(turn) * bow_direction + math.sin(turn) * starboard
+    direction = math.cos(bearing_angle) * bow_direction + math.sin(bearing_angle) * starboard
     return camera_axes(-(math.cos(tilt) * direction + math.sin(tilt) * UP), UP)
 
 
@@ -238,7 +244,7 @@ def _look_pose(eye: Array, direction: Array, source: str) -> Pose:
     return Pose(eye, camera_axes(direction / distance, UP))
 
 
-def _lens(size: Size, field: float) -> Intrinsics:
+def _intrinsics_for(size: Size, field: float) -> Intrinsics:
     return Intrinsics.from_fovy(*size, field, near=NEAR_PLANE)
 
 

@@ -40,7 +40,7 @@ def median_interval(brackets: Sequence[tuple[float, float]], *, confidence: floa
 
     Args:
         brackets: the lower and upper end of the bracket of each value; ends may be infinite.
-        confidence: the least probability that the limits enclose the median.
+        confidence: the minimum probability that the limits enclose the median.
     """
     n = len(brackets)
     if n == 0:
@@ -59,7 +59,7 @@ def median_interval(brackets: Sequence[tuple[float, float]], *, confidence: floa
 
 
 def min_values_for_median(confidence: float) -> int:
-    """Return the least number of values for which there are limits of this confidence."""
+    """Return the minimum number of values for which there are limits of this confidence."""
     n = 1
     while _limit_rank(n, confidence) == 0:
         n += 1

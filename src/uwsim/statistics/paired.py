@@ -24,7 +24,7 @@ def sign_flip(differences: Sequence[float]) -> float | None:
     r"""Return the two-sided p-value of the sign-flip test of a mean difference of zero.
 
     If neither of the compared algorithms is better, both signs of each difference are equally
-    likely. p is the share of all :math:`2^n` sign patterns for which the mean is at least as far
+    likely. p is the fraction of all :math:`2^n` sign patterns for which the mean is at least as far
     from zero as the observed mean (Fisher 1935, section 21; Pitman 1937). It is exact for any
     distribution, and never below :math:`2/2^n`. For more than `MAX_EXACT_PAIRS` differences,
     :math:`m` = `N_SIGN_PATTERNS` random patterns are evaluated, and p is :math:`(b+1)/(m+1)` if the
@@ -116,7 +116,7 @@ def min_p_value(n: int) -> float:
 
 
 def min_pairs(alpha: float) -> int:
-    r"""Return the least number of pairs whose sign-flip test can reach ``alpha``: 6 for 5 %.
+    r"""Return the minimum number of pairs whose sign-flip test can reach ``alpha``: 6 for 5 %.
 
     It is :math:`n = \lceil \log_2(2/\alpha) \rceil`, as the smallest p of n pairs is
     :math:`2/2^n` (`min_p_value`). For m tests with Holm's correction use :math:`\alpha/m`: the

@@ -39,7 +39,7 @@ def power(n: int, d: float, alpha: float = 0.05) -> float:
 
 
 def repeats_needed(d: float, *, alpha: float = 0.05, target_power: float = 0.8) -> int | None:
-    """Return the least number of pairs for which the test has the power ``target_power``.
+    """Return the minimum number of pairs for which the test has the power ``target_power``.
 
     It is at least the number of pairs for which the sign-flip test can reach ``alpha``
     (`min_pairs`). The result is None if more than `MAX_REPEATS` pairs are needed, as for d = 0.

@@ -20,12 +20,12 @@ class Rate:
 
     @property
     def value(self) -> float:
-        """The share of successes, 0 to 1."""
+        """The fraction of successes, 0 to 1."""
         return self.successes / self.n
 
 
 def rate(successes: int, n: int, *, confidence: float = 0.95) -> Rate | None:
-    r"""Return the share of k successes in n trials, with its exact limits; None without trials.
+    r"""Return the fraction of k successes in n trials, with its exact limits; None without trials.
 
     The limits are those of Clopper and Pearson (1934). At the lower limit, k or more successes have
     the probability :math:`\alpha/2`, and at the upper limit k or fewer successes, with

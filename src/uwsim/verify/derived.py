@@ -26,14 +26,14 @@ def contradictions(result: Result, benchmark: BenchmarkSpec) -> Iterator[Differe
     columns = [column.name for column in result.columns]
     details = {spec.name: f"{spec.name}.{spec.value}" for spec in benchmark.measures}
     expression = parse(benchmark.function.text, list(details))
-    for number, cells in enumerate(result.rows):
+    for index, cells in enumerate(result.rows):
         row = dict(zip(columns, cells, strict=True))
         if set(expression.names) <= set(row) and "total" in row:
             computed_total = _total(expression, row)
             if leaves(row["total"]) != leaves(computed_total):
                 yield Difference(
                     location="result.json",
-                    description=f"row {number}, column total: {row['total']!r} there, "
+                    description=f"row {index}, column total: {row['total']!r} there, "
                     f"{computed_total!r} by {expression.text!r} of the row's values",
                 )
         for name, detail in details.items():
@@ -41,7 +41,7 @@ def contradictions(result: Result, benchmark: BenchmarkSpec) -> Iterator[Differe
             if value is not None and detail_value is not None and value != detail_value:
                 yield Difference(
                     location="result.json",
-                    description=f"row {number}, column {name}: {value!r} there, "
+                    description=f"row {index}, column {name}: {value!r} there, "
                     f"{detail_value!r} by {detail}, which it is",
                 )
 

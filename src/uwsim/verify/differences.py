@@ -98,8 +98,8 @@ def end_differences(old_end: Record, new_end: Record) -> list[str]:
         name = " ".join(map(str, path[:2]))
         if path[0] == "streams" and isinstance(path[-1], int):
             topics = [s[0] for s in new_end.get("streams", []) if isinstance(s, list) and s]
-            number = int(path[1]) if len(path) > 1 else 0
-            topic = topics[number] if number < len(topics) else number
+            index = int(path[1]) if len(path) > 1 else 0
+            topic = topics[index] if index < len(topics) else index
             name = f"images on {topic}"
             if path[-1] == 1:
                 old_text, new_text = f"{old_text} frames", f"{new_text} frames"

@@ -172,9 +172,9 @@ def _trial_without_motion(directory: Path, index: int, names: Sequence[str], blo
 
 
 def _level(level: RecordedLevel, trial: RecordedTrial) -> Json:
-    number = trial.levels.index(level)
+    index = trial.levels.index(level)
     return {
-        "label": level.label or f"level {number + 1}",
+        "label": level.label or f"level {index + 1}",
         "status": level.status,
         "why": level.reason or None,
         "start": level.start_time,

@@ -181,7 +181,7 @@ def _compute_decay(
         e *= e
         e *= e
         e *= e
-        reflection = decay[i] / e  # of the bottom
+        reflection = decay[i] / e  # of the seabed
         speed = amplitude[i] * factor[i]
         horizontal_speed[i] = speed * (e + reflection)
         vertical_speed[i] = speed * (e - reflection)

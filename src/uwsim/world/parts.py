@@ -226,11 +226,11 @@ class Rays(Protocol):
 
     @property
     def vehicles(self) -> Sequence[str]:
-        """The name of the vehicle to which each surface belongs, or empty, by number of surface."""
+        """The name of the vehicle to which each surface belongs, or empty, by index of surface."""
 
     @property
     def materials(self) -> Sequence[Material]:
-        """The acoustic material of each surface, by number of surface."""
+        """The acoustic material of each surface, by index of surface."""
 
     @property
     def functions(self) -> npt.NDArray[np.void]:

@@ -23,9 +23,9 @@ class Settings(NamedTuple):
     """The settings of an alignment that compiled code reads."""
 
     a: float
-    """The share of the image's gradient in J."""
+    """The weight of the image's gradient in J."""
     b: float
-    """The share of the template's gradient in J."""
+    """The weight of the template's gradient in J."""
     photometric: bool
     """True if patches are normalised; see `alignment.Method`."""
     max_iterations: int

@@ -24,11 +24,11 @@ class Weights(NamedTuple):
     """The factor of the difference [1 / grey level]."""
     from_u: np.float32
     """The factor of a difference of two samples that are two columns apart, for the gradient by
-    the normalised coordinate u; it includes the share a of the image."""
+    the normalised coordinate u; it includes the weight a of the image."""
     from_v: np.float32
     """The factor of a difference of two samples that are two rows apart, for the gradient by v."""
     share: np.float32
-    """The share b of the template's gradient."""
+    """The weight b of the template's gradient."""
 
 
 class Run(NamedTuple):
@@ -67,8 +67,8 @@ def normal_equations(
         patch: the template.
         image_samples: the warped image and its mask (`alignment_kernel.sample_image`).
         brightness: the offset [grey level] and the gain [1 / grey level] of the image.
-        a: the share of the image's gradient in J.
-        b: the share of the template's gradient in J.
+        a: the weight of the image's gradient in J.
+        b: the weight of the template's gradient in J.
 
     Returns:
         J^T [J, (I - offset) gain, I*, 1], (8, 11).

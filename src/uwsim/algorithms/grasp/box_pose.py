@@ -80,8 +80,8 @@ def pose_from_outline(
         return None
     axis_heading = math.atan2(float(axis_point[1] - centre[1]), float(axis_point[0] - centre[0]))
     best_fit: Sighting | None = None
-    for turn in (0.5, 0.35, 0.65):  # the outline may be widest along a diagonal
-        start = np.array([*centre.tolist(), axis_heading + turn * math.pi, 0.0, 0.0])
+    for half_turns in (0.5, 0.35, 0.65):  # the outline may be widest along a diagonal
+        start = np.array([*centre.tolist(), axis_heading + half_turns * math.pi, 0.0, 0.0])
         sighting = _fit_outline(start, outline, view, box, deviation)
         if sighting is not None and (best_fit is None or sighting.residual < best_fit.residual):
             best_fit = sighting

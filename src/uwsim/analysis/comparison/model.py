@@ -237,7 +237,7 @@ def family_size(family: Sequence[PairedDifference]) -> int:
 
 
 def min_family_repeats(family: Sequence[PairedDifference]) -> int:
-    """Return the least number of repeats at which a test of this family can show a difference.
+    """Return the minimum number of repeats at which a test of this family can show a difference.
 
     With m tests of n repeats each, the smallest corrected p is m times :math:`2/2^n`. All tests
     with data are counted, because with more repeats all of them will be tested.

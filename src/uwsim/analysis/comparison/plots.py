@@ -106,7 +106,7 @@ def differences_plot(comparison: Comparison) -> Figure:
 
 
 def success_plot(comparison: Comparison) -> Figure | None:
-    """Draw the share of repeats that ended ``ok``; None if all ended ``ok`` or have no status."""
+    """Draw the fraction of repeats that ended ``ok``; None if all did, or have no status."""
     entry_rates = []
     entries = _common_entries(comparison)
     for entry in entries:

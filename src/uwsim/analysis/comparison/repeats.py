@@ -9,7 +9,7 @@ ALPHA = 0.05
 
 
 def min_repeats(n_results: int, n_levels: int) -> tuple[int, int]:
-    """Return the least number of repeats for the sweep as a whole, and for single levels.
+    """Return the minimum number of repeats for the sweep as a whole, and for single levels.
 
     K results have K (K - 1) / 2 pairs. Over the sweep, Holm's correction counts one test for each
     pair; at single levels, one test for each pair and level. With m tests, the smallest p of n

@@ -43,7 +43,7 @@ class Curve:
 
     @property
     def span(self) -> tuple[float, float] | None:
-        """The least mean, and the greatest mean or upper limit; None if there is no value."""
+        """The minimum mean, and the greatest mean or upper limit; None if there is no value."""
         present_means = [v for v in self.mean if not np.isnan(v)]
         limits = [v for v in self.high if not np.isnan(v)]
         return (min(present_means), max(present_means + limits)) if present_means else None

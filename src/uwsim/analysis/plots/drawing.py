@@ -36,7 +36,7 @@ LABEL_WIDTH = 28
 MAX_LEVEL_TICKS = 6
 """The greatest number of levels that all have ticks."""
 MIN_BOX_VALUES = 5
-"""The least number of values for which a box of quartiles is drawn."""
+"""The minimum number of values for which a box of quartiles is drawn."""
 MAX_INSIDE = 4
 """The greatest number of curves for which the legend is inside the axes."""
 
@@ -199,7 +199,7 @@ def draw_boxes(
 
 
 def _box_width(levels: Iterable[float]) -> float:
-    """Return the width of a box: 0.36 of the least level step, at most a tenth of the axis."""
+    """Return the width of a box: 0.36 of the minimum level step, at most a tenth of the axis."""
     xs = sorted(set(levels))
     if len(xs) < 2:
         return 0.3

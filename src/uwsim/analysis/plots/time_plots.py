@@ -28,7 +28,7 @@ Array = npt.NDArray[np.float64]
 Level = tuple[float, ...]
 
 MIN_BAND_SEEDS = 5
-"""The least number of seeds whose quantiles are drawn as bands."""
+"""The minimum number of seeds whose quantiles are drawn as bands."""
 OUTER_QUANTILES, INNER_QUANTILES = (0.05, 0.95), (0.25, 0.75)
 """The quantiles at the edges of the outer and the inner band."""
 MAX_POINTS = 1500

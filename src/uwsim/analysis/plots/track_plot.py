@@ -32,7 +32,7 @@ MAX_TRIALS = 120
 MAX_POINTS = 600
 """The greatest number of points of a line."""
 MIN_MOTION = 0.02
-"""The least extent of the motion of a vehicle for which tracks are drawn [m]."""
+"""The minimum extent of the motion of a vehicle for which tracks are drawn [m]."""
 OBJECT_MARKER = "s"
 
 
@@ -100,12 +100,12 @@ def _frames(track: MotionTrack, start_time: float, duration: float) -> slice:
 def _tracks(track: MotionTrack, frames: slice) -> Iterator[Track]:
     """Yield the path of the first link of each vehicle, and of each object."""
     vehicles: set[str] = set()
-    for number, name in enumerate(track.bodies):
+    for index, name in enumerate(track.bodies):
         vehicle, slash, _ = name.partition("/")
         if vehicle in vehicles:
             continue
         vehicles |= {vehicle} if slash else set()
-        points = track.poses[frames, number, :2]
+        points = track.poses[frames, index, :2]
         points = points[np.isfinite(points).all(axis=1)]
         step = max(1, len(points) // MAX_POINTS)
         if len(points):

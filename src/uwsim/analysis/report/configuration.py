@@ -164,7 +164,7 @@ def _fact_name(name: str) -> str:
 
 
 def variations(result: Result) -> list[tuple[str, str, str]]:
-    """Return the varied values: the path, the distribution, and the least and largest sample."""
+    """Return the varied values: the path, the distribution, and the minimum and maximum sample."""
     texts = []
     for variation in result.variations:
         unit = "" if variation.unit == "1" else f" {written_unit(variation.unit)}"

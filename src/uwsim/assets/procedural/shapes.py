@@ -279,9 +279,9 @@ def extrusion(
     if bevel == 0.0:
         levels = [(z0, 0.0), (z1, 0.0)]
     else:
-        turn = np.linspace(0, math.pi / 2, bevel_steps + 1)
-        low = [(z0 + bevel * (1 - math.sin(a)), bevel * (1 - math.cos(a))) for a in turn[::-1]]
-        high = [(z1 - bevel * (1 - math.sin(a)), bevel * (1 - math.cos(a))) for a in turn]
+        angles = np.linspace(0, math.pi / 2, bevel_steps + 1)
+        low = [(z0 + bevel * (1 - math.sin(a)), bevel * (1 - math.cos(a))) for a in angles[::-1]]
+        high = [(z1 - bevel * (1 - math.sin(a)), bevel * (1 - math.cos(a))) for a in angles]
         levels = [*low, *high]
     half = np.abs(outline).max(axis=0)
     rings = [

@@ -48,7 +48,7 @@ class Collision(Measure):
     other along the normal of the contact. s is the mean approach speed of the body's contacts that
     close at a step [m/s], or 0 at a step without such a contact. :math:`\bar s` is the mean of s
     over *all* steps at which the measure is active, and :math:`s_{max}` the largest s. Details: the
-    largest s, the mean of s over the steps in contact, and the share of steps in contact. A body
+    largest s, the mean of s over the steps in contact, and the fraction of steps in contact. A body
     that rests on another is in contact, with s = 0.
 
     Compatibility ``collision``: as in the original UWSim, the only contacts that count are those
@@ -117,7 +117,7 @@ class Collision(Measure):
 
     @property
     def details(self) -> dict[str, float | None]:
-        """The largest and mean approach speed [m/s], and the share of steps in contact [1]."""
+        """The largest and mean approach speed [m/s], and the fraction of steps in contact [1]."""
         if self._n_steps == 0:
             return dict.fromkeys(("max_speed", "mean_speed", "contact_share"))
         n = self._n_in_contact

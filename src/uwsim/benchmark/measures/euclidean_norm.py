@@ -113,7 +113,7 @@ class EuclideanNorm(Measure):
 
     Details, besides the statistics: ``n``, the number of estimates; ``refused``, the number of
     invalid messages; ``frames``, the number of steps :math:`t_k` in the statistics; ``answered``,
-    the share of these steps with a new estimate since the previous such step.
+    the fraction of these steps with a new estimate since the previous such step.
 
     The log has the norm at the newest image, or at the newest estimate if that arrived later. It
     has no norm while the newest estimate is older than 1 s.
@@ -216,7 +216,7 @@ class EuclideanNorm(Measure):
 
     @property
     def reasons(self) -> dict[str, str]:
-        """The reason why the share of answered images is None."""
+        """The reason why the fraction of answered images is None."""
         if self._image_errors.n:
             return {}
         return {

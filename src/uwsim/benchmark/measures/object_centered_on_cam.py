@@ -55,7 +55,7 @@ class ObjectCenteredOnCam(Measure):
     :math:`d_x = (w - 1)/2 - u` and, as the original UWSim counts rows from the bottom,
     :math:`d_y = v - (h - 1)/2`. There is a sample for each step at which the origin projects into
     the image, and no value if it is outside of the image at the last step. The detail ``visible``
-    is the share of steps with a sample. Not modelled: occlusion.
+    is the fraction of steps with a sample. Not modelled: occlusion.
 
     Compatibility ``unseen``: there is a sample at each step, wherever the origin projects to;
     points behind the camera are projected through its optical centre, upside down. ``visible`` is
@@ -109,7 +109,7 @@ class ObjectCenteredOnCam(Measure):
 
     @property
     def details(self) -> dict[str, float | None]:
-        """The statistics of distance and components, and the share of steps with a sample."""
+        """The statistics of distance and components, and the fraction of steps with a sample."""
         visible_share = self._signal.n / self._n_steps if self._n_steps else None
         return {**self._signal.details, "visible": visible_share}
 

@@ -106,8 +106,8 @@ class PathFollowing(Measure):
     near them. A point that repeats the previous point is left out.
 
     Details: ``iae`` (the value) [m s]; ``ise`` [m^2 s]; the present ``distance`` [m]; ``waypoint``,
-    the index of the point at which the current segment begins; ``share``, the largest share of the
-    path's length that the point nearest to the body has reached [1]; and the statistics of the
+    the index of the point at which the current segment begins; ``share``, the largest fraction of
+    the path's length that the point nearest to the body has reached [1]; and the statistics of the
     distance over all steps [m].
 
     Compatibility ``path-ise``: both ``iae`` and ``ise`` are the sum of :math:`d_1 \Delta t`.
@@ -202,7 +202,7 @@ class PathFollowing(Measure):
 
     @property
     def details(self) -> dict[str, float | None]:
-        """The integrals and statistics of the distance, and the share of the path reached."""
+        """The integrals and statistics of the distance, and the fraction of the path reached."""
         parts: dict[str, float | None] = dict.fromkeys(DETAIL_UNITS)
         if self._path is not None:
             length = self._path.length

@@ -99,12 +99,12 @@ class Reconstruction3D(Measure):
     There is no value without a cloud, or without an inlier. A time without clouds is no failure.
 
     Details: ``mean_error`` (the value) [m]; ``error_variance``, divided by n - 1, None with one
-    inlier [m^2]; ``coverage``, the share of the grid nodes on the five faces above the ground that
-    have a point near them [1] (`uwsim.benchmark.metrics.coverage`); ``outlier_share``, the share of
-    outliers among outliers and inliers [1]; and the numbers of points of each kind and of clouds.
-    Only a body with the shape of a *box* can have an error of 0: for any other body the distance of
-    its surface from its bounding box counts as error. Measuring one accurate point many times makes
-    the mean small: compare the coverage.
+    inlier [m^2]; ``coverage``, the fraction of the grid nodes on the five faces above the ground
+    that have a point near them [1] (`uwsim.benchmark.metrics.coverage`); ``outlier_share``, the
+    fraction of outliers among outliers and inliers [1]; and the numbers of points of each kind and
+    of clouds. Only a body with the shape of a *box* can have an error of 0: for any other body the
+    distance of its surface from its bounding box counts as error. Measuring one accurate point many
+    times makes the mean small: compare the coverage.
 
     Compatibility ``reconstruction-transform``: clouds are transformed with the poses that both
     frames had when the level began. ``reconstruction-box``: two corners of the box are rotated to

@@ -1,13 +1,13 @@
-r"""Coverage: the share of the surface of a box that has measured points near it.
+r"""Coverage: the fraction of the surface of a box that has measured points near it.
 
 A grid divides the box into equal cells. Along an axis on which the extent of the box is e, there
 are :math:`k = \lfloor e / \text{lod} \rfloor` cells of the size e/k, at least one; lod is the level
 of detail [m]. The corners of the cells are the nodes of the grid: k + 1 along each axis, of which
 the first and the last are on faces of the box. A point marks the corners of the cell in which it
 is: eight nodes, or four if it is on a side of a cell, two on an edge, one on a node (within a
-billionth of a cell). The coverage is the share of marked nodes on five faces of the box. The sixth
-face, the lower one, is on the ground and not visible. Points on the ground and outliers mark nodes,
-too.
+billionth of a cell). The coverage is the fraction of marked nodes on five faces of the box. The
+sixth face, the lower one, is on the ground and not visible. Points on the ground and outliers mark
+nodes, too.
 
 Only nodes on faces are stored. A point marks nodes of a face if it is less than a cell from it.
 """
@@ -54,7 +54,7 @@ class Coverage:
 
         Args:
             box: the box, in its own frame with z up [m].
-            level_of_detail: the least size of a cell [m].
+            level_of_detail: the minimum size of a cell [m].
             is_original: compute cells and nodes as the original UWSim does (compatibility
                 ``reconstruction-coverage``).
 
@@ -107,7 +107,7 @@ class Coverage:
 
     @property
     def share(self) -> float | None:
-        """The share of marked nodes [1]; None without nodes (only with ``is_original``)."""
+        """The fraction of marked nodes [1]; None without nodes (only with ``is_original``)."""
         return self.n_marked / self._n_nodes if self._n_nodes > 0 else None
 
 

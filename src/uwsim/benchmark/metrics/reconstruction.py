@@ -85,13 +85,13 @@ class Reconstruction:
 
     @property
     def outlier_share(self) -> float | None:
-        """The share of outliers among inliers and outliers [1]; None when there is neither."""
+        """The fraction of outliers among inliers and outliers [1]; None when there is neither."""
         n = self.n_inliers + self.n_outliers
         return self.n_outliers / n if n else None
 
     @property
     def coverage(self) -> float | None:
-        """The share of the nodes on five faces with points near them [1]; see `Coverage`."""
+        """The fraction of the nodes on five faces with points near them [1]; see `Coverage`."""
         return self._coverage.share
 
     def _classify(self, points: Array) -> None:

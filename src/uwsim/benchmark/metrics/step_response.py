@@ -37,7 +37,7 @@ from ...base.numerics.linear import dot, length, product
 RISE_RANGE = (0.1, 0.9)
 """The values of the response y between which the rise time is measured [1]."""
 STEADY_SHARE = 0.1
-"""The share of the time, at its end, over which the steady-state error is averaged [1]."""
+"""The fraction of the time, at its end, over which the steady-state error is averaged [1]."""
 INTEGRALS = ("ise", "iae", "itae")
 """The performance indices, which do not depend on the size of the step."""
 Shape = tuple[dict[str, float | None], dict[str, str]]

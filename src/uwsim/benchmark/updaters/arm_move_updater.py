@@ -46,7 +46,7 @@ class ArmMoveUpdaterSpec(SceneUpdaterSpec):
     """The name of the vehicle."""
 
     def values(self) -> tuple[float, ...]:
-        """Return the number of each level, from 0."""
+        """Return the index of each level, from 0."""
         count = len(self.arm_position) + (len(self.arm_position) - 1) * self.step
         if count > MAX_LEVELS:
             raise BadSetting(f"The arm has {count} positions; expected at most {MAX_LEVELS}.")

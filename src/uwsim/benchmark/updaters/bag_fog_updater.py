@@ -273,7 +273,7 @@ def add_fog(
     Args:
         pixels: a colour image (h, w, 3), red first, or a grey image (h, w), in which the fog has
             the brightness of ``colour``.
-        contrast: the share of the contrast that remains, 0..1.
+        contrast: the fraction of the contrast that remains, 0..1.
         colour: the red, green and blue of the fog, 0..1.
     """
     import cv2

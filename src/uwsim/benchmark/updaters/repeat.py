@@ -27,7 +27,7 @@ class RepeatSpec(SceneUpdaterSpec):
     """The length of a level [s]."""
 
     def values(self) -> tuple[float, ...]:
-        """Return the numbers of the iterations, from 0."""
+        """Return the indices of the iterations, from 0."""
         return tuple(float(i) for i in range(self.iterations))
 
     @property

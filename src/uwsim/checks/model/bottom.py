@@ -1,6 +1,6 @@
-"""Warnings about DVLs that do not detect the bottom at the start.
+"""Warnings about DVLs that do not detect the seabed at the start.
 
-The bottom consists of the fixed objects that have contacts, and of terrain. Not checked: other
+The seabed consists of the fixed objects that have contacts, and of terrain. Not checked: other
 vehicles and loose objects.
 """
 
@@ -26,11 +26,11 @@ from ...sensors.janus import MIN_BEAMS, Janus
 from ..subjects import CheckedScene
 
 MAX_RANGE = 20000.0
-"""The greatest range of the search for the bottom along each beam [m]."""
+"""The greatest range of the search for the seabed along each beam [m]."""
 
 
 def velocity_logs(scene: CheckedScene) -> Iterator[Diagnostic]:
-    """Warn of DVLs that do not detect the bottom at the start."""
+    """Warn of DVLs that do not detect the seabed at the start."""
     vehicles, robots = scene.spec.vehicles, scene.robots
     logs = [
         (index, spec)
@@ -47,7 +47,7 @@ def velocity_logs(scene: CheckedScene) -> Iterator[Diagnostic]:
 
 
 class Bottom:
-    """The bottom of a scene, for the beams of DVLs.
+    """The seabed of a scene, for the beams of DVLs.
 
     Args:
         scene: the spec of the scene.
@@ -63,7 +63,7 @@ class Bottom:
         self._rays = RayScene([[Surface(index, part, True) for index, part in faces.items()]])
 
     def describe_miss(self, spec: DvlSensorSpec, index: int, robot: RobotSpec) -> str:
-        """Describe why a DVL does not detect the bottom at the start; empty if it does.
+        """Describe why a DVL does not detect the seabed at the start; empty if it does.
 
         Args:
             spec: the DVL.
@@ -80,6 +80,6 @@ class Bottom:
         range_text = f"at {ranges.min():.3g} to {ranges.max():.3g} m" if len(ranges) else "nowhere"
         return (
             f"it has no bottom track at the start. It {describe_direction(spec, frames)}, and its "
-            f"beams hit the bottom {range_text}; expected {MIN_BEAMS} hits or more at "
+            f"beams hit the seabed {range_text}; expected {MIN_BEAMS} hits or more at "
             f"{spec.min_altitude:g} to {spec.max_altitude:g} m"
         )

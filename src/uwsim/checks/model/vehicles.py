@@ -35,7 +35,7 @@ greater of them [1]."""
 MAX_VOLUME_RATIO = 2.0
 """The greatest ratio of displaced volume to the volume of the link boxes [1]."""
 MIN_VOLUME_RATIO = 0.005
-"""The least ratio of displaced volume to the volume of the link boxes [1]."""
+"""The minimum ratio of displaced volume to the volume of the link boxes [1]."""
 MIN_INSTABILITY = 1e-3
 """The height of the centre of mass above the centre of buoyancy from which it is reported [m]."""
 MAX_SIZE, MIN_SIZE = 50.0, 0.05

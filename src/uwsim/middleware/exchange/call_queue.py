@@ -12,7 +12,7 @@ from ..work_budget import WorkBudget
 MAX_CALLS = 1000
 """The maximum number of calls that wait for the end of a step."""
 FLOOD_SHARE, FLOOD_BURST = 0.01, 0.05
-"""The budget for a flood of calls: the share of the wall time, and the longest burst [s]."""
+"""The budget for a flood of calls: the fraction of the wall time, and the longest burst [s]."""
 CALLS_AT_ONCE = 10
 """The number of calls answered together while the simulation waits; a longer queue is a flood."""
 Call = tuple[str, object, "Future[object]"]

@@ -32,7 +32,8 @@ MAX_PUBLISHERS = 100
 CONNECT_TIMEOUT = 10.0
 """The time limit for a publisher to answer [s]."""
 LINK_SHARE, LINK_BURST = 0.05, 0.1
-"""The budget for reading one publisher: the share of the wall time, and the longest burst [s]."""
+"""The budget for reading one publisher: the fraction of the wall time, and the longest burst
+[s]."""
 ALL_SHARE, ALL_BURST = 0.1, 0.2
 """The budget for reading all publishers together, except those for which a run in lock-step
 waits."""

@@ -1,4 +1,4 @@
-"""A queue of the requests to a server: one at a time, within a share of the wall time."""
+"""A queue of the requests to a server: one at a time, within a fraction of the wall time."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from contextlib import contextmanager
 from ..work_budget import WorkBudget
 
 SHARE = 0.1
-"""The greatest share of the wall time for requests [1]."""
+"""The greatest fraction of the wall time for requests [1]."""
 BURST = 0.5
 """The longest time for requests without a pause [s]."""
 REQUEST_COST = 1e-4

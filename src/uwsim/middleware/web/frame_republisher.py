@@ -151,8 +151,8 @@ class FrameRepublisher:
         if last_pose is not None and (request.angle > 0.0 or request.distance > 0.0):
             last_from_source = last_pose.inverse()
             step = last_from_source @ pose
-            turn = 2.0 * math.acos(min(1.0, abs(float(step.quaternion[0]))))
-            if length(step.position) < request.distance and turn < request.angle:
+            angle = 2.0 * math.acos(min(1.0, abs(float(step.quaternion[0]))))
+            if length(step.position) < request.distance and angle < request.angle:
                 return None
         request.last_poses[source] = pose
         return pose

@@ -19,13 +19,13 @@ from ...base.numerics.jit import njit
 from ...base.numerics.linear import dot, length, product
 
 MIN_DISTANCE = 1e-4
-"""The distance below which corners count as equal, and the least height of a triangle [m]."""
+"""The distance below which corners count as equal, and the minimum height of a triangle [m]."""
 MAX_HEIGHT = 1e-3
 """The greatest distance of a patch's corners from the plane of its first triangle [m]."""
 MIN_COSINE = 1.0 - 1e-6
-"""The least cosine between the normals of triangles in a patch [1]."""
+"""The minimum cosine between the normals of triangles in a patch [1]."""
 MAX_EXCESS_SHARE = 1e-3
-"""The greatest share of a convex polygon's area that may lie outside its triangles [1]."""
+"""The greatest fraction of a convex polygon's area that may lie outside its triangles [1]."""
 MAX_LINES = 64
 """The greatest number of lines that are tried for a cut: those of the longest border edges."""
 
@@ -157,7 +157,7 @@ def _grow_groups(corners: Ints, normals: Array, points: Array) -> list[list[int]
 def _group_numbers(
     corners: Ints, normals: Array, points: Array, corner_triangles: Ints, starts: Ints
 ) -> Ints:
-    """Return the group number of each triangle, in the order of the first triangles, (n,).
+    """Return the group index of each triangle, in the order of the first triangles, (n,).
 
     Args:
         corners: the numbers of each triangle's corners, (n, 3).
@@ -232,9 +232,9 @@ def _hull(part: Array) -> tuple[Array, float]:
     corners = hull.points[hull.vertices]
     edge_in = corners - np.roll(corners, 1, axis=0)
     edge_out = np.roll(corners, -1, axis=0) - corners
-    turn = edge_in[:, 0] * edge_out[:, 1] - edge_in[:, 1] * edge_out[:, 0]
+    cross_products = edge_in[:, 0] * edge_out[:, 1] - edge_in[:, 1] * edge_out[:, 0]
     reach = np.linalg.norm(edge_in, axis=1) + np.linalg.norm(edge_out, axis=1)
-    return corners[turn > 0.1 * MIN_DISTANCE * reach], float(hull.volume)
+    return corners[cross_products > 0.1 * MIN_DISTANCE * reach], float(hull.volume)
 
 
 def _areas(part: Array) -> Array:

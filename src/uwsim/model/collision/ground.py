@@ -24,7 +24,7 @@ from .shapes import CollisionShape
 MIN_UPWARD_PART = 1e-6
 """The vertical component of a face's unit normal below which the face is a wall [1]."""
 EDGE_TOLERANCE = 1e-9
-"""The tolerance for a point inside a triangle, as a share of the triangle's area [1]."""
+"""The tolerance for a point inside a triangle, as a fraction of the triangle's area [1]."""
 MAX_EDGE_PAIRS = 2_000_000
 """The greatest number of pairs of edges that are compared at once, which limits memory."""
 N_CIRCLE_CORNERS = 32
@@ -246,10 +246,10 @@ def _max_height_over_edges(body: Array, ground: Array) -> float:
     p, q = (np.concatenate([ground[:, k] for k in order]) for order in ((0, 1, 2), (1, 2, 0)))
     body_edge, ground_edge = (b - a)[:, None], (q - p)[None]
     start = p[None] - a[:, None]
-    turn = _cross(body_edge, ground_edge)
+    denominator = _cross(body_edge, ground_edge)
     with np.errstate(divide="ignore", invalid="ignore"):
-        s = _cross(start, ground_edge) / turn
-        t = _cross(start, body_edge) / turn
+        s = _cross(start, ground_edge) / denominator
+        t = _cross(start, body_edge) / denominator
         is_crossing = (s >= 0.0) & (s <= 1.0) & (t >= 0.0) & (t <= 1.0)
         heights = start[..., 2] + t * ground_edge[..., 2] - s * body_edge[..., 2]
     return float(heights[is_crossing].max(initial=-np.inf))

@@ -37,7 +37,7 @@ ROUNDING_ERROR = 1e-5
 MAX_REFINEMENTS = 4
 """The greatest number of distances of nodes that are tried, each half of the one before."""
 TOLERANCE = 1e-6
-"""The tolerance for a point inside a triangle or on a grid line, as a share of its size [1]."""
+"""The tolerance for a point inside a triangle or on a grid line, as a fraction of its size [1]."""
 
 Ints = npt.NDArray[np.int64]
 
@@ -99,8 +99,11 @@ def height_field(triangles: Array, error: float) -> HeightField | None:
     if not (sign * normals[has_area, axis] > 0.0).all():
         return None
     best_field: HeightField | None = None
-    for turn in (0, 1):  # the diagonals of a grid that is turned by 90 degrees run the other way
-        frame = _frame(axis, sign, turn)
+    for n_quarter_turns in (
+        0,
+        1,
+    ):  # the diagonals of a grid that is turned by 90 degrees run the other way
+        frame = _frame(axis, sign, n_quarter_turns)
         corners = product(triangles[has_area].reshape(-1, 3), frame).reshape(-1, 3, 3)
         field = _sample_rectangle(corners, frame, error)
         if field is not None and (best_field is None or field.error < best_field.error):
@@ -111,12 +114,12 @@ def height_field(triangles: Array, error: float) -> HeightField | None:
     return best_field if is_good else None
 
 
-def _frame(axis: int, sign: float, turn: int) -> Array:
+def _frame(axis: int, sign: float, n_quarter_turns: int) -> Array:
     """Return the axes of a field in the body's frame, (3, 3): z is ``sign`` times a body axis."""
     x, y, z = (np.eye(3)[(axis + k) % 3] for k in (1, 2, 3))
     if sign < 0.0:
         y, z = -y, -z
-    if turn:
+    if n_quarter_turns:
         x, y = y, -x
     return np.column_stack([x, y, z])
 

@@ -48,7 +48,7 @@ def engine_shapes(
 
     Args:
         resolved_scene: the scene with its robots.
-        dynamics: the numbers of the vehicles with dynamics.
+        dynamics: the indices of the vehicles with dynamics.
     """
     scene = resolved_scene.scene
     if scene.has_uwsim_physics:
@@ -62,7 +62,7 @@ def engine_shapes(
 def solid_objects_in_water(
     scene: SceneSpec, dynamics: Collection[int]
 ) -> Mapping[int, PhysicsSpec]:
-    """Return the solid objects of the engine, by number; none if forces move nothing."""
+    """Return the solid objects of the engine, by index; none if forces move nothing."""
     if scene.has_uwsim_physics:
         return scene.solid_objects
     return scene.solid_objects_in_water if dynamics else {}
@@ -75,7 +75,7 @@ def collision_shapes(
 
     Args:
         resolved_scene: the scene with its robots.
-        vehicles: the numbers of the vehicles that have contacts.
+        vehicles: the indices of the vehicles that have contacts.
         objects: the physics of each object that has contacts, by the object's index.
     """
     scene, data_path = resolved_scene.scene, resolved_scene.data_path
@@ -120,10 +120,10 @@ def _link_scales(robot: RobotSpec, vehicle: VehicleSpec) -> dict[str, Array]:
     if vehicle.scale_factor == (1.0, 1.0, 1.0):
         return {}
     poses = link_poses(robot, vehicle.joint_values)
-    turns = {name: pose.rotation for name, pose in poses.items()}  # base_from_link
+    rotations = {name: pose.rotation for name, pose in poses.items()}  # base_from_link
     return {
-        name: product(turn.T, product(np.diag(vehicle.scale_factor), turn))
-        for name, turn in turns.items()
+        name: product(rotation.T, product(np.diag(vehicle.scale_factor), rotation))
+        for name, rotation in rotations.items()
     }
 
 

@@ -47,17 +47,18 @@ MAX_PLANE_THICKNESS = 0.01
 MAX_PLATES = 10_000
 """The greatest number of plates of one fixed trimesh."""
 MIN_HEIGHT_RANGE = 1e-6
-"""The least height range of a height field in the engine [m]."""
+"""The minimum height range of a height field in the engine [m]."""
 MIN_EDGE = 1e-3
-"""The least edge of a box [m]."""
+"""The minimum edge of a box [m]."""
 MAX_BULGE = 0.01
-"""The greatest deviation of a mesh that counts as convex, as a share of its longest extent [1]."""
+"""The greatest deviation of a mesh that counts as convex, as a fraction of its longest extent
+[1]."""
 MAX_HULL_FACES = 1000
 """The greatest number of faces of a moving mesh whose hull is its collision shape."""
 RECTANGLE_TOLERANCE = 1e-3
 """The tolerance of a rectangle: for the cosine of its angles, and relative for its edges [1]."""
 MIN_DOWNWARD_SHARE = 0.5
-"""The net share of the horizontal area that faces down, above which ground is flipped [1]."""
+"""The net fraction of the horizontal area that faces down, above which ground is flipped [1]."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -101,9 +102,9 @@ def shapes_of(
     Raises:
         UwsimError: a fixed trimesh has too many faces.
     """
-    turn, shift = body_from_mesh[:3, :3], body_from_mesh[:3, 3]
+    matrix, shift = body_from_mesh[:3, :3], body_from_mesh[:3, 3]
     parts = [
-        transform_points(mesh.vertices.astype(np.float64), turn, shift) for mesh in model.meshes
+        transform_points(mesh.vertices.astype(np.float64), matrix, shift) for mesh in model.meshes
     ]
     if kind in TRIMESHES:
         if not is_fixed:
@@ -133,9 +134,9 @@ def fixed_mesh_of(
     error: float | None,
 ) -> FixedMesh:
     """Return the collision surface of a fixed trimesh; for the arguments see `shapes_of`."""
-    turn, shift = body_from_mesh[:3, :3], body_from_mesh[:3, 3]
+    matrix, shift = body_from_mesh[:3, :3], body_from_mesh[:3, 3]
     parts = [
-        transform_points(mesh.vertices.astype(np.float64), turn, shift)[mesh.triangles]
+        transform_points(mesh.vertices.astype(np.float64), matrix, shift)[mesh.triangles]
         for mesh in model.meshes
     ]
     if up is not None:
@@ -153,10 +154,10 @@ def convex_shapes(
         model: the meshes of the body.
         body_from_mesh: the pose of the meshes on the body, with their scale, (4, 4) [m].
     """
-    turn, shift = body_from_mesh[:3, :3], body_from_mesh[:3, 3]
+    matrix, shift = body_from_mesh[:3, :3], body_from_mesh[:3, 3]
     hulls = []
     for mesh in model.meshes:
-        points = transform_points(mesh.vertices.astype(np.float64), turn, shift)
+        points = transform_points(mesh.vertices.astype(np.float64), matrix, shift)
         if len(mesh.triangles) > MAX_HULL_FACES or not is_convex(points[mesh.triangles]):
             return None
         hulls.append(box_around(points) if _is_box(points) else _hull(points))
@@ -198,10 +199,10 @@ def box_around(points: Array) -> CollisionShape:
 def _cylinder(box: CollisionShape) -> CollisionShape:
     axis_index = int(np.argmax(box.size))
     radii = [half for axis, half in enumerate(box.size) if axis != axis_index]
-    turn = np.roll(
+    rotation = np.roll(
         np.eye(3), axis_index - 2, axis=0
     )  # the z axis of the cylinder is the longest axis of the box
-    body_from_cylinder = Pose(box.body_from_shape.position, turn)
+    body_from_cylinder = Pose(box.body_from_shape.position, rotation)
     return CollisionShape(
         kind="cylinder", body_from_shape=body_from_cylinder, size=(max(radii), box.size[axis_index])
     )
@@ -276,13 +277,13 @@ def _plates_of(faces: Array, depth: float) -> Iterator[CollisionShape]:
     else:
         is_slab = np.zeros(len(faces), bool)
     x_axes = edges[:, 0] / np.where(is_slab, lengths[:, 0], 1.0)[:, None]
-    turns = np.stack([x_axes, np.cross(normals, x_axes), normals], axis=2)  # body_from_shape
+    rotations = np.stack([x_axes, np.cross(normals, x_axes), normals], axis=2)  # body_from_shape
     centres = _sum(faces) / faces.shape[1] - 0.5 * depth * normals
     prisms = np.concatenate([faces, faces - (depth * normals)[:, None]], axis=1)
     for n in range(len(faces)):
         if is_slab[n]:
             half = (0.5 * float(lengths[n, 0]), 0.5 * float(lengths[n, 1]), 0.5 * depth)
-            pose = Pose(centres[n], turns[n])
+            pose = Pose(centres[n], rotations[n])
             yield CollisionShape(kind="box", body_from_shape=pose, size=half)
         else:
             pose = Pose.identity()

@@ -26,11 +26,11 @@ SCALED_SIZE = 10.0
 """The size to which a mesh is scaled, because the library that collapses edges has thresholds in
 lengths. On rocks and pipes, 1 gives errors up to ten times as large, and 30 leaves more edges."""
 MIN_TRIANGLES = 12
-"""The least number of triangles after simplification."""
+"""The minimum number of triangles after simplification."""
 FIRST_SHARE = 0.05
-"""The share of triangles that remain in the first trial [1]."""
+"""The fraction of triangles that remain in the first trial [1]."""
 GOOD_ERROR_SHARE = 0.8
-"""The share of the allowed error at which the search ends [1]."""
+"""The fraction of the allowed error at which the search ends [1]."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -36,11 +36,11 @@ SURGE, SWAY, HEAVE, ROLL, PITCH, YAW = range(6)
 AXIS_PRIORITY = (SURGE, YAW, HEAVE, SWAY, PITCH, ROLL)
 """The axes in order of priority, for thrusters that cannot drive all of them."""
 MIN_LEVER = 0.02
-"""The least force [N] or moment [N m] per newton of thrust with which thrusters drive an axis."""
+"""The minimum force [N] or moment [N m] per newton of thrust with which thrusters drive an axis."""
 MAX_TILT = math.radians(20.0)
 """The greatest angle by which thrusters may tilt a hull that rights itself [rad]."""
 MIN_HEAVE_SHARE = 0.5
-"""The least share of the heave force that must remain for heave to be driven [1]."""
+"""The minimum fraction of the heave force that must remain for heave to be driven [1]."""
 N_POINTS = 401
 """The number of points of a tabulated thrust curve."""
 

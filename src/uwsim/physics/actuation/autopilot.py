@@ -74,7 +74,7 @@ class Gains:
 
 
 MIN_LAG = 0.08
-"""The least time constant that the gains assume for thrusters, as the autopilot runs every 20 ms
+"""The minimum time constant that the gains assume for thrusters, as the autopilot runs every 20 ms
 [s]."""
 
 

@@ -48,7 +48,7 @@ def power_table(thruster: ThrusterSpec, density: float, min_terms: int = 0) -> A
     Args:
         thruster: the spec of the thruster.
         density: the density of the water [kg/m3].
-        min_terms: the least number n of polynomial coefficients, padded with zeros.
+        min_terms: the minimum number n of polynomial coefficients, padded with zeros.
     """
     forward, backward = thruster.power, thruster.power_backward or thruster.power
     min_terms = max(min_terms, len(forward or ()), len(backward or ()))

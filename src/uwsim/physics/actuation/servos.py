@@ -117,9 +117,9 @@ class Servos:
     def set_velocity_targets(self, joints: JointIndices, speeds: Array) -> None:
         """Move the targets of some joints at speeds (k,) [rad/s or m/s]; other targets stop."""
         self._state["requested_speed"] = 0.0
-        for number, speed in zip(joints.tolist(), speeds.tolist(), strict=True):
-            self._switch(number, is_on=True)
-            index = self._indices[number]
+        for joint, speed in zip(joints.tolist(), speeds.tolist(), strict=True):
+            self._switch(joint, is_on=True)
+            index = self._indices[joint]
             max_speed = float(self._records["max_speed"][index])
             self._state["requested_speed"][index] = min(max(speed, -max_speed), max_speed)
         states = self._state[self._indices]
@@ -132,17 +132,17 @@ class Servos:
 
         Efforts are limited to the greatest effort of each servo. Other joints are not affected.
         """
-        for number, effort in zip(joints.tolist(), efforts.tolist(), strict=True):
-            index = self._indices[number]
+        for joint, effort in zip(joints.tolist(), efforts.tolist(), strict=True):
+            index = self._indices[joint]
             self._state["requested_speed"][index] = 0.0
-            self._switch(number, is_on=False)
+            self._switch(joint, is_on=False)
             max_effort = float(self._records["max_effort"][index])
-            self._data.qfrc_applied[self._dofs[number]] = min(max(effort, -max_effort), max_effort)
+            self._data.qfrc_applied[self._dofs[joint]] = min(max(effort, -max_effort), max_effort)
         self._kernel.clamp_targets(self._records, self._state)
 
-    def _switch(self, number: int, *, is_on: bool) -> None:
+    def _switch(self, joint: int, *, is_on: bool) -> None:
         """Switch the servo of a joint, by its index in the joint vector, and move the end stops."""
-        index = self._indices[number]
+        index = self._indices[joint]
         if is_on and self._state["is_on"][index]:
             return
         record, servo = self._records[index], self._servos[index]
@@ -152,8 +152,8 @@ class Servos:
         self._model.actuator_biasprm[servo, 1:3] = -stiffness, -damping
         stop = stops(self._specs[index], is_held=is_on)
         self._model.jnt_range[self._joints[index]] = stop
-        self._data.qfrc_applied[self._dofs[number]] = 0.0
-        self._state["target"][index] = self._data.qpos[self._qpos_addresses[number]]
+        self._data.qfrc_applied[self._dofs[joint]] = 0.0
+        self._state["target"][index] = self._data.qpos[self._qpos_addresses[joint]]
         self._state["integral"][index] = 0.0
 
 

@@ -93,7 +93,7 @@ class VehicleActuation:
         A command beyond a limit counts as the limit, as in the engine.
         """
         model = self._water.model
-        actuators = [self._water.thrusters[number] for number in self._thrusters]
+        actuators = [self._water.thrusters[index] for index in self._thrusters]
         lower, upper = model.actuator_ctrlrange[actuators].T
         max_commands = np.maximum(np.abs(lower), np.abs(upper))
         commands = np.clip(self._data.ctrl[model.actuator_ctrladr[actuators]], lower, upper)
@@ -101,7 +101,7 @@ class VehicleActuation:
         return shares
 
     def set_loss(self, thruster: int, loss: float) -> None:
-        """Set the share of its thrust that a thruster loses, by index: 0 healthy, 1 dead."""
+        """Set the fraction of its thrust that a thruster loses, by index: 0 healthy, 1 dead."""
         self._water.set_loss(self._data, self._thrusters[thruster], loss)
 
     def actuators(self) -> Actuators:

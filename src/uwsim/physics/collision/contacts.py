@@ -161,7 +161,7 @@ def _sum_forces(
         owners: the number of the owner of each shape.
         names: the number of the name of each shape's owner.
         owner: the number of the owner on which the forces act.
-        labels: receives the numbers of the names, (n,).
+        labels: receives the indices of the names, (n,).
         forces: receives the forces on the owner, in W, (n, 3) [N].
 
     Returns:

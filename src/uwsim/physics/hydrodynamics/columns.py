@@ -17,7 +17,7 @@ WATER_COLUMNS = 12
 frame: velocity (3) [m/s], acceleration (3) [m/s2], height of the surface above still water [m], its
 slope along x [1], angular velocity (3) [rad/s], slope along y [1]. The rows of all bodies are
 followed by a number for each actuator: the loss of a thruster, from 0 (healthy) to 1 (dead), or the
-commanded angle of a fin [rad]; then by another: the share of a thruster's static thrust that is
+commanded angle of a fin [rad]; then by another: the fraction of a thruster's static thrust that is
 lost by inflow [1]."""
 
 ELEVATION, SLOPE_X, OMEGA, SLOPE_Y = 6, 7, 8, 11

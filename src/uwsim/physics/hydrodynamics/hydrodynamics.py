@@ -119,7 +119,7 @@ class Hydrodynamics:
             data.act[address] = 0.0
 
     def set_loss(self, data: mujoco.MjData, index: int, loss: float) -> None:
-        """Set the share of its thrust that a thruster loses, by index: 0 healthy, 1 dead."""
+        """Set the fraction of its thrust that a thruster loses, by index: 0 healthy, 1 dead."""
         data.userdata[c.WATER_COLUMNS * self.model.nbody + self.thrusters[index]] = loss
 
     def turn_fin(self, data: mujoco.MjData, name: str, angle: float) -> None:

@@ -22,7 +22,7 @@ class SubmergedBodies:
         model: the engine's model.
         poses: the poses of the engine's bodies.
         water: the hydrodynamics of the engine; None in a scene without dynamics.
-        vehicles: the numbers of the vehicles with dynamics, whose bases are included as the
+        vehicles: the indices of the vehicles with dynamics, whose bases are included as the
             autopilots need the water's motion there.
     """
 

@@ -26,7 +26,7 @@ class JumpState(Record):
     """The last jump of a body."""
 
     step: int
-    """The number of the step at which the body jumped."""
+    """The index of the step at which the body jumped."""
     n_steps: int
     """The number of steps over which the jump is spread."""
 

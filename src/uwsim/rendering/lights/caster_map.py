@@ -14,12 +14,12 @@ Versions = npt.NDArray[np.int64]
 
 
 class CasterMap:
-    """The least depth of the casters in each texel of a square view.
+    """The minimum depth of the casters in each texel of a square view.
 
     When a view is drawn for the second time, the casters that did not move are known. Their depths
     are stored in a separate image. To copy it into the map takes less time than to clear the map,
     and only the other casters are drawn into the copy. The depths equal those of a map in which all
-    casters are drawn, because the least depth does not depend on the order of drawing.
+    casters are drawn, because the minimum depth does not depend on the order of drawing.
 
     Args:
         context: the context of the renderer.
@@ -44,7 +44,7 @@ class CasterMap:
 
         Args:
             instances: all instances.
-            casters: the numbers of the batches that cast shadows, (k,).
+            casters: the indices of the batches that cast shadows, (k,).
             clip_from_world: the matrix from W to clip space of the view, (4, 4).
         """
         moved_versions = instances.moved_versions[instances.owners[casters]]
@@ -75,8 +75,8 @@ class CasterMap:
         context.depth_func = "<="
         context.polygon_offset = 1.5, 2.0
         drawer = BatchDrawer(context, instances, self._slots, winding="ccw")
-        for number in casters.tolist():
-            drawer.draw(number, self._program)
+        for index in casters.tolist():
+            drawer.draw(index, self._program)
         context.polygon_offset = 0.0, 0.0
         self.n_drawn += len(casters)
 

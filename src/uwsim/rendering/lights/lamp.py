@@ -31,7 +31,7 @@ MAX_HALF_ANGLE = math.radians(80.0)
 """The largest half angle: a wider cone does not fit one shadow map [rad]."""
 
 MIN_DISTANCE = 0.01
-"""The least distance to the lamp; smaller ones are set to it [m]."""
+"""The minimum distance to the lamp; smaller ones are set to it [m]."""
 
 
 @dataclass(frozen=True, kw_only=True)

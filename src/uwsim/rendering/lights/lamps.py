@@ -74,7 +74,7 @@ class Lamps:
         Args:
             lamps: the lamps, in the order of the tiles.
             instances: all instances.
-            casters: the numbers of the batches that may cast shadows; terrain is among them.
+            casters: the indices of the batches that may cast shadows; terrain is among them.
             version: a value that changes when a caster is moved, added or removed.
         """
         for tile, lamp in enumerate(lamps):
@@ -94,8 +94,8 @@ class Lamps:
         values, camera_from_world = self._values, world_from_camera.inverse()
         for tile, lamp in enumerate(lamps):
             lamp_from_world = lamp.world_from_lamp.inverse()
-            lens = projection(_map_camera(lamp))
-            map_from_lamp = product(_tile_from_clip(tile), lens.clip_from_camera)
+            map_projection = projection(_map_camera(lamp))
+            map_from_lamp = product(_tile_from_clip(tile), map_projection.clip_from_camera)
             map_from_camera = product(
                 product(map_from_lamp, lamp_from_world.matrix), world_from_camera.matrix
             )
@@ -137,21 +137,23 @@ def draw_casters(
         program: the program that draws shadow maps.
         slots: the buffer for the poses of the instances.
         instances: all instances.
-        casters: the numbers of the batches that may cast shadows.
+        casters: the indices of the batches that may cast shadows.
         world_from_lamp: the pose of the lamp.
         view: the pinhole of the lamp's shadow map.
     """
-    lens = projection(view)
+    light_projection = projection(view)
     context.enable_only(moderngl.DEPTH_TEST)
     context.depth_func = "<="
     context.polygon_offset = 1.5, 2.0
-    slots.fill(instances, product(lens.clip_from_camera, world_from_lamp.inverse().matrix))
+    slots.fill(
+        instances, product(light_projection.clip_from_camera, world_from_lamp.inverse().matrix)
+    )
     drawer = BatchDrawer(context, instances, slots, winding="cw")
-    visible_batches = find_visible(instances, casters, world_from_lamp, lens.planes)
+    visible_batches = find_visible(instances, casters, world_from_lamp, light_projection.planes)
     batches = instances.numbered_batches
-    for number in visible_batches.tolist():
-        if batches[number][1].opacity >= 1.0:  # glass casts no shadow
-            drawer.draw(number, program)
+    for index in visible_batches.tolist():
+        if batches[index][1].opacity >= 1.0:  # glass casts no shadow
+            drawer.draw(index, program)
     context.polygon_offset = 0.0, 0.0
 
 

@@ -51,7 +51,7 @@ class ProjectorLight:
         Args:
             projector: the projector.
             instances: all instances.
-            casters: the numbers of the batches that may cast shadows; terrain is among them.
+            casters: the indices of the batches that may cast shadows; terrain is among them.
             version: a value that changes when a caster is moved, added or removed.
         """
         if self._pattern is not projector.pattern:
@@ -68,9 +68,9 @@ class ProjectorLight:
 
     def fill(self, projector: Projector, world_from_camera: Pose) -> None:
         """Fill the uniform block for a camera, and bind it."""
-        values, lens = self._values, projector.pinhole
+        values, intrinsics = self._values, projector.pinhole
         projector_from_camera = projector.world_from_projector.inverse() @ world_from_camera
-        map_from_projector = product(TEXTURE_FROM_CLIP, projection(lens).clip_from_camera)
+        map_from_projector = product(TEXTURE_FROM_CLIP, projection(intrinsics).clip_from_camera)
         values["projector_from_camera"] = product(
             map_from_projector, projector_from_camera.matrix
         ).T  # OpenGL counts columns first
@@ -78,7 +78,7 @@ class ProjectorLight:
         values["projector_position"] = *camera_from_projector.position, float(projector.is_laser)
         values["projector_axis"] = (
             *camera_from_projector.rotation[:, 2],
-            1.5 / min(lens.fx, lens.fy),
+            1.5 / min(intrinsics.fx, intrinsics.fy),
         )
         self._buffer.write(values.tobytes())
         self._buffer.bind_to_uniform_block(PROJECTOR.binding)
@@ -92,8 +92,8 @@ class ProjectorLight:
         """Create the texture of the pattern, and an empty shadow map."""
         for texture in self._textures:
             texture.release()
-        lens, (rows, columns) = projector.pinhole, projector.pattern.shape[:2]
-        depth = self._context.depth_texture((lens.width, lens.height))
+        intrinsics, (rows, columns) = projector.pinhole, projector.pattern.shape[:2]
+        depth = self._context.depth_texture((intrinsics.width, intrinsics.height))
         depth.compare_func = "<="
         depth.filter = (moderngl.LINEAR, moderngl.LINEAR)
         image = self._context.texture((columns, rows), 4, projector.pattern.tobytes(), alignment=1)

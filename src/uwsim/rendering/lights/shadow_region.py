@@ -35,16 +35,16 @@ def compute_tile_bounds(
         sun: the unit vector towards the sun in W, (3,).
 
     Returns:
-        The least and the greatest sunbeam coordinates in each tile, (rows, columns, 2, 3) [m]; inf
+        The minimum and maximum sunbeam coordinates in each tile, (rows, columns, 2, 3) [m]; inf
         and -inf if the tile has no surface.
     """
     i = intrinsics
     rows, columns = -(-i.height // TILE), -(-i.width // TILE)
     tiles = np.empty((rows, columns, 2, 3))
-    lens = np.array([i.fx, i.fy, i.cx, i.cy, i.skew, i.near, i.far])
+    pinhole = np.array([i.fx, i.fy, i.cx, i.cy, i.skew, i.near, i.far])
     rotation = np.ascontiguousarray(world_from_camera.rotation)
     _write_tile_bounds(
-        depths, lens, world_from_camera.position, rotation, sunbeam_frame(sun), tiles
+        depths, pinhole, world_from_camera.position, rotation, sunbeam_frame(sun), tiles
     )
     return tiles
 
@@ -57,7 +57,7 @@ def find_shaded_region(
     Args:
         tiles: the bounds of the surfaces in each tile (`compute_tile_bounds`).
         instances: all instances.
-        casters: the numbers of the batches that cast shadows, (k,).
+        casters: the indices of the batches that cast shadows, (k,).
         sun: the unit vector towards the sun in W, (3,).
         margin: the distance by which shadows may reach beyond a caster's bounds [m].
     """
@@ -70,7 +70,7 @@ def find_shaded_region(
 @njit
 def _write_tile_bounds(
     depths: npt.NDArray[np.float32],
-    lens: Array,
+    pinhole: Array,
     position: Array,
     rotation: Array,
     frame: Array,
@@ -80,17 +80,17 @@ def _write_tile_bounds(
 
     Args:
         depths: the depth buffer of the image, 0..1, (h, w).
-        lens: fx, fy, cx, cy, skew [px], near, far [m], (7,).
+        pinhole: fx, fy, cx, cy, skew [px], near, far [m], (7,).
         position: the position of the camera in W, (3,) [m].
         rotation: the axes of the camera in W as columns, (3, 3).
         frame: the matrix from W to sunbeam coordinates, (3, 3).
         tiles: the output, (rows, columns, 2, 3) [m].
     """
     tiles[:, :, 0], tiles[:, :, 1] = np.inf, -np.inf
-    near, far = lens[5], lens[6]
+    near, far = pinhole[5], pinhole[6]
     point, world = np.empty(3), np.empty(3)
     for v in range(depths.shape[0]):
-        y = (lens[3] - v) / lens[1]
+        y = (pinhole[3] - v) / pinhole[1]
         for u in range(depths.shape[1]):
             if depths[v, u] >= 1.0:
                 continue
@@ -98,8 +98,8 @@ def _write_tile_bounds(
             depth = 2.0 * far * near / (far + near - clip * (far - near))
             # the depth buffer has a resolution of 2^-24, which is this error of the depth [m]
             error = depth * depth / near * 2.0**-23
-            point[0], point[1] = depth * (u - lens[2] - lens[4] * y) / lens[0], depth * y
-            point[2] = -depth
+            point[0] = depth * (u - pinhole[2] - pinhole[4] * y) / pinhole[0]
+            point[1], point[2] = depth * y, -depth
             transform_to_world(point, position, rotation, world)
             box = tiles[v // TILE, u // TILE]
             for k in range(3):
@@ -123,7 +123,7 @@ def _write_shaded_tiles(
     Args:
         tiles: the bounds of the surfaces in each tile, (rows, columns, 2, 3) [m].
         corners: the corners of the bounding boxes of all batches in W, (m, 8, 3) [m].
-        casters: the numbers of the batches that cast shadows, (k,).
+        casters: the indices of the batches that cast shadows, (k,).
         frame: the matrix from W to sunbeam coordinates, (3, 3).
         margin: the distance by which shadows may reach beyond a caster's bounds [m].
         region: the output, (4,): the first column and row, the column and row after the last.

@@ -70,7 +70,7 @@ class SunShadow:
 
         Args:
             instances: all instances.
-            casters: the numbers of the batches that cast shadows, (k,).
+            casters: the indices of the batches that cast shadows, (k,).
             sun: the unit vector towards the sun in W, (3,).
         """
         key = instances.version, casters.tobytes(), sun.tobytes()
@@ -101,8 +101,8 @@ def find_shadow_pairs(
 
     Args:
         instances: all instances.
-        casters: the numbers of the batches that cast shadows, (k,).
-        receivers: the numbers of the batches in view, (n,).
+        casters: the indices of the batches that cast shadows, (k,).
+        receivers: the indices of the batches in view, (n,).
         sun: the unit vector towards the sun in W, (3,).
         world_from_camera: the pose of the camera.
         corner_rays: the corners of the image at a depth of 1 m in the camera's frame, (4, 3) [m].
@@ -137,8 +137,8 @@ def _write_shadow_pairs(
 
     Args:
         corners: the corners of the bounding boxes of all batches in W, (m, 8, 3) [m].
-        casters: the numbers of the batches that cast shadows, (k,).
-        receivers: the numbers of the batches in view, (n,).
+        casters: the indices of the batches that cast shadows, (k,).
+        receivers: the indices of the batches in view, (n,).
         frame: the matrix from W to sunbeam coordinates, (3, 3).
         rays: the vectors in W from the camera to the image's corners, 1 m deep, (4, 3) [m].
         position: the position of the camera in W, (3,) [m].
@@ -176,7 +176,7 @@ def _write_shadow_pairs(
 
 @njit
 def compute_box(points: Array, frame: Array, box: Array) -> None:
-    """Compute the least and greatest coordinates of points in another frame.
+    """Compute the minimum and maximum coordinates of points in another frame.
 
     Args:
         points: the points in W, (k, 3) [m].

@@ -31,16 +31,16 @@ class SandLog:
 
     def update(self, frame: int) -> None:
         """Record the spots that were dug since the last call, for the frame with this index."""
-        for number, heap in enumerate(self._heaps):
-            if heap.version == self._versions[number]:
+        for heap_index, heap in enumerate(self._heaps):
+            if heap.version == self._versions[heap_index]:
                 continue
-            self._versions[number] = heap.version
-            n = len(self._known_spots[number])
-            if heap.state.spots[:n] != self._known_spots[number]:  # the sand was restored meanwhile
-                self._rows.append((frame, number, NO_VALUE, NO_VALUE, NO_VALUE))
+            self._versions[heap_index] = heap.version
+            n = len(self._known_spots[heap_index])
+            if heap.state.spots[:n] != self._known_spots[heap_index]:  # the sand was restored
+                self._rows.append((frame, heap_index, NO_VALUE, NO_VALUE, NO_VALUE))
                 n = 0
-            self._rows += [(frame, number, *spot) for spot in heap.state.spots[n:]]
-            self._known_spots[number] = list(heap.state.spots)
+            self._rows += [(frame, heap_index, *spot) for spot in heap.state.spots[n:]]
+            self._known_spots[heap_index] = list(heap.state.spots)
 
     def sand(self) -> DugSand:
         """Return all spots dug so far."""

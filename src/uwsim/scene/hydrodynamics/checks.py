@@ -22,10 +22,10 @@ from .spec import (
 )
 
 MIN_INERTIA = 1e-12
-"""The least moment of inertia that the engine accepts [kg m2]."""
+"""The minimum moment of inertia that the engine accepts [kg m2]."""
 MAX_THRUST_DROP = 0.02
-"""The greatest drop of a thrust curve with rising command, as a share of the greatest thrust [1]:
-fits to measurements are not exactly monotonic."""
+"""The greatest drop of a thrust curve with rising command, as a fraction of the greatest thrust
+[1]: fits to measurements are not exactly monotonic."""
 MAX_THRUST = 1e7
 """The greatest thrust of a propeller [N]."""
 DRAG_KINDS: dict[str, Kind] = {"linear_damping": "linear", "quadratic_damping": "quadratic"}

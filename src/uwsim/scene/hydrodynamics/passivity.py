@@ -85,7 +85,7 @@ def _scale(kind: Kind, drag: Array) -> Array:
 
 
 def _min_power_motion(drag: Array) -> Array:
-    """Return the unit motion (6,) from which quadratic drag takes the least power."""
+    """Return the unit motion (6,) from which quadratic drag takes the minimum power."""
     rng = stream(0, "passivity")
     starts = rng.standard_normal((N_STARTS, 6))
     starts[::2] *= rng.random((N_STARTS // 2, 6)) < 0.4  # few axes at a time

@@ -33,7 +33,7 @@ N_LENGTHS: dict[str, int] = {
 MAX_COEFFICIENTS = 9
 """The greatest number of coefficients of a polynomial."""
 MIN_RADIUS = 0.001
-"""The least radius of a propeller [m]."""
+"""The minimum radius of a propeller [m]."""
 MAX_TIME_CONSTANT = 60.0
 """The greatest time constant of a thruster or a fin [s]."""
 MAX_FIN_AREA = 1000.0
@@ -124,9 +124,9 @@ class ThrusterSpec(Spec):
     dead_zone: float = element(default=0.0, minimum=0.0)
     """The size of the command up to which there is no thrust; the curve starts there [1]."""
     limits: TwoNumbers = (-1.0, 1.0)
-    """The least and greatest command [1]."""
+    """The minimum and maximum command [1]."""
     saturation: TwoNumbers | None = None
-    """The least and greatest thrust [N]."""
+    """The minimum and maximum thrust [N]."""
     time_constant: float = element(default=0.0, minimum=0.0, maximum=MAX_TIME_CONSTANT)
     """The time constant of the first-order lag between command and rotor [s]; 0: no lag."""
     torque: float = 0.0
@@ -183,7 +183,7 @@ class FinSpec(Spec):
     """A table instead of the formulas: rows of angle of attack [rad], lift and drag coefficient, up
     to 12, with rising angles. If all angles are 0 or more, the foil is symmetric [rad, 1, 1]."""
     limits: TwoNumbers = (-0.35, 0.35)
-    """The least and greatest fin angle; 0 0 for a fixed fin [rad]."""
+    """The minimum and maximum fin angle; 0 0 for a fixed fin [rad]."""
     rate: float | None = element(default=None, exclusive_minimum=0.0)
     """The greatest speed of the servo; without it unlimited [rad/s]."""
     time_constant: float = element(default=0.0, minimum=0.0, maximum=MAX_TIME_CONSTANT)

@@ -114,7 +114,7 @@ class JointSpec(Spec):
     axis: Triple = (1.0, 0.0, 0.0)
     """The axis of rotation or translation, in the joint's frame [1]."""
     lower: float = 0.0
-    """The least position; -inf for a joint without end stops [rad or m]."""
+    """The minimum position; -inf for a joint without end stops [rad or m]."""
     upper: float = 0.0
     """The greatest position; inf for a joint without end stops [rad or m]."""
     effort: float = math.inf

@@ -35,7 +35,7 @@ from .small_targets import Discs, Fan, add_small_echoes, create_lattice, drop_hi
 from .spec import SonarSpec
 
 SURFACE_REFLECTION = 0.631
-"""The share of the power that a reflection at the water's surface retains [1]: -2 dB, for small
+"""The fraction of the power that a reflection at the water's surface retains [1]: -2 dB, for small
 waves."""
 MICROPASCAL = -120.0
 """The level of one micropascal [dB re 1 Pa]."""
@@ -62,7 +62,7 @@ class Ping(NamedTuple):
     """The material of each surface, as for `add_echoes`, (m, 3); the last is the water's
     surface."""
     bins: tuple[float, float, float]
-    """The least range [m], the bin size [m], and the two-way absorption [1/m, neper of power]."""
+    """The minimum range [m], the bin size [m], and the two-way absorption [1/m, neper of power]."""
 
 
 class Echoes:

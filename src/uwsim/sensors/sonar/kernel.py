@@ -20,7 +20,7 @@ LINES = 16
 """The number of bins that are read from all azimuths together: one line of the processor's
 cache."""
 MIN_COSINE = 0.02
-"""The least cosine of an angle of incidence (88.9 degrees); smaller ones are replaced by it."""
+"""The minimum cosine of an angle of incidence (88.9 degrees); smaller ones are replaced by it."""
 
 MAX_TILT = 0.9
 """The largest relative change of the power per range bin from the middle to the end of an echo."""
@@ -55,11 +55,11 @@ def add_echoes(
             hit of each ray: `BLOCK` azimuths side by side, their k rows one above the other, then
             the next azimuths.
         directions: the directions of the rays in the sonar's frame, (n k, 3).
-        rows: the weight of each row [Pa2 m2], and the share by which the pattern rises from the
+        rows: the weight of each row [Pa2 m2], and the fraction by which the pattern rises from the
             middle of the row to its upper end, (k, 2).
         materials: the glint, sharpness of the glint and diffuse part of each surface, (m, 3).
-        bins: the least range [m], the size of a bin [m], and the two-way absorption [1/m, neper of
-            power].
+        bins: the minimum range [m], the size of a bin [m], and the two-way absorption [1/m, neper
+            of power].
     """
     distance, normal, surface = hits
     start, size, loss = bins

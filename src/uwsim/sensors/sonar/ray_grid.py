@@ -28,7 +28,7 @@ MARGIN = 1.25
 """The angle from the axis of a beam up to which it receives echoes, to either side, in beam
 widths."""
 COLUMNS_PER_BEAM_WIDTH = 2.5
-"""The least number of columns in the width of a beam."""
+"""The minimum number of columns in the width of a beam."""
 MAX_COLUMN_SPACING = math.radians(3.0)
 """The greatest angle between two columns, which the glint of a smooth surface needs [rad]."""
 CORE = 0.6
@@ -86,7 +86,7 @@ class RayGrid:
         weights = pattern * np.cos(elevations) * np.diff(edges) * spacing
         rises = 0.5 * np.diff(ends) / np.maximum(pattern, 1e-12)
         self.rows = np.stack([weights, rises], axis=1)
-        """The pattern times the solid angle of each row's rays [sr], and the share by which the
+        """The pattern times the solid angle of each row's rays [sr], and the fraction by which the
         pattern rises from its middle to its upper end, (k, 2)."""
 
     def _elevations(self, t: Array) -> Array:

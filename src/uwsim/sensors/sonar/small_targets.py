@@ -90,7 +90,7 @@ class Lattice(NamedTuple):
     angles: Array
     """The azimuth, elevation and angle to neighbours [rad], and the solid angle [sr], (n, 4)."""
     surface: Integers
-    """The number of the surface that each ray is to hit, (n,)."""
+    """The index of the surface that each ray is to hit, (n,)."""
 
 
 def find_discs(balls: Balls, world_from_sonar: Pose, reach: float, grid: RayGrid) -> Discs:
@@ -150,7 +150,7 @@ class Edge(NamedTuple):
     max_product: float
     """The greatest product of the cosines of the elevations of the centre and of a direction."""
     min_product: float
-    """The least product of these cosines."""
+    """The minimum product of these cosines."""
 
 
 @njit
@@ -306,8 +306,8 @@ def _is_between_beams(azimuth: float, margin: float, fan: Fan) -> bool:
     end = fan.first_azimuth + (fan.n - 1) * fan.step
     low, high = min(fan.first_azimuth, end) - margin, max(fan.first_azimuth, end) + margin
     is_within = False
-    for turn in (-1.0, 0.0, 1.0):
-        is_within |= low <= azimuth + 2.0 * math.pi * turn <= high
+    for n_turns in (-1.0, 0.0, 1.0):
+        is_within |= low <= azimuth + 2.0 * math.pi * n_turns <= high
     return is_within
 
 
@@ -315,8 +315,8 @@ def _is_between_beams(azimuth: float, margin: float, fan: Fan) -> bool:
 def _is_received(azimuth: float, fan: Fan) -> bool:
     """Return True if a beam receives echoes from an azimuth [rad]."""
     margin = MARGIN * fan.width
-    for turn in (-1.0, 0.0, 1.0):
-        first_beam, last_beam = _beam_range(azimuth + 2.0 * math.pi * turn, margin, fan)
+    for n_turns in (-1.0, 0.0, 1.0):
+        first_beam, last_beam = _beam_range(azimuth + 2.0 * math.pi * n_turns, margin, fan)
         if first_beam <= last_beam:
             return True
     return False
@@ -370,8 +370,8 @@ def add_small_echoes(
         fan: the beams.
         level: the power of the ping at 1 m on the axis of a beam [Pa2 m2].
         materials: the glint, sharpness of the glint and diffuse part of each surface, (m, 3).
-        bins: the least range [m], the size of a bin [m], and the two-way absorption [1/m, neper of
-            power].
+        bins: the minimum range [m], the size of a bin [m], and the two-way absorption [1/m, neper
+            of power].
     """
     distance, normal, surface = hits
     start, size, loss = bins
@@ -387,8 +387,8 @@ def add_small_echoes(
         slant = min(math.sqrt(1.0 - min(cosine, 1.0) ** 2) / cosine, MAX_SLANT)
         half = 0.5 * rays.angles[k, 2] * r * slant
         near, far = (r - half - start) / size, (r + half - start) / size
-        for turn in (-1.0, 0.0, 1.0):
-            azimuth = rays.angles[k, 0] + 2.0 * math.pi * turn
+        for n_turns in (-1.0, 0.0, 1.0):
+            azimuth = rays.angles[k, 0] + 2.0 * math.pi * n_turns
             begin, last_beam = _beam_range(azimuth, margin, fan)
             for beam in range(begin, last_beam + 1):
                 weight = beam_pattern(azimuth - fan.first_azimuth - beam * fan.step, fan.width)

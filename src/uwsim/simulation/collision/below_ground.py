@@ -108,7 +108,7 @@ class BelowGround:
         """Return whether body i has passed through ground k.
 
         Args:
-            i: the number of the body.
+            i: the index of the body.
             k: the number of the ground.
             centre: the centre of the body's bounding box in W, (3,) [m].
             depth: the depth of the body's highest point below the ground [m]; 0 if not below.

@@ -1,8 +1,8 @@
 """The depths at which vehicles and objects begin in the ground, and the lift out of it.
 
-Each fixed object with contacts is a ground. A body that begins deeper in it than a share of its own
-height is a mistake in the scene, about which `uwsim check` warns. When a run begins, bodies whose
-origin is less than their height below the surface are lifted to it
+Each fixed object with contacts is a ground. A body that begins deeper in it than a fraction of its
+own height is a mistake in the scene, about which `uwsim check` warns. When a run begins, bodies
+whose origin is less than their height below the surface are lifted to it
 (`uwsim.physics.kinematics.lift`), unless the scene accepts their start. Deeper bodies stay.
 """
 
@@ -20,8 +20,8 @@ from ...model.scene_model import SceneModel
 from ...physics.engine import Engine, Kind
 
 MAX_SUNK_SHARE = 0.1
-"""The share of its height by which a body may begin in the ground without a warning [1]: contacts
-push it out."""
+"""The fraction of its height by which a body may begin in the ground without a warning [1]:
+contacts push it out."""
 MIN_LIFT = 0.02
 """The depth up to which a body of any height may begin in the ground [m]."""
 

@@ -47,8 +47,8 @@ class PartPoses:
         poses.refresh()
         poses_now = np.empty_like(self._frame_from_mesh)
         _write_poses(poses.origins, poses.axes, self._bodies, self._frame_from_mesh, poses_now)
-        for number in self._unattached_parts:
-            poses_now[number] = self.world_from_mesh(self._parts[number])
+        for index in self._unattached_parts:
+            poses_now[index] = self.world_from_mesh(self._parts[index])
         return poses_now
 
 

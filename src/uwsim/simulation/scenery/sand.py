@@ -42,7 +42,7 @@ class HeapState(Record):
     """The state of a heap: the sand that is left in it."""
 
     heights: Array
-    """The heights of the columns above the bottom, (n columns along x, m along y) [m]."""
+    """The heights of the columns above the lower corner, (n columns along x, m along y) [m]."""
     version: int = 0
     """A number that changes whenever sand is removed or put back."""
     spots: list[Spot] = field(default_factory=list)
@@ -56,7 +56,7 @@ class Heap:
         name: the name of the object.
         lower: the lower corner of the object's bounding box in W, (3,) [m].
         upper: the upper corner of the bounding box in W, (3,) [m].
-        buried_share: the share of the object's height that is under sand [1].
+        buried_share: the fraction of the object's height that is under sand [1].
     """
 
     def __init__(self, name: str, lower: Array, upper: Array, buried_share: float) -> None:
@@ -95,7 +95,7 @@ class Heap:
 
     @property
     def heights(self) -> Array:
-        """The heights of the columns above the bottom, (n along x, m along y) [m]; a copy."""
+        """The heights of the columns above the lower corner, (n along x, m along y) [m]; a copy."""
         return self.state.heights.copy()
 
     def height(self, x: float, y: float) -> float:
@@ -174,7 +174,7 @@ def make_heaps(scene: SceneSpec, corners: Sequence[tuple[int, Array]]) -> tuple[
     """
     heaps = []
     for index, spec in enumerate(scene.objects):
-        clouds = [points for number, points in corners if number == index]
+        clouds = [points for object_index, points in corners if object_index == index]
         if spec.buried > 0.0 and clouds:
             points = np.concatenate(clouds)
             lower, upper = points.min(axis=0), points.max(axis=0)

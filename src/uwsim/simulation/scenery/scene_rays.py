@@ -90,8 +90,8 @@ class SceneRays:
         scene = self._scene
         if self._recorded_scene is not scene:
             self._records[0], self._recorded_scene = scene.record[0], scene
-        for number, heap in enumerate(self._heaps, start=1):
-            self._records[number] = self._sand_scene(number - 1, heap).record[0]
+        for index, heap in enumerate(self._heaps, start=1):
+            self._records[index] = self._sand_scene(index - 1, heap).record[0]
 
     def balls(self) -> Balls:
         """Return balls that cover each surface without the heaps of sand; see `RayScene.balls`."""
@@ -108,21 +108,21 @@ class SceneRays:
             self._ray_scene = self._bodies.scene.with_engine(engine, poses.origins, poses.axes)
             self._carried_objects = carried_objects
             self._placed_bodies = [
-                (number, self._frame(*owner))
-                for number, owner in enumerate(owners, start=1)
-                if engine[number] < 0
+                (body_index, self._frame(*owner))
+                for body_index, owner in enumerate(owners, start=1)
+                if engine[body_index] < 0
             ]
         for body, frame in self._placed_bodies:
             self._ray_scene.place(body, frame())
         return self._ray_scene
 
-    def _sand_scene(self, number: int, heap: Heap) -> RayScene:
-        if (entry := self._cast_heaps.get(number)) is None or entry[0] != heap.version:
+    def _sand_scene(self, index: int, heap: Heap) -> RayScene:
+        if (entry := self._cast_heaps.get(index)) is None or entry[0] != heap.version:
             mesh = heap.mesh()
             triangles = mesh.vertices.astype(np.float64)[mesh.triangles]
-            surface = len(self.materials) - len(self._heaps) + number
+            surface = len(self.materials) - len(self._heaps) + index
             entry = heap.version, RayScene([[Surface(surface, triangles)]])
-            self._cast_heaps[number] = entry
+            self._cast_heaps[index] = entry
         return entry[1]
 
     def _frame(

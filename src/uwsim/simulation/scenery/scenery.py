@@ -148,7 +148,7 @@ class Scenery:
         Args:
             world_from_camera: the pose of the camera; OpenGL axes.
             intrinsics: the pinhole model of the camera.
-            std: the standard deviation of the noise, as a share of the full brightness [1].
+            std: the standard deviation of the noise, as a fraction of the full brightness [1].
             rng: the random generator of the noise.
             grey: return a grey image.
             is_polished: render for presentation (`Light.is_polished`), with smooth edges.
@@ -329,20 +329,20 @@ class Scenery:
         )
 
     def _draw_heaps(self, renderer: Renderer) -> None:
-        for number, heap in enumerate(self.heaps):
-            drawing = self._drawn_heaps.get(number)
+        for index, heap in enumerate(self.heaps):
+            drawing = self._drawn_heaps.get(index)
             if drawing is not None and drawing[0] == heap.version:
                 continue
             if drawing is not None:
                 renderer.remove(drawing[1])
                 renderer.discard(drawing[2])
             model = heap.model()
-            handle = renderer.add(model, self.heap_id(number))
-            self._drawn_heaps[number] = heap.version, handle, model
+            handle = renderer.add(model, self.heap_id(index))
+            self._drawn_heaps[index] = heap.version, handle, model
 
-    def heap_id(self, number: int) -> int:
-        """Return the number of a heap of sand in segmentation images."""
-        return max((part.id for part in self.parts), default=0) + 1 + number
+    def heap_id(self, index: int) -> int:
+        """Return the id of a heap of sand in segmentation images, by the index of the heap."""
+        return max((part.id for part in self.parts), default=0) + 1 + index
 
     @property
     def renderer_name(self) -> str:

@@ -37,10 +37,10 @@ class DeviceView(SceneView):
         return sum(heap.dig(point) for heap in self._scenery.heaps)
 
     def pickable_object(self, surface: int) -> int | None:
-        """Return the number of a surface's object; None if no device can pick the object up.
+        """Return the index of a surface's object; None if no device can pick the object up.
 
         Args:
-            surface: the number of the surface, as in `uwsim.rays.Hits`.
+            surface: the index of the surface, as in `uwsim.rays.Hits`.
         """
         objects = {part.id: part.object for part in self._scenery.parts}
         object_index = objects.get(surface)

@@ -39,7 +39,7 @@ class StageView(SceneView):
         return find_file(name, named_by, self._data_path)
 
     def set_camera_noise(self, std: float) -> None:
-        """Set the noise of virtual cameras: standard deviation, as a share of full scale [1]."""
+        """Set the noise of virtual cameras: standard deviation, as a fraction of full scale [1]."""
         for name in self._sensors.cameras:
             self._sensors.camera(name).state.std = std
 
@@ -47,9 +47,9 @@ class StageView(SceneView):
         """Set joints by their index in the joint vector [rad or m], clamped to the joint limits."""
         scene_vehicle = self._vehicles.find(vehicle)
         joints = scene_vehicle.joints
-        for number, value in values.items():
-            if 0 <= number < len(joints):
-                joints[number] = value
+        for index, value in values.items():
+            if 0 <= index < len(joints):
+                joints[index] = value
         scene_vehicle.set_joints(joints)
 
     def put_back(self, vehicle: str) -> None:

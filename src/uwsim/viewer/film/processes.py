@@ -25,7 +25,7 @@ from .film import FilmSpec, TrialSequenceFilm, chapters_of, n_frames_of
 MAX_PROCESSES = 16
 """The greatest number of processes that draw one film; more would wait for the encoder."""
 MIN_IMAGES = 60
-"""The least number of images for each process."""
+"""The minimum number of images for each process."""
 BLOCK_SIZE = 6
 """The number of consecutive images that one process draws, so that it reuses images of the
 inset."""

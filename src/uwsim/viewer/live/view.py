@@ -208,11 +208,11 @@ class LiveView:
         self._server.publish("markers", json.dumps({"type": "markers", "markers": markers}))
 
     def _send_sand(self) -> None:
-        for number, heap in enumerate(self._simulation.world.scenery.heaps):
-            if heap.version != self._sand_versions[number]:
-                self._sand_versions[number] = heap.version
-                content = self._header(SAND, number) + heap.heights.astype("<f4").tobytes()
-                self._server.publish(f"sand/{number}", content)
+        for index, heap in enumerate(self._simulation.world.scenery.heaps):
+            if heap.version != self._sand_versions[index]:
+                self._sand_versions[index] = heap.version
+                content = self._header(SAND, index) + heap.heights.astype("<f4").tobytes()
+                self._server.publish(f"sand/{index}", content)
 
     def _send_images(self) -> None:
         """Send the requested camera images; render the images of cameras without a subscriber."""

@@ -134,7 +134,7 @@ def submerged_part(table: Floats, up: Three, depth: float) -> tuple[float, Three
 def entered_share(
     table: Floats, up: Three, depth: float, fraction: float, nu: Six, step: float
 ) -> float:
-    """Return the share of the submerged part that has entered the water within a step.
+    """Return the fraction of the submerged part that has entered the water within a step.
 
     Args:
         table: the row of the body.

@@ -12,7 +12,8 @@ from ..columns import M_A
 from .equations import Six, Three
 
 MAX_DRAG_SHARE = 0.01
-"""The share of an inertia up to which implicit drag also counts as inertia in gyroscopic terms."""
+"""The fraction of an inertia up to which implicit drag also counts as inertia in gyroscopic
+terms."""
 
 
 @njit

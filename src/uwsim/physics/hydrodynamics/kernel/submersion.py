@@ -243,10 +243,10 @@ def _rectangle(a: float, b: float, up_x: float, up_z: float, depth: float, piece
 @njit
 def _edge(sx: float, sz: float, ex: float, ez: float, piece: Floats) -> None:
     """Add the area, and three times the first moments, of one edge by Green's theorem."""
-    turn = 0.5 * (sx * ez - ex * sz)
-    piece[0] += turn
-    piece[1] += turn * (sx + ex)
-    piece[2] += turn * (sz + ez)
+    triangle_area = 0.5 * (sx * ez - ex * sz)
+    piece[0] += triangle_area
+    piece[1] += triangle_area * (sx + ex)
+    piece[2] += triangle_area * (sz + ez)
 
 
 @njit

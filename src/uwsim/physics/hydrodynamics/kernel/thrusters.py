@@ -64,7 +64,7 @@ def add_thrust(m: int, d: int, o: Ints64, i: int, table: Floats, dt: float, work
 
 @njit
 def inflow_loss(table: Floats, thrust: float, speed: float, density: float) -> float:
-    """Return the share of its static thrust that a propeller loses by inflow.
+    """Return the fraction of its static thrust that a propeller loses by inflow.
 
     Args:
         table: the row of the thruster.
@@ -98,7 +98,7 @@ def thrust_coefficient(table: Floats, advance: float) -> float:
 
 @njit
 def lag_share(time_constant: float, time: float) -> float:
-    """Return the share of a step input that a first-order lag reaches after a time [s], 0..1."""
+    """Return the fraction of a step input that a first-order lag reaches after a time [s], 0..1."""
     if time_constant <= 0.0:
         return 1.0
     x = time / time_constant
