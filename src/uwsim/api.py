@@ -56,7 +56,8 @@ def load(
         is_blind: True to publish black images on topics, and to render nothing for them.
 
     Raises:
-        UwsimError: a file, a name or a setting is invalid; the message has all errors of the file.
+        UwsimError: a file, a name or a setting is invalid; the error message has all errors of the
+            file.
     """
     from .assets.bundled import scene_file
     from .physics.compile_scene import compile_scene

@@ -29,7 +29,7 @@ class CompiledCurrent(Current):
         return self._evaluate(points, time)[0]
 
     def acceleration(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
-        """Return the partial derivative of the velocity by time, in L, (n, 3) [m/s2]."""
+        """Return the partial time derivative of the velocity, in L, (n, 3) [m/s2]."""
         return self._evaluate(points, time)[1]
 
     def _evaluate(self, points: Array, time: float) -> tuple[Array, Array]:

@@ -110,7 +110,7 @@ class Current(abc.ABC):
         """
 
     def acceleration(self, points: Array, time: float, vehicles: Sequence[str] = ()) -> Array:
-        """Return the partial derivative of the velocity by time, in L, (n, 3) [m/s2].
+        """Return the partial derivative of the velocity with respect to time, in L, (n, 3) [m/s2].
 
         The default implementation is a central difference over 2 ms.
         """

@@ -23,7 +23,7 @@ MIN_LAST_ANGLE = math.radians(150.0)
 MAX_INTEGRAL_ERROR = 0.1
 """The greatest distance from 1 of the integral of a table over all directions."""
 STEEPEST_SLOPE = -1.9
-"""The steepest power law of the extrapolation to zero; at -2 the share would be infinite."""
+"""The steepest power law of the extrapolation to zero; at -2 the fraction would be infinite."""
 
 
 @dataclass(frozen=True)

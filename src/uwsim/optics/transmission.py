@@ -99,7 +99,7 @@ def compute_led_halo(water: Medium, distance: npt.ArrayLike, angle: npt.ArrayLik
 
 
 def compute_full_field(water: Medium, distance: npt.ArrayLike) -> FloatArray:
-    """Compute the share h of a wide uniform target's light that arrives.
+    """Compute the fraction h of a wide uniform target's light that arrives.
 
     It is the probability that a ray that is traced back from the camera hits the target's plane.
 

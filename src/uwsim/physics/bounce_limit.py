@@ -165,7 +165,7 @@ class _LooseBody:
         return self._kinetic_energy(self.velocity)
 
     def slow_down(self, share: float) -> None:
-        """Reduce the kinetic energy by a share, at most to 0."""
+        """Reduce the kinetic energy by a fraction, at most to 0."""
         self.velocity *= math.sqrt(max(0.0, 1.0 - share))
 
     def work_of_flow(self, start: Array) -> float:

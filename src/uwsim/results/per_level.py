@@ -99,7 +99,7 @@ def intervals_of(result: Result, column: str, *, confidence: float = 0.95) -> li
 
 @deprecated_name("intervals_of")
 def per_level(result: Result, column: str, *, confidence: float = 0.95) -> list[LevelInterval]:
-    """Call `intervals_of`, whose old name this is."""
+    """Call `intervals_of`; this is its deprecated name."""
     return intervals_of(result, column, confidence=confidence)
 
 

@@ -207,7 +207,7 @@ class Simulation:
 
     @deprecated_name("latest_message")
     def latest(self, topic: str) -> Any:
-        """Call `latest_message`, whose old name this is."""
+        """Call `latest_message`; this is its deprecated name."""
         return self.latest_message(topic)
 
     def call(self, service: str, request: object) -> object:

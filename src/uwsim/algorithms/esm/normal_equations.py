@@ -45,9 +45,9 @@ class Run(NamedTuple):
     values: Grey
     """The pixels of the template, (n,)."""
     slope_u: Grey
-    """The derivative of the template by u, (n,)."""
+    """The derivative of the template with respect to u, (n,)."""
     slope_v: Grey
-    """The derivative of the template by v, (n,)."""
+    """The derivative of the template with respect to v, (n,)."""
 
 
 @njit

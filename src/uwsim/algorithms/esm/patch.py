@@ -16,9 +16,9 @@ class Patch(NamedTuple):
     values: Grey
     """The pixels, with zero mean and unit variance inside the patch, (h, w)."""
     slope_u: Grey
-    """The derivative of the pixels by the normalised coordinate u, (h, w)."""
+    """The derivative of the pixels with respect to the normalised coordinate u, (h, w)."""
     slope_v: Grey
-    """The derivative of the pixels by the normalised coordinate v, (h, w)."""
+    """The derivative of the pixels with respect to the normalised coordinate v, (h, w)."""
     mean: float
     """The mean of the pixels before the normalisation [grey level]."""
     contrast: float

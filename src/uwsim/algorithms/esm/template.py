@@ -35,11 +35,11 @@ class Template:
     values: Grey
     """The pixels, with zero mean and unit variance inside the quad, 0 outside, (h, w)."""
     slope_u: Grey
-    """The derivative of ``values`` by the normalised coordinate u, by central differences,
-    (h, w)."""
+    """The derivative of ``values`` with respect to the normalised coordinate u, by central
+    differences, (h, w)."""
     slope_v: Grey
-    """The derivative of ``values`` by the normalised coordinate v, by central differences,
-    (h, w)."""
+    """The derivative of ``values`` with respect to the normalised coordinate v, by central
+    differences, (h, w)."""
     mean: float
     """The mean of the pixels before the normalisation [grey level]."""
     contrast: float

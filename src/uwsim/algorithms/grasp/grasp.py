@@ -91,7 +91,7 @@ class Grasp:
     Station keeping: gains ``kp`` [1/s] and ``ki`` [1/s2], ``feed_forward`` 1 or 0, largest
     correction ``limit`` [m/s]. Search pattern: ``search_spacing``, ``search_radius`` [m]. Grasp:
     horizontal ``tolerance`` [m], speed of ``descent`` [m/s], height of the ``lift`` [m], pause of
-    the lift ``settle`` [s], ``hold`` time [s], number of ``attempts``, least load on the wrist
+    the lift ``settle`` [s], ``hold`` time [s], number of ``attempts``, minimum load on the wrist
     ``min_load`` [N]. Mounts in the frame of the base: positions [m], roll pitch yaw [rad].
     """
 

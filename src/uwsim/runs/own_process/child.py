@@ -119,7 +119,7 @@ class ChildNode:
 
     @deprecated_name("create_timer")
     def every(self, period_s: float, callback: Callable[[], None]) -> None:
-        """Call `create_timer`, whose old name this is."""
+        """Call `create_timer`; this is its deprecated name."""
         self.create_timer(period_s, callback)
 
     def take_published(self) -> list[bytes]:

@@ -100,7 +100,7 @@ def add_echoes(
 def backscatter(material: Array, cosine: float) -> tuple[float, float]:
     """Return the backscattering cross section per area (`uwsim.acoustics.material`) [1].
 
-    Also return the derivative of its logarithm by the logarithm of the cosine.
+    Also return the derivative of its logarithm with respect to the logarithm of the cosine.
 
     Args:
         material: the glint, sharpness of the glint and diffuse part, (3,).

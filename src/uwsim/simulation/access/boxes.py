@@ -24,7 +24,7 @@ class OrientedBox:
 
     @property
     def corners(self) -> Array:
-        """The corners in the requested frame, (8, 3) [m]: x changes first, z last."""
+        """The corners in the requested frame, (8, 3) [m]; x varies fastest, z slowest."""
         half = 0.5 * self.size
         return self.pose.transform(Box(tuple(-half), tuple(half)).corners())
 

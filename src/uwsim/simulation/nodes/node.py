@@ -256,7 +256,7 @@ class InProcessNode:
 
     @deprecated_name("describe_unconnected_topics")
     def unconnected(self) -> list[str]:
-        """Call `describe_unconnected_topics`, whose old name this is."""
+        """Call `describe_unconnected_topics`; this is its deprecated name."""
         return self.describe_unconnected_topics()
 
     def describe_unpublished_topics(self) -> list[str]:
@@ -297,7 +297,7 @@ class InProcessNode:
 
     @deprecated_name("create_timer")
     def every(self, period_s: float, callback: Callable[[], None]) -> None:
-        """Call `create_timer`, whose old name this is."""
+        """Call `create_timer`; this is its deprecated name."""
         self.create_timer(period_s, callback)
 
     def tick(self) -> None:

@@ -264,7 +264,7 @@ def _drag_slope(table: Floats, i: int, speed: float, s: float) -> float:
 
 @njit
 def drag_slopes(table: Floats, nu: Six, s: Six) -> Six:
-    """Return the derivative of the drag of each component by its speed."""
+    """Return the derivative of the drag of each component with respect to its speed."""
     return (
         _drag_slope(table, 0, nu[0], s[0]), _drag_slope(table, 1, nu[1], s[1]),
         _drag_slope(table, 2, nu[2], s[2]), _drag_slope(table, 3, nu[3], s[3]),

@@ -143,7 +143,10 @@ def _residual(b: Floats, h: float) -> None:
 
 @njit
 def _jacobian(b: Floats, h: float) -> None:
-    """Write the negative derivative of the residual by the rate to ``_MATRIX``, by rows."""
+    """Write the negative derivative of the residual with respect to the rate to ``_MATRIX``.
+
+    The elements are written row by row.
+    """
     g = 0.5 * h
     wx, wy, wz = g * b[TWIST], g * b[TWIST + 1], g * b[TWIST + 2]
     vx, vy, vz = g * b[TWIST + 3], g * b[TWIST + 4], g * b[TWIST + 5]
