@@ -100,7 +100,7 @@ def test_the_report_says_what_was_run_and_found(tmp_path: Path) -> None:
         "gives 0.893, not 0.86, which needs fog 1.031",
     ):
         assert said in text, said
-    assert "frozen, which reads no image" not in text
+    assert "(frozen), which reads no image" not in text
 
 
 def test_every_level_stands_in_the_table(tmp_path: Path) -> None:
@@ -190,7 +190,7 @@ def test_a_vehicle_that_sways_is_no_static_scene_though_levels_end_at_one_phase(
 def test_the_control_beside_the_result_is_drawn_into_the_plots(tmp_path: Path) -> None:
     save(frozen_result(), tmp_path / "control")
     page = whole_page_of(visibility_result(), tmp_path)
-    assert "frozen, which reads no image" in page.text
+    assert "(frozen), which reads no image" in page.text
 
 
 def test_losses_over_repeats_are_given_from_first_to_last(tmp_path: Path) -> None:
