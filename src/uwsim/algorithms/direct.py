@@ -24,7 +24,9 @@ class Esm(TrackerNode):
         **LOSS_PARAMETERS,
     }
     BLEND: ClassVar[str] = "esm"
+    """The combination of the gradients of image and template (`Method.blend`)."""
     PHOTOMETRIC: ClassVar[bool] = True
+    """The value of `Method.photometric`: True to normalise patches to zero mean, unit variance."""
 
     def make_tracker(self, image: Grey, quad: Array) -> Tracker | str:
         """Make a tracker with the pixels inside ``quad`` (4, 2) [px] as the template."""

@@ -86,8 +86,8 @@ def diagonal_intersection(quad: Array) -> Array:
     """Return the intersection (2,) of the diagonals of a convex quad (4, 2)."""
     diagonal, other_diagonal = quad[2] - quad[0], quad[3] - quad[1]
     offset = quad[1] - quad[0]
-    share = (offset[0] * other_diagonal[1] - offset[1] * other_diagonal[0]) / (
+    fraction = (offset[0] * other_diagonal[1] - offset[1] * other_diagonal[0]) / (
         diagonal[0] * other_diagonal[1] - diagonal[1] * other_diagonal[0]
     )
-    point: Array = quad[0] + share * diagonal
+    point: Array = quad[0] + fraction * diagonal
     return point

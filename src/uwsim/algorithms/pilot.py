@@ -59,7 +59,7 @@ class Pilot:
     the step of one `PERIOD`. Before the first input there are no commands. A vehicle may accept
     both twists and commands of single thrusters: the pilot publishes the kind whose axes were moved
     last, and twists at first. All lamps have the same brightness, at first 1. Names of services,
-    topics and joints in a parameter are separated by blanks; by default the run takes them from the
+    topics and joints in a parameter are separated by blanks; by default the run reads them from the
     scene.
     """
 
@@ -87,7 +87,7 @@ class Pilot:
     """The parameters with their defaults.
 
     Speeds at full input: ``speed`` [m/s], ``turn`` [rad/s], ``joint_speed`` [rad/s or m/s]; the
-    thrust at full input ``thrust`` [share of full thrust]; the change of brightness ``dim_rate``
+    thrust at full input ``thrust`` [fraction of full thrust]; the change of brightness ``dim_rate``
     [1/s]; the greatest change of an axis ``rate`` [1/s]; ``dead_zone`` [1]. ``z_is_down`` is 1 if
     the z axis of the vehicle points down, 0 if it points up.
     """

@@ -1,4 +1,4 @@
-"""The part of a template that compiled code reads."""
+"""The fields of a template that the compiled code of an alignment reads."""
 
 from __future__ import annotations
 

@@ -41,7 +41,7 @@ def luma(rgb: npt.NDArray[np.uint8]) -> Grey:
 
 @njit
 def halve(image: Grey) -> Grey:
-    """Filter an image by (1 3 3 1)/8 along rows and columns, and take every second pixel.
+    """Filter an image by (1 3 3 1)/8 along rows and columns, and select every second pixel.
 
     Beyond its edges the image is continued by its outermost pixels.
     """
