@@ -59,12 +59,12 @@ class FakeBridge(Bridge):
     def send_text(self, topic: str, *, sender: str, **content: Any) -> None:
         self.put(topic, String(data=json.dumps({"client": "a", **content})), sender)
 
-    def send_to(self, sender: str, topic: str, message: object) -> None:
+    def send_to(self, client_name: str, topic: str, message: object) -> None:
         assert (topic, type(message)) == (TICK, String)
-        self.single_messages.append((sender, json.loads(message.data)))
+        self.single_messages.append((client_name, json.loads(message.data)))
 
-    def report_error(self, sender: str, text: str) -> None:
-        self.reports.append((sender, text))
+    def report_error(self, client_name: str, text: str) -> None:
+        self.reports.append((client_name, text))
 
 
 class Run:

@@ -58,8 +58,8 @@ class FakeBridge(Bridge):
     def send_text(self, topic: str, *, sender: str = "", **content: Any) -> None:
         self.put(topic, String(data=json.dumps(content)), sender)
 
-    def report_error(self, sender: str, text: str) -> None:
-        self.reports.append((sender, text))
+    def report_error(self, client_name: str, text: str) -> None:
+        self.reports.append((client_name, text))
 
 
 def echoes(bridge: FakeBridge, tick: dict[str, Any]) -> None:
