@@ -14,7 +14,7 @@ import numpy.typing as npt
 
 from ..base.geometry import Array
 from ..base.numerics.jit import njit
-from .instance import Instances, Numbers
+from .instance import Indices, Instances
 
 Colours = npt.NDArray[np.uint8] | npt.NDArray[np.uint16]
 """The red, green, blue and alpha values, (h, w, 4)."""
@@ -33,7 +33,7 @@ class Backdrop:
         ) = -1  # `Instances.arrangement`, `version` at the last image
         self._members_key = b"", -1  # numbers of its batches in order, and `Instances.version`
 
-    def find(self, instances: Instances, visible_batches: Numbers) -> Numbers:
+    def find(self, instances: Instances, visible_batches: Indices) -> Indices:
         """Return the indices of the batches of the backdrop: the last of those in view.
 
         If `colours` is None then, these are batches that did not move since the last image, and the
@@ -48,16 +48,16 @@ class Backdrop:
             self._arrangement, self.colours = instances.arrangement, None
             return visible_batches[:0]
         versions = instances.moved_versions[instances.owners[visible_batches]]
-        numbers, version = self._members_key
-        start = len(visible_batches) - len(numbers) // visible_batches.itemsize
-        is_whole = start >= 0 and visible_batches[start:].tobytes() == numbers
+        index_bytes, version = self._members_key
+        start = len(visible_batches) - len(index_bytes) // visible_batches.itemsize
+        is_whole = start >= 0 and visible_batches[start:].tobytes() == index_bytes
         if self.colours is not None and is_whole and (versions[start:] <= version).all():
             return visible_batches[start:]
         self.colours = None
         moving_rows = np.flatnonzero(versions > last_version)
         return visible_batches[moving_rows[-1] + 1 if len(moving_rows) else 0 :]
 
-    def store(self, colours: Colours, tiles: Array, members: Numbers) -> None:
+    def store(self, colours: Colours, tiles: Array, members: Indices) -> None:
         """Store the colours and the tiles of the backdrop, and the numbers of its batches."""
         self.colours, self.tiles = colours, tiles
         self._members_key = members.tobytes(), self._version

@@ -14,7 +14,7 @@ import numpy.typing as npt
 from ..base.geometry import Array
 from ..base.numerics.jit import njit
 
-Numbers = npt.NDArray[np.intp]
+Indices = npt.NDArray[np.intp]
 
 
 @njit
@@ -43,7 +43,7 @@ def compute_stretch_bounds(matrices: Array, factors: Array) -> None:
 @njit
 def set_poses(
     poses: Array,
-    rows: Numbers,
+    rows: Indices,
     version: int,
     world_from_model: Array,
     moved_versions: npt.NDArray[np.int64],
@@ -104,7 +104,7 @@ def transform_to_camera(
 
 @njit
 def transform_spheres(
-    world_from_model: Array, stretch: Array, owners: Numbers, model_spheres: Array, spheres: Array
+    world_from_model: Array, stretch: Array, owners: Indices, model_spheres: Array, spheres: Array
 ) -> None:
     """Transform bounding spheres to W.
 
@@ -123,7 +123,7 @@ def transform_spheres(
 
 @njit
 def transform_corners(
-    world_from_model: Array, owners: Numbers, model_corners: Array, corners: Array
+    world_from_model: Array, owners: Indices, model_corners: Array, corners: Array
 ) -> None:
     """Transform the corners of bounding boxes to W.
 
@@ -150,7 +150,7 @@ def _transform_point(point: Array, world_from_model: Array, world_point: Array) 
 
 @njit
 def transform_normals(
-    normals: Array, owners: Numbers, model_normals: Array, world_normals: Array
+    normals: Array, owners: Indices, model_normals: Array, world_normals: Array
 ) -> None:
     """Transform the unit normals of batches to W.
 
@@ -176,7 +176,7 @@ def transform_normals(
 
 
 @njit
-def compute_half_extents(owners: Numbers, spheres: Array, extents: Array) -> None:
+def compute_half_extents(owners: Indices, spheres: Array, extents: Array) -> None:
     """Compute half the longest side of the box around the bounding spheres of each instance.
 
     Args:
@@ -199,7 +199,7 @@ def compute_half_extents(owners: Numbers, spheres: Array, extents: Array) -> Non
 
 @njit
 def find_far_distances(
-    numbers: Numbers,
+    indices: Indices,
     spheres: Array,
     corners: Array,
     position: Array,
@@ -210,7 +210,7 @@ def find_far_distances(
     """Compute the distance from a camera to the far side of each batch in its frustum.
 
     Args:
-        numbers: the indices of the batches to check, (m,).
+        indices: the indices of the batches to check, (m,).
         spheres: the bounding spheres of all batches in W, (k, 4) [m].
         corners: the corners of the bounding boxes of all batches in W, (k, 8, 3) [m].
         position: the position of the camera in W, (3,) [m].
@@ -219,8 +219,8 @@ def find_far_distances(
         distances: the output, (m,) [m]; inf for batches outside of the frustum.
     """
     centre, points = np.empty(3), np.empty((8, 3))
-    for i in range(len(numbers)):
-        m = numbers[i]
+    for i in range(len(indices)):
+        m = indices[i]
         distances[i] = np.inf
         transform_from_world(spheres[m], position, rotation, centre)
         if not _is_inside(centre, planes, spheres[m, 3]):

@@ -22,7 +22,7 @@ INSTANCE = Block(
 STRIDE = 256
 """The distance between the blocks of two instances in the buffer [bytes], a multiple of the
 alignment of every driver."""
-Numbers = npt.NDArray[np.intp]
+Indices = npt.NDArray[np.intp]
 
 
 class Instances:
@@ -84,7 +84,7 @@ class Instances:
         self.world_from_model = np.delete(self.world_from_model, row, axis=0)
         self.moved_versions = np.delete(self.moved_versions, row)
 
-    def find_shown(self, hidden_ids: frozenset[int]) -> Numbers:
+    def find_shown(self, hidden_ids: frozenset[int]) -> Indices:
         """Return the indices of the batches of all instances whose id is not hidden, (m,)."""
         self._update_bounds()
         if hidden_ids not in self._shown_by_hidden:
@@ -105,29 +105,29 @@ class Instances:
         return self._is_mirrored
 
     @property
-    def owners(self) -> Numbers:
+    def owners(self) -> Indices:
         """The row of the instance to which each batch belongs, (m,)."""
         self._update_bounds()
         return self._owners
 
-    def find_casters(self, numbers: Numbers, max_radius: float) -> Numbers:
+    def find_casters(self, indices: Indices, max_radius: float) -> Indices:
         """Return the indices of the batches that cast the sun's shadow.
 
         Transparent batches cast no shadow, nor do batches of large instances.
 
         Args:
-            numbers: the indices of the batches to check.
+            indices: the indices of the batches to check.
             max_radius: half the longest side of the largest bounding box that casts a shadow [m].
         """
         self._update_bounds()
-        is_small = self._radii[self._owners[numbers]] <= max_radius
-        casters: Numbers = numbers[self._is_opaque[numbers] & is_small]
+        is_small = self._radii[self._owners[indices]] <= max_radius
+        casters: Indices = indices[self._is_opaque[indices] & is_small]
         return casters
 
-    def are_opaque(self, numbers: Numbers) -> bool:
+    def are_opaque(self, indices: Indices) -> bool:
         """Return True if all batches with these numbers are opaque."""
         self._update_bounds()
-        return bool(self._is_opaque[numbers].all())
+        return bool(self._is_opaque[indices].all())
 
     @property
     def spheres(self) -> Array:
@@ -142,14 +142,14 @@ class Instances:
         return self._corners
 
     def can_skip_mipmaps(
-        self, numbers: Numbers, world_from_camera: Pose, intrinsics: Intrinsics
+        self, indices: Indices, world_from_camera: Pose, intrinsics: Intrinsics
     ) -> list[bool]:
         """Return for each batch True if it can be drawn without mipmaps (`minification`)."""
         self._update_bounds()
         flags: list[bool] = can_skip_mipmaps(
-            self._densities[numbers],
-            self._flat_normals[numbers],
-            self._corners[numbers],
+            self._densities[indices],
+            self._flat_normals[indices],
+            self._corners[indices],
             world_from_camera,
             intrinsics,
         ).tolist()
@@ -174,7 +174,7 @@ class Instances:
 
     def _collect_batches(self) -> None:
         """Collect the batches of all instances."""
-        self._shown_by_hidden: dict[frozenset[int], Numbers] = {}
+        self._shown_by_hidden: dict[frozenset[int], Indices] = {}
         self._numbered_batches = [
             (row, batch)
             for row, instance_batches in enumerate(self.batches)
@@ -264,8 +264,8 @@ class Slots:
 
 
 def find_visible(
-    instances: Instances, numbers: Numbers, world_from_camera: Pose, planes: Array
-) -> Numbers:
+    instances: Instances, indices: Indices, world_from_camera: Pose, planes: Array
+) -> Indices:
     """Return the indices of the batches whose bounds reach into the frustum, near ones first.
 
     Both the bounding sphere and the box are checked: the sphere of a wall is much larger than the
@@ -274,13 +274,13 @@ def find_visible(
 
     Args:
         instances: all instances.
-        numbers: the indices of the batches to check.
+        indices: the indices of the batches to check.
         world_from_camera: the pose of the camera.
         planes: the planes of the frustum in the camera's frame, (6, 4).
     """
-    distances = np.empty(len(numbers))
+    distances = np.empty(len(indices))
     bounds.find_far_distances(
-        numbers,
+        indices,
         instances.spheres,
         instances.corners,
         world_from_camera.position,
@@ -289,5 +289,5 @@ def find_visible(
         distances,
     )
     order = np.argsort(distances, kind="stable")[: np.count_nonzero(distances < np.inf)]
-    visible_batches: Numbers = numbers[order]
+    visible_batches: Indices = indices[order]
     return visible_batches

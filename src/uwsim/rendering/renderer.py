@@ -20,7 +20,7 @@ from .backdrop import Backdrop, Colours
 from .context import create_context
 from .frame import Frame
 from .gpu_model import GpuModels
-from .instance import Instances, Numbers, Slots, find_visible
+from .instance import Indices, Instances, Slots, find_visible
 from .lights.lamp import Lamp
 from .lights.lamps import Lamps
 from .lights.projector import Projector
@@ -213,12 +213,12 @@ class Renderer:
         water, light, hidden_ids, lamps = view.water, view.light, view.hidden_ids, view.lamps
         candidates = self._instances.find_shown(hidden_ids)
         pinhole = projection(view.intrinsics)
-        numbers = find_visible(self._instances, candidates, world_from_camera, pinhole.planes)
+        indices = find_visible(self._instances, candidates, world_from_camera, pinhole.planes)
         switches: Switches = water.switches + light.switches
-        casters, may_cast = candidates[:0], np.zeros((len(numbers), 0), dtype=bool)
+        casters, may_cast = candidates[:0], np.zeros((len(indices), 0), dtype=bool)
         if "colour" in view.targets and light.shadows:
             casters, may_cast = self._update_sun_shadow(
-                candidates, numbers, view, world_from_camera, pinhole
+                candidates, indices, view, world_from_camera, pinhole
             )
         if lamps and "colour" in view.targets:
             switches += (("LAMPS", len(lamps)),)
@@ -236,21 +236,21 @@ class Renderer:
         )
         self._slots.fill(self._instances, world_from_camera.inverse().matrix)
         skips_mipmaps = self._instances.can_skip_mipmaps(
-            numbers, world_from_camera, view.intrinsics
+            indices, world_from_camera, view.intrinsics
         )
         in_shadow = np.any(may_cast, axis=1)
         batches = [
-            (int(n), bool(s), c) for n, s, c in zip(numbers, in_shadow, skips_mipmaps, strict=True)
+            (int(n), bool(s), c) for n, s, c in zip(indices, in_shadow, skips_mipmaps, strict=True)
         ]
         target, backdrop = self._find_targets(view), self._find_backdrop(view)
-        backdrop_numbers = numbers[:0]
+        backdrop_indices = indices[:0]
         if backdrop is not None:
-            backdrop_numbers = backdrop.find(self._instances, numbers)
+            backdrop_indices = backdrop.find(self._instances, indices)
         # A backdrop without terrain saves little time.
-        n_casters = len(self._instances.find_casters(backdrop_numbers, MAX_CASTER_RADIUS))
-        if n_casters < len(backdrop_numbers):
+        n_casters = len(self._instances.find_casters(backdrop_indices, MAX_CASTER_RADIUS))
+        if n_casters < len(backdrop_indices):
             assert backdrop is not None
-            n_front = len(numbers) - len(backdrop_numbers)
+            n_front = len(indices) - len(backdrop_indices)
             front, back = batches[:n_front], batches[n_front:]
             if backdrop.colours is None:
                 sunlit_batches = [(index, False, close) for index, _, close in back]
@@ -259,7 +259,7 @@ class Renderer:
                 tiles = compute_tile_bounds(
                     target.read_depths(), world_from_camera, intrinsics, sun
                 )
-                backdrop.store(target.read_colours(), tiles, backdrop_numbers)
+                backdrop.store(target.read_colours(), tiles, backdrop_indices)
             region = self._find_shaded_region(view, backdrop, casters)
             if region is not None:
                 self._passes.draw_over_backdrop(target, front, back, region, switches)
@@ -268,7 +268,7 @@ class Renderer:
         return None
 
     def _find_shaded_region(
-        self, view: View, backdrop: Backdrop, casters: Numbers
+        self, view: View, backdrop: Backdrop, casters: Indices
     ) -> Region | None:
         """Return the region of a backdrop where shadows may fall; None if it is too large."""
         intrinsics, margin = view.intrinsics, SHADOW_MARGIN + 8.0 * self._shadow.lift
@@ -295,12 +295,12 @@ class Renderer:
 
     def _update_sun_shadow(
         self,
-        candidates: Numbers,
-        receivers: Numbers,
+        candidates: Indices,
+        receivers: Indices,
         view: View,
         world_from_camera: Pose,
         pinhole: Projection,
-    ) -> tuple[Numbers, npt.NDArray[np.bool_]]:
+    ) -> tuple[Indices, npt.NDArray[np.bool_]]:
         """Update the shadow map; return k casters, and for n receivers which may shade them."""
         instances, sun = self._instances, sun_direction(view.light.sun)
         casters = instances.find_casters(candidates, MAX_CASTER_RADIUS)
@@ -315,7 +315,7 @@ class Renderer:
     def _update_lamps(
         self,
         lamps: Sequence[Lamp],
-        casters: Numbers,
+        casters: Indices,
         world_from_camera: Pose,
         hidden_ids: frozenset[int],
     ) -> None:
@@ -329,7 +329,7 @@ class Renderer:
     def _update_projector(
         self,
         projector: Projector,
-        casters: Numbers,
+        casters: Indices,
         world_from_camera: Pose,
         hidden_ids: frozenset[int],
     ) -> None:

@@ -8,7 +8,7 @@ import numpy.typing as npt
 
 from ...base.geometry import Array
 from ..batch_drawer import BatchDrawer
-from ..instance import Instances, Numbers, Slots
+from ..instance import Indices, Instances, Slots
 
 Versions = npt.NDArray[np.int64]
 
@@ -39,7 +39,7 @@ class CasterMap:
         self.n_drawn = 0
         """The number of batches drawn so far."""
 
-    def update(self, instances: Instances, casters: Numbers, clip_from_world: Array) -> None:
+    def update(self, instances: Instances, casters: Indices, clip_from_world: Array) -> None:
         """Draw the casters whose depths are out of date.
 
         Args:
@@ -68,7 +68,7 @@ class CasterMap:
         self._framebuffer.use()
         self._draw(instances, casters[~self._static_depths.members])
 
-    def _draw(self, instances: Instances, casters: Numbers) -> None:
+    def _draw(self, instances: Instances, casters: Indices) -> None:
         """Draw batches into the framebuffer in use."""
         context = self._context
         context.enable_only(moderngl.DEPTH_TEST)

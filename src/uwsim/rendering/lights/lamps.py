@@ -16,7 +16,7 @@ from ...base.geometry import Array, Intrinsics, Pose, image_centre
 from ...base.numerics.linear import product
 from ...devices.lamp import MAX_LAMPS
 from ..batch_drawer import BatchDrawer
-from ..instance import INSTANCE, Instances, Numbers, Slots, find_visible
+from ..instance import INSTANCE, Indices, Instances, Slots, find_visible
 from ..program import Block, build
 from ..projection import projection
 from .lamp import MAX_HALF_ANGLE, Lamp
@@ -66,7 +66,7 @@ class Lamps:
         self,
         lamps: Sequence[Lamp],
         instances: Instances,
-        casters: Numbers,
+        casters: Indices,
         version: object,
     ) -> None:
         """Draw the shadow maps that are out of date.
@@ -110,7 +110,7 @@ class Lamps:
         self._buffer.write(values.tobytes())
         self._buffer.bind_to_uniform_block(LAMPS.binding)
 
-    def _draw(self, tile: int, lamp: Lamp, instances: Instances, casters: Numbers) -> None:
+    def _draw(self, tile: int, lamp: Lamp, instances: Instances, casters: Indices) -> None:
         view = _map_camera(lamp)
         viewport = TILE * (tile % 2), TILE * (tile // 2), TILE, TILE
         self.n_drawn += 1
@@ -126,7 +126,7 @@ def draw_casters(
     program: moderngl.Program,
     slots: Slots,
     instances: Instances,
-    casters: Numbers,
+    casters: Indices,
     world_from_lamp: Pose,
     view: Intrinsics,
 ) -> None:

@@ -7,7 +7,7 @@ import numpy as np
 
 from ...base.geometry import Pose
 from ...base.numerics.linear import product
-from ..instance import INSTANCE, Instances, Numbers, Slots
+from ..instance import INSTANCE, Indices, Instances, Slots
 from ..program import Block, build
 from ..projection import projection
 from .lamps import draw_casters
@@ -43,7 +43,7 @@ class ProjectorLight:
         self,
         projector: Projector,
         instances: Instances,
-        casters: Numbers,
+        casters: Indices,
         version: object,
     ) -> None:
         """Draw the shadow map if it is out of date.

@@ -13,7 +13,7 @@ import numpy.typing as npt
 from ...base.geometry import Array, Intrinsics, Pose
 from ...base.numerics.jit import njit
 from ..bounds import transform_to_world
-from ..instance import Instances, Numbers
+from ..instance import Indices, Instances
 from .sun_shadow import compute_box, sunbeam_frame
 
 TILE = 8
@@ -50,7 +50,7 @@ def compute_tile_bounds(
 
 
 def find_shaded_region(
-    tiles: Array, instances: Instances, casters: Numbers, sun: Array, margin: float
+    tiles: Array, instances: Instances, casters: Indices, sun: Array, margin: float
 ) -> Region:
     """Return the rectangle around all tiles on which a caster may cast a shadow.
 
@@ -113,7 +113,7 @@ def _write_tile_bounds(
 def _write_shaded_tiles(
     tiles: Array,
     corners: Array,
-    casters: Numbers,
+    casters: Indices,
     frame: Array,
     margin: float,
     region: npt.NDArray[np.int64],

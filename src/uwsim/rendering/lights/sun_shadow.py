@@ -11,7 +11,7 @@ import numpy.typing as npt
 from ...base.geometry import Array, Pose
 from ...base.numerics.jit import njit
 from ...base.numerics.linear import cross, multiply_matrices, product
-from ..instance import INSTANCE, Instances, Numbers
+from ..instance import INSTANCE, Indices, Instances
 from ..program import build
 from .caster_map import CasterMap
 
@@ -65,7 +65,7 @@ class SunShadow:
         """The number of batches drawn into maps so far."""
         return sum(caster_map.n_drawn for caster_map in self._maps.values())
 
-    def update(self, instances: Instances, casters: Numbers, sun: Array) -> None:
+    def update(self, instances: Instances, casters: Indices, sun: Array) -> None:
         """Draw the map again if it is out of date.
 
         Args:
@@ -87,8 +87,8 @@ class SunShadow:
 
 def find_shadow_pairs(
     instances: Instances,
-    casters: Numbers,
-    receivers: Numbers,
+    casters: Indices,
+    receivers: Indices,
     sun: Array,
     world_from_camera: Pose,
     corner_rays: Array,
@@ -125,8 +125,8 @@ def find_shadow_pairs(
 @njit
 def _write_shadow_pairs(
     corners: Array,
-    casters: Numbers,
-    receivers: Numbers,
+    casters: Indices,
+    receivers: Indices,
     frame: Array,
     rays: Array,
     position: Array,
