@@ -56,6 +56,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "checks": TASKS | {"model", "physics", "checks"},
     "runs": TASKS | {"checks", "middleware", "model", "physics", "runs"},
     "analysis": GROUND | {"statistics", "results", "analysis"},
+    "calibration": GROUND | {"results", "analysis", "statistics", "calibration"},
     "envelope": TASKS | {"runs", "analysis", "envelope"},
     "verify": TASKS | {"runs", "verify"},
     "viewer": TASKS | ENGINES | {"runs", "verify", "middleware", "viewer"},
@@ -63,7 +64,17 @@ MAY_IMPORT: dict[str, set[str]] = {
     "cli": (
         TASKS
         | ENGINES
-        | {"checks", "runs", "analysis", "envelope", "verify", "middleware", "viewer", "cli"}
+        | {
+            "checks",
+            "runs",
+            "analysis",
+            "calibration",
+            "envelope",
+            "verify",
+            "middleware",
+            "viewer",
+            "cli",
+        }
     ),
 }
 MAY_IMPORT["api"] = MAY_IMPORT["cli"]
