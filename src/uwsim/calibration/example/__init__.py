@@ -1,0 +1,1 @@
+"""A set-up with synthetic pictures, to try a calibration without a tank."""

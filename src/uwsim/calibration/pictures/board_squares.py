@@ -1,0 +1,171 @@
+"""The squares of checkers on a board: where they are, and how bright."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ...errors import BadSetting
+from ...optics.phase_function import FloatArray
+from ..checker import INNER_SHARE
+from .led_discs import Sum
+from .linear_picture import LinearPicture
+
+MIN_PIXELS = 4
+"""The least number of pixels in the inner part of a square."""
+SURROUND = 1.4
+"""The half side of the region around a checker that must be grey, in sides of a square."""
+MIN_CONTRAST = 0.1
+"""The least difference of white and black of a checker that is found, as a share of the largest."""
+
+
+@dataclass(frozen=True)
+class Checker:
+    """A checker in a picture."""
+
+    corners: FloatArray
+    """The outer corners: top left, top right, bottom right, bottom left; (4, 2) [pixels]."""
+    sign: float
+    """1 if the squares at top left and bottom right are white, else -1."""
+
+    @property
+    def square_centres(self) -> FloatArray:
+        """The centres of the four squares, column and row, (4, 2) [pixels]."""
+        places = np.array([(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)])
+        return _project(_find_homography(self.corners), places)
+
+
+def find_checkers(
+    picture: LinearPicture, sides: Sequence[float], scale: float
+) -> dict[float, Checker]:
+    """Find checkers of given sizes that are upright within a few degrees, on a grey card.
+
+    A checker of the side s has the greatest difference of opposite quadrants of the size s, less
+    what the same quadrants have outside of it: larger checkers fill the outside, smaller ones do
+    not fill the quadrants.
+
+    Args:
+        picture: the picture, best the one through the clearest water.
+        sides: the sides of a square [m].
+        scale: the pixels of a metre on the board.
+
+    Raises:
+        BadSetting: a checker is not found.
+    """
+    values = np.where(picture.is_valid, picture.values, picture.values.max())
+    sizes = [round(side * scale) for side in sides]
+    margin = max(round(SURROUND * size) - size for size in sizes) + 1
+    values = np.pad(values, margin, mode="edge")
+    integral = np.pad(values.cumsum(0).cumsum(1), ((1, 0), (1, 0)))
+    checkers: dict[float, Checker] = {}
+    differences: dict[float, float] = {}
+    for side, size in zip(sides, sizes, strict=True):
+        outer_size = max(round(SURROUND * size), size + 1)
+        if size < 3 or 2 * size >= min(picture.values.shape):
+            raise BadSetting(
+                f"a square of {side * 100:g} cm is {size} pixels; expected at least 3, and at most "
+                "half of the picture."
+            )
+        inner_sums = _compute_quadrants(integral, size)
+        outer_sums = _compute_quadrants(integral, outer_size)
+        step = outer_size - size
+        inner_sums = inner_sums[
+            step : step + outer_sums.shape[0], step : step + outer_sums.shape[1]
+        ]
+        area, outer_area = size**2, outer_size**2 - size**2
+        score = np.abs(inner_sums) / area - np.abs(outer_sums - inner_sums) / outer_area
+        row, column = np.unravel_index(int(np.argmax(score)), score.shape)
+        difference = float(inner_sums[row, column]) / area / 2.0
+        x, y = column + outer_size - margin - 0.5, row + outer_size - margin - 0.5
+        half = side * scale
+        corners = np.array(
+            [(x - half, y - half), (x + half, y - half), (x + half, y + half), (x - half, y + half)]
+        )
+        checkers[side] = Checker(corners, math.copysign(1.0, difference))
+        differences[side] = abs(difference)
+    for side, difference in differences.items():
+        if not difference > MIN_CONTRAST * max(differences.values()):
+            raise BadSetting(
+                f"no checker of {side * 100:g} cm was found; give its corners in the set-up."
+            )
+    return checkers
+
+
+def read_difference(picture: LinearPicture, checker: Checker) -> Sum:
+    """Read the difference of white and black: the means of the inner halves of the squares.
+
+    Raises:
+        BadSetting: a square is outside of the picture, too small, or saturated.
+    """
+    low = np.floor(checker.corners.min(axis=0)).astype(int)
+    high = np.ceil(checker.corners.max(axis=0)).astype(int) + 1
+    height, width = picture.values.shape
+    if low.min() < 0 or high[0] > width or high[1] > height:
+        raise BadSetting("a checker leaves the picture.")
+    columns, rows = np.meshgrid(np.arange(low[0], high[0]), np.arange(low[1], high[1]))
+    inverse = np.linalg.inv(_find_homography(checker.corners))
+    places = _project(inverse, np.stack([columns.ravel(), rows.ravel()], axis=1))
+    window = (slice(low[1], high[1]), slice(low[0], high[0]))
+    values, variances = picture.values[window].ravel(), picture.variances[window].ravel()
+    is_valid = picture.is_valid[window].ravel()
+    black_errors = picture.black_errors[window].ravel()
+    total, variance, black = 0.0, 0.0, 0.0
+    for x, y in ((-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)):
+        distance = np.abs(places - (x, y)).max(axis=1)
+        is_inner = distance < INNER_SHARE / 2.0
+        n_pixels = int(is_inner.sum())
+        if n_pixels < MIN_PIXELS:
+            raise BadSetting(
+                f"the inner half of a square has {n_pixels} pixels; expected at least {MIN_PIXELS}."
+            )
+        if not is_valid[is_inner].all():
+            raise BadSetting("a square is saturated; use a shorter exposure.")
+        sign = checker.sign * math.copysign(1.0, x * y)
+        total += sign * float(values[is_inner].mean())
+        variance += float(variances[is_inner].sum()) / n_pixels**2
+        black += sign * float(black_errors[is_inner].mean())
+    return Sum(total / 2.0, math.hypot(math.sqrt(variance), black) / 2.0)
+
+
+def _compute_quadrants(integral: FloatArray, size: int) -> FloatArray:
+    """Compute the sum of two opposite quadrants less that of the others, at every corner of pixels.
+
+    Entry (i, j) is that of the point between rows i + size - 1 and i + size, and columns alike.
+    """
+    height, width = integral.shape
+
+    def sum_box(row: int, column: int) -> FloatArray:
+        n_rows, n_columns = height - 2 * size, width - 2 * size
+        top, left = slice(row, row + n_rows), slice(column, column + n_columns)
+        bottom = slice(row + size, row + size + n_rows)
+        right = slice(column + size, column + size + n_columns)
+        box: FloatArray = (
+            integral[bottom, right] - integral[top, right] - integral[bottom, left]
+            + integral[top, left]
+        )  # fmt: skip
+        return box
+
+    return sum_box(0, 0) + sum_box(size, size) - sum_box(0, size) - sum_box(size, 0)
+
+
+def _find_homography(corners: FloatArray) -> FloatArray:
+    """Find the matrix from the checker, whose corners are at -1 and 1, to the picture."""
+    places = ((-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0))
+    rows, targets = [], []
+    for (x, y), (u, v) in zip(places, corners.tolist(), strict=True):
+        rows += [[x, y, 1, 0, 0, 0, -u * x, -u * y], [0, 0, 0, x, y, 1, -v * x, -v * y]]
+        targets += [u, v]
+    numbers = np.linalg.solve(np.array(rows), np.array(targets))
+    return np.append(numbers, 1.0).reshape(3, 3)
+
+
+def _project(homography: npt.NDArray[Any], places: npt.NDArray[Any]) -> FloatArray:
+    """Project places, (n, 2)."""
+    points = np.column_stack([places, np.ones(len(places))]) @ homography.T
+    projections: FloatArray = points[:, :2] / points[:, 2:]
+    return projections

@@ -1,0 +1,157 @@
+"""Frames of a camera from files: PNG and TIFF of 8 or 16 bit, and NPY.
+
+A frame is an array of rows, columns and planes; a grey picture has one plane, a colour picture
+red, green and blue. Sizes are checked before a picture is decoded. Raw files of a camera (DNG, CR2)
+are not read: ``dcraw -4 -D -T`` or LibRaw's ``unprocessed_raw -T`` write 16-bit TIFF files of the
+sensor's numbers, ``dcraw -4 -o 0 -r 1 1 1 1 -h -T`` linear colour pictures of half the size.
+"""
+
+from __future__ import annotations
+
+import io
+import struct
+import warnings
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from ...base.files.input_files import read_bytes
+from ...errors import AssetError
+from ...optics.phase_function import FloatArray
+
+MAX_BYTES = 256 * 2**20
+"""The greatest size of a file [bytes]."""
+MAX_PIXELS = 26_000_000
+"""The greatest number of pixels of a frame."""
+MAX_PLANES = 4
+SUFFIXES = (".png", ".tif", ".tiff", ".npy")
+
+
+@dataclass(frozen=True, eq=False)
+class FrameMean:
+    """The mean of several frames of the same view, before any correction."""
+
+    values: FloatArray
+    """The mean of each pixel, in the numbers of the files, (rows, columns, planes)."""
+    variances: FloatArray
+    """The variance of the mean by noise, of the same shape; 0 if there is one frame."""
+    peaks: FloatArray
+    """The greatest number of each pixel in all frames, of the same shape."""
+
+
+def read_frame(path: Path) -> FloatArray:
+    """Read a picture as numbers of the file, (rows, columns, planes).
+
+    Raises:
+        AssetError: the file is not a picture of a known format, or is too large.
+    """
+    if path.suffix.lower() not in SUFFIXES:
+        raise AssetError(
+            f"{path}: {path.suffix or 'a file without suffix'} is not read; expected "
+            f"{', '.join(SUFFIXES)}."
+        )
+    try:
+        data = read_bytes(path, at_most=MAX_BYTES)
+    except OSError as error:
+        raise AssetError(f"{path}: cannot be read: {error.strerror or error}.") from None
+    frame = _read_array(path, data) if path.suffix.lower() == ".npy" else _decode(path, data)
+    if frame.ndim == 2:
+        frame = frame[..., None]
+    if frame.ndim != 3 or not 1 <= frame.shape[2] <= MAX_PLANES or frame.size == 0:
+        raise AssetError(
+            f"{path}: has the shape {frame.shape}; expected rows, columns and 1 to {MAX_PLANES} "
+            "planes."
+        )
+    values = np.asarray(frame[..., :3], dtype=np.float64)
+    if not np.isfinite(values).all():
+        raise AssetError(f"{path}: has numbers that are not finite.")
+    return values
+
+
+def average_frames(paths: Iterable[Path]) -> FrameMean:
+    """Read frames of the same view and average them.
+
+    Raises:
+        AssetError: a file is invalid, or the sizes differ.
+    """
+    total = squares = peaks = np.zeros((0, 0, 0))
+    first, count = Path(), 0
+    for path in paths:
+        frame = read_frame(path)
+        if count == 0:
+            first, total, squares, peaks = path, frame.copy(), frame * frame, frame
+        elif frame.shape != total.shape:
+            raise AssetError(
+                f"{path}: has the shape {frame.shape}; expected that of {first.name}, "
+                f"{total.shape}."
+            )
+        else:
+            total, squares = total + frame, squares + frame * frame
+            peaks = np.maximum(peaks, frame)
+        count += 1
+    if count == 0:
+        raise AssetError("There is no frame.")
+    means = total / count
+    variances = np.zeros_like(means)
+    if count > 1:
+        variances = np.maximum(squares / count - means * means, 0.0) / (count - 1)
+    return FrameMean(means, variances, peaks)
+
+
+def _read_array(path: Path, data: bytes) -> FloatArray:
+    try:
+        array = np.load(io.BytesIO(data), allow_pickle=False)
+    except (ValueError, EOFError, OSError) as error:
+        raise AssetError(f"{path}: is not an NPY file: {str(error)[:100]}") from None
+    if not isinstance(array, np.ndarray) or array.dtype.kind not in "uif":
+        raise AssetError(f"{path}: has no real numbers.")
+    _check_size(path, array.shape[:2])
+    return np.asarray(array)
+
+
+def _decode(path: Path, data: bytes) -> FloatArray:
+    import cv2
+    from PIL import Image, UnidentifiedImageError
+
+    try:
+        if path.suffix.lower() == ".png":
+            with Image.open(io.BytesIO(data)) as picture:
+                size = (picture.height, picture.width)
+        else:
+            size = _read_tiff_size(data)
+    except (UnidentifiedImageError, Image.DecompressionBombError) as error:
+        raise AssetError(f"{path}: is not a picture: {str(error)[:100]}") from None
+    except (OSError, ValueError, SyntaxError, KeyError, struct.error):
+        raise AssetError(f"{path}: is not a picture of the kind of its suffix.") from None
+    _check_size(path, size)
+    try:
+        frame = cv2.imdecode(np.frombuffer(data, dtype=np.uint8), cv2.IMREAD_UNCHANGED)
+    except cv2.error:
+        frame = None
+    if frame is None:
+        raise AssetError(f"{path}: is damaged, or of a kind that is not read.")
+    if frame.ndim == 3 and frame.shape[2] >= 3:
+        frame = frame[..., 2::-1]  # OpenCV's order is blue, green, red
+    return np.asarray(frame)
+
+
+def _read_tiff_size(data: bytes) -> tuple[int, int]:
+    """Return rows and columns of a TIFF file; Pillow cannot open colour of 16 bit."""
+    from PIL.TiffImagePlugin import ImageFileDirectory_v2
+
+    stream = io.BytesIO(data)
+    directory = ImageFileDirectory_v2(stream.read(8))
+    stream.seek(directory.next)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", UserWarning)  # of damaged files, which lack the tags
+        directory.load(stream)
+    return int(directory[257]), int(directory[256])
+
+
+def _check_size(path: Path, size: tuple[int, ...]) -> None:
+    if int(np.prod(size)) > MAX_PIXELS:
+        raise AssetError(
+            f"{path}: has {'x'.join(map(str, size))} pixels; expected at most {MAX_PIXELS}."
+        )
