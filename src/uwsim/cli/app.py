@@ -53,6 +53,15 @@ COMMANDS: dict[str, Command] = {
             "uwsim bench visibility --algorithm ecc --level fog=0.5 --out ecc.result",
         ),
     ),
+    "calibrate": Command(
+        module="calibrate",
+        function="calibrate",
+        summary="Identify a tank's water from pictures of LEDs and a lit board.",
+        examples=(
+            "uwsim calibrate --example tank",
+            "uwsim calibrate tank/setup.xml -o tank-water",
+        ),
+    ),
     "check": Command(
         module="check",
         function="check",
@@ -93,13 +102,13 @@ COMMANDS: dict[str, Command] = {
     "list": Command(
         module="list",
         function="list_names",
-        summary="List the scenes, benchmarks, algorithms and parts that have names.",
+        summary="List scenes, benchmarks, algorithms and parts that have names.",
         examples=("uwsim list", "uwsim list benchmarks"),
     ),
     "play": Command(
         module="play",
         function="play",
-        summary="Play a recording: to your program, to ROS, with ghosts in a scene.",
+        summary="Play a recording: to a program, to ROS, with ghosts in a scene.",
         examples=("uwsim play dive.mcap --record dive.bag", "uwsim play dive.bag cirs --ros1"),
     ),
     "render": Command(
