@@ -15,14 +15,18 @@ from measure import main, milliseconds
 
 from uwsim.assets import load_model
 from uwsim.base.geometry import Intrinsics, Pose, rotation_from_xyz
+from uwsim.optics import find_water
 from uwsim.rendering.grey import grey_truncated
+from uwsim.rendering.lights.lamp import Lamp
 from uwsim.rendering.noise import add_noise
+from uwsim.rendering.physical.physical_water import PhysicalWater
 from uwsim.rendering.renderer import Renderer
 from uwsim.rendering.targets import TARGETS
 from uwsim.rendering.water import Light, Water
 
 WORLD_FROM_LOCALIZED = Pose(np.zeros(3), rotation_from_xyz(np.pi, 0.0, -np.pi / 2))
 WATER = Water(fog=0.4)
+PHYSICAL_WATER = Water(physical_water=PhysicalWater(medium=find_water("jerlov-3C"), exposure=2.0))
 COLOUR = frozenset({"colour"})
 BOX = "objects/blackbox_uib_trimesh.osg"
 ARM = "robot/ARM5E/ARM5E_part"
@@ -134,6 +138,15 @@ def measure() -> dict[str, object]:
     image16 = renderer.draw(down_view, small_camera, WATER, Light(), colour="linear16").colour
     image8 = add_noise(image16, 0.02, rng)
     all_targets = frozenset(TARGETS)
+
+    def draw_physical(camera: Intrinsics, targets: frozenset[str], n_lamps: int) -> None:
+        pose = move_camera(down_view)
+        offset = pose.rotation @ np.array([0.3, 0.0, 0.0])
+        lamp = Lamp(world_from_lamp=Pose(pose.position + offset, pose.rotation), half_angle=0.6)
+        renderer.draw(
+            pose, camera, PHYSICAL_WATER, Light(), targets=targets, lamps=(lamp,) * n_lamps
+        )
+
     figures: dict[str, object] = {
         "renderer": renderer.description,
         "triangles_in_scene": n_triangles,
@@ -154,6 +167,19 @@ def measure() -> dict[str, object]:
         ),
         "640x480 colour, vehicle in view": milliseconds(
             lambda: draw(large_camera, COLOUR, side_view), calls=15
+        ),
+        "320x240 physical, sun": milliseconds(lambda: draw_physical(small_camera, COLOUR, 0)),
+        "320x240 physical, sun + lamp": milliseconds(
+            lambda: draw_physical(small_camera, COLOUR, 1), target=8.0
+        ),
+        "640x480 physical, sun": milliseconds(
+            lambda: draw_physical(large_camera, COLOUR, 0), calls=15
+        ),
+        "640x480 physical, sun + lamp": milliseconds(
+            lambda: draw_physical(large_camera, COLOUR, 1), target=25.0, calls=15
+        ),
+        "640x480 physical, sun + lamp, range + ids": milliseconds(
+            lambda: draw_physical(large_camera, all_targets, 1), calls=15
         ),
         "320x240 range": milliseconds(lambda: draw(small_camera, frozenset({"range"}))),
         "320x240 noise": milliseconds(lambda: add_noise(image16, 0.02, rng), target=0.4),

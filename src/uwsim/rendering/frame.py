@@ -9,7 +9,14 @@ from ..base.geometry import Array, Intrinsics, Pose
 from ..base.numerics.linear import product, rotate_back
 from .lights.sun_shadow import SunShadow
 from .program import Block
-from .water import AMBIENT_SHARE, SPECULAR_BRIGHTNESS, SUN_COLOURS, Light, Water, sun_direction
+from .water import (
+    AMBIENT_SHARE,
+    SPECULAR_BRIGHTNESS,
+    SUN_COLOURS,
+    Light,
+    Water,
+    find_sun_direction,
+)
 
 FRAME = Block(
     "Frame",
@@ -65,14 +72,15 @@ class Frame:
             shadow.texture_from_world, world_from_camera.matrix
         ).T
         values["up"] = *rotation[2], height
-        values["sun"] = *rotate_back(rotation, sun_direction(light.sun)), shadow.lift
+        values["sun"] = *rotate_back(rotation, find_sun_direction(water, light)), shadow.lift
         values["sunlight"][:3] = [light.rate * colour for colour in SUN_COLOURS[light.sun]]
         values["ambient_specular"][:2] = (
             light.rate * AMBIENT_SHARE,
             light.rate * SPECULAR_BRIGHTNESS,
         )
         values["water_colour"][:3] = water.colour
-        values["attenuation"][:3] = water.attenuation
+        optics = water.physical_water
+        values["attenuation"][:3] = water.attenuation if optics is None else optics.beam_attenuation
         values["fog"] = *water.fog_colour, water.fog**2
         values["clip_fog"][:2] = (far + near) / (far - near), -2.0 * far * near / (far - near)
         values["background"][:3] = water.far_colour

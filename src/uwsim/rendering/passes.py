@@ -16,6 +16,7 @@ from .lights.lamps import LAMPS
 from .lights.projector_light import PROJECTOR
 from .lights.shadow_region import Region
 from .lights.sun_shadow import SunShadow
+from .physical.optics_block import OPTICS
 from .program import build
 from .targets import Targets
 
@@ -85,7 +86,8 @@ class Passes:
                 draw(*batch)
         self._models.release(SAMPLERS["base_map"])
         context.disable(moderngl.CULL_FACE)
-        program = self._program("background", target, ())
+        is_physical = tuple(switch for switch in switches if switch[0] == "PHYSICAL")
+        program = self._program("background", target, is_physical)
         if program.glo not in self._empty_arrays:
             self._empty_arrays[program.glo] = context.vertex_array(program, [])
         self._empty_arrays[program.glo].render(moderngl.TRIANGLES, vertices=3)
@@ -210,7 +212,7 @@ class Passes:
                 self._context,
                 effect,
                 defines=defines | dict(switches),
-                blocks=(FRAME, INSTANCE, LAMPS, PROJECTOR),
+                blocks=(FRAME, INSTANCE, LAMPS, PROJECTOR, OPTICS),
                 samplers=SAMPLERS,
             )
         return self._programs[key]

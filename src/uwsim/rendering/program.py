@@ -63,6 +63,7 @@ def build(
     defines: Mapping[str, int],
     blocks: Iterable[Block],
     samplers: Mapping[str, int],
+    vertex: str | None = None,
 ) -> moderngl.Program:
     """Compile ``effect.vert.glsl`` and ``effect.frag.glsl`` and connect every uniform.
 
@@ -72,15 +73,16 @@ def build(
         defines: the preprocessor switches and their values.
         blocks: the uniform blocks that the shaders use; others are allowed.
         samplers: the texture unit of each sampler that the shaders may use.
+        vertex: the name of the vertex shader; None: that of the effect.
 
     Raises:
         RuntimeError: the shaders use a uniform that is not in ``blocks`` or ``samplers``, or
             declare a block with other members.
     """
     head = VERSION + "".join(f"#define {name} {value}\n" for name, value in defines.items())
-    vertex, fragment = source(f"{effect}.vert.glsl"), source(f"{effect}.frag.glsl")
-    program = context.program(vertex_shader=head + vertex, fragment_shader=head + fragment)
-    shader_members = {name: _members(body) for name, body in _BLOCK.findall(vertex + fragment)}
+    vertices, fragments = source(f"{vertex or effect}.vert.glsl"), source(f"{effect}.frag.glsl")
+    program = context.program(vertex_shader=head + vertices, fragment_shader=head + fragments)
+    shader_members = {name: _members(body) for name, body in _BLOCK.findall(vertices + fragments)}
     blocks_by_name = {block.name: block for block in blocks}
     for name in program:
         uniform = program[name]

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
 
 from ..base.geometry import Intrinsics, Pose
+
+ImageModel = Literal["uwsim", "physical"]
+"""The models of water in images."""
 
 
 class PixelBox(NamedTuple):
@@ -37,6 +40,8 @@ class RenderedImage:
     """The distance to the surface along the ray of each pixel, (h, w) [m]; inf: no surface."""
     ids: npt.NDArray[np.uint16] | None = None
     """The id of the visible link or object in each pixel, (h, w); 0: no surface."""
+    image_model: ImageModel = "uwsim"
+    """The model of the water in the colours: ``uwsim``, its fog law, or ``physical``."""
     names: Mapping[int, str] = field(default_factory=dict)
     """The name of each id in the scene: ``vehicle/link``, or the name of an object. The second
     vehicle or object of one name has the suffix ``#2`` (``vehicle#2/link``)."""

@@ -8,7 +8,7 @@ water's surface, caustics, reflections, refraction.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 import numpy.typing as npt
@@ -28,10 +28,11 @@ from .lights.projector_light import ProjectorLight
 from .lights.shadow_region import Region, compute_tile_bounds, find_shaded_region
 from .lights.sun_shadow import MAX_CASTER_RADIUS, SHADOW_MARGIN, SunShadow, find_shadow_pairs
 from .passes import SAMPLERS, Passes, Switches
+from .physical.development import Development
 from .projection import Projection, projection
 from .rendered_image import RenderedImage
-from .targets import COLOUR_FORMATS, TARGETS, Targets
-from .water import Light, Water, sun_direction
+from .targets import COLOUR_FORMATS, RADIANCE, TARGETS, Targets
+from .water import Light, Water, find_sun_direction
 
 __all__ = ["RenderedImage", "Renderer"]
 
@@ -69,6 +70,11 @@ class View:
     projector: Projector | None
     """The projector of a pattern, if there is one."""
 
+    @property
+    def is_physical(self) -> bool:
+        """True if the image has colours through physical water."""
+        return self.water.physical_water is not None and "colour" in self.targets
+
 
 class Renderer:
     """A renderer of instances of models from any camera pose.
@@ -96,6 +102,7 @@ class Renderer:
         )
         self._lamps: Lamps | None = None
         self._projector: ProjectorLight | None = None
+        self._development: Development | None = None
         self._images: dict[View, RenderedImage | None] = {}  # of recent views, the newest last
 
     def add(self, model: Model, id: int) -> int:
@@ -205,8 +212,34 @@ class Renderer:
     def _draw_view(self, view: View, world_from_camera: Pose) -> RenderedImage:
         """Draw an image and read it back."""
         with self._context:
+            if view.is_physical:
+                return self._draw_physical(view, world_from_camera)
             background = self._issue_draw_calls(view, world_from_camera)
             return self._find_targets(view).read_image(view.intrinsics, background)
+
+    def _draw_physical(self, view: View, world_from_camera: Pose) -> RenderedImage:
+        """Draw an image through physical water: surfaces first, then whole images."""
+        physical_water, lens = view.water.physical_water, view.intrinsics
+        assert physical_water is not None
+        if self._development is None:
+            self._development = Development(self._context)
+        self._development.prepare(
+            physical_water,
+            world_from_camera,
+            lens,
+            surface_height=view.water.surface_height,
+            lamps=view.lamps,
+            light_rate=view.light.rate,
+        )
+        surface_view = replace(view, colour_format=RADIANCE)
+        self._issue_draw_calls(surface_view, world_from_camera)
+        surfaces = self._find_targets(surface_view)
+        target = self._find_targets(replace(view, targets=frozenset({"colour"})))
+        self._development.develop(
+            physical_water, lens, len(view.lamps), surfaces.radiance, target.framebuffer
+        )
+        colour = target.read_image(lens).colour
+        return replace(surfaces.read_image(lens), colour=colour, image_model="physical")
 
     def _issue_draw_calls(self, view: View, world_from_camera: Pose) -> Colours | None:
         """Issue the draw calls without waiting for them; return the backdrop, if there is one."""
@@ -255,7 +288,7 @@ class Renderer:
             if backdrop.colours is None:
                 sunlit_batches = [(index, False, close) for index, _, close in back]
                 self._passes.draw(target, sunlit_batches, switches)
-                intrinsics, sun = view.intrinsics, sun_direction(light.sun)
+                intrinsics, sun = view.intrinsics, find_sun_direction(water, light)
                 tiles = compute_tile_bounds(
                     target.read_depths(), world_from_camera, intrinsics, sun
                 )
@@ -272,7 +305,7 @@ class Renderer:
     ) -> Region | None:
         """Return the region of a backdrop where shadows may fall; None if it is too large."""
         intrinsics, margin = view.intrinsics, SHADOW_MARGIN + 8.0 * self._shadow.lift
-        sun = sun_direction(view.light.sun)
+        sun = find_sun_direction(view.water, view.light)
         region = find_shaded_region(backdrop.tiles, self._instances, casters, sun, margin)
         return (
             region
@@ -284,7 +317,8 @@ class Renderer:
         """Return the backdrop of a view; None if the view cannot have one."""
         intrinsics, bytes_per_pixel = view.intrinsics, 4 if view.colour_format == "uint8" else 8
         is_small = bytes_per_pixel * intrinsics.width * intrinsics.height <= MAX_STORED_BYTES
-        if not is_small or view.targets != {"colour"} or view.lamps or view.projector is not None:
+        has_own_lights = bool(view.lamps) or view.projector is not None
+        if not is_small or view.targets != {"colour"} or has_own_lights or view.is_physical:
             return None
         key = view.pose, intrinsics, view.water, view.light, view.hidden_ids, view.colour_format
         backdrop = self._backdrops.pop(key, None) or Backdrop()
@@ -302,7 +336,7 @@ class Renderer:
         pinhole: Projection,
     ) -> tuple[Indices, npt.NDArray[np.bool_]]:
         """Update the shadow map; return k casters, and for n receivers which may shade them."""
-        instances, sun = self._instances, sun_direction(view.light.sun)
+        instances, sun = self._instances, find_sun_direction(view.water, view.light)
         casters = instances.find_casters(candidates, MAX_CASTER_RADIUS)
         may_cast = find_shadow_pairs(
             instances, casters, receivers, sun, world_from_camera, pinhole.corner_rays

@@ -19,6 +19,11 @@ TARGETS = ("colour", "range", "ids")
 COLOUR_FORMATS = ("uint8", "linear16")
 """The formats of colour: 8 bit, or 16 bit if noise is added before conversion to 8 bit."""
 
+RADIANCE = "radiance"
+"""The format of surfaces without water: radiance and range as floats, which are not read back."""
+
+_COLOUR_TYPES = {"uint8": "f1", "linear16": "nu2", RADIANCE: "f4"}
+
 T = TypeVar("T", bound=np.generic)
 
 
@@ -29,7 +34,7 @@ class Targets:
         context: the context of the renderer.
         size: the width and height [px].
         targets: some of `TARGETS`.
-        colour_format: one of `COLOUR_FORMATS`.
+        colour_format: one of `COLOUR_FORMATS`, or `RADIANCE`.
     """
 
     def __init__(
@@ -43,7 +48,7 @@ class Targets:
         self.attachments = {name: i for i, name in enumerate(names)}
         """The number of each target's attachment."""
         self._formats = {
-            "colour": "f1" if colour_format == "uint8" else "nu2",
+            "colour": _COLOUR_TYPES[colour_format],
             "range": "f4",
             "ids": "u2",
         }
@@ -57,6 +62,13 @@ class Targets:
         """The framebuffer in which the image is drawn."""
         self._shape = size[1], size[0]
 
+    @property
+    def radiance(self) -> moderngl.Texture:
+        """The texture of the colours, for further passes."""
+        texture = self.framebuffer.color_attachments[self.attachments["colour"]]
+        assert isinstance(texture, moderngl.Texture)
+        return texture
+
     def read_image(
         self, intrinsics: Intrinsics, background: Colours | None = None
     ) -> RenderedImage:
@@ -67,7 +79,7 @@ class Targets:
             background: the colours of pixels in which nothing was drawn.
         """
         colour: Colours | None = None
-        if "colour" in self.attachments:
+        if "colour" in self.attachments and self._formats["colour"] != "f4":
             colour = self.read_colours()
             if background is not None:
                 fill(colour, background)

@@ -29,6 +29,8 @@ from ..base.geometry import Intrinsics, Triple
 from ..base.numerics.elementwise import exp
 from ..base.numerics.linear import length
 from ..scene.ocean_state import OceanStateSpec
+from .physical.daylight_field import compute_light_field
+from .physical.physical_water import PhysicalWater
 
 Colour = tuple[float, float, float]
 """The values of red, green and blue, 0..1; or a coefficient for each of these channels."""
@@ -81,6 +83,8 @@ class Water:
     has_air: bool = False
     """True if only the part of a ray below the water's surface is in water; in UWSim the whole ray
     is."""
+    physical_water: PhysicalWater | None = None
+    """The physical image model, which replaces attenuation, scattering and fog; None: they hold."""
 
     @classmethod
     def from_ocean_state(
@@ -110,6 +114,8 @@ class Water:
     @property
     def switches(self) -> tuple[tuple[str, int], ...]:
         """The preprocessor switches of the shaders for this water, with their values."""
+        if self.physical_water is not None:
+            return (("PHYSICAL", 1), ("AIR", 1)) if self.has_air else (("PHYSICAL", 1),)
         is_set = {
             "NO_FOG": self.fog == 0.0,
             "FOG_CLIP": self.fog > 0.0 and self.fog_distance == "clip",
@@ -141,6 +147,14 @@ class Light:
     def switches(self) -> tuple[tuple[str, int], ...]:
         """The preprocessor switches of the shaders for this light, with their values."""
         return (("POLISHED", 1), ("SOFT", 1)) if self.is_polished else ()
+
+
+def find_sun_direction(water: Water, light: Light) -> npt.NDArray[np.float64]:
+    """Return the unit vector towards the sun in W, (3,); under physical water the refracted one."""
+    if water.physical_water is not None:
+        optics = water.physical_water
+        return compute_light_field(optics.medium, optics.daylight).towards_sun.copy()
+    return sun_direction(light.sun)
 
 
 def sun_direction(sun: Sun) -> npt.NDArray[np.float64]:

@@ -3,11 +3,18 @@
 // The far colour is the limit of the water's image model at infinite distance.
 #include "frame.glsl"
 #include "grey.glsl"
+#ifdef PHYSICAL
+#include "optics.glsl"
+#endif
 #include "targets.glsl"
 
 void main() {
 #ifdef COLOUR
+#ifdef PHYSICAL
+    colour_out = vec4(0.0, 0.0, 0.0, FAR);
+#else
     colour_out = vec4(camera_colour(background.rgb), 1.0);
+#endif
 #endif
 #ifdef RANGE
     range_out = uintBitsToFloat(0x7f800000u);

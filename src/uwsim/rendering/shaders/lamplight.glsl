@@ -16,7 +16,13 @@ vec3 lamplight(vec3 colour, vec3 unit_normal) {
             float share = 1.0;  // a lamp that shines in all directions casts no shadows
             if (lamp_position[i].w > -1.0)
                 share = textureLod(lamp_maps, v_lamp_uv[i].xyz / v_lamp_uv[i].w, 0.0);
+#ifdef PHYSICAL
+            // c - b e of a wide target, as optics/lamp_light.py has it for the way there
+            vec3 energy = lamp_optics[i].x - lamp_optics[i].y * sqrt(absorption.rgb * (2.0 * distance));
+            vec3 transmission = exp((absorption.rgb + scattering.rgb * (1.0 - energy)) * -distance);
+#else
             vec3 transmission = exp(v_attenuation * -distance);
+#endif
             sum += lamp_light[i].rgb * transmission * (facing * cone * share / (distance * distance));
         }
     }

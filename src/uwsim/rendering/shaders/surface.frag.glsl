@@ -9,8 +9,13 @@
 #include "instance.glsl"
 #endif
 #ifdef COLOUR
+#ifdef PHYSICAL
+#include "optics.glsl"
+#include "daylight.glsl"
+#else
 #include "sun.glsl"
 #include "water.glsl"
+#endif
 #include "grey.glsl"
 #ifdef TEXTURED
 uniform sampler2D base_map;
@@ -40,7 +45,11 @@ void main() {
     float unit = inversesqrt(max(dot(v_normal, v_normal), 1e-12));
     unit = gl_FrontFacing ? unit : -unit;
     float facing = v_terms.x * unit;
+#ifdef PHYSICAL
+    colour = albedo_of(colour);
+#else
     float mirrored = (v_terms.y - 2.0 * facing * unit * dot(v_normal, v_position)) / range;
+#endif
     float lit = 1.0;
 #ifdef SHADOWS
     lit = sun_share(v_shadow_uv);
@@ -50,7 +59,11 @@ void main() {
 #else
     float fog_range = range;
 #endif
+#ifdef PHYSICAL
+    vec3 dry = colour * daylight(facing, v_terms.w * unit, lit, v_terms.z);
+#else
     vec3 dry = sunlit(colour, facing, mirrored, lit);
+#endif
 #ifdef LAMPS
     dry += lamplight(colour, v_normal * unit);
 #endif
@@ -70,7 +83,15 @@ void main() {
 #else
     float opacity = 1.0;
 #endif
+#ifdef PHYSICAL
+#ifdef OPACITY
+    colour_out = vec4(dry, opacity);
+#else
+    colour_out = vec4(dry, water_range);  // the water follows in whole images: physical/development.py
+#endif
+#else
     colour_out = vec4(camera_colour(through_water(dry, water_range, fog_range, v_terms.z)), opacity);
+#endif
 #endif
 #ifdef RANGE
     range_out = range;

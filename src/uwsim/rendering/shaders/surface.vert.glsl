@@ -5,6 +5,9 @@
 #include "frame.glsl"
 #include "instance.glsl"
 #include "varyings.glsl"
+#if defined(COLOUR) && defined(PHYSICAL)
+#include "optics.glsl"
+#endif
 #if defined(COLOUR) && defined(LAMPS)
 #include "lamps.glsl"
 #endif
@@ -30,12 +33,24 @@ void main() {
     v_terms.x = dot(v_normal, sun.xyz);
     v_terms.y = dot(v_position, sun.xyz);
     v_terms.z = -(dot(v_position, up.xyz) + up.w);
+#ifdef PHYSICAL
+    v_terms.w = dot(v_normal, up.xyz);
+#else
     v_terms.w = clip_fog.y - clip_fog.x * v_position.z;
+#endif
     v_base_colour = tint;
+    v_attenuation = attenuation.rgb;
+#ifdef PHYSICAL
+    v_sun_beam = vec4(sun_beam.rgb, upwelling.w);
+    v_sun_loss = sun_loss.rgb;
+    v_daylight_total = daylight_total.rgb;
+    v_daylight_loss = daylight_loss.rgb;
+    v_upwelling = upwelling.rgb;
+#else
     v_lights = vec4(sunlight.rgb, ambient_specular.x);
     v_water_colour = vec4(water_colour.rgb, ambient_specular.y);
-    v_attenuation = attenuation.rgb;
     v_fog = fog;
+#endif
 #ifdef TEXTURED
     v_uv = uv;
 #endif

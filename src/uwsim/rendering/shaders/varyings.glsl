@@ -4,12 +4,20 @@
 VARYING vec3 v_position;  // camera frame [m]
 #ifdef COLOUR
 VARYING vec3 v_normal;  // camera frame, any length
-VARYING vec4 v_terms;  // x: N.L |N|; y: P.L [m] (L: to the sun, P: position); z: depth below the water's surface [m]; w: clip-space z [m]
+VARYING vec4 v_terms;  // x: N.L |N|; y: P.L [m] (L: to the sun, P: position); z: depth below the water's surface [m]; w: clip-space z [m], PHYSICAL: N.up |N|
 flat VARYING vec3 v_base_colour;  // colour of the mesh
+flat VARYING vec3 v_attenuation;  // attenuation of rgb [1/m]
+#ifdef PHYSICAL
+flat VARYING vec4 v_sun_beam;  // these are sun_beam, sun_loss ... of optics.glsl; w: upwelling.w
+flat VARYING vec3 v_sun_loss;
+flat VARYING vec3 v_daylight_total;
+flat VARYING vec3 v_daylight_loss;
+flat VARYING vec3 v_upwelling;
+#else
 flat VARYING vec4 v_lights;  // rgb: sunlight; w: ambient
 flat VARYING vec4 v_water_colour;  // rgb: water colour; w: specular
-flat VARYING vec3 v_attenuation;  // attenuation of rgb [1/m]
 flat VARYING vec4 v_fog;  // rgb: fog colour; w: density squared [1/m2]
+#endif
 #ifdef TEXTURED
 VARYING vec2 v_uv;  // texture coordinates
 #endif

@@ -1,11 +1,13 @@
 // The shaders of uwsim.rendering, compiled for WebGL 2, as in uwsim.rendering.program.
 import backgroundFragment from "../../../../rendering/shaders/background.frag.glsl";
 import backgroundVertex from "../../../../rendering/shaders/background.vert.glsl";
+import daylight from "../../../../rendering/shaders/daylight.glsl";
 import frame from "../../../../rendering/shaders/frame.glsl";
 import grey from "../../../../rendering/shaders/grey.glsl";
 import instance from "../../../../rendering/shaders/instance.glsl";
 import lamplight from "../../../../rendering/shaders/lamplight.glsl";
 import lamps from "../../../../rendering/shaders/lamps.glsl";
+import optics from "../../../../rendering/shaders/optics.glsl";
 import projection from "../../../../rendering/shaders/projection.glsl";
 import projector from "../../../../rendering/shaders/projector.glsl";
 import shadowFragment from "../../../../rendering/shaders/shadow.frag.glsl";
@@ -21,11 +23,13 @@ import water from "../../../../rendering/shaders/water.glsl";
 const FILES: Record<string, string> = {
   "background.frag.glsl": backgroundFragment,
   "background.vert.glsl": backgroundVertex,
+  "daylight.glsl": daylight,
   "frame.glsl": frame,
   "grey.glsl": grey,
   "instance.glsl": instance,
   "lamplight.glsl": lamplight,
   "lamps.glsl": lamps,
+  "optics.glsl": optics,
   "projection.glsl": projection,
   "projector.glsl": projector,
   "shadow.frag.glsl": shadowFragment,

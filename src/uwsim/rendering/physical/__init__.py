@@ -1,0 +1,1 @@
+"""Images through physical water: daylight, scattering, lamps, exposure."""

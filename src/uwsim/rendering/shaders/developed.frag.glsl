@@ -1,0 +1,62 @@
+// Provides: the stored colours of an image through physical water: direct light, blur, veil, exposure, curve.
+// Needs: optics.glsl, transmission.glsl, open_water.glsl; the image of the surfaces; with SCATTERED, the sum of the coarse
+// levels; the switches N_SHARP, FINE, FINE_SHARE (a thousand times half the variance [px^2]), and LINEAR for no curve.
+// B + D (J - B) + blur + veil: physical/development.py; the curve: physical/transfer_curve.py.
+#include "optics.glsl"
+#include "transmission.glsl"
+#include "open_water.glsl"
+#define N_ALL 5
+uniform sampler2D surface_image;
+#ifdef SCATTERED
+uniform sampler2D level_0;
+#endif
+out vec4 colour_out;
+
+vec3 excess_at(ivec2 pixel, ivec2 last, vec3 water) {
+    vec4 texel = texelFetch(surface_image, clamp(pixel, ivec2(0), last), 0);
+    return texel.a < 0.5 * FAR ? texel.rgb - water : vec3(0.0);
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_FragCoord.xy);
+    ivec2 size = textureSize(surface_image, 0);
+    vec4 texel = texelFetch(surface_image, pixel, 0);
+    vec3 water = open_water(gl_FragCoord.xy, vec2(size));
+    vec3 light = water;
+    float is_surface = texel.a < 0.5 * FAR ? 1.0 : 0.0;
+    float range = texel.a * is_surface;
+    vec3 excess = (texel.rgb - water) * is_surface;
+#if N_SHARP < N_ALL
+    vec3 sharp = direct(range);
+    for (int level = 0; level < N_SHARP; ++level) sharp += weight(level, range);
+#else
+    vec3 sharp = whole_field(range);
+#endif
+    light += sharp * excess;
+#if FINE > 0
+    const float side = float(FINE_SHARE) / 1000.0;
+    ivec2 last = size - 1;
+    vec3 across = excess_at(pixel + ivec2(1, 0), last, water) + excess_at(pixel - ivec2(1, 0), last, water)
+        + excess_at(pixel + ivec2(0, 1), last, water) + excess_at(pixel - ivec2(0, 1), last, water);
+#if FINE > 1
+    vec3 corners = excess_at(pixel + ivec2(1, 1), last, water) + excess_at(pixel - ivec2(1, 1), last, water)
+        + excess_at(pixel + ivec2(1, -1), last, water) + excess_at(pixel + ivec2(-1, 1), last, water);
+    const float middle = 1.0 - 2.0 * side;
+    vec3 fine = middle * middle * excess + middle * side * across + side * side * corners;
+#else
+    vec3 fine = (1.0 - 4.0 * side) * excess + side * across;
+#endif
+    light += weight(N_SHARP, range) * fine * is_surface;
+#endif
+#ifdef SCATTERED
+    light += textureLod(level_0, gl_FragCoord.xy / (2.0 * vec2(textureSize(level_0, 0))), 0.0).rgb;
+#endif
+    vec3 value = clamp(light * camera.y, 0.0, 1.0);
+#ifndef LINEAR
+    vec3 second = sqrt(value);
+    vec3 fourth = sqrt(second);
+    vec3 curve = 0.642363 * second + 0.71211342 * fourth - 0.33687116 * sqrt(fourth) - 0.01756212 * value;
+    value = mix(12.92 * value, curve, step(0.0031308, value));
+#endif
+    colour_out = vec4(value, 1.0);
+}
