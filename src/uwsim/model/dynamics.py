@@ -15,7 +15,16 @@ from ..base.rng import stream
 from ..currents import PythonFunctionSpec, SceneContext
 from ..devices.fault import FaultSpec
 from ..devices.fault_fields import numeric_fields
-from ..errors import BadSetting, Diagnostic, SceneError, UnknownName, UwsimError, did_you_mean
+from ..errors import (
+    BadSetting,
+    Diagnostic,
+    FileError,
+    SceneError,
+    SeveralErrors,
+    UnknownName,
+    UwsimError,
+    did_you_mean,
+)
 from ..scene.hydrodynamics.spec import VehicleHydrodynamics
 from ..scene.hydrodynamics.vehicle_file import VehicleError, read_vehicle_into, set_errors
 from ..scene.hydrodynamics.vehicle_sets import find_vehicle
@@ -91,6 +100,7 @@ class NameResolution:
         self._choose_density()
         self._check_interfaces()
         self._check_currents(is_thorough)
+        self._check_water()
 
     def _read(self, index: int, name: str, robot: RobotSpec) -> None:
         named_by = Path(self._scene.path) if self._scene.path else None
@@ -344,6 +354,20 @@ class NameResolution:
                     current.bind(context)
             except UwsimError as error:
                 self._report(str(error), current)
+
+    def _check_water(self) -> None:
+        water = self._scene.ocean_state.water
+        if water is None:
+            return
+        try:
+            water.read_medium(lambda name: find_file(name, self._scene.path, self._data_path))
+        except FileError as error:
+            self.diagnostics += error.diagnostics
+        except SeveralErrors as error:
+            for one_error in error.errors:
+                self._report(str(one_error), water)
+        except (UwsimError, OSError) as error:
+            self._report(str(error), water)
 
     def _report(
         self, message: str, spec: Spec, element: str = "", severity: Severity = "error"

@@ -17,6 +17,7 @@ from ..base.engine import model_bytes, mujoco
 from ..base.geometry import Pose, quaternion_from_rotation
 from ..devices.device import DeviceSpec
 from ..devices.object_picker import ObjectPickerSpec
+from ..optics import Medium
 from ..scene.mounts import MountFrames
 from ..scene.spec import SceneSpec
 from ..sensors.sensor import BindsSensor, MountedSensor
@@ -27,6 +28,7 @@ from .collision.solid_grounds import SolidGround, solid_grounds
 from .parts import Part, parts_of
 from .ray_bodies import RayBodies
 from .resolved_scene import SimulatedScene
+from .robots import find_file
 from .water_density import density_levels
 
 T = TypeVar("T")
@@ -159,6 +161,14 @@ class SceneModel(SimulatedScene):
     def density_levels(self) -> tuple[tuple[float, float], ...]:
         """The depth [m] and density [kg/m3] of each level of the water; uniform water has one."""
         return density_levels(self.scene.ocean_state, self.dynamics)
+
+    @cached_property
+    def optical_water(self) -> Medium | None:
+        """The water of the physical law of images; None if the scene has the fog law."""
+        water = self.scene.ocean_state.water
+        if water is None:
+            return None
+        return water.read_medium(lambda name: find_file(name, self.scene.path, self.data_path))
 
     @cached_property
     def hydrodynamics_files(self) -> Mapping[str, Path]:

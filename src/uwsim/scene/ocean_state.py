@@ -12,6 +12,7 @@ from ..base.geometry import Triple
 from ..currents import CURRENTS, CurrentSpec
 from ..schema import MAX_DISTANCE, NAMESPACE, REQUIRED_BY_DTD, Numbers, Original, Spec, element
 from ..waves import WAVE_SYSTEMS, SeaSettings, WaveSystemSpec
+from .physical_water import PhysicalWaterSpec
 from .seawater import sea_water_density
 
 NIGHT_BLUE: Triple = (0.0, 0.05, 0.3)
@@ -136,6 +137,9 @@ class OceanStateSpec(Spec):
             reflection_damping=self.reflection_damping,
             wave_scale=self.wave_scale,
         )
+
+    water: PhysicalWaterSpec | None = element(namespaced=True, default=None)
+    """The physical law of images; when absent fog, colour and attenuation hold."""
 
     @property
     def sea_water(self) -> SeaWater:

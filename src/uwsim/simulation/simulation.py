@@ -299,8 +299,13 @@ class Simulation:
         )
 
     def set_fog(self, density: float) -> None:
-        """Set the fog density [1/m], 0 for clear water; raise BadSetting if it is negative."""
-        self.world.scenery.set_fog(arguments.check_number("set_fog", density))
+        """Set the fog density [1/m], 0 for clear water.
+
+        Raises:
+            BadSetting: the density is negative.
+            UwsimError: the scene has physical water.
+        """
+        self.world.scenery.change_fog(arguments.check_number("set_fog", density))
 
     def set_light(self, rate: float) -> None:
         """Set the factor by which the light is scaled, 1 by default.

@@ -25,12 +25,13 @@ from ...rendering.grey import grey_truncated
 from ...rendering.lights.lamp import Lamp
 from ...rendering.lights.projector import Projector
 from ...rendering.noise import add_noise
-from ...rendering.rendered_image import RenderedImage
+from ...rendering.rendered_image import ImageModel, RenderedImage
 from ...rendering.smoothing import mean_of_squares
 from ...rendering.water import Light, Water
 from ...scene.spec import SceneSpec
 from ..unique_names import make_unique
 from .part_poses import PartPoses
+from .physical_scene import make_water, set_exposure
 from .renderer_pool import RendererPool
 from .sand import HeapState, make_heaps
 
@@ -68,6 +69,7 @@ class Scenery:
 
     def __init__(self, model: SceneModel, engine: Engine, pool: RendererPool | None) -> None:
         scene = model.scene
+        self._model = model
         self._engine = engine
         self._own_pool = RendererPool()
         self._pool = pool or self._own_pool
@@ -91,7 +93,7 @@ class Scenery:
         )
         """The heaps of sand over buried objects."""
         self.state = SceneryState(
-            Water.from_ocean_state(scene.ocean_state, model.compatibility),
+            make_water(model),
             Light(rate=scene.sim_params.light_rate, shadows=_has_sun_shadows(scene)),
             [heap.state for heap in self.heaps],
         )
@@ -107,6 +109,8 @@ class Scenery:
         self.mounted_lamps = (*lamps, *leds)
         if (n_lamps := len(lamps)) > MAX_LAMPS:
             raise UwsimError(f"{n_lamps} lamps are in the scene; expected at most {MAX_LAMPS}.")
+        intensities = [lamp.spec.intensity for lamp in lamps]
+        self.state.water = set_exposure(self.state.water, self._model, intensities)
 
     def set_projector(self, projector: MountedProjector, pattern: npt.NDArray[np.uint8]) -> None:
         """Set the projector of the scene, and its pattern (h, w, 4)."""
@@ -119,6 +123,15 @@ class Scenery:
         change the fog colour of its cameras.
         """
         self.state.water = replace(self.state.water, fog=density)
+
+    def change_fog(self, density: float) -> None:
+        """Set the fog density [1/m]; raise UwsimError in physical water, which has no fog."""
+        if self.state.water.physical_water is not None:
+            raise UwsimError(
+                "The fog density has no effect in physical water; expected a scene without "
+                "<u:water>."
+            )
+        self.set_fog(density)
 
     def set_light_rate(self, rate: float) -> None:
         """Set the factor by which the light of the scene is scaled [1]; 1 by default."""
@@ -272,7 +285,7 @@ class Scenery:
                 colour=colour,
                 hidden_ids=hidden_ids,
             )
-        colours = self._draw(
+        image = self._draw(
             world_from_camera,
             intrinsics.with_size(intrinsics.width * samples, intrinsics.height * samples),
             water,
@@ -280,9 +293,9 @@ class Scenery:
             targets=frozenset({"colour"}),
             colour=colour,
             hidden_ids=hidden_ids,
-        ).colour
-        assert colours is not None
-        return RenderedImage(intrinsics=intrinsics, colour=mean_of_squares(colours, samples))
+        )
+        assert image.colour is not None
+        return replace(image, intrinsics=intrinsics, colour=mean_of_squares(image.colour, samples))
 
     def _draw(
         self,
@@ -346,8 +359,17 @@ class Scenery:
 
     @property
     def renderer_name(self) -> str:
-        """The name of the renderer; reading it creates the graphics context if there is none."""
-        return self._open().description
+        """The name of the renderer, and of the image model unless it is UWSim's fog law.
+
+        Reading it creates the graphics context if there is none.
+        """
+        description = self._open().description
+        return description if self.image_model == "uwsim" else f"{description}, physical water"
+
+    @property
+    def image_model(self) -> ImageModel:
+        """The model of the water in colour images: ``uwsim``, its fog law, or ``physical``."""
+        return "uwsim" if self.state.water.physical_water is None else "physical"
 
     @property
     def part_names(self) -> dict[int, str]:

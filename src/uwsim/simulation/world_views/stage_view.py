@@ -23,7 +23,7 @@ class StageView(SceneView):
         """The view of the scene for measures: bodies, cameras and contacts."""
         self.vehicles = scene.vehicles.names
         """The names of the vehicles, in the file's order."""
-        self.set_fog = scene.scenery.set_fog
+        self.set_fog = scene.scenery.change_fog
         self.set_light_rate = scene.scenery.set_light_rate
         self.set_current = scene.water.set
         self.set_wave_height = scene.water.set_wave_height

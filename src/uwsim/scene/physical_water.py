@@ -1,0 +1,209 @@
+"""The spec of physical water, whose images follow radiative transfer instead of the fog law.
+
+.. code-block:: xml
+
+    <oceanState>
+      <u:water law="physical">
+        <u:type>jerlov-1C</u:type>
+        <u:sun> <u:elevation>0.9</u:elevation> <u:azimuth>0.5</u:azimuth> </u:sun>
+      </u:water>
+    </oceanState>
+"""
+
+from __future__ import annotations
+
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Literal
+
+from ..base.geometry import Triple
+from ..errors import BadSetting
+from ..optics import (
+    FournierForand,
+    HenyeyGreenstein,
+    Medium,
+    PhaseFunction,
+    PhaseTable,
+    find_water,
+)
+from ..optics.medium import MAX_COEFFICIENT
+from ..optics.water_file import read_water
+from ..schema import NAMESPACE, Numbers, Spec, element
+
+TransferCurve = Literal["srgb", "linear"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class SunSpec(Spec):
+    """A ``<u:sun>``: the light above the water's surface."""
+
+    elevation: float = element(namespaced=True, default=0.9, minimum=0.0, maximum=math.pi / 2)
+    """The elevation of the sun above the horizon [rad]."""
+    azimuth: float = element(namespaced=True, default=1.3)
+    """The direction of the sun from W's x axis towards y [rad]."""
+    irradiance: float = element(namespaced=True, default=1.0, minimum=0.0, maximum=1e6)
+    """The irradiance of a level surface above the water by sun and sky, 0 at night [1]."""
+    sky_share: float = element(namespaced=True, default=0.3, minimum=0.0, maximum=1.0)
+    """The share of the sky in the irradiance: 0.3 in clear weather, 1 under clouds [1]."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PhaseFunctionSpec(Spec, ABC):
+    """The spec of a phase function."""
+
+    @property
+    @abstractmethod
+    def phase_function(self) -> PhaseFunction:
+        """The phase function."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class HenyeyGreensteinSpec(PhaseFunctionSpec):
+    """A ``<u:henyeyGreenstein>``: the phase function of one parameter."""
+
+    asymmetry: float = element(namespaced=True, default=0.9, minimum=0.0, maximum=0.999)
+    """The mean cosine of the scattering angle [1]."""
+
+    @property
+    def phase_function(self) -> PhaseFunction:
+        """The phase function."""
+        return HenyeyGreenstein(self.asymmetry)
+
+
+@dataclass(frozen=True, kw_only=True)
+class FournierForandSpec(PhaseFunctionSpec):
+    """A ``<u:fournierForand>``: the phase function of particles in the sea."""
+
+    refractive_index: float = element(namespaced=True, default=1.10, minimum=1.01, maximum=1.35)
+    """The refractive index of the particles relative to water [1]."""
+    slope: float = element(namespaced=True, default=3.5835, minimum=3.05, maximum=4.95)
+    """The slope of the distribution of their sizes [1]."""
+
+    @property
+    def phase_function(self) -> PhaseFunction:
+        """The phase function."""
+        return FournierForand(self.refractive_index, self.slope)
+
+
+@dataclass(frozen=True, kw_only=True)
+class PhaseTableSpec(PhaseFunctionSpec):
+    """A ``<u:phaseTable>``: a measured phase function."""
+
+    angles: Numbers = element(namespaced=True, minimum=0.0, maximum=3.2)
+    """The scattering angles, rising, from at most 10 to at least 150 degrees [rad]."""
+    values: Numbers = element(namespaced=True, minimum=0.0)
+    """The value at each angle [1/sr]."""
+
+    @property
+    def phase_function(self) -> PhaseFunction:
+        """The phase function."""
+        return PhaseTable(tuple(self.angles), tuple(self.values))
+
+
+PHASE_FUNCTIONS: dict[str, type[PhaseFunctionSpec]] = {
+    "fournierForand": FournierForandSpec,
+    "henyeyGreenstein": HenyeyGreensteinSpec,
+    "phaseTable": PhaseTableSpec,
+}
+"""The spec of each element of ``<u:phaseFunction>``."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class PhysicalWaterSpec(Spec):
+    """A ``<u:water law="physical">``: the optical properties of the water, and its light.
+
+    They replace fog, colour and attenuation of the ``<oceanState>`` in images. The water is one of
+    a named water (``type``), a water file (``file``), and coefficients.
+    """
+
+    law: Literal["physical"] = element(attribute=True)
+    """The law of the images."""
+    type: str = element(namespaced=True, default="")
+    """The name of a water, such as ``jerlov-1C``, ``tank`` or ``clear``."""
+    file: str = element(namespaced=True, default="")
+    """The name of a water file, such as `uwsim calibrate` writes."""
+    absorption: Triple | None = element(
+        namespaced=True, default=None, parts="rgb", minimum=0.0, maximum=MAX_COEFFICIENT
+    )
+    """The absorption of red, green and blue [1/m]."""
+    beam_attenuation: Triple | None = element(
+        namespaced=True, default=None, parts="rgb", minimum=0.0, maximum=MAX_COEFFICIENT
+    )
+    """The beam attenuation of red, green and blue instead of the absorption [1/m]."""
+    scattering: Triple | None = element(
+        namespaced=True, default=None, parts="rgb", minimum=0.0, maximum=MAX_COEFFICIENT
+    )
+    """The scattering of red, green and blue [1/m]."""
+    phase_function: tuple[PhaseFunctionSpec, ...] = element(
+        namespaced=True, default=(),
+        choice={f"{{{NAMESPACE}}}{name}": spec for name, spec in PHASE_FUNCTIONS.items()},
+    )  # fmt: skip
+    """The phase function instead of that of the water; by default Fournier and Forand's for sea
+    water."""
+    sun: SunSpec = element(namespaced=True, default=SunSpec())
+    """The light above the surface."""
+    exposure: float | None = element(
+        namespaced=True, default=None, exclusive_minimum=0.0, maximum=1e9
+    )
+    """The ratio of linear full scale to light [1]; a white surface in the irradiance 1 has the
+    light 1. Without it, the brightest channel of a white board has 0.7 of linear full scale. The
+    board faces up at the depth of the first vehicle's start; or it is 4 m from the strongest lamp,
+    if it is brighter there."""
+    transfer: TransferCurve = element(namespaced=True, default="srgb")
+    """The curve of stored values: sRGB, or linear."""
+    blur: bool = element(namespaced=True, default=True)
+    """True if light that is scattered forward blurs images."""
+    lamp_veil: bool = element(namespaced=True, default=True)
+    """True if the water scatters the light of lamps into cameras."""
+
+    def read_medium(self, find: Callable[[str], Path]) -> Medium:
+        """Return the water; its file is read.
+
+        Args:
+            find: finds the path of a file.
+
+        Raises:
+            UwsimError: the numbers are inconsistent, a name is unknown, or the file is missing or
+                invalid.
+        """
+        given_attenuations = self.absorption is not None or self.beam_attenuation is not None
+        sources = {
+            "<u:type>": bool(self.type),
+            "<u:file>": bool(self.file),
+            "coefficients": given_attenuations or self.scattering is not None,
+        }
+        names = [name for name, is_given in sources.items() if is_given]
+        if len(names) != 1:
+            raise BadSetting(
+                f"The water has {' and '.join(names) or 'no numbers'}; expected one of <u:type>, "
+                "<u:file>, and coefficients (<u:absorption> or <u:beamAttenuation>, and "
+                "<u:scattering>)."
+            )
+        if len(self.phase_function) > 1:
+            raise BadSetting(
+                f"The water has {len(self.phase_function)} phase functions; expected at most one."
+            )
+        if self.type:
+            medium = find_water(self.type)
+        elif self.file:
+            medium = read_water(find(self.file)).medium
+        else:
+            medium = self._combine_coefficients()
+        if self.phase_function:
+            return replace(medium, phase_function=self.phase_function[0].phase_function)
+        return medium
+
+    def _combine_coefficients(self) -> Medium:
+        attenuations = (self.absorption, self.beam_attenuation)
+        if self.scattering is None or sum(value is not None for value in attenuations) != 1:
+            raise BadSetting(
+                "Coefficients of water are <u:scattering> and one of <u:absorption> and "
+                "<u:beamAttenuation>."
+            )
+        if self.absorption is not None:
+            return Medium(absorption=self.absorption, scattering=self.scattering)
+        assert self.beam_attenuation is not None
+        return Medium.from_beam_attenuation(self.beam_attenuation, self.scattering)

@@ -1,0 +1,72 @@
+"""Physical water of a scene: its medium, its light, and the exposure of its cameras."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+
+from ...model.scene_model import SceneModel
+from ...optics import compute_full_field
+from ...rendering.physical.daylight_field import compute_light_field
+from ...rendering.physical.physical_water import Daylight, PhysicalWater
+from ...rendering.water import Water
+
+WHITE_LEVEL = 0.7
+"""The linear value of a white board at the start with automatic exposure [1: full scale]."""
+LAMP_DISTANCE = 4.0
+"""The distance of a board in the light of the strongest lamp [m]."""
+MIN_RADIANCE = 1e-6
+"""The least radiance of the board, so that a dark scene has a finite exposure."""
+
+
+def make_water(model: SceneModel) -> Water:
+    """Return the water of a scene, with its physical law if it has one."""
+    ocean = model.scene.ocean_state
+    water = Water.from_ocean_state(ocean, model.compatibility)
+    spec, medium = ocean.water, model.optical_water
+    if spec is None or medium is None:
+        return water
+    physical_water = PhysicalWater(
+        medium=medium,
+        daylight=Daylight(
+            elevation=spec.sun.elevation,
+            azimuth=spec.sun.azimuth,
+            irradiance=spec.sun.irradiance,
+            sky_share=spec.sun.sky_share,
+        ),
+        transfer=spec.transfer,
+        has_blur=spec.blur,
+        has_lamp_veil=spec.lamp_veil,
+    )
+    return set_exposure(replace(water, physical_water=physical_water), model, ())
+
+
+def set_exposure(water: Water, model: SceneModel, lamp_intensities: Iterable[float]) -> Water:
+    """Return water with the exposure of a scene; see `PhysicalWaterSpec.exposure`.
+
+    Args:
+        water: the water.
+        model: the compiled scene.
+        lamp_intensities: the intensity of each lamp at full brightness.
+    """
+    spec, physical_water = model.scene.ocean_state.water, water.physical_water
+    if spec is None or physical_water is None:
+        return water
+    exposure = spec.exposure
+    if exposure is None:
+        field = compute_light_field(physical_water.medium, physical_water.daylight)
+        beam, diffuse = field.compute_irradiance(_find_start_depth(model))
+        daylight = model.scene.sim_params.light_rate * float((beam + diffuse).max())
+        losses = compute_full_field(physical_water.medium, 2.0 * LAMP_DISTANCE)
+        lamp = max(lamp_intensities, default=0.0) / LAMP_DISTANCE**2 * float(losses.max())
+        exposure = WHITE_LEVEL / max(daylight, lamp, MIN_RADIANCE)
+    return replace(water, physical_water=replace(physical_water, exposure=exposure))
+
+
+def _find_start_depth(model: SceneModel) -> float:
+    """Return the depth of the first vehicle's start [m]; 0 without vehicles."""
+    scene = model.scene
+    if not scene.vehicles:
+        return 0.0
+    start = scene.world_from_localized @ scene.vehicles[0].localized_from_base
+    return scene.ocean_state.ocean_surface_height - float(start.position[2])
