@@ -10,8 +10,9 @@ scenes
     flat floor, a sea floor and in the tank; with an IMU at 100 Hz and pressure, DVL, range and
     odometry at 10 Hz with subscribers; eight vehicles; beside loose and fixed boxes.
 influences
-    the additional cost of a step over still water without sensors: of each current, each sensor
-    at 100 Hz with and without a subscriber, an observer of every step, a vehicle that drifts.
+    the additional cost of a step over still water without sensors: of each current, of waves, of
+    each sensor at 100 Hz with and without a subscriber, of an observer of every step, and of a
+    vehicle that drifts.
 samples
     CPU time of one sample of each sensor, over a sea floor and beside 1000 loose boxes.
 growth
@@ -52,6 +53,11 @@ CURRENTS = {
     "</u:pythonFunction>",
 }
 """The elements of currents, by name."""
+WAVES = (
+    "<u:waves> <u:jonswap> <u:significantHeight>0.5</u:significantHeight> "
+    "<u:peakPeriod>5</u:peakPeriod> <u:components>{}</u:components> </u:jonswap> </u:waves>"
+)
+"""The waves of a scene, with a number of components."""
 POSITION_BELOW = "<position> <x>0.4</x> <y>0</y> <z>-0.7</z> </position>"
 SENSORS = {
     "imu": ("imu", "<std>0.001</std>"),
@@ -100,6 +106,7 @@ def write_scene(
     ground: Callable[[Path], str] = steps.floor,
     *,
     current: str = "constant",
+    n_waves: int = 0,
     n_vehicles: int = 1,
     sensors: Mapping[str, int] | None = None,
     copies: int = 1,
@@ -123,9 +130,11 @@ def write_scene(
         drifting_vehicle = steps.VEHICLE.format(i="drifting", x=0.0, y=-8.0, z=-1.2)
         vehicles.append(drifting_vehicle.replace("<u:dynamics>g500_physical</u:dynamics>", ""))
     path = folder / "scene.xml"
+    waves = WAVES.format(n_waves) if n_waves else ""
     path.write_text(
         '<?xml version="1.0"?>\n<UWSimScene xmlns:u="urn:uwsim:1"> <oceanState> <u:current> '
-        f"{CURRENTS[current]} </u:current> </oceanState> {''.join(vehicles)} {ground(folder)} "
+        f"{CURRENTS[current]} </u:current> {waves} </oceanState> {''.join(vehicles)} "
+        f"{ground(folder)} "
         f"<rosInterfaces> {''.join(topics)} </rosInterfaces> </UWSimScene>\n"
         .replace("<u:current>  </u:current>", "")
     )  # fmt: skip
@@ -254,6 +263,8 @@ def influences() -> dict[str, object]:
     for name in CURRENTS:
         if name != "still":
             figures[f"current {name}"] = measure_added_cost(current=name)
+    for n in (1, 20, 200, 1000):
+        figures[f"waves of {n} components"] = measure_added_cost(n_waves=n)
     for name in SENSORS:
         if name == "imaging sonar":
             continue

@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from ..base.interrupts import is_user_interrupt
 from ..bus import Algorithm
 from ..errors import BadSetting, did_you_mean, type_and_text
-from .control import PI, P
+from .control import PI, Feedforward, P
 from .direct import Esm, InverseCompositional, SsdEsm
 from .ecc import Ecc
 from .frozen import FrozenTracker
@@ -26,6 +26,7 @@ __all__ = ["ALGORITHMS", "check_parameters", "load_algorithm", "summary"]
 ALGORITHMS: dict[str, type[Algorithm]] = {
     "ecc": Ecc,
     "esm": Esm,
+    "feedforward": Feedforward,
     "frozen": FrozenTracker,
     "grasp": Grasp,
     "grasp-blind-close": GraspBlindClose,

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from .controller import ControllerNode, Law, StationKeeper
+from .feedforward import Feedforward
 from .p import P
 from .pi import PI
 
-__all__ = ["PI", "ControllerNode", "Law", "P", "StationKeeper"]
+__all__ = ["PI", "ControllerNode", "Feedforward", "Law", "P", "StationKeeper"]
