@@ -108,9 +108,14 @@ def frame(head: object, tail: bytes = b"") -> bytes:
         frame({"a": ["|O", 1]}, b"12345678"),
         frame({"a": ["<f8", 2**40]}, b"12345678"),
         frame({"a": ["<f8", -1]}, b"12345678"),
+        frame({"a": ["<f8", 0, 2**70]}),
+        frame({"a": ["f8,,"]}),
+        frame({"m": [5]}),
+        frame({"c": 5}),
+        frame({"b": math.inf}),
         b"\x00\xea\x00\x00" + b"[" * 60_000,
     ],
-    ids=range(13),
+    ids=range(18),
 )
 def test_bytes_that_are_no_frame_are_refused(bad: bytes) -> None:
     assert String.__module__ == "uwsim.messages.std_msgs"

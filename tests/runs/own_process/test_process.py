@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import itertools
+import os
 import signal
 import subprocess
 import sys
 import time
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -218,6 +221,24 @@ def test_a_request_that_takes_too_long_ends_the_process() -> None:
         wait_until(lambda: not is_there(process.pid))
         with pytest.raises(CallStopped, match=r"its process ended \(killed by SIGKILL\)"):
             process.request(["parameters", {}], lambda asked: 0)
+
+
+def test_a_process_that_reads_no_frame_takes_too_long() -> None:
+    with OwnProcess(2.0) as process:
+        os.kill(process.pid, signal.SIGSTOP)
+        with pytest.raises(CallStopped, match="a callback took longer than --callback-limit"):
+            process.request(["parameters", bytes(2**24)], lambda request: 0)
+        wait_until(lambda: not is_there(process.pid))
+
+
+def test_the_time_of_a_suspension_does_not_count(monkeypatch: pytest.MonkeyPatch) -> None:
+    with OwnProcess(100.0) as process:
+        clock = SimpleNamespace(monotonic=itertools.count(step=3600.0).__next__)
+        monkeypatch.setattr("uwsim.runs.own_process.process.time", clock)
+        # each wait for a frame seems to take an hour, as if this process had been suspended
+        node = node_of(Bus())
+        node.run(ProcessAlgorithm(process, programs.Does))
+        assert node.error is None
 
 
 @pytest.mark.parametrize("limit", [0.75, 1e30, float("inf")])

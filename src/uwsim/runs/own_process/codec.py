@@ -1,10 +1,12 @@
 """The encoding of values as frames (bytes) between the simulation and an algorithm's process.
 
-A frame is JSON, which preserves every float64, followed by the bytes of all arrays. A frame decodes
-to numbers, texts, lists, arrays, and objects of message classes that this process has already
-loaded: decoding executes no code of the sender and imports nothing. A value that JSON cannot
-represent is an object with one key: ``t`` tuple, ``d`` dict, ``m`` message, ``a`` array, ``s``
-array scalar, ``b`` bytes, ``c`` message class, ``o`` any other object, as its ``repr``.
+A frame begins with the length of its JSON (4 bytes, little-endian). Then follow the JSON, which
+preserves every float64, and the bytes of all arrays and byte strings, in the order in which the
+JSON refers to them. A frame decodes to numbers, texts, bytes, lists, tuples, dicts, arrays, and
+classes and objects of message types that this process has already loaded. Decoding executes no code
+of the sender and imports nothing. A value that JSON cannot represent is an object with one key:
+``t`` tuple, ``d`` dict, ``m`` message, ``a`` array, ``s`` array scalar, ``b`` bytes, ``c`` message
+class, ``o`` any other object, as its ``repr``.
 """
 
 from __future__ import annotations
@@ -29,6 +31,8 @@ _ARRAYS = (np.ndarray, np.generic)
 _BASES: tuple[Any, ...] = (bool, int, float, str, list, tuple, dict)
 _SCALARS = frozenset((type(None), bool, int, float, str))
 _CACHE_SIZE = 10_000
+_SYNTAX_ERRORS = (SyntaxError, RecursionError)  # of a dtype such as "f8,,", and of nested JSON
+_CONTENT_ERRORS = (ArithmeticError, AttributeError, LookupError, TypeError, ValueError)
 MAX_DEPTH = 100
 """The greatest depth of nested values in a frame, which also ends values that contain
 themselves."""
@@ -49,9 +53,11 @@ class UnknownValue:
 
 
 def encode(value: object) -> bytes:
-    """Return a value as a frame: numbers, texts, lists, dicts, arrays, messages, message classes.
+    """Return a value as a frame.
 
-    Any other value becomes `UnknownValue` in the other process.
+    Numbers, texts, bytes, lists, tuples, dicts, arrays, messages and message classes are decoded as
+    such. A class that is not a message class makes the frame undecodable. Any other value becomes
+    an `UnknownValue` in the other process.
     """
     arrays: list[bytes] = []
     head = _encode_json(_to_json(value, arrays)).encode()
@@ -70,7 +76,7 @@ def decode(frame: bytes) -> Any:
         value, end = _Reader(frame, start).value(_decode_json(frame[_LENGTH.size : start].decode()))
     except struct.error:
         raise FrameError(f"{len(frame)} bytes, which end too early") from None
-    except (ValueError, TypeError, KeyError, IndexError, RecursionError) as error:
+    except (*_CONTENT_ERRORS, *_SYNTAX_ERRORS) as error:
         raise FrameError(f"{type(error).__name__}: {error}") from error
     if end != len(frame):
         raise FrameError(f"{len(frame) - end} bytes too many")

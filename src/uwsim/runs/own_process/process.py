@@ -95,7 +95,7 @@ class OwnProcess:
         return self._process.pid
 
     def request(self, frame: list[object], answer: Callable[[list[Any]], object]) -> Any:
-        """Send a frame and return the value of its answer.
+        """Send a frame and return the value of its answer; `child` lists the kinds of frames.
 
         Args:
             frame: the request to the process.
@@ -111,11 +111,11 @@ class OwnProcess:
         wait_time = 0.0
         while True:
             wait_time = self._wait(wait_time)
-            kind, frames, *rest = self._receive()
+            kind, message_frames, *rest = self._receive()
             if kind == "ask":
-                self._send(_answer_request(answer, frames, rest))
+                self._send(_answer_request(answer, message_frames, rest))
                 continue
-            if refusal := _publish_frames(answer, frames):
+            if refusal := _publish_frames(answer, message_frames):
                 raise RemoteError(f"{refusal[1]}: {refusal[2]}")
             if kind == "done" and len(rest) == 2:
                 value, violation = rest
@@ -127,13 +127,14 @@ class OwnProcess:
             raise CallStopped("its process sent a frame that nobody understands")
 
     def _wait(self, wait_time: float) -> float:
-        """Wait for a frame of the process.
+        """Wait for a frame from the child process.
 
         Args:
-            wait_time: the time already waited since the request [s of wall time].
+            wait_time: the time already waited since the request, without suspensions of this
+                process [s of wall time].
 
         Returns:
-            The time from the request to the arrival of the frame [s of wall time].
+            The time waited since the request, without suspensions [s of wall time].
 
         Raises:
             CallStopped: no frame arrived within the limit, or the process has ended.
@@ -142,18 +143,22 @@ class OwnProcess:
         period = min(CLOCK_PERIOD, limit / 4)
         while wait_time <= limit:
             start = time.monotonic()
-            if self._poll.poll(max(1.0, 1000.0 * period)):
-                return wait_time + time.monotonic() - start
-            if self._process.poll() is not None and not self._poll.poll(0):
-                raise self._end_error()  # a child of the process may still hold the socket open
+            has_frame = bool(self._poll.poll(max(1.0, 1000.0 * period)))
             # the time for which this process itself was suspended does not count
             wait_time += min(time.monotonic() - start, 2 * period)
+            if has_frame:
+                return wait_time
+            if self._process.poll() is not None and not self._poll.poll(0):
+                raise self._end_error()  # a child of the process may still hold the socket open
         self._process.kill()
         raise CallStopped(CALL_TIMEOUT)
 
     def _send(self, frame: list[object]) -> None:
         try:
             self._pipe.send_bytes(encode(frame))
+        except BlockingIOError:  # the process did not read the frame in time
+            self._process.kill()
+            raise CallStopped(CALL_TIMEOUT) from None
         except OSError:
             raise self._end_error() from None
 
@@ -277,10 +282,10 @@ class ProcessAlgorithm:
 
 
 def _answer_request(
-    answer: Callable[[list[Any]], object], frames: list[Any], request: list[Any]
+    answer: Callable[[list[Any]], object], message_frames: list[Any], request: list[Any]
 ) -> list[object]:
     """Return the frame with the result of a request of the algorithm, or with its error."""
-    if refusal := _publish_frames(answer, frames):
+    if refusal := _publish_frames(answer, message_frames):
         return refusal
     try:
         return ["accepted", answer(request)]
@@ -290,10 +295,12 @@ def _answer_request(
         return _refusal(error)
 
 
-def _publish_frames(answer: Callable[[list[Any]], object], frames: list[Any]) -> list[object]:
-    """Publish messages; return the frame with the first refusal, or [] if all were accepted."""
+def _publish_frames(
+    answer: Callable[[list[Any]], object], message_frames: list[Any]
+) -> list[object]:
+    """Publish the messages in frames; return the frame with the first refusal, or [] if all were accepted."""
     try:
-        for frame in frames:
+        for frame in message_frames:
             answer(["publish", frame])
     except CallStopped:
         raise
@@ -308,7 +315,7 @@ def _refusal(error: Exception) -> list[object]:
 
 
 def _algorithm_error(request: str, kind: str, message: str, text: str) -> Exception:
-    """Return the exception of the algorithm, as the simulation's process would raise it."""
+    """Return the error of an algorithm: a `BadSetting` of its ``start``, or a `RemoteError`."""
     if request == "start" and kind == "BadSetting":
         return BadSetting(message)
     return RemoteError(text)
