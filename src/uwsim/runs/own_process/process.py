@@ -298,7 +298,7 @@ def _answer_request(
 def _publish_frames(
     answer: Callable[[list[Any]], object], message_frames: list[Any]
 ) -> list[object]:
-    """Publish the messages in frames; return the frame with the first refusal, or [] if all were accepted."""
+    """Publish messages; return the frame with the first refusal, or [] if all were accepted."""
     try:
         for frame in message_frames:
             answer(["publish", frame])
