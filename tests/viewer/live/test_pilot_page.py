@@ -51,7 +51,7 @@ def page_of(browser: Any, server: LiveServer, height: int = 768) -> Any:
     page = browser.new_context(viewport=window, bypass_csp=True).new_page()
     page.set_default_timeout(LIMIT)
     page.goto(server.url)
-    page.wait_for_function("window.uwsim !== undefined && uwsim.page.link.pilot.isOn")
+    page.wait_for_function("window.uwsim !== undefined && uwsim.page.connection.pilot.isOn")
     page.wait_for_function("uwsim.page.player.trails.length > 0 && uwsim.page.drawnKey !== ''")
     page.evaluate("uwsim.page.draw()")
     return page
@@ -120,9 +120,43 @@ def test_a_dimmed_lamp_looks_in_the_page_as_in_a_camera(
 def test_the_help_names_all_axes_of_a_key(browser: Any, server: LiveServer) -> None:
     page = opened(browser, server, MAPPING, 768)
     rows = page.evaluate(
-        "uwsim.page.link.helpGroups().Pilot.map(({ keys, action }) => keys + ': ' + action)"
+        "uwsim.page.connection.helpGroups().Pilot.map(({ keys, action }) => keys + ': ' + action)"
     )
     assert rows[:-1] == ["w  s: thruster1 thruster2 +, −", "e  –: thruster3 +, −"]
+    page.context.close()
+
+
+def test_the_keys_for_the_speed_select_the_next_one_also_from_a_speed_outside_the_list(
+    browser: Any, server: LiveServer
+) -> None:
+    page = opened(browser, server, PilotMapping(keys={}), 768)
+    for speed, slower, faster in (
+        (3, 2, 5),
+        (1, 0.5, 2),
+        (0.1, 0.1, 0.25),
+        (40, 20, 0),
+        (0, 20, 0),
+    ):
+        for direction, expected in ((-1, slower), (1, faster)):
+            page.evaluate(f"uwsim.page.setState(false, {speed})")
+            page.evaluate(f"uwsim.page.changeSpeed({direction})")
+            assert page.evaluate("uwsim.page.speed") == expected, (speed, direction)
+    page.context.close()
+
+
+def test_trails_of_a_running_simulation_begin_again_after_a_reset(
+    browser: Any, server: LiveServer
+) -> None:
+    page = opened(browser, server, PilotMapping(keys={}), 768)
+    length = """([clearTime, times]) => {
+        const { page } = uwsim, { row, end } = page.player
+        for (let time = end; time <= clearTime; time += 0.5) page.player.push(time, row)
+        page.clearTrails()
+        for (const time of times) page.player.push(time, row)
+        return page.player.trail(page.pack.head.vehicles[0].body, page.player.end).length
+    }"""
+    assert page.evaluate(length, [10, [10.5, 11]]) == 2
+    assert page.evaluate(length, [20, [1, 1.5, 2]]) >= 2  # a reset
     page.context.close()
 
 
@@ -174,7 +208,7 @@ def test_keys_that_move_nothing_are_not_in_the_help_and_no_letter_has_two_meanin
         session.open(simulation, "scene", pilot_topics(simulation))
         session.close()
     page = page_of(browser, server)
-    rows = page.evaluate("uwsim.page.link.helpGroups().Pilot.map(({ action }) => action)")
+    rows = page.evaluate("uwsim.page.connection.helpGroups().Pilot.map(({ action }) => action)")
     assert rows[:-1] == [f"{axis} +, −" for axis in ("surge", "sway", "yaw", "heave")]
     keys = page.evaluate("[...document.querySelectorAll('#help dt')].map((dt) => dt.textContent)")
     letters = [key for text in keys for key in text.split() if len(key) == 1 and key.isalpha()]

@@ -262,7 +262,7 @@ def test_a_line_of_keys_has_the_names_of_the_joints_until_somebody_pilots(
     line = " ".join(page.locator(".keyline").inner_text().split())
     for words in ("WS forward / back", "EQ turn right / left", "? all keys", f"TG {joints[0]}"):
         assert words in line
-    rows = page.evaluate("uwsim.page.link.helpGroups().Pilot.map(({ action }) => action)")
+    rows = page.evaluate("uwsim.page.connection.helpGroups().Pilot.map(({ action }) => action)")
     assert [f"{joint} +, −" for joint in joints] == [
         row for row in rows if row.split()[0] in joints
     ]

@@ -48,7 +48,7 @@ class LiveOptions:
             CONNECTIONS,
             "--pilot-mapping",
             metavar="FILE.toml",
-            help="Mapping of keys, gamepad and sticks that replaces the default.",
+            help="File that changes the default mapping of keys, gamepad and sticks.",
         ),
     ] = None
 

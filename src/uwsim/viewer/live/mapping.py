@@ -1,6 +1,7 @@
 """The mapping of keys, gamepad and on-screen sticks to the axes of a pilot.
 
-The axes are `uwsim.algorithms.pilot.AXES`. A user's mapping file replaces parts of the default:
+The axes are `uwsim.algorithms.pilot.AXES`. A user's mapping file replaces parts of the default. A
+list replaces the default list; ``[keys]`` replaces the targets of the keys that it names:
 
 .. code-block:: toml
 
@@ -10,9 +11,8 @@ The axes are `uwsim.algorithms.pilot.AXES`. A user's mapping file replaces parts
     sticks = ["yaw", "heave", "sway", "surge"]      # on-screen sticks: left x, y, right x, y
 
     [keys]
-    w = "+surge"
-    s = "-surge"
     z = "+thruster1 -thruster2"                     # several axes at once
+    q = ""                                          # no effect
 """
 
 from __future__ import annotations
@@ -32,15 +32,16 @@ KEYS = {
     **{"h": "-joint2", "u": "+joint3", "j": "-joint3", "i": "+joint4", "k": "-joint4"},
     **{"o": "+jaw", "l": "-jaw", "m": "+lamps", "n": "-lamps"},
 }
-"""The signed axis of each key; on the page, these letters have other functions only with Shift."""
+"""The default targets of each key; the page's own functions of these letters require Shift, while a
+pilot is accepted."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class PilotMapping:
     """The targets of each key, gamepad axis, button and stick.
 
-    A target is an axis of the pilot with a sign, as ``-heave``. Several targets are separated by
-    blanks; an empty text means that the input has no effect.
+    A target is an axis of the pilot with an optional sign, as ``-heave``. Several targets are
+    separated by blanks; an empty text means that the input has no effect.
     """
 
     keys: Mapping[str, str] = field(default_factory=lambda: KEYS)
@@ -75,10 +76,10 @@ class PilotMapping:
 
 
 def read_mapping(path: Path) -> PilotMapping:
-    """Read a mapping file; a setting that is missing in the file has its default.
+    """Read a mapping file; a setting or a key that is missing in the file has its default.
 
     Raises:
-        BadSetting: the file cannot be read, or names an axis that does not exist.
+        BadSetting: the file cannot be read, or has an invalid setting.
     """
     try:
         table = tomllib.loads(path.read_text(encoding="utf-8"))
@@ -94,6 +95,7 @@ def read_mapping(path: Path) -> PilotMapping:
             raise BadSetting(f"--pilot-mapping {path}: {name!r} is not a setting.{near}")
         _check(path, name, value)
     settings: dict[str, Any] = {k: tuple(v) if isinstance(v, list) else v for k, v in table.items()}
+    settings["keys"] = KEYS | table.get("keys", {})
     return PilotMapping(**settings)
 
 

@@ -1,4 +1,4 @@
-// The interface of the page that its keys, its toolbar and the link to a running simulation use.
+// The interface of the page that its keys, its toolbar and the connection to a running simulation use.
 import type { Reading } from "./display/quantities";
 import type { Pack } from "./pack";
 import type { Picture, Switches } from "./picture";
@@ -8,7 +8,7 @@ import type { Mode, Views } from "./views";
 /** The settings of the view that have a button or a key; the interface `Switches` describes them. */
 export type Switch = "clear" | "state" | "pictures" | "frames" | "trails" | "sonars" | "labels";
 
-/** The interface of the link to a running simulation that the keys use. */
+/** The interface of the connection to a running simulation that the keys use. */
 export interface LiveControls {
   /** True if the simulation allows a reset to its initial state. */
   readonly allowsReset: boolean;
@@ -29,8 +29,8 @@ export interface Controls {
   readonly player: Player;
   readonly picture: Picture;
   readonly views: Views;
-  /** The link to the running simulation; null in a replay. */
-  readonly link: LiveControls | null;
+  /** The connection to the running simulation; null in a replay. */
+  readonly connection: LiveControls | null;
   readonly quantities: { setReadings(readings: Reading[]): boolean };
   readonly keyboard: { showHelp(): void };
   /** Go to the beginning of the level with an index. */

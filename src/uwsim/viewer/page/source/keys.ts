@@ -67,7 +67,7 @@ export class Keyboard {
     if (isField && !/^[a-z?]$/.test(event.key)) return;
     if (event.key === " " && target instanceof HTMLButtonElement) return;
     if (/^(Home|End)$/.test(event.key) && element("help").contains(target)) return; // these keys scroll the help
-    if (page.link?.handlePilotKey(event)) return;
+    if (page.connection?.handlePilotKey(event)) return;
     // with Shift, a letter has the page's function even if it is a key of the pilot
     const key = event.shiftKey ? event.key.toLowerCase() : event.key;
     const action = this.actions()[key];
@@ -129,7 +129,7 @@ export class Keyboard {
 
   private groups(): Record<string, { keys: string; action: string }[]> {
     const { page } = this;
-    const reset = page.link ? "reset vehicles and objects" : "start of the level";
+    const reset = page.connection ? "reset vehicles and objects" : "start of the level";
     const steps = [
       { keys: ", .", action: "one row back, forward" },
       { keys: "← →", action: "one second back, forward (in the view: rotate it)" },
@@ -139,9 +139,9 @@ export class Keyboard {
     const groups = {
       Time: [
         { keys: "space", action: "play, pause" },
-        ...(page.link ? [{ keys: ".", action: "one step" }] : steps),
+        ...(page.connection ? [{ keys: ".", action: "one step" }] : steps),
         { keys: "< >", action: "slower, faster" },
-        ...(page.link && !page.link.allowsReset ? [] : [{ keys: "r", action: reset }]),
+        ...(page.connection && !page.connection.allowsReset ? [] : [{ keys: "r", action: reset }]),
       ],
       View: [
         { keys: "o b v m", action: "orbit, behind the vehicle, next camera, map from above" },
@@ -163,10 +163,10 @@ export class Keyboard {
         { keys: "?", action: "these keys" },
       ],
     };
-    if (!page.link) return groups;
-    const pilot = page.link.pilot;
+    if (!page.connection) return groups;
+    const pilot = page.connection.pilot;
     for (const row of Object.values(groups).flat())
       row.keys = row.keys.split(" ").map((key) => (pilot.isReserved(key) ? `Shift+${key}` : key)).join(" ");
-    return { ...groups, ...page.link.helpGroups() };
+    return { ...groups, ...page.connection.helpGroups() };
   }
 }

@@ -1,4 +1,4 @@
-// The link to a running simulation: the messages that it sends and receives (viewer/head.py documents their format).
+// The connection to a running simulation: the messages that it sends and receives (viewer/head.py documents their format).
 import type { Controls } from "./controls";
 import type { Level, Marker } from "./head";
 import { toPose } from "./geometry";
@@ -28,7 +28,7 @@ type Message =
   | { type: "end"; why: string };
 
 /** The connection to a running simulation. */
-export class Link {
+export class Connection {
   readonly pilot = new Pilot((message, isNew) => {
     this.send(message);
     if (isNew) this.page?.picture.skipPauses();
@@ -160,7 +160,7 @@ function show(image: HTMLImageElement, data: ArrayBuffer): void {
 }
 
 /** Connect to the server of the page; the promise resolves when the head has arrived. */
-export function connect(isServerDrawn: boolean): Promise<Link> {
+export function connect(isServerDrawn: boolean): Promise<Connection> {
   const scheme = location.protocol === "https:" ? "wss:" : "ws:";
   const socket = new WebSocket(`${scheme}//${location.host}/socket${location.search}`);
   socket.binaryType = "arraybuffer";
@@ -176,7 +176,7 @@ export function connect(isServerDrawn: boolean): Promise<Link> {
       }
       hasHead = true;
       unpack(new Uint8Array(data.slice(HEADER_LENGTH))).then(
-        (pack) => resolve(new Link(socket, pack, earlyEvents, isServerDrawn)), reject,
+        (pack) => resolve(new Connection(socket, pack, earlyEvents, isServerDrawn)), reject,
       );
     };
   });

@@ -21,17 +21,17 @@ async function begin(): Promise<void> {
     const data = document.getElementById("pack");
     const gl = graphics(element<HTMLCanvasElement>("image"));
     const isServerDrawn = gl === null; // without WebGL, the server of a live view draws it
-    const link = data ? null : await connect(isServerDrawn);
-    const pack = link ? link.pack : await unpack(decodeBase85(data!.textContent ?? ""));
+    const connection = data ? null : await connect(isServerDrawn);
+    const pack = connection ? connection.pack : await unpack(decodeBase85(data!.textContent ?? ""));
     const picture = await Picture.make(gl, pack);
-    const player: Player = link ? new Stream(pack.head) : new Replay(pack);
+    const player: Player = connection ? new Stream(pack.head) : new Replay(pack);
     const rays = new Rays(pack);
-    const page = new Page(pack, player, picture, new Views(pack.head, picture.models, rays), link, rays);
-    page.note = gl || link ? "" : NO_GRAPHICS;
+    const page = new Page(pack, player, picture, new Views(pack.head, picture.models, rays), connection, rays);
+    page.note = gl || connection ? "" : NO_GRAPHICS;
     message.textContent = page.note;
-    link?.begin(page, player as Stream);
+    connection?.begin(page, player as Stream);
     const levelIndex = Number(new URLSearchParams(location.hash.slice(1)).get("level") ?? 0);
-    if (!link) {
+    if (!connection) {
       await page.select(player.levels[levelIndex]?.trial ?? 0);
       page.seek(player.levels[levelIndex] ? player.levels[levelIndex].level.start : player.start);
     }

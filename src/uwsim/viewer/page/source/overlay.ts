@@ -124,10 +124,10 @@ function clipLine(start: number[], end: number[]): number[] {
   return start.map((value, i) => value + fraction * (end[i] - value));
 }
 
-/** Draw the overlay of an image; trails begin at their point with the index `trailStart`. */
+/** Draw the overlay of an image. */
 export function drawOverlay(
   context: CanvasRenderingContext2D, worldFromCamera: Matrix, intrinsics: Intrinsics, head: Head,
-  models: Models, player: Player, snapshot: Snapshot, switches: OverlaySwitches, trailStart: number,
+  models: Models, player: Player, snapshot: Snapshot, switches: OverlaySwitches,
 ): void {
   const pen = new Pen(context, worldFromCamera, intrinsics);
   for (const { name, at: position, colour, lines } of player.markers(snapshot.time)) {
@@ -135,7 +135,7 @@ export function drawOverlay(
     if (!lines.length) pen.dot(position, colour, 3);
     if (switches.labels || !lines.length) pen.label(position, name);
   }
-  if (switches.trails) drawTrails(pen, head, player, snapshot, trailStart);
+  if (switches.trails) drawTrails(pen, head, player, snapshot);
   if (switches.sonars)
     for (const sensor of head.sensors) drawSensor(pen, sensor, models.worldFromMount(sensor), snapshot);
   if (switches.frames) drawFrames(pen, head, models, switches.labels);
@@ -145,13 +145,13 @@ export function drawOverlay(
   for (const { name, body } of head.vehicles) drawCurrent(pen, name, models.body(body), snapshot);
 }
 
-function drawTrails(pen: Pen, head: Head, player: Player, snapshot: Snapshot, trailStart: number): void {
+function drawTrails(pen: Pen, head: Head, player: Player, snapshot: Snapshot): void {
   const bases = head.vehicles.map(({ body }) => body);
   const objects = head.bodies.filter((candidate) => candidate.vehicle === null).map(({ name }) => name);
   for (const body of [...bases, ...objects]) {
     const now = snapshot.poses.get(body);
     if (!now) continue;
-    const points = player.trail(body, snapshot.time).slice(trailStart);
+    const points = player.trail(body, snapshot.time);
     pen.line([...points, origin(now)], "rgba(255, 214, 92, 0.9)", 1.5);
   }
 }

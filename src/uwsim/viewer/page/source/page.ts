@@ -2,7 +2,7 @@
 import type { Controls, Switch } from "./controls";
 import { Curves } from "./curves";
 import { Keyboard } from "./keys";
-import type { Link } from "./live";
+import type { Connection } from "./live";
 import type { Pack } from "./pack";
 import { element, indexAt, hasNoMotion, LevelList, Thrusters, toggleHelp } from "./panels";
 import type { Picture, Switches } from "./picture";
@@ -21,7 +21,6 @@ export class Page implements Controls {
   speed = 1;
   readonly switches: Switches = {
     clear: true, pictures: true, state: true, frames: false, labels: false, trails: true, sonars: true, sun: "",
-    trailStart: 0,
   };
   private readonly curves = new Curves(element("curves"), (time) => this.seek(time));
   readonly quantities: Quantities;
@@ -38,7 +37,7 @@ export class Page implements Controls {
     readonly player: Player,
     readonly picture: Picture,
     readonly views: Views,
-    readonly link: Link | null,
+    readonly connection: Connection | null,
     rays: Rays,
   ) {
     this.quantities = new Quantities(pack.head, rays);
@@ -53,7 +52,7 @@ export class Page implements Controls {
   /** Go to the beginning of a level. */
   async go(index: number): Promise<void> {
     const entry = this.player.levels[index];
-    if (!entry || this.link) return;
+    if (!entry || this.connection) return;
     await this.select(entry.trial);
     this.seek(entry.level.start);
   }
@@ -62,8 +61,7 @@ export class Page implements Controls {
   async select(trial: number): Promise<void> {
     if (trial === this.player.trial) return;
     await this.player.select(trial);
-    element("message").textContent = hasNoMotion(this.player) ? "This level has no recorded motion." : this.note;
-    this.switches.trailStart = 0;
+    element("message").textContent = hasNoMotion(this.player) ? "This trial has no recorded motion." : this.note;
     this.curves.set(this.player.curves);
     const { start, end } = this.player;
     this.levels.mark(start, end);
@@ -71,37 +69,37 @@ export class Page implements Controls {
   }
 
   seek(time: number): void {
-    if (this.link) return;
+    if (this.connection) return;
     this.time = Math.min(this.player.end, Math.max(this.player.start, time));
     this.draw();
   }
 
   play(isOn = !this.isPlaying): void {
     this.isPlaying = isOn;
-    if (isOn && !this.link && this.time >= this.player.end - 1e-6) this.time = this.player.start;
-    this.link?.control(isOn ? "play" : "pause");
+    if (isOn && !this.connection && this.time >= this.player.end - 1e-6) this.time = this.player.start;
+    this.connection?.control(isOn ? "play" : "pause");
     element("play").textContent = isOn ? "Pause" : "Play";
   }
 
   step(direction: number): void {
     this.play(false);
-    if (this.link) this.link.control("step");
+    if (this.connection) this.connection.control("step");
     else this.seek(this.time + direction / 30);
   }
 
   /** Reset a live simulation to its initial state, as UWSim's key r; in a replay, go to the start of the level. */
   reset(): void {
-    if (this.link) this.link.control("reset");
+    if (this.connection) this.connection.control("reset");
     else this.seek(this.player.levels[indexAt(this.player, this.time)]?.level.start ?? this.player.start);
   }
 
-  /** Set the real-time factor; `isSent` is false if the simulation has reported it. */
+  /** Set the real-time factor; `isSent`: true to send it to the simulation. */
   setSpeed(speed: number, isSent = true): void {
     this.speed = speed;
     const choice = element<HTMLSelectElement>("speed");
     if (![...choice.options].some(({ value }) => value === String(speed))) choice.append(option(speed));
     choice.value = String(speed);
-    if (isSent) this.link?.control("speed", speed);
+    if (isSent) this.connection?.control("speed", speed);
   }
 
   /** Show whether the running simulation is paused, and its real-time factor (0: no limit). */
@@ -112,14 +110,15 @@ export class Page implements Controls {
   }
 
   changeSpeed(direction: number): void {
-    const speeds = this.speeds();
-    const nextSpeed = speeds[speeds.indexOf(this.speed) + direction];
+    const rank = (speed: number) => speed || Infinity; // no limit is the highest factor
+    const speeds = this.speeds().filter((speed) => (rank(speed) - rank(this.speed)) * direction > 0);
+    const nextSpeed = direction > 0 ? speeds[0] : speeds.at(-1);
     if (nextSpeed !== undefined) this.setSpeed(nextSpeed);
   }
 
   /** Return the available real-time factors; 0: no limit. */
   private speeds(): number[] {
-    return this.link ? [...SPEEDS, 0] : SPEEDS;
+    return this.connection ? [...SPEEDS, 0] : SPEEDS;
   }
 
   show(mode: Mode): void {
@@ -139,14 +138,13 @@ export class Page implements Controls {
   toggle(name: Switch): void {
     this.switches[name] = !this.switches[name];
     if (name === "frames") this.switches.labels = this.switches.frames;
-    this.link?.subscribe(this.switches.pictures);
+    this.connection?.subscribe(this.switches.pictures);
     this.refresh();
   }
 
-  /** Begin all trails at the displayed time. */
   clearTrails(): void {
-    const body = this.pack.head.vehicles[0]?.body ?? "";
-    this.switches.trailStart = this.player.trail(body, this.time).length;
+    this.player.clearTrails(this.time);
+    this.draw();
   }
 
   toggleTheme(): void {
@@ -154,7 +152,7 @@ export class Page implements Controls {
     root.dataset.theme = root.dataset.theme === "dark" ? "light" : "dark";
     this.curves.redraw();
     this.hud.redrawCurves();
-    this.link?.topics.redrawCurves();
+    this.connection?.topics.redrawCurves();
   }
 
   draw(): void {
@@ -162,11 +160,11 @@ export class Page implements Controls {
     const snapshot = this.player.snapshot(this.time);
     this.hud.show(snapshot, this.views.vehicle, this.switches.state);
     const viewCamera = this.picture.draw(this.player, snapshot, this.views, this.switches);
-    if (viewCamera) this.link?.requestView(viewCamera);
+    if (viewCamera) this.connection?.requestView(viewCamera);
     this.levels.show(this.time);
     this.curves.show(this.time, this.player.curves);
     element("curves-box").hidden = !this.player.curves.length;
-    this.link?.topics.show(this.time);
+    this.connection?.topics.show(this.time);
     this.thrusters.show(snapshot);
     const sections = [...document.querySelectorAll<HTMLElement>("aside > section")];
     document.body.classList.toggle("bare", sections.every(({ hidden }) => hidden));
@@ -180,7 +178,7 @@ export class Page implements Controls {
     requestAnimationFrame((time) => this.tick(time)); // first, so that an error below does not end the animation
     const seconds = Math.min(0.25, (now - this.lastTick) / 1000);
     this.lastTick = now;
-    if (this.isPlaying && !this.link) {
+    if (this.isPlaying && !this.connection) {
       this.time = Math.min(this.player.end, this.time + seconds * this.speed);
       if (this.time >= this.player.end) this.play(false);
     }

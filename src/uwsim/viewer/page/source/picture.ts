@@ -27,8 +27,6 @@ export interface Switches extends OverlaySwitches {
   state: boolean;
   /** A key of `suns` of the head; empty: the sun of the scene. */
   sun: string;
-  /** The index of the first point of trails. */
-  trailStart: number;
 }
 
 /** Return a WebGL 2 context of the canvas, with antialiasing if a GPU draws; null if there is no WebGL 2. */
@@ -128,9 +126,7 @@ export class Picture {
     const context = this.overlay.getContext("2d")!;
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.clearRect(0, 0, w, h);
-    drawOverlay(
-      context, worldFromCamera, viewCamera.intrinsics, head, models, player, snapshot, switches, switches.trailStart,
-    );
+    drawOverlay(context, worldFromCamera, viewCamera.intrinsics, head, models, player, snapshot, switches);
     if (viewCamera.camera) drawQuads(context, viewCamera.camera, viewCamera.intrinsics, 0, 0, snapshot);
     if (views.mode === "map") {
       const hud = element("hud");

@@ -38,8 +38,10 @@ export interface Player {
   snapshot(time: number): Snapshot;
   /** Return the speed of the origin of a body [m/s]; null if it is not known. */
   speed(body: string, time: number): number | null;
-  /** Return the positions of a body in W from the start to a time, at about `TRAIL_RATE` [m]. */
+  /** Return the positions of a body in W from the start of the trails to a time, at about `TRAIL_RATE` [m]. */
   trail(body: string, endTime: number): number[][];
+  /** Begin all trails at a time. */
+  clearTrails(startTime: number): void;
   /** Return the spawned markers that exist at a time. */
   markers(time: number): Marker[];
   /** Return the removals of sand from a heap up to a time, in order, or the heights of its columns [m]. */
@@ -62,6 +64,7 @@ export class Replay implements Player {
   readonly version = 0;
   title = "";
   private motion: Motion | null = null;
+  private trailStart = -Infinity; // the start of the trails [s]
 
   constructor(private readonly pack: Pack) {
     const trials = pack.head.trials ?? [];
@@ -83,6 +86,7 @@ export class Replay implements Player {
     const trialHead = this.pack.head.trials?.[trial];
     this.trial = trial;
     this.motion = null;
+    this.trailStart = -Infinity;
     this.curves = [];
     if (!trialHead) return;
     this.title = trialHead.title;
@@ -139,11 +143,16 @@ export class Replay implements Player {
     const { rate, start, n } = motion.head;
     const lastRow = Math.min(n - 1, Math.floor((endTime - start) * rate));
     const points: number[][] = [];
-    for (let row = 0; row <= lastRow; row += Math.max(1, Math.round(rate / TRAIL_RATE))) {
+    const firstRow = Math.max(0, Math.ceil((this.trailStart - start) * rate));
+    for (let row = firstRow; row <= lastRow; row += Math.max(1, Math.round(rate / TRAIL_RATE))) {
       const offset = row * motion.columns + 7 * index;
       points.push(Array.from(motion.rows.subarray(offset, offset + 3)));
     }
     return points;
+  }
+
+  clearTrails(startTime: number): void {
+    this.trailStart = startTime;
   }
 }
 
@@ -168,7 +177,7 @@ export class Stream implements Player {
   private readonly heights = new Map<number, Float32Array>();
   private row: ArrayLike<number> | null = null;
   private readonly recentRows: { time: number; row: ArrayLike<number> }[] = []; // rows of the last SPEED_SPAN
-  /** The rows since the last reset, at `TRAIL_RATE` at most. */
+  /** The rows since the trails were cleared or the simulation was reset, at `TRAIL_RATE` at most. */
   private readonly trails: { time: number; row: ArrayLike<number> }[] = [];
 
   constructor(private readonly head: Head) {
@@ -240,5 +249,9 @@ export class Stream implements Player {
     const index = this.head.motion?.bodies.indexOf(body) ?? -1;
     if (index < 0) return [];
     return this.trails.map(({ row }) => [0, 1, 2].map((i) => row[7 * index + i]));
+  }
+
+  clearTrails(): void {
+    this.trails.length = 0;
   }
 }
