@@ -179,6 +179,13 @@ def test_checkers_of_three_sizes_are_found_where_they_are() -> None:
         assert total.value == pytest.approx(0.85, rel=0.01)
 
 
+def test_a_checker_is_not_found_in_a_smaller_or_larger_one() -> None:
+    picture = make_picture(draw_clear_board())
+    for side in (0.02, 0.07):
+        with pytest.raises(BadSetting, match=f"no checker of {side * 100:g} cm was found"):
+            find_checkers(picture, (*LAYOUT.sides, side), 1000.0)
+
+
 def test_a_tilted_checker_is_read_by_its_corners() -> None:
     board = draw_clear_board()
     x0, y0 = SyntheticCamera().middle

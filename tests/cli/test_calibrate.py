@@ -37,6 +37,13 @@ def run_on_readings(*arguments: str) -> int:
     return main(["calibrate", "setup.xml", "--readings", "readings.csv", *arguments])
 
 
+@pytest.fixture
+def without_plots(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Draw nothing: drawing is most of the time of the command."""
+    monkeypatch.setattr("uwsim.calibration.report.write.draw_plots", lambda *arguments: [])
+
+
+@pytest.mark.slow
 @pytest.mark.usefixtures("folder")
 def test_readings_are_calibrated_into_a_directory(capsys: pytest.CaptureFixture[str]) -> None:
     assert run_on_readings("-o", "out") == 0
@@ -55,7 +62,7 @@ def test_readings_are_calibrated_into_a_directory(capsys: pytest.CaptureFixture[
     assert [path for path in Path().iterdir() if path.name.endswith(".part")] == []
 
 
-@pytest.mark.usefixtures("folder")
+@pytest.mark.usefixtures("folder", "without_plots")
 def test_written_readings_give_the_same_bytes_again(capsys: pytest.CaptureFixture[str]) -> None:
     assert run_on_readings("-o", "out") == 0
     arguments = ["calibrate", "setup.xml", "--readings", "out/readings.csv", "-o", "again"]
@@ -67,6 +74,7 @@ def test_written_readings_give_the_same_bytes_again(capsys: pytest.CaptureFixtur
     assert json.loads(capsys.readouterr().out)["uwsim_calibration"] == 1
 
 
+@pytest.mark.usefixtures("without_plots")
 def test_an_error_is_one_line_and_leaves_the_directory_as_it_was(
     folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -22,6 +22,8 @@ SURROUND = 1.4
 """The half side of the region around a checker that must be grey, in sides of a square."""
 MIN_CONTRAST = 0.1
 """The least difference of white and black of a checker that is found, as a share of the largest."""
+MIN_UNIFORMITY = 0.6
+"""The least difference in whole squares, as a share of that in their quarters at the centre."""
 
 
 @dataclass(frozen=True)
@@ -65,27 +67,15 @@ def find_checkers(
     checkers: dict[float, Checker] = {}
     differences: dict[float, float] = {}
     for side, size in zip(sides, sizes, strict=True):
-        outer_size = max(round(SURROUND * size), size + 1)
         if size < 3 or 2 * size >= min(picture.values.shape):
             raise BadSetting(
                 f"a square of {side * 100:g} cm is {size} pixels; expected at least 3, and at most "
                 "half of the picture."
             )
-        inner_sums = _compute_quadrants(integral, size)
-        outer_sums = _compute_quadrants(integral, outer_size)
-        step = outer_size - size
-        inner_sums = inner_sums[
-            step : step + outer_sums.shape[0], step : step + outer_sums.shape[1]
-        ]
-        area, outer_area = size**2, outer_size**2 - size**2
-        score = np.abs(inner_sums) / area - np.abs(outer_sums - inner_sums) / outer_area
-        row, column = np.unravel_index(int(np.argmax(score)), score.shape)
-        difference = float(inner_sums[row, column]) / area / 2.0
-        x, y = column + outer_size - margin - 0.5, row + outer_size - margin - 0.5
+        (x, y), difference = _find_centre(integral, size)
         half = side * scale
-        corners = np.array(
-            [(x - half, y - half), (x + half, y - half), (x + half, y + half), (x - half, y + half)]
-        )
+        places = np.array([(-half, -half), (half, -half), (half, half), (-half, half)])
+        corners = places + np.array([x - margin, y - margin])
         checkers[side] = Checker(corners, math.copysign(1.0, difference))
         differences[side] = abs(difference)
     for side, difference in differences.items():
@@ -94,6 +84,30 @@ def find_checkers(
                 f"no checker of {side * 100:g} cm was found; give its corners in the set-up."
             )
     return checkers
+
+
+def _find_centre(integral: FloatArray, size: int) -> tuple[tuple[float, float], float]:
+    """Find the centre of the checker with a size of squares [pixels].
+
+    Returns:
+        The column and row of the centre, and the difference of its squares; 0 if they are not
+        uniform, as in a smaller checker, which fills only their quarters at the centre.
+    """
+    outer_size = max(round(SURROUND * size), size + 1)
+    inner_sums = _compute_quadrants(integral, size)
+    outer_sums = _compute_quadrants(integral, outer_size)
+    step = outer_size - size
+    inner_sums = inner_sums[step : step + outer_sums.shape[0], step : step + outer_sums.shape[1]]
+    outer_area = outer_size**2 - size**2
+    score = np.abs(inner_sums) / size**2 - np.abs(outer_sums - inner_sums) / outer_area
+    row, column = np.unravel_index(int(np.argmax(score)), score.shape)
+    difference = float(inner_sums[row, column]) / size**2 / 2.0
+    half_size = max(size // 2, 1)
+    offset = outer_size - half_size
+    central_sum = float(_compute_quadrants(integral, half_size)[row + offset, column + offset])
+    if abs(difference) < MIN_UNIFORMITY * abs(central_sum) / half_size**2 / 2.0:
+        difference = 0.0
+    return (float(column) + outer_size - 0.5, float(row) + outer_size - 0.5), difference
 
 
 def read_difference(picture: LinearPicture, checker: Checker) -> Sum:

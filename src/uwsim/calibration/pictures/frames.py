@@ -1,9 +1,8 @@
-"""Frames of a camera from files: PNG and TIFF of 8 or 16 bit, and NPY.
+"""Frames of a camera from files: PNG and TIFF of 8 or 16 bit, NPY, and DNG.
 
 A frame is an array of rows, columns and planes; a grey picture has one plane, a colour picture
-red, green and blue. Sizes are checked before a picture is decoded. Raw files of a camera (DNG, CR2)
-are not read: ``dcraw -4 -D -T`` or LibRaw's ``unprocessed_raw -T`` write 16-bit TIFF files of the
-sensor's numbers, ``dcraw -4 -o 0 -r 1 1 1 1 -h -T`` linear colour pictures of half the size.
+red, green and blue. Sizes are checked before a picture is decoded. Raw files need the package rawpy
+(`raw_files`). Other raw files become linear 16-bit TIFF by ``dcraw -4 -o 0 -r 1 1 1 1 -h -T``.
 """
 
 from __future__ import annotations
@@ -20,13 +19,14 @@ import numpy as np
 from ...base.files.input_files import read_bytes
 from ...errors import AssetError
 from ...optics.phase_function import FloatArray
+from . import raw_files
 
 MAX_BYTES = 256 * 2**20
 """The greatest size of a file [bytes]."""
 MAX_PIXELS = 26_000_000
 """The greatest number of pixels of a frame."""
 MAX_PLANES = 4
-SUFFIXES = (".png", ".tif", ".tiff", ".npy")
+SUFFIXES = (".png", ".tif", ".tiff", ".npy", *raw_files.SUFFIXES)
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,7 +56,7 @@ def read_frame(path: Path) -> FloatArray:
         data = read_bytes(path, at_most=MAX_BYTES)
     except OSError as error:
         raise AssetError(f"{path}: cannot be read: {error.strerror or error}.") from None
-    frame = _read_array(path, data) if path.suffix.lower() == ".npy" else _decode(path, data)
+    frame = _decode(path, data)
     if frame.ndim == 2:
         frame = frame[..., None]
     if frame.ndim != 3 or not 1 <= frame.shape[2] <= MAX_PLANES or frame.size == 0:
@@ -112,6 +112,15 @@ def _read_array(path: Path, data: bytes) -> FloatArray:
 
 
 def _decode(path: Path, data: bytes) -> FloatArray:
+    suffix = path.suffix.lower()
+    if suffix == ".npy":
+        return _read_array(path, data)
+    if suffix in raw_files.SUFFIXES:
+        return raw_files.decode_raw(path, data, MAX_PIXELS)
+    return _decode_picture(path, data)
+
+
+def _decode_picture(path: Path, data: bytes) -> FloatArray:
     import cv2
     from PIL import Image, UnidentifiedImageError
 
@@ -121,10 +130,10 @@ def _decode(path: Path, data: bytes) -> FloatArray:
                 size = (picture.height, picture.width)
         else:
             size = _read_tiff_size(data)
-    except (UnidentifiedImageError, Image.DecompressionBombError) as error:
-        raise AssetError(f"{path}: is not a picture: {str(error)[:100]}") from None
-    except (OSError, ValueError, SyntaxError, KeyError, struct.error):
-        raise AssetError(f"{path}: is not a picture of the kind of its suffix.") from None
+    except Image.DecompressionBombError:
+        raise AssetError(f"{path}: has too many pixels; expected at most {MAX_PIXELS}.") from None
+    except (UnidentifiedImageError, OSError, ValueError, SyntaxError, KeyError, struct.error):
+        raise AssetError(f"{path}: is not a picture of the kind that its suffix names.") from None
     _check_size(path, size)
     try:
         frame = cv2.imdecode(np.frombuffer(data, dtype=np.uint8), cv2.IMREAD_UNCHANGED)

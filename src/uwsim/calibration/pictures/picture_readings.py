@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ...errors import AssetError, BadSetting
+from ...errors import AssetError, BadSetting, MissingExtra
 from ...optics.phase_function import FloatArray
 from ...schema import Diagnostics
 from ..measurements import OpenWaterReading, WaterReadings
@@ -89,7 +89,7 @@ class _PictureReader:
         for picture in pictures:
             try:
                 self._read_picture(picture, signals)
-            except (BadSetting, AssetError) as error:
+            except (BadSetting, AssetError, MissingExtra) as error:
                 text = f"the picture of {picture.source!r}: {error}"
                 self._diagnostics.error(picture, text)
         return signals
