@@ -133,6 +133,22 @@ class Passes:
             target.framebuffer.scissor = None  # type: ignore[assignment]  # no limits
         self._models.release(SAMPLERS["base_map"])
 
+    def draw_lamp_points(self, target: Targets, n_lamps: int) -> None:
+        """Add the lamps that the camera sees to an image of radiance and range."""
+        context, buffer = self._context, target.framebuffer
+        program = self._program("lamp_point", target, (("LAMPS", n_lamps),))
+        if program.glo not in self._empty_arrays:
+            self._empty_arrays[program.glo] = context.vertex_array(program, [])
+        buffer.use()
+        buffer.depth_mask = False
+        _set_colour_masks(buffer, [(name == "colour",) * 4 for name in target.attachments])
+        context.enable_only(moderngl.DEPTH_TEST | moderngl.BLEND | moderngl.PROGRAM_POINT_SIZE)
+        context.blend_func = moderngl.ONE, moderngl.ONE, moderngl.ONE, moderngl.ZERO
+        self._empty_arrays[program.glo].render(moderngl.POINTS, vertices=n_lamps)
+        _set_colour_masks(buffer, [(True, True, True, True)] * len(target.attachments))
+        buffer.depth_mask = True
+        context.enable_only(moderngl.NOTHING)
+
     def _clear(self, target: Targets) -> None:
         """Clear a target and bind it, for opaque batches."""
         target.framebuffer.use()

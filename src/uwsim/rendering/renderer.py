@@ -234,6 +234,8 @@ class Renderer:
         surface_view = replace(view, colour_format=RADIANCE)
         self._issue_draw_calls(surface_view, world_from_camera)
         surfaces = self._find_targets(surface_view)
+        if view.lamps:
+            self._passes.draw_lamp_points(surfaces, len(view.lamps))
         target = self._find_targets(replace(view, targets=frozenset({"colour"})))
         self._development.develop(
             physical_water, lens, len(view.lamps), surfaces.radiance, target.framebuffer

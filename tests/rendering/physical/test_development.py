@@ -7,7 +7,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from uwsim.rendering.physical_water.daylight_field import compute_open_water
 
 from tests.rendering.models import ball, block, placed, plate
 from tests.rendering.physical.photographs import AT_ORIGIN, SHADOWLESS, FloatArray
@@ -16,6 +15,7 @@ from uwsim.base.geometry import Intrinsics, Pose
 from uwsim.optics import Lamp as OpticalLamp
 from uwsim.optics import compute_lamp_veil, find_water
 from uwsim.rendering.lights.lamp import Lamp
+from uwsim.rendering.physical.daylight_field import compute_open_water
 from uwsim.rendering.physical.physical_water import Daylight, PhysicalWater
 from uwsim.rendering.renderer import Renderer
 from uwsim.rendering.water import Light, Water

@@ -54,6 +54,11 @@ vec3 lamp_veil(int i, vec3 ray, float range) {
         }
         if (!is_lit || end <= begin) return vec3(0.0);
     }
+    // Light that a lamp sends to the camera and the water scatters forward is in the blur of the lamp's own image.
+    float cosine = dot(lamp_axis[i].xyz, to_lamp) / max(length(to_lamp), 1e-3);
+    float direct_share = lamp_position[i].w > -1.0 ? clamp((cosine - lamp_position[i].w) * lamp_axis[i].w, 0.0, 1.0) : 1.0;
+    begin = max(begin, mix(begin, foot, direct_share));
+    if (end <= begin) return vec3(0.0);
     float low = atan((begin - foot) / height);
     float high = atan((end - foot) / height);
     float half_width = 0.25 * (high - low);
