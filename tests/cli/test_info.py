@@ -141,7 +141,7 @@ def test_a_vehicle_that_follows_a_frame_or_packets_does_not_stand_still(
     assert moves == {
         "girona500": "stands still",
         "ghost": "kinematic: follows the frame 'boat' of /tf",
-        "sitl": "kinematic: goes where UDP packets at port 9002 put it",
+        "sitl": "kinematic: goes where UDP datagrams at port 9002 put it",
     }
 
 

@@ -1,4 +1,4 @@
-"""A vehicle that goes where UDP packets of a flight dynamics model say."""
+"""A vehicle that goes where UDP datagrams of a flight dynamics model say."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ import pytest
 from tests.simulation.small_robots import scene_of, shape, write_robot
 from tests.support.opened import open_scene
 from uwsim.base.geodesy import Geodetic
-from uwsim.devices.fdm import FdmInput, read_packet
+from uwsim.devices.fdm import FdmInput, read_datagram
 from uwsim.errors import UwsimError
 from uwsim.messages import Quaternion, TFMessage, Transform, TransformStamped, Vector3, header
 from uwsim.scene.spec import NedOriginSpec, SceneSpec, SimParamsSpec
@@ -55,7 +55,7 @@ def test_the_layout_is_that_of_flightgear_to_the_byte() -> None:
         "3dcccccd" "be4ccccd" "3fc00000"  # roll 0.1, pitch -0.2, yaw 1.5
     )  # fmt: skip
     assert len(data) == 48
-    pose = read_packet(data, Geodetic(latitude=0.5, longitude=1.0))
+    pose = read_datagram(data, Geodetic(latitude=0.5, longitude=1.0))
     assert pose is not None
     assert np.allclose(pose.position, [0.0, 0.0, 10.0], atol=1e-8)
     assert pose.rotation[2, 0] == pytest.approx(math.sin(0.2), abs=1e-7)  # nose down
@@ -79,7 +79,7 @@ def test_the_layout_is_that_of_flightgear_to_the_byte() -> None:
     ],
 )
 def test_packets_that_are_short_foreign_or_senseless_are_dropped(data: bytes) -> None:
-    assert read_packet(data, ORIGIN) is None
+    assert read_datagram(data, ORIGIN) is None
 
 
 def test_a_vehicle_is_where_the_newest_packet_says_and_others_are_counted(tmp_path: Path) -> None:

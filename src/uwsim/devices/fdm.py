@@ -1,11 +1,11 @@
-"""A vehicle that a flight dynamics model moves by UDP packets, FlightGear's ``net_fdm``.
+"""A vehicle that a flight dynamics model moves by UDP datagrams, FlightGear's ``net_fdm``.
 
 .. code-block:: xml
 
     <nedOrigin> <lat>41.775</lat> <lon>3.033</lon> </nedOrigin>
     <vehicle> <name>bluerov2</name> <file>bluerov2.urdf</file> <fdm>5503</fdm> </vehicle>
 
-A packet begins with these big-endian fields; the rest is not read:
+A datagram begins with these big-endian fields; the rest is not read:
 
 ======  ========  =========  ===================================
 offset  type      field      meaning
@@ -57,7 +57,7 @@ class FdmSpec(DeviceSpec):
     """The UDP port."""
 
     def bind(self, world: DeviceWorld, vehicle: DeviceVehicle) -> FdmInput:
-        """Create the input; it receives packets from now on, if the simulation does."""
+        """Create the input; it receives datagrams from now on, if the simulation does."""
         return FdmInput(
             vehicle,
             world.datagrams(self.port),
@@ -67,8 +67,8 @@ class FdmSpec(DeviceSpec):
         )
 
 
-def read_packet(data: bytes, origin: Geodetic) -> Pose | None:
-    """Return ``ned_from_vehicle`` of a packet; None if its size, version or values are invalid."""
+def read_datagram(data: bytes, origin: Geodetic) -> Pose | None:
+    """Return ``ned_from_vehicle`` of a datagram; None if size, version or values are invalid."""
     if len(data) < LAYOUT.size:
         return None
     version, _, longitude, latitude, altitude, _, roll, pitch, yaw = LAYOUT.unpack_from(data)
@@ -93,19 +93,19 @@ class FdmState(Record):
     frames: HeardState
     """The transforms received on ``/tf``."""
     n_valid: int = 0
-    """The number of valid packets so far."""
+    """The number of valid datagrams so far."""
     n_invalid: int = 0
-    """The number of invalid packets so far."""
+    """The number of invalid datagrams so far."""
 
 
 class FdmInput(Device):
-    """The input that sets the pose of a vehicle from the newest packet.
+    """The input that sets the pose of a vehicle from the newest datagram.
 
     A vehicle with dynamics moves to that pose by its autopilot.
 
     Args:
         vehicle: the vehicle.
-        receive: a function that returns the packets received since its last call, oldest first;
+        receive: a function that returns the datagrams received since its last call, oldest first;
             None: the simulation receives none.
         origin: the origin of the NED frame on Earth.
         frames: the transforms received on ``/tf``.
@@ -125,14 +125,14 @@ class FdmInput(Device):
         self.state: FdmState = FdmState(frames.state)
 
     def idle_until(self, time: float) -> float:
-        """Return the time of the next check for packets: the next step, or never."""
+        """Return the time of the next check for datagrams: the next step, or never."""
         return math.inf if self._receive is None else time
 
     def step(self, time: float) -> None:
-        """Apply the packets received since the last step."""
+        """Apply the datagrams received since the last step."""
         if self._receive is None:
             return
-        poses = [read_packet(data, self._origin) for data in self._receive()]
+        poses = [read_datagram(data, self._origin) for data in self._receive()]
         valid_poses = [pose for pose in poses if pose is not None]
         self.state.n_valid += len(valid_poses)
         self.state.n_invalid += len(poses) - len(valid_poses)

@@ -37,7 +37,7 @@ class SceneBody:
 
     @property
     def box(self) -> Box | None:
-        """The bounding box of the mesh in the frame of the body; None without a mesh."""
+        """The bounding box of the visuals in the frame of the body; see `name_bodies`."""
         return self._box
 
 
@@ -48,8 +48,9 @@ class SceneBodies:
         self._bodies = name_bodies(model, engine)
 
     def find(self, name: str) -> SceneBody:
-        """Find the body of a route ``a/b/c``; names between the first and the last may be left out.
+        """Find the body of a route ``a/b/c``.
 
+        Names between the first and the last are ignored, and so is a leading ``localizedWorld``.
         The name of a link may contain slashes itself, as in ``rov/bluerov2/base_link``.
 
         Raises:
@@ -72,8 +73,9 @@ def name_bodies(model: SceneModel, engine: Engine) -> dict[str, SceneBody]:
     name of a link; for a link without a visual it is the kinematic frame. The name of an object is
     its mesh frame, whose origin moves with the scale. ``localizedWorld`` is the frame L.
 
-    The bounding boxes of objects include their ``scaleFactor``; with the compatibility quirk
-    ``box-scale`` they do not, as in the original UWSim.
+    Objects and ``link@visual`` have the bounding box of their visuals; other frames, and those
+    without a visual, have none. The bounding boxes of objects include their ``scaleFactor``; with
+    the compatibility quirk ``box-scale`` they do not, as in the original UWSim.
     """
     scene = model.scene
     bodies = {

@@ -1,4 +1,4 @@
-"""UDP packets from external programs, received between steps."""
+"""UDP datagrams from external programs, received between steps."""
 
 from __future__ import annotations
 
@@ -8,16 +8,16 @@ from collections.abc import Callable, Sequence
 from ..errors import UwsimError
 
 MAX_BYTES = 2048
-"""The maximum size of a packet; a longer one is cut."""
-MAX_PACKETS = 1000
-"""The maximum number of packets read from a port at once; later packets wait for the next call."""
+"""The maximum size of a datagram [bytes]; a longer one is cut."""
+MAX_DATAGRAMS = 1000
+"""The maximum number of datagrams read from a port at once; later ones wait for the next call."""
 
 
 class Datagrams:
     """The open UDP ports of a scene.
 
     Args:
-        address: the address of this computer at which packets are received; None: open no ports.
+        address: the address of this computer at which datagrams are received; None: open no ports.
     """
 
     def __init__(self, address: str | None) -> None:
@@ -25,9 +25,9 @@ class Datagrams:
         self._sockets: list[socket.socket] = []
 
     def open(self, port: int) -> Callable[[], Sequence[bytes]] | None:
-        """Open a port; return a function that returns the packets received since its last call.
+        """Open a port; return a function that returns the datagrams received since its last call.
 
-        The result is None if no ports are opened.
+        The result is None if no ports are opened. On an error, all ports opened before are closed.
 
         Raises:
             UwsimError: the port is not free, or the address is not one of this computer.
@@ -46,7 +46,7 @@ class Datagrams:
                 f"UDP port {port} of {self._address} cannot be opened: {reason}."
             ) from None
         self._sockets.append(port_socket)
-        return lambda: _receive_packets(port_socket)
+        return lambda: _receive_datagrams(port_socket)
 
     def close(self) -> None:
         """Close all ports."""
@@ -55,13 +55,13 @@ class Datagrams:
         self._sockets.clear()
 
 
-def _receive_packets(port_socket: socket.socket) -> list[bytes]:
-    packets: list[bytes] = []
-    while len(packets) < MAX_PACKETS:
+def _receive_datagrams(port_socket: socket.socket) -> list[bytes]:
+    datagrams: list[bytes] = []
+    while len(datagrams) < MAX_DATAGRAMS:
         try:
-            packets.append(port_socket.recv(MAX_BYTES))
+            datagrams.append(port_socket.recv(MAX_BYTES))
         except BlockingIOError:
             break
         except OSError:  # the port is closed, or the operating system reports an error
             break
-    return packets
+    return datagrams

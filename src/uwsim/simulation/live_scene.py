@@ -39,7 +39,7 @@ class LiveScene:
 
     Args:
         model: the compiled scene.
-        udp_address: the address of this computer at which ``<fdm>`` receives packets; None: none.
+        udp_address: the address of this computer at which ``<fdm>`` receives datagrams; None: none.
         stream_prefix: the prefix of the names of random streams.
         runs_code: True to run the Python code to which the scene refers; False: a current that
             requires such code is zero.
@@ -95,7 +95,7 @@ class LiveScene:
         self.forces = bind_forces(scene)
         """The forces on bodies besides those of the water, in the file's order."""
         self.markers = _make_markers(model, lambda: self.time)
-        """The markers that programs have spawned."""
+        """The markers that programs have added."""
         self.bus.services.serve(SERVICE, SpawnMarker, self.markers.answer)
         self.trajectories = tuple(self._bind_trajectories())
         """The trajectories of ``<showTrajectory>`` elements."""

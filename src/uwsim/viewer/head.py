@@ -86,7 +86,7 @@ heap, and the position x y z of the dredge from the heap's corner in multiples o
 From that frame on, each column of the heap whose top is nearer than ``reach`` to the position is
 lower by ``bite``, but not below the corner. A position of smallest int32 restores the whole heap.
 
-If programs spawned markers, the version is 2, too, and ``"markers"`` is in the line, in the format
+If programs added markers, the version is 2, too, and ``"markers"`` is in the line, in the format
 of `uwsim.results.motion.marker_log`.
 
 The name of a body is ``vehicle/link``; links that are connected by fixed joints are one body, named
@@ -131,7 +131,7 @@ and text messages, JSON::
     {"type": "topic", "name": "imu", "time": 1.2, "fields": [[path, number, text or null], ...],
      "is_cut": false}   numbers and texts of the newest message; true: only the first fields
     {"type": "markers", "markers": [{"name", "at": 3, "colour": "#rrggbb", "lines": [[3, ...]]}]}
-                                       all spawned markers, as lines in W
+                                       all markers, as lines in W
     {"type": "end", "why": "..."}
 
 Page to server, JSON text of at most 4 kB::

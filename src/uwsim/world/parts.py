@@ -66,7 +66,10 @@ class Body(Protocol):
 
     @property
     def box(self) -> Box | None:
-        """The bounding box of the meshes in the frame of the body; None without meshes."""
+        """The bounding box of the visuals in the frame of the body.
+
+        Objects and ``link@visual`` have one; None for other frames, and without a visual.
+        """
 
 
 @dataclass(frozen=True, eq=False)

@@ -157,7 +157,7 @@ class DeviceWorld(TimedWorld, Protocol):
         """Return the index of the object of a surface; None if no picker can pick it up."""
 
     def datagrams(self, port: int) -> Callable[[], Sequence[bytes]] | None:
-        """Return a function that returns the UDP packets received at a port since its last call.
+        """Return a function that returns the UDP datagrams received at a port since its last call.
 
         None if the simulation receives none.
         """

@@ -1,4 +1,4 @@
-"""``pi``: proportional and integral station keeping over an ESM tracker."""
+"""``pi``: proportional and integral station keeping with an ESM tracker."""
 
 from __future__ import annotations
 

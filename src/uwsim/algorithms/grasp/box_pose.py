@@ -7,11 +7,14 @@ Gauss-Newton,
 .. math:: \sum_k \frac{(h_k(x) - h_k)^2}{\sigma^2} + \sum_i \frac{(x_i - m_i)^2}{p_i^2}
 
 The support of a shape along a direction is the largest coordinate of its points along that
-direction. :math:`h_k(x)` is the support of the projected visible painted faces along direction k,
-:math:`h_k` the support of the detected outline, and :math:`\sigma` its standard deviation [px]. The
+direction. :math:`h_k` is the support of the detected outline along direction k, and :math:`\sigma`
+its standard deviation [px]. :math:`h_k(x)` is :math:`h_k`, limited to an interval between two
+supports of the projected visible painted faces (top, bottom and long sides, see `BoxSpec`): without
+and with the long sides at a grazing angle, which a detector may miss (`_support_bounds`). The
 second sum is the prior with the mean :math:`m` and the standard deviations :math:`p`: the box rests
-on the seabed with a small tilt. If the top face is tracked, the first sum is over the image
-coordinates of its corners instead. The covariance of x is the inverse of the normal matrix.
+on the seabed, with nearly the tilt of its slope. If the top face is tracked, the first sum is over
+the image coordinates of its corners instead. The covariance of x is the inverse of the normal
+matrix.
 """
 
 from __future__ import annotations

@@ -49,8 +49,8 @@ from .vehicle_interface import VehicleInterface
 
 PERIOD = 0.1
 """The period of the control loop [s]."""
-OPENCV_FROM_OPENGL: Array = np.diag([1.0, -1.0, -1.0])
-"""The rotation between the camera axes of OpenCV (y down, z forward) and OpenGL (y up, z back)."""
+OPENGL_FROM_OPENCV: Array = np.diag([1.0, -1.0, -1.0])
+"""The rotation from the camera axes of OpenCV (y down, z forward) to OpenGL (y up, z back)."""
 SEARCH_HEIGHT = 2.6
 """The height of the base over the seabed during the search, at which arm and camera are clear of
 the seabed [m]."""
@@ -90,9 +90,11 @@ class Grasp:
 
     Station keeping: gains ``kp`` [1/s] and ``ki`` [1/s2], ``feed_forward`` 1 or 0, largest
     correction ``limit`` [m/s]. Search pattern: ``search_spacing``, ``search_radius`` [m]. Grasp:
-    horizontal ``tolerance`` [m], speed of ``descent`` [m/s], height of the ``lift`` [m], pause of
-    the lift ``settle`` [s], ``hold`` time [s], number of ``attempts``, minimum load on the wrist
-    ``min_load`` [N]. Mounts in the frame of the base: positions [m], roll pitch yaw [rad].
+    horizontal ``tolerance`` [m], speed of ``descent`` [m/s], height of the ``lift`` [m], time
+    ``settle`` for which the lift pauses until the box hangs still [s], ``hold`` time [s], number of
+    ``attempts``, minimum load on the wrist ``min_load`` [N]. Mounts in the frame of the base:
+    positions [m], roll pitch yaw [rad]; ``camera_rpy`` is the orientation of the camera's OpenGL
+    axes (x right, y up, z back).
     """
 
     def __init__(self) -> None:
@@ -129,7 +131,7 @@ class Grasp:
         """Make a tracker of the top face of the box.
 
         Args:
-            image: the image of the template, (h, w) [grey level].
+            image: the image from which the template is taken, (h, w) [grey level].
             quad: the corners of the top face, (4, 2) [px].
 
         Returns:
@@ -191,7 +193,7 @@ class Grasp:
         mount = parse_triple("camera_rpy", self._parameters["camera_rpy"])
         self._base_from_camera = Pose(
             np.array(parse_triple("camera_place", self._parameters["camera_place"])),
-            product(rotation_from_rpy(*mount), OPENCV_FROM_OPENGL),
+            product(rotation_from_rpy(*mount), OPENGL_FROM_OPENCV),
         )
         self._subscribe(node)
         node.create_timer(PERIOD, self._tick)

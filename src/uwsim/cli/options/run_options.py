@@ -44,7 +44,7 @@ class ProgramOptions:
             "--udp-address",
             metavar="ADDRESS",
             help="Address of this computer at which the element fdm of a vehicle receives UDP "
-            "packets, such as 127.0.0.1; such a run is not repeatable.",
+            "datagrams, such as 127.0.0.1; such a run is not repeatable.",
         ),
     ] = None
 

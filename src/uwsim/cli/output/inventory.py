@@ -127,7 +127,7 @@ def _motion(scene: SceneSpec, spec: VehicleSpec) -> str:
     if spec.tf is not None:
         return f"kinematic: follows the frame {spec.tf.tf_id!r} of /tf"
     if spec.fdm > 0:
-        return f"kinematic: goes where UDP packets at port {spec.fdm} put it"
+        return f"kinematic: goes where UDP datagrams at port {spec.fdm} put it"
     is_reported = any(
         getattr(interface, "vehicle_name", None) == spec.name and interface.subscribes
         for interface in scene.ros_interfaces

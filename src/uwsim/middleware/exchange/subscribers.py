@@ -18,7 +18,7 @@ class Subscribers:
 
     Args:
         bus: the bus of the simulation.
-        log: the log for topics that are hidden.
+        log: the log for topics that are hidden from algorithms under test.
         signal: the work signal of the bridge.
         owner: the owner of the subscriptions on the bus.
         is_forwarded: a function that returns whether to send a message to external subscribers.
@@ -68,7 +68,10 @@ class Subscribers:
         return changes
 
     def apply(self, changes: list[Change]) -> None:
-        """Subscribe on the bus to the topics that have external subscribers."""
+        """Apply changes of the numbers of subscribers, which `take` has returned.
+
+        Subscribe on the bus to topics that now have external subscribers; unsubscribe from others.
+        """
         for topic, n in changes:
             self._n_subscribers[topic] += n
             has_subscribers = self._n_subscribers[topic] > 0

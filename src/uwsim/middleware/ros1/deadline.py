@@ -14,7 +14,7 @@ class DeadlineReader(io.RawIOBase):
     The connection stays open until the stream is closed, as with `socket.socket.makefile`.
 
     Args:
-        connection: the connection to read from; its timeout is changed.
+        connection: the connection to read from; its timeout is changed during each read.
         limit: the time limit for reading everything [s].
 
     Raises:

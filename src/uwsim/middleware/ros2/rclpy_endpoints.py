@@ -23,8 +23,9 @@ Remove = Callable[[Any], None]
 class Echoes:
     """The hashes of messages that this node has sent on a topic that it also reads.
 
-    rclpy delivers such messages to the node itself, too, which then ignores them. Two equal
-    messages need not be distinguished.
+    They include latched messages, which a later reader of this node would receive. rclpy delivers
+    such messages to the node itself, too, which then ignores them. Two equal messages need not be
+    distinguished.
     """
 
     def __init__(self) -> None:
@@ -62,7 +63,7 @@ class NullEndpoint:
     """The number of external writers."""
 
     def write(self, data: bytes) -> bool:
-        """Discard a message, which has no readers."""
+        """Discard a message, which has no readers; return True, as if it was accepted."""
         return True
 
     def close(self) -> None:
@@ -85,7 +86,7 @@ class RclpyWriter:
         self.count_readers()
 
     def count_readers(self) -> None:
-        """Count the external readers."""
+        """Count the external readers, and report a changed number."""
         with self._lock:
             try:
                 n = max(0, self.publisher.get_subscription_count() - self.echoes.n_readers)
@@ -96,7 +97,7 @@ class RclpyWriter:
                 self._on_readers(n)
 
     def write(self, data: bytes) -> bool:
-        """Publish a message; the middleware keeps the newest for slow readers."""
+        """Publish a message; the middleware keeps the newest for slow readers. Return True."""
         if self._is_latched or self.echoes.n_readers:
             self.echoes.add(data)
         try:
@@ -154,7 +155,7 @@ def profile(quality: Quality) -> Any:
     """Convert a quality of service for rclpy."""
     return QoSProfile(
         history=HistoryPolicy.KEEP_LAST if quality.depth else HistoryPolicy.KEEP_ALL,
-        depth=quality.depth,
+        depth=quality.depth,  # without effect with KEEP_ALL
         reliability=ReliabilityPolicy.RELIABLE
         if quality.is_reliable
         else ReliabilityPolicy.BEST_EFFORT,

@@ -158,9 +158,9 @@ def _sum_forces(
             without a force.
         frames: the normal and the tangents of each contact by rows, in W, (n, 9).
         pressures: the forces along normal and tangents of all contacts [N]: ``efc_force``.
-        owners: the number of the owner of each shape.
-        names: the number of the name of each shape's owner.
-        owner: the number of the owner on which the forces act.
+        owners: the index of the owner of each shape.
+        names: the index of the name of each shape's owner.
+        owner: the index of the owner on which the forces act.
         labels: receives the indices of the names, (n,).
         forces: receives the forces on the owner, in W, (n, 3) [N].
 
@@ -217,7 +217,7 @@ def _find_contacts(
         model: the engine's model.
         data: the engine's state after a step.
         is_own: the mask of the shapes of the owner, (ngeom,).
-        owners: the number of the owner of each shape, (ngeom,).
+        owners: the index of the owner of each shape, (ngeom,).
         names: the name of each owner.
     """
     if data.ncon == 0:

@@ -1,7 +1,7 @@
 """Motion tracks: the poses of all bodies during a trial, 30 times a second, in a small file.
 
 `motion_track` reads and writes the file, and `packing` encodes its numbers. `dug_sand` holds the
-sand that dredges removed, `marker_log` the markers that programs spawned.
+sand that dredges removed, `marker_log` the markers that programs added.
 """
 
 from __future__ import annotations

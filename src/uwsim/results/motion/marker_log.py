@@ -1,4 +1,4 @@
-"""The markers that programs spawned during a trial, as a part of its motion track.
+"""The markers that programs added during a trial, as a part of its motion track.
 
 They are in the head of the track, ``"markers":{"shapes":[...],"changes":[...]}``. A shape is a list
 of polylines in the marker's frame, ``[[[x,y,z],...],...]`` [m]. A change is ``[frame, name, index
@@ -46,7 +46,7 @@ class MarkerChange:
 
 
 def markers_at(changes: Sequence[MarkerChange], frame: int) -> dict[str, DrawnMarker]:
-    """Return the markers in a frame, by name, in the order in which they were spawned."""
+    """Return the markers in a frame, by name, in the order in which they were added."""
     markers: dict[str, DrawnMarker] = {}
     for change in changes:
         if change.frame > frame:

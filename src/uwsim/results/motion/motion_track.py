@@ -12,7 +12,7 @@ position in the world frame W [m] and the quaternion wxyz), then one number for 
 number is stored as an integer multiple of its resolution: ``length``, ``quaternion`` or ``step``.
 Equal tracks give equal bytes.
 
-In a track of version 2, sand was removed (`dug_sand`) or markers were spawned (`marker_log`). With
+In a track of version 2, sand was removed (`dug_sand`) or markers were added (`marker_log`). With
 sand the head has ``"sand":{"n":412,"grain":0.000001}``, and a second table of n rows, packed
 separately, follows the first; with markers the head has
 ``"markers":{"shapes":[...],"changes":[...]}``. A track with neither is of version 1.
@@ -100,7 +100,7 @@ class MotionTrack:
     sand: DugSand = field(default_factory=DugSand)
     """The spots where sand was removed."""
     markers: tuple[MarkerChange, ...] = ()
-    """The changes of the markers that programs spawned, in the order of their frames."""
+    """The changes of the markers that programs added, in the order of their frames."""
 
     @property
     def n_frames(self) -> int:

@@ -48,7 +48,7 @@ class SandLog:
 
 
 class MarkerLog:
-    """A log of the markers that were spawned, changed or removed between one frame and the next.
+    """A log of the markers that were added, changed or removed between one frame and the next.
 
     Args:
         simulation: the simulation with the markers.

@@ -2,11 +2,14 @@
 
 Contacts are soft, and the contact shape of the ground is a layer of plates behind its faces. A body
 under a heavy load, or one that moves far in a step, may sink through these plates and fall on. The
-check reads the poses of vehicles with dynamics and of loose objects every `CHECK_PERIOD`. A body
-that is wholly below a ground (`solid_grounds`) at two consecutive checks, and was not below it when
-the run began, has passed through it. A ground with an edge is a sheet, and bodies can move around
-the edge: below a sheet, the body must also have been above it before, and too far from the edge to
-move around it at `MAX_SPEED`. A body that begins below the ground may stay there.
+check reads the poses of vehicles with dynamics (their root links) and of loose objects every
+`CHECK_PERIOD`, if they have collision shapes. A body has passed through a ground (`solid_grounds`)
+if it is wholly below the ground at two consecutive checks, and
+
+- below a ground without an edge: was not below it when the run began. A body that begins below the
+  ground may stay there;
+- below a ground with an edge, a sheet, around which bodies can move: was above the sheet before,
+  and since then too far from the edge to move around it at `MAX_SPEED`.
 """
 
 from __future__ import annotations
@@ -54,8 +57,9 @@ class BelowGroundState(Record):
 
     centres: Array
     """The centre of the bounding box of each body in W, (n bodies, 3) [m]."""
-    is_below: npt.NDArray[np.bool_]
-    """The flags that are True where a body is below a ground, (n bodies, m grounds)."""
+    seems_passed: npt.NDArray[np.bool_]
+    """The flags that are True where, at the last check, a body was below a ground that it can only
+    have reached through the ground, (n bodies, m grounds)."""
     was_above: npt.NDArray[np.bool_]
     """The flags that are True where a body was above a ground and has not moved around its edge
     since, (n bodies, m grounds)."""
@@ -96,20 +100,22 @@ class BelowGround:
         elapsed_time = (step - self.state.step) * self._timestep
         self.state.n_periods, self.state.step = n_periods, step
         points_by_body = [body.world_points() for body in self._bodies]
-        for i, k in np.ndindex(self.state.is_below.shape):
+        for i, k in np.ndindex(self.state.seems_passed.shape):
             depth = self._grounds[k].depth(points_by_body[i])
-            is_below = self._has_passed(i, k, points_by_body[i][0], depth, elapsed_time)
-            if is_below and self.state.is_below[i, k]:
+            seems_passed = self._seems_passed(i, k, points_by_body[i][0], depth, elapsed_time)
+            if seems_passed and self.state.seems_passed[i, k]:
                 self._fail(self._bodies[i], self._grounds[k], step, depth)
-            self.state.is_below[i, k] = is_below
+            self.state.seems_passed[i, k] = seems_passed
         self.state.centres = np.array([box_points[0] for box_points in points_by_body])
 
-    def _has_passed(self, i: int, k: int, centre: Array, depth: float, elapsed_time: float) -> bool:
-        """Return whether body i has passed through ground k.
+    def _seems_passed(
+        self, i: int, k: int, centre: Array, depth: float, elapsed_time: float
+    ) -> bool:
+        """Update `was_above`; return whether body i seems to have passed through ground k.
 
         Args:
             i: the index of the body.
-            k: the number of the ground.
+            k: the index of the ground.
             centre: the centre of the body's bounding box in W, (3,) [m].
             depth: the depth of the body's highest point below the ground [m]; 0 if not below.
             elapsed_time: the time since the last check [s].

@@ -61,7 +61,7 @@ class Entities:
 
     @property
     def names(self) -> list[str]:
-        """The names of vehicles, objects and spawned markers."""
+        """The names of vehicles, objects and markers."""
         scene = self._simulation.world.model.scene
         shown_markers = self._simulation.world.markers.active_markers
         self._marker_ids = {

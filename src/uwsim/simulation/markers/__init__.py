@@ -1,4 +1,4 @@
-"""Markers that programs spawn: `spawned` stores them, `lines` draws them for viewers."""
+"""Markers that programs add: `spawned` stores them, `lines` draws them for viewers."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Drawings of spawned markers as lines, which viewers draw over their images.
+"""Drawings of markers as lines, which viewers draw over their images.
 
 Cubes, spheres, cylinders and arrows are drawn as outlines, lists of points or shapes as a cross at
 each point, meshes and texts as a dot with the name of the marker.
@@ -79,7 +79,7 @@ def describe_markers(drawings: Mapping[str, DrawnMarker]) -> list[dict[str, Any]
 
 
 def localized_from_marker(marker: Marker) -> Pose:
-    """Return the pose of a marker in L; its message was checked when the marker was spawned."""
+    """Return the pose of a marker in L; its message was checked when the marker was added."""
     pose = read_pose(marker.pose)
     assert pose is not None
     return pose

@@ -2,7 +2,8 @@
 
 When an image of a camera is due, the state on which images depend (`STATE_FIELDS`) is sent to the
 render process through shared memory. That process restores the state in a simulation of the same
-scene and renders there, with the camera's own random numbers: its pixels are equal to the last bit.
+scene and renders there, with the camera's own random numbers: the pixels are equal, to the last
+bit, to those that the simulation would render.
 The image is published when it is received, some steps later, stamped with the time at which it was
 due. The delay depends on the wall clock, so this is for runs in real time only.
 """
@@ -41,8 +42,9 @@ READY_MESSAGE = "ready"
 class ImageProcess:
     """A process that renders the images of a simulation; it starts with the first request.
 
-    Until it is ready, and after its end, the simulation renders the images itself. An image that is
-    due while the last one is still being rendered is left out.
+    The simulation renders an image itself until the process is ready and after its end, and if
+    image or state have grown beyond the shared memory. Images that are due while earlier requests
+    are being rendered are left out.
 
     Args:
         simulation: the simulation whose images are rendered.
@@ -55,10 +57,10 @@ class ImageProcess:
         self._pipe: Connection | None = None
         self._memory: SharedMemory | None = None
         self._slots: dict[str, tuple[int, int]] = {}  # topic -> offset, bytes
-        self._capacity = 0
+        self._capacity = 0  # the greatest size of a state in the shared memory [bytes]
         self._is_ready = self._is_busy = False
         self._requests: list[tuple[str, float]] = []
-        self._n_state = 0
+        self._state_size = 0  # the size of the state in the shared memory [bytes]
         self.pid: int | None = None
         """The id of the render process; None before it is started."""
         self.n_left_out = 0
@@ -86,7 +88,7 @@ class ImageProcess:
             while pipe.poll():
                 self._receive(pipe.recv())
             if self._requests and not self._is_busy:
-                pipe.send((self._n_state, self._requests))
+                pipe.send((self._state_size, self._requests))
                 self._is_busy, self._requests = True, []
         except (EOFError, OSError):
             self._report("the process that draws images has ended; they are drawn in this one")
@@ -150,7 +152,7 @@ class ImageProcess:
             assert self._memory is not None
             assert self._memory.buf is not None
             self._memory.buf[: len(state)] = state
-            self._n_state = len(state)
+            self._state_size = len(state)
         self._requests.append((publisher.image_topic, time))
         return True
 
@@ -188,8 +190,8 @@ def draw_images(
             _ = simulation.world.scenery.renderer_name  # makes the graphics context
             pipe.send(READY_MESSAGE)
             while True:
-                n_state, requests = pipe.recv()
-                assign_fields(simulation.state, unpack(bytes(memory.buf[:n_state]), dict))
+                state_size, requests = pipe.recv()
+                assign_fields(simulation.state, unpack(bytes(memory.buf[:state_size]), dict))
                 simulation.world.scenery.redraw()
                 images = []
                 for topic, time in requests:

@@ -115,7 +115,7 @@ class State(Record):
     network: NetworkState
     """The packets between communication devices."""
     markers: MarkersState
-    """The markers that programs have spawned."""
+    """The markers that programs have added."""
     trajectories: list[TrajectoryState]
     """The path of each body of a ``<showTrajectory>``."""
     access: AccessState

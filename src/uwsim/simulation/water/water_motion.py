@@ -33,7 +33,8 @@ from .wave_kernel import add_waves, add_waves_to_drift, add_waves_to_points
 F = TypeVar("F")
 _CachedFunction = tuple[Flow | None, Sequence[str], FlowFunction | None, F | None]
 WaterRow = tuple[Array, Array, Array | None]
-"""The velocity, acceleration and angular velocity of the water at n points in W, (n, 3) each."""
+"""The velocity, acceleration and angular velocity of the water at n points in W, (n, 3) each; the
+last is None for uniform water."""
 
 
 @dataclass(slots=True)
@@ -84,9 +85,9 @@ class WaterMotion:
         for spec in specs:
             self.files |= spec.files(context)
 
-    def set(self, current: Flow | None) -> None:
+    def set(self, flow: Flow | None) -> None:
         """Add a flow to the currents of the scene; None removes it."""
-        self.state.added_flow = current
+        self.state.added_flow = flow
 
     def set_wave_height(self, height: float | None) -> None:
         """Set the significant wave height.
@@ -108,18 +109,20 @@ class WaterMotion:
 
     @property
     def surface_function(self) -> CompiledFunction | None:
-        """The function of the surface for compiled code (`read_surface`); None if it is level."""
+        """The function that `uwsim.world.mounts.read_surface` calls; None for a level surface."""
         return None if self.waves is None else self.waves.surface_function
 
     @property
     def _flow(self) -> Flow:
         added_flow = self.state.added_flow
         if added_flow is not self._last_added_flow:
-            self._last_added_flow, scene = added_flow, self._scene_current
+            self._last_added_flow, scene_current = added_flow, self._scene_current
             if added_flow is None:
-                self._sum = scene
+                self._sum = scene_current
+            elif scene_current.is_still:
+                self._sum = added_flow
             else:
-                self._sum = added_flow if scene.is_still else TotalCurrent([scene, added_flow])
+                self._sum = TotalCurrent([scene_current, added_flow])
         return self._sum
 
     @property
@@ -240,9 +243,9 @@ class WaterMotion:
     def motion_at(self, points: Array, time: float, vehicles: Sequence[str]) -> WaterRow:
         r"""Return the motion of the water at points in currents alone, in W.
 
-        The acceleration is the material derivative, of the water that passes a point. The pressure
-        of the water gives a body the same acceleration:
-        :math:`Du/Dt = \partial u/\partial t + (u \cdot \nabla) u`.
+        The acceleration is the material derivative, of the water that passes a point:
+        :math:`Du/Dt = \partial u/\partial t + (u \cdot \nabla) u`. The pressure in the
+        accelerating water exerts the Froude-Krylov force :math:`\rho V Du/Dt` on a body.
 
         Args:
             points: the points in W, (n, 3) [m].

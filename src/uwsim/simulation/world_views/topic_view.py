@@ -19,7 +19,7 @@ class TopicView(SceneView):
     Args:
         scene: the scene.
         sensors: the sensors of the scene, and its devices that measure.
-        markers: the markers that programs have spawned.
+        markers: the markers that programs have added.
         is_blind: True to publish black images, and to render nothing.
     """
 

@@ -1,4 +1,4 @@
-"""Drawing of spawned markers over the images of a film, as lines and names."""
+"""Drawing of markers that programs added over the images of a film, as lines and names."""
 
 from __future__ import annotations
 
@@ -68,10 +68,11 @@ def clip_line(points: Array) -> list[tuple[Array, Array]]:
     """
     parts = []
     for begin, end in itertools.pairwise(points):
-        depths = -begin[2] - NEAR_DISTANCE, -end[2] - NEAR_DISTANCE
-        if max(depths) <= 0.0:
+        clearances = -begin[2] - NEAR_DISTANCE, -end[2] - NEAR_DISTANCE
+        if max(clearances) <= 0.0:
             continue
-        fraction = depths[0] / (depths[0] - depths[1]) if min(depths) < 0.0 else 0.0
+        total = clearances[0] - clearances[1]
+        fraction = clearances[0] / total if min(clearances) < 0.0 else 0.0
         cut = begin + fraction * (end - begin)
-        parts.append((cut if depths[0] < 0.0 else begin, cut if depths[1] < 0.0 else end))
+        parts.append((cut if clearances[0] < 0.0 else begin, cut if clearances[1] < 0.0 else end))
     return parts

@@ -198,12 +198,12 @@ class LiveView:
 
     def _send_markers(self) -> None:
         world = self._simulation.world
-        spawned_markers = world.markers.active_markers
-        if list(map(id, spawned_markers.values())) == list(map(id, self._markers.values())):
+        active_markers = world.markers.active_markers
+        if list(map(id, active_markers.values())) == list(map(id, self._markers.values())):
             return
-        self._markers = spawned_markers
+        self._markers = active_markers
         markers = describe_markers(
-            draw_markers(spawned_markers, world.model.scene.world_from_localized)
+            draw_markers(active_markers, world.model.scene.world_from_localized)
         )
         self._server.publish("markers", json.dumps({"type": "markers", "markers": markers}))
 

@@ -11,7 +11,7 @@ from .mapping import PilotMapping, sum_inputs
 from .server import LiveServer, Message
 
 MAX_SIDE = 1280
-"""The greatest width and height of an image of the view, and width of a camera image [px]."""
+"""The greatest width of an image, and the greatest height of an image of the view [px]."""
 
 
 class Changes(Flag):

@@ -29,7 +29,7 @@ def compute_submersion(
     """Return the fraction of a shape's volume that is under water, and the centre of that part.
 
     Args:
-        shape: the number of the shape; see `columns`.
+        shape: the index of the shape; see `columns`.
         a: the radius of a sphere or cylinder, the first semi-axis of an ellipsoid, or the first
             edge of a box [m].
         b: the second semi-axis or edge, or the length of a cylinder, whose axis is z [m].

@@ -182,7 +182,7 @@ export interface Trial {
   curves: Curve[];
 }
 
-/** A spawned marker: lines in W. */
+/** A marker: lines in W. */
 export interface Marker {
   name: string;
   /** The position of its origin. */
@@ -213,7 +213,7 @@ export interface MotionHead {
   signals: { name: string; unit: string; step: number }[];
   /** The number of removals of sand, and the resolution of their positions [m]. */
   sand?: { n: number; grain: number };
-  /** The shapes of spawned markers, and the changes by frame. */
+  /** The shapes of markers, and the changes by frame. */
   markers?: { shapes: number[][][][]; changes: MarkerChange[] };
 }
 

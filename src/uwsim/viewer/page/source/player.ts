@@ -42,7 +42,7 @@ export interface Player {
   trail(body: string, endTime: number): number[][];
   /** Begin all trails at a time. */
   clearTrails(startTime: number): void;
-  /** Return the spawned markers that exist at a time. */
+  /** Return the markers that exist at a time. */
   markers(time: number): Marker[];
   /** Return the removals of sand from a heap up to a time, in order, or the heights of its columns [m]. */
   sand(heap: number, time: number): Removal[] | Float32Array;
@@ -172,7 +172,7 @@ export class Stream implements Player {
   end = 0;
   title: string;
   version = 0;
-  private spawnedMarkers: Marker[] = [];
+  private currentMarkers: Marker[] = [];
   /** The heights of the columns [m] of each heap that has changed, by the heap's index. */
   private readonly heights = new Map<number, Float32Array>();
   private row: ArrayLike<number> | null = null;
@@ -228,12 +228,12 @@ export class Stream implements Player {
   }
 
   setMarkers(markers: Marker[]): void {
-    this.spawnedMarkers = markers;
+    this.currentMarkers = markers;
     this.version += 1;
   }
 
   markers(): Marker[] {
-    return this.spawnedMarkers;
+    return this.currentMarkers;
   }
 
   setSand(heap: number, heights: Float32Array): void {
