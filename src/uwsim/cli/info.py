@@ -141,7 +141,9 @@ def _water(water: Fields) -> list[str]:
     attenuation = _format_numbers(water["attenuation"])
     return [
         f"surface through {_format_numbers(water['surface_above_origin'])} m, level",
-        f"fog {water['fog_density']:g} 1/m; attenuation (red, green, blue) {attenuation} 1/m",
+        "images through physical water"
+        if water["image_model"] == "physical"
+        else f"fog {water['fog_density']:g} 1/m; attenuation (red, green, blue) {attenuation} 1/m",
         f"currents: {', '.join(water['currents']) or 'none'}",
     ]
 

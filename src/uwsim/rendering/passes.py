@@ -143,7 +143,8 @@ class Passes:
         buffer.depth_mask = False
         _set_colour_masks(buffer, [(name == "colour",) * 4 for name in target.attachments])
         context.enable_only(moderngl.DEPTH_TEST | moderngl.BLEND | moderngl.PROGRAM_POINT_SIZE)
-        context.blend_func = moderngl.ONE, moderngl.ONE, moderngl.ONE, moderngl.ZERO
+        blending = moderngl.ONE, moderngl.ONE, moderngl.ONE, moderngl.ZERO  # colours, then alpha
+        context.blend_func = blending  # type: ignore[assignment]
         self._empty_arrays[program.glo].render(moderngl.POINTS, vertices=n_lamps)
         _set_colour_masks(buffer, [(True, True, True, True)] * len(target.attachments))
         buffer.depth_mask = True

@@ -89,6 +89,7 @@ def _water(scene: SceneSpec) -> Fields:
     surface = np.array([[0.0, 0.0, ocean.ocean_surface_height]])
     return {
         "surface_above_origin": _round(scene.world_from_localized.inverse().transform(surface)[0]),
+        "image_model": "uwsim" if ocean.water is None else ocean.water.law,
         "fog_density": ocean.fog.density,
         "fog_colour": list(ocean.fog.color),
         "colour": list(ocean.color),

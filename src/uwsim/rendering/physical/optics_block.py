@@ -73,7 +73,7 @@ def fit_phase_polynomial(phase: PhaseFunction) -> Array:
     """Fit ln p by a polynomial of the seventh order in q = ((1 - cos) / 2)^(1/4), (8,).
 
     The polynomial is the interpolation at Chebyshev's points from 1 to 180 degrees. For Fournier
-    and Forand's default it is within 1 % above 75 degrees and within 5 % above 3 degrees.
+    and Forand's default it is within 1.5 % above 75 degrees and within 5 % above 3 degrees.
     """
     low = math.sqrt(math.sin(0.5 * MIN_PHASE_ANGLE))
     n = PHASE_ORDER + 1

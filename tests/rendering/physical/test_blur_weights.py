@@ -1,0 +1,68 @@
+"""The weights of blur, the plan of its levels, the phase polynomial and the transfer curve."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+
+from uwsim.base.geometry import Intrinsics
+from uwsim.optics import FournierForand, HenyeyGreenstein, PhaseFunction, find_water
+from uwsim.optics.transmission import compute_direct, compute_full_field
+from uwsim.rendering.physical.blur_plan import plan_blur
+from uwsim.rendering.physical.blur_weights import (
+    N_RANGES,
+    compute_weight_table,
+    find_table_scale,
+)
+from uwsim.rendering.physical.optics_block import fit_phase_polynomial
+from uwsim.rendering.physical.transfer_curve import decode, encode
+
+
+@pytest.mark.parametrize("name", ["jerlov-I", "jerlov-3C", "tank"])
+def test_weights_are_positive_and_sum_to_the_scattered_light(name: str) -> None:
+    medium = find_water(name)
+    table = compute_weight_table(medium)
+    shares = np.arange(N_RANGES - 1) / (N_RANGES - 1.0)
+    ranges = find_table_scale(medium) * shares / (1.0 - shares)
+    scattered = compute_full_field(medium, ranges) - compute_direct(medium, ranges)
+    assert table.min() >= 0.0
+    np.testing.assert_allclose(table.sum(axis=0)[:-1], scattered, atol=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("width", "fovy", "n_sharp", "has_fine_level", "texels"),
+    [
+        (320, 50.0, 0, True, (2, 8, 32, 128)),
+        (640, 50.0, 0, False, (2, 4, 16, 64, 256)),
+        (80, 60.0, 1, True, (2, 4, 16)),
+    ],
+)
+def test_levels_are_drawn_where_they_have_a_texel(
+    width: int, fovy: float, n_sharp: int, has_fine_level: bool, texels: tuple[int, ...]
+) -> None:
+    lens = Intrinsics.from_fovy(width, 3 * width // 4, math.radians(fovy))
+    plan = plan_blur(lens, has_blur=True)
+    assert plan.n_sharp == n_sharp
+    assert (plan.fine_variance is not None) == has_fine_level
+    assert plan.texels == texels
+    assert all(0.7 < reach <= 1.0 for reach in plan.reach)
+
+
+@pytest.mark.parametrize("phase", [FournierForand(), HenyeyGreenstein(0.9), HenyeyGreenstein(0.3)])
+def test_the_polynomial_gives_the_phase_function(phase: PhaseFunction) -> None:
+    angles = np.radians(np.linspace(3.0, 180.0, 500))
+    q = np.sqrt(np.sin(0.5 * angles))
+    values = np.exp(np.polynomial.polynomial.polyval(q, fit_phase_polynomial(phase)))
+    errors = np.abs(values / phase.compute_density(angles) - 1.0)
+    assert errors.max() < 0.06
+    assert errors[angles > math.radians(75.0)].max() < 0.015
+
+
+def test_the_transfer_curve_is_that_of_srgb() -> None:
+    light = np.linspace(0.0, 1.0, 2001)
+    exact = np.where(light > 0.0031308, 1.055 * light ** (1.0 / 2.4) - 0.055, 12.92 * light)
+    assert 255.0 * np.abs(encode(light) - exact).max() < 0.02
+    assert np.abs(decode(exact) - light).max() < 0.004
+    assert decode(np.array([0.0, 1.0])) == pytest.approx([0.0, 1.0])
