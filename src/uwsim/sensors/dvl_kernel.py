@@ -155,10 +155,10 @@ def ping(
 
 @njit
 def write_track(track: Array, base: Array, output: Array) -> None:
-    """Write a track's numbers, and its velocity in the base frame.
+    """Write the numbers of a track, and the velocity in the base frame.
 
     Args:
-        track: the numbers of the track, (N_TRACK,).
+        track: the numbers of the track, see `TrackState`, (N_TRACK,).
         base: the axes of the base in W, by rows, (9,).
         output: the array into which the numbers are written, (15,).
     """
@@ -220,7 +220,7 @@ def update_track(
     """Update a track by a ping.
 
     Args:
-        track: the numbers of the track, (N_TRACK,).
+        track: the numbers of the track, see `TrackState`, (N_TRACK,).
         time: the time of the ping [s].
         axes: the axes of the sensor in W, (3, 3).
         dvl: a record of `DVL`.

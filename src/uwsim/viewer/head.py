@@ -26,7 +26,7 @@ multiple of 4; the number of elements; and their type, one of ``f4 u4 u2 i2 i1 u
                   normal 3, density] (`uwsim.rendering.merged.Piece`)
     textures    [{type: "image/webp", bytes: ref, width, height, repeats}]
     bodies      [{name, vehicle: name or null, pose: [x y z w x y z],
-                  visuals: [{part: number of the model in the scene, mesh, matrix: 16 (body from
+                  visuals: [{part: index of the model in the scene, mesh, matrix: 16 (body from
                   mesh), texture or null, opacity, two_sided,
                   hidden: true if cameras do not draw it}]}]
     cameras     [{name, body, pose: 7 (body from camera), width, height, fx, fy, cx, cy, skew,
@@ -109,9 +109,9 @@ uint32 step, float64 time [s]::
 
     kind 0   the head as a pack; its field ``motion`` is the JSON line of a motion file
     kind 1   a row: float32 of every column (7 a body, then the signals, NaN: no value)
-    kind 2   a JPEG image of the camera number ``index``
+    kind 2   a JPEG image of the camera with the index ``index``
     kind 3   a JPEG of the free view, for pages without WebGL
-    kind 4   float32 heights [m] of the columns of the heap number ``index`` above its corner
+    kind 4   float32 heights [m] of the columns of the heap with that index, above its corner
 
 and text messages, JSON::
 

@@ -1,4 +1,4 @@
-"""``p``: proportional station keeping over an ESM tracker."""
+"""``p``: proportional station keeping with an ESM tracker."""
 
 from __future__ import annotations
 

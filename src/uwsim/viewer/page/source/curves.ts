@@ -76,8 +76,8 @@ export class Curves {
     cursor.style.transform = `translateX(${x}px)`;
   }
 
-  /** Make the chart of a curve; `number` is its position on the page, from 0. */
-  private chart(curve: Samples, number: number): Chart {
+  /** Make the chart of a curve; `index` is its position on the page, from 0. */
+  private chart(curve: Samples, index: number): Chart {
     const figure = document.createElement("figure");
     const caption = document.createElement("figcaption");
     const name = document.createElement("button");
@@ -89,13 +89,13 @@ export class Curves {
       name.setAttribute("aria-expanded", String(!isFolded));
     };
     name.addEventListener("click", () => fold(!figure.classList.contains("folded")));
-    fold(number >= N_OPEN_CHARTS);
-    name.style.setProperty("--mark", COLOURS[number % COLOURS.length]);
+    fold(index >= N_OPEN_CHARTS);
+    name.style.setProperty("--mark", COLOURS[index % COLOURS.length]);
     caption.append(name, value);
     figure.append(caption);
     this.container.append(figure);
     const plot = new uPlot(
-      this.options(curve, COLOURS[number % COLOURS.length]), [curve.times, curve.values], figure,
+      this.options(curve, COLOURS[index % COLOURS.length]), [curve.times, curve.values], figure,
     );
     plot.over.addEventListener("click", (event) => this.seek(plot.posToVal(event.offsetX, "x")));
     const cursor = document.createElement("i");

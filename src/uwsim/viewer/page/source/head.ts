@@ -7,7 +7,7 @@ import type { Intrinsics } from "./geometry";
 export type Ref = [number, number, string];
 
 export interface Visual {
-  /** The number of the model in the scene. */
+  /** The index of the model in the scene. */
   part: number;
   /** The index in `meshes`. */
   mesh: number;

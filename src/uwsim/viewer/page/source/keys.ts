@@ -84,8 +84,8 @@ export class Keyboard {
       );
       void page.go(Math.max(0, (now < 0 ? page.player.levels.length - 1 : now) + direction));
     };
-    const sun = (number: number) => () => {
-      page.switches.sun = SUNS[number];
+    const sun = (index: number) => () => {
+      page.switches.sun = SUNS[index];
       page.draw();
     };
     return {

@@ -39,7 +39,7 @@ export class Instance {
 
   constructor(
     /** The index of the instance in `Models.instances`. */
-    readonly number: number,
+    readonly index: number,
     readonly visual: Visual,
     /** The name of the body to which the mesh belongs. */
     readonly body: string,
@@ -97,7 +97,7 @@ export class Models {
   /** The projector's pattern; empty if there is no projector. */
   readonly patterns: WebGLTexture[] = [];
   private readonly bodies = new Map<string, Matrix>(); // world from body, by the body's name
-  private readonly radii = new Map<number, number>(); // half the longest side of a model [m], by its number in the scene
+  private readonly radii = new Map<number, number>(); // half the longest side of a model [m], by its index in the scene
   private readonly sand: { heap: Sand; positions: WebGLBuffer; normals: WebGLBuffer }[] = [];
 
   private constructor(
@@ -148,9 +148,9 @@ export class Models {
   }
 
   /** Set the sand of the heap with an index, from the removals so far, or from the heights of its columns [m]. */
-  setSand(number: number, sand: Removal[] | Float32Array): void {
+  setSand(index: number, sand: Removal[] | Float32Array): void {
     const { gl } = this;
-    const { heap, positions, normals } = this.sand[number] ?? {};
+    const { heap, positions, normals } = this.sand[index] ?? {};
     if (!gl || !heap || !positions || !normals) return;
     if (!(sand instanceof Float32Array ? heap.set(sand) : heap.apply(sand))) return;
     const surface = heap.surface();
@@ -161,9 +161,9 @@ export class Models {
     this.version += 1;
   }
 
-  /** Return the present heights of the columns of a heap above its corner [m]. */
-  heights(number: number): Float32Array {
-    return this.sand[number]?.heap.heights ?? new Float32Array();
+  /** Return the present heights of the columns of the heap with an index above its corner [m]. */
+  heights(index: number): Float32Array {
+    return this.sand[index]?.heap.heights ?? new Float32Array();
   }
 
   /** Return the present pose of a body in W; the identity if there is no such body. */
@@ -207,8 +207,8 @@ interface GpuMesh {
 }
 
 /** Upload the mesh with an index to the GPU. */
-function upload(gl: WebGL2RenderingContext, pack: Pack, number: number): GpuMesh {
-  const mesh = pack.head.meshes[number];
+function upload(gl: WebGL2RenderingContext, pack: Pack, index: number): GpuMesh {
+  const mesh = pack.head.meshes[index];
   const vertexArray = gl.createVertexArray();
   gl.bindVertexArray(vertexArray);
   const attribute = (name: string, size: number, kind: number, data: ArrayBufferView<ArrayBuffer>): WebGLBuffer => {
@@ -231,10 +231,10 @@ function upload(gl: WebGL2RenderingContext, pack: Pack, number: number): GpuMesh
 }
 
 async function loadTexture(
-  gl: WebGL2RenderingContext, pack: Pack, number: number, repeats: boolean,
+  gl: WebGL2RenderingContext, pack: Pack, index: number, repeats: boolean,
 ): Promise<WebGLTexture> {
-  const { type, bytes } = pack.head.textures[number];
-  const isPattern = number === pack.head.projector?.pattern;
+  const { type, bytes } = pack.head.textures[index];
+  const isPattern = index === pack.head.projector?.pattern;
   const image = await createImageBitmap(
     new Blob([pack.numbers(bytes) as Uint8Array<ArrayBuffer>], { type }),
     {

@@ -20,7 +20,7 @@ export function exposeToConsole(page: Controls): void {
       /** The markers at the displayed time. */
       markers: () => player.markers(page.time),
       /** The heights of the columns of a heap of sand [m]. */
-      sand: (number: number) => Array.from(picture.models.heights(number)),
+      sand: (index: number) => Array.from(picture.models.heights(index)),
       /** The image of a camera in the camera's resolution: RGBA, row 0 at the top, as base64. */
       image: (name: string, water = {}) => {
         const camera = page.pack.head.cameras.find((candidate) => candidate.name === name)!;

@@ -35,7 +35,7 @@ export class InstanceBlocks {
     if (instance.visual.two_sided) gl.disable(gl.CULL_FACE);
     else gl.enable(gl.CULL_FACE);
     gl.frontFace(instance.isMirrored !== isFlipped ? gl.CW : gl.CCW);
-    gl.bindBufferRange(gl.UNIFORM_BUFFER, BLOCKS.Instance, this.buffer, STRIDE * instance.number, 160);
+    gl.bindBufferRange(gl.UNIFORM_BUFFER, BLOCKS.Instance, this.buffer, STRIDE * instance.index, 160);
     gl.bindVertexArray(instance.vertexArray);
     const [kind, size] = instance.hasUint32Indices ? [gl.UNSIGNED_INT, 4] : [gl.UNSIGNED_SHORT, 2];
     gl.drawElements(gl.TRIANGLES, count, kind, size * firstIndex);

@@ -93,7 +93,7 @@ export class Shadows {
 
   /** Draw the sun's shadow map if casters or the version of the poses have changed; `sun` points towards the sun in W. */
   updateSunShadows(casters: Piece[], sun: number[], version: number): void {
-    const key = `${version} ${sun} ${casters.map((p) => `${p.instance.number}.${p.firstIndex}`)}`;
+    const key = `${version} ${sun} ${casters.map((p) => `${p.instance.index}.${p.firstIndex}`)}`;
     if (key === this.sunKey) return;
     this.sunKey = key;
     const [clipFromWorld, edge] = fitSunView(casters, sun);
