@@ -26,9 +26,10 @@ TOPICS: Mapping[str, str] = {
 class Navigator:
     """A `NavigationFilter` that reads the topics of an IMU, a DVL and a depth sensor.
 
-    The axes of the IMU and the DVL are assumed to be parallel to the axes of the base. Of the
-    velocities in a DVL message, the bottom-track velocity in ship axes (``bs_...``) is used. The
-    depth sensor must publish a depth, as a ``<pressureSensor>`` does by default, not a pressure.
+    The axes of the IMU are assumed to be parallel to the axes of the base, and so are the axes of
+    the DVL to which its ranges belong. Of the velocities in a DVL message, the bottom-track
+    velocity in ship axes (``bs_...``) is used, which are the axes of the base. The depth sensor
+    must publish a depth, as a ``<pressureSensor>`` does by default, not a pressure.
     Any algorithm can make a navigator in its `start`. Without a spec, the DVL is assumed to be at
     the origin of the base. If it is elsewhere, set ``NavigationSpec(dvl_place=...)``; otherwise the
     estimate drifts.
