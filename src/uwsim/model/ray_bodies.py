@@ -42,9 +42,9 @@ class RayBodies:
         self.materials: tuple[Material, ...] = tuple(
             MATERIALS[names.get(number, "sand")] for number in numbers
         )
-        """The acoustic material of each surface, by the surface's number."""
+        """The acoustic material of each surface, by the surface's index."""
         self.vehicles = tuple(owners.get(number, "") for number in numbers)
-        """The name of the vehicle of each surface, by the surface's number; empty for an object."""
+        """The name of the vehicle of each surface, by the surface's index; empty for an object."""
 
     @property
     def moving_owners(self) -> tuple[Owner, ...]:

@@ -33,7 +33,7 @@ Switches = tuple[tuple[str, int], ...]
 """The preprocessor switches of a shader and their values."""
 
 DrawnBatch = tuple[int, bool, bool]
-"""A batch's number, True if it may lie in shadow, and True if it is drawn without mipmaps."""
+"""The index of a batch, True if it may lie in shadow, and True if it is drawn without mipmaps."""
 
 ColourMask = tuple[bool, bool, bool, bool]
 """The flags of red, green, blue and alpha: True if that channel of a target is written."""

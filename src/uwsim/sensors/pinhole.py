@@ -62,9 +62,9 @@ def cast_depth(rays: Rays, world_from_camera: Pose, intrinsics: Intrinsics) -> A
 def cast_surfaces(
     rays: Rays, world_from_camera: Pose, intrinsics: Intrinsics
 ) -> npt.NDArray[np.uint16]:
-    """Cast a ray through the centre of each pixel; return the numbers of the surfaces, (h, w).
+    """Cast a ray through the centre of each pixel; return the indices of the surfaces, (h, w).
 
-    The number is 0 where `cast_depth` finds no surface.
+    The index is 0 where `cast_depth` finds no surface.
     """
     depth, surface = _cast(rays, world_from_camera, intrinsics)
     return np.where(np.isfinite(depth), surface, 0).astype(np.uint16)

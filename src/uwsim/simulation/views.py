@@ -60,7 +60,7 @@ class Focus:
     """The part of a scene that a view should show."""
 
     ids: frozenset[int]
-    """The numbers of the parts in segmentation images."""
+    """The segmentation IDs of the parts."""
     corners: Array
     """The corners of the bounding boxes of the parts in W, (n, 3) [m]."""
     bow_direction: Array

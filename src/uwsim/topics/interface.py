@@ -60,7 +60,7 @@ class Segmenter(Protocol):
 
     @property
     def part_names(self) -> Mapping[int, str]:
-        """The name of each body by its number: ``vehicle/link``, or the name of an object."""
+        """The name of each body by its segmentation ID: ``vehicle/link``, or the object's name."""
 
     def segmentation(
         self, world_from_camera: Pose, intrinsics: Intrinsics

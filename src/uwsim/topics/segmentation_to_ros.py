@@ -41,7 +41,7 @@ class SegmentationToROSSpec(InterfaceSpec):
     image_topic: str
     """The topic of the images: 16UC1, the segmentation ID of the body in each pixel, 0 for none."""
     legend_topic: str
-    """The topic of the legend: a JSON object with the name of each body by its number."""
+    """The topic of the legend: a JSON object with the name of each body by its segmentation ID."""
     rate: float = rate_element()
     """The rate of publication [Hz]."""
 

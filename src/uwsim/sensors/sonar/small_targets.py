@@ -79,7 +79,7 @@ class Discs(NamedTuple):
     direction: Array
     """The directions of the centres, unit vectors in the sonar's frame, (m, 3)."""
     surface: Integers
-    """The numbers of the surfaces, (m,)."""
+    """The indices of the surfaces, (m,)."""
 
 
 class Lattice(NamedTuple):

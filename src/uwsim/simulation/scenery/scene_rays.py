@@ -51,9 +51,9 @@ class SceneRays:
             *self._bodies.materials,
             *(MATERIALS["sand"] for _ in heaps),
         )
-        """The acoustic material of each surface, by the surface's number."""
+        """The acoustic material of each surface, by the surface's index."""
         self.vehicles: tuple[str, ...] = (*self._bodies.vehicles, *("" for _ in heaps))
-        """The name of the vehicle of each surface, by the surface's number; empty for none."""
+        """The name of the vehicle of each surface, by the surface's index; empty for none."""
 
     @cached_property
     def functions(self) -> npt.NDArray[np.void]:

@@ -240,7 +240,7 @@ class Scenery:
             world_from_camera: the pose of the observer's camera; OpenGL axes.
             intrinsics: the pinhole model of the camera.
             targets: the images to render, some of `ALL_TARGETS`.
-            hidden_ids: the numbers of the parts that are left out.
+            hidden_ids: the segmentation IDs of the parts that are left out.
             fog: the fog density instead of the scene's [1/m]; None: the density of the scene.
             samples: the number of samples in a pixel, in width and in height; with more than one
                 edges are smooth, and only colour is rendered.
@@ -317,7 +317,7 @@ class Scenery:
             light: the light; None: the light of the scene.
             targets: the images to render, some of `ALL_TARGETS`.
             colour: the number format of the colour image, ``uint8`` or ``linear16``.
-            hidden_ids: the numbers of the parts that are left out; None: the ghosts.
+            hidden_ids: the segmentation IDs of the parts that are left out; None: the ghosts.
         """
         renderer = self._open()
         if not self._handles:
@@ -373,7 +373,7 @@ class Scenery:
 
     @property
     def part_names(self) -> dict[int, str]:
-        """The unique names of parts, ``vehicle/link`` or object, by number in segmentations."""
+        """The unique names of parts, ``vehicle/link`` or object, by segmentation ID."""
         names = {}
         for part in self.parts:
             names[part.id] = part.name

@@ -27,7 +27,7 @@ class SceneSegmenter:
 
     @property
     def part_names(self) -> Mapping[int, str]:
-        """The names of parts, ``vehicle/link`` or object, by number in segmentation images."""
+        """The names of parts, ``vehicle/link`` or object, by segmentation ID."""
         return self._scenery.part_names
 
     def segmentation(

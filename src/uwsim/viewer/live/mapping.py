@@ -138,7 +138,7 @@ def sum_inputs(inputs: Mapping[int, Sequence[float]]) -> tuple[float, ...] | Non
     """Return the sum of the inputs of all viewers for each axis, clipped to -1..1.
 
     Args:
-        inputs: the values of the pilot's axes, by the viewer's number.
+        inputs: the values of the pilot's axes, by the viewer's id.
 
     Returns:
         None if there are no inputs.
