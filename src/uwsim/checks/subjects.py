@@ -144,7 +144,7 @@ class CheckedScene(Subject):
         return self.is_run or (
             not self.diagnostics.has_errors
             and (
-                bool(scene.ocean_state.currents or scene.vehicles or scene.has_uwsim_physics)
+                bool(scene.ocean_state.currents or scene.vehicles or scene.has_original_physics)
                 or has_floor_placement(scene)
                 or any(isinstance(spec, AutopilotTopicSpec) for spec in scene.ros_interfaces)
             )

@@ -62,11 +62,12 @@ def run(
     the same bytes of the recording. Without --hz and --record, images that no program reads are not
     rendered. Ctrl-C ends the run; the recording is complete up to that time.
 
-    With --view the scene runs in real time in a browser, where the user pilots its first vehicle,
-    unless a program runs.
+    With --view the scene runs in real time in a browser. Unless a program runs, the user pilots the
+    first vehicle that can be steered.
 
     With a connection (--ros1, --ros2, --web) external programs read and write topics and call
-    services. The scene then runs in real time, and the run is not repeatable.
+    services. Unless --client or --speed is given, the scene then runs in real time. The run is
+    repeatable only with --client.
     """
     from ..checks import model_warnings
     from ..physics.compile_scene import compile_scene
@@ -109,7 +110,10 @@ def run(
 
 @contextmanager
 def open_image_process(simulation: Simulation, connections: ConnectionOptions) -> Iterator[None]:
-    """Render images in a separate process, if the run is in real time with external programs."""
+    """Render images in a separate process, if the run is in real time with external programs.
+
+    With --view no such process is started: the live view paces the run, so the speed is 0 here.
+    """
     if not connections.is_connected or connections.real_time_factor == 0 or connections.client:
         yield
         return
@@ -301,7 +305,7 @@ def report_run(
 
 
 def run_pieces(simulation: Simulation, duration: float, title: str) -> Iterator[None]:
-    """Advance by one second at a time, showing progress if there is an end."""
+    """Advance in pieces of at most one second, showing progress if there is an end."""
     if duration == math.inf:
         while True:
             simulation.advance(1.0)

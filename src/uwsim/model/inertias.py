@@ -38,7 +38,7 @@ def check_inertias(
                 continue  # the inertia in the URDF is not used
             for error in inertia_errors(f"link {link.name!r}", link.inertia):
                 yield diagnostic_at(link, error)
-    if not (dynamics or scene.has_uwsim_physics):
+    if not (dynamics or scene.has_original_physics):
         return
     for spec in scene.objects:
         moments = spec.solid.inertia

@@ -101,7 +101,7 @@ class Floor:
 
     def body_of_object(self, index: int, world_from_object: Pose) -> Array:
         """Return the triangles of an object's collision shapes in W, (n, 3, 3) [m]."""
-        default = PhysicsSpec() if self._scene.requests_uwsim_physics else HULL_PHYSICS
+        default = PhysicsSpec() if self._scene.requests_original_physics else HULL_PHYSICS
         file_physics = self._scene.objects[index].physics or default
         physics = PhysicsSpec(
             collision_shape_type=file_physics.collision_shape_type,

@@ -32,9 +32,9 @@ from .kinematics.lift import Lift
 from .kinematics.link_motion import LinkMotion
 from .kinematics.prescribed_motion import PrescribedMotion
 from .motion import Motion
+from .original_physics import OriginalPhysics
 from .poses import Poses
 from .scaled import ScaledLinks
-from .uwsim_physics import UwsimPhysics
 
 if TYPE_CHECKING:
     from .hydrodynamics.hydrodynamics import Hydrodynamics
@@ -99,7 +99,9 @@ class Engine:
         self._stepper = self._make_stepper([joints[i] for i in self._kinematic_vehicles])
         self.lift = Lift(model, data)
         """The bodies that begin in the ground and are lifted out of it."""
-        self._uwsim_physics = UwsimPhysics(scene, model, data) if scene.has_uwsim_physics else None
+        self._original_physics = (
+            OriginalPhysics(scene, model, data) if scene.has_original_physics else None
+        )
         self.state = EngineState(
             memory=EngineMemory(data, self.contacts.clear_cache),
             model=ModelState.from_model(model),
@@ -111,7 +113,7 @@ class Engine:
             lift=self.lift.state,
             bounces=self._bounce_limit.state if self._bounce_limit else None,
             stepper=self._stepper.state if self._stepper else None,
-            uwsim_physics=self._uwsim_physics.state if self._uwsim_physics else None,
+            original_physics=self._original_physics.state if self._original_physics else None,
         )
         """The state of the physics."""
 
@@ -202,17 +204,17 @@ class Engine:
             applied[body] += wrench
             applied[body, 3:] += cross(rotate(axes[body], point - middles[body]), wrench[:3])
 
-    def step_uwsim_physics(self) -> None:
-        """Advance the physics of UWSim (`UwsimPhysics`) by one step, if the scene uses it.
+    def step_original_physics(self) -> None:
+        """Advance the physics of UWSim (`OriginalPhysics`) by one step, if the scene uses it.
 
         Raises:
             SimulationFailed: the engine warned, so that results would be invalid.
         """
-        if self._uwsim_physics is None:
+        if self._original_physics is None:
             return
         self.grips.follow()
         self.lift.begin_step()
-        self._uwsim_physics.step()
+        self._original_physics.step()
         self.lift.end_step()
         if self._bounce_limit is not None:
             self._bounce_limit.is_on = not self.grips.is_holding

@@ -74,7 +74,10 @@ INTEGRATORS = {
 
 
 def vehicle_bit(index: int) -> int:
-    """Return the collision bit of the vehicle ``index``."""
+    """Return the collision bit of the vehicle ``index``; vehicles of the same bit do not collide.
+
+    The bits repeat every 29 vehicles: for example, the vehicles 0 and 29 do not collide.
+    """
     return 2 << (index % 29)
 
 
@@ -84,10 +87,11 @@ def compile_engine_model(inputs: SimulatedScene) -> mujoco.MjModel:
     Raises:
         BadHydrodynamics: the hydrodynamics are invalid; with every error.
         BadSetting: the timestep is not positive, or too long for stable dynamics.
-        SceneError: the mass of a loose object is too small, or its buoyancy too great.
+        SceneError: the mass or inertia of a loose object is too small, or its buoyancy too great.
+        UwsimError: MuJoCo rejects the model.
     """
     scene, dynamics, shapes = inputs.scene, inputs.dynamics, inputs.shapes
-    _check_step(inputs.timestep, has_dynamics=bool(dynamics) or scene.has_uwsim_physics)
+    _check_step(inputs.timestep, has_dynamics=bool(dynamics) or scene.has_original_physics)
     suppress_warnings()
     return cached_model(
         (scene, inputs.robots, dynamics, inputs.timestep, shapes),
@@ -153,7 +157,7 @@ def _make_spec(scene: SceneSpec, timestep: float, *, has_dynamics: bool) -> mujo
     if scene.sim_params.contacts == "precise":
         spec.option.noslip_iterations = NOSLIP
     spec.option.gravity = [0.0, 0.0, -GRAVITY if has_dynamics else 0.0]
-    if scene.has_uwsim_physics:
+    if scene.has_original_physics:
         spec.option.gravity = list(scene.sim_params.original_gravity)
     return spec
 

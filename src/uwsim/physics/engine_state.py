@@ -17,8 +17,8 @@ from .collision.contacts import EngineContactsState
 from .engine_memory import EngineMemory
 from .grips import GripsState
 from .kinematics.lift import LiftState
+from .original_physics import OriginalPhysicsState
 from .poses import PosesState
-from .uwsim_physics import UwsimPhysicsState
 
 if TYPE_CHECKING:
     from .stepper import StepperState
@@ -111,5 +111,5 @@ class EngineState(Record):
     """The energy limits of objects that bounce."""
     stepper: StepperState | None
     """The state of the stepper."""
-    uwsim_physics: UwsimPhysicsState | None
+    original_physics: OriginalPhysicsState | None
     """The state of the physics of UWSim; None if the scene does not use it."""

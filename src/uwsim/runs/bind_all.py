@@ -11,7 +11,9 @@ from .trial.triggered_measure import TriggeredMeasure
 
 
 def bind_all(plan: Plan, simulation: Simulation) -> None:
-    """Bind every part of a benchmark to its scene, and release them again.
+    """Bind every part of a benchmark to its scene, and close the measures and triggers again.
+
+    The updaters are not closed: they open files only when the simulation advances.
 
     Raises:
         UnknownName: a body, a camera or a link does not exist.

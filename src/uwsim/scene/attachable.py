@@ -48,6 +48,6 @@ def is_moved_by_forces(scene: SceneSpec, body: AttachableBody) -> bool:
     """Return whether forces move a body: on a vehicle with dynamics, or a loose object."""
     if body.kind == "vehicle":
         return scene.vehicles[body.index].dynamics is not None
-    moves_bodies = scene.is_dynamic or scene.has_uwsim_physics
+    moves_bodies = scene.is_dynamic or scene.has_original_physics
     solid = scene.solid_objects.get(body.index)
     return moves_bodies and solid is not None and solid.is_loose

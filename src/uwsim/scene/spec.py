@@ -158,14 +158,14 @@ class SceneSpec(Spec):
         return any(vehicle.dynamics is not None for vehicle in self.vehicles)
 
     @property
-    def requests_uwsim_physics(self) -> bool:
+    def requests_original_physics(self) -> bool:
         """True if ``enablePhysics`` requests the physics of UWSim, and no vehicle has dynamics."""
         return self.sim_params.enable_physics and not self.is_dynamic
 
     @property
-    def has_uwsim_physics(self) -> bool:
+    def has_original_physics(self) -> bool:
         """True if the physics of the original UWSim moves at least one object."""
-        return self.requests_uwsim_physics and any(
+        return self.requests_original_physics and any(
             physics.is_loose for physics in self.solid_objects.values()
         )
 
@@ -192,7 +192,7 @@ class SceneSpec(Spec):
         contacts can be requested, where the original UWSim would crash.
         """
         objects = {i: spec for i, spec in enumerate(self.objects) if spec.is_solid is not False}
-        if self.requests_uwsim_physics:
+        if self.requests_original_physics:
             return {i: spec.solid for i, spec in objects.items()}
         if solids := self.solid_objects_in_water:
             return solids

@@ -50,7 +50,7 @@ class PhysicalScene:
         """The timers, and the commands of the next step."""
         self.engine = engine = Engine(model)
         """The engine, which stores the poses and moves the bodies."""
-        if model.dynamics or model.scene.has_uwsim_physics:
+        if model.dynamics or model.scene.has_original_physics:
             lift_from_ground(model, engine)
         self.below_ground = BelowGround(model, engine)
         """The check for bodies that have passed through the ground."""

@@ -188,7 +188,7 @@ class SceneStepper:
         if self._forces:
             engine.apply_wrenches(engine_wrenches(self._forces, self._time - self._timestep))
         if not engine.is_dynamic:
-            engine.step_uwsim_physics()
+            engine.step_original_physics()
             self._below_ground.check(self._step)
             return False
         first_step = self._step

@@ -194,9 +194,12 @@ def test_the_control_beside_the_result_is_drawn_into_the_plots(tmp_path: Path) -
 
 
 def test_losses_over_repeats_are_given_from_first_to_last(tmp_path: Path) -> None:
-    page = page_of(visibility_result(seeds=tuple(range(1, 11))), tmp_path)
+    page = whole_page_of(visibility_result(seeds=tuple(range(1, 11))), tmp_path)
     assert "fog 1.15 m⁻¹ to fog 1.25 m⁻¹" in page.text
+    assert "earliest and latest of the first levels that did not end ok" in page.text
     assert "exact 95 % interval" in page.text
+    page = whole_page_of(visibility_result(), tmp_path)
+    assert "Solid vertical line: first level that did not end ok." in page.text
 
 
 def test_an_image_that_is_gone_or_broken_is_reported_and_does_not_stop_the_report(
@@ -527,7 +530,7 @@ def test_captions_are_the_measures_own_words_and_value(tmp_path: Path) -> None:
         "corners [px]: distance between truth g and estimate e; root mean square over each level."
         in text
     )
-    assert "centroid [px]." in text
+    assert "centroid [px], last value of each level." in text
 
 
 def test_lock_step_and_chosen_levels_are_plain_lines_and_not_warnings(tmp_path: Path) -> None:

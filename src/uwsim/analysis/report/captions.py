@@ -15,6 +15,7 @@ STATISTICS = {
     "mean": "mean over each level",
     "rms": "root mean square over each level",
     "max": "greatest value of each level",
+    "last": "last value of each level",
 }
 """The text in a caption for each statistic that can be the value of a measure."""
 
@@ -61,7 +62,7 @@ def statistic_of(result: Result, measure: str, notes: Notes) -> str:
     equal_details = [key for key in details if result.values(f"{measure}.{key}") == values]
     if len(equal_details) > 1:
         return ""
-    return STATISTICS[equal_details[0]] if equal_details else "last value of each level"
+    return STATISTICS[equal_details[0] if equal_details else "last"]
 
 
 def marks_text(result: Result, *, has_control: bool) -> str:
@@ -78,9 +79,14 @@ def marks_text(result: Result, *, has_control: bool) -> str:
             "Hollow points: levels at which a repeat has no value.",
         ]
     if any(curve.losses for curve in curves):
-        repeat_range = ", over the repeats from the first to the last" if n_repeats > 1 else ""
+        line_text = (
+            "Solid vertical lines and the band between them: earliest and latest of the first "
+            "levels that did not end ok, over the repeats."
+            if len({level for level, _ in curves[0].losses}) > 1
+            else "Solid vertical line: first level that did not end ok."
+        )
         messages.append(
-            f"Solid vertical line: first level that did not end ok{repeat_range}."
+            line_text
             if len(curves) == 1
             else "Cross: last value before the first level that did not end ok."
         )

@@ -167,7 +167,7 @@ def passable_objects(scene: CheckedScene) -> Iterator[Diagnostic]:
 
 def loose_scenery(scene: CheckedScene) -> Iterator[Diagnostic]:
     """Report objects without ``<physics>`` that fall as loose boxes, as in the original UWSim."""
-    objects = scene.spec.objects if scene.spec.requests_uwsim_physics else ()
+    objects = scene.spec.objects if scene.spec.requests_original_physics else ()
     specs = [
         spec
         for spec in objects

@@ -53,7 +53,7 @@ class LiveOptions:
     ] = None
 
     def check(self) -> None:
-        """Raise BadSetting for an option without --view."""
+        """Raise BadSetting for an option without --view, or an invalid mapping."""
         for name, value in (("--port", self.port), ("--pilot-mapping", self.pilot_mapping)):
             if value is not None and not self.view:
                 raise BadSetting(f"{name} needs --view.")

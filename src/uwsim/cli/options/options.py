@@ -171,7 +171,8 @@ CallbackLimitOption = Annotated[
         "--callback-limit",
         metavar="SECONDS",
         help="Time limit of one callback of the algorithm, in wall time; a row in which it takes "
-        "longer ends in 'algorithm error'. 0: no limit. Not for ray.",
+        "longer ends in 'algorithm error'. 0: no limit. Not for ray, and not for an algorithm that "
+        "runs in this process.",
     ),
 ]
 

@@ -21,7 +21,7 @@ a surface are 0."""
 
 
 def save_image(path: Path, pixels: np.ndarray) -> Path:
-    """Write an image (h, w, 3) or (h, w) with 8 or 16 bits per value, as in the array."""
+    """Write a PNG image of colours (h, w, 3), uint8, or of values (h, w), uint8 or uint16."""
     with atomic_write(path) as draft:
         Image.fromarray(pixels).save(draft, format="PNG")
     return path

@@ -250,7 +250,9 @@ def _camera(vehicle: VehicleSpec, camera: VirtualCameraSpec, topics: list[str]) 
 def _object(scene: SceneSpec, scene_object: ObjectSpec) -> Fields:
     solid = scene.solid_objects.get(scene.objects.index(scene_object))
     kind = "seen only" if solid is None else "loose" if solid.is_loose else "solid, fixed"
-    if kind == "loose" and not (scene.has_uwsim_physics or any(v.dynamics for v in scene.vehicles)):
+    if kind == "loose" and not (
+        scene.has_original_physics or any(v.dynamics for v in scene.vehicles)
+    ):
         kind = "solid, fixed"
     return {
         "name": scene_object.name,

@@ -51,7 +51,7 @@ def engine_shapes(
         dynamics: the indices of the vehicles with dynamics.
     """
     scene = resolved_scene.scene
-    if scene.has_uwsim_physics:
+    if scene.has_original_physics:
         return collision_shapes(resolved_scene, resolved_scene.robots, scene.solid_objects)
     solid = solid_objects_in_water(scene, dynamics)
     if not solid and len(dynamics) < 2:
@@ -63,7 +63,7 @@ def solid_objects_in_water(
     scene: SceneSpec, dynamics: Collection[int]
 ) -> Mapping[int, PhysicsSpec]:
     """Return the solid objects of the engine, by index; none if forces move nothing."""
-    if scene.has_uwsim_physics:
+    if scene.has_original_physics:
         return scene.solid_objects
     return scene.solid_objects_in_water if dynamics else {}
 

@@ -79,7 +79,10 @@ class Actuators:
         self._motors = _motors(model, data, names, drives)
 
     def thrusts(self) -> Array:
-        """Compute the thrusts along the thrusters' directions in the present water, (n,) [N]."""
+        """Compute the thrusts along the thrusters' directions in the present water, (n,) [N].
+
+        The inflow into the thrusters is that of the engine's last evaluation of forces.
+        """
         self._refresh()
         return self._kernel.thrusts(*self._rotors)
 
@@ -107,8 +110,8 @@ class Actuators:
         return self._kernel.powers(self._tables, self._rotors, self._motors)
 
 
-# The kernel's arguments are views into the engine's memory: they include the gains of the servos,
-# which change when a servo is switched on or off.
+# The arrays of gains and of the state are views into the engine's memory, because they change; the
+# gains change when a servo is switched on or off. The arrays of indices and properties are copies.
 
 
 def _rotors(

@@ -11,7 +11,7 @@ from ...base.geometry import Array
 from ...base.numerics.calls import address_of
 from ...base.numerics.jit import njit
 from ...base.numerics.memory import carray, pointer, view_doubles, view_int64s
-from ..hydrodynamics.columns import WATER_COLUMNS
+from ..hydrodynamics.columns import ELEVATION, WATER_COLUMNS
 from ..hydrodynamics.kernel.thrusters import static_thrust
 
 STATE, CONTROL, SITE, BODY, LOSS, INFLOW, ACTUATOR = range(7)
@@ -77,6 +77,8 @@ def thrusts(
 ) -> Array:
     """Return the thrusts along the thrusters' directions in the present water, (n,) [N].
 
+    The inflow into the thrusters is that of the engine's last evaluation of forces.
+
     Args:
         rotors: the indices of the rotors, with the columns `STATE` to `ACTUATOR`, (n, 7).
         properties: the properties of the rotors, (n, 3).
@@ -91,7 +93,7 @@ def thrusts(
     for i in range(len(rotors)):
         state, control, site, body, loss, inflow, actuator = rotors[i]
         command = controls[control] if state < 0 else states[state]
-        surface = surface_height + userdata[WATER_COLUMNS * body + 6]
+        surface = surface_height + userdata[WATER_COLUMNS * body + ELEVATION]
         submerged_fraction = 0.5 + 0.5 * (surface - sites[site, 2]) / properties[i, RADIUS]
         command = min(max(command, properties[i, MIN_COMMAND]), properties[i, MAX_COMMAND])
         thrust = (1.0 - userdata[loss]) * static_thrust(curves[actuator], command)
@@ -114,8 +116,9 @@ def efforts(
 ) -> Array:
     """Return the efforts that acted on the joints in the last step, (m,) [N m or N].
 
-    The engine computes the spring force from the position before the step, and the damping from the
-    velocity after it.
+    With the integrator ``implicitfast``, the engine computes the spring force from the position
+    before the step, and the damping from the velocity after it. With ``RK4``, the efforts are
+    approximations.
 
     Args:
         dt: the length of the step [s].
@@ -163,8 +166,8 @@ def powers(tables: Array, thrusters: Rotors, joints: Motors) -> Array:
 
 POWERS = np.dtype(
     [
-        *((name, np.int64) for name in ("tables", "n_terms", "rotors", "rotor_properties")),
-        *((name, np.int64) for name in ("n_rotors", "curves", "n_curves", "curve_columns")),
+        *((name, np.int64) for name in ("tables", "n_table_columns", "rotors", "rotor_properties")),
+        *((name, np.int64) for name in ("n_rotors", "curves", "n_actuators", "curve_columns")),
         *((name, np.int64) for name in ("controls", "nu", "states", "na", "userdata")),
         *((name, np.int64) for name in ("n_userdata", "sites", "n_sites", "motors")),
         *((name, np.int64) for name in ("motor_properties", "n_motors")),
@@ -174,7 +177,8 @@ POWERS = np.dtype(
         ("timestep", np.float64),  # [s]
     ]
 )
-"""The addresses and lengths of the arguments of `powers`."""
+"""The addresses and lengths of the arrays among the arguments of `powers`, and the values of the
+numbers among them."""
 
 
 def powers_record(tables: Array, thrusters: Rotors, joints: Motors) -> npt.NDArray[np.void]:
@@ -192,8 +196,12 @@ def powers_record(tables: Array, thrusters: Rotors, joints: Motors) -> npt.NDArr
         if not array.flags.c_contiguous:
             raise ValueError(f"{name} is not contiguous")
         row[name] = address_of(array)
-    row["n_terms"], row["n_rotors"], row["n_motors"] = tables.shape[2], len(rotors), len(motors)
-    row["n_curves"], row["curve_columns"] = curves.shape
+    row["n_table_columns"], row["n_rotors"], row["n_motors"] = (
+        tables.shape[2],
+        len(rotors),
+        len(motors),
+    )
+    row["n_actuators"], row["curve_columns"] = curves.shape
     row["nu"], row["na"], row["n_userdata"] = len(controls), len(states), len(userdata)
     row["n_sites"], row["gain_columns"] = len(sites), gains.shape[1]
     row["bias_columns"], row["nq"], row["nv"] = biases.shape[1], len(qpos), len(qvel)
@@ -208,7 +216,9 @@ def write_powers(record_address: int, values_address: int, time: float) -> None:
     rotors = (
         view_int64s(p.rotors, 7 * n).reshape((n, 7)),
         view_doubles(p.rotor_properties, 3 * n).reshape((n, 3)),
-        view_doubles(p.curves, p.n_curves * p.curve_columns).reshape((p.n_curves, p.curve_columns)),
+        view_doubles(p.curves, p.n_actuators * p.curve_columns).reshape(
+            (p.n_actuators, p.curve_columns)
+        ),
         p.surface_height,
         controls,
         view_doubles(p.states, p.na),
@@ -219,12 +229,16 @@ def write_powers(record_address: int, values_address: int, time: float) -> None:
         p.timestep,
         view_int64s(p.motors, 4 * m).reshape((m, 4)),
         view_doubles(p.motor_properties, 3 * m).reshape((m, 3)),
-        view_doubles(p.gains, p.n_curves * p.gain_columns).reshape((p.n_curves, p.gain_columns)),
-        view_doubles(p.biases, p.n_curves * p.bias_columns).reshape((p.n_curves, p.bias_columns)),
+        view_doubles(p.gains, p.n_actuators * p.gain_columns).reshape(
+            (p.n_actuators, p.gain_columns)
+        ),
+        view_doubles(p.biases, p.n_actuators * p.bias_columns).reshape(
+            (p.n_actuators, p.bias_columns)
+        ),
         controls,
         view_doubles(p.qpos, p.nq),
         view_doubles(p.qvel, p.nv),
         view_doubles(p.applied, p.nv),
     )
-    tables = view_doubles(p.tables, 2 * n * p.n_terms).reshape((n, 2, p.n_terms))
+    tables = view_doubles(p.tables, 2 * n * p.n_table_columns).reshape((n, 2, p.n_table_columns))
     view_doubles(values_address, n + m)[:] = powers(tables, rotors, motors)

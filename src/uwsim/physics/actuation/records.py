@@ -90,7 +90,9 @@ JOINT = np.dtype(
         ("kind", _INDEX),  # one of the kinds above
         ("leader", _INDEX),  # the index of the joint that this joint mimics; below 0 without one
         ("multiplier", _FLOAT),  # the position per position of the leader
-        ("offset", _FLOAT),  # the position at position 0 of the leader [rad or m]
+        # the position at position 0 of the leader [rad or m]; for a slider crank, the length of the
+        # crank over the length of the rod [1]
+        ("offset", _FLOAT),
         ("lower", _FLOAT),  # the lower position limit [rad or m]
         ("upper", _FLOAT),  # the upper position limit [rad or m]
         ("stiffness", _FLOAT),  # of the servo [N m/rad or N/m]

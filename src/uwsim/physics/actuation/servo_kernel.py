@@ -8,8 +8,8 @@ The effort of a servo at the position q with the target :math:`q_d` is
 The load :math:`\tau_{load}` is that of the engine's last step: weight, buoyancy, drag and all other
 forces that do not depend on accelerations (computed torque; Siciliano et al., Robotics, 2009,
 section 8.5). The integral compensates unknown loads such as an object in the jaw. It is constant
-while the servo is at its greatest effort :math:`\tau_{max}` or the joint is farther than
-`MAX_INTEGRAL` from the target.
+while the servo is at its greatest effort :math:`\tau_{max}` in the direction of the error, or the
+joint is farther than `MAX_INTEGRAL` from the target.
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ def clamp_targets(joints: Records, states: Records) -> None:
             leader_position = states[leader].final_target if leader >= 0 else 0.0
             if joints[i].kind == GEAR_RATIO:
                 states[i].final_target = leader_position * joints[i].multiplier + joints[i].offset
-            else:
+            else:  # SLIDER_CRANK; the offset is the length of the crank over that of the rod
                 sine = joints[i].offset * math.sin(leader_position)
                 states[i].final_target = -(leader_position + math.asin(min(max(sine, -1.0), 1.0)))
 

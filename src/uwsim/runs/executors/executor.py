@@ -50,7 +50,7 @@ class Job:
     trial: Trial
     """The trial."""
     cut: Cut | None = None
-    """The call into the algorithm that is omitted, as it ended the process or did not return."""
+    """The call that ended the process or did not return; it and later calls are not made."""
 
     def __str__(self) -> str:
         levels = self.trial.levels
@@ -108,7 +108,7 @@ class JobQueue:
 
     @property
     def is_sealed(self) -> bool:
-        """True if a waiting job belongs to a sealed run, whose rows its algorithm must not read."""
+        """True if the journals of a waiting job are encrypted until its run ends (sealed)."""
         return any(job.run.seal is not None for job in self._jobs)
 
     def pop(self) -> Job | None:
@@ -129,8 +129,8 @@ class JobQueue:
     def report_loss(self, job: Job, reason: str, call: int | None = None) -> None:
         """Report the loss of a job's worker: repeat the job next, up to `MAX_RETRIES` times.
 
-        A second loss in the same ``call`` is due to the algorithm: from then on the trial is run
-        without that call.
+        A second loss in the same ``call`` is due to the algorithm: the trial is run again
+        without that call and all later calls into the algorithm.
 
         Args:
             job: the job.
@@ -154,7 +154,7 @@ class JobQueue:
         )
 
     def report_stop(self, job: Job, cut: Cut) -> None:
-        """Report a call into the algorithm that did not return: repeat the trial without it."""
+        """Report a call that failed: repeat the trial without this call and all later calls."""
         job.run.n_lost += 1
         job.cut = cut
         self._jobs.appendleft(job)

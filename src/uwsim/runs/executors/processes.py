@@ -1,10 +1,11 @@
 """An executor with worker processes on this machine, each with its own graphics context.
 
-Workers are started with ``spawn``, or by `ProtectedForks` for a sealed run. They write rows into
-the result directory and report their progress through a pipe. A worker that ends loses only its
-current level: a new worker runs the trial again, and must reproduce the rows on disk. No worker
-runs two algorithms. A call into an algorithm that ends its process twice, or does not return, is
-omitted when the trial is run again; the row states the reason.
+Workers are started with ``spawn``, or by `ProtectedForks` for a sealed run: the journals of such a
+run are encrypted until it ends, so that the algorithm cannot read the ground truth in them. Workers
+write rows into the result directory and report their progress through a pipe. A worker that ends
+loses only its current level: a new worker runs the trial again, and must reproduce the rows on
+disk. No worker runs two algorithms. If a call into the algorithm ends its process twice, or does
+not return, the trial is run again without that call and all later calls; the row states the reason.
 """
 
 from __future__ import annotations
@@ -57,7 +58,8 @@ class ProcessExecutor:
 
     Args:
         n: the greatest number of processes.
-        callback_limit: the longest call into an algorithm [s of wall time]; None for no limit.
+        callback_limit: the longest call into an algorithm [s of wall time]; None for no limit. It
+            does not hold for a bundled algorithm that runs in this process.
     """
 
     def __init__(self, n: int, *, callback_limit: float | None = None) -> None:
@@ -111,7 +113,8 @@ class WorkerProcess:
     Args:
         settings: environment variables of the worker, unless the user has set them.
         limit: the longest call into an algorithm in a process of its own [s of wall time].
-        forks: creates the processes of a sealed run; None if the run is not sealed.
+        forks: creates the processes of a sealed run; None if the run is not sealed, or if the
+            system cannot deny access to the memory of processes.
     """
 
     def __init__(

@@ -47,18 +47,18 @@ class DisplacedState(Record):
 
 
 @dataclass(slots=True)
-class UwsimPhysicsState(Record):
+class OriginalPhysicsState(Record):
     """The state of the physics besides the engine's state."""
 
     vehicles: list[DisplacedState]
     """The last displacement of each vehicle."""
 
 
-class UwsimPhysics:
+class OriginalPhysics:
     """The physics of loose objects among kinematic vehicles, as in UWSim.
 
     Args:
-        scene: the spec of the scene; its ``has_uwsim_physics`` is true.
+        scene: the spec of the scene; its ``has_original_physics`` is true.
         model: the engine's model, whose masses and inertias are changed here.
         data: the engine's state.
     """
@@ -89,7 +89,7 @@ class UwsimPhysics:
             if physics.linear_damping > 0.0 or physics.angular_damping > 0.0
         ]
         self._vehicles = [_KinematicVehicle(model, data, of_vehicle) for of_vehicle in joints]
-        self.state = UwsimPhysicsState([vehicle.state for vehicle in self._vehicles])
+        self.state = OriginalPhysicsState([vehicle.state for vehicle in self._vehicles])
         """The last displacement of each vehicle."""
 
     def step(self) -> None:
