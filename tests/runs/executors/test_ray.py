@@ -134,7 +134,7 @@ def test_an_address_where_nobody_answers_is_refused_at_once(
         closed.bind(("127.0.0.1", 0))
         port = closed.getsockname()[1]
         monkeypatch.setenv("RAY_ADDRESS", f"127.0.0.1:{port}")
-        with pytest.raises(BadSetting, match="no answer there"):
+        with pytest.raises(BadSetting, match="there is no answer"):
             address()
         closed.listen()
         assert address() == f"127.0.0.1:{port}"
