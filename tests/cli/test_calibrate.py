@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from pathlib import Path
 
 import pytest
@@ -60,6 +61,23 @@ def test_readings_are_calibrated_into_a_directory(capsys: pytest.CaptureFixture[
     assert water.medium.scattering[0] == pytest.approx(channel["scattering"], rel=1e-4)
     assert "chi²" in Path("out/report.html").read_text()
     assert [path for path in Path().iterdir() if path.name.endswith(".part")] == []
+
+
+@pytest.mark.slow
+def test_a_board_at_three_ranges_needs_no_reference(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    header = "water,channel,source,range_m,square_m,lamp_range_m,signal"
+    rows = [
+        f"sea,red,board,{distance},{side},{distance},{math.exp(-loss * distance) / distance**2}"
+        for distance in (0.5, 1.0, 1.5)
+        for side, loss in ((0.15, 0.6), (0.04, 0.8), (0.01, 0.95))
+    ]
+    (folder / "readings.csv").write_text("\n".join([header, *rows, ""]))
+    assert run_on_readings("-o", "out") == 0
+    assert "beam attenuation c" in capsys.readouterr().out
+    document = json.loads(Path("out/calibration.json").read_text())
+    assert set(document["waters"][0]["channels"][0]["gains"]) == {"board"}
 
 
 @pytest.mark.usefixtures("folder", "without_plots")

@@ -13,8 +13,8 @@ from .numbers import format_value
 from .tables import GATE_WORDS, make_rows
 
 CAPTIONS = {
-    "fit": "Loss of each reading against the reference water, with its standard deviation. Lines: "
-    "the fit. Right: the residuals.",
+    "fit": "Loss of each reading, with its standard deviation: against the reference water, or, "
+    "without one, against the geometry alone. Lines: the fit. Right: the residuals.",
     "contrast": "Contrast of a detail that is left over the range, for the fitted water.",
 }
 

@@ -45,20 +45,24 @@ def _draw_fit(water: CalibratedWater) -> Figure:
         for axes in (left, middle):
             _mark_sizes(axes)
         left.set_xlabel("half-angle of the disc [°]")
-        left.set_ylabel("loss against the reference, −ln(S / S₀)")
+        left.set_ylabel("loss −ln(S / S₀)")
         middle.set_xlabel("side of a square [cm]")
         right.set_xlabel("reading")
         right.set_ylabel("residual [standard deviations]")
         right.axhline(0.0, color=GREY, linewidth=0.8)
         for axes, title in ((left, "LEDs"), (middle, "board"), (right, "residuals")):
             axes.set_title(title, fontsize=9)
-        left.legend(frameon=False, fontsize=7)
+        legend_axes = next((axes for axes in (left, middle) if axes.lines), left)
+        if legend_axes.lines:
+            legend_axes.legend(frameon=False, fontsize=7)
     return figure
 
 
 def _mark_sizes(axes: Axes) -> None:
     """Set a logarithmic scale with a tick at each size that was drawn."""
     sizes = sorted({float(x) for line in axes.lines for x in np.asarray(line.get_xdata())})
+    if not sizes:
+        return
     axes.set_xscale("log")
     axes.set_xticks(sizes, [f"{size:.3g}" for size in sizes])
     axes.minorticks_off()
