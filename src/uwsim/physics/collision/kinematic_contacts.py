@@ -18,7 +18,7 @@ from ...base.numerics.linear import dot, length
 from ...base.record import Record
 from ...model.collision.shapes import CollisionShape
 from ...world import Contact
-from ..engine_model import ALL_BITS, GEOM_TYPES, OBJECT_BIT, set_size
+from ..engine_model import ALL_BITS, GEOM_TYPES, OBJECT_BIT, set_size, vehicle_bit
 from ..kinematics.jumps import JumpState, JumpTimes, jump_velocity
 
 
@@ -160,7 +160,7 @@ def _build_model(shapes: Mapping[str, Sequence[CollisionShape]]) -> mujoco.MjMod
         body.explicitinertial = True
         body.add_freejoint()
         kind, owner = name.split("/")[:2]
-        bit = OBJECT_BIT if kind == "object" else 2 << (int(owner) % 29)
+        bit = OBJECT_BIT if kind == "object" else vehicle_bit(int(owner))
         for i, shape in enumerate(parts):
             body_from_shape = shape.body_from_shape
             geom = body.add_geom(

@@ -61,7 +61,7 @@ class ChildNode:
 
     def __init__(self, ask: Callable[..., Any]) -> None:
         self._ask = ask
-        self._frames: list[bytes] = []
+        self._message_frames: list[bytes] = []
         self._n_bytes = 0
         self._types = Bus()  # checks the classes of messages before they are encoded
         self._thread = threading.get_ident()
@@ -91,9 +91,11 @@ class ChildNode:
             check(message)
             self._check_thread()
             frame = encode([publisher_index, message])
-            self._frames.append(frame)
+            self._message_frames.append(frame)
             self._n_bytes += len(frame)
-            is_full = len(self._frames) >= MAX_PUBLISHED or self._n_bytes >= MAX_PUBLISHED_BYTES
+            is_full = (
+                len(self._message_frames) >= MAX_PUBLISHED or self._n_bytes >= MAX_PUBLISHED_BYTES
+            )
             if is_full or may_refuse or find_invalid_field(message, converts=False):
                 self._request("flush")
 
@@ -124,7 +126,7 @@ class ChildNode:
 
     def take_published(self) -> list[bytes]:
         """Return the messages published since the last call, as frames."""
-        frames, self._frames, self._n_bytes = self._frames, [], 0
+        frames, self._message_frames, self._n_bytes = self._message_frames, [], 0
         return frames
 
     def _register_callback(self, callback: Callable[..., object]) -> int:
