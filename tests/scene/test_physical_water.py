@@ -11,6 +11,7 @@ import uwsim
 from uwsim.errors import FileError, UwsimError
 from uwsim.optics import FournierForand, HenyeyGreenstein, find_water
 from uwsim.optics.water_file import WaterFile, write_water
+from uwsim.simulation.scenery.physical_scene import choose_water
 
 SCENE = """<UWSimScene xmlns:u="urn:uwsim:1">
   <oceanState>
@@ -106,6 +107,17 @@ def test_an_error_of_a_water_file_has_its_line(tmp_path: Path) -> None:
 )
 def test_invalid_water_is_reported_with_its_line(tmp_path: Path, water: str, text: str) -> None:
     assert re.search(text, error_of(tmp_path, water))
+
+
+def test_a_view_without_fog_is_in_the_purest_water(tmp_path: Path) -> None:
+    with compile_water(tmp_path, "<u:type>jerlov-9C</u:type>") as simulation:
+        scenery = simulation.world.scenery
+        water = scenery.state.water
+        model = simulation.world.model
+        assert choose_water(water, None, model) == water
+        clear = choose_water(water, 0.0, model).physical_water
+        assert clear is not None
+        assert clear.medium == find_water("clear")
 
 
 def test_fog_cannot_be_set_in_physical_water(tmp_path: Path) -> None:

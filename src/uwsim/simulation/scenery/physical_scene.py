@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from dataclasses import replace
 
 from ...model.scene_model import SceneModel
-from ...optics import compute_full_field
+from ...optics import compute_full_field, find_water
 from ...rendering.physical.daylight_field import compute_light_field
 from ...rendering.physical.physical_water import Daylight, PhysicalWater
 from ...rendering.water import Water
@@ -61,6 +61,31 @@ def set_exposure(water: Water, model: SceneModel, lamp_intensities: Iterable[flo
         lamp = max(lamp_intensities, default=0.0) / LAMP_DISTANCE**2 * float(losses.max())
         exposure = WHITE_LEVEL / max(daylight, lamp, MIN_RADIANCE)
     return replace(water, physical_water=replace(physical_water, exposure=exposure))
+
+
+def choose_water(water: Water, fog: float | None, model: SceneModel) -> Water:
+    """Return the water of a view with a fog density instead of the scene's.
+
+    A view without fog shows physical water as the purest one, so that distant vehicles are visible.
+
+    Args:
+        water: the water of the scene.
+        fog: the fog density [1/m]; None: the density of the scene.
+        model: the compiled scene.
+    """
+    if fog is None:
+        return water
+    physical_water = water.physical_water
+    if physical_water is None or fog > 0.0:
+        return replace(water, fog=fog)
+    depth = _find_start_depth(model)
+    medium, levels = find_water("clear"), []
+    for field_medium in (physical_water.medium, medium):
+        field = compute_light_field(field_medium, physical_water.daylight)
+        beam, diffuse = field.compute_irradiance(depth)
+        levels.append(max(float((beam + diffuse).max()), MIN_RADIANCE))
+    exposure = physical_water.exposure * levels[0] / levels[1]
+    return replace(water, physical_water=replace(physical_water, medium=medium, exposure=exposure))
 
 
 def _find_start_depth(model: SceneModel) -> float:

@@ -31,7 +31,7 @@ from ...rendering.water import Light, Water
 from ...scene.spec import SceneSpec
 from ..unique_names import make_unique
 from .part_poses import PartPoses
-from .physical_scene import make_water, set_exposure
+from .physical_scene import choose_water, make_water, set_exposure
 from .renderer_pool import RendererPool
 from .sand import HeapState, make_heaps
 
@@ -218,7 +218,7 @@ class Scenery:
         return self._draw_smooth(
             world_from_camera,
             intrinsics,
-            self.state.water if fog is None else replace(self.state.water, fog=fog),
+            choose_water(self.state.water, fog, self._model),
             light=self._light(is_polished=is_polished),
             targets=frozenset(targets),
             samples=POLISHED_SAMPLES if is_polished and set(targets) == {"colour"} else 1,
@@ -245,11 +245,12 @@ class Scenery:
             samples: the number of samples in a pixel, in width and in height; with more than one
                 edges are smooth, and only colour is rendered.
         """
-        density = self.state.water.fog if fog is None else fog
         return self._draw_smooth(
             world_from_camera,
             intrinsics,
-            replace(self.state.water, fog=density, has_air=True, fog_distance="ray"),
+            replace(
+                choose_water(self.state.water, fog, self._model), has_air=True, fog_distance="ray"
+            ),
             light=self._light(is_polished=True),
             targets=frozenset(targets),
             hidden_ids=hidden_ids,
