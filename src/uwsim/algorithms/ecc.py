@@ -56,7 +56,7 @@ class EccTracker(Tracker):
     Args:
         image: the image of the template, (h, w) [grey level].
         template: the template of the quad.
-        quad: the corners of the patch, (4, 2) [px].
+        quad: the corners of the target in the image of the template, (4, 2) [px].
         max_iterations: the greatest number of iterations in an image.
         precision: the increase of the correlation below which the iterations end.
         smoothing: the width of the Gaussian filter, odd [px].

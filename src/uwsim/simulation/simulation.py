@@ -245,7 +245,7 @@ class Simulation:
         Raises:
             UnknownName: there is no such vehicle, object or frame; the error message suggests the
                 nearest name.
-            BadSetting: the pose is not finite, or farther than 1e6 m from the origin.
+            BadSetting: the pose is not a finite `Pose`, or a coordinate in W exceeds 1e6 m.
             UwsimError: the object is fixed, or a vehicle holds it.
         """
         world_from_frame = placing.world_from_frame(self.world, frame)
@@ -302,7 +302,7 @@ class Simulation:
         """Set the fog density [1/m], 0 for clear water.
 
         Raises:
-            BadSetting: the density is negative.
+            BadSetting: the density is not a finite number of at least 0.
             UwsimError: the scene has physical water.
         """
         self.world.scenery.change_fog(arguments.check_number("set_fog", density))
@@ -311,7 +311,7 @@ class Simulation:
         """Set the factor by which the light is scaled, 1 by default.
 
         Raises:
-            BadSetting: the factor is negative.
+            BadSetting: the factor is not a finite number of at least 0.
         """
         self.world.scenery.set_light_rate(arguments.check_number("set_light", rate))
 
@@ -382,7 +382,8 @@ class Simulation:
 
         Raises:
             UwsimError: the bytes are damaged, or belong to another scene, seed, timestep or
-                version; or other algorithms are attached. The simulation then does not change.
+                version; other algorithms are attached; or one of them has no ``save`` and
+                ``restore``. The simulation then does not change.
         """
         state = data if isinstance(data, State) else State.from_bytes(data)
         names, names_saved = (

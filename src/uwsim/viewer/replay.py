@@ -47,7 +47,8 @@ class Replay:
         overrides: the present paths of the scene's files, if they have moved.
 
     Raises:
-        ResultError: the motion of a trial is missing.
+        ResultError: a trial does not exist, is not finished or has no recorded motion; or the list
+            of trials is empty.
         AssetNotFound: the scene is not found.
     """
 
@@ -62,7 +63,8 @@ class Replay:
         numbers = (recorded_trials(directory) or (0,)) if trials is None else tuple(trials)
         self._trials = [RecordedTrial.open(directory, number, overrides) for number in numbers]
         self.trials_without_motion = trials_without_motion(directory) if trials is None else ()
-        """The numbers of the trials without a file of their motion."""
+        """The numbers of the finished trials without recorded motion; empty if ``trials`` was
+        given."""
         if not self._trials:
             raise ResultError(f"{directory}: the list of trials is empty.")
         self._seeds = sorted({trial.seed for trial in self._trials})
@@ -78,7 +80,7 @@ class Replay:
         return self.trials_without_motion
 
     def pack(self) -> bytes:
-        """Return the data of the page (`head`)."""
+        """Return the pack of the page; `uwsim.viewer.head` documents its format."""
         blob, first_trial = Blob(), self._trials[0]
         with open_scene(first_trial) as simulation:
             head = scene_head(simulation, self.title, blob)

@@ -31,8 +31,8 @@ from .patch import Patch
 from .pyramid import Grey
 from .template import Template
 
-GRADIENT_SHARES = {"esm": (0.5, 0.5), "ic": (0.0, 1.0), "fc": (1.0, 0.0)}
-"""The shares (a, b) of the image's and of the template's gradient in J."""
+GRADIENT_WEIGHTS = {"esm": (0.5, 0.5), "ic": (0.0, 1.0), "fc": (1.0, 0.0)}
+"""The weights (a, b) of the image's and of the template's gradient in J."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -74,7 +74,7 @@ def align(image: Grey, template: Template, guess: Array, method: Method) -> Alig
             points of the image [px], (3, 3).
         method: the method of alignment.
     """
-    a, b = GRADIENT_SHARES[method.blend]
+    a, b = GRADIENT_WEIGHTS[method.blend]
     patch = Patch(
         runs=template.runs,
         values=template.values,

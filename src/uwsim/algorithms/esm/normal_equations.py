@@ -1,6 +1,8 @@
 """The normal equations for a step of the alignment, and their solution, in compiled code.
 
-`alignment` has the formulas and the symbols I, I*, J, a and b.
+I is the warped image and I* the template. J is the Jacobian of their difference with respect to
+the step, (n, 8) for n pixels; a and b are the weights of the gradients of I and of I* in J.
+`alignment` has the formulas.
 """
 
 from __future__ import annotations
@@ -16,18 +18,18 @@ from .pyramid import Grey
 
 
 class Weights(NamedTuple):
-    """The factors that convert the pixels of a run to the columns of J and of the image."""
+    """The offset and factors that convert the pixels of a run to columns of J and of the image."""
 
     offset: np.float32
     """The brightness that is subtracted from the image [grey level]."""
     gain: np.float32
-    """The factor of the difference [1 / grey level]."""
+    """The factor of the image after the offset is subtracted [1 / grey level]."""
     from_u: np.float32
     """The factor of a difference of two samples that are two columns apart, for the gradient by
     the normalised coordinate u; it includes the weight a of the image."""
     from_v: np.float32
     """The factor of a difference of two samples that are two rows apart, for the gradient by v."""
-    share: np.float32
+    template_weight: np.float32
     """The weight b of the template's gradient."""
 
 
@@ -60,8 +62,8 @@ def normal_equations(
 ) -> Array:
     """Compute the products of J with J, with the image, with the template and with 1.
 
-    Each column of the patch is summed in float32, so that the processor adds several columns at
-    once; the sums of the columns are then added in float64.
+    The products of the c-th pixels of all runs are summed in float32, so that the processor adds
+    several c at once; these sums are then added in float64.
 
     Args:
         patch: the template.
@@ -125,15 +127,15 @@ def normal_equations(
 def fill_columns(columns: Grey, run: Run, weights: Weights) -> None:
     """Compute the eight columns of J, the image, the template and 1 for one run of pixels."""
     abscissa, v, samples, mask, values, slope_u, slope_v = run
-    offset, gain, from_u, from_v, share = weights
+    offset, gain, from_u, from_v, template_weight = weights
     upper_row, centre_row, lower_row = samples[0], samples[1], samples[2]
     valid_upper, valid_centre, valid_lower = mask[0], mask[1], mask[2]
     for c in range(abscissa.size):
         w = valid_upper[c + 1] * valid_lower[c + 1]
         w *= valid_centre[c] * valid_centre[c + 1] * valid_centre[c + 2]
         u = abscissa[c]
-        gu = w * (from_u * (centre_row[c + 2] - centre_row[c]) + share * slope_u[c])
-        gv = w * (from_v * (lower_row[c + 1] - upper_row[c + 1]) + share * slope_v[c])
+        gu = w * (from_u * (centre_row[c + 2] - centre_row[c]) + template_weight * slope_u[c])
+        gv = w * (from_v * (lower_row[c + 1] - upper_row[c + 1]) + template_weight * slope_v[c])
         radial_slope = gu * u + gv * v
         columns[0, c] = gu
         columns[1, c] = gv

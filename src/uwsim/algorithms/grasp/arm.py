@@ -4,14 +4,14 @@ The frame of the vehicle's base has x forward, y to starboard and z down. The fr
 base is 1.08 m below it and rotated by half a turn about z, so that its x axis points aft. The
 Denavit-Hartenberg parameters of the joints q1 to q4 are:
 
-====== ================ ======= ======== =====
-joint  theta            d [m]   a [m]    alpha
-====== ================ ======= ======== =====
-slew   q1               0       0.08052  pi/2
-should q2 + 0.139277    0       0.44278  0
-elbow  q3 + 1.972222    0       -0.083   pi/2
-wrist  q4               0.34404 0        0
-====== ================ ======= ======== =====
+======== ================ ======= ======== =====
+joint    theta            d [m]   a [m]    alpha
+======== ================ ======= ======== =====
+slew     q1               0       0.08052  pi/2
+shoulder q2 + 0.139277    0       0.44278  0
+elbow    q3 + 1.972222    0       -0.083   pi/2
+wrist    q4               0.34404 0        0
+======== ================ ======= ======== =====
 
 The *grip* is the point between the fingers at which they close on a bar, `GRIP_OFFSET` below the
 wrist. Its frame has z out of the jaw and x along the axis along which the fingers close (the
@@ -44,8 +44,8 @@ GRIP_OFFSET = 0.135
 """The distance of the grip below the wrist [m]."""
 DOWN_POSTURE: Array = np.array([0.0, 0.7, 0.332, 0.0])
 """The joint positions at which the arm is down and aft, with the jaw vertical, (4,) [rad]."""
-FOLDED_POSTURE: Array = np.array([0.0, 0.0, 0.0, 0.0])
-"""The joint positions at which the arm is stretched aft, out of the camera's view, (4,) [rad]."""
+STOWED_POSTURE: Array = np.array([0.0, 0.0, 0.0, 0.0])
+"""The joint positions at which the arm extends aft, out of the camera's view, (4,) [rad]."""
 
 _DH_TABLE: Array = np.array(
     [

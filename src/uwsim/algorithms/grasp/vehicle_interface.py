@@ -14,7 +14,7 @@ import numpy as np
 from ...base.geometry import Array, Pose
 from ...base.numerics.linear import length, rotate
 from ...messages import JointState, Twist, TwistStamped, Vector3, WrenchStamped, header
-from .arm import DOWN_POSTURE, FOLDED_POSTURE, JAW, JAW_CLOSED, JAW_OPEN, JOINTS, Kinematics
+from .arm import DOWN_POSTURE, JAW, JAW_CLOSED, JAW_OPEN, JOINTS, STOWED_POSTURE, Kinematics
 from .station import StationLaw, TrackingState
 
 MAX_COMPENSATION = 0.08
@@ -119,9 +119,9 @@ class VehicleInterface:
         """The goal of the grip, navigation frame, (3,) [m]; None: the arm keeps `posture`."""
         self.closing_heading = 0.0
         """The heading of the axis along which the jaw closes, navigation frame [rad]."""
-        self.posture: Array = FOLDED_POSTURE.copy()
+        self.posture: Array = STOWED_POSTURE.copy()
         """The commanded joint positions of the arm, (4,) [rad]."""
-        self.joints: Array = FOLDED_POSTURE.copy()
+        self.joints: Array = STOWED_POSTURE.copy()
         """The measured joint positions of the arm, (4,) [rad]."""
         self.jaw = Jaw()
         """The jaw of the arm."""

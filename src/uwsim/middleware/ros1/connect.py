@@ -63,7 +63,8 @@ def connect(
         log: the log for events.
 
     Raises:
-        BadSetting: the master's URI is invalid, or it is on another computer and does not answer.
+        BadSetting: the master's URI is invalid; the master is on another computer and does not
+            answer; no master can be started; or the node cannot listen at its address.
     """
     log = log or Log("ros1")
     uri = options.master or os.environ.get("ROS_MASTER_URI") or DEFAULT_MASTER

@@ -42,7 +42,7 @@ class EncodedMessage:
         """The approximate size of the message [bytes]."""
 
     def frame(self) -> bytes:
-        """Return the encoded message after its length; raise BadMessage if it is invalid."""
+        """Return the encoded message, preceded by its length; raise BadMessage if it is invalid."""
         with self._lock:
             if self._frame is None:
                 self._frame = add_length(self._encode(self._message, self._seq))
@@ -123,8 +123,8 @@ class Publication:
         Args:
             connection: the connection to the subscriber.
             header: the header of the subscriber.
-            count: a function that is called with 1 as soon as messages are queued for the
-                subscriber, and with -1 at the end of the connection.
+            count: a function that is called with 1 as soon as the subscriber has its queue, and
+                with -1 at the end of the connection.
 
         Raises:
             PeerError: the connection broke, or the subscriber does not read.

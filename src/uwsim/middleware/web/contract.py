@@ -48,7 +48,10 @@ class Client(Protocol):
         """Return whether the client has subscribed to a topic. May be called from any thread."""
 
     def post(self, subscription: Subscription, message: EncodedMessage) -> None:
-        """Send a message of a subscription. May be called from any thread."""
+        """Send a message of a subscription, unless its throttle forbids it.
+
+        May be called from any thread.
+        """
 
     def call(self, name: str, request: object) -> Future[object]:
         """Call a service that the client offers. May be called from any thread."""

@@ -1,9 +1,9 @@
 """Transforms between chosen frames, as ``tf2_web_republisher`` publishes them.
 
 A viewer in a browser requests transforms with the service ``/republish_tfs``, and receives them on
-its own topic (``tf2_web_republisher/TFArray``, with the fields of ``tf2_msgs/TFMessage``). Or it
-sends a goal of the action ``/tf2_web_republisher``, the default of roslibjs, and receives them as
-feedback of the action. Transforms are computed along the tree of ``/tf`` and ``/tf_static`` from
+its own topic (type ``tf2_web_republisher/TFArray``, with the fields of ``tf2_msgs/TFMessage``). Or
+it sends a goal of the action ``/tf2_web_republisher``, the default of roslibjs, and receives them
+as feedback of the action. Transforms are computed along the tree of ``/tf`` and ``/tf_static`` from
 the newest transform of each frame, without interpolation in time.
 """
 
@@ -38,7 +38,7 @@ MAX_FRAMES = 200
 MAX_REQUESTS = 200
 """The maximum number of requests at one time."""
 MAX_DEPTH = 100
-"""The maximum number of frames between a frame and the root of its tree."""
+"""The maximum number of frames on the path from a frame to the root of its tree, both included."""
 MIN_RATE, MAX_RATE = 0.1, 100.0
 """The limits of a requested rate [Hz]."""
 
@@ -56,9 +56,9 @@ class Republication:
     period: float
     """The time between two messages [s]."""
     angle: float
-    """The minimum rotation after which a pose is published again [rad]."""
+    """The minimum rotation after which a pose is published again [rad]; 0: always."""
     distance: float
-    """The minimum translation after which a pose is published again [m]."""
+    """The minimum translation after which a pose is published again [m]; 0: always."""
     goal: str = ""
     """The id of the goal; empty if the service was called."""
     next_time: float = -math.inf
@@ -79,7 +79,8 @@ class FrameRepublisher:
         """Accept a request; ``goal`` is the id of an action's goal.
 
         Raises:
-            BadMessage: a value is missing or out of range, or there are too many requests.
+            BadMessage: ``source_frames`` or ``target_frame`` is missing or invalid, or there are
+                too many frames or requests. A rate or threshold out of range is clipped.
         """
         values = arguments if isinstance(arguments, dict) else {}
         sources, target = values.get("source_frames"), values.get("target_frame")
@@ -139,7 +140,10 @@ class FrameRepublisher:
         return messages
 
     def _next_pose(self, request: Republication, source: str) -> Pose | None:
-        """Return the pose of a source frame in the target frame; None if unknown or not moved."""
+        """Return the pose of a source frame in the target frame.
+
+        Returns None if it is unknown, or if it has changed by less than both thresholds.
+        """
         root_from_target = self._root_pose(request.target)
         root_from_source = self._root_pose(source)
         if root_from_target is None or root_from_source is None:
@@ -158,7 +162,10 @@ class FrameRepublisher:
         return pose
 
     def _root_pose(self, frame: str) -> tuple[str, Pose] | None:
-        """Return the root of a frame's tree and the frame's pose in the root; None in a loop."""
+        """Return the root of a frame's tree, and the pose of the frame in the root.
+
+        Returns None if the root is not among the first `MAX_DEPTH` frames, as in a loop.
+        """
         pose = Pose.identity()
         for _ in range(MAX_DEPTH):
             if frame not in self._frames:

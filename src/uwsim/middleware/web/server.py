@@ -51,8 +51,9 @@ MAX_FRAMES = 2
 CLIENT_SHARE, CLIENT_BURST = 0.02, 0.05
 """The budget for reading one client: the fraction of the wall time, and the longest burst [s]."""
 ALL_SHARE, ALL_BURST = 0.04, 0.1
-"""The budget for reading all clients together, as for one client. It does not apply to large
-frames, and to clients for which a run in lock-step waits."""
+"""The budget for reading all clients together, as for one client. One read counts in it
+for at most `limited_connection.MAX_SHARED_COST`. It does not apply to clients for which a run in
+lock-step waits."""
 MAX_CLIENTS = 64
 """The maximum number of clients."""
 PING_INTERVAL, PING_TIMEOUT = 20.0, 300.0

@@ -8,7 +8,15 @@ from ..live_scene import LiveScene
 
 
 def world_from_frame(scene: LiveScene, frame: str) -> Pose:
-    """Return the pose in W of a frame: ``L``, ``W`` or the name of a body; raises UnknownName."""
+    """Return the pose in W of a frame; for an object, of the frame of its mesh.
+
+    Args:
+        scene: the scene.
+        frame: ``L``, ``W`` or the name of a body.
+
+    Raises:
+        UnknownName: there is no such body; the error message suggests the nearest name.
+    """
     if frame == "W":
         return Pose.identity()
     if frame == "L":
@@ -22,7 +30,8 @@ def place(scene: LiveScene, name: str, world_from_body: Pose) -> None:
     Args:
         scene: the scene.
         name: the name of a vehicle, or of an object that can move.
-        world_from_body: the pose in W of the frame that `SceneBodies.find` returns for this name.
+        world_from_body: the pose in W of the vehicle's base frame or of the frame of the object's
+            mesh, which differs from the frame of its rigid body.
 
     Raises:
         UnknownName: there is no such vehicle or object; the error message suggests the nearest

@@ -34,7 +34,8 @@ class Identity:
     timestep: float
     """The length of a step [s]."""
     compatibility: str
-    """The names of the active compatibility quirks, separated by commas."""
+    """The names of the active compatibility quirks, separated by commas; ``none`` if there are
+    none."""
     scene: str
     """The hash of the scene, after the variations of the seed are applied."""
 
@@ -80,8 +81,8 @@ class State(Record):
     equal if all their numbers are equal to the bit. These include cached poses of bodies, which are
     computed on request: the state differs after `Simulation.pose` or an image.
 
-    Not part of the state: callbacks, the hash of the images published so far, and the values of
-    algorithms without ``save`` and ``restore``.
+    Not part of the state: callbacks, and the hash of the images published so far. While an
+    algorithm without ``save`` and ``restore`` is attached, the state cannot be copied or saved.
     """
 
     identity: RunningIdentity
@@ -105,7 +106,7 @@ class State(Record):
     scenery: SceneryState
     """The fog, the light and the sand."""
     water: WaterState
-    """The current that a program has set."""
+    """The current that a program has set, and the factor on the wave heights of the scene."""
     contacts: ContactsState
     """The state of contacts that is not part of the engine's state."""
     below_ground: BelowGroundState
@@ -124,14 +125,19 @@ class State(Record):
     """The timers and the states of attached algorithms."""
 
     def copy(self) -> Self:
-        """Return a copy of all values, which the running simulation does not change."""
+        """Return a copy of all values, which the running simulation does not change.
+
+        Raises:
+            UwsimError: an attached algorithm has no ``save`` and ``restore``.
+        """
         return copy_record(self)
 
     def to_bytes(self) -> bytes:
         """Return the state as bytes, for the same version of uwsim.
 
         Raises:
-            UwsimError: a value, such as a current of a program's own class, cannot be saved.
+            UwsimError: a value, such as a current of a program's own class, cannot be saved; or an
+                attached algorithm has no ``save`` and ``restore``.
         """
         return pack(self)
 

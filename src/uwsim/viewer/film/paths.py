@@ -24,9 +24,10 @@ ORBIT_PERIOD = 40.0
 SMOOTHING_TIME = 1.5
 """The standard deviation of the Gaussian that smooths the path of the camera [s]."""
 CHASE_DISTANCE = 3.0
-"""The distance of the chase camera behind the vehicle, as a multiple of its radius."""
+"""The distance of the chase camera behind the vehicle, as a multiple of the radius of the focus
+(the vehicles and nearby objects), which counts as 2 m at most."""
 CHASE_HEIGHT = 1.1
-"""The height of the chase camera above the vehicle, as a multiple of its radius."""
+"""The height of the chase camera above the vehicle, as a multiple of the same radius."""
 
 
 def view_kind(text: str) -> ViewKind:
@@ -68,7 +69,7 @@ class CameraPath:
         """The intrinsics of the camera."""
         self._initial_pose = view.world_from_camera
         focus = find_focus(scene.simulation)
-        self._radius = 0.5 * float(np.linalg.norm(np.ptp(focus.corners, axis=0)))  # of the subject
+        self._radius = 0.5 * float(np.linalg.norm(np.ptp(focus.corners, axis=0)))  # of the focus
         self._vehicle_path = smooth_vehicle_path(scene, focus.centre, focus.bow_direction)
         self._centre = focus.centre
         self._start_position = self._vehicle_path.positions[frame_at(scene.track, start)[0]]

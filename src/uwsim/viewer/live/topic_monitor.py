@@ -1,4 +1,4 @@
-"""The topics that pages request: the numbers and texts of their newest messages.
+"""The topics that pages request: the numbers and texts of their messages, ten a second at most.
 
 The bus does not count these subscriptions (`uwsim.bus.Bus.subscribe`): nothing is published,
 rendered or changed because of them. A topic without another subscriber may have no messages.
@@ -19,7 +19,7 @@ import numpy as np
 from ...bus import Bus
 
 MIN_PERIOD = 0.1
-"""The shortest wall time between two messages of a topic that are sent to pages [s]."""
+"""The shortest wall time between two messages of a topic that are accepted for pages [s]."""
 MAX_FIELDS = 40
 """The greatest number of fields of a message that are shown."""
 MAX_ENTRIES = 8
@@ -27,7 +27,7 @@ MAX_ENTRIES = 8
 MAX_CHARACTERS = 200
 """The greatest number of characters of a text that are shown."""
 CHANNEL = "?topic/"
-"""The prefix of the channel of a topic."""
+"""The prefix of a topic's name in the name of the channel on which the live server sends it."""
 Value = float | str | None
 """The value of a field: a number, a text, or None for a number that is not finite."""
 
@@ -44,8 +44,8 @@ class TopicMonitor:
     def __init__(self, bus: Bus, time: Callable[[], float], wall: Callable[[], float]) -> None:
         self._bus, self._time, self._wall = bus, time, wall
         self._unsubscribe: dict[str, Callable[[], None]] = {}  # by topic
-        self._due: dict[str, float] = {}  # wall time of the next message, by topic [s]
-        self._new_messages: dict[str, str] = {}  # JSON by topic
+        self._due: dict[str, float] = {}  # wall time of the next accepted message, by topic [s]
+        self._new_messages: dict[str, str] = {}  # the newest accepted, JSON by topic
         self._last_list: dict[str, str] = {}  # types by topic, as sent last
 
     def changed_list(self) -> str | None:
@@ -57,7 +57,9 @@ class TopicMonitor:
         return json.dumps({"type": "topics", "topics": list(topics.items())})
 
     def new_messages(self, channels: Set[str]) -> dict[str, str]:
-        """Return the newest message of each channel since the last call, by channel.
+        """Return the newest accepted message since the last call, as JSON, by channel.
+
+        Messages that follow an accepted one of the topic within `MIN_PERIOD` are skipped.
 
         Args:
             channels: the channels that pages request; only their topics are subscribed to.

@@ -161,7 +161,7 @@ export class Models {
     this.version += 1;
   }
 
-  /** Return the present heights of the columns of the heap with an index above its corner [m]. */
+  /** Return the heights of the columns of heap `index` above the corner of the heap [m]. */
   heights(index: number): Float32Array {
     return this.sand[index]?.heap.heights ?? new Float32Array();
   }

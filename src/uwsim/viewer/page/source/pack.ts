@@ -123,7 +123,8 @@ export async function readMotion(data: Uint8Array<ArrayBuffer>): Promise<Motion>
 /**
  * Decode a table of n rows and m columns; return it row by row, with NaN where there is no value.
  *
- * `planes` are the four bytes of all numbers, the lowest bytes first; `step(column)` is the unit of a column's integers.
+ * `planes` has four byte planes: the lowest bytes of all integers, then the higher ones, the highest last. The
+ * integers are the differences from row to row, one column after the other; `step(column)` is the unit of a column.
  */
 function decodeTable(planes: Uint8Array, n: number, m: number, step: (column: number) => number): Float64Array {
   const rows = new Float64Array(n * m);
