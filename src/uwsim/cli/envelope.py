@@ -1,4 +1,4 @@
-"""``uwsim envelope``: the level at which a benchmark fails, with its bound."""
+"""``uwsim envelope``: the level at which a benchmark fails, with its confidence limits."""
 
 from __future__ import annotations
 
@@ -84,7 +84,7 @@ class SearchOptions:
             SEARCH,
             "--confidence",
             metavar="C",
-            help="Confidence level of the bound of the breaking point.",
+            help="Confidence level of the limits of the breaking point.",
         ),
     ] = 0.95
     level: Annotated[
@@ -161,14 +161,14 @@ class EnvelopeOptions:
 
 
 def envelope(context: typer.Context, options: EnvelopeOptions) -> None:
-    """Find the level at which a benchmark fails: a number, its unit and its confidence bound.
+    """Find the level at which a benchmark fails: a number, its unit and its confidence limits.
 
     Each seed is searched by bisection, with each level run alone (mode independent). A run is
     broken if the criterion is not 0 or its status is not ok. A criterion with the status replaces
-    both: 'status == lost', with the names ok, lost, timeout, collision and error. The result is the
-    median of the seeds' breaking points, with its exact confidence limits; 95 % needs at least six
-    seeds. A benchmark that does not break up to B, and a criterion that is not monotonic, are
-    reported.
+    both: 'status == lost', with the names ok, lost, timeout, collision and error (algorithm error).
+    The result is the median of the seeds' breaking points, with its exact confidence limits; 95 %
+    needs at least six seeds. A benchmark that does not break up to B, and a criterion that is not
+    monotonic, are reported.
 
     It writes envelope.json (reproducible byte for byte, with every run) and envelope.png. With
     --resume the runs in --out are reused, also for another criterion, range, tolerance or number of

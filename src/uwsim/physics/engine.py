@@ -49,7 +49,8 @@ class Engine:
 
     A joint vector has the movable joints that are not mimic joints, in the order of UWSim; mimic
     joints follow them. Vehicles and objects are identified by their index in the scene. Forces move
-    vehicles with hydrodynamics; kinematic vehicles keep their poses until they are set.
+    vehicles with hydrodynamics; kinematic vehicles keep their poses until these are set or the
+    vehicles drift with the water.
 
     Args:
         scene_model: the model of the scene.
@@ -70,7 +71,7 @@ class Engine:
         """The poses of all bodies."""
         self.link_motion = LinkMotion(model, data, self.poses)
         """The motion of points on the links of vehicles."""
-        self.grips = Grips(model, data, self.poses, dynamics, shapes)
+        self.grips = Grips(model, data, self.poses, shapes)
         """The objects that vehicles hold."""
         self.contacts = EngineContacts(scene_model, model, data, self.poses)
         """The contacts of bodies with dynamics."""

@@ -48,7 +48,6 @@ class Grips:
         model: the engine's model.
         data: the engine's state.
         poses: the poses of all bodies.
-        dynamics: the indices of the vehicles with dynamics.
         shapes: the engine's collision shapes, by the name of their body.
     """
 
@@ -57,18 +56,21 @@ class Grips:
         model: mujoco.MjModel,
         data: mujoco.MjData,
         poses: Poses,
-        dynamics: Collection[int],
         shapes: Mapping[str, Collection[CollisionShape]],
     ) -> None:
         self._model, self._data, self._poses = model, data, poses
-        self._dynamics, self._shapes = dynamics, shapes
+        self._shapes = shapes
         self.state = GripsState()
         """The objects that are held."""
 
     def can_hold(self, index: int) -> bool:
-        """Return whether an object can be held: not if it is held already, or fixed and solid."""
-        is_loose = index not in self.state.grasps and not self._poses.is_fixed(index)
-        return is_loose and (self._is_free(index) or object_body(index) not in self._shapes)
+        """Return whether an object can be held.
+
+        An object cannot be held if it is held already, if it is fixed, or if it has collision
+        shapes but is not loose.
+        """
+        is_available = index not in self.state.grasps and not self._poses.is_fixed(index)
+        return is_available and (self._is_free(index) or object_body(index) not in self._shapes)
 
     def hold(self, index: int, vehicle: int, link: str) -> None:
         """Fix an object at its present pose to a link."""

@@ -104,7 +104,10 @@ def _times(rows: Sequence[tuple[Trial, StoredRow]]) -> tuple[list[float], float]
 
 
 def _leading_cells(plan: Plan, trial: Trial, row: StoredRow) -> list[float | int]:
-    """Return the cells of repeat, seed and level, with which a row or a sample of a log begins."""
+    """Return the cells with which a row or a sample of a log begins.
+
+    These are repeat and seed, if there are several repeats, and the values of the level.
+    """
     return [*([trial.repeat, trial.seed] if plan.repeats > 1 else []), *row.values]
 
 

@@ -26,6 +26,7 @@ def seal_runs(runs: Sequence[Run]) -> Iterator[None]:
     for run in runs:
         run.out.mkdir(parents=True, exist_ok=True)
         run.seal = seal
+    # a second process that decrypts the files if this one is killed
     keeper = Keeper(seal, [run.out for run in runs])
     try:
         yield

@@ -11,14 +11,17 @@ from tests.support.grasp_results import CURRENTS, FOGS, grasping_result, is_succ
 from tests.support.synthetic_results import visibility_result
 from uwsim.analysis.report.task_section import task_section
 from uwsim.analysis.task import (
+    TaskCell,
     cells_along,
     crossing_sentence,
     draw_task_figures,
+    figures,
     find_crossings,
     phase_means,
     task_cells,
     task_measure,
 )
+from uwsim.results.result import Result
 
 
 def test_only_a_result_with_a_judge_is_of_a_task() -> None:
@@ -81,6 +84,16 @@ def test_a_first_level_that_is_below_half_says_so() -> None:
 def test_the_mean_time_in_each_phase() -> None:
     result = grasping_result()
     assert phase_means(result, task_cells(result)[0]) == {"search": 10.0, "lift": 15.0}
+
+
+def test_the_legend_has_the_phases_of_all_panels(monkeypatch: pytest.MonkeyPatch) -> None:
+    def means(result: Result, cell: TaskCell) -> dict[str, float]:
+        return {"search": 9.0} | ({} if cell.level[1] == CURRENTS[0] else {"lift": 15.0})
+
+    monkeypatch.setattr(figures, "phase_means", means)
+    result = grasping_result()
+    figure = figures.phase_times(result, task_cells(result), [0, 1])
+    assert [text.get_text() for text in figure.legends[0].get_texts()] == ["lift", "search"]
 
 
 @pytest.mark.slow

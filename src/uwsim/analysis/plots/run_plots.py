@@ -1,4 +1,4 @@
-"""Plots of what happens within the levels of a run: measures over time, tracks from above."""
+"""Plots of what happens within the levels of a run: measures over time, tracks, and repeats."""
 
 from __future__ import annotations
 
@@ -37,13 +37,17 @@ class RunPlot:
 def draw_run_plots(
     result: Result, directory: Path, folder: Path, *, pdf: bool = False
 ) -> tuple[RunPlot, ...]:
-    """Draw every measure with a log over time, and the tracks of the vehicles from above.
+    """Draw every logged measure over time, the tracks, and the repeats of a single level.
 
     Args:
         result: the result.
         directory: the result directory, with its logs and motion tracks.
         folder: the folder for the plots.
         pdf: True to write each plot as PDF, too.
+
+    Returns:
+        The plots in this order: the repeats, if the result has a single level; the measures, in
+        the order of their columns; the tracks from above. A plot without data is left out.
     """
     plots: list[RunPlot] = []
 

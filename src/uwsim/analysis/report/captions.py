@@ -49,8 +49,9 @@ def caption_over_time(result: Result, measure: str, time_text: str, notes: Notes
 def statistic_of(result: Result, measure: str, notes: Notes) -> str:
     """Return the statistic that is the value of a measure, as text; empty if it is unknown.
 
-    The benchmark file states the statistic (``u:value``). Without `notes` it is found by comparing
-    the value with the details.
+    The benchmark file states the statistic (``u:value``). If the measure has no note, its values
+    are compared with its details: if no detail is equal, the statistic is the last value; if
+    several are equal, it is unknown.
     """
     if (note := notes.get(measure)) is not None:
         return STATISTICS.get(note.value, "")

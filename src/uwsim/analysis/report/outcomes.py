@@ -45,8 +45,8 @@ class Ending:
     n: int
     """The number of rows."""
     share: str
-    """The fraction of all rows; without an interval, because the levels of a repeat are no
-    repeats."""
+    """The fraction of all rows; without an interval, because the levels of a repeat are not
+    independent samples."""
     first_levels: str
     """The first level of each repeat with the status: one level, or the lowest to the highest."""
     reasons: tuple[tuple[int, str], ...]

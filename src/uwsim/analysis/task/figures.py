@@ -29,7 +29,8 @@ COLOURS = {
     "simulation error": "#C00000",
     "lost": "#CC79A7",
 }
-"""The colour of each status; colour-blind readers can distinguish all but the last two."""
+"""The colour of each status. The last two repeat the colours of ``algorithm error`` and ``lost
+target``; colour-blind readers can distinguish the others."""
 SUCCESS_MAP, SUCCESS_RATES, PHASE_TIMES = "success-map", "success-rates", "phases"
 CAPTIONS = {
     SUCCESS_MAP: "Left: success rate with its exact 95 % interval (Clopper and Pearson); it "
@@ -157,7 +158,7 @@ def _label_with_fixed_levels(result: Result, parameter: int, levels: tuple[float
     fixed_levels = [
         level_text(column, value)
         for i, (column, value) in enumerate(zip(columns, levels, strict=True))
-        if i != parameter and column.name != "none"
+        if i != parameter and column.name != "none"  # the column of the updater <none/>
     ]
     label = level_label(columns[parameter])
     return f"{label}\nat {', '.join(fixed_levels)}" if fixed_levels else label
@@ -183,6 +184,6 @@ def phase_times(result: Result, cells: Sequence[TaskCell], parameters: Sequence[
             axes.set_xticks(range(len(line)), [f"{cell.level[parameter]:g}" for cell in line])
             axes.set_xlabel(_label_with_fixed_levels(result, parameter, cells[0].level))
         grid[0].set_ylabel("time [s]")
-        handles, labels = grid[0].get_legend_handles_labels()
+        handles, labels = grid[-1].get_legend_handles_labels()  # the only panel with all phases
         figure.legend(handles[::-1], labels[::-1], loc="outside right upper")
     return figure

@@ -1,4 +1,4 @@
-"""The options of runs: duration, program, seed and recording."""
+"""The options of runs: duration, program, UDP address, seed and recording."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from .options import JsonOption
 
 @dataclass(frozen=True, kw_only=True)
 class ProgramOptions:
-    """The options of the duration and the program."""
+    """The options of the duration, the program and the UDP address."""
 
     duration: Annotated[
         str | None,
@@ -43,8 +43,8 @@ class ProgramOptions:
             INPUT,
             "--udp-address",
             metavar="ADDRESS",
-            help="Address of this computer at which the element fdm of a vehicle receives UDP "
-            "datagrams, such as 127.0.0.1; such a run is not repeatable.",
+            help="Address of this computer, such as 127.0.0.1, at which a vehicle receives the UDP "
+            "datagrams of a flight dynamics model (<fdm>); such a run is not repeatable.",
         ),
     ] = None
 

@@ -49,7 +49,7 @@ def pilot_topics(simulation: Simulation) -> dict[str, float | str]:
 
 
 def _steered_index(simulation: Simulation) -> int:
-    """Return the index of the first vehicle with topics for twists or thruster commands, or 0."""
+    """Return the index of the first vehicle with topics for twists, odometry or thrusters, or 0."""
     world = simulation.world
     names = {
         spec.vehicle_name

@@ -254,9 +254,9 @@ def drag_speeds(table: Floats, nu: Six) -> Six:
 
 
 @njit
-def _drag_slope(table: Floats, i: int, speed: float, s: float) -> float:
+def _drag_slope(table: Floats, i: int, nu_i: float, s: float) -> float:
     """Return the derivative of the drag of component i: linear + quadratic (s + u^2 / s)."""
-    u = abs(speed)
+    u = abs(nu_i)
     rise = 2.0 * u if s == u else s + u * u / s
     slope: float = table[c.LINEAR + 7 * i] + table[c.QUADRATIC + 7 * i] * rise
     return slope
@@ -295,8 +295,8 @@ def diagonal_force(table: Floats, nu: Six, rate: Six, s: Six, slope: Six, step: 
 
 
 @njit
-def _axis_force(table: Floats, i: int, speed: float, rate: float, s: float, change: float) -> float:
-    drag = (table[c.LINEAR + 7 * i] + table[c.QUADRATIC + 7 * i] * s) * speed
+def _axis_force(table: Floats, i: int, nu_i: float, rate: float, s: float, change: float) -> float:
+    drag = (table[c.LINEAR + 7 * i] + table[c.QUADRATIC + 7 * i] * s) * nu_i
     force: float = -(table[c.M_A + 7 * i] + change) * rate - drag
     return force
 
@@ -308,7 +308,8 @@ def full_force(
     """Return the wrench, and the momentum of the added mass, of a body with full matrices.
 
     The added mass plus the symmetric part of ``step`` times the slope of the drag, (6, 6), is
-    written to ``work`` from the index ``start`` on. See `diagonal_force` for the arguments.
+    written to ``work`` from the index ``start`` on, where 48 numbers are needed. The slope lacks
+    the derivative of the lift with respect to surge. See `diagonal_force` for the arguments.
     """
     surge = abs(nu[0])
     for i in range(6):

@@ -26,12 +26,12 @@ from ..columns import BODY_COLUMNS, DRY_BODY, KIND, WATER_COLUMNS
 from . import fields as f
 from .equations import Six, Three, to_body
 from .midpoint import (
+    CORRECTION,
     FORCE,
     INERTIA,
     MOMENTUM,
     NUMBERS,
     RATE,
-    STEP,
     SUM,
     TWIST,
     multiply,
@@ -90,7 +90,7 @@ def conserve_energy(m: int, d: int, o: Ints64, work: Floats) -> None:
                 passive[start[tree] + k] += cdof[6 * k + i] * b[FORCE + i]
         if length[tree] > 6:
             for i in range(6):
-                b[STEP + i] = b[FORCE + i]
+                b[CORRECTION + i] = b[FORCE + i]
             substitute(b)  # the factors are those of the inertia, up to terms of order h squared
             _hold_joints(m, d, o, body, start[tree], length[tree], lever, b, passive)
 
@@ -390,9 +390,9 @@ def _convert_to_wrench(lever: Three, h: float, b: Floats) -> None:
     b[RATE + 3] += ex - (wy * uz - wz * uy)
     b[RATE + 4] += ey - (wz * ux - wx * uz)
     b[RATE + 5] += ez - (wx * uy - wy * ux)
-    multiply(b, SUM, RATE, STEP)
+    multiply(b, SUM, RATE, CORRECTION)
     for i in range(6):
-        b[FORCE + i] = b[STEP + i] - b[FORCE + i]
+        b[FORCE + i] = b[CORRECTION + i] - b[FORCE + i]
 
 
 @njit
@@ -436,10 +436,10 @@ def _hold_joints(
     """Add forces on the joints of a tree, which the additional wrench would else accelerate."""
     rx, ry, rz = lever
     axes = view_doubles(read_int64(d + o[f.XMAT]) + 72 * body, 9)
-    x, y, z = b[STEP], b[STEP + 1], b[STEP + 2]
-    a0 = b[STEP + 3] + y * rz - z * ry
-    a1 = b[STEP + 4] + z * rx - x * rz
-    a2 = b[STEP + 5] + x * ry - y * rx
+    x, y, z = b[CORRECTION], b[CORRECTION + 1], b[CORRECTION + 2]
+    a0 = b[CORRECTION + 3] + y * rz - z * ry
+    a1 = b[CORRECTION + 4] + z * rx - x * rz
+    a2 = b[CORRECTION + 5] + x * ry - y * rx
     a3, a4, a5 = to_body(axes, x, y, z)
     rows = view_int32s(read_int64(m + o[f.ROW_START]) + 4 * start, length)
     for k in range(6, length):

@@ -11,10 +11,11 @@ a step of length h,
 
 where :math:`S` is :math:`A` plus the drag that is implicit over the step, :math:`G = S\dot\nu` at
 the start of the step, and :math:`\times^*` the cross product of a twist and a momentum. Implicit
-drag is not part of the momentum: it would make a needle spin about its axis. The rule conserves the
-energy, and the lengths of linear and angular momentum (Hairer, Lubich, Wanner, *Geometric Numerical
-Integration*, 2006, IV.2). The joints of the body count as fixed. Twists, momenta and wrenches have
-the rotational part first, as in MuJoCo.
+drag is not part of the momentum: it would make a needle spin about its axis. Without other forces,
+the rule conserves the energy, the length of the linear momentum, and the scalar product of linear
+and angular momentum; without added mass, the length of the angular momentum, too (Hairer, Lubich,
+Wanner, *Geometric Numerical Integration*, 2006, IV.2). The joints of the body count as fixed.
+Twists, momenta and wrenches have the rotational part first, as in MuJoCo.
 """
 
 from __future__ import annotations
@@ -26,13 +27,14 @@ from ....base.numerics.memory import Floats
 
 INERTIA, TWIST, MOMENTUM, FORCE, RATE, SUM = 0, 36, 42, 48, 54, 60
 """The indices in the array b of one body: A (6, 6), nu, p, G, the solution delta, S (6, 6)."""
-_IMAGE, _BASIS, _MATRIX, STEP = 96, 102, 108, 144
+_IMAGE, _BASIS, _MATRIX, CORRECTION = 96, 102, 108, 144
 """The indices of scratch: A delta, p + h/2 A delta, the matrix (6, 6), the residual or correction.
 """
 NUMBERS = 150
 """The length of the array b of one body."""
 _ROUNDS, _BOUND_ROUNDS = 16, 8
-"""The largest numbers of iterations of `solve_rate` and of `_bound_rate`."""
+"""The largest number of iterations of `solve_rate`, and the number of iterations of `_bound_rate`.
+"""
 _TOLERANCE, _MAX_ERROR, _SLOW_RATIO = 1e-14, 1e-12, 1e-4
 """Limits of the energy of a correction: relative to the energy of the rate, at which the iteration
 ends, and at which its result is valid; and relative to the energy of the last correction, above
@@ -48,7 +50,7 @@ def solve_rate(b: Floats, h: float) -> None:
     for i in range(6):
         b[RATE + i] = 0.0
         b[_IMAGE + i] = 0.0
-        b[STEP + i] = b[FORCE + i]
+        b[CORRECTION + i] = b[FORCE + i]
     _jacobian(b, h)
     _factorise(b)
     last_correction, correction, energy = math.inf, 0.0, 0.0
@@ -56,14 +58,14 @@ def solve_rate(b: Floats, h: float) -> None:
         correction = _solve_lower(b)
         _solve_upper(b)
         for i in range(6):
-            b[RATE + i] += b[STEP + i]
+            b[RATE + i] += b[CORRECTION + i]
         if correction <= _TOLERANCE * energy:
             return
         multiply(b, INERTIA, RATE, _IMAGE)
-        multiply(b, SUM, RATE, STEP)
+        multiply(b, SUM, RATE, CORRECTION)
         energy = 0.0
         for i in range(6):
-            energy += b[RATE + i] * b[STEP + i]
+            energy += b[RATE + i] * b[CORRECTION + i]
         if correction > _SLOW_RATIO * last_correction:
             _jacobian(b, h)
             _factorise(b)
@@ -87,14 +89,14 @@ def _bound_rate(b: Floats, h: float) -> None:
     for _ in range(_BOUND_ROUNDS):
         for i in range(36):
             b[_MATRIX + i] = b[SUM + i]
-        _subtract_momentum(b, 0.5 * h)
+        _add_rate_derivative(b, 0.5 * h)
         _factorise(b)
         for i in range(6):
-            b[STEP + i] = b[FORCE + i]
-        cross(b, TWIST, _IMAGE, STEP, -0.5 * h)
+            b[CORRECTION + i] = b[FORCE + i]
+        cross(b, TWIST, _IMAGE, CORRECTION, -0.5 * h)
         substitute(b)
         for i in range(6):
-            b[RATE + i] = b[STEP + i]
+            b[RATE + i] = b[CORRECTION + i]
         multiply(b, INERTIA, RATE, _IMAGE)
 
 
@@ -133,19 +135,19 @@ def cross(b: Floats, twist: int, momentum: int, k: int, share: float) -> None:
 
 @njit
 def _residual(b: Floats, h: float) -> None:
-    """Replace S delta at ``STEP`` by the residual of the equation."""
+    """Replace S delta at ``CORRECTION`` by the residual of the equation."""
     for i in range(6):
-        b[STEP + i] = b[FORCE + i] - b[STEP + i]
+        b[CORRECTION + i] = b[FORCE + i] - b[CORRECTION + i]
         b[_BASIS + i] = b[MOMENTUM + i] + 0.5 * h * b[_IMAGE + i]
-    cross(b, RATE, _BASIS, STEP, -0.5 * h)
-    cross(b, TWIST, _IMAGE, STEP, -0.5 * h)
+    cross(b, RATE, _BASIS, CORRECTION, -0.5 * h)
+    cross(b, TWIST, _IMAGE, CORRECTION, -0.5 * h)
 
 
 @njit
 def _jacobian(b: Floats, h: float) -> None:
     """Write the negative derivative of the residual with respect to the rate to ``_MATRIX``.
 
-    The elements are written row by row.
+    The matrix is stored row by row.
     """
     g = 0.5 * h
     wx, wy, wz = g * b[TWIST], g * b[TWIST + 1], g * b[TWIST + 2]
@@ -161,12 +163,15 @@ def _jacobian(b: Floats, h: float) -> None:
         b[_MATRIX + 18 + j] = b[SUM + 18 + j] + wy * a5 - wz * a4
         b[_MATRIX + 24 + j] = b[SUM + 24 + j] + wz * a3 - wx * a5
         b[_MATRIX + 30 + j] = b[SUM + 30 + j] + wx * a4 - wy * a3
-    _subtract_momentum(b, g)
+    _add_rate_derivative(b, g)
 
 
 @njit
-def _subtract_momentum(b: Floats, g: float) -> None:
-    """Subtract the derivative of rate x* (midpoint momentum) from ``_MATRIX``; g = h/2."""
+def _add_rate_derivative(b: Floats, g: float) -> None:
+    """Add g times the derivative of rate x* P with respect to the rate to ``_MATRIX``; g = h/2.
+
+    P is the momentum at the midpoint, p + h/2 A delta, which counts as constant.
+    """
     for block, part in ((0, 0), (3, 3), (18, 3)):
         _subtract_skew(
             b, _MATRIX + block,
@@ -191,8 +196,8 @@ def _subtract_skew(b: Floats, k: int, x: float, y: float, z: float) -> None:
 def _factorise(b: Floats) -> None:
     """Replace ``_MATRIX`` by its LU factors in place, with the inverse pivots on the diagonal.
 
-    No pivoting is needed: the symmetric part of the matrix is the inertia, which is positive
-    definite. The other terms are small or skew-symmetric, so that no pivot vanishes.
+    No pivoting is needed: the matrix is S, which is positive definite, plus terms that are
+    skew-symmetric or small, so that no pivot vanishes.
     """
     for k in range(6):
         row = _MATRIX + 6 * k
@@ -208,7 +213,7 @@ def _factorise(b: Floats) -> None:
 
 @njit
 def substitute(b: Floats) -> None:
-    """Solve the linear equations with the factors in ``_MATRIX`` for ``STEP``, in place."""
+    """Solve the linear equations with the factors in ``_MATRIX`` for ``CORRECTION``, in place."""
     _solve_lower(b)
     _solve_upper(b)
 
@@ -219,10 +224,10 @@ def _solve_lower(b: Floats) -> float:
     energy = 0.0
     for i in range(6):
         row = _MATRIX + 6 * i
-        total = b[STEP + i]
+        total = b[CORRECTION + i]
         for j in range(i):
-            total -= b[row + j] * b[STEP + j]
-        b[STEP + i] = total
+            total -= b[row + j] * b[CORRECTION + j]
+        b[CORRECTION + i] = total
         energy += total * total * abs(b[row + i])
     return energy
 
@@ -231,10 +236,10 @@ def _solve_lower(b: Floats) -> float:
 def _solve_upper(b: Floats) -> None:
     for i in range(5, -1, -1):
         row = _MATRIX + 6 * i
-        total = b[STEP + i]
+        total = b[CORRECTION + i]
         for j in range(i + 1, 6):
-            total -= b[row + j] * b[STEP + j]
-        b[STEP + i] = total * b[row + i]
+            total -= b[row + j] * b[CORRECTION + j]
+        b[CORRECTION + i] = total * b[row + i]
 
 
 @njit
