@@ -43,8 +43,8 @@ def regular(
     return waves_of(spec.components(sea(depth), stream(0, "x")), depth)
 
 
-# length [m] of T [s] in h [m], and the speed at z = -5 m of H = 1 m [m/s]: domain.md 5.2, computed
-# there independently
+# period [s], depth [m], wave length [m], and the speed at z = -5 m of a wave of 1 m [m/s], from an
+# independent computation
 PUBLISHED = [
     (4.0, 10.0, 24.68, 0.239),
     (6.0, 10.0, 48.41, 0.376),
