@@ -70,7 +70,8 @@ def test_nothing_that_the_processor_chooses_makes_numbers() -> None:
     found = []
     for path in sorted(PACKAGE.rglob("*.py")):
         name = path.relative_to(PACKAGE).as_posix()
-        if name not in MAKE_NO_NUMBERS and not name.startswith("statistics/"):
+        # a fit of `calibration` is by SciPy's least squares, whose LAPACK makes the last bits
+        if name not in MAKE_NO_NUMBERS and not name.startswith(("statistics/", "calibration/")):
             found += [f"{name}:{call}" for call in calls(path)]
 
     assert found == []

@@ -159,7 +159,7 @@ def test_what_cannot_be_recorded_is_refused_before_anything_runs(
         ("dive.txt", "only .mcap and .bag files are written"),
         ("nowhere/dive.mcap", "there is no folder"),
         ("out/dive.mcap", "is in the result directory"),
-        ("there.mcap", "there-00001.mcap: exists; --overwrite replaces it"),
+        ("there.mcap", "there-00001.mcap: the file exists; --overwrite replaces it"),
     ):
         call = ["--repeat", "2", "--out", out, "--record", tmp_path / file, "--images", "pmg"]
         assert bench(benchmark, *call) == 2

@@ -34,7 +34,6 @@ from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
-from scipy.special import itj0y0
 
 from ..base.numerics.elementwise import exp, log, tan
 
@@ -112,4 +111,6 @@ class PhaseFunction(ABC):
 def _mean_bessel(limit: FloatArray) -> FloatArray:
     """Compute the mean of the Bessel function J0 from zero to each limit."""
     positive = np.maximum(limit, 1e-6)
+    from scipy.special import itj0y0
+
     return np.asarray(itj0y0(positive)[0] / positive, dtype=np.float64)

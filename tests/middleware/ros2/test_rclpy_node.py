@@ -152,7 +152,9 @@ def test_types_that_rclpy_lacks_are_told_a_package_a_line_and_the_rest_goes_on(
         "is not installed: apt install ros-$ROS_DISTRO-marine-acoustic-msgs; or set "
         "UWSIM_ROS2=dds, which does not need rclpy"
     )
-    assert services.startswith("not on the graph: /autoInit. The ROS 2 package ")
+    assert services.startswith(
+        "not on the graph: /autoInit. The installed underwater_sensor_msgs has no "
+    )
     simulator.step()
     assert len(simulator.lines) == 2, "once"
     source = """

@@ -88,6 +88,7 @@ CACHES = {
     "WaterMotion._last_added_flow": "is compared with the state when it is used",
     "WaterMotion._drift_cache": "is compared with flow and vehicles when it is used",
     "WaterMotion._point_cache": "is compared with the flow when it is used",
+    "WaterMotion._wave_cache": "is compared with the flow when it is used",
     "WaterMotion._water_cache": "is compared with flow and vehicles when it is used",
     "WaterMotion._sum": "is compared with the state when it is used",
 }
@@ -199,7 +200,10 @@ def opened(scene: str) -> uwsim.Simulation:
 
 def run_on(simulation: uwsim.Simulation) -> None:
     disturb(simulation)
-    simulation.set_fog(0.3)
+    if (
+        simulation.world.model.scene.ocean_state.water is None
+    ):  # fog has no effect in physical water
+        simulation.set_fog(0.3)
     simulation.set_light(0.5)
     simulation.set_current((0.1, 0.2, 0.0))
     simulation.advance(0.4)

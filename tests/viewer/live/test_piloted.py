@@ -129,4 +129,4 @@ def test_whoever_waits_for_a_page_says_so_once_and_not_at_once(
         session.close()
         session.open(simulation, "scene")  # of another trial: somebody looks
         session.close()
-    assert told == ["1: waits for a page: open http://127.0.0.1:1/?token=x"]
+    assert told == ["1: waiting for a page: open http://127.0.0.1:1/?token=x"]
