@@ -44,7 +44,7 @@ class ProgramOptions:
             "--udp-address",
             metavar="ADDRESS",
             help="Address of this computer, such as 127.0.0.1, at which a vehicle receives the UDP "
-            "datagrams of a flight dynamics model (<fdm>); such a run is not repeatable.",
+            "datagrams of a flight dynamics model, the element fdm; such a run is not repeatable.",
         ),
     ] = None
 
