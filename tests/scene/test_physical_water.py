@@ -11,7 +11,7 @@ import uwsim
 from uwsim.errors import FileError, UwsimError
 from uwsim.optics import FournierForand, HenyeyGreenstein, find_water
 from uwsim.optics.water_file import WaterFile, write_water
-from uwsim.simulation.scenery.physical_scene import choose_water
+from uwsim.simulation.scenery.scene_water import choose_water
 
 SCENE = """<UWSimScene xmlns:u="urn:uwsim:1">
   <oceanState>

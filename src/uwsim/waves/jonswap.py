@@ -13,12 +13,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from ..schema import element
-from .components import WaveComponents, draw_components
 from .spectrum import Spectrum
-from .wave_system import MAX_HEIGHT, IrregularWavesSpec, SeaSettings
+from .wave_system import MAX_HEIGHT, IrregularWavesSpec
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,14 +36,4 @@ class JonswapSpec(IrregularWavesSpec):
             significant_height=self.significant_height,
             peak_period=self.peak_period,
             peak_factor=self.peak_factor,
-        )
-
-    def components(self, sea: SeaSettings, rng: np.random.Generator) -> WaveComponents:
-        """Draw its components."""
-        return draw_components(
-            self.spectrum,
-            self.n_components,
-            rng,
-            direction=self.direction,
-            spreading=self.spreading,
         )

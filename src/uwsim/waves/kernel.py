@@ -77,20 +77,13 @@ def compute_wave_motion(waves: Record, x: float, y: float, z: float, time: float
     n = waves.n
     columns = view_doubles(waves.columns, N_COLUMNS * n).reshape((N_COLUMNS, n))
     work, values = np.empty((4, n)), np.zeros(N_VALUES)
-    sine, cosine = work[0], work[1]
-    _compute_phases(columns, x, y, time, sine, cosine)
-    elevation = 0.0
-    amplitude = columns[AMPLITUDE]
-    for i in range(n):
-        elevation += amplitude[i] * cosine[i]
-    scale = read_double(waves.scale)
-    elevation *= scale
+    _compute_phases(columns, x, y, time, work[0], work[1])
     height = max(min(z - waves.surface, 0.0), -waves.depth)
     _compute_decay(columns, height, work[2], work[3])
     _add_components(columns, work, values)
+    scale = read_double(waves.scale)
     for k in range(N_VALUES):
         values[k] *= scale
-    values[ELEVATION] = elevation
     return values
 
 
@@ -189,8 +182,8 @@ def _compute_decay(
 
 @njit
 def _add_components(columns: Array, work: Array, values: Array) -> None:
-    """Add up the components; the elevation is not among them."""
-    slope_x, slope_y, u, v, w = 0.0, 0.0, 0.0, 0.0, 0.0
+    """Add up the components."""
+    elevation, slope_x, slope_y, u, v, w = 0.0, 0.0, 0.0, 0.0, 0.0, 0.0
     du, dv, dw, pressure = 0.0, 0.0, 0.0, 0.0
     xx, xy, yy, xz, yz = 0.0, 0.0, 0.0, 0.0, 0.0
     amplitude, omega, kx, ky = columns[AMPLITUDE], columns[OMEGA], columns[KX], columns[KY]
@@ -205,6 +198,7 @@ def _add_components(columns: Array, work: Array, values: Array) -> None:
         horizontal_cosine, horizontal_sine = horizontal_speed * cosine, horizontal_speed * sine
         vertical_sine, vertical_cosine = vertical_speed * sine, vertical_speed * cosine
         x, y, rate = unit_x[i], unit_y[i], omega[i]
+        elevation += amplitude[i] * cosine
         slope_x -= amplitude[i] * kx[i] * sine
         slope_y -= amplitude[i] * ky[i] * sine
         u += x * horizontal_cosine
@@ -219,7 +213,7 @@ def _add_components(columns: Array, work: Array, values: Array) -> None:
         xz += kx[i] * vertical_cosine
         yz += ky[i] * vertical_cosine
         pressure += speed[i] * horizontal_cosine
-    values[SLOPE], values[SLOPE + 1] = slope_x, slope_y
+    values[ELEVATION], values[SLOPE], values[SLOPE + 1] = elevation, slope_x, slope_y
     values[VELOCITY], values[VELOCITY + 1], values[VELOCITY + 2] = u, v, w
     values[ACCELERATION], values[ACCELERATION + 1], values[ACCELERATION + 2] = du, dv, dw
     values[GRADIENT], values[GRADIENT + 1], values[GRADIENT + 2] = xx, xy, yy

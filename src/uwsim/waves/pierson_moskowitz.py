@@ -9,12 +9,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from ..schema import element
-from .components import WaveComponents, draw_components
 from .spectrum import Spectrum
-from .wave_system import IrregularWavesSpec, SeaSettings
+from .wave_system import IrregularWavesSpec
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -28,13 +25,3 @@ class PiersonMoskowitzSpec(IrregularWavesSpec):
     def spectrum(self) -> Spectrum:
         """The spectrum."""
         return Spectrum.from_wind(self.wind_speed)
-
-    def components(self, sea: SeaSettings, rng: np.random.Generator) -> WaveComponents:
-        """Draw its components."""
-        return draw_components(
-            self.spectrum,
-            self.n_components,
-            rng,
-            direction=self.direction,
-            spreading=self.spreading,
-        )

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..schema import Spec, element
-from .components import WaveComponents
+from .components import WaveComponents, draw_components
 from .dispersion import wave_numbers
 from .spectrum import Spectrum
 
@@ -79,6 +79,16 @@ class IrregularWavesSpec(WaveSystemSpec, abc.ABC):
     @abc.abstractmethod
     def spectrum(self) -> Spectrum:
         """The spectrum of the elevation."""
+
+    def components(self, sea: SeaSettings, rng: np.random.Generator) -> WaveComponents:
+        """Draw its components."""
+        return draw_components(
+            self.spectrum,
+            self.n_components,
+            rng,
+            direction=self.direction,
+            spreading=self.spreading,
+        )
 
     def peak_number(self, sea: SeaSettings) -> float:
         """Return the wave number of the spectrum's peak [rad/m]."""

@@ -31,9 +31,9 @@ from ...rendering.water import Light, Water
 from ...scene.spec import SceneSpec
 from ..unique_names import make_unique
 from .part_poses import PartPoses
-from .physical_scene import choose_water, make_water, set_exposure
 from .renderer_pool import RendererPool
 from .sand import HeapState, make_heaps
+from .scene_water import choose_water, make_water, set_exposure
 
 if TYPE_CHECKING:
     from ...rendering.renderer import Renderer
