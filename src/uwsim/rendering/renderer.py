@@ -29,6 +29,7 @@ from .lights.shadow_region import Region, compute_tile_bounds, find_shaded_regio
 from .lights.sun_shadow import MAX_CASTER_RADIUS, SHADOW_MARGIN, SunShadow, find_shadow_pairs
 from .passes import SAMPLERS, Passes, Switches
 from .physical.development import Development
+from .physical.moving_surface import MovingSurface
 from .projection import Projection, projection
 from .rendered_image import RenderedImage
 from .targets import COLOUR_FORMATS, RADIANCE, TARGETS, Targets
@@ -69,6 +70,8 @@ class View:
     """The lamps."""
     projector: Projector | None
     """The projector of a pattern, if there is one."""
+    surface: MovingSurface | None = None
+    """The moving surface, if images depend on it."""
 
     @property
     def is_physical(self) -> bool:
@@ -155,6 +158,7 @@ class Renderer:
         colour: str = "uint8",
         lamps: Sequence[Lamp] = (),
         projector: Projector | None = None,
+        surface: MovingSurface | None = None,
     ) -> RenderedImage:
         """Draw one image.
 
@@ -169,6 +173,7 @@ class Renderer:
                 conversion to 8 bit.
             lamps: the lamps, at most four.
             projector: the projector of a pattern, if there is one.
+            surface: the moving surface of physical water, if there is one.
         """
         names = frozenset(targets)
         if not names or not names <= set(TARGETS) or colour not in COLOUR_FORMATS:
@@ -188,6 +193,7 @@ class Renderer:
             version=self._instances.version,
             lamps=tuple(lamps),
             projector=projector,
+            surface=surface if water.physical_water is not None and "colour" in names else None,
         )
         if lamps or projector is not None:
             return self._draw_view(view, world_from_camera)

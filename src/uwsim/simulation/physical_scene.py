@@ -8,6 +8,7 @@ from ..base import rng
 from ..bus import Bus
 from ..model.scene_model import SceneModel
 from ..physics.engine import Engine
+from ..rendering.physical.moving_surface import MovingSurface
 from .bodies import SceneBodies
 from .collision.below_ground import BelowGround
 from .collision.contacts import Contacts
@@ -66,6 +67,16 @@ class PhysicalScene:
         """The contacts between bodies."""
         self.water = water_motion(model, self.stream, runs_code=runs_code)
         """The motion of the water."""
+        if model.optical_water is not None and self.water.waves is not None:
+            self.scenery.set_surface(self._find_surface)
+
+    def _find_surface(self) -> MovingSurface:
+        return MovingSurface(
+            time=self.bus.state.step * self.model.timestep,
+            waves=self.water.waves,
+            wave_scale=float(self.water.state.wave_scale[0]),
+            seed=self.model.seed,
+        )
 
     def stream(self, name: str) -> np.random.Generator:
         """Return the random generator of a stream's name."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -25,6 +25,7 @@ from ...rendering.grey import grey_truncated
 from ...rendering.lights.lamp import Lamp
 from ...rendering.lights.projector import Projector
 from ...rendering.noise import add_noise
+from ...rendering.physical.moving_surface import MovingSurface
 from ...rendering.rendered_image import ImageModel, RenderedImage
 from ...rendering.smoothing import mean_of_squares
 from ...rendering.water import Light, Water
@@ -99,6 +100,11 @@ class Scenery:
         )
         """The state: water, light and sand."""
         self._drawn_heaps: dict[int, tuple[int, int, Model]] = {}  # version, handle, model
+        self._find_surface: Callable[[], MovingSurface] | None = None
+
+    def set_surface(self, find_surface: Callable[[], MovingSurface]) -> None:
+        """Set the function that returns the moving surface at the present time."""
+        self._find_surface = find_surface
 
     def set_lamps(self, lamps: Sequence[MountedLamp], leds: Sequence[Led] = ()) -> None:
         """Set the lamps and the signal lamps of the scene.
@@ -340,6 +346,7 @@ class Scenery:
             hidden_ids=self._hidden_ids if hidden_ids is None else hidden_ids,
             lamps=tuple(map(_make_lamp, lit_lamps[:MAX_LAMPS])),
             projector=self._projector,
+            surface=None if self._find_surface is None else self._find_surface(),
         )
 
     def _draw_heaps(self, renderer: Renderer) -> None:
