@@ -2,8 +2,8 @@ import cv2
 import numpy as np
 import pytest
 
+from scripts.models.stand_ins.blackbox import face
 from uwsim.assets import load_model
-from uwsim.assets.procedural.blackbox import face
 from uwsim.rendering.water import AMBIENT_SHARE, SUN_COLOURS, SUN_DIRECTIONS
 
 

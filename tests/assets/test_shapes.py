@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from uwsim.assets.procedural import shapes
-from uwsim.assets.procedural.shapes import Shape, mesh
+from scripts.models import shapes
+from scripts.models.shapes import Shape, mesh
 
 CLOSED: dict[str, tuple[Shape, float]] = {
     "box": (shapes.box((0, 0, 0), (1, 2, 3)), 6.0),

@@ -1,9 +1,9 @@
 import numpy as np
 import pytest
 
+from scripts.models.stand_ins.seabed_image import mosaic, stones
+from scripts.models.stand_ins.tank import PROFILE
 from uwsim.assets import load_model
-from uwsim.assets.procedural.seabed_image import mosaic, stones
-from uwsim.assets.procedural.tank import PROFILE
 
 
 def hits(origin: tuple[float, float, float], way: tuple[float, float, float]) -> list[float]:

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from uwsim.assets.procedural import textures
+from scripts.models import textures
 
 
 @pytest.mark.parametrize("shape", [(64, 64), (60, 200), (200, 60)])

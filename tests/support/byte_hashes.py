@@ -11,12 +11,13 @@ from collections.abc import Iterator
 from importlib import resources
 from pathlib import Path
 
+from scripts.models.catalogue import STAND_INS
 from tests.sensors.acoustic_world import AcousticWorld, FakeCarrier, plate, sphere
 from tests.support.short_benchmark import fingerprint, run, write_benchmark
-from uwsim.assets.model_cache import _make
-from uwsim.assets.stand_ins import STAND_INS
+from uwsim.assets.bundled_models import hash_meshes
 from uwsim.base.expression import parse
 from uwsim.base.geometry import Pose
+from uwsim.base.numerics.opencv import deterministic_opencv
 from uwsim.sensors.sonar.imaging_sonar import ImagingSonarSpec
 
 TRACKERS = ("ecc", "esm", "orb")
@@ -37,9 +38,11 @@ def run_hash(folder: Path, benchmark: Path, algorithm: str, level: str) -> str:
 
 
 def model_hashes() -> Iterator[tuple[str, str]]:
-    for name in MODELS:
-        assert name in STAND_INS
-        yield name, _make(name).sha256
+    """Make models anew, and hash them."""
+    makers = {name: make for models in STAND_INS.values() for name, make in models.items()}
+    with deterministic_opencv():
+        for name in MODELS:
+            yield name, hash_meshes(makers[name]())
 
 
 def sonar_hash() -> str:

@@ -1,7 +1,7 @@
-"""Assets: find and read the models that scene and robot files name, or generate stand-ins.
+"""Assets: find and read the models that scene and robot files name, or bundled ones.
 
 `load_model` searches for the file (`find.py`), then for a readable file of the same stem, then for
-the generated replacement of that relative name (`STAND_INS`).
+the bundled model of that relative name (`BUNDLED_MODELS`).
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ from pathlib import Path, PurePosixPath
 
 from ..base.files.input_files import is_inside
 from ..errors import AssetError, AssetNotFound, did_you_mean
+from .bundled_models import bundled_model
 from .find import (
     SUBFOLDERS,
     bundled_robot,
@@ -25,13 +26,13 @@ from .find import (
 from .loaders import MESH_FORMATS, OSGCONV_FORMATS, can_read, read_model
 from .location_remarks import describe_search, location_remark, package_remark, states_location
 from .mesh import Mesh, Model, Texture
-from .model_cache import generated_model
 from .packages import PREFIXES, UWSIM_PACKAGE, environment_folders, package_folders, package_of
 from .paint import paint_model
 from .primitives import primitive
-from .stand_ins import STAND_INS, StandIn
+from .stand_ins import BUNDLED_MODELS, STAND_INS, StandIn
 
 __all__ = [
+    "BUNDLED_MODELS",
     "MESH_FORMATS",
     "STAND_INS",
     "Mesh",
@@ -82,11 +83,11 @@ def load_model(
         return read_model(path, name=name, allowed_folders=allowed_folders)
     stand_in = _stand_in_of(requested_name, named_by, data_path)
     if stand_in is not None:
-        return generated_model(stand_in)
+        return bundled_model(stand_in)
     remark = package_remark(requested_name, named_by=named_by, data_path=data_path)
     raise AssetNotFound(
         f"There is no file {name!r}, and no stand-in of that name."
-        f"{did_you_mean(_stem(name).removeprefix('data/'), STAND_INS)} "
+        f"{did_you_mean(_stem(name).removeprefix('data/'), BUNDLED_MODELS)} "
         + (f"{remark[0].upper()}{remark[1:]}. " if remark else "")
         + "Searched, in order: "
         + ", ".join(str(root) for root in roots(named_by=named_by, data_path=data_path))
@@ -189,10 +190,10 @@ def _stand_in_of(name: str, named_by: Path | None, data_path: tuple[Path, ...]) 
 
 
 def _stand_in_name(stem: str) -> str | None:
-    """Return the name in `STAND_INS` that ends ``stem``, which may begin with folders."""
+    """Return the name in `BUNDLED_MODELS` that ends ``stem``, which may begin with folders."""
     parts = PurePosixPath(stem.replace("\\", "/")).parts
     for k in range(len(parts)):
         tail = "/".join(parts[k:])
-        if tail in STAND_INS:
+        if tail in BUNDLED_MODELS:
             return tail
     return None

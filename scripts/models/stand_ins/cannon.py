@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..mesh import Mesh
-from .shapes import cylinder, lathe, mesh, rotation_to
-from .textures import worn_paint
+from uwsim.assets.mesh import Mesh
+
+from ..shapes import cylinder, lathe, mesh, rotation_to
+from ..textures import worn_paint
 
 LENGTH = 2.4
 """The length from button to muzzle [m]; the size of UWSim's model is not known."""

@@ -11,11 +11,12 @@ from functools import cache
 import cv2
 import numpy as np
 
-from ...base.geometry import Array, rotation_from_rpy, rotation_y
-from ..mesh import Mesh, Texture
-from .shapes import Shape, cylinder, join, mesh, quad, sphere, surface
+from uwsim.assets.mesh import Mesh, Texture
+from uwsim.base.geometry import Array, rotation_from_rpy, rotation_y
+
+from ..shapes import Shape, cylinder, join, mesh, quad, sphere, surface
+from ..textures import fill, mix, noise, shading, smoothstep, to_texture, worn_paint
 from .ships import hull
-from .textures import fill, mix, noise, shading, smoothstep, to_texture, worn_paint
 
 DEPTH, REACH = 15.0, 40.0
 """The mean depth of the floor, and its reach from the middle [m]."""

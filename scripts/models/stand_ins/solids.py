@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from ..mesh import Mesh
-from .shapes import Shape, capsule, cylinder, mesh, quad, rounded_box, sphere, torus
-from .textures import cement, worn_paint
+from uwsim.assets.mesh import Mesh
+
+from ..shapes import Shape, capsule, cylinder, mesh, quad, rounded_box, sphere, torus
+from ..textures import cement, worn_paint
 
 HALF = 0.5
 """The half of the width, depth and height of every solid but the torus [m]."""

@@ -12,10 +12,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from ..mesh import Mesh, Texture
+from uwsim.assets.mesh import Mesh, Texture
+
+from ..shapes import Shape, box, join, mesh, quad
+from ..textures import cement, fill, mix, noise, paint_text, smoothstep, to_texture, worn_paint
 from .seabed_image import mosaic
-from .shapes import Shape, box, join, mesh, quad
-from .textures import cement, fill, mix, noise, paint_text, smoothstep, to_texture, worn_paint
 
 WEST, EAST, SOUTH, NORTH = -8.01, 7.99, -4.0, 4.0
 """The inner walls of the basin [m]."""

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..mesh import Mesh
-from .shapes import cylinder, join, mesh, ring, rotation_to
-from .textures import worn_paint
+from uwsim.assets.mesh import Mesh
+
+from ..shapes import cylinder, join, mesh, ring, rotation_to
+from ..textures import worn_paint
 
 LENGTH, RADIUS, FLANGE = 1.885, 0.15, 0.20
 """Length (the spacing of the pieces in UWSim's scene), radius of pipe and of flanges [m]."""

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from ..mesh import Mesh
-from .shapes import box, cylinder, mesh
-from .textures import worn_paint
+from uwsim.assets.mesh import Mesh
+
+from ..shapes import box, cylinder, mesh
+from ..textures import worn_paint
 
 HINGE_X, HINGE_Z = 0.03, 0.197
 """The hinges of the jaws in the base's frame, at +- x [m]."""

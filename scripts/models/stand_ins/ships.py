@@ -9,9 +9,10 @@ import math
 
 import numpy as np
 
-from ..mesh import Mesh
-from .shapes import Shape, box, cylinder, loft, mesh
-from .textures import worn_paint
+from uwsim.assets.mesh import Mesh
+
+from ..shapes import Shape, box, cylinder, loft, mesh
+from ..textures import worn_paint
 
 
 def hull(length: float, beam: float, draught: float, freeboard: float, *, n: int = 14) -> Shape:

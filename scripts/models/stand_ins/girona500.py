@@ -14,11 +14,12 @@ import math
 
 import numpy as np
 
-from ...base.geometry import rotation_z
-from ...base.numerics.linear import product
-from ..mesh import Mesh, Texture
-from .shapes import Shape, cylinder, join, lathe, mesh, quad, rotation_to, rounded_box, tube
-from .textures import fill, mix, noise, paint_text, smoothstep, to_texture, worn_paint
+from uwsim.assets.mesh import Mesh, Texture
+from uwsim.base.geometry import rotation_z
+from uwsim.base.numerics.linear import product
+
+from ..shapes import Shape, cylinder, join, lathe, mesh, quad, rotation_to, rounded_box, tube
+from ..textures import fill, mix, noise, paint_text, smoothstep, to_texture, worn_paint
 
 HULL_LENGTH, HULL_RADIUS = 1.507, 0.153
 """The length and the radius of one hull [m]."""

@@ -6,9 +6,10 @@ import math
 
 import numpy as np
 
-from ..mesh import Mesh
-from .shapes import loft, mesh, torus
-from .textures import worn_paint
+from uwsim.assets.mesh import Mesh
+
+from ..shapes import loft, mesh, torus
+from ..textures import worn_paint
 
 
 def ring_object() -> tuple[Mesh, ...]:

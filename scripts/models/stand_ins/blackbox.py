@@ -10,9 +10,10 @@ from functools import cache
 
 import numpy as np
 
-from ..mesh import Mesh, Texture
-from .shapes import Shape, box, cylinder, join, mesh, quad, tube
-from .textures import Pixels, fill, mix, noise, paint_text, smoothstep, to_texture, worn_paint
+from uwsim.assets.mesh import Mesh, Texture
+
+from ..shapes import Shape, box, cylinder, join, mesh, quad, tube
+from ..textures import Pixels, fill, mix, noise, paint_text, smoothstep, to_texture, worn_paint
 
 ORANGE = (0.97, 0.42, 0.07)
 """The international orange, as stored value."""

@@ -7,10 +7,11 @@ from functools import cache
 
 import numpy as np
 
-from ...base.numerics.elementwise import power
-from ..mesh import Mesh, Texture
-from .shapes import Shape, lathe, mesh, tube
-from .textures import fill, mix, noise, smoothstep, to_texture
+from uwsim.assets.mesh import Mesh, Texture
+from uwsim.base.numerics.elementwise import power
+
+from ..shapes import Shape, lathe, mesh, tube
+from ..textures import fill, mix, noise, smoothstep, to_texture
 
 RADIUS, FOOT, TOP = 0.115, 0.003, 0.753
 """The widest radius, the lowest and the highest point [m]."""

@@ -12,9 +12,10 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 
-from ...base import rng
-from ..mesh import Texture
-from .textures import Grey, noise, shading, smoothstep
+from uwsim.assets.mesh import Texture
+from uwsim.base import rng
+
+from ..textures import Grey, noise, shading, smoothstep
 
 SIZE = (1632, 816)
 """The numbers of rows and columns: 4.3 mm a pixel."""

@@ -13,11 +13,12 @@ from dataclasses import replace
 
 import numpy as np
 
-from ...base.geometry import Triple
-from ...base.numerics.linear import length
-from ..mesh import Mesh
-from .shapes import Shape, box, cylinder, join, loft, mesh, ring, rounded_box
-from .textures import worn_paint
+from uwsim.assets.mesh import Mesh
+from uwsim.base.geometry import Triple
+from uwsim.base.numerics.linear import length
+
+from ..shapes import Shape, box, cylinder, join, loft, mesh, ring, rounded_box
+from ..textures import worn_paint
 
 BLACK, SILVER, BRASS = (0.15, 0.155, 0.165), (0.66, 0.68, 0.70), (0.85, 0.45, 0.10)
 

@@ -1,0 +1,96 @@
+"""The files that are written, and the functions that make the models in each."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+from uwsim.assets.mesh import Mesh
+
+from .parts import Part
+from .stand_ins import (
+    amphora,
+    arm5e,
+    blackbox,
+    cannon,
+    fittings,
+    girona500,
+    pipe,
+    seafloor,
+    ships,
+    solids,
+    tank,
+    ujione,
+)
+
+STAND_INS: dict[str, dict[str, Callable[[], tuple[Mesh, ...]]]] = {
+    "objects/amphora": {
+        "objects/amphora": amphora.amphora,
+    },
+    "objects/blackbox": {
+        "objects/blackbox": blackbox.blackbox,
+        "objects/blackbox_standard": blackbox.blackbox_standard,
+        "objects/blackbox_uib": blackbox.blackbox_uib,
+    },
+    "objects/ships": {
+        "objects/boat": ships.boat,
+        "objects/ship": ships.ship,
+    },
+    "objects/solids": {
+        "objects/box": solids.box,
+        "objects/capsule": solids.rod,
+        "objects/cone": solids.cone,
+        "objects/cylinder": solids.upright_cylinder,
+        "objects/ring": solids.wide_ring,
+        "objects/sphere": solids.ball,
+    },
+    "objects/gun": {
+        "objects/gun": cannon.cannon,
+    },
+    "objects/fittings": {
+        "objects/hook": fittings.hook,
+        "objects/torus": fittings.ring_object,
+    },
+    "objects/pipe_green": {
+        "objects/pipe_green": pipe.pipe,
+    },
+    "robot/ARM5E": {
+        "robot/ARM5E/ARM5E_part0": arm5e.part0,
+        "robot/ARM5E/ARM5E_part1": arm5e.part1,
+        "robot/ARM5E/ARM5E_part2": arm5e.part2,
+        "robot/ARM5E/ARM5E_part3": arm5e.part3,
+        "robot/ARM5E/ARM5E_part4": arm5e.part4,
+        "robot/ARM5E/ARM5E_part4_base": arm5e.part4_base,
+        "robot/ARM5E/ARM5E_part4_jaw1": arm5e.jaw1,
+        "robot/ARM5E/ARM5E_part4_jaw1long": arm5e.jaw1_long,
+        "robot/ARM5E/ARM5E_part4_jaw2": arm5e.jaw2,
+        "robot/ARM5E/ARM5E_part4_jaw2long": arm5e.jaw2_long,
+    },
+    "robot/GIRONA500": {
+        "robot/GIRONA500/g500_March11": girona500.girona500,
+    },
+    "robot/UJIOne": {
+        "robot/UJIOne/ujione_base": ujione.gripper_base,
+        "robot/UJIOne/ujione_jaw_inner": ujione.inner_jaw,
+        "robot/UJIOne/ujione_jaw_outer": ujione.outer_jaw,
+    },
+    "terrain/CIRS": {
+        "terrain/CIRS/cirs": tank.higher_tank,
+        "terrain/CIRS/cirs_trident": tank.tank,
+    },
+    "terrain/sand": {
+        "terrain/desert/desert2": seafloor.desert,
+        "terrain/sand/sand": seafloor.flat_sand,
+        "terrain/seafloor/terrain_noship": seafloor.seafloor,
+        "terrain/shipwreck/terrain": seafloor.shipwreck,
+    },
+    "terrain/floor": {
+        "terrain/floor/floor": solids.floor,
+    },
+}
+"""The stand-ins for UWSim's models, by file and name; their arrays never change.
+
+Results of benchmarks record the hashes of these models.
+"""
+
+SCENERY: dict[str, dict[str, Callable[[], tuple[Part, ...]]]] = {}
+"""The other models, with maps, by file and name."""

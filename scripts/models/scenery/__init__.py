@@ -1,0 +1,1 @@
+"""Models for scenes in physical water, with normal, roughness and occlusion maps."""

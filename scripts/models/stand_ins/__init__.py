@@ -1,0 +1,1 @@
+"""Models in place of those of UWSim, whose files are not free to copy."""
