@@ -29,7 +29,7 @@ from ..state.saved_bytes import pack, unpack
 if TYPE_CHECKING:
     from ..simulation import Simulation
 
-STATE_FIELDS = ("engine", "scenery", "devices", "sensors", "vehicles")
+STATE_FIELDS = ("engine", "scenery", "devices", "sensors", "vehicles", "water")
 """The fields of `State` on which images depend."""
 SPARE_BYTES = 2**20
 """The spare memory for a state that grows [bytes]."""
@@ -193,6 +193,7 @@ def draw_images(
                 state_size, requests = pipe.recv()
                 assign_fields(simulation.state, unpack(bytes(memory.buf[:state_size]), dict))
                 simulation.world.scenery.redraw()
+                simulation.state.bus.step = round(requests[0][1] / simulation.timestep)
                 images = []
                 for topic, time in requests:
                     pixels = simulation.world.images[topic].camera.capture()
