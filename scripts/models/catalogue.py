@@ -7,6 +7,7 @@ from collections.abc import Callable
 from uwsim.assets.mesh import Mesh
 
 from .parts import Part
+from .scenery import rocks, seabed
 from .stand_ins import (
     amphora,
     arm5e,
@@ -92,5 +93,17 @@ STAND_INS: dict[str, dict[str, Callable[[], tuple[Mesh, ...]]]] = {
 Results of benchmarks record the hashes of these models.
 """
 
-SCENERY: dict[str, dict[str, Callable[[], tuple[Part, ...]]]] = {}
+SCENERY: dict[str, dict[str, Callable[[], tuple[Part, ...]]]] = {
+    "objects/rocks": {
+        "objects/rock1": rocks.rock1,
+        "objects/rock2": rocks.rock2,
+        "objects/rock3": rocks.rock3,
+        "objects/rock4": rocks.rock4,
+        "objects/rock5": rocks.rock5,
+    },
+    "terrain/seabed": {
+        "terrain/seabed/sand": seabed.sand,
+        "terrain/seabed/gravel": seabed.gravel,
+    },
+}
 """The other models, with maps, by file and name."""

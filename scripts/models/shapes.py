@@ -11,6 +11,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from uwsim.assets.procedural.shapes import (
+    CREASE,
     Shape,
     box,
     cylinder,
@@ -26,6 +27,7 @@ from uwsim.base.geometry import Array, Triple
 from uwsim.base.numerics.linear import dot, length, product
 
 __all__ = [
+    "CREASE",
     "Shape",
     "box",
     "capsule",

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 from functools import cache
+from typing import Any
 
 import cv2
 import numpy as np
+import numpy.typing as npt
 
 from uwsim.assets.mesh import Texture
 from uwsim.assets.procedural.textures import (
     Colour,
-    Grey,
-    Pixels,
     fill,
     mix,
     noise,
@@ -19,6 +19,11 @@ from uwsim.assets.procedural.textures import (
     to_texture,
 )
 from uwsim.base import rng
+
+Grey = npt.NDArray[Any]
+"""A grey image, (h, w), about 0..1."""
+Pixels = npt.NDArray[Any]
+"""A colour image, (h, w, 3), 0..1, red green blue, row 0 at the top."""
 
 __all__ = [
     "Colour",

@@ -154,7 +154,7 @@ def _material_errors(tree: Tree, chunk: bytes) -> Iterator[str]:
             if isinstance(reference, dict) and "index" in reference:
                 texture = tree["textures"][reference["index"]]
                 _ = tree["images"][texture["source"]], tree["samplers"][texture["sampler"]]
-                if not set(reference.get("extensions", ())) <= set(tree["extensionsUsed"]):
+                if not set(reference.get("extensions", ())) <= set(tree.get("extensionsUsed", ())):
                     yield "an extension that is not listed"
     for image in tree.get("images", ()):
         view = tree["bufferViews"][image["bufferView"]]

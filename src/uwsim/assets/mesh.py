@@ -56,7 +56,8 @@ class Model:
     meshes: tuple[Mesh, ...]
     """The meshes, each of one material."""
     source: str
-    """The origin: ``"file"``, ``"stand-in"`` (modelled) or ``"labelled box"`` (a placeholder)."""
+    """The origin: ``"file"``, ``"bundled"``, ``"stand-in"`` (bundled, in place of a model of UWSim)
+    or ``"labelled box"`` (a placeholder)."""
     sha256: str = ""
     """The hash of the file's bytes, or of the arrays of a generated model."""
     files: tuple[InputFile, ...] = ()

@@ -29,6 +29,11 @@ class LabelledBox:
 
 StandIn = BundledModel | LabelledBox
 
+
+def _scenery(file: str) -> BundledModel:
+    return BundledModel(file, source="bundled")
+
+
 STAND_INS: dict[str, StandIn] = {
     "objects/amphora": BundledModel("objects/amphora"),
     "objects/blackbox": BundledModel("objects/blackbox"),
@@ -82,7 +87,15 @@ STAND_INS: dict[str, StandIn] = {
 }
 """The replacements of UWSim's models in alphabetical order, one line each."""
 
-SCENERY: dict[str, StandIn] = {}
+SCENERY: dict[str, StandIn] = {
+    "objects/rock1": _scenery("objects/rocks"),
+    "objects/rock2": _scenery("objects/rocks"),
+    "objects/rock3": _scenery("objects/rocks"),
+    "objects/rock4": _scenery("objects/rocks"),
+    "objects/rock5": _scenery("objects/rocks"),
+    "terrain/seabed/gravel": _scenery("terrain/seabed"),
+    "terrain/seabed/sand": _scenery("terrain/seabed"),
+}
 """The models that UWSim does not have, in alphabetical order."""
 
 BUNDLED_MODELS = {**STAND_INS, **SCENERY}
