@@ -30,6 +30,7 @@ from .lights.sun_shadow import MAX_CASTER_RADIUS, SHADOW_MARGIN, SunShadow, find
 from .passes import SAMPLERS, Passes, Switches
 from .physical.development import Development
 from .physical.moving_surface import MovingSurface
+from .physical.particle_pass import VisibleParticles
 from .projection import Projection, projection
 from .rendered_image import RenderedImage
 from .targets import COLOUR_FORMATS, RADIANCE, TARGETS, Targets
@@ -72,6 +73,8 @@ class View:
     """The projector of a pattern, if there is one."""
     surface: MovingSurface | None = None
     """The moving surface, if images depend on it."""
+    particles: VisibleParticles | None = None
+    """The particles in physical water, if there are any."""
 
     @property
     def is_physical(self) -> bool:
@@ -159,6 +162,7 @@ class Renderer:
         lamps: Sequence[Lamp] = (),
         projector: Projector | None = None,
         surface: MovingSurface | None = None,
+        particles: VisibleParticles | None = None,
     ) -> RenderedImage:
         """Draw one image.
 
@@ -174,6 +178,7 @@ class Renderer:
             lamps: the lamps, at most four.
             projector: the projector of a pattern, if there is one.
             surface: the moving surface of physical water, if there is one.
+            particles: the particles in view, which only physical water shows.
         """
         names = frozenset(targets)
         if not names or not names <= set(TARGETS) or colour not in COLOUR_FORMATS:
@@ -194,8 +199,9 @@ class Renderer:
             lamps=tuple(lamps),
             projector=projector,
             surface=surface if water.physical_water is not None and "colour" in names else None,
+            particles=particles,
         )
-        if lamps or projector is not None:
+        if lamps or projector is not None or particles is not None:
             return self._draw_view(view, world_from_camera)
         image = self._images.get(view)
         return image.copy() if image is not None else self._draw_and_store(view, world_from_camera)
@@ -244,7 +250,12 @@ class Renderer:
             self._passes.draw_lamp_points(surfaces, len(view.lamps))
         target = self._find_targets(replace(view, targets=frozenset({"colour"})))
         self._development.develop(
-            physical_water, lens, len(view.lamps), surfaces.radiance, target.framebuffer
+            physical_water,
+            lens,
+            len(view.lamps),
+            surfaces.radiance,
+            target.framebuffer,
+            view.particles,
         )
         colour = target.read_image(lens).colour
         return replace(surfaces.read_image(lens), colour=colour, image_model="physical")

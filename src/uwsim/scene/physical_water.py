@@ -31,6 +31,7 @@ from ..optics import (
 )
 from ..optics.medium import MAX_COEFFICIENT
 from ..optics.water_file import read_water
+from ..particles import ParticlesSpec
 from ..schema import NAMESPACE, Numbers, Spec, element
 
 TransferCurve = Literal["srgb", "linear"]
@@ -158,6 +159,8 @@ class PhysicalWaterSpec(Spec):
     """True if light that is scattered forward blurs images."""
     lamp_veil: bool = element(namespaced=True, default=True)
     """True if the water scatters the light of lamps into cameras."""
+    particles: ParticlesSpec | None = element(namespaced=True, default=None)
+    """The particles that cameras see; when absent there are none."""
 
     def read_medium(self, find: Callable[[str], Path]) -> Medium:
         """Return the water; its file is read.

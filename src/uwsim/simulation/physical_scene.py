@@ -14,6 +14,7 @@ from .collision.below_ground import BelowGround
 from .collision.contacts import Contacts
 from .collision.start_depths import lift_from_ground
 from .scenery.renderer_pool import RendererPool
+from .scenery.scene_particles import UPDATE_RATE, make_particles
 from .scenery.scene_rays import SceneRays
 from .scenery.scenery import Scenery
 from .schedule import Schedule
@@ -57,7 +58,9 @@ class PhysicalScene:
         """The check for bodies that have passed through the ground."""
         self.vehicles = SceneVehicles(model, engine, self.bus)
         """The vehicles, by their number in the file or by name."""
-        self.scenery = Scenery(model, engine, pool)
+        self.particles = make_particles(model, self.stream, lambda: self.time)
+        """The particles in the water; None without any."""
+        self.scenery = Scenery(model, engine, pool, self.particles)
         """The rendering of the scene."""
         self.rays = SceneRays(model, engine, self.scenery.heaps)
         """The ray casting against the scene."""
@@ -69,10 +72,27 @@ class PhysicalScene:
         """The motion of the water."""
         if model.optical_water is not None and self.water.waves is not None:
             self.scenery.set_surface(self._find_surface)
+        if self.particles is not None:
+            self.schedule.create_timer(UPDATE_RATE, self._move_particles)
+
+    @property
+    def time(self) -> float:
+        """The simulation time [s]."""
+        return self.bus.state.step * self.model.timestep
+
+    def _move_particles(self) -> None:
+        vehicles, water = self.model.scene.vehicles, self.water
+        assert self.particles is not None
+        if not vehicles or water.is_still:
+            self.particles.measure_water(np.zeros(3))
+            return
+        position = self.engine.poses.vehicle(0).position
+        velocity = water.velocity(position[None, :], self.time, vehicles[0].name)[0]
+        self.particles.measure_water(velocity)
 
     def _find_surface(self) -> MovingSurface:
         return MovingSurface(
-            time=self.bus.state.step * self.model.timestep,
+            time=self.time,
             waves=self.water.waves,
             wave_scale=float(self.water.state.wave_scale[0]),
             seed=self.model.seed,

@@ -23,15 +23,20 @@ from .blur_plan import BlurPlan, compute_radius, plan_blur
 from .blur_weights import N_LEVELS, N_RANGES, compute_weight_table
 from .open_water_map import OpenWaterMap
 from .optics_block import OPTICS, OpticsBlock
+from .particle_pass import ParticlePass, VisibleParticles
 from .physical_water import PhysicalWater
 
 SURFACE_UNIT, MAP_UNIT, TABLE_UNIT, FIRST_LEVEL_UNIT = 0, 5, 6, 7
 """The texture units of the image of surfaces, the open water, the weights, and the first level."""
+LAMP_MAP_UNIT, PARTICLE_UNIT = 2, 11
+"""The texture units of the lamps' shadow maps, as in the surface pass, and of the particles."""
 SAMPLERS = {
     "surface_image": SURFACE_UNIT,
     "open_water_map": MAP_UNIT,
     "weight_table": TABLE_UNIT,
     **{f"level_{i}": FIRST_LEVEL_UNIT + i for i in range(4)},
+    "lamp_maps": LAMP_MAP_UNIT,
+    "particle_image": PARTICLE_UNIT,
 }
 """The texture unit of every sampler of these passes."""
 SCREEN = "screen"
@@ -91,6 +96,7 @@ class Development:
         self._table = _texture(context, (N_RANGES, N_LEVELS))
         self._table_medium: Medium | None = None
         self._buffers: dict[object, Buffers] = {}
+        self._particles = ParticlePass(context, SAMPLERS)
         self._programs: dict[object, tuple[moderngl.Program, moderngl.VertexArray]] = {}
 
     def prepare(
@@ -120,6 +126,7 @@ class Development:
         n_lamps: int,
         surfaces: moderngl.Texture,
         target: moderngl.Framebuffer,
+        particles: VisibleParticles | None = None,
     ) -> None:
         """Draw the image of a camera from the image of surfaces.
 
@@ -129,6 +136,7 @@ class Development:
             n_lamps: the number of lamps.
             surfaces: the radiance and the range of surfaces, four floats.
             target: the framebuffer of the colours.
+            particles: the particles in view; None: none are drawn.
         """
         plan = plan_blur(intrinsics, has_blur=water.has_blur)
         n_veils = n_lamps if water.has_lamp_veil else 0
@@ -142,6 +150,10 @@ class Development:
             self._draw_scattered(plan, size, n_veils).use(FIRST_LEVEL_UNIT)
             surfaces.use(SURFACE_UNIT)
             switches += (("SCATTERED", 1),)
+        if particles is not None:
+            size = intrinsics.width, intrinsics.height
+            self._particles.draw(particles, size, n_lamps).use(PARTICLE_UNIT)
+            switches += (("PARTICLES", 1),)
         if water.transfer == "linear":
             switches += (("LINEAR", 1),)
         self._draw("developed", switches, target)

@@ -1,6 +1,6 @@
 // Provides: the stored colours of an image through physical water: direct light, blur, veil, exposure, curve.
 // Needs: optics.glsl, transmission.glsl, open_water.glsl; the image of the surfaces; with SCATTERED, the sum of the coarse
-// levels; the switches N_SHARP, FINE, FINE_SHARE (a thousand times half the variance [px^2]), and LINEAR for no curve.
+// levels; with PARTICLES, the image of the particles; the switches N_SHARP, FINE, FINE_SHARE (a thousand times half the variance [px^2]), and LINEAR for no curve.
 // B + D (J - B) + blur + veil: physical/development.py; the curve: physical/transfer_curve.py.
 #include "optics.glsl"
 #include "transmission.glsl"
@@ -9,6 +9,9 @@
 uniform sampler2D surface_image;
 #ifdef SCATTERED
 uniform sampler2D level_0;
+#endif
+#ifdef PARTICLES
+uniform sampler2D particle_image;
 #endif
 out vec4 colour_out;
 
@@ -31,6 +34,11 @@ void main() {
     for (int level = 0; level < N_SHARP; ++level) sharp += weight(level, range);
 #else
     vec3 sharp = whole_field(range);
+#endif
+#ifdef PARTICLES
+    vec4 particles = texelFetch(particle_image, pixel, 0);
+    excess *= 1.0 - min(particles.a, 1.0);
+    light += particles.rgb;
 #endif
     light += sharp * excess;
 #if FINE > 0

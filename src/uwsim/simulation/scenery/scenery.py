@@ -34,6 +34,7 @@ from ..unique_names import make_unique
 from .part_poses import PartPoses
 from .renderer_pool import RendererPool
 from .sand import HeapState, make_heaps
+from .scene_particles import ParticlesState, SceneParticles
 from .scene_water import choose_water, make_water, set_exposure
 
 if TYPE_CHECKING:
@@ -57,6 +58,8 @@ class SceneryState(Record):
     """The light of the scene; scene updaters change its ``rate``."""
     heaps: list[HeapState]
     """The state of each heap of sand."""
+    particles: ParticlesState | None = None
+    """The state of the particles in the water; None without any."""
 
 
 class Scenery:
@@ -66,10 +69,18 @@ class Scenery:
         model: the compiled scene.
         engine: the engine, which stores the poses.
         pool: the pool of renderers; None: the scenery has a renderer of its own.
+        particles: the particles in the water; None without any.
     """
 
-    def __init__(self, model: SceneModel, engine: Engine, pool: RendererPool | None) -> None:
+    def __init__(
+        self,
+        model: SceneModel,
+        engine: Engine,
+        pool: RendererPool | None,
+        particles: SceneParticles | None = None,
+    ) -> None:
         scene = model.scene
+        self._particles = particles
         self._model = model
         self._engine = engine
         self._own_pool = RendererPool()
@@ -97,6 +108,7 @@ class Scenery:
             make_water(model),
             Light(rate=scene.sim_params.light_rate, shadows=_has_sun_shadows(scene)),
             [heap.state for heap in self.heaps],
+            None if particles is None else particles.state,
         )
         """The state: water, light and sand."""
         self._drawn_heaps: dict[int, tuple[int, int, Model]] = {}  # version, handle, model
@@ -336,6 +348,13 @@ class Scenery:
             self._drawn_version = self._engine.poses.version
         self._draw_heaps(renderer)
         lit_lamps = [lamp for lamp in self.mounted_lamps if lamp.is_on]
+        particles = None
+        if (
+            self._particles is not None
+            and "colour" in targets
+            and water.physical_water == self.state.water.physical_water  # not the purest water
+        ):
+            particles = self._particles.find_visible(world_from_camera, intrinsics)
         return renderer.draw(
             world_from_camera,
             intrinsics,
@@ -347,6 +366,7 @@ class Scenery:
             lamps=tuple(map(_make_lamp, lit_lamps[:MAX_LAMPS])),
             projector=self._projector,
             surface=None if self._find_surface is None else self._find_surface(),
+            particles=particles,
         )
 
     def _draw_heaps(self, renderer: Renderer) -> None:

@@ -1,0 +1,122 @@
+r"""The pass that draws particles: marine snow and bubbles.
+
+A particle of radius :math:`a` at range :math:`r` and irradiance E is a soft disc of its true
+angular size with the radiance :math:`J = \rho E`, where a white surface in the irradiance 1 has the
+radiance 1. Its image carries
+
+.. math:: L\, \Omega = \rho E\, \frac{\pi a^2}{r^2} e^{-c r}
+
+however many pixels it has: a disc below the least radius is drawn with that radius and less
+coverage, and so are the blur of the lens, :math:`A\, |1/r - 1/F|` of an aperture A focused at F,
+and the streak of the motion during the exposure. A particle that scatters evenly with the albedo
+:math:`\omega` has :math:`\rho = \omega / 4`, and the irradiance of a level field counts twice: in
+an isotropic field a particle with :math:`\omega = 1` is invisible. The light of lamps is that on
+surfaces, with both legs, lobes and shadows.
+
+The texture has the sum over the particles of coverage times :math:`e^{-c r} (J - B)` with the light
+B of open water, and of the coverage, by which the light of surfaces behind decreases. Not modelled:
+particles that hide each other, the blur of their light by the water, the sun's shadow and caustics
+on them, and the change of the lobe of scattering with the direction.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import moderngl
+import numpy as np
+import numpy.typing as npt
+
+from ...particles import PARTICLE
+from ..frame import FRAME
+from ..lights.lamps import LAMPS
+from ..program import Block, build
+from .optics_block import OPTICS
+
+MIN_RADIUS = 1.5
+"""The least radius of the image of a particle [px]; smaller ones would flicker."""
+LENS = Block("ParticleLens", 9, {"particle_lens": "vec4"})
+FORMAT = "4f 4f 2f/i"
+"""The format of `PARTICLE` for OpenGL, a record for each instance."""
+
+
+@dataclass(frozen=True, eq=False)
+class VisibleParticles:
+    """The particles in a camera's view."""
+
+    records: npt.NDArray[np.void]
+    """The particles, records of `uwsim.particles.PARTICLE`, (n,)."""
+    aperture: float
+    """The diameter of the lens's aperture [m]; 0: all particles are sharp."""
+    focus_distance: float
+    """The distance at which the lens is focused [m]."""
+
+
+class ParticlePass:
+    """The pass that draws particles into a texture; one for a renderer.
+
+    Args:
+        context: the context of the renderer.
+        samplers: the texture unit of every sampler.
+    """
+
+    def __init__(self, context: moderngl.Context, samplers: dict[str, int]) -> None:
+        self._context, self._samplers = context, samplers
+        self._framebuffers: dict[tuple[int, int], moderngl.Framebuffer] = {}
+        self._programs: dict[int, tuple[moderngl.Program, moderngl.VertexArray]] = {}
+        self._records = context.buffer(reserve=1024 * PARTICLE.itemsize, dynamic=True)
+        self._lens_values = np.zeros((), dtype=LENS.dtype)
+        self._lens = context.buffer(reserve=LENS.dtype.itemsize, dynamic=True)
+
+    def draw(
+        self, particles: VisibleParticles, size: tuple[int, int], n_lamps: int
+    ) -> moderngl.Texture:
+        """Draw particles; the textures of surfaces and open water must be bound.
+
+        Args:
+            particles: the particles.
+            size: the width and height of the image [px].
+            n_lamps: the number of lamps.
+        """
+        context = self._context
+        if size not in self._framebuffers:
+            texture = context.texture(size, 4, dtype="f4")
+            texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
+            self._framebuffers[size] = context.framebuffer([texture])
+        framebuffer = self._framebuffers[size]
+        framebuffer.use()
+        framebuffer.clear(0.0, 0.0, 0.0, 0.0)
+        records = particles.records
+        if len(records):
+            if records.nbytes > self._records.size:
+                self._records.orphan(2 * records.nbytes)
+            self._records.write(records.tobytes())
+            self._lens_values["particle_lens"] = (
+                0.5 * particles.aperture,
+                1.0 / particles.focus_distance,
+                MIN_RADIUS,
+                0.0,
+            )
+            self._lens.write(self._lens_values.tobytes())
+            self._lens.bind_to_uniform_block(LENS.binding)
+            context.enable_only(moderngl.BLEND)
+            context.blend_func = moderngl.ONE, moderngl.ONE
+            array = self._find_array(n_lamps)
+            array.render(moderngl.TRIANGLE_STRIP, vertices=4, instances=len(records))
+            context.enable_only(moderngl.NOTHING)
+        texture = framebuffer.color_attachments[0]
+        assert isinstance(texture, moderngl.Texture)
+        return texture
+
+    def _find_array(self, n_lamps: int) -> moderngl.VertexArray:
+        if n_lamps not in self._programs:
+            program = build(
+                self._context,
+                "particle",
+                defines={"LAMPS": n_lamps} if n_lamps else {},
+                blocks=(FRAME, OPTICS, LAMPS, LENS),
+                samplers=self._samplers,
+            )
+            members = (self._records, FORMAT, "place", "extent", "traits")
+            self._programs[n_lamps] = program, self._context.vertex_array(program, [members])
+        return self._programs[n_lamps][1]

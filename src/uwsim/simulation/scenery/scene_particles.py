@@ -1,0 +1,133 @@
+"""The particles of a running scene: their displacement, and what a camera sees of them.
+
+The water carries them with the velocity of currents and waves at the first vehicle, everywhere
+alike: the displacement is one vector in the state. It is integrated with the velocity that is
+measured `UPDATE_RATE` times a second of simulation time.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from ...base.geometry import Array, Intrinsics, Pose
+from ...base.record import Record
+from ...model.scene_model import SceneModel
+from ...particles import (
+    PARTICLE,
+    Drift,
+    ParticlesSpec,
+    SizeClass,
+    View,
+    find_particles,
+    find_plume,
+)
+from ...rendering.physical.particle_pass import VisibleParticles
+
+UPDATE_RATE = 20.0
+"""The rate at which the velocity of the water is measured [Hz]."""
+
+
+@dataclass(slots=True)
+class ParticlesState(Record):
+    """The state of the particles of a scene."""
+
+    displacement: Array
+    """The displacement of the water in W up to the last measurement, (3,) [m]."""
+    velocity: Array
+    """The velocity of the water at the last measurement in W, (3,) [m/s]."""
+    time: float = 0.0
+    """The time of the last measurement [s]."""
+
+
+class SceneParticles:
+    """The particles of a scene, if it has physical water with particles.
+
+    Args:
+        model: the compiled scene.
+        spec: the ``<u:particles>`` element.
+        stream: returns the random generator of a stream's name.
+        clock: returns the simulation time [s].
+    """
+
+    def __init__(
+        self,
+        model: SceneModel,
+        spec: ParticlesSpec,
+        stream: Callable[[str], np.random.Generator],
+        clock: Callable[[], float],
+    ) -> None:
+        self._spec, self._clock = spec, clock
+        self._surface_height = model.scene.ocean_state.ocean_surface_height
+        self._classes: list[SizeClass] = []
+        self._plume_classes: list[SizeClass] = []
+        self._source: Array | None = None
+        if spec.marine_snow is not None:
+            self._classes += spec.marine_snow.divide(_draw_keys(stream("scene/marine_snow")))
+        if spec.bubbles is not None:
+            classes = spec.bubbles.divide(_draw_keys(stream("scene/bubbles")))
+            if spec.bubbles.source is None:
+                self._classes += classes
+            else:
+                self._plume_classes += classes
+                place = np.array([spec.bubbles.source])
+                self._source = model.scene.world_from_localized.transform(place)[0]
+        self.state = ParticlesState(np.zeros(3), np.zeros(3))
+        """The state: the displacement of the water."""
+
+    def measure_water(self, velocity: Array) -> None:
+        """Take the velocity of the water in W, (3,) [m/s], from now on."""
+        state = self.state
+        time = self._clock()
+        state.displacement += state.velocity * (time - state.time)
+        state.velocity[:] = velocity
+        state.time = time
+
+    def find_visible(
+        self, world_from_camera: Pose, intrinsics: Intrinsics
+    ) -> VisibleParticles | None:
+        """Return the particles in the view of a camera; None without any kind of them."""
+        spec, state = self._spec, self.state
+        if not (self._classes or self._plume_classes):
+            return None
+        time = self._clock()
+        displacement = state.displacement + state.velocity * (time - state.time)
+        drift = Drift(
+            displacement=_make_triple(displacement),
+            velocity=_make_triple(state.velocity),
+            time=time,
+        )
+        view = View(
+            world_from_camera=world_from_camera,
+            intrinsics=intrinsics,
+            surface_height=self._surface_height,
+            max_range=spec.range,
+            exposure_time=spec.exposure_time,
+        )
+        parts = [find_particles(size_class, view, drift) for size_class in self._classes]
+        if self._source is not None:
+            parts += [find_plume(c, self._source, view, drift) for c in self._plume_classes]
+        return VisibleParticles(
+            np.concatenate([np.zeros(0, PARTICLE), *parts]), spec.aperture, spec.focus_distance
+        )
+
+
+def make_particles(
+    model: SceneModel, stream: Callable[[str], np.random.Generator], clock: Callable[[], float]
+) -> SceneParticles | None:
+    """Return the particles of a scene; None if it has none."""
+    water = model.scene.ocean_state.water
+    if water is None or water.particles is None:
+        return None
+    return SceneParticles(model, water.particles, stream, clock)
+
+
+def _draw_keys(rng: np.random.Generator) -> Callable[[], int]:
+    return lambda: int(rng.integers(2**63))
+
+
+def _make_triple(vector: Array) -> tuple[float, float, float]:
+    x, y, z = vector.tolist()
+    return x, y, z
