@@ -19,7 +19,17 @@ MAX_MODULES = 20
 
 GROUND = {"errors", "version", "base", "acoustics", "optics", "rays", "schema"}
 BASE = GROUND | {"network", "world", "vehicle", "messages", "bus"}
-PARTS = BASE | {"currents", "waves", "forces", "sensors", "devices", "topics", "scene", "assets"}
+PARTS = BASE | {
+    "currents",
+    "waves",
+    "particles",
+    "forces",
+    "sensors",
+    "devices",
+    "topics",
+    "scene",
+    "assets",
+}
 ENGINES = PARTS | {"model", "physics", "rendering"}
 TASKS = PARTS | {"simulation", "algorithms", "statistics", "benchmark", "results"}
 
@@ -38,6 +48,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "middleware": BASE | {"middleware"},
     "currents": BASE | {"currents"},
     "waves": BASE | {"currents", "waves"},
+    "particles": BASE | {"particles"},
     "forces": BASE | {"forces"},
     "sensors": BASE | {"sensors", "devices"},
     "devices": BASE | {"sensors", "devices"},

@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from .bubbles import BubblesSpec
-from .lattice import PARTICLE, Drift, View, find_particles, find_plume
+from .draws import PARTICLE
+from .lattice import find_particles
 from .marine_snow import MarineSnowSpec
-from .population import Kind, SizeClass
 from .particles import ParticlesSpec
+from .plume import find_plume
+from .population import Kind, SizeClass
 from .terminal_speed import compute_bubble_speed, compute_sphere_speed
+from .view import Drift, View
 
 __all__ = [
     "PARTICLE",

@@ -46,8 +46,8 @@ class MarineSnowSpec(Spec):
     slope: float = element(namespaced=True, default=3.5, minimum=1.5, maximum=8.0)
     """The exponent s of the numbers over the diameter, d^-s [1]."""
     reflectance: float = element(namespaced=True, default=0.05, minimum=0.0, maximum=0.25)
-    """The mean ratio of a floc's radiance to that of a white surface that faces the light [1]. Flocs
-    are porous; one that scatters all light evenly has 0.25."""
+    """The mean ratio of a floc's radiance to that of a white surface that faces the light [1].
+    Flocs are porous; one that scatters all light evenly has 0.25."""
     sinking_speed: float = element(namespaced=True, default=0.00058, minimum=0.0, maximum=0.1)
     """The sinking speed of a floc of 1 mm [m/s]; 0.00058 m/s is 50 m a day."""
 

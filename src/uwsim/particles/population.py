@@ -1,9 +1,9 @@
 r"""Populations of particles: numbers, sizes and speeds, in classes of size.
 
 The number of particles per volume and diameter follows a power law between two diameters,
-:math:`n(d) \propto d^{-s}`. The slope s of particles in the sea is 3 to 5 (L. Stemmann and E. Boss,
-*Annu. Rev. Mar. Sci.* 4, 263 (2012)). A population is divided into classes whose diameters differ by
-`CLASS_RATIO` at most. The particles of a class move at one speed.
+:math:`n(d) \propto d^{-s}`. The slope s of particles in the sea is 3 to 5 (L. Stemmann and E.
+Boss, *Annu. Rev. Mar. Sci.* 4, 263 (2012)). A population is divided into classes whose diameters
+differ by `CLASS_RATIO` at most. The particles of a class move at one speed.
 """
 
 from __future__ import annotations
