@@ -19,9 +19,38 @@ class Texture:
     name: str
     """The name of the image; equal names mean equal pixels."""
     pixels: npt.NDArray[np.uint8]
-    """The stored values (no gamma applied), (h, w, 3), row 0 at the top."""
+    """The stored values (no gamma applied), (h, w, 3), row 0 at the top; (h, w, 4) with the alpha
+    of a texture with holes."""
     repeats: bool = True
     """True if the image repeats outside the coordinates 0..1; False if its edge continues there."""
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Material:
+    """The properties of a surface besides its base colour, as glTF 2.0 (3.9) defines them.
+
+    The image model of physical water uses all of them. UWSim's image model uses the normal map and
+    the holes. Numbers are factors on the values of the maps.
+    """
+
+    roughness: float = 1.0
+    """The roughness, 0 (polished) to 1; its square is the width of GGX's distribution."""
+    metallic: float = 0.0
+    """The share of metal, 0 (a dielectric) to 1."""
+    finish_map: Texture | None = None
+    """The map of occlusion (red: share of the diffuse daylight that arrives), roughness (green) and
+    metal (blue)."""
+    normal_map: Texture | None = None
+    """The map of normals: red, green and blue are the components along the tangent (u), the
+    bitangent (v) and the vertex normal, 0..255 for -1..1."""
+    normal_scale: float = 1.0
+    """The factor on the first two components of the normal map."""
+    emission: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    """The emitted radiance in linear light; 1 is that of a white surface in the irradiance 1."""
+    emission_map: Texture | None = None
+    """The map of the emitted light, in stored values."""
+    alpha_cutoff: float | None = None
+    """The alpha of the texture below which the surface has a hole; None: it has no holes."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -45,6 +74,11 @@ class Mesh:
     """The opacity, from 0 (invisible) to 1 (opaque)."""
     two_sided: bool = False
     """True if back faces are drawn as well."""
+    material: Material | None = None
+    """The properties besides the base colour; without them the surface is matte."""
+    tangents: npt.NDArray[np.float32] | None = None
+    """The tangents for a normal map, (n, 4): a unit vector towards greater u, and 1, or -1 where
+    the texture is mirrored. None: they are computed from the texture coordinates."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -9,15 +9,15 @@ import moderngl
 import numpy as np
 import numpy.typing as npt
 
-from ..assets.mesh import Model, Texture
-from .merged import VERTEX, MergedMesh, merge_model
+from ..assets.mesh import Material, Model, Texture
+from .merged import MergedMesh, merge_model
 
 
 class Buffers:
     """A merged mesh on the GPU, with a vertex array for each program that draws it."""
 
     def __init__(self, context: moderngl.Context, mesh: MergedMesh) -> None:
-        self._context = context
+        self._context, self._dtype = context, mesh.vertices.dtype
         self._merged_buffers = (
             context.buffer(mesh.vertices.tobytes()),
             context.buffer(mesh.triangles.tobytes()),
@@ -29,8 +29,8 @@ class Buffers:
         """Return the vertex array for a program; create it at the first draw call."""
         array = self._arrays.get(program)
         if array is None:
-            attributes = [n for n in ("vertex", "vertex_normal", "uv", "tint") if n in program]
-            (vertices, indices), layout = self._merged_buffers, _layout(attributes)
+            attributes = [name for name in self._dtype.names or () if name in program]
+            (vertices, indices), layout = self._merged_buffers, _layout(self._dtype, attributes)
             if attributes == ["vertex"]:
                 (vertices, indices), layout = self._upload_positions(), "3f"
             array = self._context.vertex_array(program, [(vertices, layout, *attributes)], indices)
@@ -52,7 +52,7 @@ class Buffers:
         """
         if self._position_buffers is None:
             vertices, triangles = self._merged_buffers
-            positions = np.frombuffer(vertices.read(), VERTEX)["vertex"]
+            positions = np.frombuffer(vertices.read(), self._dtype)["vertex"]
             vertex_indices = np.frombuffer(triangles.read(), np.uint32)
             unique_positions, position_indices = np.unique(positions, axis=0, return_inverse=True)
             indices = position_indices.reshape(-1)[vertex_indices].astype(np.uint32)
@@ -89,6 +89,8 @@ class Batch:
     """The unit normal of a flat batch in the model's frame, (3,); 0 if it is not flat."""
     density: float
     """The largest number of texels per metre on a triangle [1/m]; 0 without a texture."""
+    material: Material | None = None
+    """The maps and holes; None: there is only a base colour."""
 
     def draw(self, program: moderngl.Program) -> None:
         """Draw all triangles with the current state of OpenGL (`batch_drawer`)."""
@@ -96,9 +98,9 @@ class Batch:
         array.render(moderngl.TRIANGLES, vertices=self.size, first=self.first_index)
 
 
-def _layout(attributes: list[str]) -> str:
-    """Return the buffer format of `VERTEX`, with padding for members that the program lacks."""
-    sizes = {"vertex": 3, "vertex_normal": 3, "uv": 2, "tint": 3}
+def _layout(dtype: np.dtype[np.void], attributes: list[str]) -> str:
+    """Return the buffer format of vertices, with padding for members that the program lacks."""
+    sizes = {name: dtype[name].shape[0] for name in dtype.names or ()}
     return " ".join(f"{n}f" if name in attributes else f"{4 * n}x" for name, n in sizes.items())
 
 
@@ -123,7 +125,8 @@ class GpuModels:
         }
         self._textures: dict[tuple[str, int], tuple[Texture, moderngl.Texture]] = {}
         self._mipmapped_textures: set[int] = set()  # OpenGL names of the textures with mipmaps
-        self._bound: tuple[Texture, bool] | None = None  # bound texture; True: without mipmaps
+        # the texture of each unit, and True if it is without mipmaps
+        self._bound: dict[int, tuple[Texture, bool]] = {}
         self._n_scenes = 0  # number of scenes that have ended
         self._models_used: dict[int, int] = {}  # number of the last scene that used a model
         self._textures_used: dict[tuple[str, int], int] = {}
@@ -176,36 +179,35 @@ class GpuModels:
                 corners=piece.corners,
                 normal=piece.normal,
                 density=piece.density,
+                material=mesh.material,
             )
             for piece in mesh.pieces
         ]
 
     def use(self, texture: Texture, unit: int, *, skips_mipmaps: bool) -> None:
         """Bind a texture to a unit until `release`; it is sampled with or without mipmaps."""
-        if (
-            self._bound is not None
-            and self._bound[0] is texture
-            and self._bound[1] == skips_mipmaps
-        ):
+        bound_texture, has_no_mipmaps = self._bound.get(unit, (None, False))
+        if bound_texture is texture and has_no_mipmaps == skips_mipmaps:
             return
         gpu_texture = self._upload_texture(texture)
         gpu_texture.use(unit)
         if skips_mipmaps:
             self._plain_samplers[texture.repeats].use(unit)
-            self._bound = texture, True
+            self._bound[unit] = texture, True
             return
-        self.release(unit)
-        self._bound = texture, False
+        self._plain_samplers[True].clear(unit)
+        self._bound[unit] = texture, False
         # Mipmaps are created only when needed: that takes longer than to draw an image.
         if gpu_texture.glo not in self._mipmapped_textures:
             gpu_texture.build_mipmaps()
             gpu_texture.filter = (moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR)
             self._mipmapped_textures.add(gpu_texture.glo)
 
-    def release(self, unit: int) -> None:
-        """Unbind the sampler, so that the next texture is sampled by its own filter."""
-        self._plain_samplers[True].clear(unit)
-        self._bound = None
+    def release(self) -> None:
+        """Unbind the samplers, so that the next textures are sampled by their own filters."""
+        for unit in self._bound:
+            self._plain_samplers[True].clear(unit)
+        self._bound.clear()
 
     def _upload_texture(self, texture: Texture) -> moderngl.Texture:
         """Return the texture on the GPU; it is uploaded once."""
@@ -213,7 +215,9 @@ class GpuModels:
         if key not in self._textures:
             height, width = texture.pixels.shape[:2]
             pixels = np.ascontiguousarray(texture.pixels[::-1])  # OpenGL's first row is v = 0
-            gpu_texture = self._context.texture((width, height), 3, pixels.tobytes(), alignment=1)
+            gpu_texture = self._context.texture(
+                (width, height), texture.pixels.shape[2], pixels.tobytes(), alignment=1
+            )
             gpu_texture.repeat_x = gpu_texture.repeat_y = texture.repeats
             self._textures[key] = texture, gpu_texture
         self._textures_used[key] = self._n_scenes

@@ -110,6 +110,12 @@ class Instances:
         self._update_bounds()
         return self._owners
 
+    @property
+    def has_holes(self) -> bool:
+        """True if a surface has holes, so that depths depend on a texture."""
+        self._update_bounds()
+        return self._has_holes
+
     def find_casters(self, indices: Indices, max_radius: float) -> Indices:
         """Return the indices of the batches that cast the sun's shadow.
 
@@ -188,6 +194,10 @@ class Instances:
         self._model_normals = np.array([batch.normal for batch in batches]).reshape(-1, 3)
         self._is_opaque = np.array([batch.opacity >= 1.0 for batch in batches], dtype=bool)
         self._model_densities = np.array([batch.density for batch in batches])
+        self._has_holes = any(
+            batch.material is not None and batch.material.alpha_cutoff is not None
+            for batch in batches
+        )
         self._has_batches = True
 
     def _update_bounds(self) -> None:

@@ -9,8 +9,10 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
-from ..assets.mesh import Mesh, Model, Texture
+from ..assets.mesh import Material, Mesh, Model, Texture
+from ..assets.tangents import add_tangents
 from ..base.geometry import Array
+from .materials.maps import find_map_key, find_maps
 from .pieces import compute_normals, compute_texel_densities, flat_normal, split_triangles
 
 VERTEX = np.dtype(
@@ -22,6 +24,15 @@ VERTEX = np.dtype(
     ]
 )
 """A vertex, as the shaders read it."""
+MATERIAL_VERTEX = np.dtype(
+    [
+        *VERTEX.descr,
+        ("tangent", np.float32, (4,)),  # unit vector in the model's frame; 1 or -1
+        ("finish", np.float32, (3,)),  # roughness, share of metal, scale of the normal map
+        ("emission", np.float32, (3,)),  # emitted radiance, red, green, blue
+    ]
+)
+"""A vertex of a mesh with a material besides its base colour."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,10 +57,10 @@ class Piece:
 
 @dataclass(frozen=True, eq=False)
 class MergedMesh:
-    """The meshes of a model that have the same texture, opacity and visible sides, merged."""
+    """The meshes of a model that have the same textures, opacity and visible sides, merged."""
 
     vertices: npt.NDArray[np.void]
-    """The vertices, of the type `VERTEX`, (n,)."""
+    """The vertices, of the type `VERTEX` or `MATERIAL_VERTEX`, (n,)."""
     triangles: npt.NDArray[np.uint32]
     """The vertex indices of the triangles, piece by piece, (m, 3)."""
     pieces: tuple[Piece, ...]
@@ -58,26 +69,35 @@ class MergedMesh:
     """True if the triangles are visible from both sides."""
     opacity: float
     """The opacity: 1 hides what is behind the mesh, 0 is invisible."""
+    material: Material | None = None
+    """The maps and holes of all meshes; its factors are in the vertices."""
 
 
 def merge_model(model: Model) -> list[MergedMesh]:
     """Return a model's meshes, merged by appearance, in the order of first appearance."""
-    groups: dict[tuple[int, bool, float], list[Mesh]] = {}
+    groups: dict[tuple[object, ...], list[Mesh]] = {}
     for mesh in model.meshes:
         if len(mesh.triangles):
-            appearance = id(mesh.texture), mesh.two_sided, mesh.opacity
+            maps = find_map_key(mesh.material)
+            appearance = id(mesh.texture), mesh.two_sided, mesh.opacity, maps
             groups.setdefault(appearance, []).append(mesh)
     return [_merge_meshes(meshes) for meshes in groups.values()]
 
 
 def _merge_meshes(meshes: Sequence[Mesh]) -> MergedMesh:
     """Merge meshes of one appearance, and cut large ones into pieces."""
-    vertices = np.empty(sum(len(mesh.vertices) for mesh in meshes), dtype=VERTEX)
+    material = meshes[0].material
+    if material is not None and material.normal_map is not None:
+        meshes = [mesh if mesh.tangents is not None else add_tangents(mesh) for mesh in meshes]
+    dtype = VERTEX if material is None else MATERIAL_VERTEX
+    vertices = np.empty(sum(len(mesh.vertices) for mesh in meshes), dtype=dtype)
     index_arrays, start = [], 0
     for mesh in meshes:
         rows = vertices[start : start + len(mesh.vertices)]
         rows["vertex"], rows["vertex_normal"] = mesh.vertices, mesh.normals
         rows["uv"], rows["tint"] = mesh.uvs, mesh.colour
+        if mesh.material is not None:
+            _fill_material(rows, mesh, mesh.material)
         index_arrays.append(mesh.triangles.astype(np.uint32) + np.uint32(start))
         start += len(mesh.vertices)
     triangles = np.concatenate(index_arrays)
@@ -85,8 +105,10 @@ def _merge_meshes(meshes: Sequence[Mesh]) -> MergedMesh:
     normals = compute_normals(points, triangles)
     texture = meshes[0].texture
     densities = np.zeros(len(triangles))
-    if texture is not None:
-        height, width = texture.pixels.shape[:2]
+    textures = [] if texture is None else [texture]
+    textures += find_maps(material).values()
+    if textures:
+        height, width = (max(image.pixels.shape[k] for image in textures) for k in range(2))
         densities = compute_texel_densities(
             points, triangles, vertices["uv"].astype(np.float64) * [width, height]
         )
@@ -104,7 +126,14 @@ def _merge_meshes(meshes: Sequence[Mesh]) -> MergedMesh:
         texture=texture,
         two_sided=meshes[0].two_sided,
         opacity=meshes[0].opacity,
+        material=material,
     )
+
+
+def _fill_material(rows: npt.NDArray[np.void], mesh: Mesh, material: Material) -> None:
+    rows["tangent"] = 0.0 if mesh.tangents is None else mesh.tangents
+    rows["finish"] = material.roughness, material.metallic, material.normal_scale
+    rows["emission"] = material.emission
 
 
 def _create_piece(first_index: int, corners: Array, normals: Array, densities: Array) -> Piece:

@@ -16,6 +16,8 @@ from .lights.lamps import LAMPS
 from .lights.projector_light import PROJECTOR
 from .lights.shadow_region import Region
 from .lights.sun_shadow import SunShadow
+from .materials.maps import Switches, find_switches, find_used_maps
+from .materials.reflectance import create_table
 from .physical.optics_block import OPTICS
 from .program import build
 from .targets import Targets
@@ -26,11 +28,12 @@ SAMPLERS = {
     "lamp_maps": 2,
     "projector_map": 3,
     "projector_pattern": 4,
+    "normal_map": 11,
+    "finish_map": 12,
+    "emission_map": 13,
+    "reflectance_table": 14,
 }
 """The texture unit of every sampler in the shaders."""
-
-Switches = tuple[tuple[str, int], ...]
-"""The preprocessor switches of a shader and their values."""
 
 DrawnBatch = tuple[int, bool, bool]
 """The index of a batch, True if it may lie in shadow, and True if it is drawn without mipmaps."""
@@ -62,6 +65,7 @@ class Passes:
         self._instances, self._slots, self._shadow = instances, slots, shadow
         self._programs: dict[tuple[object, ...], moderngl.Program] = {}
         self._empty_arrays: dict[int, moderngl.VertexArray] = {}
+        self._reflectance_table: moderngl.Texture | None = None
 
     def draw(
         self,
@@ -84,7 +88,7 @@ class Passes:
         for batch, opacity in zip(batches_in_view, opacities, strict=True):
             if opacity >= 1.0:
                 draw(*batch)
-        self._models.release(SAMPLERS["base_map"])
+        self._models.release()
         context.disable(moderngl.CULL_FACE)
         is_physical = tuple(switch for switch in switches if switch[0] == "PHYSICAL")
         program = self._program("background", target, is_physical)
@@ -131,7 +135,7 @@ class Passes:
             for batch in itertools.dropwhile(lambda drawn_batch: not drawn_batch[1], back):
                 draw(*batch)
             target.framebuffer.scissor = None  # type: ignore[assignment]  # no limits
-        self._models.release(SAMPLERS["base_map"])
+        self._models.release()
 
     def draw_lamp_points(self, target: Targets, n_lamps: int) -> None:
         """Add the lamps that the camera sees to an image of radiance and range."""
@@ -168,20 +172,31 @@ class Passes:
         """Return a function that draws a batch; its arguments are those of `DrawnBatch`."""
         batches = self._instances.numbered_batches
         drawer = self._create_drawer()
+        has_colour, is_physical = "colour" in target.attachments, ("PHYSICAL", 1) in switches
 
         @functools.cache
-        def program(in_shadow: bool, is_textured: bool) -> moderngl.Program:
-            flags = {"SHADOWS": in_shadow, "TEXTURED": is_textured}
-            defines = tuple((name, 1) for name, value in flags.items() if value)
-            return self._program("surface", target, switches + defines)
+        def program(in_shadow: bool, surface_switches: Switches) -> moderngl.Program:
+            shadow_switches = (("SHADOWS", 1),) if in_shadow else ()
+            if ("MICROFACET", 1) in surface_switches:
+                self._use_reflectance_table()
+            return self._program("surface", target, switches + shadow_switches + surface_switches)
 
         def draw(index: int, in_shadow: bool, skips_mipmaps: bool) -> None:
-            texture = batches[index][1].texture
-            if texture is not None:
-                self._models.use(texture, SAMPLERS["base_map"], skips_mipmaps=skips_mipmaps)
-            drawer.draw(index, program(in_shadow, texture is not None))
+            batch = batches[index][1]
+            surface_switches = find_switches(
+                batch.texture, batch.material, has_colour=has_colour, is_physical=is_physical
+            )
+            maps = find_used_maps(batch.texture, batch.material, surface_switches)
+            for name, texture in maps.items():
+                self._models.use(texture, SAMPLERS[name], skips_mipmaps=skips_mipmaps)
+            drawer.draw(index, program(in_shadow, surface_switches))
 
         return draw
+
+    def _use_reflectance_table(self) -> None:
+        if self._reflectance_table is None:
+            self._reflectance_table = create_table(self._context)
+        self._reflectance_table.use(SAMPLERS["reflectance_table"])
 
     def _draw_transparent(
         self,
@@ -218,7 +233,7 @@ class Passes:
             for batch, _ in visible_batches:
                 draw(*batch)
         _set_colour_masks(buffer, [(True, True, True, True)] * len(attachments))
-        self._models.release(SAMPLERS["base_map"])
+        self._models.release()
         context.disable(moderngl.CULL_FACE)
 
     def _program(self, effect: str, target: Targets, switches: Switches) -> moderngl.Program:

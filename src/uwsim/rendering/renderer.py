@@ -27,7 +27,8 @@ from .lights.projector import Projector
 from .lights.projector_light import ProjectorLight
 from .lights.shadow_region import Region, compute_tile_bounds, find_shaded_region
 from .lights.sun_shadow import MAX_CASTER_RADIUS, SHADOW_MARGIN, SunShadow, find_shadow_pairs
-from .passes import SAMPLERS, Passes, Switches
+from .materials.maps import Switches
+from .passes import SAMPLERS, Passes
 from .physical.development import Development
 from .physical.moving_surface import MovingSurface
 from .physical.particle_pass import VisibleParticles
@@ -338,6 +339,8 @@ class Renderer:
         is_small = bytes_per_pixel * intrinsics.width * intrinsics.height <= MAX_STORED_BYTES
         has_own_lights = bool(view.lamps) or view.projector is not None
         if not is_small or view.targets != {"colour"} or has_own_lights or view.is_physical:
+            return None
+        if self._instances.has_holes:  # the backdrop's depths are drawn without textures
             return None
         key = view.pose, intrinsics, view.water, view.light, view.hidden_ids, view.colour_format
         backdrop = self._backdrops.pop(key, None) or Backdrop()

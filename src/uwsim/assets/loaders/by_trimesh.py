@@ -7,6 +7,7 @@ import io
 import logging
 import warnings
 from collections.abc import Iterator
+from dataclasses import dataclass, replace
 from pathlib import Path, PurePosixPath
 from typing import Any
 
@@ -18,7 +19,15 @@ from ...errors import AssetError
 from ..collada_asset import ColladaAsset, read_collada_asset
 from ..mesh import Mesh
 from ..procedural.shapes import Shape, mesh
-from . import collada_limits, gltf_limits, gltf_rewriting, mesh_cache, obj_rewriting
+from . import (
+    collada_limits,
+    gltf_limits,
+    gltf_materials,
+    gltf_rewriting,
+    mesh_cache,
+    obj_rewriting,
+)
+from .directed_meshes import Directions, convert_directed, transform_directions
 from .materials import Materials, check_image_size
 from .obj_lines import find_invalid_line
 from .references import References
@@ -41,6 +50,18 @@ MAX_COORDINATE = 1e6
 """The greatest coordinate of a vertex [m]; only broken files have greater ones."""
 
 
+@dataclass(frozen=True, eq=False)
+class Part:
+    """A mesh of a file at the pose of its node."""
+
+    geometry: Any
+    """The transformed mesh of trimesh, without materials."""
+    visual: Any
+    """The materials and texture coordinates of trimesh."""
+    directions: Directions | None
+    """The normals and tangents of the file, where it has maps."""
+
+
 def read_meshes(
     path: Path,
     *,
@@ -51,7 +72,8 @@ def read_meshes(
     """Return the meshes of a file in the file's frame and units, its Collada asset, and remarks.
 
     The remarks are on parts that cannot be read, and were left out or replaced. Normals are
-    computed anew from the faces. Colours of vertices become one mean colour a mesh.
+    computed anew from the faces, unless the material has maps of a glTF file. Colours of vertices
+    become one mean colour a mesh.
 
     Args:
         path: The file.
@@ -70,8 +92,8 @@ def read_meshes(
         if cached_meshes is not None:
             return cached_meshes, asset, ()
         references = _references(path, name or path.name, allowed_folders, original)
-        parts, remarks = _parts(path, data, references)
-    meshes, image_remarks = _meshes(path, parts, references)
+        parts, materials, remarks = _parts(path, data, references)
+    meshes, image_remarks = _meshes(path, parts, materials, references)
     remarks = tuple(f"{original or path}: {remark}" for remark in (*remarks, *image_remarks))
     if original is None and not references.were_requested and not remarks:
         mesh_cache.store(file, meshes)
@@ -100,12 +122,11 @@ def _raise_asset_errors(path: Path) -> Iterator[None]:
 
 
 def _meshes(
-    path: Path, parts: list[tuple[Any, Any]], references: References
+    path: Path, parts: list[Part], materials: Materials, references: References
 ) -> tuple[tuple[Mesh, ...], list[str]]:
     """Return the meshes with their materials, and remarks on images that cannot be read."""
-    materials = Materials(path)
     optional_meshes = [
-        _convert_part(part, materials, visual, path) for part, visual in parts if len(part.faces)
+        _convert_part(part, materials, path) for part in parts if len(part.geometry.faces)
     ]
     meshes = tuple(part_mesh for part_mesh in optional_meshes if part_mesh is not None)
     if not meshes:
@@ -170,12 +191,14 @@ def _references(
 
 def _parts(
     path: Path, data: bytes, references: References
-) -> tuple[list[tuple[Any, Any]], tuple[str, ...]]:
-    """Return the meshes of a file at the poses of its nodes, with their materials, and remarks."""
+) -> tuple[list[Part], Materials, tuple[str, ...]]:
+    """Return the meshes of a file at the poses of its nodes, their materials, and remarks."""
     import trimesh
 
     logging.getLogger("trimesh").setLevel(logging.CRITICAL)
     suffix = path.suffix.lower()
+    is_gltf = suffix in (".gltf", ".glb")
+    numbers, material_remarks = gltf_materials.read_materials(data, suffix) if is_gltf else ({}, [])
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         try:
@@ -193,8 +216,15 @@ def _parts(
             references.check()
         meshes = [item for item in posed_parts if isinstance(item[1], trimesh.Trimesh)]
         _check_triangle_count(path, sum(len(part.faces) for _, part in meshes))
-        parts = [(_transform_part(part, transform), part.visual) for transform, part in meshes]
-        return parts, remarks
+        parts = [
+            Part(
+                _transform_part(part, transform),
+                part.visual,
+                transform_directions(part.vertex_attributes, transform),
+            )
+            for transform, part in meshes
+        ]
+        return parts, Materials(path, numbers), (*remarks, *material_remarks)
 
 
 def _read_by_trimesh(data: bytes, suffix: str, references: References) -> list[tuple[Any, Any]]:
@@ -258,10 +288,10 @@ def _is_binary_stl(data: bytes) -> bool:
     return len(data) == STL_HEADER_BYTES + 4 + 50 * count
 
 
-def _convert_part(part: Any, materials: Materials, visual: Any, path: Path) -> Mesh | None:
+def _convert_part(part: Part, materials: Materials, path: Path) -> Mesh | None:
     """Convert a mesh of trimesh; None when it has no area."""
-    vertices = np.asarray(part.vertices, dtype=np.float64)
-    faces = np.asarray(part.faces, dtype=np.int64)
+    vertices = np.asarray(part.geometry.vertices, dtype=np.float64)
+    faces = np.asarray(part.geometry.faces, dtype=np.int64)
     if vertices.ndim != 2 or vertices.shape[1] != 3:
         place = find_invalid_line(path.read_bytes()) if path.suffix.lower() == ".obj" else ""
         location = f":{place}" if place else ": its vertices do not have 3 numbers"
@@ -271,11 +301,21 @@ def _convert_part(part: Any, materials: Materials, visual: Any, path: Path) -> M
     if not np.isfinite(vertices).all() or np.abs(vertices).max() > MAX_COORDINATE:
         raise AssetError(f"{path} has vertices that are infinite or beyond {MAX_COORDINATE:g} m.")
     uvs = np.zeros((len(vertices), 2))
-    colour, texture = materials.appearance(visual)
-    uv_values = getattr(visual, "uv", None)
+    appearance = materials.appearance(part.visual)
+    uv_values = getattr(part.visual, "uv", None)
     if uv_values is not None and np.shape(uv_values) == (len(vertices), 2):
         uvs = np.nan_to_num(np.asarray(uv_values, dtype=np.float64))
     shape = Shape(vertices[faces], uvs[faces])
     if shape.area <= 0.0:
         return None
-    return mesh(shape, colour=colour, texture=texture, two_sided=True)
+    if appearance.has_maps and part.directions is not None and part.directions.fits(vertices):
+        return convert_directed(vertices, faces, uvs, part.directions, appearance)
+    plain_mesh = mesh(shape, colour=appearance.colour, texture=appearance.texture, two_sided=True)
+    if appearance.material is None:
+        return plain_mesh
+    return replace(
+        plain_mesh,
+        opacity=appearance.opacity,
+        two_sided=appearance.two_sided,
+        material=appearance.material,
+    )

@@ -2,7 +2,9 @@
 
 Normalised and sparse accessors become plain ones. Texture coordinates are those of the base colour
 texture, with its transform applied. The colour of a material is multiplied by the mean colour of
-the vertices. Fans become triangles. A file that requires an unsupported extension is an error.
+the vertices. Fans become triangles. Materials with more than a base colour are named by their
+numbers (`gltf_materials`); where they have maps, normals and tangents are passed on. A file that
+requires an unsupported extension is an error.
 """
 
 from __future__ import annotations
@@ -19,6 +21,7 @@ import numpy.typing as npt
 
 from ...errors import AssetError
 from .gltf_limits import GLB_JSON_START, MAX_ELEMENTS
+from .gltf_materials import coordinate_reference, has_maps, mark_material
 
 Numbers = npt.NDArray[Any]
 Tree = dict[str, Any]
@@ -30,8 +33,10 @@ READ_EXTENSIONS = (
     "KHR_texture_transform",
     "KHR_materials_",
 )
-"""The beginnings of extensions that a file may require. Lights and materials other than the base
-colour are not drawn."""
+"""The beginnings of extensions that a file may require; of materials, not all are drawn."""
+MARKED_NORMAL, MARKED_TANGENT = "_NORMAL", "_TANGENT"
+"""The names of normals and tangents of the file for trimesh, which keeps attributes that begin with
+``_`` as they are."""
 DTYPES = {5120: "i1", 5121: "u1", 5122: "<i2", 5123: "<u2", 5125: "<u4", 5126: "<f4"}
 """The NumPy types by ``componentType``."""
 FLOAT, UNSIGNED_INT = 5126, 5125
@@ -108,8 +113,9 @@ class _Rewriter:
             if WEBP in texture.get("extensions", {}) and "source" not in texture:
                 texture["source"] = texture["extensions"][WEBP]["source"]
                 self._has_changed = True
-        for material in self._tree.get("materials", []):
+        for number, material in enumerate(self._tree.get("materials", [])):
             self._use_diffuse(material)
+            self._has_changed |= mark_material(material, number)
         for mesh in self._tree.get("meshes", []):
             for primitive in mesh.get("primitives", []):
                 self._rewrite(primitive)
@@ -135,6 +141,7 @@ class _Rewriter:
         if "POSITION" in attributes and not self._is_plain(attributes["POSITION"]):
             attributes["POSITION"] = self._float_accessor(attributes["POSITION"])
         self._set_coordinates(primitive, attributes)
+        self._set_directions(primitive, attributes)
         if "COLOR_0" in attributes and "material" in primitive:
             self._set_colour(primitive, attributes.pop("COLOR_0"))
         elif "COLOR_0" in attributes and not self._is_plain(attributes["COLOR_0"]):
@@ -167,12 +174,22 @@ class _Rewriter:
             self._has_changed = True
 
     def _base_texture(self, primitive: Tree) -> Tree:
-        """Return the reference of a primitive's material to the texture of its base colour."""
+        """Return the reference to a texture whose coordinates a primitive uses."""
         if "material" not in primitive:
             return {}
-        material = self._tree["materials"][primitive["material"]]
-        texture = material.get("pbrMetallicRoughness", {}).get("baseColorTexture", {})
-        return texture if isinstance(texture, dict) else {}
+        return coordinate_reference(self._tree["materials"][primitive["material"]])
+
+    def _set_directions(self, primitive: Tree, attributes: Tree) -> None:
+        """Pass on normals and tangents as plain floats, where the material has maps."""
+        if "material" not in primitive:
+            return
+        if not has_maps(self._tree["materials"][primitive["material"]]):
+            return
+        for name, marked_name in (("NORMAL", MARKED_NORMAL), ("TANGENT", MARKED_TANGENT)):
+            if name in attributes:
+                attributes[marked_name] = self._float_accessor(attributes[name])
+        if "NORMAL" in attributes:
+            attributes["NORMAL"] = attributes[MARKED_NORMAL]
 
     def _set_colour(self, primitive: Tree, index: int) -> None:
         """Copy the material of a primitive, multiplied by the mean colour of the vertices."""

@@ -46,8 +46,8 @@ def read(file: Path) -> tuple[Mesh, ...] | None:
 
 
 def store(file: Path, meshes: Sequence[Mesh]) -> None:
-    """Write meshes, if they have no textures and are not too many."""
-    if any(mesh.texture is not None for mesh in meshes):
+    """Write meshes, if they have only a colour and are not too many."""
+    if any(mesh.texture is not None or mesh.material is not None for mesh in meshes):
         return
     if sum(len(mesh.triangles) for mesh in meshes) > MAX_TRIANGLES:
         return

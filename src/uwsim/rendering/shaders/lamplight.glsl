@@ -1,5 +1,6 @@
 // Provides: lamplight(colour, unit_normal), the light of the lamps that a surface reflects.
 // Needs: varyings.glsl and lamps.glsl with LAMPS; their shadow maps, four tiles of one texture.
+// With MICROFACET, material.glsl replaces the colour.
 // colour k I max(N.D, 0) / d^2 cone exp(-a d) * share of the light that no body blocks: see lamp.py.
 uniform sampler2DShadow lamp_maps;
 
@@ -23,8 +24,16 @@ vec3 lamplight(vec3 colour, vec3 unit_normal) {
 #else
             vec3 transmission = exp(v_attenuation * -distance);
 #endif
-            sum += lamp_light[i].rgb * transmission * (facing * cone * share / (distance * distance));
+            vec3 arriving = lamp_light[i].rgb * transmission * (facing * cone * share / (distance * distance));
+#ifdef MICROFACET
+            arriving *= reflected_share(unit_normal, towards / distance, facing);
+#endif
+            sum += arriving;
         }
     }
+#ifdef MICROFACET
+    return sum;
+#else
     return colour * sum;
+#endif
 }

@@ -1,5 +1,6 @@
 // Provides: colour, range and id of a surface seen through water, whichever are requested.
-// Needs: varyings.glsl, instance.glsl, sun.glsl, water.glsl, grey.glsl, shadow.glsl, lamplight.glsl, projection.glsl, targets.glsl.
+// Needs: varyings.glsl, instance.glsl, sun.glsl, water.glsl, grey.glsl, shadow.glsl, lamplight.glsl, projection.glsl, targets.glsl, material.glsl.
+// The switch ALPHA_TEST is the alpha of holes, 1..255 of 255. EMISSION and EMISSION_MAP add emitted light, under PHYSICAL only.
 // The switch OPACITY is 1..254 of 255; without it the surface is opaque. The renderer blends.
 // Light, then attenuation, then fog, on stored values; noise and conversion to 8 bit follow in noise.py.
 #define VARYING in
@@ -17,8 +18,11 @@
 #include "water.glsl"
 #endif
 #include "grey.glsl"
-#ifdef TEXTURED
-uniform sampler2D base_map;
+#if defined(NORMAL_MAP) || defined(MICROFACET)
+#include "material.glsl"
+#endif
+#ifdef EMISSION_MAP
+uniform sampler2D emission_map;
 #endif
 #ifdef SHADOWS
 #include "shadow.glsl"
@@ -32,21 +36,43 @@ uniform sampler2D base_map;
 #include "projection.glsl"
 #endif
 #endif
+#if defined(TEXTURED) && (defined(COLOUR) || defined(ALPHA_TEST))
+uniform sampler2D base_map;
+#endif
 
 void main() {
+#ifdef ALPHA_TEST
+    vec4 base = texture(base_map, v_uv);
+    if (base.a < float(ALPHA_TEST) / 255.0) discard;
+#endif
 #if defined(COLOUR) || defined(RANGE)
     float range = length(v_position);
 #endif
 #ifdef COLOUR
     vec3 colour = v_base_colour;
-#ifdef TEXTURED
+#ifdef ALPHA_TEST
+    colour *= base.rgb;
+#elif defined(TEXTURED)
     colour *= texture(base_map, v_uv).rgb;
 #endif
     float unit = inversesqrt(max(dot(v_normal, v_normal), 1e-12));
     unit = gl_FrontFacing ? unit : -unit;
+#ifdef NORMAL_MAP
+    vec3 normal = mapped_normal(v_normal * unit);
+    float facing = dot(normal, v_sun);
+#else
+    vec3 normal = v_normal * unit;
     float facing = v_terms.x * unit;
+#endif
 #ifdef PHYSICAL
     colour = albedo_of(colour);
+#ifdef NORMAL_MAP
+    float upward = dot(normal, v_up);
+#else
+    float upward = v_terms.w * unit;
+#endif
+#elif defined(NORMAL_MAP)
+    float mirrored = (v_terms.y - 2.0 * facing * dot(normal, v_position)) / range;
 #else
     float mirrored = (v_terms.y - 2.0 * facing * unit * dot(v_normal, v_position)) / range;
 #endif
@@ -59,16 +85,26 @@ void main() {
 #else
     float fog_range = range;
 #endif
-#ifdef PHYSICAL
-    vec3 dry = colour * daylight(facing, v_terms.w * unit, lit, v_terms.z);
+#ifdef MICROFACET
+    prepare_material(colour, normal, v_terms.z);
+    vec3 dry = material_daylight(normal, facing, upward, lit, v_terms.z);
+#elif defined(PHYSICAL)
+    vec3 dry = colour * daylight(facing, upward, lit, v_terms.z);
 #else
     vec3 dry = sunlit(colour, facing, mirrored, lit);
 #endif
 #ifdef LAMPS
-    dry += lamplight(colour, v_normal * unit);
+    dry += lamplight(colour, normal);
 #endif
 #ifdef PROJECTOR
-    dry = projected(dry, colour, v_normal * unit);
+    dry = projected(dry, colour, normal);
+#endif
+#ifdef EMISSION
+    vec3 emitted = v_emission;
+#ifdef EMISSION_MAP
+    emitted *= albedo_of(texture(emission_map, v_uv).rgb);
+#endif
+    dry += emitted;
 #endif
 #ifdef AIR
     float deeper = max(v_terms.z, v_camera_depth);

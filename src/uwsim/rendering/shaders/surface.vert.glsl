@@ -19,15 +19,27 @@ in vec3 vertex;
 #ifdef COLOUR
 in vec3 vertex_normal;
 in vec3 tint;
-#ifdef TEXTURED
-in vec2 uv;
+#ifdef NORMAL_MAP
+in vec4 tangent;
 #endif
+#if defined(NORMAL_MAP) || defined(MICROFACET)
+in vec3 finish;
+#endif
+#ifdef EMISSION
+in vec3 emission;
+#endif
+#endif
+#if defined(HAS_UV) && (defined(COLOUR) || defined(ALPHA_TEST))
+in vec2 uv;
 #endif
 
 void main() {
     vec4 point = camera_from_model * vec4(vertex, 1.0);
     v_position = point.xyz;
     gl_Position = clip_from_camera * point;
+#if defined(HAS_UV) && (defined(COLOUR) || defined(ALPHA_TEST))
+    v_uv = uv;
+#endif
 #ifdef COLOUR
     v_normal = mat3(camera_normals) * vertex_normal;
     v_terms.x = dot(v_normal, sun.xyz);
@@ -51,8 +63,18 @@ void main() {
     v_water_colour = vec4(water_colour.rgb, ambient_specular.y);
     v_fog = fog;
 #endif
-#ifdef TEXTURED
-    v_uv = uv;
+#ifdef NORMAL_MAP
+    mat3 rotation = mat3(camera_from_model);
+    vec3 along = rotation * tangent.xyz;
+    v_tangent = vec4(along * inversesqrt(max(dot(along, along), 1e-12)), tangent.w * sign(determinant(rotation)));
+#endif
+#if defined(NORMAL_MAP) || defined(MICROFACET)
+    v_sun = sun.xyz;
+    v_up = up.xyz;
+    v_finish = finish;
+#endif
+#ifdef EMISSION
+    v_emission = emission;
 #endif
 #ifdef AIR
     v_camera_depth = -up.w;

@@ -1,7 +1,13 @@
 // Provides: the varyings of a surface; VARYING is `out` in the vertex shader, `in` in the fragment shader.
-// Needs: the switches COLOUR, TEXTURED, SHADOWS, AIR, PROJECTOR, and LAMPS, the number of lamps.
+// Needs: the switches COLOUR, TEXTURED, SHADOWS, AIR, PROJECTOR, and LAMPS, the number of lamps; those of material.glsl.
 // Flat varyings pass on constants of the block Frame: llvmpipe reads them much faster than uniforms in each pixel.
+#if defined(TEXTURED) || defined(NORMAL_MAP) || defined(FINISH_MAP) || defined(EMISSION_MAP)
+#define HAS_UV
+#endif
 VARYING vec3 v_position;  // camera frame [m]
+#if defined(HAS_UV) && (defined(COLOUR) || defined(ALPHA_TEST))
+VARYING vec2 v_uv;  // texture coordinates
+#endif
 #ifdef COLOUR
 VARYING vec3 v_normal;  // camera frame, any length
 VARYING vec4 v_terms;  // x: N.L |N|; y: P.L [m] (L: to the sun, P: position); z: depth below the water's surface [m]; w: clip-space z [m], PHYSICAL: N.up |N|
@@ -18,8 +24,16 @@ flat VARYING vec4 v_lights;  // rgb: sunlight; w: ambient
 flat VARYING vec4 v_water_colour;  // rgb: water colour; w: specular
 flat VARYING vec4 v_fog;  // rgb: fog colour; w: density squared [1/m2]
 #endif
-#ifdef TEXTURED
-VARYING vec2 v_uv;  // texture coordinates
+#ifdef NORMAL_MAP
+VARYING vec4 v_tangent;  // xyz: camera frame; w: 1, or -1 where the texture is mirrored
+#endif
+#if defined(NORMAL_MAP) || defined(MICROFACET)
+flat VARYING vec3 v_sun;  // towards the sun, camera frame
+flat VARYING vec3 v_up;  // W's z axis, camera frame
+flat VARYING vec3 v_finish;  // x: roughness; y: share of metal; z: scale of the normal map
+#endif
+#ifdef EMISSION
+flat VARYING vec3 v_emission;  // emitted radiance
 #endif
 #ifdef AIR
 flat VARYING float v_camera_depth;  // depth of the camera below the water's surface [m]

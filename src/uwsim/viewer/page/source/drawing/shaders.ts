@@ -7,6 +7,7 @@ import grey from "../../../../rendering/shaders/grey.glsl";
 import instance from "../../../../rendering/shaders/instance.glsl";
 import lamplight from "../../../../rendering/shaders/lamplight.glsl";
 import lamps from "../../../../rendering/shaders/lamps.glsl";
+import material from "../../../../rendering/shaders/material.glsl";
 import optics from "../../../../rendering/shaders/optics.glsl";
 import projection from "../../../../rendering/shaders/projection.glsl";
 import projector from "../../../../rendering/shaders/projector.glsl";
@@ -29,6 +30,7 @@ const FILES: Record<string, string> = {
   "instance.glsl": instance,
   "lamplight.glsl": lamplight,
   "lamps.glsl": lamps,
+  "material.glsl": material,
   "optics.glsl": optics,
   "projection.glsl": projection,
   "projector.glsl": projector,

@@ -1,0 +1,1 @@
+"""Materials in the shaders: maps of normals and finish, and the reflectance of rough surfaces."""
