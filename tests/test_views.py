@@ -17,6 +17,7 @@ LIMIT, LIMIT_OF_A_VIEW = 25, 16
 VIEWS = {
     "MeasureView": "World",
     "StageView": "Stage",
+    "AdjustedWater": "StageWater",
     "DeviceView": "DeviceWorld",
     "SensorView": "SensorWorld",
     "ForceView": "ForceWorld",

@@ -16,7 +16,8 @@ from uwsim.base.numerics.memory import view_doubles
 from uwsim.bus import Bus
 from uwsim.errors import AssetNotFound, UnknownName
 from uwsim.network import Network
-from uwsim.world import Actuators, Body, BodyMotion, Box, Camera, Contact, Flow
+from uwsim.optics import Medium
+from uwsim.world import Actuators, Body, BodyMotion, Box, Camera, Contact, Flow, LineOfSight
 from uwsim.world.mounts import MOUNT
 
 
@@ -114,11 +115,26 @@ class FakeActuators:
         return self.electric_powers.copy()
 
 
+class FakeStageWater:
+    """A `uwsim.world.StageWater`, which stores what updaters set."""
+
+    def __init__(self, medium: Medium | None = None) -> None:
+        self.medium = medium
+        self.wave_height: float | None = None
+        self.settings: list[tuple[Medium, LineOfSight | None]] = []
+
+    def set_medium(self, medium: Medium, *, sight: LineOfSight | None = None) -> None:
+        self.settings.append((medium, sight))
+
+    def set_wave_height(self, height: float | None) -> None:
+        self.wave_height = height
+
+
 class FakeWorld:
     """A `uwsim.world.World` and a `uwsim.world.Stage`; time advances only by `advance`.
 
     Updaters change ``fog``, ``light_rate``, ``camera_noise``, ``joints``, ``current``,
-    ``wave_height`` and ``put_backs``. Tests set ``contacts_by_body``, ``forces_by_body`` and
+    ``water`` and ``put_backs``. Tests set ``contacts_by_body``, ``forces_by_body`` and
     ``actuators_by_vehicle``.
     """
 
@@ -143,7 +159,7 @@ class FakeWorld:
         self.fog_colour = (0.0, 0.05, 0.3)
         self.light_rate: float | None = None
         self.camera_noise: float | None = None
-        self.wave_height: float | None = None
+        self.water = FakeStageWater()
         self.joints: dict[str, dict[int, float]] = {}
         self.current: Flow | None = None
         self.put_backs: list[tuple[str, float]] = []
@@ -231,9 +247,6 @@ class FakeWorld:
 
     def set_current(self, current: Flow | None) -> None:
         self.current = current
-
-    def set_wave_height(self, height: float | None) -> None:
-        self.wave_height = height
 
     def put_back(self, vehicle: str) -> None:
         if vehicle not in self.vehicles:

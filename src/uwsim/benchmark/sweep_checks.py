@@ -18,6 +18,7 @@ from .updaters import (
     SceneLightUpdaterSpec,
     SceneUpdaterSpec,
     SeaStateUpdaterSpec,
+    WaterUpdaterSpec,
     chain,
     interval,
 )
@@ -27,6 +28,7 @@ SETTER_SPECS = (
     SceneFogUpdaterSpec,
     SceneLightUpdaterSpec,
     SeaStateUpdaterSpec,
+    WaterUpdaterSpec,
 )
 """The updaters that set one value; if two of one type are nested, the outer has no effect."""
 

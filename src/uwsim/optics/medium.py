@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -87,6 +87,19 @@ class Medium:
             absorption=(*differences, *remainder),
             scattering=tuple(scattering),
             phase_function=phase_function,
+        )
+
+    def scale(self, factor: float) -> Medium:
+        """Return the medium with all coefficients times a factor; b/c and phase function remain.
+
+        Raises:
+            BadSetting: a coefficient is above `MAX_COEFFICIENT`.
+            SeveralErrors: several are.
+        """
+        return replace(
+            self,
+            absorption=tuple(factor * value for value in self.absorption),
+            scattering=tuple(factor * value for value in self.scattering),
         )
 
     @property

@@ -10,12 +10,19 @@ from ..base.geometry import Array
 from ..devices.lamp import MountedLamp
 from ..results.motion import Signal
 from .live_scene import LiveScene
+from .scenery.recorded_water import measure_water
 from .tracked_bodies import TrackedBodies, vehicle_labels
 
 LAMP_PREFIX = "lamp/"
 """The prefix of the name of a lamp's signal, which is its brightness [0..1]."""
 BRIGHTNESS_RESOLUTION = 0.01
 """The resolution at which a brightness is recorded [1]."""
+
+BEAM_ATTENUATION, EXPOSURE_LEVEL = "beam_attenuation", "exposure_level"
+"""The names of the signals of physical water: the beam attenuation of green, and the exposure as a
+binary logarithm."""
+EXPOSURE_RESOLUTION = 1e-3
+"""The resolution at which an exposure is recorded [stops]."""
 
 
 class TrackedState:
@@ -49,6 +56,7 @@ class TrackedState:
             if index in engine.actuation:
                 signals += engine.actuation[index].commands().tolist()
         signals += [lamp.state.brightness for lamp in self._lamps]
+        signals += measure_water(scenery.state.water)
         return np.concatenate([rows.reshape(-1), signals])
 
     def _water_velocity(self, position: Array, vehicle: str) -> Array:
@@ -69,3 +77,6 @@ class TrackedState:
                     yield Signal(name=f"thrust/{vehicle}/{thruster}", step=0.01)
         for lamp in self._lamps:
             yield Signal(name=f"{LAMP_PREFIX}{lamp.spec.name}", step=BRIGHTNESS_RESOLUTION)
+        if self._world.scenery.state.water.physical_water is not None:
+            yield Signal(name=BEAM_ATTENUATION, unit="1/m")
+            yield Signal(name=EXPOSURE_LEVEL, step=EXPOSURE_RESOLUTION)

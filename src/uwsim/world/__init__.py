@@ -19,12 +19,13 @@ from .parts import (
     CompiledVehicle,
     Contact,
     Flow,
+    LineOfSight,
     Mount,
     MovingBody,
     Rays,
     WaterSurface,
 )
-from .views import DeviceWorld, ForceWorld, SensorWorld, Stage, TimedWorld, World
+from .views import DeviceWorld, ForceWorld, SensorWorld, Stage, StageWater, TimedWorld, World
 
 __all__ = [
     "GRAVITY",
@@ -40,11 +41,13 @@ __all__ = [
     "DeviceWorld",
     "Flow",
     "ForceWorld",
+    "LineOfSight",
     "Mount",
     "MovingBody",
     "Rays",
     "SensorWorld",
     "Stage",
+    "StageWater",
     "TimedWorld",
     "WaterSurface",
     "World",

@@ -12,6 +12,7 @@ import numpy.typing as npt
 from ..acoustics import Material
 from ..base.geometry import Intrinsics, Pose
 from ..base.numerics.calls import CompiledFunction
+from ..base.numerics.linear import length
 from ..base.sampling import Sampler
 from ..rays import Balls, Hits
 
@@ -51,6 +52,21 @@ class WaterSurface:
     def wave_addresses(self) -> tuple[int, int]:
         """The numbers of `calls.FUNCTION`: the addresses of the waves, 0 if it is level."""
         return (0, 0) if self.waves is None else self.waves.addresses
+
+
+@dataclass(frozen=True, eq=False)
+class LineOfSight:
+    """The line from a camera to a point that it looks at."""
+
+    camera: npt.NDArray[np.float64]
+    """The position of the camera in W, (3,) [m]."""
+    point: npt.NDArray[np.float64]
+    """The point in W, (3,) [m]."""
+
+    @property
+    def length(self) -> float:
+        """The length of the line [m]."""
+        return length(self.point - self.camera)
 
 
 class Body(Protocol):

@@ -16,7 +16,18 @@ from ..base.numerics.calls import CompiledFunction
 from ..base.sampling import Sampling
 from ..bus import Bus
 from ..network import Network
-from .parts import Actuators, Attachment, Body, Camera, Contact, Flow, Rays, WaterSurface
+from ..optics import Medium
+from .parts import (
+    Actuators,
+    Attachment,
+    Body,
+    Camera,
+    Contact,
+    Flow,
+    LineOfSight,
+    Rays,
+    WaterSurface,
+)
 
 
 class TimedWorld(Protocol):
@@ -73,6 +84,26 @@ class World(TimedWorld, Protocol):
         """Return the random generator of a name, which the seed of the run determines."""
 
 
+class StageWater(Protocol):
+    """The water for scene updaters: its waves, and the optical properties of physical water."""
+
+    @property
+    def medium(self) -> Medium | None:
+        """The optical properties in the scene file; None if the water is not physical."""
+
+    def set_medium(self, medium: Medium, *, sight: LineOfSight | None = None) -> None:
+        """Set the optical properties; raise UwsimError if the water is not physical.
+
+        Args:
+            medium: the water, in red, green and blue.
+            sight: the line of sight to a white board, for which the exposure of the cameras is set
+                anew; None: the exposure remains.
+        """
+
+    def set_wave_height(self, height: float | None) -> None:
+        """Set the significant wave height [m]; None: the scene's; raise UwsimError if no waves."""
+
+
 class Stage(TimedWorld, Protocol):
     """The view of the simulation for scene updaters: setters, and the view of measures."""
 
@@ -83,6 +114,10 @@ class Stage(TimedWorld, Protocol):
     @property
     def vehicles(self) -> tuple[str, ...]:
         """The names of the vehicles, in the file's order."""
+
+    @property
+    def water(self) -> StageWater:
+        """The waves and the physical water, which scene updaters change."""
 
     @property
     def fog_colour(self) -> tuple[float, float, float]:
@@ -110,9 +145,6 @@ class Stage(TimedWorld, Protocol):
 
     def set_current(self, current: Flow | None) -> None:
         """Add a flow to the currents of the scene; None removes it."""
-
-    def set_wave_height(self, height: float | None) -> None:
-        """Set the significant wave height [m]; None: the scene's; raise UwsimError if no waves."""
 
     def put_back(self, vehicle: str) -> None:
         """Return a vehicle to its pose in the scene, at rest; raise UnknownName if none."""

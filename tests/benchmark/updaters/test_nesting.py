@@ -29,6 +29,7 @@ from uwsim.benchmark.updaters import (
     SceneUpdaterSpec,
     SeaStateUpdaterSpec,
     SphericalSpec,
+    WaterUpdaterSpec,
     apply_level,
     bind_updaters,
     initial_level,
@@ -40,6 +41,7 @@ from uwsim.benchmark.updaters import (
 )
 from uwsim.bus import Node
 from uwsim.messages import Image, pixels_of
+from uwsim.optics import find_water
 from uwsim.simulation import Simulation
 
 VEHICLE = "girona500"
@@ -86,6 +88,9 @@ MAKE: dict[str, Callable[[Path], SceneUpdaterSpec]] = {
     ),
     "u:seaStateUpdater": lambda folder: SeaStateUpdaterSpec(
         initial_value=0.0, final_value=0.6, step=0.5, interval=1.0
+    ),
+    "u:waterUpdater": lambda folder: WaterUpdaterSpec(
+        initial_value=0.5, final_value=1.6, step=0.5, interval=1.0
     ),
 }  # fmt: skip
 """Element -> a sweep of two or three levels."""
@@ -148,7 +153,9 @@ class Values:
         if element == "sceneLightUpdater":
             return world.light_rate == value
         if element == "u:seaStateUpdater":
-            return world.wave_height == value
+            return world.water.wave_height == value
+        if element == "u:waterUpdater":
+            return world.water.settings[-1][0].beam_attenuation[1] == pytest.approx(value)
         return element == "repeat"
 
 
@@ -163,6 +170,7 @@ def test_three_deep_every_value_stands_at_every_level_and_restarts(
     expected = list(itertools.product(*(one.values() for one in specs)))  # outermost slowest
     assert [tuple(value for _, value in level.values) for level in played] == expected
     world = FakeWorld(vehicles=(VEHICLE,), timestep=0.01)
+    world.water.medium = find_water("tank")
     updaters = bind_updaters(spec, world)
     values = Values(world)
     ramp_level(updaters, initial_level(spec))

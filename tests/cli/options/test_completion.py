@@ -29,7 +29,7 @@ def offered(
     [
         ("uwsim ", sorted(COMMANDS)),
         ("uwsim en", ["envelope"]),
-        ("uwsim bench vis", ["visibility", "visibility-moving"]),
+        ("uwsim bench vis", ["visibility", "visibility-moving", "visibility-physical"]),
         ("uwsim envelope cur", ["currents", "currents-figures"]),
         ("uwsim render visibility-m", ["visibility-moving-scene"]),
         ("uwsim bench visibility --algorithm e", ["ecc", "esm"]),
@@ -38,7 +38,7 @@ def offered(
         ("uwsim bench visibility --over", ["--overwrite"]),
         ("uwsim check visibility-s", ["visibility-scene"]),
         ("uwsim list alg", ["algorithms"]),
-        ("uwsim bench 'visi", ["visibility", "visibility-moving"]),
+        ("uwsim bench 'visi", ["visibility", "visibility-moving", "visibility-physical"]),
     ],
 )
 def test_commands_options_and_names_are_completed(
@@ -57,7 +57,7 @@ def test_files_of_ones_own_are_offered_with_the_bundled_names(
     Path("visit.xml").touch()
     Path("vista.txt").touch()
     found = offered("uwsim bench vis", monkeypatch, capsys)
-    assert found == ["visibility", "visibility-moving", "visit.xml"]
+    assert found == ["visibility", "visibility-moving", "visibility-physical", "visit.xml"]
 
 
 @pytest.mark.skipif(shutil.which("bash") is None, reason="needs bash")

@@ -14,12 +14,16 @@ from mcap.reader import make_reader
 from mcap_ros2.decoder import DecoderFactory
 from PIL import Image
 
+import uwsim
 from tests.simulation.test_lamp import LAMP, night
 from tests.support.stored_rows import stored_row
+from uwsim.assets.find import find
 from uwsim.cli import main
 from uwsim.rendering.grey import grey_truncated
 from uwsim.results.journal import recorded_trials, track_path
 from uwsim.results.motion import Signal
+from uwsim.scene.reader import read_scene
+from uwsim.simulation.tracked_state import TrackedState
 from uwsim.simulation.views import find_focus
 from uwsim.viewer.film.curves import select_curves, short_name
 from uwsim.viewer.film.film import Film, FilmSpec, save_film
@@ -58,6 +62,39 @@ def test_lamps_are_as_bright_as_they_were(trial: RecordedTrial) -> None:
         scene.show_time((frame + 0.01) / track.rate)
         assert lamp.intensity == pytest.approx(brightness[frame] * LAMP.intensity)
     scene.close()
+
+
+def test_physical_water_is_as_turbid_as_it_was(trial: RecordedTrial) -> None:
+    track, levels = trial.track, np.linspace(0.5, 2.0, trial.track.n_frames)
+    signals = (Signal(name="beam_attenuation"), Signal(name="exposure_level", step=0.001))
+    turbid = replace(
+        track,
+        signals=(*track.signals, *signals),
+        values=np.column_stack([track.values, levels, levels - 1.0]),
+    )
+    path = find("visibility-physical-scene.xml")
+    assert path is not None
+    scene = TrialScene(replace(trial, scene=read_scene(path), track=turbid))
+    for frame in (0, 5, track.n_frames - 1):
+        scene.show_time((frame + 0.01) / track.rate)
+        water = scene.simulation.world.scenery.state.water.physical_water
+        assert water is not None
+        assert water.beam_attenuation == pytest.approx((levels[frame],) * 3)
+        assert water.exposure == pytest.approx(2.0 ** (levels[frame] - 1.0))
+        assert water.medium.single_scattering_albedo == pytest.approx(0.85)
+    scene.close()
+
+
+def test_the_motion_of_physical_water_has_attenuation_and_exposure() -> None:
+    with uwsim.load("visibility-physical-scene") as simulation:
+        state = TrackedState(simulation.world)
+        values = dict(
+            zip([s.name for s in state.signals], state.row()[-len(state.signals) :], strict=True)
+        )
+        assert values["beam_attenuation"] == pytest.approx(0.4)
+        water = simulation.world.scenery.state.water.physical_water
+        assert water is not None
+        assert 2.0 ** values["exposure_level"] == pytest.approx(water.exposure)
 
 
 def level_with(*curves: Curve, details: tuple[Curve, ...] = ()) -> RecordedLevel:

@@ -28,13 +28,17 @@ MAX_NAME_LENGTH = 36
 LEVEL_WORDS = {
     "armPosition": "arm position",
     "attenuationLength": "attenuation length",
+    "attenuationLengths": "attenuation lengths to the target",
+    "beamAttenuation": "beam attenuation",
     "current": "current",
     "fog": "fog density",
     "iteration": "iteration",
     "light": "light rate",
     "noise": "camera noise",
     "none": "",
+    "turbidity": "turbidity",
     "visibilityRange": "visibility range",
+    "waterScale": "scale of the water",
     "waveHeight": "significant wave height",
 }
 """The words for a swept parameter in the label of an axis."""

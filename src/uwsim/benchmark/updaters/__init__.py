@@ -36,6 +36,7 @@ from .updater import (
     settling_time,
     swept_parameters,
 )
+from .water_updater import WaterUpdaterSpec
 
 UPDATERS: dict[str, type[SceneUpdaterSpec]] = {
     "armMoveUpdater": ArmMoveUpdaterSpec,
@@ -47,6 +48,7 @@ UPDATERS: dict[str, type[SceneUpdaterSpec]] = {
     "sceneFogUpdater": SceneFogUpdaterSpec,
     "sceneLightUpdater": SceneLightUpdaterSpec,
     "u:seaStateUpdater": SeaStateUpdaterSpec,
+    "u:waterUpdater": WaterUpdaterSpec,
 }
 """The spec of each element, in alphabetical order."""
 
@@ -74,6 +76,7 @@ __all__ = [
     "Setter",
     "SphericalSpec",
     "SweepSpec",
+    "WaterUpdaterSpec",
     "apply_level",
     "begin_level",
     "bind_updaters",

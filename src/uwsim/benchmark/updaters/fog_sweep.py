@@ -25,15 +25,13 @@ of rounding errors.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
 from ...base.optics import DENSITY, LENGTHS
 from ...schema import Original, element
-from .sweep import SweepSpec, endless_error
-from .updater import MAX_LEVELS
+from .sweep import SweepSpec, step_values
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -77,11 +75,7 @@ class FogSweepSpec(SweepSpec):
         """Return the density [1/m] or the length [m] of each level."""
         if self.quantity == DENSITY:
             return super().values()
-        start, end, step = self.initial_value, self.final_value, self.step
-        span = (end - start) / step
-        if not span < MAX_LEVELS:
-            raise endless_error(start, end, step)
-        return tuple(start + i * step for i in range(math.floor(span + 1e-9) + 1))
+        return step_values(self.initial_value, self.final_value, self.step)
 
     def errors(self) -> Iterator[str]:
         """Report a step of 0 or of the wrong sign, and lengths that are not positive."""

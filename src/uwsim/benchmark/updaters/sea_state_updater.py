@@ -10,15 +10,13 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 from typing import ClassVar
 
 from ...schema import element
 from ...waves import MAX_HEIGHT
 from ...world import Stage
-from .sweep import Setter, SweepSpec, endless_error
-from .updater import MAX_LEVELS
+from .sweep import Setter, SweepSpec, step_values
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,10 +39,7 @@ class SeaStateUpdaterSpec(SweepSpec):
 
     def values(self) -> tuple[float, ...]:
         """Return the height of each level; the final value is one if whole steps lead to it [m]."""
-        start, span = self.initial_value, self.final_value - self.initial_value
-        if not span < MAX_LEVELS * self.step:
-            raise endless_error(start, self.final_value, self.step)
-        return tuple(start + i * self.step for i in range(math.floor(span / self.step + 1e-9) + 1))
+        return step_values(self.initial_value, self.final_value, self.step)
 
     def bind(self, stage: Stage) -> Setter:
         """Set the height of the first level, and return a setter; raise UwsimError without waves.
@@ -52,5 +47,5 @@ class SeaStateUpdaterSpec(SweepSpec):
         Returns:
             The setter of the significant wave height of all wave systems together [m].
         """
-        stage.set_wave_height(self.first_value)
-        return Setter(stage.set_wave_height)
+        stage.water.set_wave_height(self.first_value)
+        return Setter(stage.water.set_wave_height)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import ClassVar
@@ -94,6 +95,23 @@ def sweep_values(
             raise endless_error(start, end, step)
         value, count = next_value, count + 1
     return tuple(start + i * step for i in range(count))
+
+
+def step_values(start: float, end: float, step: float) -> tuple[float, ...]:
+    """Return ``start + i * step`` up to ``end``, which is one of them if whole steps lead to it.
+
+    Args:
+        start: the first value.
+        end: the value that is not passed.
+        step: the increment from level to level, of the sign of ``end - start``.
+
+    Raises:
+        BadSetting: the sweep has more than 100 000 levels.
+    """
+    span = (end - start) / step
+    if not span < MAX_LEVELS:
+        raise endless_error(start, end, step)
+    return tuple(start + i * step for i in range(math.floor(span + 1e-9) + 1))
 
 
 def endless_error(start: float, end: float, step: float) -> BadSetting:

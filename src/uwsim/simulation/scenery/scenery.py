@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
@@ -22,7 +21,6 @@ from ...model.parts import Part
 from ...model.scene_model import SceneModel
 from ...physics.engine import Engine
 from ...rendering.grey import grey_truncated
-from ...rendering.lights.lamp import Lamp
 from ...rendering.lights.projector import Projector
 from ...rendering.noise import add_noise
 from ...rendering.physical.moving_surface import MovingSurface
@@ -31,6 +29,7 @@ from ...rendering.smoothing import mean_of_squares
 from ...rendering.water import Light, Water
 from ...scene.spec import SceneSpec
 from ..unique_names import make_unique
+from .light_sources import make_lamp, make_projector
 from .part_poses import PartPoses
 from .renderer_pool import RendererPool
 from .sand import HeapState, make_heaps
@@ -344,7 +343,7 @@ class Scenery:
         if self._drawn_version != self._engine.poses.version:
             renderer.place_all(self._handles, self._poses.compute_all())
             if self.mounted_projector is not None:
-                self._projector = _make_projector(*self.mounted_projector)
+                self._projector = make_projector(*self.mounted_projector)
             self._drawn_version = self._engine.poses.version
         self._draw_heaps(renderer)
         lit_lamps = [lamp for lamp in self.mounted_lamps if lamp.is_on]
@@ -363,7 +362,7 @@ class Scenery:
             targets=targets,
             colour=colour,
             hidden_ids=self._hidden_ids if hidden_ids is None else hidden_ids,
-            lamps=tuple(map(_make_lamp, lit_lamps[:MAX_LAMPS])),
+            lamps=tuple(map(make_lamp, lit_lamps[:MAX_LAMPS])),
             projector=self._projector,
             surface=None if self._find_surface is None else self._find_surface(),
             particles=particles,
@@ -442,27 +441,6 @@ class Scenery:
             self._drawn_heaps = {}
             self._drawn_version = -1
         self._own_pool.close()
-
-
-def _make_lamp(lamp: MountedLamp | Led) -> Lamp:
-    spec = lamp.spec
-    return Lamp(
-        world_from_lamp=lamp.world_from_lamp,
-        half_angle=math.radians(spec.fov / 2.0),
-        softness=spec.softness,
-        colour=spec.color,
-        intensity=lamp.intensity,
-        casts_shadow=spec.shadow,
-    )
-
-
-def _make_projector(projector: MountedProjector, pattern: npt.NDArray[np.uint8]) -> Projector:
-    return Projector(
-        world_from_projector=projector.world_from_projector,
-        fovy=math.radians(projector.spec.fov),
-        pattern=pattern,
-        is_laser=projector.spec.laser,
-    )
 
 
 def _has_sun_shadows(scene: SceneSpec) -> bool:

@@ -9,6 +9,7 @@ from ...model.robots import find_file
 from ...world import World
 from ..physical_scene import PhysicalScene
 from ..scene_sensors import SceneSensors
+from .adjusted_water import AdjustedWater
 from .scene_view import SceneView
 
 
@@ -23,10 +24,11 @@ class StageView(SceneView):
         """The view of the scene for measures: bodies, cameras and contacts."""
         self.vehicles = scene.vehicles.names
         """The names of the vehicles, in the file's order."""
+        self.water = AdjustedWater(scene)
+        """The waves and the physical water, which scene updaters change."""
         self.set_fog = scene.scenery.change_fog
         self.set_light_rate = scene.scenery.set_light_rate
         self.set_current = scene.water.set
-        self.set_wave_height = scene.water.set_wave_height
         self.create_timer = scene.schedule.create_timer
 
     @property

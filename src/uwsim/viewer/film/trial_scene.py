@@ -11,8 +11,9 @@ from ...devices.lamp import MountedLamp
 from ...physics.compile_scene import compile_scene
 from ...results.motion import DrawnMarker, MotionTrack, markers_at
 from ...simulation import Simulation
+from ...simulation.scenery.recorded_water import restore_water
 from ...simulation.tracked_bodies import TrackedBodies
-from ...simulation.tracked_state import LAMP_PREFIX
+from ...simulation.tracked_state import BEAM_ATTENUATION, EXPOSURE_LEVEL, LAMP_PREFIX
 from ..recorded import RecordedTrial
 
 
@@ -52,12 +53,24 @@ class TrialScene:
             world.scenery.set_fog(fog)
         if light is not None:
             world.scenery.set_light_rate(light)
+        self._show_physical_water(frame)
         for lamp in world.devices:
             if isinstance(lamp, MountedLamp):
                 brightness = self.signal(f"{LAMP_PREFIX}{lamp.spec.name}", frame)
                 lamp.state.brightness = 1.0 if brightness is None else brightness
         for number, heap in enumerate(world.scenery.heaps):
             heap.restore(self.track.sand.spots(number, frame))
+
+    def _show_physical_water(self, frame: int) -> None:
+        """Set physical water, if the scene has it, to its state in a frame of the track."""
+        attenuation = self.signal(BEAM_ATTENUATION, frame)
+        exposure = self.signal(EXPOSURE_LEVEL, frame)
+        scenery, medium = self.simulation.world.scenery, self.simulation.world.model.optical_water
+        if medium is None or attenuation is None or exposure is None:
+            return
+        water = restore_water(scenery.state.water, medium, attenuation, exposure)
+        if water != scenery.state.water:
+            scenery.state.water = water
 
     def signal(self, name: str, frame: int) -> float | None:
         """Return the value of a signal in a frame of the track; None if there is no value."""
