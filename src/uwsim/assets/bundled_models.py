@@ -20,7 +20,7 @@ import numpy as np
 import numpy.typing as npt
 
 from .loaders.gltf_limits import GLB_JSON_START
-from .mesh import Mesh, Model, Texture
+from .mesh import Material, Mesh, Model, Texture
 from .stand_ins import BUNDLED_MODELS, LabelledBox
 
 FOLDER = Path(__file__).resolve().parent.parent / "data" / "models"
@@ -88,7 +88,8 @@ class _BundledFile:
         image = surface.get("baseColorTexture")
         attributes = primitive["attributes"]
         uvs = self._array(attributes["TEXCOORD_0"])
-        if "KHR_texture_transform" not in self.tree.get("extensionsUsed", ()):
+        is_old = "KHR_texture_transform" in self.tree.get("extensionsUsed", ())
+        if not is_old:
             uvs[:, 1] = np.float32(1.0) - uvs[:, 1]
         triangles = self._array(primitive["indices"]).reshape(-1, 3)
         return Mesh(
@@ -100,6 +101,22 @@ class _BundledFile:
             texture=None if image is None else self._texture(image),
             opacity=opacity,
             two_sided=material.get("doubleSided", False),
+            material=None if is_old else self._material(material),
+        )
+
+    def _material(self, material: Tree) -> Material:
+        """Return the finish of a surface; models that older versions generated are matte."""
+        surface = material["pbrMetallicRoughness"]
+        maps = {
+            name: self._texture(tree[entry])
+            for name, tree, entry in (
+                ("finish_map", surface, "metallicRoughnessTexture"),  # with occlusion in red
+                ("normal_map", material, "normalTexture"),
+            )
+            if entry in tree
+        }
+        return Material(
+            roughness=surface["roughnessFactor"], metallic=surface["metallicFactor"], **maps
         )
 
     def _texture(self, reference: Tree) -> Texture:
