@@ -9,6 +9,7 @@ from collections.abc import Callable, Sequence
 import moderngl
 
 from .batch_drawer import BatchDrawer
+from .caustics.caustic_light import CAUSTICS
 from .frame import FRAME
 from .gpu_model import GpuModels
 from .instance import INSTANCE, Instances, Slots
@@ -32,6 +33,8 @@ SAMPLERS = {
     "finish_map": 12,
     "emission_map": 13,
     "reflectance_table": 14,
+    "caustic_maps": 9,
+    "swell_map": 10,
 }
 """The texture unit of every sampler in the shaders."""
 
@@ -244,7 +247,7 @@ class Passes:
                 self._context,
                 effect,
                 defines=defines | dict(switches),
-                blocks=(FRAME, INSTANCE, LAMPS, PROJECTOR, OPTICS),
+                blocks=(FRAME, INSTANCE, LAMPS, PROJECTOR, OPTICS, CAUSTICS),
                 samplers=SAMPLERS,
             )
         return self._programs[key]

@@ -17,6 +17,7 @@ from ..assets.mesh import Model
 from ..base.geometry import Array, Intrinsics, Pose
 from ..devices.lamp import MAX_LAMPS
 from .backdrop import Backdrop, Colours
+from .caustics.caustic_light import CausticLight
 from .context import create_context
 from .frame import Frame
 from .gpu_model import GpuModels
@@ -76,6 +77,8 @@ class View:
     """The moving surface, if images depend on it."""
     particles: VisibleParticles | None = None
     """The particles in physical water, if there are any."""
+    switches: Switches = ()
+    """The switches of the shaders of surfaces for focused sunlight."""
 
     @property
     def is_physical(self) -> bool:
@@ -110,6 +113,7 @@ class Renderer:
         self._lamps: Lamps | None = None
         self._projector: ProjectorLight | None = None
         self._development: Development | None = None
+        self._caustics: CausticLight | None = None
         self._images: dict[View, RenderedImage | None] = {}  # of recent views, the newest last
 
     def add(self, model: Model, id: int) -> int:
@@ -244,7 +248,8 @@ class Renderer:
             lamps=view.lamps,
             light_rate=view.light.rate,
         )
-        surface_view = replace(view, colour_format=RADIANCE)
+        focusing_switches = self._update_caustics(view, world_from_camera)
+        surface_view = replace(view, colour_format=RADIANCE, switches=focusing_switches)
         self._issue_draw_calls(surface_view, world_from_camera)
         surfaces = self._find_targets(surface_view)
         if view.lamps:
@@ -267,7 +272,7 @@ class Renderer:
         candidates = self._instances.find_shown(hidden_ids)
         pinhole = projection(view.intrinsics)
         indices = find_visible(self._instances, candidates, world_from_camera, pinhole.planes)
-        switches: Switches = water.switches + light.switches
+        switches: Switches = water.switches + light.switches + view.switches
         casters, may_cast = candidates[:0], np.zeros((len(indices), 0), dtype=bool)
         if "colour" in view.targets and light.shadows:
             casters, may_cast = self._update_sun_shadow(
@@ -367,6 +372,19 @@ class Renderer:
         if is_needed.any():
             self._shadow.update(instances, casters[is_needed], sun)
         return casters[is_needed], may_cast[:, is_needed]
+
+    def _update_caustics(self, view: View, world_from_camera: Pose) -> Switches:
+        """Update the focused sunlight; return the switches of the shaders of surfaces."""
+        water, surface = view.water.physical_water, view.surface
+        if water is None or surface is None or not water.has_focused_light:
+            return ()
+        if self._caustics is None:
+            self._caustics = CausticLight(self._context)
+        switches = self._caustics.prepare(
+            water, surface, world_from_camera, view.water.surface_height
+        )
+        self._caustics.use(SAMPLERS["caustic_maps"], SAMPLERS["swell_map"])
+        return switches if water.has_caustics else ()
 
     def _update_lamps(
         self,

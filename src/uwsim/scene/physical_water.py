@@ -52,6 +52,16 @@ class SunSpec(Spec):
 
 
 @dataclass(frozen=True, kw_only=True)
+class RipplesSpec(Spec):
+    """A ``<u:ripples>``: short waves, which focus sunlight and exert no force."""
+
+    wind_speed: float = element(namespaced=True, default=2.0, minimum=0.0, maximum=20.0)
+    """The speed of the wind; a pool in a hall has 0 [m/s]."""
+    direction: float = element(namespaced=True, default=0.0)
+    """The direction in which the wind blows, from x of L towards y [rad]."""
+
+
+@dataclass(frozen=True, kw_only=True)
 class PhaseFunctionSpec(Spec, ABC):
     """The spec of a phase function."""
 
@@ -161,6 +171,13 @@ class PhysicalWaterSpec(Spec):
     """True if the water scatters the light of lamps into cameras."""
     particles: ParticlesSpec | None = element(namespaced=True, default=None)
     """The particles that cameras see; when absent there are none."""
+    ripples: RipplesSpec | None = element(namespaced=True, default=None)
+    """The ripples of the surface. Without it, a scene with waves has those of a wind of 2 m/s, and
+    a scene without waves has none."""
+    caustics: bool = element(namespaced=True, default=True)
+    """True if waves and ripples focus sunlight on surfaces."""
+    light_shafts: bool = element(namespaced=True, default=True)
+    """True if waves and ripples focus the sunlight that the water scatters into cameras."""
 
     def read_medium(self, find: Callable[[str], Path]) -> Medium:
         """Return the water; its file is read.

@@ -70,7 +70,8 @@ class PhysicalScene:
         """The contacts between bodies."""
         self.water = water_motion(model, self.stream, runs_code=runs_code)
         """The motion of the water."""
-        if model.optical_water is not None and self.water.waves is not None:
+        optics = self.scenery.state.water.physical_water
+        if optics is not None and (self.water.waves is not None or optics.ripples is not None):
             self.scenery.set_surface(self._find_surface)
         if self.particles is not None:
             self.schedule.create_timer(UPDATE_RATE, self._move_particles)

@@ -9,6 +9,7 @@ from typing import Literal
 from ...base.geometry import Triple
 from ...errors import BadSetting, ErrorCollector
 from ...optics import Medium
+from ..caustics.ripples import Ripples
 
 Transfer = Literal["srgb", "linear"]
 """The curve from relative light to stored values."""
@@ -83,6 +84,12 @@ class PhysicalWater:
     """True if light that is scattered forward blurs the image; else it counts as sharp."""
     has_lamp_veil: bool = True
     """True if the water scatters the light of lamps into the camera."""
+    ripples: Ripples | None = None
+    """The ripples of a moving surface, for caustics; None: none are drawn, nor caustics."""
+    has_caustics: bool = True
+    """True if a moving surface focuses the sun's light on surfaces."""
+    has_light_shafts: bool = True
+    """True if a moving surface focuses the sun's light that the water scatters."""
     isotropic_radiance: Triple | None = None
     """The radiance of a light field that is equal in all directions and at all depths, instead of
     daylight; for tests of energy conservation."""
@@ -91,6 +98,13 @@ class PhysicalWater:
     def beam_attenuation(self) -> tuple[float, ...]:
         """The beam attenuation c of each channel [1/m]."""
         return tuple(self.medium.beam_attenuation.tolist())
+
+    @property
+    def has_focused_light(self) -> bool:
+        """True if a moving surface focuses light: the sun shines, and there are ripples."""
+        daylight = self.daylight
+        has_beam = daylight.irradiance > 0.0 and daylight.sky_share < 1.0
+        return self.ripples is not None and has_beam and self.isotropic_radiance is None
 
     def __post_init__(self) -> None:
         if self.medium.n_channels != N_CHANNELS:

@@ -1,12 +1,19 @@
 // Provides: daylight(facing, up_cosine, share, depth), the light of sun and sky under water; albedo_of(stored), a surface's albedo.
 // Needs: varyings.glsl with PHYSICAL; facing = N.L; up_cosine = N.up; share = 0 in the sun's shadow to 1; depth below the surface [m].
-// physical/daylight_field.py, physical/transfer_curve.py: the sun's beam, diffuse light from above, light from below.
+// physical/daylight_field.py, physical/transfer_curve.py: the sun's beam, with CAUSTICS focused by waves; diffuse light from above, light from below.
+#ifdef CAUSTICS
+#include "caustics.glsl"
+#endif
 vec3 daylight(float facing, float up_cosine, float share, float depth) {
     float z = max(depth, 0.0);
     vec3 total = v_daylight_total * exp(v_daylight_loss * -z);
     vec3 level = min(v_sun_beam.rgb * exp(v_sun_loss * -z), total);
+    vec3 diffuse = total - level;
+#ifdef CAUSTICS
+    level *= 1.0 + exp(v_caustic_loss * -z) * caustic_excess(v_caustic_place, depth, v_caustic_depths, v_swell_frame);
+#endif
     return level * (max(facing, 0.0) * share / v_sun_beam.w)
-        + (total - level) * (0.5 + 0.5 * up_cosine) + v_upwelling * total * (0.5 - 0.5 * up_cosine);
+        + diffuse * (0.5 + 0.5 * up_cosine) + v_upwelling * total * (0.5 - 0.5 * up_cosine);
 }
 
 vec3 albedo_of(vec3 stored) {

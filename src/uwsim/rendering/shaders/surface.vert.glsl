@@ -7,6 +7,9 @@
 #include "varyings.glsl"
 #if defined(COLOUR) && defined(PHYSICAL)
 #include "optics.glsl"
+#ifdef CAUSTICS
+#include "caustics_block.glsl"
+#endif
 #endif
 #if defined(COLOUR) && defined(LAMPS)
 #include "lamps.glsl"
@@ -58,6 +61,12 @@ void main() {
     v_daylight_total = daylight_total.rgb;
     v_daylight_loss = daylight_loss.rgb;
     v_upwelling = upwelling.rgb;
+#ifdef CAUSTICS
+    v_caustic_place = vec2(dot(v_position, caustic_x.xyz), dot(v_position, caustic_y.xyz)) + vec2(caustic_x.w, caustic_y.w);
+    v_caustic_depths = caustic_depths;
+    v_swell_frame = swell_frame;
+    v_caustic_loss = caustic_loss.rgb;
+#endif
 #else
     v_lights = vec4(sunlight.rgb, ambient_specular.x);
     v_water_colour = vec4(water_colour.rgb, ambient_specular.y);

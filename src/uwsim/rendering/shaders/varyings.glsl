@@ -19,6 +19,12 @@ flat VARYING vec3 v_sun_loss;
 flat VARYING vec3 v_daylight_total;
 flat VARYING vec3 v_daylight_loss;
 flat VARYING vec3 v_upwelling;
+#ifdef CAUSTICS
+VARYING vec2 v_caustic_place;  // where the sun's beam to the point enters the water [tiles]
+flat VARYING vec4 v_caustic_depths;  // these are of caustics_block.glsl
+flat VARYING vec4 v_swell_frame;
+flat VARYING vec3 v_caustic_loss;
+#endif
 #else
 flat VARYING vec4 v_lights;  // rgb: sunlight; w: ambient
 flat VARYING vec4 v_water_colour;  // rgb: water colour; w: specular

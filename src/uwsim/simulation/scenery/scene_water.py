@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import replace
 
 from ...model.scene_model import SceneModel
 from ...optics import compute_full_field, find_water
+from ...rendering.caustics.ripples import Ripples
 from ...rendering.physical.daylight_field import compute_light_field
 from ...rendering.physical.physical_water import Daylight, PhysicalWater
 from ...rendering.water import Water
@@ -37,6 +39,9 @@ def make_water(model: SceneModel) -> Water:
         transfer=spec.transfer,
         has_blur=spec.blur,
         has_lamp_veil=spec.lamp_veil,
+        ripples=_make_ripples(model),
+        has_caustics=spec.caustics,
+        has_light_shafts=spec.light_shafts,
     )
     return set_exposure(replace(water, physical_water=physical_water), model, ())
 
@@ -86,6 +91,16 @@ def choose_water(water: Water, fog: float | None, model: SceneModel) -> Water:
         levels.append(max(float((beam + diffuse).max()), MIN_RADIANCE))
     exposure = physical_water.exposure * levels[0] / levels[1]
     return replace(water, physical_water=replace(physical_water, medium=medium, exposure=exposure))
+
+
+def _make_ripples(model: SceneModel) -> Ripples | None:
+    """Return the ripples of a scene; those of a light wind if it has only waves."""
+    ocean = model.scene.ocean_state
+    if ocean.water is None or ocean.water.ripples is None:
+        return Ripples() if ocean.waves else None
+    spec, rotation = ocean.water.ripples, model.scene.world_from_localized.rotation
+    wind = rotation[:, 0] * math.cos(spec.direction) + rotation[:, 1] * math.sin(spec.direction)
+    return Ripples(wind_speed=spec.wind_speed, direction=math.atan2(float(wind[1]), float(wind[0])))
 
 
 def _find_start_depth(model: SceneModel) -> float:

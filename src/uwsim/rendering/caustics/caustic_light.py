@@ -1,0 +1,180 @@
+"""Caustics on the GPU: the maps of the present time, and the uniform block ``Caustics``."""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+
+import moderngl
+import numpy as np
+
+from ...base.geometry import Array, Pose
+from ...optics import Medium
+from ..physical.daylight_field import compute_light_field
+from ..physical.moving_surface import MovingSurface
+from ..physical.physical_water import Daylight, PhysicalWater
+from ..program import Block
+from .caustic_map import N_SLICES, CausticMapper, make_optics
+from .refraction import make_beam
+from .ripples import Ripples
+from .swell import N_POINTS, SPACING, compute_swell, find_short_waves
+from .wave_tile import N_NODES, TILE_EDGE, TileWaves
+
+CAUSTICS = Block(
+    "Caustics",
+    5,
+    {
+        "caustic_x": "vec4",
+        "caustic_y": "vec4",
+        "swell_frame": "vec4",
+        "caustic_depths": "vec4",
+        "caustic_loss": "vec4",
+    },
+)
+PATTERN_FREQUENCY = 10.0
+"""The frequency of the pattern in the blur by scattering [cycles/rad]: 0.5 m in 5 m."""
+MAX_DEPTH, LEAST_MAX_DEPTH = 20.0, 3.0
+"""The limits of the depth of the deepest map [m]."""
+LOST_CONTRAST = 3.0
+"""The exponent of the loss of contrast in the deepest map, in the clearest channel."""
+
+
+def find_contrast_loss(medium: Medium, sun_cosine: float) -> Array:
+    r"""Return the rate at which the contrast of caustics falls with depth, (3,) [1/m].
+
+    The beam of `physical.daylight_field` contains the share :math:`g^2` of scattered light that
+    counts as unscattered. A pattern of the frequency :math:`\psi` keeps the share :math:`Q(\psi)`
+    of its contrast (`optics.transmission`): :math:`b\, (g^2 - Q(\psi)) / \mu_w`.
+    """
+    phase = medium.phase_function
+    transform = float(phase.compute_transform(np.array([PATTERN_FREQUENCY]))[0])
+    share = max(phase.mean_cosine**2 - transform, 0.0)
+    loss: Array = share * np.array(medium.scattering) / sun_cosine
+    return loss
+
+
+class CausticLight:
+    """The caustics of a renderer.
+
+    Args:
+        context: the context of the renderer.
+    """
+
+    def __init__(self, context: moderngl.Context) -> None:
+        self._context = context
+        self._values = np.zeros((), dtype=CAUSTICS.dtype)
+        self._buffer = context.buffer(reserve=CAUSTICS.dtype.itemsize, dynamic=True)
+        self._maps = context.texture_array((N_NODES, N_NODES, N_SLICES), 1, dtype="f4")
+        self._maps.filter = (moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR)
+        self._swell = context.texture((N_POINTS, N_POINTS), 4, dtype="f4")
+        self._swell.filter = (moderngl.LINEAR, moderngl.LINEAR)
+        self._swell.repeat_x = self._swell.repeat_y = False
+        self._maps_key: object = None
+        self._swell_key: object = None
+        self._corner = (0.0, 0.0)
+
+    def prepare(
+        self,
+        water: PhysicalWater,
+        surface: MovingSurface,
+        world_from_camera: Pose,
+        surface_height: float,
+    ) -> tuple[tuple[str, int], ...]:
+        """Compute and upload what has changed, and fill the uniform block.
+
+        Returns:
+            The switches of the shaders.
+        """
+        ripples = water.ripples
+        assert ripples is not None
+        key = surface, water.daylight, water.medium, ripples
+        mapper = find_mapper(water.medium, water.daylight, ripples)
+        if key != self._maps_key:
+            self._maps_key = key
+            maps = mapper.compute(_find_tile_waves(ripples, surface), surface.time)
+            self._maps.write(maps)
+            self._maps.build_mipmaps()
+        switches: tuple[tuple[str, int], ...] = (("CAUSTICS", 1), ("N_SLICES", N_SLICES))
+        if surface.waves is not None:
+            switches += (("SWELL", 1),)
+            self._update_swell(key, mapper, surface, world_from_camera, surface_height)
+        self._fill(water, mapper, world_from_camera, surface_height)
+        return switches
+
+    def use(self, maps_unit: int, swell_unit: int) -> None:
+        """Bind the textures to their units."""
+        self._maps.use(maps_unit)
+        self._swell.use(swell_unit)
+
+    def _update_swell(
+        self,
+        maps_key: object,
+        mapper: CausticMapper,
+        surface: MovingSurface,
+        world_from_camera: Pose,
+        surface_height: float,
+    ) -> None:
+        """Update the grid of long waves, which has the camera's beam in its middle."""
+        assert surface.waves is not None
+        beam = mapper.optics.beam
+        depth = max(surface_height - float(world_from_camera.position[2]), 0.0)
+        centre = world_from_camera.position[:2] - depth * beam.level_drift
+        x, y = (SPACING * math.floor(c / SPACING - 0.5 * N_POINTS) for c in centre.tolist())
+        if (maps_key, x, y) != self._swell_key:
+            self._swell_key, self._corner = (maps_key, x, y), (x, y)
+            swell = compute_swell(
+                surface.waves, beam.slope_matrix, (x, y), surface.time, surface.wave_scale
+            )
+            self._swell.write(swell)
+
+    def _fill(
+        self,
+        water: PhysicalWater,
+        mapper: CausticMapper,
+        world_from_camera: Pose,
+        surface_height: float,
+    ) -> None:
+        values, beam, depths = self._values, mapper.optics.beam, mapper.optics.depths
+        rotation, position = world_from_camera.rotation, world_from_camera.position
+        for row, name in enumerate(("caustic_x", "caustic_y")):
+            # the point of the still surface on the refracted beam, in tiles, from the camera frame
+            drift = float(beam.level_drift[row])
+            depth = surface_height - float(position[2])
+            start = (float(position[row]) - drift * depth) / TILE_EDGE
+            gradient = (rotation[row] + drift * rotation[2]) / TILE_EDGE
+            tile = math.floor(start)
+            values[name] = *gradient, start - tile
+            corner = self._corner[row] / TILE_EDGE - tile
+            edge = N_POINTS * SPACING / TILE_EDGE
+            values["swell_frame"][row] = 0.5 / N_POINTS - corner / edge
+            values["swell_frame"][2] = 1.0 / edge
+        values["swell_frame"][3] = 1.0 / TILE_EDGE
+        ratio = math.log2(depths[1] / depths[0])
+        values["caustic_depths"] = depths[0], 1.0 / ratio, -math.log2(depths[0]) / ratio, depths[-1]
+        field = compute_light_field(water.medium, water.daylight)
+        loss = find_contrast_loss(water.medium, float(field.towards_sun[2]))
+        values["caustic_loss"][:3] = loss
+        self._buffer.write(values.tobytes())
+        self._buffer.bind_to_uniform_block(CAUSTICS.binding)
+
+
+@lru_cache(maxsize=4)
+def find_mapper(medium: Medium, daylight: Daylight, ripples: Ripples) -> CausticMapper:
+    """Return the computation of maps for a medium, a sun and ripples."""
+    beam = make_beam(daylight)
+    field = compute_light_field(medium, daylight)
+    loss = float(find_contrast_loss(medium, float(field.towards_sun[2])).min())
+    depth = min(max(LOST_CONTRAST / max(loss, 1e-6), LEAST_MAX_DEPTH), MAX_DEPTH)
+    return CausticMapper(make_optics(beam, depth, ripples.unresolved_slope))
+
+
+@lru_cache(maxsize=4)
+def _draw_ripples(ripples: Ripples, seed: int) -> TileWaves:
+    return ripples.draw(seed)
+
+
+def _find_tile_waves(ripples: Ripples, surface: MovingSurface) -> TileWaves:
+    drawn_waves = _draw_ripples(ripples, surface.seed)
+    if surface.waves is None:
+        return drawn_waves
+    return drawn_waves.join(find_short_waves(surface.waves).scale(surface.wave_scale))
