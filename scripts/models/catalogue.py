@@ -7,7 +7,7 @@ from collections.abc import Callable
 from uwsim.assets.mesh import Mesh
 
 from .parts import Part
-from .scenery import rocks, seabed
+from .scenery import chain, rocks, seabed, wreck
 from .stand_ins import (
     amphora,
     arm5e,
@@ -101,6 +101,8 @@ SCENERY: dict[str, dict[str, Callable[[], tuple[Part, ...]]]] = {
         "objects/rock4": rocks.rock4,
         "objects/rock5": rocks.rock5,
     },
+    "objects/chain": {"objects/chain": chain.chain},
+    "objects/wreck": {"objects/wreck": wreck.wreck},
     "terrain/seabed": {
         "terrain/seabed/sand": seabed.sand,
         "terrain/seabed/gravel": seabed.gravel,

@@ -27,7 +27,7 @@ BOXES = {
 }
 """x, y, z, smallest then largest [m]."""
 
-OPEN = ("terrain/", "objects/blackbox")
+OPEN = ("terrain/", "objects/blackbox", "objects/wreck", "objects/chain")
 """Models made of faces that are not closed part by part."""
 
 

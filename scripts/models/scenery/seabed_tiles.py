@@ -32,7 +32,7 @@ SAND, TROUGH, FLECK = (0.60, 0.53, 0.41), (0.46, 0.41, 0.33), (0.80, 0.77, 0.70)
 STONES = ((0.33, 0.32, 0.30), (0.45, 0.42, 0.37), (0.40, 0.35, 0.29), (0.52, 0.48, 0.41))
 
 Corners = tuple[int, int, int, int]
-"""The corners of a tile, 1 for gravel and 0 for sand: lower left and right, upper left and right."""
+"""The corners of a tile, 1 for gravel, 0 for sand: lower left and right, upper left and right."""
 
 
 class _Base(NamedTuple):

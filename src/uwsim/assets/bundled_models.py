@@ -54,8 +54,11 @@ def hash_meshes(meshes: tuple[Mesh, ...]) -> str:
     for mesh in meshes:
         for array in (mesh.vertices, mesh.normals, mesh.uvs, mesh.triangles):
             digest.update(array.tobytes())
-        if mesh.texture is not None:
-            digest.update(mesh.texture.pixels.tobytes())
+        material = mesh.material
+        maps = () if material is None else (material.finish_map, material.normal_map)
+        for texture in (mesh.texture, *maps):
+            if texture is not None:
+                digest.update(texture.pixels.tobytes())
     return digest.hexdigest()
 
 
@@ -107,16 +110,13 @@ class _BundledFile:
     def _material(self, material: Tree) -> Material:
         """Return the finish of a surface; models that older versions generated are matte."""
         surface = material["pbrMetallicRoughness"]
-        maps = {
-            name: self._texture(tree[entry])
-            for name, tree, entry in (
-                ("finish_map", surface, "metallicRoughnessTexture"),  # with occlusion in red
-                ("normal_map", material, "normalTexture"),
-            )
-            if entry in tree
-        }
+        finish = surface.get("metallicRoughnessTexture")  # with occlusion in red
+        normal = material.get("normalTexture")
         return Material(
-            roughness=surface["roughnessFactor"], metallic=surface["metallicFactor"], **maps
+            roughness=surface["roughnessFactor"],
+            metallic=surface["metallicFactor"],
+            finish_map=None if finish is None else self._texture(finish),
+            normal_map=None if normal is None else self._texture(normal),
         )
 
     def _texture(self, reference: Tree) -> Texture:

@@ -88,11 +88,13 @@ STAND_INS: dict[str, StandIn] = {
 """The replacements of UWSim's models in alphabetical order, one line each."""
 
 SCENERY: dict[str, StandIn] = {
+    "objects/chain": _scenery("objects/chain"),
     "objects/rock1": _scenery("objects/rocks"),
     "objects/rock2": _scenery("objects/rocks"),
     "objects/rock3": _scenery("objects/rocks"),
     "objects/rock4": _scenery("objects/rocks"),
     "objects/rock5": _scenery("objects/rocks"),
+    "objects/wreck": _scenery("objects/wreck"),
     "terrain/seabed/gravel": _scenery("terrain/seabed"),
     "terrain/seabed/sand": _scenery("terrain/seabed"),
 }
