@@ -1,6 +1,6 @@
 """Calibrations of pictures that the renderer takes through physical water.
 
-The renderer blurs by five Gaussians, and knows nothing of the forward model of a calibration. An
+The renderer blurs by Gaussians, and knows nothing of the forward model of a calibration. An
 LED is a bright plate of 3 mm in a dim isotropic field, whose picture without the plate is
 subtracted. The reference water is the red channel of the same water, the dyed one the green.
 """

@@ -16,6 +16,7 @@ _SIZES = {
     "vec4": (np.float32, (4,)),
     "uvec4": (np.uint32, (4,)),
     "mat4": (np.float32, (4, 4)),
+    "vec4[2]": (np.float32, (2, 4)),
     "vec4[4]": (np.float32, (4, 4)),
     "mat4[4]": (np.float32, (4, 4, 4)),
 }

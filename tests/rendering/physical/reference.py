@@ -13,7 +13,6 @@ from uwsim.optics.transmission import compute_direct
 from uwsim.rendering.physical.blur_plan import plan_blur
 from uwsim.rendering.physical.blur_weights import (
     N_RANGES,
-    SIGMAS,
     compute_weight_table,
     find_table_scale,
 )
@@ -44,13 +43,14 @@ def compose(
     excess = np.where(is_surface[..., None], radiance - open_water, 0.0)
     light = open_water + compute_direct(water.medium, ranges) * excess
     focal = math.sqrt(intrinsics.fx * intrinsics.fy)
-    table, scale = compute_weight_table(water.medium), find_table_scale(water.medium)
-    reach = plan_blur(intrinsics, has_blur=True).reach
-    for level, sigma in enumerate(SIGMAS):
-        places = reach[level] * ranges
+    plan, scale = plan_blur(intrinsics, has_blur=True), find_table_scale(water.medium)
+    table = compute_weight_table(water.medium, plan.sigmas, plan.highest_frequency)
+    rows = zip(table, (0.0, *plan.sigmas), (1.0, *plan.reach), strict=True)
+    for row, sigma, reach in rows:
+        places = reach * ranges
         places = places / (places + scale) * (N_RANGES - 1)
         for channel in range(3):
-            weights = np.interp(places, np.arange(N_RANGES), table[level, :, channel])
+            weights = np.interp(places, np.arange(N_RANGES), row[:, channel])
             light[..., channel] += gaussian_filter(
                 weights * excess[..., channel], sigma * focal, mode="nearest", truncate=4.0
             )

@@ -23,7 +23,8 @@ from uwsim.rendering.physical.transfer_curve import decode, encode
 @pytest.mark.parametrize("name", ["jerlov-I", "jerlov-3C", "tank"])
 def test_weights_are_positive_and_sum_to_the_scattered_light(name: str) -> None:
     medium = find_water(name)
-    table = compute_weight_table(medium)
+    plan = plan_blur(Intrinsics.from_fovy(640, 480, 0.9), has_blur=True)
+    table = compute_weight_table(medium, plan.sigmas, plan.highest_frequency)
     shares = np.arange(N_RANGES - 1) / (N_RANGES - 1.0)
     ranges = find_table_scale(medium) * shares / (1.0 - shares)
     scattered = compute_full_field(medium, ranges) - compute_direct(medium, ranges)
@@ -32,22 +33,23 @@ def test_weights_are_positive_and_sum_to_the_scattered_light(name: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("width", "fovy", "n_sharp", "has_fine_level", "texels"),
-    [
-        (320, 50.0, 0, True, (2, 8, 32, 128)),
-        (640, 50.0, 0, False, (2, 4, 16, 64, 256)),
-        (80, 60.0, 1, True, (2, 4, 16)),
-    ],
+    ("width", "fovy", "n_levels"), [(320, 50.0, 6), (640, 50.0, 7), (80, 60.0, 4), (4096, 40.0, 8)]
 )
-def test_levels_are_drawn_where_they_have_a_texel(
-    width: int, fovy: float, n_sharp: int, has_fine_level: bool, texels: tuple[int, ...]
+def test_the_levels_of_a_camera_are_from_a_pixel_to_410_mrad(
+    width: int, fovy: float, n_levels: int
 ) -> None:
     lens = Intrinsics.from_fovy(width, 3 * width // 4, math.radians(fovy))
     plan = plan_blur(lens, has_blur=True)
-    assert plan.n_sharp == n_sharp
-    assert (plan.fine_variance is not None) == has_fine_level
-    assert plan.texels == texels
+    assert plan.n_levels == n_levels
+    assert plan.sigmas[0] * lens.fx == pytest.approx(1.0)
+    assert plan.sigmas[-1] == pytest.approx(0.41)
     assert all(0.7 < reach <= 1.0 for reach in plan.reach)
+
+
+@pytest.mark.parametrize("lens", [(1, 1), (6, 4)])
+def test_a_tiny_image_has_no_blur(lens: tuple[int, int]) -> None:
+    plan = plan_blur(Intrinsics.from_fovy(*lens, math.radians(120.0)), has_blur=True)
+    assert plan.n_levels == 0
 
 
 @pytest.mark.parametrize("phase", [FournierForand(), HenyeyGreenstein(0.9), HenyeyGreenstein(0.3)])

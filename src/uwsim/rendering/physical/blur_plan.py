@@ -1,11 +1,12 @@
-r"""The plan of the blur for a camera: which Gaussian levels are drawn at which resolution.
+r"""The plan of the blur for a camera: its Gaussian levels and the resolution of each.
 
-The five levels of `blur_weights` have the deviations :math:`\sigma_l f` in pixels, for the focal
-length :math:`f`. Levels below 0.24 px count as sharp. One level may be *fine*: below 0.75 px it is
-a kernel of 3 x 3 pixels. The others are *coarse*: the first is drawn at half the resolution, the
-next at a half or a quarter of that, so that it has a deviation of at least 0.7 texels, and each
-further one at a quarter of the one before. A coarse level is the mean of a square of pixels, a
-Gaussian, and linear interpolation; the Gaussian has the variance that the others leave.
+The first level has a deviation of one pixel, the last one of 410 mrad, and the ratio between
+levels is constant, 2.6 or near it. Narrower blur counts as sharp; `blur_weights` fits all to the
+water. The first level is drawn at half the resolution, each further one at half of the one before.
+A level is reduced from pixels, has a Gaussian, and is interpolated linearly; the Gaussian has the
+variance that the others leave. The first two levels are means of squares of pixels; each further
+reduction weighs texels by 1, 3, 3, 1, since the means of squares would pass on patterns of their
+own size.
 
 The weights of a pixel are those of its own range, so that light of near surfaces spreads over far
 ones. A plane across the ray is farther away where its scattered light comes from; so the range is
@@ -23,16 +24,21 @@ from functools import lru_cache
 from statistics import NormalDist
 
 from ...base.geometry import Intrinsics
-from .blur_weights import N_LEVELS, SIGMAS
+from .blur_weights import HIGHEST_FREQUENCY
 
-SHARP_LIMIT = 0.24
-"""The deviation below which a level counts as sharp [px]."""
-CROSS_LIMIT = 0.55
-"""The deviation up to which the fine level is a cross of five pixels [px]; above, nine."""
-MIN_DEVIATION = 0.7
-"""The least deviation of a coarse level after the first [texels]."""
-FINE_LIMIT = 0.75
-"""The deviation from which a level is coarse [px]."""
+WIDEST = 0.41
+"""The deviation of the last level [rad]."""
+RATIO = 2.6
+"""The ratio of the deviations of two levels, approximately."""
+MAX_LEVELS = 8
+MAX_PIXEL_FREQUENCY = 0.3
+"""The highest frequency at which the blur is fitted [cycles/px]."""
+N_SQUARES = 2
+"""The number of levels that are means of squares."""
+SQUARE_VARIANCE, SMOOTH_VARIANCE = 0.0625, 0.1875
+"""The variance of a reduction by 1, 1 and by 1, 3, 3, 1 [texels^2 of the reduced level]."""
+INTERPOLATION_VARIANCE = 0.1875
+"""The variance of linear interpolation to twice the resolution [texels^2]."""
 N_NODES = 16
 MAX_RADIUS = 24
 """The greatest radius of a Gaussian [texels]."""
@@ -42,60 +48,37 @@ MAX_RADIUS = 24
 class BlurPlan:
     """The levels of a camera's blur."""
 
-    n_sharp: int
-    """The number of levels that count as sharp."""
-    fine_variance: float | None
-    """The variance of the fine level [px^2]; None if there is none."""
+    sigmas: tuple[float, ...]
+    """The standard deviation of each level [rad]."""
     spreads: tuple[float, ...]
-    """The deviation of the Gaussian of each coarse level, in its texels; 0: none."""
-
-    texels: tuple[int, ...]
-    """The edge of a texel of each coarse level [px]."""
+    """The parameter of the Gaussian of each level, in its texels; 0: none."""
     reach: tuple[float, ...]
-    """The factor on the range of each of the five levels."""
+    """The factor on the range of each level."""
+    highest_frequency: float
+    """The highest frequency at which the weights are fitted [cycles/rad]."""
 
     @property
-    def n_coarse(self) -> int:
-        """The number of coarse levels."""
-        return len(self.spreads)
-
-    @property
-    def switches(self) -> tuple[tuple[str, int], ...]:
-        """The switches of the shader of the final image, for the sharp and the fine levels."""
-        if self.fine_variance is None:
-            return (("N_SHARP", self.n_sharp), ("FINE", 0))
-        kernel = 1 if math.sqrt(self.fine_variance) <= CROSS_LIMIT else 2
-        share = round(500.0 * self.fine_variance)
-        return (("N_SHARP", self.n_sharp), ("FINE", kernel), ("FINE_SHARE", share))
+    def n_levels(self) -> int:
+        """The number of levels; 0: all light counts as sharp."""
+        return len(self.sigmas)
 
 
 @lru_cache(maxsize=64)
 def plan_blur(intrinsics: Intrinsics, *, has_blur: bool) -> BlurPlan:
     """Return the plan of a camera's blur."""
-    if not has_blur:
-        return BlurPlan(
-            n_sharp=N_LEVELS, fine_variance=None, spreads=(), texels=(), reach=(1.0,) * N_LEVELS
-        )
     focal = math.sqrt(intrinsics.fx * intrinsics.fy)
-    deviations = [sigma * focal for sigma in SIGMAS]  # [px]
-    n_sharp = sum(deviation < SHARP_LIMIT for deviation in deviations)
-    fine_deviations = [d for d in deviations if SHARP_LIMIT <= d < FINE_LIMIT]
-    coarse_deviations = [d for d in deviations if d >= FINE_LIMIT]
-    wide_texel = (
-        8 if len(coarse_deviations) > 1 and coarse_deviations[1] >= 8.0 * MIN_DEVIATION else 4
-    )
-    texels = (2, *(wide_texel * 4**index for index in range(len(coarse_deviations) - 1)))[
-        : len(coarse_deviations)
-    ]
+    n_steps = round(math.log(max(WIDEST * focal, 1.0)) / math.log(RATIO))
+    n_steps = min(n_steps, MAX_LEVELS - 1)
+    if not has_blur or n_steps < 1:
+        return BlurPlan(sigmas=(), spreads=(), reach=(), highest_frequency=HIGHEST_FREQUENCY)
+    ratio = (WIDEST * focal) ** (1.0 / n_steps)
+    deviations = [ratio**level for level in range(n_steps + 1)]  # [px]
+    sigmas = tuple(deviation / focal for deviation in deviations)
     return BlurPlan(
-        n_sharp=n_sharp,
-        fine_variance=fine_deviations[0] ** 2 if fine_deviations else None,
-        spreads=tuple(
-            _find_spread(deviation, texels[: index + 1])
-            for index, deviation in enumerate(coarse_deviations)
-        ),
-        texels=texels,
-        reach=tuple(_find_reach(sigma, intrinsics) for sigma in SIGMAS),
+        sigmas=sigmas,
+        spreads=tuple(_find_spread(d, level) for level, d in enumerate(deviations)),
+        reach=tuple(_find_reach(sigma, intrinsics) for sigma in sigmas),
+        highest_frequency=min(HIGHEST_FREQUENCY, MAX_PIXEL_FREQUENCY * focal),
     )
 
 
@@ -114,14 +97,33 @@ def _find_reach(sigma: float, lens: Intrinsics) -> float:
     return N_NODES**2 / total
 
 
-def _find_spread(deviation: float, texels: tuple[int, ...]) -> float:
-    """Return the deviation of the Gaussian of a coarse level [texels], in steps of 0.001.
+def _find_spread(deviation: float, level: int) -> float:
+    """Return the parameter of the Gaussian of a level [texels], in steps of 0.001.
 
-    The mean of texel x texel pixels has the variance (1 - 1 / texel^2) / 12 square texels, linear
-    interpolation 1/6, and that of the finer levels 1/6 of their texels.
+    Args:
+        deviation: the deviation of the level [px].
+        level: its index; a texel is 2^(level + 1) pixels wide.
     """
-    texel = texels[-1]
-    total = (deviation / texel) ** 2
-    finer_squares = math.fsum((finer_texel / texel) ** 2 for finer_texel in texels[:-1])
-    rest = total - (1.0 - 1.0 / texel**2) / 12.0 - (1.0 + finer_squares) / 6.0
-    return round(math.sqrt(rest), 3) if rest > 0.01 else 0.0
+    reduction = interpolation = 0.0
+    for finer_level in range(level + 1):
+        step = SQUARE_VARIANCE if finer_level < N_SQUARES else SMOOTH_VARIANCE
+        reduction = 0.25 * reduction + step
+        interpolation = 0.25 * interpolation + INTERPOLATION_VARIANCE
+    rest = (deviation / 2.0 ** (level + 1)) ** 2 - reduction - interpolation
+    return _find_parameter(rest) if rest > 0.01 else 0.0
+
+
+def _find_parameter(variance: float) -> float:
+    """Return the parameter of a sampled Gaussian that has a variance [texels], by bisection.
+
+    Samples at whole texels within the radius have a smaller variance than the Gaussian.
+    """
+    low, high = 0.1, 2.0 * math.sqrt(variance) + 1.0
+    while high - low > 5e-4:
+        middle = 0.5 * (low + high)
+        squares = [number * number for number in range(1, compute_radius(middle) + 1)]
+        weights = [math.exp(-0.5 * square / (middle * middle)) for square in squares]
+        total = 1.0 + 2.0 * math.fsum(weights)
+        moment = 2.0 * math.fsum(w * square for w, square in zip(weights, squares, strict=True))
+        low, high = (middle, high) if moment < variance * total else (low, middle)
+    return round(0.5 * (low + high), 3)

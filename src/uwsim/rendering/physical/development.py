@@ -1,8 +1,8 @@
 """The passes that turn an image of surfaces without water into one through physical water.
 
 The surface pass has written the radiance J of each pixel's surface and its range. Then follow, on
-whole images: what each level of blur scatters (half the resolution), the wider levels at quarters
-of the resolution before, their Gaussians, the sum from the widest to the narrowest with the veil of
+whole images: what each level of blur scatters (half the resolution), the wider levels at halves of
+the resolution before, their Gaussians, the sum from the widest to the narrowest with the veil of
 the lamps, and the composition with exposure and curve. A reference in numpy is in the tests.
 """
 
@@ -19,8 +19,8 @@ from ...optics import Medium
 from ..lights.lamp import Lamp
 from ..lights.lamps import LAMPS
 from ..program import build
-from .blur_plan import BlurPlan, compute_radius, plan_blur
-from .blur_weights import N_LEVELS, N_RANGES, compute_weight_table
+from .blur_plan import MAX_LEVELS, BlurPlan, compute_radius, plan_blur
+from .blur_weights import N_RANGES, compute_weight_table
 from .open_water_map import OpenWaterMap
 from .optics_block import OPTICS, OpticsBlock
 from .particle_pass import ParticlePass, VisibleParticles
@@ -34,7 +34,7 @@ SAMPLERS = {
     "surface_image": SURFACE_UNIT,
     "open_water_map": MAP_UNIT,
     "weight_table": TABLE_UNIT,
-    **{f"level_{i}": FIRST_LEVEL_UNIT + i for i in range(4)},
+    **{f"level_{i}": FIRST_LEVEL_UNIT + i for i in range(MAX_LEVELS - 2)},
     "lamp_maps": LAMP_MAP_UNIT,
     "particle_image": PARTICLE_UNIT,
 }
@@ -61,20 +61,17 @@ class Buffers:
     Args:
         context: the context of the renderer.
         size: the width and height of the image [px].
-        texels: the edge of a texel of each coarse level [px].
+        n_levels: the number of levels of blur.
     """
 
-    def __init__(
-        self, context: moderngl.Context, size: tuple[int, int], texels: tuple[int, ...]
-    ) -> None:
+    def __init__(self, context: moderngl.Context, size: tuple[int, int], n_levels: int) -> None:
         self.sources: list[moderngl.Framebuffer] = []
         """The scattered light: of the first level, with the mean light beside it; then of all the
         others; then of these without the narrowest; and so on."""
         self.levels: list[Level] = []
         """The blurred levels, the narrowest first; one at least."""
-        n_levels, last_texel = len(texels), 1
-        for level, texel in enumerate(texels or (2,)):
-            size, last_texel = _divide(size, texel // last_texel), texel
+        for level in range(max(n_levels, 1)):
+            size = _halve(size)
             n_textures = min(n_levels, 1) + 1 if level == 0 else n_levels - level
             textures = [_texture(context, size) for _ in range(n_textures)]
             self.sources.append(context.framebuffer(textures))
@@ -93,8 +90,8 @@ class Development:
         self._context = context
         self._block = OpticsBlock(context)
         self._map = OpenWaterMap(context)
-        self._table = _texture(context, (N_RANGES, N_LEVELS))
-        self._table_medium: Medium | None = None
+        self._table = _texture(context, (N_RANGES, 1 + MAX_LEVELS))
+        self._table_key: tuple[Medium, tuple[float, ...]] | None = None
         self._buffers: dict[object, Buffers] = {}
         self._particles = ParticlePass(context, SAMPLERS)
         self._programs: dict[object, tuple[moderngl.Program, moderngl.VertexArray]] = {}
@@ -111,12 +108,14 @@ class Development:
     ) -> None:
         """Fill the uniform block and the texture of the open water, before surfaces are drawn."""
         self._block.fill(water, intrinsics, lamps, light_rate)
-        if water.has_blur and water.medium != self._table_medium:
-            weights = compute_weight_table(water.medium)
-            pixels = np.zeros((*weights.shape[:2], 4), np.float32)
-            pixels[..., :3] = weights
+        plan = plan_blur(intrinsics, has_blur=water.has_blur)
+        key = water.medium, plan.sigmas
+        if plan.n_levels and key != self._table_key:
+            weights = compute_weight_table(*key, plan.highest_frequency)
+            pixels = np.zeros((1 + MAX_LEVELS, N_RANGES, 4), np.float32)
+            pixels[: len(weights), :, :3] = weights
             self._table.write(pixels.tobytes())
-            self._table_medium = water.medium
+            self._table_key = key
         self._map.update(water, world_from_camera, intrinsics, surface_height, light_rate)
 
     def develop(
@@ -144,8 +143,8 @@ class Development:
         surfaces.use(SURFACE_UNIT)
         self._map.texture.use(MAP_UNIT)
         self._table.use(TABLE_UNIT)
-        switches: Switches = plan.switches
-        if plan.n_coarse > 0 or n_veils > 0:
+        switches: Switches = (("BLUR", 1),) if plan.n_levels else ()
+        if plan.n_levels > 0 or n_veils > 0:
             size = intrinsics.width, intrinsics.height
             self._draw_scattered(plan, size, n_veils).use(FIRST_LEVEL_UNIT)
             surfaces.use(SURFACE_UNIT)
@@ -162,14 +161,14 @@ class Development:
         self, plan: BlurPlan, size: tuple[int, int], n_veils: int
     ) -> moderngl.Texture:
         """Draw the light that coarse levels scatter, and the lamps' veil; return their sum."""
-        key = size, plan.texels
+        key = size, plan.n_levels
         if key not in self._buffers:
-            self._buffers[key] = Buffers(self._context, size, plan.texels)
+            self._buffers[key] = Buffers(self._context, size, plan.n_levels)
         buffers = self._buffers[key]
         self._draw_sources(buffers, plan)
         for number in reversed(range(len(buffers.levels))):
             source, level = _textures(buffers.sources[number])[0], buffers.levels[number]
-            spread = plan.spreads[number] if plan.spreads else 0.0
+            spread = plan.spreads[number] if plan.n_levels else 0.0
             kernel: Switches = (
                 ("RADIUS", compute_radius(spread)),
                 ("SPREAD", round(1000.0 * spread)),
@@ -183,24 +182,23 @@ class Development:
             rows.use(FIRST_LEVEL_UNIT)
             if number + 1 < len(buffers.levels):
                 _textures(buffers.levels[number + 1].total)[0].use(FIRST_LEVEL_UNIT + 1)
-                switches += (("WIDER", plan.texels[number + 1] // plan.texels[number]),)
+                switches += (("WIDER", 1),)
             if number == 0 and n_veils:
                 _textures(buffers.sources[0])[-1].use(FIRST_LEVEL_UNIT + 2)
                 switches += (("LAMPS", n_veils),)
-            if plan.n_coarse == 0:
+            if plan.n_levels == 0:
                 switches += (("VEIL_ONLY", 1),)
             self._draw("blurred", switches, level.total)
         return _textures(buffers.levels[0].total)[0]
 
     def _draw_sources(self, buffers: Buffers, plan: BlurPlan) -> None:
         """Draw what the levels scatter."""
-        n_levels, first = plan.n_coarse, N_LEVELS - plan.n_coarse
-        switches: Switches = (("FIRST", first), ("N_LEVELS", min(n_levels, 1)))
+        n_levels = plan.n_levels
+        switches: Switches = (("N_LEVELS", min(n_levels, 1)),)
         self._draw("scattered", switches, buffers.sources[0])
         if n_levels > 1:
             _textures(buffers.sources[0])[1].use(SURFACE_UNIT)
-            ratio = plan.texels[1] // plan.texels[0]
-            switches = (("WIDE", ratio), ("FIRST", first + 1), ("N_LEVELS", n_levels - 1))
+            switches = (("WIDE", 1), ("N_LEVELS", n_levels - 1))
             self._draw("scattered", switches, buffers.sources[1])
         for finer_source, source in zip(buffers.sources[1:], buffers.sources[2:], strict=False):
             for unit, texture in enumerate(_textures(finer_source)[1:]):
@@ -238,6 +236,6 @@ def _texture(context: moderngl.Context, size: tuple[int, int]) -> moderngl.Textu
     return texture
 
 
-def _divide(size: tuple[int, int], divisor: int) -> tuple[int, int]:
+def _halve(size: tuple[int, int]) -> tuple[int, int]:
     width, height = size
-    return -(-width // divisor), -(-height // divisor)
+    return -(-width // 2), -(-height // 2)

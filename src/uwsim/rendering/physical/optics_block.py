@@ -17,7 +17,7 @@ from ...optics.lamp_light import find_lamp_coefficients
 from ...optics.transmission import find_field_coefficients
 from ..lights.lamp import Lamp
 from ..program import Block
-from .blur_plan import plan_blur
+from .blur_plan import MAX_LEVELS, plan_blur
 from .blur_weights import find_table_scale
 from .daylight_field import compute_light_field
 from .physical_water import PhysicalWater
@@ -28,7 +28,7 @@ OPTICS = Block(
     {
         "absorption": "vec4",
         "scattering": "vec4",
-        "reach": "vec4",
+        "reach": "vec4[2]",
         "camera": "vec4",
         "sun_beam": "vec4",
         "sun_loss": "vec4",
@@ -113,8 +113,8 @@ class OpticsBlock:
         values, medium = self._values, water.medium
         self._fill_medium(medium)
         reach = plan_blur(intrinsics, has_blur=water.has_blur).reach
-        values["reach"] = reach[:4]
-        values["camera"] = reach[4], water.exposure, find_table_scale(medium), 0.0
+        values["reach"].reshape(MAX_LEVELS)[: len(reach)] = reach
+        values["camera"] = 0.0, water.exposure, find_table_scale(medium), 0.0
         self._fill_daylight(water, light_rate)
         self._fill_rays(intrinsics)
         for number, lamp in enumerate(lamps):

@@ -1,5 +1,5 @@
 // Provides: the Gaussian of a level of blur along its columns, plus the wider levels; at the first level, plus the lamps' veil.
-// Needs: gaussian.glsl; the level after its rows; with WIDER, the ratio of their texels, the sum of the wider levels; with LAMPS,
+// Needs: gaussian.glsl; the level after its rows; with WIDER, the sum of the wider levels at half the resolution; with LAMPS,
 // the number of lamps: optics.glsl, lamps.glsl, lamp_veil.glsl, and the mean light, whose alpha is the range. With VEIL_ONLY there
 // is no level.
 #include "gaussian.glsl"
@@ -22,7 +22,7 @@ void main() {
     vec3 sum = gaussian(level_0, ivec2(0, 1)).rgb;
 #endif
 #ifdef WIDER
-    sum += textureLod(level_1, gl_FragCoord.xy / (float(WIDER) * vec2(textureSize(level_1, 0))), 0.0).rgb;
+    sum += textureLod(level_1, gl_FragCoord.xy / (2.0 * vec2(textureSize(level_1, 0))), 0.0).rgb;
 #endif
 #ifdef LAMPS
     float range = texelFetch(level_2, ivec2(gl_FragCoord.xy), 0).a;

@@ -1,11 +1,10 @@
 // Provides: the stored colours of an image through physical water: direct light, blur, veil, exposure, curve.
-// Needs: optics.glsl, transmission.glsl, open_water.glsl; the image of the surfaces; with SCATTERED, the sum of the coarse
-// levels; with PARTICLES, the image of the particles; the switches N_SHARP, FINE, FINE_SHARE (a thousand times half the variance [px^2]), and LINEAR for no curve.
+// Needs: optics.glsl, transmission.glsl, open_water.glsl; the image of the surfaces; with SCATTERED, the sum of the
+// levels; with PARTICLES, the image of the particles; the switches BLUR, and LINEAR for no curve.
 // B + D (J - B) + blur + veil: physical/development.py; the curve: physical/transfer_curve.py.
 #include "optics.glsl"
 #include "transmission.glsl"
 #include "open_water.glsl"
-#define N_ALL 5
 uniform sampler2D surface_image;
 #ifdef SCATTERED
 uniform sampler2D level_0;
@@ -14,11 +13,6 @@ uniform sampler2D level_0;
 uniform sampler2D particle_image;
 #endif
 out vec4 colour_out;
-
-vec3 excess_at(ivec2 pixel, ivec2 last, vec3 water) {
-    vec4 texel = texelFetch(surface_image, clamp(pixel, ivec2(0), last), 0);
-    return texel.a < 0.5 * FAR ? texel.rgb - water : vec3(0.0);
-}
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -29,9 +23,8 @@ void main() {
     float is_surface = texel.a < 0.5 * FAR ? 1.0 : 0.0;
     float range = texel.a * is_surface;
     vec3 excess = (texel.rgb - water) * is_surface;
-#if N_SHARP < N_ALL
-    vec3 sharp = direct(range);
-    for (int level = 0; level < N_SHARP; ++level) sharp += weight(level, range);
+#ifdef BLUR
+    vec3 sharp = direct(range) + weight(0, range);
 #else
     vec3 sharp = whole_field(range);
 #endif
@@ -41,21 +34,6 @@ void main() {
     light += particles.rgb;
 #endif
     light += sharp * excess;
-#if FINE > 0
-    const float side = float(FINE_SHARE) / 1000.0;
-    ivec2 last = size - 1;
-    vec3 across = excess_at(pixel + ivec2(1, 0), last, water) + excess_at(pixel - ivec2(1, 0), last, water)
-        + excess_at(pixel + ivec2(0, 1), last, water) + excess_at(pixel - ivec2(0, 1), last, water);
-#if FINE > 1
-    vec3 corners = excess_at(pixel + ivec2(1, 1), last, water) + excess_at(pixel - ivec2(1, 1), last, water)
-        + excess_at(pixel + ivec2(1, -1), last, water) + excess_at(pixel + ivec2(-1, 1), last, water);
-    const float middle = 1.0 - 2.0 * side;
-    vec3 fine = middle * middle * excess + middle * side * across + side * side * corners;
-#else
-    vec3 fine = (1.0 - 4.0 * side) * excess + side * across;
-#endif
-    light += weight(N_SHARP, range) * fine * is_surface;
-#endif
 #ifdef SCATTERED
     light += textureLod(level_0, gl_FragCoord.xy / (2.0 * vec2(textureSize(level_0, 0))), 0.0).rgb;
 #endif

@@ -5,8 +5,8 @@
 layout(std140) uniform Optics {
     vec4 absorption;       // rgb: a [1/m]; w: e0 of the whole field
     vec4 scattering;       // rgb: b [1/m]; w: k of the whole field
-    vec4 reach;            // factors on the ranges of the lower four levels of blur: blur_plan.py
-    vec4 camera;           // x: such a factor of the fifth level; y: exposure; z: middle range of the table of weights [m]
+    vec4[2] reach;         // factors on the ranges of the levels of blur: blur_plan.py
+    vec4 camera;           // y: exposure; z: middle range of the table of weights [m]
     vec4 sun_beam;         // rgb: irradiance of a level surface just below the surface by the sun
     vec4 sun_loss;         // rgb: its attenuation over depth [1/m]
     vec4 daylight_total;   // rgb: irradiance of a level surface just below the surface

@@ -1,29 +1,40 @@
-// Provides: the levels of blur after the first, each at a quarter of the resolution: the mean of 4 x 4 texels.
-// Needs: the textures of the levels; the switch N_LEVELS, how many there are, 1 to 4.
-// At the right and lower edge the last texels count several times.
+// Provides: the levels of blur after the second, each at half the resolution: texels weighed by 1, 3, 3, 1 along rows and columns.
+// Needs: the textures of the levels; the switch N_LEVELS, how many there are, 1 to 6.
+// Four linear look-ups are the sixteen weights; those outside the level have none.
 uniform sampler2D level_0;
 uniform sampler2D level_1;
 uniform sampler2D level_2;
 uniform sampler2D level_3;
+uniform sampler2D level_4;
+uniform sampler2D level_5;
 layout(location = 0) out vec4[N_LEVELS] level_out;
 
-vec4 mean_of(sampler2D level) {
-    ivec2 last = textureSize(level, 0) - 1;
-    ivec2 corner = 4 * ivec2(gl_FragCoord.xy);
-    vec4 sum = vec4(0.0);
-    for (int i = 0; i < 16; ++i) sum += texelFetch(level, min(corner + ivec2(i % 4, i / 4), last), 0);
-    return sum / 16.0;
+vec4 smooth_mean(sampler2D level) {
+    vec2 size = vec2(textureSize(level, 0));
+    vec2 low = (2.0 * gl_FragCoord.xy - 0.75) / size;
+    vec2 high = low + 1.5 / size;
+    vec2 inside = step(high, vec2(1.0));
+    vec4 sum = textureLod(level, low, 0.0) + inside.x * inside.y * textureLod(level, high, 0.0)
+        + inside.y * textureLod(level, vec2(low.x, high.y), 0.0)
+        + inside.x * textureLod(level, vec2(high.x, low.y), 0.0);
+    return sum / ((1.0 + inside.x) * (1.0 + inside.y));
 }
 
 void main() {
-    level_out[0] = mean_of(level_0);
+    level_out[0] = smooth_mean(level_0);
 #if N_LEVELS > 1
-    level_out[1] = mean_of(level_1);
+    level_out[1] = smooth_mean(level_1);
 #endif
 #if N_LEVELS > 2
-    level_out[2] = mean_of(level_2);
+    level_out[2] = smooth_mean(level_2);
 #endif
 #if N_LEVELS > 3
-    level_out[3] = mean_of(level_3);
+    level_out[3] = smooth_mean(level_3);
+#endif
+#if N_LEVELS > 4
+    level_out[4] = smooth_mean(level_4);
+#endif
+#if N_LEVELS > 5
+    level_out[5] = smooth_mean(level_5);
 #endif
 }

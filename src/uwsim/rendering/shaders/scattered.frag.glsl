@@ -1,28 +1,28 @@
 // Provides: the light that levels of blur scatter, w_l (J - B), before their Gaussians.
-// Needs: optics.glsl, transmission.glsl, open_water.glsl; the image of the surfaces; the switches FIRST, the first level, and N_LEVELS.
+// Needs: optics.glsl, transmission.glsl, open_water.glsl; the image of the surfaces; the switch N_LEVELS.
 // The first run is at half the resolution and for one level; its last output is the mean of J - B, with the mean range as alpha, or FAR.
-// The second run has the switch WIDE, 2 or 4: it is that many times coarser, for all other levels, and reads that mean.
+// The second run has the switch WIDE: it is twice as coarse, for all other levels, and reads that mean.
 // J: radiance of a surface without water, B: of open water behind it. Pixels without a surface scatter nothing.
 #include "optics.glsl"
 #include "transmission.glsl"
 #include "open_water.glsl"
 uniform sampler2D surface_image;
 #ifdef WIDE
+#define FIRST 1
 layout(location = 0) out vec4[N_LEVELS] level_out;
-#define EDGE WIDE
 #else
+#define FIRST 0
 layout(location = 0) out vec4[N_LEVELS + 1] level_out;
-#define EDGE 2
 #endif
 
 void main() {
     ivec2 size = textureSize(surface_image, 0);
-    ivec2 corner = EDGE * ivec2(gl_FragCoord.xy);
+    ivec2 corner = 2 * ivec2(gl_FragCoord.xy);
     vec3 sum = vec3(0.0);
     float ranges = 0.0;
     float count = 0.0;
-    for (int i = 0; i < EDGE * EDGE; ++i) {
-        vec4 texel = texelFetch(surface_image, min(corner + ivec2(i % EDGE, i / EDGE), size - 1), 0);
+    for (int i = 0; i < 4; ++i) {
+        vec4 texel = texelFetch(surface_image, min(corner + ivec2(i % 2, i / 2), size - 1), 0);
         float is_surface = texel.a < 0.5 * FAR ? 1.0 : 0.0;
         sum += texel.rgb * is_surface;
         ranges += texel.a * is_surface;
@@ -32,10 +32,10 @@ void main() {
 #ifndef WIDE
     sum -= count * open_water(2.0 * gl_FragCoord.xy, vec2(size));
 #endif
-    vec3 excess = sum / float(EDGE * EDGE);
+    vec3 excess = sum / 4.0;
     for (int i = 0; i < N_LEVELS; ++i) {
-        float level_reach = FIRST + i < 4 ? reach[FIRST + i] : camera.x;
-        level_out[i] = vec4(weight(FIRST + i, level_reach * range) * excess, 0.0);
+        int level = FIRST + i;
+        level_out[i] = vec4(weight(1 + level, reach[level / 4][level % 4] * range) * excess, 0.0);
     }
 #ifndef WIDE
     level_out[N_LEVELS] = vec4(excess, count > 0.0 ? range : FAR);

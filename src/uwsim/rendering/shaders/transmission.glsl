@@ -1,4 +1,5 @@
-// Provides: direct(range) and whole_field(range), shares of light that arrives; weight(level, range), the share of a level of blur.
+// Provides: direct(range) and whole_field(range), shares of light that arrives; weight(row, range), the share of scattered light that
+// is sharp (row 0) or blurred by a level (row 1 + level).
 // Needs: optics.glsl; the table of physical/blur_weights.py.
 // Direct light is neither absorbed nor scattered; the whole field is that of a wide target. Formulas: optics/transmission.py.
 uniform sampler2D weight_table;
@@ -13,8 +14,8 @@ vec3 whole_field(float range) {
     return exp(-absorbed - scattering.rgb * range * wide_loss);
 }
 
-vec3 weight(int level, float range) {
+vec3 weight(int row, float range) {
     vec2 size = vec2(textureSize(weight_table, 0));
     float share = range / (range + camera.z);
-    return textureLod(weight_table, vec2((share * (size.x - 1.0) + 0.5) / size.x, (float(level) + 0.5) / size.y), 0.0).rgb;
+    return textureLod(weight_table, vec2((share * (size.x - 1.0) + 0.5) / size.x, (float(row) + 0.5) / size.y), 0.0).rgb;
 }
