@@ -28,7 +28,7 @@ from .physical_water import PhysicalWater
 
 SURFACE_UNIT, MAP_UNIT, TABLE_UNIT, FIRST_LEVEL_UNIT = 0, 5, 6, 7
 """The texture units of the image of surfaces, the open water, the weights, and the first level."""
-LAMP_MAP_UNIT, PARTICLE_UNIT = 2, 11
+LAMP_MAP_UNIT, PARTICLE_UNIT = 2, 13
 """The texture units of the lamps' shadow maps, as in the surface pass, and of the particles."""
 SAMPLERS = {
     "surface_image": SURFACE_UNIT,
