@@ -62,18 +62,36 @@ def compute_sunlit_board(
         light_rate: the factor on daylight [1].
         sight: the line from the camera to the board, which faces the camera.
     """
+    ray = (sight.point - sight.camera) / sight.length
+    light = compute_board_light(water, surface_height, light_rate, sight)
+    depth = surface_height - float(sight.camera[2])
+    open_water = compute_open_water(water, depth, ray[None], light_rate)[0]
+    full_field = compute_full_field(water.medium, sight.length)
+    radiance: Array = light * full_field + open_water * (1.0 - full_field)
+    return radiance
+
+
+def compute_board_light(
+    water: PhysicalWater, surface_height: float, light_rate: float, sight: LineOfSight
+) -> Array:
+    """Compute the light J of a white board in daylight, without water before it, (3,).
+
+    Args:
+        water: the water and its daylight.
+        surface_height: the height of the surface in W [m].
+        light_rate: the factor on daylight [1].
+        sight: the line from the camera to the board, which faces the camera.
+    """
     field = compute_light_field(water.medium, water.daylight)
     ray = (sight.point - sight.camera) / sight.length
     beam, diffuse = field.compute_irradiance(surface_height - float(sight.point[2]))
     upward = field.reflectance * (beam + diffuse)
     sun_share = max(-float(np.sum(ray * field.towards_sun)), 0.0) / float(field.towards_sun[2])
     upper_share = 0.5 - 0.5 * float(ray[2])
-    light = light_rate * (beam * sun_share + diffuse * upper_share + upward * (1.0 - upper_share))
-    depth = surface_height - float(sight.camera[2])
-    open_water = compute_open_water(water, depth, ray[None], light_rate)[0]
-    full_field = compute_full_field(water.medium, sight.length)
-    radiance: Array = light * full_field + open_water * (1.0 - full_field)
-    return radiance
+    light: Array = light_rate * (
+        beam * sun_share + diffuse * upper_share + upward * (1.0 - upper_share)
+    )
+    return light
 
 
 def compute_lamplit_board(water: PhysicalWater, lamp: Lamp, sight: LineOfSight) -> Array:
@@ -82,17 +100,7 @@ def compute_lamplit_board(water: PhysicalWater, lamp: Lamp, sight: LineOfSight) 
     The unit is that of images: a white surface in the irradiance 1 has the radiance 1.
     """
     ray = (sight.point - sight.camera) / sight.length
-    x, y, z = lamp.world_from_lamp.position.tolist()
-    axis_x, axis_y, axis_z = (-lamp.world_from_lamp.rotation[:, 2]).tolist()
-    red, green, blue = lamp.colour
-    point_lamp = PointLamp(
-        position=(x, y, z),
-        direction=(axis_x, axis_y, axis_z),
-        intensity=(lamp.intensity * red, lamp.intensity * green, lamp.intensity * blue),
-        half_angle=lamp.half_angle,
-        softness=lamp.softness,
-    )
-    camera = sight.camera.tolist()
+    camera, point_lamp = sight.camera.tolist(), make_point_lamp(lamp)
     radiance = compute_target_radiance(
         water.medium, point_lamp, sight.point[None], -ray[None], camera
     )[0]
@@ -103,3 +111,17 @@ def compute_lamplit_board(water: PhysicalWater, lamp: Lamp, sight: LineOfSight) 
         )
     board: Array = math.pi * radiance
     return board
+
+
+def make_point_lamp(lamp: Lamp) -> PointLamp:
+    """Return the lamp of the formulas of `optics` for a lamp of the renderer, in W."""
+    x, y, z = lamp.world_from_lamp.position.tolist()
+    axis_x, axis_y, axis_z = (-lamp.world_from_lamp.rotation[:, 2]).tolist()
+    red, green, blue = lamp.colour
+    return PointLamp(
+        position=(x, y, z),
+        direction=(axis_x, axis_y, axis_z),
+        intensity=(lamp.intensity * red, lamp.intensity * green, lamp.intensity * blue),
+        half_angle=lamp.half_angle,
+        softness=lamp.softness,
+    )
