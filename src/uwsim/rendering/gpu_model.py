@@ -123,6 +123,13 @@ class GpuModels:
             repeats: context.sampler(repeats, repeats, filter=(moderngl.LINEAR, moderngl.LINEAR))
             for repeats in (False, True)
         }
+        # Maps of normals and finish are blended less than colours: that takes half the time.
+        self._map_samplers = {
+            repeats: context.sampler(
+                repeats, repeats, filter=(moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
+            )
+            for repeats in (False, True)
+        }
         self._textures: dict[tuple[str, int], tuple[Texture, moderngl.Texture]] = {}
         self._mipmapped_textures: set[int] = set()  # OpenGL names of the textures with mipmaps
         # the texture of each unit, and True if it is without mipmaps
@@ -184,8 +191,17 @@ class GpuModels:
             for piece in mesh.pieces
         ]
 
-    def use(self, texture: Texture, unit: int, *, skips_mipmaps: bool) -> None:
-        """Bind a texture to a unit until `release`; it is sampled with or without mipmaps."""
+    def use(
+        self, texture: Texture, unit: int, *, skips_mipmaps: bool, is_map: bool = False
+    ) -> None:
+        """Bind a texture to a unit until `release`; it is sampled with or without mipmaps.
+
+        Args:
+            texture: the texture.
+            unit: the texture unit.
+            skips_mipmaps: True if it is sampled without mipmaps.
+            is_map: True for maps of normals and finish, of which the nearest mipmap is sampled.
+        """
         bound_texture, has_no_mipmaps = self._bound.get(unit, (None, False))
         if bound_texture is texture and has_no_mipmaps == skips_mipmaps:
             return
@@ -195,7 +211,10 @@ class GpuModels:
             self._plain_samplers[texture.repeats].use(unit)
             self._bound[unit] = texture, True
             return
-        self._plain_samplers[True].clear(unit)
+        if is_map:
+            self._map_samplers[texture.repeats].use(unit)
+        else:
+            self._plain_samplers[True].clear(unit)
         self._bound[unit] = texture, False
         # Mipmaps are created only when needed: that takes longer than to draw an image.
         if gpu_texture.glo not in self._mipmapped_textures:

@@ -191,7 +191,8 @@ class Passes:
             )
             maps = find_used_maps(batch.texture, batch.material, surface_switches)
             for name, texture in maps.items():
-                self._models.use(texture, SAMPLERS[name], skips_mipmaps=skips_mipmaps)
+                unit, is_map = SAMPLERS[name], name != "base_map"
+                self._models.use(texture, unit, skips_mipmaps=skips_mipmaps, is_map=is_map)
             drawer.draw(index, program(in_shadow, surface_switches))
 
         return draw

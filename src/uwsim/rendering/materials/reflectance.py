@@ -47,8 +47,8 @@ TABLE_SIZE = 32, 32
 """The numbers of cosines and of roughnesses in the table."""
 MIN_COSINE = 1e-3
 """The least cosine of the direction of view."""
-N_SAMPLES = 48
-"""The number of samples of the microfacets along each of two angles."""
+N_SAMPLES, LATTICE_STEP = 2584, 1597
+"""The number of samples of the microfacets, and the step of their lattice: Fibonacci numbers."""
 
 
 def compute_fresnel(cosine: Array, index: float) -> Array:
@@ -116,11 +116,11 @@ def compute_even_reflectance(cosine: float, roughness: float) -> tuple[float, fl
 
 @lru_cache(maxsize=1)
 def _find_samples() -> tuple[Array, Array]:
-    """Return shares of the microfacets, and cosines of their azimuth, (n, n) each."""
-    middles = (np.arange(N_SAMPLES) + 0.5) / N_SAMPLES
-    turns = np.array([math.cos(math.pi * middle) for middle in middles.tolist()])
-    heights, azimuths = np.meshgrid(middles, turns, indexing="ij")
-    return heights, azimuths
+    """Return shares of the microfacets, and cosines of their azimuth, (n,) each."""
+    numbers = np.arange(N_SAMPLES)
+    azimuths = (numbers * LATTICE_STEP % N_SAMPLES + 0.5) / N_SAMPLES
+    turns = np.array([math.cos(math.pi * azimuth) for azimuth in azimuths.tolist()])
+    return (numbers + 0.5) / N_SAMPLES, turns
 
 
 def create_table(context: moderngl.Context) -> moderngl.Texture:
