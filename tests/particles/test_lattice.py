@@ -128,9 +128,9 @@ def test_small_particles_fade_before_they_vanish() -> None:
     records = find_particles(small_class, view, Drift())
     ranges = np.sqrt((records["place"].astype(np.float64) ** 2).sum(axis=1))
     widths = 2.0 * records["radius"] * LENS.fx / ranges  # [px]
-    assert widths.min() >= 0.399
-    assert records["weight"][widths < 0.42].max() < 0.25
-    assert records["weight"][widths > 0.55].min() == 1.0
+    assert widths.min() >= 0.499
+    assert records["weight"][widths < 0.52].max() < 0.25
+    assert records["weight"][widths > 0.68].min() == 1.0
 
 
 def test_bubbles_below_the_surface_thin_out_with_depth() -> None:

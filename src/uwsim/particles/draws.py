@@ -73,6 +73,15 @@ def uniform(value: UInt64, number: int) -> float:
 
 
 @njit
+def draw_uniforms(key: UInt64, number: int, n: int) -> Array:
+    """Return n numbers from 0 to 1 of the element of a sequence, (n,)."""
+    value, numbers = mix(key + np.uint64(number) * AXIS_1), np.empty(n)
+    for i in range(n):
+        numbers[i] = uniform(value, i)
+    return numbers
+
+
+@njit
 def draw_count(number: float, zero_share: float, mean: float) -> int:
     """Draw from Poisson's distribution by inversion.
 

@@ -2,7 +2,7 @@ r"""marineSnow: flocs of organic matter that sink slowly and are carried by the 
 
 .. code-block:: xml
 
-    <u:marineSnow> <u:concentration>3000</u:concentration> </u:marineSnow>
+    <u:marineSnow> <u:concentration>5000</u:concentration> </u:marineSnow>
 
 Marine snow is larger than 0.5 mm, with up to some hundred flocs a litre near the surface, and sinks
 1 to some 100 m a day (A. L. Alldredge and M. W. Silver, *Prog. Oceanogr.* 20, 41 (1988)). Its
@@ -36,7 +36,7 @@ class MarineSnowSpec(Spec):
     """A ``<u:marineSnow>``: flocs that sink in the water."""
 
     concentration: float = element(
-        namespaced=True, default=3000.0, minimum=0.0, maximum=MAX_CONCENTRATION
+        namespaced=True, default=5000.0, minimum=0.0, maximum=MAX_CONCENTRATION
     )
     """The number of flocs between the two diameters [1/m3]."""
     min_diameter: float = element(namespaced=True, default=0.0005, minimum=1e-4, maximum=0.05)

@@ -17,6 +17,7 @@ from dataclasses import dataclass
 from ..schema import Spec, element
 from .bubbles import BubblesSpec
 from .marine_snow import MarineSnowSpec
+from .sediment import SedimentSpec
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -27,6 +28,8 @@ class ParticlesSpec(Spec):
     """The flocs of marine snow; when absent there are none."""
     bubbles: BubblesSpec | None = element(namespaced=True, default=None)
     """The bubbles; when absent there are none."""
+    sediment: SedimentSpec | None = element(namespaced=True, default=None)
+    """The loose floor that thrusters stir up; when absent it is hard."""
     range: float = element(namespaced=True, default=8.0, minimum=0.1, maximum=50.0)
     """The range beyond which flocs and bubbles are not drawn [m]."""
     exposure_time: float = element(namespaced=True, default=0.01, minimum=0.0, maximum=1.0)

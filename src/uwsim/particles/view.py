@@ -11,7 +11,7 @@ from ..base.geometry import Array, Intrinsics, Pose
 from ..base.numerics.linear import rotate_back
 from .population import SizeClass
 
-MIN_WIDTH = 0.4
+MIN_WIDTH = 0.5
 """The width of the smallest image of a particle that is drawn [px]."""
 
 

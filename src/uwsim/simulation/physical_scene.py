@@ -16,6 +16,7 @@ from .collision.start_depths import lift_from_ground
 from .scenery.renderer_pool import RendererPool
 from .scenery.scene_particles import UPDATE_RATE, make_particles
 from .scenery.scene_rays import SceneRays
+from .scenery.scene_sediment import UPDATE_RATE as SEDIMENT_RATE
 from .scenery.scenery import Scenery
 from .schedule import Schedule
 from .vehicles import SceneVehicles
@@ -75,6 +76,8 @@ class PhysicalScene:
             self.scenery.set_surface(self._find_surface)
         if self.particles is not None:
             self.schedule.create_timer(UPDATE_RATE, self._move_particles)
+            if self.particles.sediment is not None:
+                self.schedule.create_timer(SEDIMENT_RATE, self._stir_sediment)
 
     @property
     def time(self) -> float:
@@ -90,6 +93,12 @@ class PhysicalScene:
         position = self.engine.poses.vehicle(0).position
         velocity = water.velocity(position[None, :], self.time, vehicles[0].name)[0]
         self.particles.measure_water(velocity)
+
+    def _stir_sediment(self) -> None:
+        assert self.particles is not None
+        assert self.particles.sediment is not None
+        velocity = self.particles.state.velocity
+        self.particles.sediment.stir(self.engine, self.rays, self.time, velocity)
 
     def _find_surface(self) -> MovingSurface:
         return MovingSurface(

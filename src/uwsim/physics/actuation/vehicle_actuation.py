@@ -104,6 +104,19 @@ class VehicleActuation:
         """Set the fraction of its thrust that a thruster loses, by index: 0 healthy, 1 dead."""
         self._water.set_loss(self._data, self._thrusters[thruster], loss)
 
+    def measure_thrusts(self) -> tuple[Array, Array, Array]:
+        """Return the places, directions and present thrusts of the thrusters.
+
+        Returns:
+            The centres of the propellers in W, (n, 3) [m], the directions of positive thrust in W,
+            (n, 3), and the thrusts, (n,) [N].
+        """
+        thrusts = self.actuators().thrusts()
+        actuators = [self._water.thrusters[index] for index in self._thrusters]
+        sites = self._water.model.actuator_trnid[actuators, 0]
+        axes = self._data.site_xmat[sites].reshape(-1, 3, 3)[:, :, 0]
+        return self._data.site_xpos[sites].copy(), axes.copy(), thrusts
+
     def actuators(self) -> Actuators:
         """Return the view of the actuators' thrusts, efforts and electric power."""
         return Actuators(

@@ -21,6 +21,7 @@ from ..lights.lamps import LAMPS
 from ..program import build
 from .blur_plan import MAX_LEVELS, BlurPlan, compute_radius, plan_blur
 from .blur_weights import N_RANGES, compute_weight_table
+from .cloud_pass import CLOUDS, CloudPass
 from .open_water_map import OpenWaterMap
 from .optics_block import OPTICS, OpticsBlock
 from .particle_pass import ParticlePass, VisibleParticles
@@ -28,8 +29,9 @@ from .physical_water import PhysicalWater
 
 SURFACE_UNIT, MAP_UNIT, TABLE_UNIT, FIRST_LEVEL_UNIT = 0, 5, 6, 7
 """The texture units of the image of surfaces, the open water, the weights, and the first level."""
-LAMP_MAP_UNIT, PARTICLE_UNIT = 2, 13
-"""The texture units of the lamps' shadow maps, as in the surface pass, and of the particles."""
+LAMP_MAP_UNIT, PARTICLE_UNIT, CLOUD_UNIT = 2, 13, 14
+"""The texture units of the lamps' shadow maps, as in the surface pass, of the particles, and of the
+first of three textures of clouds."""
 SAMPLERS = {
     "surface_image": SURFACE_UNIT,
     "open_water_map": MAP_UNIT,
@@ -37,6 +39,9 @@ SAMPLERS = {
     **{f"level_{i}": FIRST_LEVEL_UNIT + i for i in range(MAX_LEVELS - 2)},
     "lamp_maps": LAMP_MAP_UNIT,
     "particle_image": PARTICLE_UNIT,
+    "cloud_layers_map": CLOUD_UNIT,
+    "cloud_lamplight_map": CLOUD_UNIT + 1,
+    "cloud_daylight_map": CLOUD_UNIT + 2,
 }
 """The texture unit of every sampler of these passes."""
 SCREEN = "screen"
@@ -94,6 +99,7 @@ class Development:
         self._table_key: tuple[Medium, tuple[float, ...]] | None = None
         self._buffers: dict[object, Buffers] = {}
         self._particles = ParticlePass(context, SAMPLERS)
+        self._clouds = CloudPass(context, SAMPLERS)
         self._programs: dict[object, tuple[moderngl.Program, moderngl.VertexArray]] = {}
 
     def prepare(
@@ -153,6 +159,11 @@ class Development:
             size = intrinsics.width, intrinsics.height
             self._particles.draw(particles, size, n_lamps).use(PARTICLE_UNIT)
             switches += (("PARTICLES", 1),)
+            if particles.clouds is not None:
+                textures = self._clouds.draw(particles.clouds, size, n_lamps)
+                for unit, texture in enumerate(textures, start=CLOUD_UNIT):
+                    texture.use(unit)
+                switches += (("CLOUDS", 1),)
         if water.transfer == "linear":
             switches += (("LINEAR", 1),)
         self._draw("developed", switches, target)
@@ -212,7 +223,7 @@ class Development:
                 self._context,
                 effect,
                 defines=dict(switches),
-                blocks=(OPTICS, LAMPS),
+                blocks=(OPTICS, LAMPS, CLOUDS),
                 samplers=SAMPLERS,
                 vertex=SCREEN,
             )

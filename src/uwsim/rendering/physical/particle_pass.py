@@ -31,6 +31,7 @@ from ...particles import PARTICLE
 from ..frame import FRAME
 from ..lights.lamps import LAMPS
 from ..program import Block, build
+from .cloud_pass import VisibleClouds
 from .optics_block import OPTICS
 
 MIN_RADIUS = 1.5
@@ -50,6 +51,8 @@ class VisibleParticles:
     """The diameter of the lens's aperture [m]; 0: all particles are sharp."""
     focus_distance: float
     """The distance at which the lens is focused [m]."""
+    clouds: VisibleClouds | None = None
+    """The clouds of sediment; None without any."""
 
 
 class ParticlePass:

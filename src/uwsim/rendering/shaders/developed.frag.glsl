@@ -12,6 +12,25 @@ uniform sampler2D level_0;
 #ifdef PARTICLES
 uniform sampler2D particle_image;
 #endif
+#ifdef CLOUDS
+#include "clouds.glsl"
+#include "cloud_edge.glsl"
+uniform sampler2D cloud_layers_map;
+uniform sampler2D cloud_lamplight_map;
+uniform sampler2D cloud_daylight_map;
+
+vec3 through_clouds(vec3 light, vec3 water, float range) {
+    vec2 place = gl_FragCoord.xy / (float(CLOUD_EDGE) * vec2(textureSize(cloud_layers_map, 0)));
+    vec4 layers = textureLod(cloud_layers_map, place, 0.0);
+    vec4 lamplight = textureLod(cloud_lamplight_map, place, 0.0);
+    vec3 daylight = textureLod(cloud_daylight_map, place, 0.0).rgb;
+    vec4 shares = clamp((range - cloud_layers.x) / cloud_layers.y - vec4(0.0, 0.0, 1.0, 2.0), 0.0, 1.0);
+    float depth = layers.x + dot(shares.yzw, layers.yzw - layers.xyz);
+    vec3 mean = 1.0 / max(vec3(lamplight.a), 1e-6);
+    vec3 veil = mean * lamplight.rgb * ((1.0 - exp(-LOSS_SHARE * depth)) / LOSS_SHARE);
+    return mix(water + mean * daylight, light, exp(-depth)) + veil;
+}
+#endif
 out vec4 colour_out;
 
 void main() {
@@ -36,6 +55,9 @@ void main() {
     light += sharp * excess;
 #ifdef SCATTERED
     light += textureLod(level_0, gl_FragCoord.xy / (2.0 * vec2(textureSize(level_0, 0))), 0.0).rgb;
+#endif
+#ifdef CLOUDS
+    light = through_clouds(light, water, is_surface > 0.5 ? range : FAR);
 #endif
     vec3 value = clamp(light * camera.y, 0.0, 1.0);
 #ifndef LINEAR

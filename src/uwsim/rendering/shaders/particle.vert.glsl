@@ -60,7 +60,7 @@ void main() {
     float focal = inversesqrt(abs(ray_column.x * ray_row.y));
     float radius = place.w * focal / depth;
     float blur = particle_lens.x * focal * abs(1.0 / depth - particle_lens.y);
-    float drawn = max(1.4 * sqrt(radius * radius + blur * blur), particle_lens.z);
+    float drawn = max(1.7320508 * sqrt(radius * radius + blur * blur), particle_lens.z);
     float coverage = extent.w * radius * radius / (drawn * (drawn + 0.5 * streak_length));
     vec2 corner = vec2(gl_VertexID % 2 == 0 ? -1.0 : 1.0, gl_VertexID < 2 ? -1.0 : 1.0);
     v_offset = corner * vec2(0.5 * streak_length + drawn, drawn);

@@ -24,7 +24,9 @@ from ...particles import (
     find_particles,
     find_plume,
 )
+from ...particles.puffs import PuffsState
 from ...rendering.physical.particle_pass import VisibleParticles
+from .scene_sediment import SceneSediment
 
 UPDATE_RATE = 20.0
 """The rate at which the velocity of the water is measured [Hz]."""
@@ -40,6 +42,8 @@ class ParticlesState(Record):
     """The velocity of the water at the last measurement in W, (3,) [m/s]."""
     time: float = 0.0
     """The time of the last measurement [s]."""
+    sediment: PuffsState | None = None
+    """The clouds of sediment; None in scenes without any."""
 
 
 class SceneParticles:
@@ -74,8 +78,17 @@ class SceneParticles:
                 self._plume_classes += classes
                 place = np.array([spec.bubbles.source])
                 self._source = model.scene.world_from_localized.transform(place)[0]
-        self.state = ParticlesState(np.zeros(3), np.zeros(3))
-        """The state: the displacement of the water."""
+        self.sediment: SceneSediment | None = None
+        """The clouds of sediment; None in scenes without any."""
+        if spec.sediment is not None:
+            key = _draw_keys(stream("scene/sediment"))()
+            self.sediment = SceneSediment(model, spec.sediment, key)
+        self.state = ParticlesState(
+            np.zeros(3),
+            np.zeros(3),
+            sediment=None if self.sediment is None else self.sediment.puffs.state,
+        )
+        """The state: the displacement of the water, and the clouds of sediment."""
 
     def measure_water(self, velocity: Array) -> None:
         """Take the velocity of the water in W, (3,) [m/s], from now on."""
@@ -88,11 +101,13 @@ class SceneParticles:
     def find_visible(
         self, world_from_camera: Pose, intrinsics: Intrinsics
     ) -> VisibleParticles | None:
-        """Return the particles in the view of a camera; None without any kind of them."""
-        spec, state = self._spec, self.state
-        if not (self._classes or self._plume_classes):
+        """Return the particles and clouds in the view of a camera; None without any."""
+        spec, state, time = self._spec, self.state, self._clock()
+        clouds = None
+        if self.sediment is not None:
+            clouds = self.sediment.find_visible(world_from_camera, time, state.velocity)
+        if clouds is None and not (self._classes or self._plume_classes):
             return None
-        time = self._clock()
         displacement = state.displacement + state.velocity * (time - state.time)
         drift = Drift(
             displacement=_make_triple(displacement),
@@ -110,7 +125,10 @@ class SceneParticles:
         if self._source is not None:
             parts += [find_plume(c, self._source, view, drift) for c in self._plume_classes]
         return VisibleParticles(
-            np.concatenate([np.zeros(0, PARTICLE), *parts]), spec.aperture, spec.focus_distance
+            records=np.concatenate([np.zeros(0, PARTICLE), *parts]),
+            aperture=spec.aperture,
+            focus_distance=spec.focus_distance,
+            clouds=clouds,
         )
 
 
