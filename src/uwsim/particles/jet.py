@@ -57,9 +57,9 @@ class Jet:
     def compute_speed(self, distance: float, radius: float = 0.0) -> float:
         """Compute the speed at a distance behind the propeller and one from the axis [m/s]."""
         core = AXIS_FACTOR * self.initial_diameter
-        along = max(distance, 1e-6)
-        axis_speed = self.initial_speed * min(core / along, 1.0)
-        return axis_speed * math.exp(-SPREAD * (radius / along) ** 2)
+        length = max(distance, 1e-6)
+        axis_speed = self.initial_speed * min(core / length, 1.0)
+        return axis_speed * math.exp(-SPREAD * (radius / length) ** 2)
 
     def find_floor_contact(self, height: float, rise: float) -> tuple[float, float]:
         """Find where the jet is fastest along a level floor.

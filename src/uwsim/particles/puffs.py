@@ -137,11 +137,11 @@ class Puffs:
         first, second = state.puffs[0].copy(), state.puffs[1].copy()
         mass = first[MASS] + second[MASS]
         share = second[MASS] / mass
-        merged = (1.0 - share) * first + share * second
+        puff = (1.0 - share) * first + share * second
         offset = second[X : Z + 1] - first[X : Z + 1]
-        merged[VARIANCE] += share * (1.0 - share) * float((offset * offset).sum()) / 3.0
-        merged[MASS], merged[BIRTH], merged[NUMBER] = mass, first[BIRTH], second[NUMBER]
-        state.puffs[1] = merged
+        puff[VARIANCE] += share * (1.0 - share) * float((offset * offset).sum()) / 3.0
+        puff[MASS], puff[BIRTH], puff[NUMBER] = mass, first[BIRTH], second[NUMBER]
+        state.puffs[1] = puff
         state.puffs[:-1] = state.puffs[1:].copy()
         state.puffs[-1] = 0.0
         state.n_puffs -= 1

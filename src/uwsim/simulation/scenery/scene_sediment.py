@@ -114,11 +114,11 @@ class SceneSediment:
             return
         numbers = draw_uniforms(self._key, self.puffs.state.n_born, 5).tolist()
         angle = 2.0 * math.pi * numbers[0]
-        outwards = np.array([math.cos(angle), math.sin(angle), 0.0])
-        place = jet.contact + jet.width * math.sqrt(numbers[1]) * outwards
+        radial_direction = np.array([math.cos(angle), math.sin(angle), 0.0])
+        place = jet.contact + jet.width * math.sqrt(numbers[1]) * radial_direction
         width = max(jet.width * (0.5 + 0.5 * numbers[2]), 0.05)
         place[2] += width
-        velocity = OUTFLOW * jet.speed * (0.6 + 0.8 * numbers[3]) * outwards
+        velocity = OUTFLOW * jet.speed * (0.6 + 0.8 * numbers[3]) * radial_direction
         velocity += jet.speed * np.array([jet.direction[0], jet.direction[1], 0.0])
         velocity[2] = 0.25 * jet.speed * numbers[4]
         self.puffs.add(place, width, mass, velocity, float(jet.contact[2]))
