@@ -47,9 +47,12 @@ multiple of 4; the number of elements; and their type, one of ``f4 u4 u2 i2 i1 u
                   which it turns; as ``uwsim render --view orbit``
     file_view   null, or the view of the ``<camera>`` of the scene file in the same format
     water       {fog, fog_colour, colour, attenuation, surface_height, clip, light_rate,
-                 follows_light, sun, shadows}    clip: true if fog depends on clip-space z, as in
-                 UWSim, not on the distance; follows_light: true if the light rate scales the
-                 colours of water and fog
+                 follows_light, sun, shadows, media, clear, nodes}    clip: true if fog depends on
+                 clip-space z, as in UWSim, not on the distance; follows_light: true if the light
+                 rate scales the colours of water and fog. In physical water, media are the
+                 numbers of each medium that occurs, and clear those of the purest water
+                 (`uwsim.viewer.optics`); nodes are those of a mean over a Gaussian. Else these
+                 three are null
     suns        {name: {direction, colour}}
     ambient, specular    constants of the lighting (`uwsim.rendering.water`)
     localized   pose in W of the localized frame L, the frame of the scene file
@@ -95,6 +98,9 @@ the object's name. The second body of one name has the suffix ``#2``. Names of s
 optional::
 
     fog, light_rate            the present values [1/m], [1]
+    beam_attenuation, exposure_level
+                               of physical water: that of green [1/m], and the binary logarithm of
+                               the exposure [1]
     lamp/NAME                  its brightness, 0..1 of the lamp's intensity in the head
     thrust/VEHICLE/NAME        command of a thruster, -1..1 of its largest [1], or [N] with unit
     water/VEHICLE/x|y|z        velocity of the water at the vehicle, in W [m/s]
@@ -112,6 +118,7 @@ uint32 step, float64 time [s]::
     kind 2   a JPEG image of the camera with the index ``index``
     kind 3   a JPEG of the free view, for pages without WebGL
     kind 4   float32 heights [m] of the columns of the heap with that index, above its corner
+    kind 5   a pack with {"optics": ...}, the numbers of a medium that is new in this run
 
 and text messages, JSON::
 
@@ -153,29 +160,30 @@ opens ``ws[s]://HOST/socket?token=T``. The head is the first message.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from dataclasses import asdict
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
 
 from ..base.geometry import Pose
-from ..base.numerics.linear import dot, length, product
-from ..model.parts import Part
-from ..rendering.water import AMBIENT_SHARE, SPECULAR_BRIGHTNESS, SUN_COLOURS, SUN_DIRECTIONS
-from ..sensors.range_sensor import RangeSensorSpec
-from ..sensors.sensor import MountedSensor
-from ..sensors.sonar.imaging_sonar import ImagingSonarSpec
-from ..sensors.sonar.multibeam_sensor import FanSpec
-from ..sensors.virtual_camera import VirtualCameraSpec
+from ..base.numerics.linear import dot, length
+from ..optics import Medium
 from ..simulation import Simulation
-from ..simulation.live_scene import LiveScene
 from ..simulation.scenery.sand import CELL_WIDTH, TOOL_REACH, Heap
-from ..simulation.tracked_bodies import body_names, rigid_group_links, vehicle_labels
 from ..simulation.unique_names import make_unique
 from ..simulation.views import FIELD_OF_VIEW, find_focus, orbit_view, viewer_view
+from .bodies import Bodies, pose_row
 from .models import Models
+from .mounts import (
+    describe_cameras,
+    describe_frames,
+    describe_lamps,
+    describe_projector,
+    describe_sensors,
+    describe_vehicles,
+)
 from .pack import Blob
+from .water import describe_water
 
 Json = dict[str, Any]
 VERSION = 1
@@ -184,7 +192,14 @@ SIZE = (960, 720)
 """The width and height of the initial view [px]; only the ratio matters."""
 
 
-def scene_head(simulation: Simulation, title: str, blob: Blob, *, is_live: bool = False) -> Json:
+def scene_head(
+    simulation: Simulation,
+    title: str,
+    blob: Blob,
+    *,
+    is_live: bool = False,
+    media: Iterable[Medium] = (),
+) -> Json:
     """Describe an opened scene for the page.
 
     Args:
@@ -192,48 +207,31 @@ def scene_head(simulation: Simulation, title: str, blob: Blob, *, is_live: bool 
         title: the title of the page.
         blob: the binary part of the pack, to which arrays are appended.
         is_live: True if rows of motion arrive over a WebSocket.
+        media: the media of physical water besides the present one.
     """
     world = simulation.world
     models = Models(blob)
-    bodies = _Bodies(world)
+    bodies = Bodies(world)
     for part in world.scenery.parts:
         bodies.add(part, models)
     names = make_unique(f"sand/{heap.name}" for heap in world.scenery.heaps)
     heaps = zip(names, world.scenery.heaps, strict=True)
     sand = [_sand(name, heap, bodies, models) for name, heap in heaps]
-    water, light = world.scenery.state.water, world.scenery.state.light
     return {
         "uwsim_head": VERSION,
         "title": title,
         "live": is_live,
-        "localized": _row_of(world.model.scene.world_from_localized),
-        "cameras": list(_cameras(world, bodies)),
-        "lamps": list(_lamps(world, bodies)),
-        "projector": _projector(world, bodies, models),
-        "sensors": list(_sensors(world, bodies)),
-        "frames": list(_frames(world, bodies)),
-        "vehicles": list(_vehicles(world, bodies)),
+        "localized": pose_row(world.model.scene.world_from_localized),
+        "cameras": list(describe_cameras(world, bodies)),
+        "lamps": list(describe_lamps(world, bodies)),
+        "projector": describe_projector(world, bodies, models),
+        "sensors": list(describe_sensors(world, bodies)),
+        "frames": list(describe_frames(world, bodies)),
+        "vehicles": list(describe_vehicles(world, bodies)),
         "sand": sand,
         "view": _orbit(simulation),
         "file_view": _file_view(simulation),
-        "water": {
-            "fog": water.fog,
-            "fog_colour": list(water.fog_colour),
-            "colour": list(water.colour),
-            "attenuation": list(water.attenuation),
-            "surface_height": water.surface_height,
-            "clip": water.fog_distance == "clip",
-            "follows_light": water.follows_light,
-            "light_rate": light.rate,
-            "sun": light.sun,
-            "shadows": light.shadows,
-        },
-        "suns": {
-            name: {"direction": list(SUN_DIRECTIONS[name]), "colour": list(SUN_COLOURS[name])}
-            for name in SUN_DIRECTIONS
-        },
-        "ambient": AMBIENT_SHARE,
-        "specular": SPECULAR_BRIGHTNESS,
+        **describe_water(world, blob, media),
         "bodies": bodies.rows,
         "meshes": models.meshes,
         "textures": models.textures,
@@ -242,84 +240,13 @@ def scene_head(simulation: Simulation, title: str, blob: Blob, *, is_live: bool 
 
 def body_poses(simulation: Simulation) -> dict[str, list[float]]:
     """Return the present poses in W of all bodies of the head, x y z w x y z by name."""
-    bodies = _Bodies(simulation.world)
+    bodies = Bodies(simulation.world)
     for part in simulation.world.scenery.parts:
         bodies.part_body(part)
     return {row["name"]: row["pose"] for row in bodies.rows}
 
 
-class _Bodies:
-    """The bodies that the page draws, or that carry a sensor, lamp or camera.
-
-    Args:
-        world: the scene.
-    """
-
-    def __init__(self, world: LiveScene) -> None:
-        self._world = world
-        self._leaders = {i: rigid_group_links(robot) for i, robot in world.model.robots.items()}
-        self._link_names, self._object_names = body_names(world)
-        self.labels = vehicle_labels(world)
-        """The unique names of the vehicles."""
-        self.rows: list[Json] = []
-        """The entries of the bodies so far, as in the head."""
-        self._poses: dict[str, Pose] = {}
-        self._n_parts = 0
-
-    def link(self, index: int, link: str) -> str:
-        """Return the name of the body to which a link belongs; add the body if it is new."""
-        leader = self._leaders[index][link]
-        pose = self._world.engine.poses.link(index, leader)
-        return self._body(self._link_names[index, leader], pose, self.labels[index])
-
-    def named_link(self, vehicle: str, link: str) -> str:
-        """Return the name of the body of a link, of the first vehicle with that name."""
-        return self.link(self._world.vehicles.names.index(vehicle), link)
-
-    def pose(self, name: str) -> Pose:
-        """Return the pose of a body in W, by the name that `link` returned."""
-        return self._poses[name]
-
-    def part_body(self, part: Part) -> str:
-        """Return the name of the body of a part of the scene; add the body if it is new."""
-        if part.vehicle is not None:
-            return self.link(part.vehicle, part.link)
-        assert part.object is not None
-        pose = self._world.engine.poses.object(part.object)
-        return self._body(self._object_names[part.object], pose, None)
-
-    def add(self, part: Part, models: Models) -> None:
-        """Add the visuals of a part of the scene to its body."""
-        name = self.part_body(part)
-        body_from_mesh = product(
-            self._poses[name].inverse().matrix, self._world.scenery.world_from_mesh(part)
-        )
-        matrix = [float(f"{value:.9g}") for value in body_from_mesh.ravel()]
-        row = next(row for row in self.rows if row["name"] == name)
-        self._n_parts += 1
-        row["visuals"] += [
-            {"part": self._n_parts, **visual, "matrix": matrix, "hidden": part.is_hidden}
-            for visual in models.visuals(part.model)
-        ]
-
-    def add_fixed(self, name: str, visuals: list[Json]) -> None:
-        """Add a body whose vertices are in W."""
-        self._body(name, Pose.identity(), None)
-        matrix = np.eye(4).ravel().tolist()
-        self._n_parts += 1
-        fields = {"part": self._n_parts, "matrix": matrix, "hidden": False}
-        self.rows[-1]["visuals"] = [{**fields, **visual} for visual in visuals]
-
-    def _body(self, name: str, pose: Pose, vehicle: str | None) -> str:
-        if name not in self._poses:
-            self._poses[name] = pose
-            self.rows.append(
-                {"name": name, "vehicle": vehicle, "pose": _row_of(pose), "visuals": []}
-            )
-        return name
-
-
-def _sand(name: str, heap: Heap, bodies: _Bodies, models: Models) -> Json:
+def _sand(name: str, heap: Heap, bodies: Bodies, models: Models) -> Json:
     """Add a heap to the bodies and meshes, and return its entry in the head."""
     visuals = models.visuals(heap.model())
     bodies.add_fixed(name, visuals)
@@ -332,95 +259,6 @@ def _sand(name: str, heap: Heap, bodies: _Bodies, models: Models) -> Json:
         "reach": TOOL_REACH,
         "bite": CELL_WIDTH,
     }
-
-
-def _cameras(world: LiveScene, bodies: _Bodies) -> Iterator[Json]:
-    links = {  # of several cameras with one name, the last is used
-        spec.name: f"{vehicle}/{spec.relative_to}"
-        for vehicle, spec in _mounted_parts(world)
-        if isinstance(spec, VirtualCameraSpec)
-    }
-    for name in world.sensors.cameras:
-        camera = world.sensors.camera(name)
-        yield {
-            **_mount_fields(bodies, links[name], camera.world_from_camera),
-            "name": name,
-            "grey": camera.is_grey,
-            **asdict(camera.intrinsics),
-        }
-
-
-def _lamps(world: LiveScene, bodies: _Bodies) -> Iterator[Json]:
-    for lamp in world.scenery.mounted_lamps:
-        spec = lamp.spec
-        yield {
-            **_mount_fields(bodies, lamp.link, lamp.world_from_lamp),
-            "name": spec.name,
-            "half_angle": math.radians(spec.fov / 2.0),
-            "softness": spec.softness,
-            "colour": list(spec.color),
-            "intensity": spec.intensity,
-            "shadow": spec.shadow,
-            "on": lamp.is_on,
-        }
-
-
-def _projector(world: LiveScene, bodies: _Bodies, models: Models) -> Json | None:
-    if world.scenery.mounted_projector is None:
-        return None
-    projector, pattern = world.scenery.mounted_projector
-    return {
-        **_mount_fields(bodies, projector.link, projector.world_from_projector),
-        "fovy": math.radians(projector.spec.fov),
-        "laser": projector.spec.laser,
-        "pattern": models.pattern(pattern),
-    }
-
-
-def _sensors(world: LiveScene, bodies: _Bodies) -> Iterator[Json]:
-    for name, spec in _mounted_parts(world):
-        mount = world.vehicles.find(name).mount(spec)
-        fields = {**_mount_fields(bodies, mount.name, mount.world_from_body), "name": spec.name}
-        if isinstance(spec, RangeSensorSpec):
-            yield {**fields, "kind": "range", "reach": spec.range, "from": 0.0, "to": 0.0}
-        elif isinstance(spec, FanSpec):
-            ends = math.radians(spec.init_angle), math.radians(spec.final_angle)
-            yield {**fields, "kind": "fan", "reach": spec.range, "from": ends[0], "to": ends[1]}
-        elif isinstance(spec, ImagingSonarSpec):
-            half = math.radians(spec.horizontal_aperture) / 2.0
-            yield {**fields, "kind": "sonar", "reach": spec.range, "from": -half, "to": half}
-
-
-def _frames(world: LiveScene, bodies: _Bodies) -> Iterator[Json]:
-    yield {"name": "L", "body": None, "pose": _row_of(world.model.scene.world_from_localized)}
-    for index, vehicle in enumerate(world.model.scene.vehicles):
-        for link in world.model.robots[index].links:
-            name = f"{vehicle.name}/{link.name}"
-            world_from_link = world.engine.poses.link(index, link.name)
-            yield {**_mount_fields(bodies, name, world_from_link), "name": name}
-        for part in (part for name, part in _mounted_parts(world) if name == vehicle.name):
-            mount = world.vehicles.find(vehicle.name).mount(part)
-            yield {**_mount_fields(bodies, mount.name, mount.world_from_body), "name": part.name}
-
-
-def _mounted_parts(world: LiveScene) -> Iterator[tuple[str, MountedSensor]]:
-    """Yield the vehicle's name and the spec of each sensor on a link that exists."""
-    for index, vehicle in enumerate(world.model.scene.vehicles):
-        for _, part in vehicle.all_parts():
-            links = world.model.robots[index]
-            if isinstance(part, MountedSensor) and links.link(part.relative_to) is not None:
-                yield vehicle.name, part
-
-
-def _vehicles(world: LiveScene, bodies: _Bodies) -> Iterator[Json]:
-    for index, spec in enumerate(world.model.scene.vehicles):
-        vehicle = world.vehicles.find(spec.name)
-        yield {
-            "name": bodies.labels[index],
-            "body": bodies.link(index, world.model.robots[index].root),
-            "thrusters": list(vehicle.thrusters),
-            "joints": list(vehicle.joint_names),
-        }
 
 
 def _orbit(simulation: Simulation) -> Json:
@@ -441,21 +279,4 @@ def _file_view(simulation: Simulation) -> Json | None:
 def _view(world_from_camera: Pose, fovy: float, distance: float) -> Json:
     """Return a view whose centre is ``distance`` [m] ahead of the camera."""
     centre = world_from_camera.position - distance * world_from_camera.rotation[:, 2]
-    return {"pose": _row_of(world_from_camera), "fovy": fovy, "at": centre.tolist()}
-
-
-def _mount_fields(bodies: _Bodies, name: str, world_from_part: Pose) -> Json:
-    """Return the fields ``body`` and ``pose``: the body of a link, and a part's pose on it.
-
-    Args:
-        bodies: the bodies of the head.
-        name: the link, ``vehicle/link``.
-        world_from_part: the pose of the part.
-    """
-    vehicle, _, link = name.partition("/")
-    body = bodies.named_link(vehicle, link)
-    return {"body": body, "pose": _row_of(bodies.pose(body).inverse() @ world_from_part)}
-
-
-def _row_of(pose: Pose) -> list[float]:
-    return [float(f"{value:.9g}") for value in (*pose.position, *pose.quaternion)]
+    return {"pose": pose_row(world_from_camera), "fovy": fovy, "at": centre.tolist()}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import html
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -11,9 +12,13 @@ import numpy as np
 
 from ..base.deprecation import deprecated_name
 from ..errors import ResultError
+from ..optics import Medium
 from ..results import journal
 from ..results.atomic_file import write_text
 from ..results.journal import recorded_trials, trials_without_motion
+from ..simulation import Simulation
+from ..simulation.scenery.recorded_water import restore_water
+from ..simulation.tracked_state import BEAM_ATTENUATION
 from ..verify.recorded_plan import FileOverrides
 from .document import document
 from .film.trial_scene import open_scene
@@ -26,6 +31,8 @@ SUFFIXES = (".html", ".htm")
 """The suffixes of the files that `Replay.save` writes."""
 NO_MOTION = "no motion"
 """The status of a level without recorded motion."""
+MAX_MEDIA = 64
+"""The greatest number of media of physical water in a page; more are thinned out."""
 CURVE_GAP = 1e-3
 """The time between the last sample of a level and the gap in its curve [s]."""
 TICKS_PER_SECOND = 1e4
@@ -83,7 +90,7 @@ class Replay:
         """Return the pack of the page; `uwsim.viewer.head` documents its format."""
         blob, first_trial = Blob(), self._trials[0]
         with open_scene(first_trial) as simulation:
-            head = scene_head(simulation, self.title, blob)
+            head = scene_head(simulation, self.title, blob, media=self._media(simulation))
         descriptions = {trial.index: _trial(trial, blob) for trial in self._trials}
         if len(self._seeds) > 1:
             for trial in self._trials:
@@ -99,6 +106,21 @@ class Replay:
             descriptions[index] = _trial_without_motion(self.directory, index, names, blob)
         head["trials"] = [descriptions[index] for index in sorted(descriptions)]
         return make_pack(head, blob)
+
+    def _media(self, simulation: Simulation) -> Iterator[Medium]:
+        """Yield the media of physical water that the tracks of the trials contain."""
+        water, medium = simulation.world.scenery.state.water, simulation.world.model.optical_water
+        columns = [trial.track.signal(BEAM_ATTENUATION) for trial in self._trials]
+        values = np.concatenate(
+            [np.empty(0), *(column for column in columns if column is not None)]
+        )
+        attenuations = np.unique(values[np.isfinite(values)])
+        step = max(1, math.ceil(len(attenuations) / MAX_MEDIA))
+        for attenuation in attenuations[::step].tolist():
+            if medium is not None:
+                optics = restore_water(water, medium, attenuation, 0.0).physical_water
+                assert optics is not None
+                yield optics.medium
 
     def _varied_trials(self) -> dict[int, RecordedTrial]:
         """Return, by seed, a trial whose scene differs from the scene of the first trial."""

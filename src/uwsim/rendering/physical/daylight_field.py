@@ -140,6 +140,12 @@ def compute_scaled_attenuation(medium: Medium) -> Array:
     return attenuation
 
 
+def scale_scattering(medium: Medium) -> tuple[HenyeyGreenstein, Array]:
+    """Return the phase function p*, and compute the scattering b* = (1 - g^2) b [1/m], (3,)."""
+    g = medium.phase_function.mean_cosine
+    return HenyeyGreenstein(g / (1.0 + g)), (1.0 - g * g) * np.array(medium.scattering)
+
+
 def compute_transmittance(cosine: float) -> float:
     """Compute the share of unpolarised light that enters water, from the cosine of incidence."""
     refracted_cosine = math.sqrt(1.0 - (1.0 - cosine * cosine) / REFRACTIVE_INDEX**2)
@@ -175,9 +181,7 @@ def compute_open_water(water: PhysicalWater, depth: float, directions: Array, ra
         return np.tile(rate * np.array(water.isotropic_radiance), (len(directions), 1))
     medium, field = water.medium, compute_light_field(water.medium, water.daylight)
     z = max(depth, 0.0)
-    g = medium.phase_function.mean_cosine
-    phase = HenyeyGreenstein(g / (1.0 + g))
-    scattering = (1.0 - g * g) * np.array(medium.scattering)
+    phase, scattering = scale_scattering(medium)
     attenuation = compute_scaled_attenuation(medium)
     beam, diffuse = field.compute_irradiance(z)
     sun_cosine = field.towards_sun[2]
@@ -197,11 +201,15 @@ def compute_open_water(water: PhysicalWater, depth: float, directions: Array, ra
     return radiance
 
 
+def compute_window_radiance(daylight: Daylight) -> float:
+    """Compute the radiance of the sky in Snell's window, just below the surface."""
+    transmittance = compute_sky_transmittance() * REFRACTIVE_INDEX**2
+    return daylight.irradiance * daylight.sky_share * transmittance
+
+
 def _compute_surface_radiance(daylight: Daylight, field: LightField, up: Array) -> Array:
     """Compute the radiance of the surface from below: the sky in Snell's window, else a mirror."""
-    sky = (
-        daylight.irradiance * daylight.sky_share * compute_sky_transmittance() * REFRACTIVE_INDEX**2
-    )
+    sky = compute_window_radiance(daylight)
     share = np.clip((up - WINDOW_COSINE) / (2.0 * WINDOW_SOFTNESS) + 0.5, 0.0, 1.0)
     share = share * share * (3.0 - 2.0 * share)
     radiance: Array = share * sky + (1.0 - share) * field.reflectance * field.total

@@ -120,7 +120,7 @@ class OpticsBlock:
         for number, lamp in enumerate(lamps):
             cosine = math.cos(lamp.half_angle)
             is_cone = lamp.half_angle < 0.5 * math.pi
-            share, factor = _find_lamp_numbers(medium.phase_function, lamp.half_angle)
+            share, factor = find_lamp_numbers(medium.phase_function, lamp.half_angle)
             values["lamp_optics"][number] = share, factor, cosine * cosine, float(is_cone)
         self._buffer.write(values.tobytes())
         self._buffer.bind_to_uniform_block(OPTICS.binding)
@@ -160,5 +160,6 @@ class OpticsBlock:
 
 
 @lru_cache(maxsize=64)
-def _find_lamp_numbers(phase: PhaseFunction, half_angle: float) -> tuple[float, float]:
+def find_lamp_numbers(phase: PhaseFunction, half_angle: float) -> tuple[float, float]:
+    """Find the numbers EE - A and k_L of a lamp's cone with a half angle [rad]."""
     return find_lamp_coefficients(phase, half_angle)

@@ -1,10 +1,11 @@
 // Provides: the stored colours of an image through physical water: direct light, blur, veil, exposure, curve.
-// Needs: optics.glsl, transmission.glsl, open_water.glsl; the image of the surfaces; with SCATTERED, the sum of the
+// Needs: optics.glsl, transmission.glsl, open_water.glsl, grey.glsl; the image of the surfaces; with SCATTERED, the sum of the
 // levels; with PARTICLES, the image of the particles; the switches BLUR, and LINEAR for no curve.
 // B + D (J - B) + blur + veil: physical/development.py; the curve: physical/transfer_curve.py.
 #include "optics.glsl"
 #include "transmission.glsl"
 #include "open_water.glsl"
+#include "grey.glsl"
 uniform sampler2D surface_image;
 #ifdef SCATTERED
 uniform sampler2D level_0;
@@ -66,5 +67,5 @@ void main() {
     vec3 curve = 0.642363 * second + 0.71211342 * fourth - 0.33687116 * sqrt(fourth) - 0.01756212 * value;
     value = mix(12.92 * value, curve, step(0.0031308, value));
 #endif
-    colour_out = vec4(value, 1.0);
+    colour_out = vec4(camera_colour(value), 1.0);
 }

@@ -1,7 +1,9 @@
 // Provides: the block Optics, the numbers of physical water; and FAR, the range of pixels without a surface.
 // Needs: nothing. Filled by physical/optics_block.py, where the same members are declared.
 // Rays are in the camera frame (OpenGL axes), with z = -1, linear in gl_FragCoord.
+#ifndef FAR
 #define FAR 1e9
+#endif
 layout(std140) uniform Optics {
     vec4 absorption;       // rgb: a [1/m]; w: e0 of the whole field
     vec4 scattering;       // rgb: b [1/m]; w: k of the whole field

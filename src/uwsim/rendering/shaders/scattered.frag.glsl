@@ -15,6 +15,10 @@ layout(location = 0) out vec4[N_LEVELS] level_out;
 layout(location = 0) out vec4[N_LEVELS + 1] level_out;
 #endif
 
+vec4 scattered(int level, float range, vec3 excess) {
+    return vec4(weight(1 + level, reach[level / 4][level % 4] * range) * excess, 0.0);
+}
+
 void main() {
     ivec2 size = textureSize(surface_image, 0);
     ivec2 corner = 2 * ivec2(gl_FragCoord.xy);
@@ -33,10 +37,28 @@ void main() {
     sum -= count * open_water(2.0 * gl_FragCoord.xy, vec2(size));
 #endif
     vec3 excess = sum / 4.0;
-    for (int i = 0; i < N_LEVELS; ++i) {
-        int level = FIRST + i;
-        level_out[i] = vec4(weight(1 + level, reach[level / 4][level % 4] * range) * excess, 0.0);
-    }
+    // no loop: WebGL's outputs have constant indices
+#if N_LEVELS > 0
+    level_out[0] = scattered(FIRST + 0, range, excess);
+#endif
+#if N_LEVELS > 1
+    level_out[1] = scattered(FIRST + 1, range, excess);
+#endif
+#if N_LEVELS > 2
+    level_out[2] = scattered(FIRST + 2, range, excess);
+#endif
+#if N_LEVELS > 3
+    level_out[3] = scattered(FIRST + 3, range, excess);
+#endif
+#if N_LEVELS > 4
+    level_out[4] = scattered(FIRST + 4, range, excess);
+#endif
+#if N_LEVELS > 5
+    level_out[5] = scattered(FIRST + 5, range, excess);
+#endif
+#if N_LEVELS > 6
+    level_out[6] = scattered(FIRST + 6, range, excess);
+#endif
 #ifndef WIDE
     level_out[N_LEVELS] = vec4(excess, count > 0.0 ? range : FAR);
 #endif

@@ -29,6 +29,8 @@ from ...simulation import Simulation
 from ...simulation.markers.lines import describe_markers, draw_markers
 from ...simulation.tracked_state import TrackedState
 from ...simulation.views import FIELD_OF_VIEW, view_from_pose
+from ..pack import Blob, make_pack
+from ..water import describe_medium
 from .head import head_of
 from .readings import Readings
 from .server import LiveServer, Message
@@ -53,7 +55,7 @@ JPEG_QUALITY = 85
 """The quality of JPEG images, 0..100."""
 HEADER = struct.Struct("<BBHId")
 """The header of binary messages: kind, index, 0, step, simulation time [s]."""
-ROW, IMAGE, VIEW, SAND = 1, 2, 3, 4
+ROW, IMAGE, VIEW, SAND, MEDIUM = 1, 2, 3, 4, 5
 """The kinds of binary messages (`uwsim.viewer.head`)."""
 
 
@@ -89,6 +91,8 @@ class LiveView:
         self._levels: list[dict[str, Any]] = []
         self._markers: dict[str, Marker] = {}  # the markers that were sent last
         self._sand_versions = [heap.version for heap in simulation.world.scenery.heaps]
+        optics = simulation.world.scenery.state.water.physical_water
+        self._medium = None if optics is None else optics.medium  # the medium that was sent last
         self._n_batches = 0
         # the wall time at which each kind of content is due [s]
         self._due = {"row": 0.0, "images": 0.0, "samples": 0.0, "readings": 0.0}
@@ -145,6 +149,7 @@ class LiveView:
             self._send_samples()
             self._send_markers()
             self._send_sand()
+            self._send_medium()
         if self._is_due("readings", now, READING_RATE):
             self._send_readings(now, is_paused=is_paused)
         if self._is_due("images", now, IMAGE_RATE):
@@ -213,6 +218,16 @@ class LiveView:
                 self._sand_versions[index] = heap.version
                 content = self._header(SAND, index) + heap.heights.astype("<f4").tobytes()
                 self._server.publish(f"sand/{index}", content)
+
+    def _send_medium(self) -> None:
+        """Send the numbers of the medium of physical water, if it is new."""
+        optics = self._simulation.world.scenery.state.water.physical_water
+        if optics is None or optics.medium == self._medium:
+            return
+        self._medium, blob = optics.medium, Blob()
+        entry = describe_medium(self._simulation.world, optics.medium, blob)
+        content = self._header(MEDIUM, 0) + make_pack({"optics": entry}, blob)
+        self._server.publish("medium", content)
 
     def _send_images(self) -> None:
         """Send the requested camera images; render the images of cameras without a subscriber."""

@@ -155,6 +155,21 @@ export function intrinsicsOf(width: number, height: number, fovy: number): Intri
   return { width, height, fx: focal, fy: focal, ...centre, skew: 0, near: 0.05, far: 2000 };
 }
 
+/** Return the intrinsics of an image that is larger by a ratio; its sides are rounded to whole pixels. */
+export function scaleIntrinsics(intrinsics: Intrinsics, ratio: number): Intrinsics {
+  const [width, height] = [Math.round(intrinsics.width * ratio), Math.round(intrinsics.height * ratio)];
+  return {
+    ...intrinsics,
+    width,
+    height,
+    fx: intrinsics.fx * ratio,
+    fy: intrinsics.fy * ratio,
+    cx: (intrinsics.cx + 0.5) * ratio - 0.5,
+    cy: (intrinsics.cy + 0.5) * ratio - 0.5,
+    skew: intrinsics.skew * ratio,
+  };
+}
+
 /** Return the matrix from the camera's frame to clip space; with `isFlipped`, row 0 of the framebuffer is the image's top. */
 export function clipFromCamera(intrinsics: Intrinsics, isFlipped: boolean): Matrix {
   const { width: w, height: h, near, far } = intrinsics;

@@ -2,6 +2,7 @@
 // documents the format and the units. Lengths are in metres, angles in radians, positions and poses
 // in W unless a comment states another frame; a pose is x y z w x y z.
 import type { Intrinsics } from "./geometry";
+import type { MediumSpec } from "./water/medium";
 
 /** A reference to an array: offset of its first byte from the end of the JSON, number of elements, their type. */
 export type Ref = [number, number, string];
@@ -143,6 +144,12 @@ export interface Water {
   sun: string;
   /** True if the sun casts shadows. */
   shadows: boolean;
+  /** The media of physical water, the initial one first; null or undefined: the fog law holds. */
+  media?: MediumSpec[] | null;
+  /** The purest physical water, which views without fog show. */
+  clear?: MediumSpec | null;
+  /** The nodes of a mean over a Gaussian of the deviation 1, for the blur in physical water. */
+  nodes?: number[] | null;
 }
 
 export interface Level {

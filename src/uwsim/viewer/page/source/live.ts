@@ -2,6 +2,7 @@
 import type { Controls } from "./controls";
 import type { Level, Marker } from "./head";
 import { toPose } from "./geometry";
+import type { MediumSpec } from "./water/medium";
 import { unpack, type Pack } from "./pack";
 import type { Stream } from "./player";
 import { element } from "./panels";
@@ -109,7 +110,14 @@ export class Connection {
     if (kind === 1) stream.push(view.getFloat64(8, true), new Float32Array(event.data, HEADER_LENGTH));
     if (kind === 2) void this.showImage(index, event.data.slice(HEADER_LENGTH), page, stream);
     if (kind === 4) stream.setSand(index, new Float32Array(event.data, HEADER_LENGTH));
+    if (kind === 5) void this.addMedium(event.data.slice(HEADER_LENGTH), page, stream);
     if (kind === 3 && this.isServerDrawn) this.showView(event.data.slice(HEADER_LENGTH));
+  }
+
+  private async addMedium(content: ArrayBuffer, page: Controls, stream: Stream): Promise<void> {
+    const pack = await unpack(new Uint8Array(content));
+    page.picture.media.add(pack, (pack.head as unknown as { optics: MediumSpec }).optics);
+    stream.version += 1;
   }
 
   private handleMessage(message: Message, page: Controls, stream: Stream): void {

@@ -11,6 +11,8 @@ import { Views } from "./views";
 
 const NO_GRAPHICS =
   "This browser does not support WebGL 2: the page shows no 3-D view, only the results (levels and curves).";
+const NO_FLOATS =
+  "This browser cannot draw into floating-point textures: the page shows the fog of the scene, not its physical water.";
 
 async function begin(): Promise<void> {
   const isDark = matchMedia("(prefers-color-scheme: dark)").matches;
@@ -28,6 +30,7 @@ async function begin(): Promise<void> {
     const rays = new Rays(pack);
     const page = new Page(pack, player, picture, new Views(pack.head, picture.models, rays), connection, rays);
     page.note = gl || connection ? "" : NO_GRAPHICS;
+    if (picture.lacksFloats) page.note = NO_FLOATS;
     message.textContent = page.note;
     connection?.begin(page, player as Stream);
     const levelIndex = Number(new URLSearchParams(location.hash.slice(1)).get("level") ?? 0);

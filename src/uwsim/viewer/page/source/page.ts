@@ -3,6 +3,7 @@ import type { Controls, Switch } from "./controls";
 import { Curves } from "./curves";
 import { Keyboard } from "./keys";
 import type { Connection } from "./live";
+import { beginsClear } from "./water/media";
 import type { Pack } from "./pack";
 import { element, indexAt, hasNoMotion, LevelList, Thrusters, toggleHelp } from "./panels";
 import type { Picture, Switches } from "./picture";
@@ -40,6 +41,7 @@ export class Page implements Controls {
     readonly connection: Connection | null,
     rays: Rays,
   ) {
+    this.switches.clear = beginsClear(pack.head);
     this.quantities = new Quantities(pack.head, rays);
     this.hud = new Hud(this.quantities, player, (time) => this.seek(time), () => this.draw());
     this.levels = new LevelList(player, (index) => void this.go(index));

@@ -1,6 +1,7 @@
 // The image of the scene in the selected view, with the overlay and the images of the scene's cameras (pictures).
 import type { Camera, Head, Water } from "./head";
 import type { ActiveLamp } from "./drawing/light";
+import { Media } from "./water/media";
 import { Models } from "./models";
 import { drawOverlay, drawQuads, type OverlaySwitches } from "./overlay";
 import type { Pack } from "./pack";
@@ -8,9 +9,9 @@ import { element, indexAt, make } from "./panels";
 import type { Player } from "./player";
 import type { Snapshot } from "./snapshot";
 import { drawCompass } from "./display/compass";
-import { isSoftware, Renderer } from "./drawing/renderer";
+import { isSoftware, Renderer, type RenderState } from "./drawing/renderer";
 import { fitIntrinsics, type ViewCamera, type Views } from "./views";
-import type { Intrinsics } from "./geometry";
+import { scaleIntrinsics, type Intrinsics } from "./geometry";
 
 const PICTURE_HEIGHT = 150; // height of a camera's image on the page [px]
 const MAX_DRAWING_TIME = 2000; // time after which an image that is not complete is given up [ms]
@@ -27,6 +28,16 @@ export interface Switches extends OverlaySwitches {
   state: boolean;
   /** A key of `suns` of the head; empty: the sun of the scene. */
   sun: string;
+}
+
+/** The settings of an image for tests. */
+export interface ImageSettings {
+  /** Values instead of those of the scene's water. */
+  water?: Partial<Water>;
+  isExternal?: boolean;
+  /** True for water without fog. */
+  isClear?: boolean;
+  grey?: boolean;
 }
 
 /** Return a WebGL 2 context of the canvas, with antialiasing if a GPU draws; null if there is no WebGL 2. */
@@ -76,17 +87,21 @@ class SoftwarePacing {
 /** The image of the scene: the canvas, the renderer, and the overlay. */
 export class Picture {
   readonly canvas = element<HTMLCanvasElement>("image");
+  private readonly head: Head;
   private readonly overlay = element<HTMLCanvasElement>("overlay");
   private readonly renderer: Renderer | null;
   private readonly frames: HTMLElement[] = [];
   private readonly images: ImageBitmap[] = []; // the newest image of each camera, from a running simulation
   private readonly pacing: SoftwarePacing | null;
+  readonly media: Media;
 
   private constructor(
     private readonly gl: WebGL2RenderingContext | null,
-    private readonly head: Head,
+    pack: Pack,
     readonly models: Models,
   ) {
+    const head = (this.head = pack.head);
+    this.media = new Media(pack);
     this.renderer = gl && new Renderer(gl, head, models);
     this.pacing = gl && isSoftware(gl) ? new SoftwarePacing(gl) : null;
     for (const camera of head.cameras) {
@@ -100,7 +115,7 @@ export class Picture {
 
   /** Make the image of a pack's scene; without WebGL it draws only the overlay, over the images that a live view receives. */
   static async make(gl: WebGL2RenderingContext | null, pack: Pack): Promise<Picture> {
-    return new Picture(gl, pack.head, await Models.load(gl, pack));
+    return new Picture(gl, pack, await Models.load(gl, pack));
   }
 
   /** Draw the image and return its camera; null while the canvas has no size. */
@@ -117,12 +132,15 @@ export class Picture {
     head.sand?.forEach((_, i) => models.setSand(i, player.sand(i, snapshot.time)));
     const viewCamera = views.viewCamera(w, h);
     const water = this.water(player, snapshot, switches);
+    const optics = this.media.mediumAt(snapshot);
     const clearWater = switches.clear ? { ...water, fog: 0 } : water;
+    const viewOptics = switches.clear ? this.media.clearOptics(optics) : optics;
     const lamps = this.lamps(snapshot);
     const { worldFromCamera, isExternal } = viewCamera;
     const intrinsics = scaleIntrinsics(viewCamera.intrinsics, ratio);
     const grey = viewCamera.camera?.grey;
-    this.renderer?.draw({ worldFromCamera, intrinsics, water: clearWater, lamps, isExternal, grey }, null, [0, 0]);
+    const state = { worldFromCamera, intrinsics, water: clearWater, optics: viewOptics, lamps, isExternal, grey };
+    this.renderer?.draw(state, null, [0, 0]);
     const context = this.overlay.getContext("2d")!;
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.clearRect(0, 0, w, h);
@@ -133,9 +151,14 @@ export class Picture {
       drawCompass(context, viewCamera.intrinsics, views.height, hud.offsetTop + hud.offsetHeight);
     }
     this.frames.forEach((frame, i) => (frame.hidden = head.cameras[i] === viewCamera.camera));
-    this.drawPictures(context, water, lamps, snapshot, switches, ratio, h);
+    this.drawPictures(context, { ...state, water, optics, isExternal: false }, snapshot, switches, ratio, h);
     this.pacing?.begin();
     return viewCamera;
+  }
+
+  /** True if physical water is drawn as fog, because this browser lacks floating-point textures. */
+  get lacksFloats(): boolean {
+    return this.renderer?.lacksFloats ?? false;
   }
 
   /** Draw without pauses for a while, after an input. */
@@ -150,7 +173,7 @@ export class Picture {
 
   /** Return an image of the size `intrinsics.width` x `intrinsics.height` as RGBA, row 0 at the top; for tests. */
   image(intrinsics: Intrinsics, worldFromCamera: Float64Array, player: Player, snapshot: Snapshot,
-        switches: Switches, water: Partial<Water> = {}, isExternal = false, grey = false): Uint8Array {
+        switches: Switches, settings: ImageSettings = {}): Uint8Array {
     const { gl, models, renderer } = this;
     if (!gl || !renderer) return new Uint8Array();
     models.place(snapshot.poses);
@@ -163,10 +186,12 @@ export class Picture {
       const attachment = i ? gl.DEPTH_ATTACHMENT : gl.COLOR_ATTACHMENT0;
       gl.framebufferRenderbuffer(gl.FRAMEBUFFER, attachment, gl.RENDERBUFFER, stores[i]);
     });
+    const { isExternal = false, isClear, grey } = settings;
+    const optics = this.media.mediumAt(snapshot);
     const state = {
-      worldFromCamera, intrinsics, lamps: this.lamps(snapshot), isExternal,
-      water: { ...this.water(player, snapshot, switches), ...water },
-      grey,
+      worldFromCamera, intrinsics, lamps: this.lamps(snapshot), isExternal, isExact: true, grey,
+      optics: isClear ? this.media.clearOptics(optics) : optics,
+      water: { ...this.water(player, snapshot, switches), ...settings.water, ...(isClear ? { fog: 0 } : {}) },
     };
     renderer.draw(state, buffer, [0, 0], true);
     const pixels = new Uint8Array(4 * intrinsics.width * intrinsics.height);
@@ -191,8 +216,8 @@ export class Picture {
   }
 
   private drawPictures(
-    context: CanvasRenderingContext2D, water: Water, lamps: ActiveLamp[], snapshot: Snapshot,
-    switches: Switches, ratio: number, height: number,
+    context: CanvasRenderingContext2D, scene: RenderState, snapshot: Snapshot, switches: Switches, ratio: number,
+    height: number,
   ): void {
     element("pictures").hidden = !switches.pictures;
     if (!switches.pictures) return;
@@ -210,9 +235,7 @@ export class Picture {
           Math.round(x * ratio), Math.round((height - y - box.height + 2) * ratio),
         ];
         const { grey } = camera;
-        const state = {
-          worldFromCamera, intrinsics: scaleIntrinsics(intrinsics, ratio), water, lamps, isExternal: false, grey,
-        };
+        const state = { ...scene, worldFromCamera, intrinsics: scaleIntrinsics(intrinsics, ratio), grey };
         this.renderer?.draw(state, null, corner);
       }
       drawQuads(context, camera, intrinsics, x, y, snapshot);
@@ -234,26 +257,12 @@ export class Picture {
   /** Return the lamps that are on at the time of a snapshot. */
   private lamps(snapshot: Snapshot): ActiveLamp[] {
     return this.head.lamps
-      .map((lamp) => ({ lamp, brightness: snapshot.signal(`lamp/${lamp.name}`) ?? Number(lamp.on) }))
+      .map((lamp, index) => ({ lamp, index, brightness: snapshot.signal(`lamp/${lamp.name}`) ?? Number(lamp.on) }))
       .filter(({ brightness }) => brightness > 0)
-      .map(({ lamp, brightness }) => ({
+      .map(({ lamp, index, brightness }) => ({
+        index,
         lamp: { ...lamp, intensity: brightness * lamp.intensity },
         worldFromLamp: this.models.worldFromMount(lamp),
       }));
   }
-}
-
-/** Return the intrinsics of an image that is larger by a ratio; its sides are rounded to whole pixels. */
-function scaleIntrinsics(intrinsics: Intrinsics, ratio: number): Intrinsics {
-  const [width, height] = [Math.round(intrinsics.width * ratio), Math.round(intrinsics.height * ratio)];
-  return {
-    ...intrinsics,
-    width,
-    height,
-    fx: intrinsics.fx * ratio,
-    fy: intrinsics.fy * ratio,
-    cx: (intrinsics.cx + 0.5) * ratio - 0.5,
-    cy: (intrinsics.cy + 0.5) * ratio - 0.5,
-    skew: intrinsics.skew * ratio,
-  };
 }

@@ -1,6 +1,7 @@
 // The interface of the page for tests and for the browser's console.
 import type { Controls } from "./controls";
 import { valueAt } from "./curves";
+import { matrix } from "./geometry";
 import { indexAt } from "./panels";
 
 /** Set `window.uwsim` to the interface of the page. */
@@ -27,12 +28,23 @@ export function exposeToConsole(page: Controls): void {
         const snapshot = player.snapshot(page.time);
         picture.models.place(snapshot.poses);
         const worldFromCamera = picture.models.worldFromMount(camera);
-        const pixels = picture.image(camera, worldFromCamera, player, snapshot, page.switches, water, false, camera.grey);
-        let text = "";
-        for (let i = 0; i < pixels.length; i += 8192)
-          text += String.fromCharCode(...pixels.subarray(i, i + 8192));
-        return btoa(text);
+        const settings = { grey: camera.grey, water };
+        return encode(picture.image(camera, worldFromCamera, player, snapshot, page.switches, settings));
+      },
+      /** The image of an external view with the intrinsics of the first camera, as that of a camera. */
+      external: (worldFromCamera: number[], isClear: boolean) => {
+        const [camera] = page.pack.head.cameras;
+        const settings = { isExternal: true, isClear };
+        const snapshot = player.snapshot(page.time);
+        return encode(picture.image(camera, matrix(worldFromCamera), player, snapshot, page.switches, settings));
       },
     },
   });
+}
+
+/** Return bytes as base64. */
+function encode(bytes: Uint8Array): string {
+  let text = "";
+  for (let i = 0; i < bytes.length; i += 8192) text += String.fromCharCode(...bytes.subarray(i, i + 8192));
+  return btoa(text);
 }

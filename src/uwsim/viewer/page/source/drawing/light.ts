@@ -20,6 +20,8 @@ const MAX_SIDE = 1024; // longest side of a projector's shadow map [texel]
 export interface ActiveLamp {
   /** The lamp with its present intensity. */
   lamp: Lamp;
+  /** The index of the lamp in the head. */
+  index: number;
   worldFromLamp: Matrix;
 }
 

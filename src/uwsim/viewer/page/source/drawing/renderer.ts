@@ -1,17 +1,22 @@
 // The renderer: it draws a scene through its water with the shaders of uwsim.rendering.renderer.
 import type { Head, Water } from "../head";
 import {
-  clipFromCamera, columns, inverse, matrix, origin, product, rotateBack, unit, type Intrinsics, type Matrix,
+  clipFromCamera, columns, inverse, matrix, origin, product, rotateBack, scaleIntrinsics, unit, type Intrinsics,
+  type Matrix,
 } from "../geometry";
 import {
   isOpaque, lampBlockValues, projectorBlockValues, projectorIntrinsics, Shadows, type ActiveLamp,
 } from "./light";
+import type { Optics } from "../water/medium";
 import type { Models, Piece } from "../models";
+import { opticsBlockValues } from "../water/optics";
+import { Development } from "../water/development";
 import { BLOCKS, Programs, UNITS, type Switches } from "./shaders";
 import { InstanceBlocks } from "./instance_blocks";
 import { findVisible, canSkipMipmaps, castersInView, type Eye } from "./visibility";
 
 const MAX_CASTER_RADIUS = 5; // radius above which a model casts no shadow of the sun [m]
+const MAX_BLURRED_PIXELS = 320 * 240; // greatest size of an image that a software renderer blurs [px]
 const MAX_LAMPS = 4; // number of lamps that the shaders can light a scene with
 
 /** Return true if WebGL is drawn by software on the CPU. */
@@ -27,11 +32,15 @@ export interface RenderState {
   worldFromCamera: Matrix;
   intrinsics: Intrinsics;
   water: Water;
+  /** The numbers of physical water; null: the fog law holds. */
+  optics: Optics | null;
   lamps: ActiveLamp[];
   /** True for an external view: there is air above the water, and the parts that cameras do not draw are visible. */
   isExternal: boolean;
   /** True if the image is greyscale, as the image of a greyscale camera. */
   grey?: boolean;
+  /** True for the image that the simulation's renderer draws, without savings in quality. */
+  isExact?: boolean;
 }
 
 export class Renderer {
@@ -41,6 +50,7 @@ export class Renderer {
   private readonly shadows: Shadows;
   private readonly blocks: Record<string, WebGLBuffer> = {};
   private readonly samplers: WebGLSampler[];
+  private readonly development: Development | null; // the passes of physical water, if the scene has it
 
   constructor(
     private readonly gl: WebGL2RenderingContext,
@@ -51,6 +61,8 @@ export class Renderer {
     this.programs = new Programs(gl);
     this.instanceBlocks = new InstanceBlocks(gl, models);
     this.shadows = new Shadows(gl, this.programs, this.instanceBlocks);
+    const { nodes } = head.water;
+    this.development = nodes ? Development.make(gl, this.programs, nodes) : null;
     this.samplers = [gl.CLAMP_TO_EDGE, gl.REPEAT].map((wrap) => {
       const sampler = gl.createSampler();
       gl.samplerParameteri(sampler, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
@@ -61,8 +73,58 @@ export class Renderer {
     });
   }
 
+  /** True if physical water is drawn with the fog law, because this browser cannot draw into textures of floats. */
+  get lacksFloats(): boolean {
+    return Boolean(this.head.water.nodes) && !this.development;
+  }
+
   /** Draw an image into a framebuffer (null: the canvas), with the image's lower left corner at the pixel `corner` [px]. */
   draw(state: RenderState, target: WebGLFramebuffer | null, corner: [number, number], isFlipped = false): void {
+    if (state.optics && this.development) this.drawPhysical(state, state.optics, target, corner, isFlipped);
+    else this.drawSurfaces(state, target, corner, isFlipped, {});
+  }
+
+  /** Draw an image through physical water: surfaces without water first, then passes on the whole image. */
+  private drawPhysical(
+    state: RenderState, optics: Optics, target: WebGLFramebuffer | null, corner: [number, number], isFlipped: boolean,
+  ): void {
+    const development = this.development!;
+    const { worldFromCamera, water } = state;
+    const isFast = this.isSoftware && !state.isExact;
+    // without multisampling, edges are smooth if each pixel is the mean of four
+    const samples = this.isSoftware || state.isExact || devicePixelRatio >= 2 ? 1 : 2;
+    const intrinsics = scaleIntrinsics(state.intrinsics, samples);
+    const isLarge = intrinsics.width * intrinsics.height > MAX_BLURRED_PIXELS;
+    const plan = development.plan(intrinsics, optics.blur && !(isFast && isLarge));
+    const lamps = state.lamps.slice(0, MAX_LAMPS);
+    const depth = water.surface_height - origin(worldFromCamera)[2];
+    const surfaces = development.prepare(optics, worldFromCamera, intrinsics, plan, depth, water.light_rate);
+    this.fill("Optics", opticsBlockValues(optics, intrinsics, lamps, water.light_rate, plan.reach));
+    this.drawSurfaces({ ...state, intrinsics, grey: false }, surfaces, [0, 0], true, {
+      PHYSICAL: 1, ...development.switches,
+    });
+    if (lamps.length) this.drawLampPoints(lamps.length, development.switches);
+    this.gl.disable(this.gl.DEPTH_TEST);
+    const image = development.develop(optics, intrinsics, plan, lamps.length, state.grey === true);
+    development.present(image, target, corner, state.intrinsics, isFlipped);
+  }
+
+  /** Add the lamps that the camera sees to the surfaces in the current framebuffer. */
+  private drawLampPoints(nLamps: number, switches: Switches): void {
+    const { gl } = this;
+    gl.useProgram(this.programs.get("lamp_point", { COLOUR: 0, LAMPS: nLamps, ...switches }));
+    gl.depthMask(false);
+    gl.enable(gl.BLEND);
+    gl.blendFuncSeparate(gl.ONE, gl.ONE, gl.ONE, gl.ZERO);
+    gl.drawArrays(gl.POINTS, 0, nLamps);
+    gl.disable(gl.BLEND);
+    gl.depthMask(true);
+  }
+
+  /** Draw surfaces and background with some switches of the law of the water: none for the fog law. */
+  private drawSurfaces(
+    state: RenderState, target: WebGLFramebuffer | null, corner: [number, number], isFlipped: boolean, law: Switches,
+  ): void {
     const { gl, models } = this;
     const { worldFromCamera, intrinsics, water } = state;
     const clip = clipFromCamera(intrinsics, isFlipped);
@@ -71,13 +133,14 @@ export class Renderer {
       .filter((piece) => state.isExternal || !piece.visual.hidden)
       .flatMap((piece) => piece.pieces);
     const visiblePieces = findVisible(pieces, eye);
-    const switches: Switches = { COLOUR: 0 };
-    if (water.fog === 0) switches.NO_FOG = 1;
-    else if (water.clip && !state.isExternal) switches.FOG_CLIP = 1;
+    const switches: Switches = { COLOUR: 0, ...law };
+    const isFoggy = water.fog > 0;
+    if (!law.PHYSICAL && !isFoggy) switches.NO_FOG = 1;
+    if (!law.PHYSICAL && isFoggy && water.clip && !state.isExternal) switches.FOG_CLIP = 1;
     if (state.grey) switches.GREY = 1;
     if (state.isExternal) Object.assign(switches, { AIR: 1, POLISHED: 1 });
     if (state.isExternal && !this.isSoftware) switches.SOFT = 1;
-    const sun = unit(this.head.suns[water.sun].direction);
+    const sun = law.PHYSICAL ? state.optics!.sun : unit(this.head.suns[water.sun].direction);
     const hasShadows = water.shadows && this.updateSunShadows(pieces, visiblePieces, sun, eye);
     if (hasShadows) switches.SHADOWS = 1;
     this.lightScene(state, pieces, switches);
@@ -93,7 +156,7 @@ export class Renderer {
     gl.depthFunc(gl.LEQUAL);
     gl.disable(gl.BLEND);
     for (const piece of visiblePieces.filter(isOpaque)) this.drawPiece(piece, eye, switches, isFlipped);
-    this.drawBackground(state.grey ? { COLOUR: 0, GREY: 1 } : { COLOUR: 0 });
+    this.drawBackground(state.grey ? { COLOUR: 0, GREY: 1, ...law } : { COLOUR: 0, ...law });
     gl.enable(gl.BLEND);
     gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ZERO, gl.ONE);
     gl.depthMask(false);
@@ -158,10 +221,11 @@ export class Renderer {
     gl.drawArrays(gl.TRIANGLES, 0, 3);
   }
 
-  private fillFrame({ worldFromCamera: m, intrinsics, water }: RenderState, clip: Matrix, sun: number[]): void {
+  private fillFrame({ worldFromCamera: m, intrinsics, water, optics }: RenderState, clip: Matrix, sun: number[]): void {
     const { near, far } = intrinsics;
     const { ambient: ambientLight, specular, suns } = this.head;
     const rate = water.light_rate;
+    const attenuation = optics?.absorption.map((a, i) => a + optics.scattering[i]) ?? water.attenuation;
     const waterRate = water.follows_light === false ? 1 : rate;
     const [water_colour, fog_colour] = [water.colour, water.fog_colour].map((colour) =>
       colour.map((c) => waterRate * c),
@@ -175,7 +239,7 @@ export class Renderer {
       ...suns[water.sun].colour.map((c) => rate * c), 0,
       rate * ambientLight, rate * specular, 0, 0,
       ...water_colour, 0,
-      ...water.attenuation, 0,
+      ...attenuation, 0,
       ...fog_colour, water.fog ** 2,
       (far + near) / (far - near), (-2 * far * near) / (far - near), 0, 0,
       ...far_colour, 0,

@@ -1,16 +1,27 @@
 // The shaders of uwsim.rendering, compiled for WebGL 2, as in uwsim.rendering.program.
 import backgroundFragment from "../../../../rendering/shaders/background.frag.glsl";
 import backgroundVertex from "../../../../rendering/shaders/background.vert.glsl";
+import blurredFragment from "../../../../rendering/shaders/blurred.frag.glsl";
+import blurredRowsFragment from "../../../../rendering/shaders/blurred_rows.frag.glsl";
 import daylight from "../../../../rendering/shaders/daylight.glsl";
+import developedFragment from "../../../../rendering/shaders/developed.frag.glsl";
 import frame from "../../../../rendering/shaders/frame.glsl";
+import gaussian from "../../../../rendering/shaders/gaussian.glsl";
 import grey from "../../../../rendering/shaders/grey.glsl";
 import instance from "../../../../rendering/shaders/instance.glsl";
+import lampPointFragment from "../../../../rendering/shaders/lamp_point.frag.glsl";
+import lampPointVertex from "../../../../rendering/shaders/lamp_point.vert.glsl";
+import lampVeil from "../../../../rendering/shaders/lamp_veil.glsl";
 import lamplight from "../../../../rendering/shaders/lamplight.glsl";
 import lamps from "../../../../rendering/shaders/lamps.glsl";
 import material from "../../../../rendering/shaders/material.glsl";
+import openWater from "../../../../rendering/shaders/open_water.glsl";
 import optics from "../../../../rendering/shaders/optics.glsl";
 import projection from "../../../../rendering/shaders/projection.glsl";
 import projector from "../../../../rendering/shaders/projector.glsl";
+import reducedFragment from "../../../../rendering/shaders/reduced.frag.glsl";
+import scatteredFragment from "../../../../rendering/shaders/scattered.frag.glsl";
+import screenVertex from "../../../../rendering/shaders/screen.vert.glsl";
 import shadowFragment from "../../../../rendering/shaders/shadow.frag.glsl";
 import shadow from "../../../../rendering/shaders/shadow.glsl";
 import shadowVertex from "../../../../rendering/shaders/shadow.vert.glsl";
@@ -18,22 +29,38 @@ import sun from "../../../../rendering/shaders/sun.glsl";
 import surfaceFragment from "../../../../rendering/shaders/surface.frag.glsl";
 import surfaceVertex from "../../../../rendering/shaders/surface.vert.glsl";
 import targets from "../../../../rendering/shaders/targets.glsl";
+import transmission from "../../../../rendering/shaders/transmission.glsl";
 import varyings from "../../../../rendering/shaders/varyings.glsl";
 import water from "../../../../rendering/shaders/water.glsl";
+import presentedFragment from "./presented.frag.glsl";
+import presentedVertex from "./presented.vert.glsl";
 
 const FILES: Record<string, string> = {
   "background.frag.glsl": backgroundFragment,
   "background.vert.glsl": backgroundVertex,
+  "blurred.frag.glsl": blurredFragment,
+  "blurred_rows.frag.glsl": blurredRowsFragment,
   "daylight.glsl": daylight,
+  "developed.frag.glsl": developedFragment,
   "frame.glsl": frame,
+  "gaussian.glsl": gaussian,
   "grey.glsl": grey,
   "instance.glsl": instance,
+  "lamp_point.frag.glsl": lampPointFragment,
+  "lamp_point.vert.glsl": lampPointVertex,
+  "lamp_veil.glsl": lampVeil,
   "lamplight.glsl": lamplight,
   "lamps.glsl": lamps,
   "material.glsl": material,
+  "open_water.glsl": openWater,
   "optics.glsl": optics,
+  "presented.frag.glsl": presentedFragment,
+  "presented.vert.glsl": presentedVertex,
   "projection.glsl": projection,
   "projector.glsl": projector,
+  "reduced.frag.glsl": reducedFragment,
+  "scattered.frag.glsl": scatteredFragment,
+  "screen.vert.glsl": screenVertex,
   "shadow.frag.glsl": shadowFragment,
   "shadow.glsl": shadow,
   "shadow.vert.glsl": shadowVertex,
@@ -41,6 +68,7 @@ const FILES: Record<string, string> = {
   "surface.frag.glsl": surfaceFragment,
   "surface.vert.glsl": surfaceVertex,
   "targets.glsl": targets,
+  "transmission.glsl": transmission,
   "varyings.glsl": varyings,
   "water.glsl": water,
 };
@@ -52,7 +80,7 @@ precision highp sampler2D;
 precision highp sampler2DShadow;
 `;
 /** The binding of each uniform block. */
-export const BLOCKS: Record<string, number> = { Frame: 0, Instance: 1, Lamps: 2, Projector: 3 };
+export const BLOCKS: Record<string, number> = { Frame: 0, Instance: 1, Lamps: 2, Projector: 3, Optics: 4 };
 /** The texture unit of each sampler. */
 export const UNITS: Record<string, number> = {
   base_map: 0,
@@ -60,12 +88,21 @@ export const UNITS: Record<string, number> = {
   lamp_maps: 2,
   projector_map: 3,
   projector_pattern: 4,
+  open_water_map: 5,
+  weight_table: 6,
+  level_0: 7,
+  level_1: 8,
+  level_2: 9,
+  level_3: 10,
+  level_4: 11,
+  level_5: 12,
+  surface_image: 13,
 };
 /** The location of each attribute. */
 export const ATTRIBUTES: Record<string, number> = { vertex: 0, vertex_normal: 1, uv: 2, tint: 3 };
 
 /** The preprocessor macros of a program, by name. */
-export type Switches = Record<string, number>;
+export type Switches = Record<string, number | string>;
 
 /** The programs that have been compiled so far. */
 export class Programs {
@@ -73,11 +110,11 @@ export class Programs {
 
   constructor(private readonly gl: WebGL2RenderingContext) {}
 
-  /** Return the program EFFECT.vert.glsl, EFFECT.frag.glsl with some macros. */
-  get(effect: string, switches: Switches): WebGLProgram {
+  /** Return the program VERTEX.vert.glsl, EFFECT.frag.glsl with some macros. */
+  get(effect: string, switches: Switches, vertex = effect): WebGLProgram {
     const key = effect + JSON.stringify(switches);
     let program = this.programs.get(key);
-    if (!program) this.programs.set(key, (program = build(this.gl, effect, switches)));
+    if (!program) this.programs.set(key, (program = build(this.gl, effect, switches, vertex)));
     return program;
   }
 }
@@ -87,20 +124,20 @@ function source(file: string, includes: Set<string>): string {
   if (includes.has(file)) return "";
   includes.add(file);
   const text = FILES[file];
-  if (text === undefined) throw new Error(`no shader file ${file}`);
+  if (text === undefined) return `#error no shader file ${file}`; // it has no effect behind a switch that is not set
   return text.replace(/^#include "([\w.]+)"$/gm, (_, name: string) => source(name, includes));
 }
 
 /** Compile and link a program. */
-function build(gl: WebGL2RenderingContext, effect: string, switches: Switches): WebGLProgram {
+function build(gl: WebGL2RenderingContext, effect: string, switches: Switches, vertex: string): WebGLProgram {
   const defines = Object.entries(switches).map(([name, value]) => `#define ${name} ${value}\n`);
   const program = gl.createProgram();
-  for (const [kind, end] of [
-    [gl.VERTEX_SHADER, "vert"],
-    [gl.FRAGMENT_SHADER, "frag"],
+  for (const [kind, file] of [
+    [gl.VERTEX_SHADER, `${vertex}.vert.glsl`],
+    [gl.FRAGMENT_SHADER, `${effect}.frag.glsl`],
   ] as const) {
     const shader = gl.createShader(kind)!;
-    gl.shaderSource(shader, SHADER_HEADER + defines.join("") + source(`${effect}.${end}.glsl`, new Set()));
+    gl.shaderSource(shader, SHADER_HEADER + defines.join("") + source(file, new Set()));
     gl.compileShader(shader);
     gl.attachShader(program, shader);
   }
