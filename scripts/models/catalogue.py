@@ -7,7 +7,7 @@ from collections.abc import Callable
 from uwsim.assets.mesh import Mesh
 
 from .parts import Part
-from .scenery import chain, rocks, seabed, wreck
+from .scenery import chain, nets, pier, pipes, rocks, seabed, wreck
 from .stand_ins import (
     amphora,
     arm5e,
@@ -102,6 +102,9 @@ SCENERY: dict[str, dict[str, Callable[[], tuple[Part, ...]]]] = {
         "objects/rock5": rocks.rock5,
     },
     "objects/chain": {"objects/chain": chain.chain},
+    "objects/nets": {"objects/net": nets.net, "objects/cage_panel": nets.cage_panel},
+    "objects/pier": {"objects/pier": pier.pier},
+    "objects/pipes": {"objects/pipe_flanged": pipes.pipe, "objects/pipe_elbow": pipes.elbow},
     "objects/wreck": {"objects/wreck": wreck.wreck},
     "terrain/seabed": {
         "terrain/seabed/sand": seabed.sand,

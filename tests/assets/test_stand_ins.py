@@ -27,7 +27,8 @@ BOXES = {
 }
 """x, y, z, smallest then largest [m]."""
 
-OPEN = ("terrain/", "objects/blackbox", "objects/wreck", "objects/chain")
+NETS = ("objects/net", "objects/cage_panel", "objects/pipe_flanged", "objects/pipe_elbow")
+OPEN = ("terrain/", "objects/blackbox", "objects/pier", "objects/wreck", "objects/chain", *NETS)
 """Models made of faces that are not closed part by part."""
 
 

@@ -10,7 +10,7 @@ from ..parts import Part
 from ..shapes import Shape, rotation_to, tube
 from .steel import Coat, weathered_steel
 
-SPAN, DROP, BAR = 8.0, 3.0, 0.03
+SPAN, DROP, BAR = 8.0, 3.0, 0.04
 """The span and drop of the chain from a mooring to the bottom, and the thickness of a bar [m]."""
 INNER_LENGTH, WIDTH = 4.0, 3.4
 """The pitch and the width of a link, in thicknesses of its bar, as of stud-less chain."""

@@ -22,7 +22,7 @@ from ..surfaces import Material
 from .rocks import GRANITE, paint_rock, rock_radius
 from .seabed_tiles import TILE, seabed_material, tile_corners, tile_frame
 
-N_TILES, CUTS = 40, 2
+N_TILES, CUTS = 40, 1
 """The numbers of tiles along a side, and of squares along a tile."""
 REACH = 0.5 * N_TILES * TILE
 """The reach of a floor from its middle [m]."""

@@ -88,7 +88,12 @@ STAND_INS: dict[str, StandIn] = {
 """The replacements of UWSim's models in alphabetical order, one line each."""
 
 SCENERY: dict[str, StandIn] = {
+    "objects/cage_panel": _scenery("objects/nets"),
     "objects/chain": _scenery("objects/chain"),
+    "objects/net": _scenery("objects/nets"),
+    "objects/pier": _scenery("objects/pier"),
+    "objects/pipe_elbow": _scenery("objects/pipes"),
+    "objects/pipe_flanged": _scenery("objects/pipes"),
     "objects/rock1": _scenery("objects/rocks"),
     "objects/rock2": _scenery("objects/rocks"),
     "objects/rock3": _scenery("objects/rocks"),
