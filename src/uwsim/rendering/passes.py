@@ -21,6 +21,7 @@ from .materials.maps import Switches, find_switches, find_used_maps
 from .materials.reflectance import create_table
 from .physical.optics_block import OPTICS
 from .program import build
+from .surface.surface_block import SURFACE
 from .targets import Targets
 
 SAMPLERS = {
@@ -75,6 +76,7 @@ class Passes:
         target: Targets,
         batches_in_view: Sequence[DrawnBatch],
         switches: Switches,
+        draw_surface: Callable[[], None] | None = None,
     ) -> None:
         """Draw opaque batches in the given order, then the background, then transparent batches.
 
@@ -82,6 +84,7 @@ class Passes:
             target: the framebuffer.
             batches_in_view: the batches in view, near ones first.
             switches: the switches of the shaders for all batches.
+            draw_surface: draws the water's surface before transparent batches; None: it is absent.
         """
         context = self._context
         batches = self._instances.numbered_batches
@@ -98,6 +101,9 @@ class Passes:
         if program.glo not in self._empty_arrays:
             self._empty_arrays[program.glo] = context.vertex_array(program, [])
         self._empty_arrays[program.glo].render(moderngl.TRIANGLES, vertices=3)
+        if draw_surface is not None:
+            draw_surface()
+            context.enable_only(moderngl.DEPTH_TEST)
         transparent_batches = [
             (batch, opacity)
             for batch, opacity in zip(batches_in_view, opacities, strict=True)
@@ -248,7 +254,7 @@ class Passes:
                 self._context,
                 effect,
                 defines=defines | dict(switches),
-                blocks=(FRAME, INSTANCE, LAMPS, PROJECTOR, OPTICS, CAUSTICS),
+                blocks=(FRAME, INSTANCE, LAMPS, PROJECTOR, OPTICS, CAUSTICS, SURFACE),
                 samplers=SAMPLERS,
             )
         return self._programs[key]

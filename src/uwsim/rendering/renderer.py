@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 import numpy.typing as npt
@@ -35,6 +36,7 @@ from .physical.moving_surface import MovingSurface
 from .physical.particle_pass import VisibleParticles
 from .projection import Projection, projection
 from .rendered_image import RenderedImage
+from .surface.surface_pass import SurfacePass
 from .targets import COLOUR_FORMATS, RADIANCE, TARGETS, Targets
 from .water import Light, Water, find_sun_direction
 
@@ -85,6 +87,12 @@ class View:
         """True if the image has colours through physical water."""
         return self.water.physical_water is not None and "colour" in self.targets
 
+    @property
+    def has_surface(self) -> bool:
+        """True if the water's surface is drawn."""
+        water = self.water.physical_water
+        return water is not None and self.is_physical and water.has_surface
+
 
 class Renderer:
     """A renderer of instances of models from any camera pose.
@@ -114,6 +122,7 @@ class Renderer:
         self._projector: ProjectorLight | None = None
         self._development: Development | None = None
         self._caustics: CausticLight | None = None
+        self._surface_pass: SurfacePass | None = None
         self._images: dict[View, RenderedImage | None] = {}  # of recent views, the newest last
 
     def add(self, model: Model, id: int) -> int:
@@ -248,18 +257,34 @@ class Renderer:
             lamps=view.lamps,
             light_rate=view.light.rate,
         )
+        if physical_water.has_surface:
+            if self._surface_pass is None:
+                self._surface_pass = SurfacePass(self._context)
+            self._surface_pass.prepare(
+                physical_water,
+                view.surface,
+                view.water.surface_height,
+                world_from_camera,
+                lens,
+                view.light.rate,
+            )
         focusing_switches = self._update_caustics(view, world_from_camera)
         surface_view = replace(view, colour_format=RADIANCE, switches=focusing_switches)
         self._issue_draw_calls(surface_view, world_from_camera)
         surfaces = self._find_targets(surface_view)
         if view.lamps:
             self._passes.draw_lamp_points(surfaces, len(view.lamps))
+        radiance = surfaces.radiance
+        surface_pass = self._surface_pass if physical_water.has_surface else None
+        if surface_pass is not None and not surface_pass.is_direct:
+            self._development.use_textures()
+            radiance = surface_pass.draw(lens, radiance)
         target = self._find_targets(replace(view, targets=frozenset({"colour"})))
         self._development.develop(
             physical_water,
             lens,
             len(view.lamps),
-            surfaces.radiance,
+            radiance,
             target.framebuffer,
             view.particles,
         )
@@ -322,8 +347,17 @@ class Renderer:
             if region is not None:
                 self._passes.draw_over_backdrop(target, front, back, region, switches)
                 return backdrop.colours
-        self._passes.draw(target, batches, switches)
+        surface_drawer = partial(self._draw_surface, target) if view.has_surface else None
+        self._passes.draw(target, batches, switches, surface_drawer)
         return None
+
+    def _draw_surface(self, target: Targets) -> None:
+        """Draw the water's surface among bodies if the whole camera is under water."""
+        assert self._development is not None
+        assert self._surface_pass is not None
+        if self._surface_pass.is_direct:
+            self._development.use_textures()
+            self._surface_pass.draw_among(target)
 
     def _find_shaded_region(
         self, view: View, backdrop: Backdrop, casters: Indices

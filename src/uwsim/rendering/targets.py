@@ -69,6 +69,22 @@ class Targets:
         assert isinstance(texture, moderngl.Texture)
         return texture
 
+    def write_colour_only(self) -> None:
+        """Bind the framebuffer, and write no range and ids until `write_all`."""
+        self.framebuffer.use()
+        self._set_masks(["colour"])
+
+    def write_all(self) -> None:
+        """Write all targets again."""
+        self._set_masks(list(self.attachments))
+
+    def _set_masks(self, names: list[str]) -> None:
+        masks = [(name in names,) * 4 for name in self.attachments]
+        if len(masks) == 1:
+            self.framebuffer.color_mask = masks[0]
+        else:
+            self.framebuffer.color_mask = masks  # type: ignore[assignment]  # one for each target
+
     def read_image(
         self, intrinsics: Intrinsics, background: Colours | None = None
     ) -> RenderedImage:

@@ -115,6 +115,8 @@ class Water:
     def switches(self) -> tuple[tuple[str, int], ...]:
         """The preprocessor switches of the shaders for this water, with their values."""
         if self.physical_water is not None:
+            if self.physical_water.has_surface:
+                return (("PHYSICAL", 1), ("SKY", 1))
             return (("PHYSICAL", 1), ("AIR", 1)) if self.has_air else (("PHYSICAL", 1),)
         is_set = {
             "NO_FOG": self.fog == 0.0,

@@ -62,6 +62,14 @@ class RipplesSpec(Spec):
 
 
 @dataclass(frozen=True, kw_only=True)
+class SkySpec(Spec):
+    """A ``<u:sky>``: the air above the water."""
+
+    visibility: float = element(namespaced=True, default=30e3, minimum=10.0, maximum=1e6)
+    """The distance at which 2 % of the contrast to the horizon are left [m]."""
+
+
+@dataclass(frozen=True, kw_only=True)
 class PhaseFunctionSpec(Spec, ABC):
     """The spec of a phase function."""
 
@@ -156,6 +164,11 @@ class PhysicalWaterSpec(Spec):
     water."""
     sun: SunSpec = element(namespaced=True, default=SunSpec())
     """The light above the surface."""
+    sky: SkySpec = element(namespaced=True, default=SkySpec())
+    """The air above the water."""
+    surface: bool = element(namespaced=True, default=True)
+    """True if images show the water's surface, and the sky and the air above it; without it the
+    water fills them."""
     exposure: float | None = element(
         namespaced=True, default=None, exclusive_minimum=0.0, maximum=1e9
     )

@@ -69,6 +69,18 @@ class Waves:
         self.record["surface"], self.record["depth"] = surface_height, depth
         self.record["scale"] = address_of(scale)
 
+    @property
+    def components(self) -> tuple[Array, Array, Array, Array, Array]:
+        """The components in W before the factor on amplitudes, each (n,).
+
+        They are the amplitude [m], the angular frequency [rad/s], the phase at the origin at time 0
+        [rad], and the wave numbers along x and y [rad/m].
+        """
+        columns = self._columns
+        rows = k.AMPLITUDE, k.OMEGA, k.PHASE, k.KX, k.KY
+        amplitude, omega, phase, kx, ky = (columns[row].copy() for row in rows)
+        return amplitude, omega, phase, kx, ky
+
     def motion(self, points: Array, time: float) -> WaterUnderWaves:
         """Compute the surface and the motion of the water at some points.
 

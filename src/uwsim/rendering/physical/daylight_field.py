@@ -195,6 +195,8 @@ def compute_open_water(water: PhysicalWater, depth: float, directions: Array, ra
     diffuse_part = (upper * diffuse + (1.0 - upper) * upward) * _integrate(
         attenuation - field.diffuse_attenuation * up, length
     )
+    if water.has_surface:
+        return rate * (scattering * (beam_part + diffuse_part))
     surface = _compute_surface_radiance(water.daylight, field, up)
     surface = np.where(up > 0.0, surface * exp(-np.minimum(attenuation * length, 700.0)), 0.0)
     radiance: Array = rate * (scattering * (beam_part + diffuse_part) + surface)

@@ -124,6 +124,11 @@ class Development:
             self._table_key = key
         self._map.update(water, world_from_camera, intrinsics, surface_height, light_rate)
 
+    def use_textures(self) -> None:
+        """Bind the textures of the open water and of the weights."""
+        self._map.texture.use(MAP_UNIT)
+        self._table.use(TABLE_UNIT)
+
     def develop(
         self,
         water: PhysicalWater,
@@ -147,8 +152,7 @@ class Development:
         n_veils = n_lamps if water.has_lamp_veil else 0
         self._context.enable_only(moderngl.NOTHING)
         surfaces.use(SURFACE_UNIT)
-        self._map.texture.use(MAP_UNIT)
-        self._table.use(TABLE_UNIT)
+        self.use_textures()
         switches: Switches = (("BLUR", 1),) if plan.n_levels else ()
         if plan.n_levels > 0 or n_veils > 0:
             size = intrinsics.width, intrinsics.height

@@ -85,11 +85,16 @@ class PhysicalWater:
     has_lamp_veil: bool = True
     """True if the water scatters the light of lamps into the camera."""
     ripples: Ripples | None = None
-    """The ripples of a moving surface, for caustics; None: none are drawn, nor caustics."""
+    """The ripples of a moving surface; None: it has none, and there are no caustics."""
     has_caustics: bool = True
     """True if a moving surface focuses the sun's light on surfaces."""
     has_light_shafts: bool = True
     """True if a moving surface focuses the sun's light that the water scatters."""
+    has_surface: bool = False
+    """True if images show the water's surface, the sky and the air above; else the water fills
+    them, and a level surface is part of the open water."""
+    visibility: float = 30e3
+    """The distance in air at which 2 % of the contrast to the horizon are left [m]."""
     isotropic_radiance: Triple | None = None
     """The radiance of a light field that is equal in all directions and at all depths, instead of
     daylight; for tests of energy conservation."""

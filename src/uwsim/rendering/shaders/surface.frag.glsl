@@ -13,6 +13,10 @@
 #ifdef PHYSICAL
 #include "optics.glsl"
 #include "daylight.glsl"
+#ifdef SKY
+#include "surface_block.glsl"
+#include "skylight.glsl"
+#endif
 #else
 #include "sun.glsl"
 #include "water.glsl"
@@ -92,6 +96,9 @@ void main() {
     vec3 dry = colour * daylight(facing, upward, lit, v_terms.z);
 #else
     vec3 dry = sunlit(colour, facing, mirrored, lit);
+#endif
+#ifdef SKY
+    if (v_terms.z < 0.0) dry = colour * skylight(normal, lit);
 #endif
 #ifdef LAMPS
     dry += lamplight(colour, normal);

@@ -42,6 +42,8 @@ def make_water(model: SceneModel) -> Water:
         ripples=_make_ripples(model),
         has_caustics=spec.caustics,
         has_light_shafts=spec.light_shafts,
+        has_surface=spec.surface,
+        visibility=spec.sky.visibility,
     )
     return set_exposure(replace(water, physical_water=physical_water), model, ())
 
