@@ -11,6 +11,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
+import moderngl
 import numpy as np
 import numpy.typing as npt
 
@@ -19,6 +20,7 @@ from ..base.geometry import Array, Intrinsics, Pose
 from ..devices.lamp import MAX_LAMPS
 from .backdrop import Backdrop, Colours
 from .caustics.caustic_light import CausticLight
+from .caustics.light_shafts import LightShafts
 from .context import create_context
 from .frame import Frame
 from .gpu_model import GpuModels
@@ -123,6 +125,7 @@ class Renderer:
         self._development: Development | None = None
         self._caustics: CausticLight | None = None
         self._surface_pass: SurfacePass | None = None
+        self._shafts: LightShafts | None = None
         self._images: dict[View, RenderedImage | None] = {}  # of recent views, the newest last
 
     def add(self, model: Model, id: int) -> int:
@@ -287,6 +290,7 @@ class Renderer:
             radiance,
             target.framebuffer,
             view.particles,
+            self._draw_shafts(view, radiance),
         )
         colour = target.read_image(lens).colour
         return replace(surfaces.read_image(lens), colour=colour, image_model="physical")
@@ -419,6 +423,19 @@ class Renderer:
         )
         self._caustics.use(SAMPLERS["caustic_maps"], SAMPLERS["swell_map"])
         return switches if water.has_caustics else ()
+
+    def _draw_shafts(self, view: View, surfaces: moderngl.Texture) -> moderngl.Texture | None:
+        """Draw light shafts, with the caustics of this image; return None if there are none."""
+        water, surface = view.water.physical_water, view.surface
+        if water is None or surface is None or self._caustics is None:
+            return None
+        if not (water.has_focused_light and water.has_light_shafts):
+            return None
+        if self._shafts is None:
+            samplers = {name: SAMPLERS[name] for name in ("caustic_maps", "swell_map")}
+            self._shafts = LightShafts(self._context, samplers)
+        self._caustics.use(SAMPLERS["caustic_maps"], SAMPLERS["swell_map"])
+        return self._shafts.draw(view.intrinsics, surfaces, has_swell=surface.waves is not None)
 
     def _update_lamps(
         self,

@@ -9,12 +9,13 @@ import moderngl
 import numpy as np
 
 from ...base.geometry import Array, Pose
+from ...base.numerics.jit import njit
 from ...optics import Medium
-from ..physical.daylight_field import compute_light_field
+from ..physical.daylight_field import compute_light_field, compute_scaled_attenuation
 from ..physical.moving_surface import MovingSurface
 from ..physical.physical_water import Daylight, PhysicalWater
 from ..program import Block
-from .caustic_map import N_SLICES, CausticMapper, make_optics
+from .caustic_map import N_SLICES, CausticMapper, FloatMaps, make_optics
 from .refraction import make_beam
 from .ripples import Ripples
 from .swell import N_POINTS, SPACING, compute_swell, find_short_waves
@@ -29,8 +30,11 @@ CAUSTICS = Block(
         "swell_frame": "vec4",
         "caustic_depths": "vec4",
         "caustic_loss": "vec4",
+        "shaft_numbers": "vec4",
     },
 )
+N_LAYERS = 2
+"""The layers of the texture: the first four maps, and the last four of all six."""
 PATTERN_FREQUENCY = 10.0
 """The frequency of the pattern in the blur by scattering [cycles/rad]: 0.5 m in 5 m."""
 MAX_DEPTH, LEAST_MAX_DEPTH = 20.0, 3.0
@@ -38,9 +42,15 @@ MAX_DEPTH, LEAST_MAX_DEPTH = 20.0, 3.0
 LOST_CONTRAST = 3.0
 """The exponent of the loss of contrast in the deepest map, in the clearest channel."""
 
+SHAFT_OPTICAL_DEPTH, MAX_SHAFT = 4.0, 40.0
+"""The limits of the way along which shafts are added up: attenuation times way, and way [m]."""
 
+
+@lru_cache(maxsize=16)
 def find_contrast_loss(medium: Medium, sun_cosine: float) -> Array:
     r"""Return the rate at which the contrast of caustics falls with depth, (3,) [1/m].
+
+    The array is shared, do not change it.
 
     The beam of `physical.daylight_field` contains the share :math:`g^2` of scattered light that
     counts as unscattered. A pattern of the frequency :math:`\psi` keeps the share :math:`Q(\psi)`
@@ -64,8 +74,9 @@ class CausticLight:
         self._context = context
         self._values = np.zeros((), dtype=CAUSTICS.dtype)
         self._buffer = context.buffer(reserve=CAUSTICS.dtype.itemsize, dynamic=True)
-        self._maps = context.texture_array((N_NODES, N_NODES, N_SLICES), 1, dtype="f4")
-        self._maps.filter = (moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR)
+        self._maps = context.texture_array((N_NODES, N_NODES, N_LAYERS), 4, dtype="f4")
+        self._maps.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
+        self._pixels = np.zeros((N_LAYERS, N_NODES, N_NODES, 4), np.float32)
         self._swell = context.texture((N_POINTS, N_POINTS), 4, dtype="f4")
         self._swell.filter = (moderngl.LINEAR, moderngl.LINEAR)
         self._swell.repeat_x = self._swell.repeat_y = False
@@ -92,7 +103,8 @@ class CausticLight:
         if key != self._maps_key:
             self._maps_key = key
             maps = mapper.compute(_find_tile_waves(ripples, surface), surface.time)
-            self._maps.write(maps)
+            pack_maps(maps, self._pixels)
+            self._maps.write(self._pixels)
             self._maps.build_mipmaps()
         switches: tuple[tuple[str, int], ...] = (("CAUSTICS", 1), ("N_SLICES", N_SLICES))
         if surface.waves is not None:
@@ -154,8 +166,23 @@ class CausticLight:
         field = compute_light_field(water.medium, water.daylight)
         loss = find_contrast_loss(water.medium, float(field.towards_sun[2]))
         values["caustic_loss"][:3] = loss
+        g = water.medium.phase_function.mean_cosine
+        attenuation = float(compute_scaled_attenuation(water.medium).min())
+        longest_way = min(SHAFT_OPTICAL_DEPTH / max(attenuation, 1e-6), MAX_SHAFT)
+        values["shaft_numbers"] = g / (1.0 + g), 1.0 - g * g, longest_way, N_NODES
         self._buffer.write(values.tobytes())
         self._buffer.bind_to_uniform_block(CAUSTICS.binding)
+
+
+@njit
+def pack_maps(maps: FloatMaps, pixels: FloatMaps) -> None:
+    """Copy six maps into the channels of the two layers, which have two maps in common."""
+    _, n_rows, n_columns = maps.shape
+    for row in range(n_rows):
+        for column in range(n_columns):
+            for channel in range(4):
+                pixels[0, row, column, channel] = maps[channel, row, column]
+                pixels[1, row, column, channel] = maps[channel + 2, row, column]
 
 
 @lru_cache(maxsize=4)

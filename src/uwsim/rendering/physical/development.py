@@ -16,6 +16,7 @@ import numpy as np
 
 from ...base.geometry import Intrinsics, Pose
 from ...optics import Medium
+from ..caustics.light_shafts import RATIO as SHAFT_RATIO
 from ..lights.lamp import Lamp
 from ..lights.lamps import LAMPS
 from ..program import build
@@ -32,6 +33,8 @@ SURFACE_UNIT, MAP_UNIT, TABLE_UNIT, FIRST_LEVEL_UNIT = 0, 5, 6, 7
 LAMP_MAP_UNIT, PARTICLE_UNIT, CLOUD_UNIT = 2, 13, 14
 """The texture units of the lamps' shadow maps, as in the surface pass, of the particles, and of the
 first of three textures of clouds."""
+SHAFT_UNIT = 3
+"""The texture unit of light shafts, which the surface pass uses for a projector."""
 SAMPLERS = {
     "surface_image": SURFACE_UNIT,
     "open_water_map": MAP_UNIT,
@@ -42,6 +45,7 @@ SAMPLERS = {
     "cloud_layers_map": CLOUD_UNIT,
     "cloud_lamplight_map": CLOUD_UNIT + 1,
     "cloud_daylight_map": CLOUD_UNIT + 2,
+    "shaft_image": SHAFT_UNIT,
 }
 """The texture unit of every sampler of these passes."""
 SCREEN = "screen"
@@ -137,6 +141,7 @@ class Development:
         surfaces: moderngl.Texture,
         target: moderngl.Framebuffer,
         particles: VisibleParticles | None = None,
+        shafts: moderngl.Texture | None = None,
     ) -> None:
         """Draw the image of a camera from the image of surfaces.
 
@@ -147,6 +152,7 @@ class Development:
             surfaces: the radiance and the range of surfaces, four floats.
             target: the framebuffer of the colours.
             particles: the particles in view; None: none are drawn.
+            shafts: the radiance of light shafts; None: there are none.
         """
         plan = plan_blur(intrinsics, has_blur=water.has_blur)
         n_veils = n_lamps if water.has_lamp_veil else 0
@@ -168,6 +174,9 @@ class Development:
                 for unit, texture in enumerate(textures, start=CLOUD_UNIT):
                     texture.use(unit)
                 switches += (("CLOUDS", 1),)
+        if shafts is not None:
+            shafts.use(SHAFT_UNIT)
+            switches += (("SHAFTS", SHAFT_RATIO),)
         if water.transfer == "linear":
             switches += (("LINEAR", 1),)
         self._draw("developed", switches, target)

@@ -1,6 +1,6 @@
 // Provides: the stored colours of an image through physical water: direct light, blur, veil, exposure, curve.
 // Needs: optics.glsl, transmission.glsl, open_water.glsl, grey.glsl; the image of the surfaces; with SCATTERED, the sum of the
-// levels; with PARTICLES, the image of the particles; the switches BLUR, and LINEAR for no curve.
+// levels; with PARTICLES, the image of the particles; with SHAFTS, the edge of a texel [px], that of the shafts; the switches BLUR, and LINEAR for no curve.
 // B + D (J - B) + blur + veil: physical/development.py; the curve: physical/transfer_curve.py.
 #include "optics.glsl"
 #include "transmission.glsl"
@@ -12,6 +12,9 @@ uniform sampler2D level_0;
 #endif
 #ifdef PARTICLES
 uniform sampler2D particle_image;
+#endif
+#ifdef SHAFTS
+uniform sampler2D shaft_image;
 #endif
 #ifdef CLOUDS
 #include "clouds.glsl"
@@ -40,6 +43,9 @@ void main() {
     vec4 texel = texelFetch(surface_image, pixel, 0);
     vec3 water = open_water(gl_FragCoord.xy, vec2(size));
     vec3 light = water;
+#ifdef SHAFTS
+    light += textureLod(shaft_image, gl_FragCoord.xy / (float(SHAFTS) * vec2(textureSize(shaft_image, 0))), 0.0).rgb;
+#endif
     float is_surface = texel.a < 0.5 * FAR ? 1.0 : 0.0;
     float range = texel.a * is_surface;
     vec3 excess = (texel.rgb - water) * is_surface;

@@ -1,0 +1,93 @@
+r"""Light shafts: the sun's beam that waves focus, scattered once by the water into the camera.
+
+The radiance of open water (`physical.daylight_field`) has a part by the sun's beam below a level
+surface. A moving surface multiplies the beam by the gain :math:`G` (`caustic_map`). The difference
+along a ray to the surface in the range :math:`R` is
+
+.. math::
+    \Delta B = \frac{\pi}{\mu_w}\, \min(b\, p(\Theta), 3\, b^* p^*(\Theta)) \int_0^R
+        E_b(z)\, m(z)\, (G(x, z) - 1)\, e^{-c^* t}\, dt
+
+with :math:`m` the contrast that scattering leaves (`caustic_light.find_contrast_loss`). The mean of
+:math:`G` is 1, so the mean of open water stays, whatever the phase function is. Its forward peak
+has at most three times the light of open water's own beam, whose aureole is not modelled; so the
+sum is hardly ever negative. The integral has 10 steps, whose lengths grow along the ray, in an
+image of a sixth of the resolution. Each step reads the mean of the map over its length from the
+maps' mipmaps, so that shafts that the ray crosses are averaged.
+
+Not modelled: shadows of bodies in the shafts, and shafts that a camera in air sees.
+"""
+
+from __future__ import annotations
+
+import moderngl
+
+from ...base.geometry import Intrinsics
+from ..frame import FRAME
+from ..physical.optics_block import OPTICS
+from ..program import build
+from .caustic_light import CAUSTICS
+from .caustic_map import N_SLICES
+
+RATIO = 6
+"""The edge of a texel of the image of shafts [px]."""
+N_STEPS = 10
+"""The number of steps along a ray."""
+SURFACE_UNIT = 0
+"""The texture unit of the image of surfaces."""
+
+
+class LightShafts:
+    """The pass of light shafts of a renderer.
+
+    Args:
+        context: the context of the renderer.
+        samplers: the texture unit of the maps of caustics.
+    """
+
+    def __init__(self, context: moderngl.Context, samplers: dict[str, int]) -> None:
+        self._context = context
+        self._samplers = samplers | {"surface_image": SURFACE_UNIT}
+        self._buffers: dict[tuple[int, int], moderngl.Framebuffer] = {}
+        self._programs: dict[object, moderngl.VertexArray] = {}
+
+    def draw(
+        self, intrinsics: Intrinsics, surfaces: moderngl.Texture, *, has_swell: bool
+    ) -> moderngl.Texture:
+        """Draw the shafts; return their radiance, which may be negative.
+
+        The blocks of the image are filled, and the maps of caustics are bound.
+
+        Args:
+            intrinsics: the pinhole of the camera.
+            surfaces: the radiance and the range of surfaces, four floats.
+            has_swell: True if the surface has long waves.
+        """
+        size = -(-intrinsics.width // RATIO), -(-intrinsics.height // RATIO)
+        if size not in self._buffers:
+            texture = self._context.texture(size, 4, dtype="f4")
+            texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
+            texture.repeat_x = texture.repeat_y = False
+            self._buffers[size] = self._context.framebuffer([texture])
+        self._context.enable_only(moderngl.NOTHING)
+        surfaces.use(SURFACE_UNIT)
+        buffer = self._buffers[size]
+        buffer.use()
+        self._find_program(has_swell=has_swell).render(moderngl.TRIANGLES, vertices=3)
+        texture = buffer.color_attachments[0]
+        assert isinstance(texture, moderngl.Texture)
+        return texture
+
+    def _find_program(self, *, has_swell: bool) -> moderngl.VertexArray:
+        if has_swell not in self._programs:
+            defines = {"RATIO": RATIO, "N_STEPS": N_STEPS, "N_SLICES": N_SLICES, "MAP_LEVEL": 1}
+            program = build(
+                self._context,
+                "light_shafts",
+                defines=defines | ({"SWELL": 1} if has_swell else {}),
+                blocks=(FRAME, OPTICS, CAUSTICS),
+                samplers=self._samplers,
+                vertex="screen",
+            )
+            self._programs[has_swell] = self._context.vertex_array(program, [])
+        return self._programs[has_swell]
