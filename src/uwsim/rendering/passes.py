@@ -10,6 +10,7 @@ import moderngl
 
 from .batch_drawer import BatchDrawer
 from .caustics.caustic_light import CAUSTICS
+from .caustics.focused_light import SAMPLERS as FOCUSED_LIGHT_SAMPLERS
 from .frame import FRAME
 from .gpu_model import GpuModels
 from .instance import INSTANCE, Instances, Slots
@@ -34,8 +35,7 @@ SAMPLERS = {
     "finish_map": 12,
     "emission_map": 13,
     "reflectance_table": 14,
-    "caustic_maps": 9,
-    "swell_map": 10,
+    **FOCUSED_LIGHT_SAMPLERS,
 }
 """The texture unit of every sampler in the shaders."""
 

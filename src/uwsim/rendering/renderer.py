@@ -11,7 +11,6 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
-import moderngl
 import numpy as np
 import numpy.typing as npt
 
@@ -19,8 +18,7 @@ from ..assets.mesh import Model
 from ..base.geometry import Array, Intrinsics, Pose
 from ..devices.lamp import MAX_LAMPS
 from .backdrop import Backdrop, Colours
-from .caustics.caustic_light import CausticLight
-from .caustics.light_shafts import LightShafts
+from .caustics.focused_light import FocusedLight
 from .context import create_context
 from .frame import Frame
 from .gpu_model import GpuModels
@@ -123,9 +121,8 @@ class Renderer:
         self._lamps: Lamps | None = None
         self._projector: ProjectorLight | None = None
         self._development: Development | None = None
-        self._caustics: CausticLight | None = None
+        self._focused_light = FocusedLight(self._context)
         self._surface_pass: SurfacePass | None = None
-        self._shafts: LightShafts | None = None
         self._images: dict[View, RenderedImage | None] = {}  # of recent views, the newest last
 
     def add(self, model: Model, id: int) -> int:
@@ -271,7 +268,9 @@ class Renderer:
                 lens,
                 view.light.rate,
             )
-        focusing_switches = self._update_caustics(view, world_from_camera)
+        focusing_switches = self._focused_light.prepare(
+            physical_water, view.surface, world_from_camera, view.water.surface_height
+        )
         surface_view = replace(view, colour_format=RADIANCE, switches=focusing_switches)
         self._issue_draw_calls(surface_view, world_from_camera)
         surfaces = self._find_targets(surface_view)
@@ -290,7 +289,7 @@ class Renderer:
             radiance,
             target.framebuffer,
             view.particles,
-            self._draw_shafts(view, radiance),
+            self._focused_light.draw_shafts(physical_water, view.surface, lens, radiance),
         )
         colour = target.read_image(lens).colour
         return replace(surfaces.read_image(lens), colour=colour, image_model="physical")
@@ -410,32 +409,6 @@ class Renderer:
         if is_needed.any():
             self._shadow.update(instances, casters[is_needed], sun)
         return casters[is_needed], may_cast[:, is_needed]
-
-    def _update_caustics(self, view: View, world_from_camera: Pose) -> Switches:
-        """Update the focused sunlight; return the switches of the shaders of surfaces."""
-        water, surface = view.water.physical_water, view.surface
-        if water is None or surface is None or not water.has_focused_light:
-            return ()
-        if self._caustics is None:
-            self._caustics = CausticLight(self._context)
-        switches = self._caustics.prepare(
-            water, surface, world_from_camera, view.water.surface_height
-        )
-        self._caustics.use(SAMPLERS["caustic_maps"], SAMPLERS["swell_map"])
-        return switches if water.has_caustics else ()
-
-    def _draw_shafts(self, view: View, surfaces: moderngl.Texture) -> moderngl.Texture | None:
-        """Draw light shafts, with the caustics of this image; return None if there are none."""
-        water, surface = view.water.physical_water, view.surface
-        if water is None or surface is None or self._caustics is None:
-            return None
-        if not (water.has_focused_light and water.has_light_shafts):
-            return None
-        if self._shafts is None:
-            samplers = {name: SAMPLERS[name] for name in ("caustic_maps", "swell_map")}
-            self._shafts = LightShafts(self._context, samplers)
-        self._caustics.use(SAMPLERS["caustic_maps"], SAMPLERS["swell_map"])
-        return self._shafts.draw(view.intrinsics, surfaces, has_swell=surface.waves is not None)
 
     def _update_lamps(
         self,

@@ -124,7 +124,7 @@ def test_light_shafts_keep_the_mean_of_open_water(renderer: Renderer, pitch: flo
     places = [np.array([2.0 * (i % 4), 2.0 * (i // 4), -6.0]) for i in range(16)]
     camera = Intrinsics.from_fovy(160, 120, 1.2)
     medium = find_water("jerlov-II")
-    water = physical_water(medium=medium, daylight=Daylight(elevation=1.2, azimuth=-1.5))
+    water = physical_water(medium=medium, daylight=Daylight(elevation=1.0, azimuth=1.5))
     level = draw(renderer, Pose(places[0], rotation), camera, water, None)
     images = [
         draw(renderer, Pose(place, rotation), camera, water, MovingSurface(time=3.0 * i))
