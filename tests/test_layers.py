@@ -17,7 +17,7 @@ PAGE = PACKAGE / "viewer" / "page" / "source"
 
 MAX_MODULES = 20
 
-GROUND = {"errors", "version", "base", "acoustics", "optics", "rays", "schema"}
+GROUND = {"errors", "version", "base", "acoustics", "optics", "cameras", "rays", "schema"}
 BASE = GROUND | {"network", "world", "vehicle", "messages", "bus"}
 PARTS = BASE | {
     "currents",
@@ -39,6 +39,7 @@ MAY_IMPORT: dict[str, set[str]] = {
     "version": {"version"},
     "base": {"errors", "base"},
     "optics": {"errors", "base", "optics"},
+    "cameras": {"errors", "base", "cameras"},
     "network": GROUND | {"network"},
     "messages": BASE,
     "bus": GROUND | {"bus"},

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Protocol
 
 import numpy as np
 
@@ -200,6 +201,16 @@ def is_in_image(u: float, v: float, width: int, height: int) -> bool:
     return -0.5 <= u <= width - 0.5 and -0.5 <= v <= height - 0.5
 
 
+class LensMap(Protocol):
+    """A lens: the map from ideal normalised coordinates, right and down, to those in the image."""
+
+    def distort(self, x: Array, y: Array) -> tuple[Array, Array]:
+        """Return the coordinates in the image of directions; NaN: not in the image."""
+
+    def undistort(self, x: Array, y: Array) -> tuple[Array, Array]:
+        """Return the directions of coordinates in the image; NaN: there is none."""
+
+
 @dataclass(frozen=True, kw_only=True)
 class Intrinsics:
     r"""A pinhole camera with OpenGL axes: x right, y up, looking along -z.
@@ -209,7 +220,7 @@ class Intrinsics:
 
     .. math:: u = c_x + (f_x X + k Y) / (-Z), \qquad v = c_y - f_y Y / (-Z)
 
-    Not modelled: lens distortion, refraction at the housing.
+    A lens maps :math:`X / (-Z)` and :math:`-Y / (-Z)` before.
     """
 
     width: int
@@ -230,6 +241,8 @@ class Intrinsics:
     """The planar depth of the near plane [m]."""
     far: float = 2000.0
     """The planar depth of the far plane [m]."""
+    lens: LensMap | None = None
+    """The lens, which distorts the image of the pinhole; None: it does not."""
 
     @staticmethod
     def from_fovy(
@@ -284,6 +297,9 @@ class Intrinsics:
     ) -> tuple[float, float]:
         """Return the image coordinates u, v [px] of one point, as `project` does for arrays."""
         depth = -z if z < 0.0 or (includes_behind and z != 0.0) else math.nan
+        if self.lens is not None:
+            right, down = self.lens.distort(np.array([x / depth]), np.array([-y / depth]))
+            x, y, depth = float(right[0]), -float(down[0]), 1.0
         return self.cx + (self.fx * x + self.skew * y) / depth, self.cy - self.fy * y / depth
 
     def rays(self) -> Array:
@@ -295,7 +311,11 @@ class Intrinsics:
         v = np.arange(self.height, dtype=np.float64)
         y = (self.cy - v) / self.fy
         x = (u[None, :] - self.cx - self.skew * y[:, None]) / self.fx
-        return np.stack([x, np.broadcast_to(y[:, None], x.shape), np.full(x.shape, -1.0)], axis=2)
+        y = np.broadcast_to(y[:, None], x.shape)
+        if self.lens is not None:
+            x, y = self.lens.undistort(x, -y)
+            y = -y
+        return np.stack([x, y, np.full(x.shape, -1.0)], axis=2)
 
     @cached_property
     def ray_lengths(self) -> Array:

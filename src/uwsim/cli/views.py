@@ -33,7 +33,7 @@ class RenderedView:
 
     title: str
     """The description for the user."""
-    pixels: npt.NDArray[np.uint8]
+    pixels: npt.NDArray[np.uint8] | npt.NDArray[np.uint16]
     """The pixels, (h, w, 3) or (h, w)."""
     render_clean: Callable[[], RenderedImage]
     """A function that draws the image without noise, with depth and segmentation IDs."""

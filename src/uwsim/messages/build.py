@@ -13,6 +13,8 @@ from .geometry_msgs import Quaternion, Transform, TransformStamped, Vector3
 from .sensor_msgs import Image
 from .std_msgs import Float32MultiArray, Header, MultiArrayLayout, Time
 
+WIDE_ENCODINGS = ("rgb16", "mono16")
+"""The encodings of images whose numbers have 16 bit."""
 NANOSECONDS = 1_000_000_000
 """The number of nanoseconds in a second."""
 
@@ -33,18 +35,25 @@ def header(time: float, frame_id: str = "") -> Header:
     return Header(stamp=time_from_seconds(time), frame_id=frame_id)
 
 
-def image(pixels: npt.NDArray[np.uint8], *, time: float, frame_id: str = "") -> Image:
-    """Build an ``rgb8`` image from (h, w, 3) or ``mono8`` from (h, w); row 0 is the top."""
+def image(
+    pixels: npt.NDArray[np.uint8] | npt.NDArray[np.uint16], *, time: float, frame_id: str = ""
+) -> Image:
+    """Build an ``rgb8`` image from (h, w, 3) or ``mono8`` from (h, w); row 0 is the top.
+
+    Numbers of 16 bit give ``rgb16`` or ``mono16``.
+    """
     height, width = pixels.shape[:2]
     channels = 3 if pixels.ndim == 3 else 1
+    n_bits = 8 * pixels.itemsize
+    values = np.ascontiguousarray(pixels, dtype=f"<u{pixels.itemsize}")
     return Image(
         header=header(time, frame_id),
         height=height,
         width=width,
-        encoding="rgb8" if channels == 3 else "mono8",
+        encoding=f"rgb{n_bits}" if channels == 3 else f"mono{n_bits}",
         is_bigendian=0,
-        step=width * channels,
-        data=np.ascontiguousarray(pixels).reshape(-1),
+        step=width * channels * pixels.itemsize,
+        data=values.reshape(-1).view(np.uint8),
     )
 
 
@@ -73,10 +82,25 @@ def _one_channel(values: npt.NDArray[Any], encoding: str, dtype: str, head: Head
 
 
 def pixels_of(message: Image) -> npt.NDArray[np.uint8]:
-    """Return the pixels of an ``rgb8`` (h, w, 3) or ``mono8`` (h, w) image, without a copy."""
-    if message.encoding == "mono8":
-        return message.data.reshape(message.height, message.width)
-    return message.data.reshape(message.height, message.width, 3)
+    """Return the pixels of an ``rgb8`` (h, w, 3) or ``mono8`` (h, w) image, without a copy.
+
+    Of ``rgb16`` and ``mono16``, with the numbers 0 to 4095 of a camera of 12 bit, they are copied
+    and have the upper 8 of these 12 bits.
+    """
+    values = message.data
+    if message.encoding in WIDE_ENCODINGS:
+        values = (numbers_of(message).reshape(-1) >> 4).astype(np.uint8)
+    if message.encoding in ("mono8", "mono16"):
+        return values.reshape(message.height, message.width)
+    return values.reshape(message.height, message.width, 3)
+
+
+def numbers_of(message: Image) -> npt.NDArray[np.uint16]:
+    """Return the numbers of an ``rgb16`` (h, w, 3) or ``mono16`` (h, w) image, without a copy."""
+    numbers = message.data.view("<u2")
+    if message.encoding == "mono16":
+        return numbers.reshape(message.height, message.width)
+    return numbers.reshape(message.height, message.width, 3)
 
 
 def floats(values: Sequence[float] | npt.NDArray[np.float64]) -> Float32MultiArray:

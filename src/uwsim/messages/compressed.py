@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import cv2
 import numpy as np
+import numpy.typing as npt
 
 from .build import pixels_of
 from .sensor_msgs import CompressedImage, Image
@@ -24,9 +26,18 @@ def as_jpeg(image: Image) -> CompressedImage:
     return _compress(image, "jpeg", (cv2.IMWRITE_JPEG_QUALITY, JPEG_QUALITY))
 
 
+def encode_png(pixels: npt.NDArray[np.uint8] | npt.NDArray[np.uint16]) -> bytes:
+    """Return a PNG file of colours (h, w, 3) or of values (h, w), of 8 or 16 bit."""
+    return _encode(pixels, "png", ()).tobytes()
+
+
 def _compress(image: Image, name: str, options: Sequence[int]) -> CompressedImage:
-    pixels = pixels_of(image)
-    bgr_pixels = pixels if pixels.ndim == 2 else np.ascontiguousarray(pixels[..., ::-1])
-    _, file_bytes = cv2.imencode(f".{name}", bgr_pixels, options)
+    file_bytes = _encode(pixels_of(image), name, options)
     text = f"{image.encoding}; {name} compressed"
     return CompressedImage(header=image.header, format=text, data=file_bytes.reshape(-1))
+
+
+def _encode(pixels: npt.NDArray[Any], name: str, options: Sequence[int]) -> npt.NDArray[np.uint8]:
+    bgr_pixels = pixels if pixels.ndim == 2 else np.ascontiguousarray(pixels[..., ::-1])
+    _, file_bytes = cv2.imencode(f".{name}", bgr_pixels, options)
+    return np.asarray(file_bytes, dtype=np.uint8)

@@ -16,7 +16,7 @@ from ..base.geometry import Array
 from ..base.numerics.jit import njit
 from .instance import Indices, Instances
 
-Colours = npt.NDArray[np.uint8] | npt.NDArray[np.uint16]
+Colours = npt.NDArray[np.uint8] | npt.NDArray[np.uint16] | npt.NDArray[np.float32]
 """The red, green, blue and alpha values, (h, w, 4)."""
 
 

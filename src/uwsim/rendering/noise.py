@@ -4,40 +4,16 @@ For each image, one 64-bit key is drawn from the camera's random generator. Thre
 words of splitmix64(key + i) are the indices, in a table of quantiles of the normal distribution, of
 the noise of pixel i. So the noise of an image depends on its key alone.
 
-Not modelled: shot noise (all grey levels are equally noisy), fixed-pattern noise.
+All grey levels are equally noisy; a camera with a response has shot noise (`uwsim.cameras`).
 """
 
 from __future__ import annotations
-
-from functools import cache
-from statistics import NormalDist
 
 import numpy as np
 import numpy.typing as npt
 
 from ..base.numerics.jit import njit
-
-_GOLDEN_GAMMA = np.uint64(0x9E3779B97F4A7C15)
-_MIX_1 = np.uint64(0xBF58476D1CE4E5B9)
-_MIX_2 = np.uint64(0x94D049BB133111EB)
-
-
-@cache
-def gaussian_quantiles() -> npt.NDArray[np.float32]:
-    """Return 65536 equally likely values of N(0, 1), ascending, with a variance of exactly one."""
-    normal = NormalDist()
-    upper_half = np.array([normal.inv_cdf((i + 0.5) / 65536.0) for i in range(32768, 65536)])
-    values = np.concatenate([-upper_half[::-1], upper_half])
-    quantiles: npt.NDArray[np.float32] = (values / values.std()).astype(np.float32)
-    return quantiles
-
-
-def frame_key(rng: np.random.Generator) -> int:
-    """Draw the random key of one image.
-
-    It is drawn also for an image that nothing reads, so that later images have the same noise.
-    """
-    return int(rng.integers(2**63))
+from ..cameras.noise_words import GOLDEN_GAMMA, fill_words, frame_key, gaussian_quantiles
 
 
 def add_noise(
@@ -73,12 +49,8 @@ def _store(
     numbers, deviations = np.empty(width, np.uint64), np.empty(3 * width, np.float32)
     counter = key
     for row in range(height):
-        for column in range(width):
-            z = counter + np.uint64(column + 1) * _GOLDEN_GAMMA
-            z = (z ^ (z >> np.uint64(30))) * _MIX_1
-            z = (z ^ (z >> np.uint64(27))) * _MIX_2
-            numbers[column] = z ^ (z >> np.uint64(31))
-        counter += np.uint64(width) * _GOLDEN_GAMMA
+        fill_words(counter, numbers)
+        counter += np.uint64(width) * GOLDEN_GAMMA
         for column in range(width):
             z = numbers[column]
             deviations[3 * column] = quantiles[z & mask]

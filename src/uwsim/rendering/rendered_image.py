@@ -34,8 +34,9 @@ class RenderedImage:
 
     intrinsics: Intrinsics
     """The pinhole of the camera."""
-    colour: npt.NDArray[np.uint8] | npt.NDArray[np.uint16] | None = None
-    """The colours before noise: (h, w, 3) uint8, or (h, w, 4) uint16 for ``linear16``."""
+    colour: npt.NDArray[np.uint8] | npt.NDArray[np.uint16] | npt.NDArray[np.float32] | None = None
+    """The colours before noise: (h, w, 3) uint8; (h, w, 4) uint16 for ``linear16``; (h, w, 4)
+    float32 for ``light``."""
     range: npt.NDArray[np.float32] | None = None
     """The distance to the surface along the ray of each pixel, (h, w) [m]; inf: no surface."""
     ids: npt.NDArray[np.uint16] | None = None

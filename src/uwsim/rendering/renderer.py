@@ -37,7 +37,7 @@ from .physical.particle_pass import VisibleParticles
 from .projection import Projection, projection
 from .rendered_image import RenderedImage
 from .surface.surface_pass import SurfacePass
-from .targets import COLOUR_FORMATS, RADIANCE, TARGETS, Targets
+from .targets import COLOUR_FORMATS, LIGHT, RADIANCE, TARGETS, Targets
 from .water import Light, Water, find_sun_direction
 
 __all__ = ["RenderedImage", "Renderer"]
@@ -187,8 +187,8 @@ class Renderer:
             light: the light of the scene.
             targets: some of ``colour``, ``range``, ``ids``; nothing else is computed.
             hidden_ids: the ids of instances that are not drawn and cast no shadows.
-            colour: the format of colours: ``uint8``, or ``linear16`` if noise is added before
-                conversion to 8 bit.
+            colour: the format of colours: ``uint8``, ``linear16`` if noise is added before
+                conversion to 8 bit, or ``light`` in physical water, for a camera's response.
             lamps: the lamps, at most four.
             projector: the projector of a pattern, if there is one.
             surface: the moving surface of physical water, if there is one.
@@ -199,6 +199,8 @@ class Renderer:
             raise ValueError(
                 f"cannot draw {sorted(names)} as {colour!r}: {TARGETS}, {COLOUR_FORMATS}"
             )
+        if colour == LIGHT and water.physical_water is None:
+            raise ValueError("the fog law has colours, not light; expected physical water")
         if len(lamps) > MAX_LAMPS:
             raise ValueError(f"{len(lamps)} lamps are more than {MAX_LAMPS}")
         view = View(
@@ -290,6 +292,7 @@ class Renderer:
             target.framebuffer,
             view.particles,
             self._focused_light.draw_shafts(physical_water, view.surface, lens, radiance),
+            is_exposed=view.colour_format != LIGHT,
         )
         colour = target.read_image(lens).colour
         return replace(surfaces.read_image(lens), colour=colour, image_model="physical")

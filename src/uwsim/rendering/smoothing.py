@@ -10,6 +10,22 @@ from ..base.numerics.jit import njit
 Pixels = npt.NDArray[np.uint8] | npt.NDArray[np.uint16]
 
 
+def find_means(
+    pixels: Pixels | npt.NDArray[np.float32], edge: int
+) -> Pixels | npt.NDArray[np.float32]:
+    """Return the mean of each square of pixels, of numbers or of light."""
+    if pixels.dtype == np.uint8:
+        return mean_of_squares(pixels.view(np.uint8), edge)
+    if pixels.dtype == np.uint16:
+        return mean_of_squares(pixels.view(np.uint16), edge)
+    light = np.zeros_like(pixels[::edge, ::edge], dtype=np.float32)
+    for row in range(edge):
+        for column in range(edge):
+            light += pixels[row::edge, column::edge]
+    means: npt.NDArray[np.float32] = light * np.float32(1.0 / edge**2)
+    return means
+
+
 @njit
 def mean_of_squares(pixels: Pixels, edge: int) -> Pixels:
     """Return the mean colour of each square of pixels, rounded to nearest, halves up.

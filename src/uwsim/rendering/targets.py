@@ -16,13 +16,17 @@ from .rendered_image import RenderedImage
 TARGETS = ("colour", "range", "ids")
 """All targets, in the order of their attachments."""
 
-COLOUR_FORMATS = ("uint8", "linear16")
-"""The formats of colour: 8 bit, or 16 bit if noise is added before conversion to 8 bit."""
+LIGHT = "light"
+"""The format of light through physical water before the exposure: floats, 1 is the radiance of a
+white surface in the irradiance 1."""
+
+COLOUR_FORMATS = ("uint8", "linear16", LIGHT)
+"""The formats of colour: 8 bit, 16 bit if noise is added before conversion to 8 bit, or light."""
 
 RADIANCE = "radiance"
 """The format of surfaces without water: radiance and range as floats, which are not read back."""
 
-_COLOUR_TYPES = {"uint8": "f1", "linear16": "nu2", RADIANCE: "f4"}
+_COLOUR_TYPES = {"uint8": "f1", "linear16": "nu2", LIGHT: "f4", RADIANCE: "f4"}
 
 T = TypeVar("T", bound=np.generic)
 
@@ -61,6 +65,7 @@ class Targets:
         )
         """The framebuffer in which the image is drawn."""
         self._shape = size[1], size[0]
+        self._is_read = colour_format != RADIANCE
 
     @property
     def radiance(self) -> moderngl.Texture:
@@ -95,7 +100,7 @@ class Targets:
             background: the colours of pixels in which nothing was drawn.
         """
         colour: Colours | None = None
-        if "colour" in self.attachments and self._formats["colour"] != "f4":
+        if "colour" in self.attachments and self._is_read:
             colour = self.read_colours()
             if background is not None:
                 fill(colour, background)
@@ -112,6 +117,8 @@ class Targets:
         """Read the colours back, (h, w, 4); with alpha this is several times faster."""
         if self._formats["colour"] == "f1":
             return self._read("colour", np.empty((*self._shape, 4), np.uint8))
+        if self._formats["colour"] == "f4":
+            return self._read("colour", np.empty((*self._shape, 4), np.float32))
         return self._read("colour", np.empty((*self._shape, 4), np.uint16))
 
     def read_depths(self) -> npt.NDArray[np.float32]:

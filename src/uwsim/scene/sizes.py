@@ -58,6 +58,9 @@ def check_sizes(scene: SceneSpec, diagnostics: Diagnostics) -> None:
                 f"the far plane <f> is {planes.f:g} m and the near plane <n> {planes.n:g} m; "
                 "expected the far one beyond the near one",
             )
+        if isinstance(camera, VirtualCameraSpec) and camera.resw * camera.resh <= MAX_PIXELS:
+            for part, error in camera.find_errors():
+                diagnostics.error(part, error)
     for fan in _fans(scene):
         if abs(fan.final_angle - fan.init_angle) >= MAX_BEAMS * fan.angle_incr:
             diagnostics.error(

@@ -6,6 +6,8 @@ import numpy as np
 import numpy.typing as npt
 
 from ..base.geometry import Array, Intrinsics, Pose
+from ..cameras import Lens
+from ..cameras.distortion_fit import fit_distortion
 from ..messages import CameraInfo, RegionOfInterest, header
 from ..world import Rays
 
@@ -18,7 +20,10 @@ def camera_info(
     principal_point: tuple[float, float] | None = None,
     baseline: float = 0.0,
 ) -> CameraInfo:
-    """Build the CameraInfo of a pinhole camera without distortion.
+    """Build the CameraInfo of a pinhole camera, with the distortion of its lens if it has one.
+
+    Without a port the distortion is exact; behind one it is fitted
+    (`uwsim.cameras.distortion_fit`).
 
     Args:
         intrinsics: the pinhole model.
@@ -29,12 +34,13 @@ def camera_info(
     """
     fx, fy, skew = intrinsics.fx, intrinsics.fy, -intrinsics.skew  # ROS: y points down
     cx, cy = principal_point or (intrinsics.cx, intrinsics.cy)
+    model, coefficients = _find_distortion(intrinsics)
     return CameraInfo(
         header=header(time, frame_id),
         height=intrinsics.height,
         width=intrinsics.width,
-        distortion_model="",
-        d=np.zeros(4),
+        distortion_model=model,
+        d=coefficients,
         k=np.array([fx, skew, cx, 0.0, fy, cy, 0.0, 0.0, 1.0]),
         r=np.eye(3).reshape(-1),
         p=np.array([fx, skew, cx, -fx * baseline, 0.0, fy, cy, 0.0, 0.0, 0.0, 1.0, 0.0]),
@@ -48,6 +54,17 @@ def camera_info(
             do_rectify=False,
         ),
     )
+
+
+def _find_distortion(intrinsics: Intrinsics) -> tuple[str, Array]:
+    """Return the name of the model of distortion, and its coefficients."""
+    lens = intrinsics.lens
+    if lens is None:
+        return "", np.zeros(4)
+    if isinstance(lens, Lens) and lens.port is None:
+        return "plumb_bob", np.array(lens.distortion)
+    fit = fit_distortion(intrinsics)
+    return fit.model, np.array(fit.coefficients)
 
 
 def cast_depth(rays: Rays, world_from_camera: Pose, intrinsics: Intrinsics) -> Array:

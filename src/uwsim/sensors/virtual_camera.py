@@ -8,12 +8,16 @@
       <position> <x>-0.2</x> <y>-0.1</y> <z>0</z> </position>
       <orientation> <r>0</r> <p>M_PI</p> <y>M_PI_2</y> </orientation>
     </virtualCamera>
+
+With ``<u:response>`` images have the noise of electrons and motion blur; with ``<u:lens>`` they are
+distorted.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 from typing import ClassVar, Literal
 
 import numpy as np
@@ -21,9 +25,14 @@ import numpy.typing as npt
 
 from ..base.geometry import Array, Intrinsics, Pose
 from ..base.record import Record
+from ..cameras.exposure import Exposure, PlainExposure
+from ..cameras.lens_image import check_lens
+from ..cameras.noise_words import frame_key
+from ..errors import BadSetting
 from ..messages import CameraInfo, Image, image
 from ..schema import MAX_DISTANCE, Spec, element
-from ..world import Body, SensorWorld
+from ..world import Body, MovingBody, SensorWorld
+from .camera import LensSpec, ResponseSpec
 from .pinhole import camera_info
 from .sensor import OPTICAL_AXES, Carrier, LookAt, SensorSpec
 
@@ -121,20 +130,58 @@ class VirtualCameraSpec(SensorSpec):
     """The quality of the images; ``polished`` images have soft shadows in the hue of the water,
     highlights on wet surfaces and smooth edges, like views for people, and take three to four times
     the time."""
+    response: ResponseSpec | None = element(namespaced=True, default=None)
+    """The response of the camera, from light to numbers, instead of the noise ``std``."""
+    lens: LensSpec | None = element(namespaced=True, default=None)
+    """The distortion of the lens, and the port of its housing."""
 
     def intrinsics(self, compatibility: frozenset[str] = frozenset()) -> Intrinsics:
-        """Return the pinhole model; for ``y0`` see `CameraParametersSpec.intrinsics`."""
+        """Return the pinhole model; for ``y0`` see `CameraParametersSpec.intrinsics`.
+
+        Behind a port the focal lengths are those in the water.
+        """
         if self.parameters is not None:
-            return self.parameters.intrinsics(self.resw, self.resh, compatibility)
-        return Intrinsics.from_fovy(self.resw, self.resh, math.radians(self.fovy))
+            pinhole = self.parameters.intrinsics(self.resw, self.resh, compatibility)
+        else:
+            pinhole = Intrinsics.from_fovy(self.resw, self.resh, math.radians(self.fovy))
+        if self.lens is None:
+            return pinhole
+        lens = self.lens.lens
+        scale = lens.magnification
+        return replace(
+            pinhole,
+            fx=scale * pinhole.fx,
+            fy=scale * pinhole.fy,
+            skew=scale * pinhole.skew,
+            lens=lens,
+        )
+
+    def find_errors(self) -> Iterator[tuple[Spec, str]]:
+        """Yield the errors of the response and of the lens, each with its element."""
+        if self.response is not None:
+            for error in self.response.find_errors(self.resh):
+                yield self.response, error
+        if self.lens is None:
+            return
+        errors = list(self.lens.find_errors())
+        yield from ((self.lens, error) for error in errors)
+        if not errors:
+            try:
+                check_lens(self.intrinsics())
+            except BadSetting as error:
+                yield self.lens, str(error)
 
     def bind(self, world: SensorWorld, vehicle: Carrier) -> VirtualCamera:
         """Mount the sensor on its link; raise UnknownName if the vehicle has no such link.
 
         With the compatibility quirk ``visual-frames`` it is fixed to the link's visual frame.
         """
-        mount = vehicle.mount(self, visual="visual-frames" in world.compatibility)
-        return VirtualCamera(self, mount, world, world.stream(f"{vehicle.name}/{self.name}/noise"))
+        is_visual = "visual-frames" in world.compatibility
+        rng = world.stream(f"{vehicle.name}/{self.name}/noise")
+        if self.response is None:
+            return VirtualCamera(self, vehicle.mount(self, visual=is_visual), world, rng)
+        body = vehicle.moving_mount(self, visual=is_visual)
+        return VirtualCamera(self, body, world, rng, CameraMotion(body, vehicle.name))
 
 
 @dataclass(slots=True)
@@ -151,16 +198,33 @@ class CameraState(Record):
     """The generator of the noise."""
 
 
+@dataclass(frozen=True)
+class CameraMotion:
+    """The motion of a camera with a response."""
+
+    body: MovingBody
+    """The frame of the camera, whose motion blurs images."""
+    vehicle: str
+    """The name of the vehicle."""
+
+
 class VirtualCamera:
     """A colour camera on a vehicle: its pose, its images, its CameraInfo.
 
-    Not modelled: exposure, motion blur, rolling shutter, lens distortion, refraction.
+    Without ``<u:response>`` the exposure takes no time, and noise is Gaussian. Not modelled: depth
+    of field.
     """
 
     def __init__(
-        self, spec: VirtualCameraSpec, mount: Body, world: SensorWorld, rng: np.random.Generator
+        self,
+        spec: VirtualCameraSpec,
+        mount: Body,
+        world: SensorWorld,
+        rng: np.random.Generator,
+        motion: CameraMotion | None = None,
     ) -> None:
         self._mount, self._world = mount, world
+        self._response, self._motion = spec.response, motion
         self.state = CameraState(spec.std, None, rng)
         """The state: the noise, and the number of images."""
         self._baseline = spec.baseline
@@ -194,14 +258,41 @@ class VirtualCamera:
         """Replace the pinhole model; interfaces that publish images keep the old size."""
         self._intrinsics = intrinsics
 
-    def capture(self) -> npt.NDArray[np.uint8]:
+    @property
+    def pixel_type(self) -> type[np.uint8 | np.uint16]:
+        """The type of the numbers of its images."""
+        is_linear = self._response is not None and self._response.output == "linear12"
+        return np.uint16 if is_linear else np.uint8
+
+    def capture(self) -> npt.NDArray[np.uint8] | npt.NDArray[np.uint16]:
         """Take an image, (h, w, 3), or (h, w) if it is grey; row 0 is the top."""
+        if self._response is not None and self._motion is not None:
+            return self._world.render(self._make_exposure(self._response, self._motion))
         return self._world.render(
-            self.world_from_camera,
-            self._intrinsics,
-            std=self.state.std,
-            rng=self.state.rng,
-            grey=self.is_grey,
+            PlainExposure(
+                world_from_camera=self.world_from_camera,
+                intrinsics=self._intrinsics,
+                std=self.state.std,
+                rng=self.state.rng,
+                is_grey=self.is_grey,
+                is_polished=self.is_polished,
+            )
+        )
+
+    def _make_exposure(self, response: ResponseSpec, motion: CameraMotion) -> Exposure:
+        """Make the exposure that is due; it draws one number."""
+        body_motion = motion.body.motion()
+        return Exposure(
+            world_from_camera=self.world_from_camera,
+            intrinsics=self._intrinsics,
+            response=response.camera_response,
+            shutter=response.camera_shutter,
+            vignetting=response.falloff_coefficients,
+            velocity=body_motion.velocity,
+            angular_velocity=body_motion.angular_velocity,
+            vehicle=motion.vehicle,
+            key=frame_key(self.state.rng),
+            is_grey=self.is_grey,
             is_polished=self.is_polished,
         )
 
@@ -211,15 +302,15 @@ class VirtualCamera:
 
     def skip(self) -> None:
         """Draw the random numbers of an image without subscribers, without rendering it."""
-        if self.state.std > 0.0:
-            self.state.rng.integers(2**63)
+        if self.state.std > 0.0 or self._response is not None:
+            frame_key(self.state.rng)
 
     def depth(self, time: float) -> Array:
         """Return the distance along the optical axis of each pixel, (h, w) [m]; +inf: no hit."""
         return self._world.depth(self.world_from_camera, self._intrinsics)
 
     def info(self, time: float) -> CameraInfo:
-        """Build the CameraInfo, stamped ``time`` [s]: no distortion, Tx = -fx * baseline."""
+        """Build the CameraInfo, stamped ``time`` [s]: the lens, and Tx = -fx * baseline."""
         return camera_info(
             self._intrinsics,
             time=time,

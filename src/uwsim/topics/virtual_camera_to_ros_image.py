@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 import numpy.typing as npt
@@ -74,8 +74,8 @@ class ImagePublisher(Interface):
         """The topic of the images."""
         self._world, self._info_topic = world, spec.info_topic
         shape = (camera.intrinsics.height, camera.intrinsics.width)
-        black = np.zeros(shape if camera.is_grey else (*shape, 3), dtype=np.uint8)
-        self._black_image = black if world.is_blind else None
+        black = np.zeros(shape if camera.is_grey else (*shape, 3), dtype=camera.pixel_type)
+        self._black_image: npt.NDArray[Any] | None = black if world.is_blind else None
         self._publish_image = world.sensors.publisher(spec.camera_name, spec.image_topic, Image)
         self._publish_info = world.bus.publisher(spec.info_topic, CameraInfo)
         self._digest = hashlib.sha256()

@@ -15,6 +15,7 @@ from ..base.geometry import Intrinsics, Pose
 from ..base.numerics.calls import CompiledFunction
 from ..base.sampling import Sampling
 from ..bus import Bus
+from ..cameras.exposure import Exposure, PlainExposure
 from ..network import Network
 from ..optics import Medium
 from .parts import (
@@ -261,26 +262,9 @@ class SensorWorld(TimedWorld, Protocol):
         """The position of the origin of W on Earth (x east, y north); None if it is not set."""
 
     def render(
-        self,
-        world_from_camera: Pose,
-        intrinsics: Intrinsics,
-        *,
-        std: float,
-        rng: np.random.Generator,
-        grey: bool,
-        is_polished: bool = False,
-    ) -> npt.NDArray[np.uint8]:
-        """Render the image of a camera, with noise; row 0 is the top.
-
-        Args:
-            world_from_camera: the pose of the camera; OpenGL axes.
-            intrinsics: the pinhole model of the camera.
-            std: the standard deviation of the noise of each channel, 0..1.
-            rng: the camera's random stream.
-            grey: return a grey image (h, w), whose weighted channels are truncated before they are
-                added, instead of (h, w, 3).
-            is_polished: draw soft shadows, highlights and smooth edges.
-        """
+        self, exposure: Exposure | PlainExposure
+    ) -> npt.NDArray[np.uint8] | npt.NDArray[np.uint16]:
+        """Take the image of a camera, (h, w, 3), or (h, w) if it is grey; row 0 is the top."""
 
     def depth(self, world_from_camera: Pose, intrinsics: Intrinsics) -> npt.NDArray[np.float64]:
         """Return the distance along the optical axis of each pixel, (h, w) [m].

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from PIL import Image
 
+from ...messages.compressed import encode_png
 from ...results.atomic_file import atomic_write
 
 if TYPE_CHECKING:
@@ -21,9 +22,12 @@ a surface are 0."""
 
 
 def save_image(path: Path, pixels: np.ndarray) -> Path:
-    """Write a PNG image of colours (h, w, 3), uint8, or of values (h, w), uint8 or uint16."""
+    """Write a PNG image of colours (h, w, 3) or of values (h, w), uint8 or uint16."""
     with atomic_write(path) as draft:
-        Image.fromarray(pixels).save(draft, format="PNG")
+        if pixels.dtype == np.uint16 and pixels.ndim == 3:  # which Pillow does not write
+            draft.write_bytes(encode_png(pixels))
+        else:
+            Image.fromarray(pixels).save(draft, format="PNG")
     return path
 
 

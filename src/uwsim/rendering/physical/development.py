@@ -142,6 +142,8 @@ class Development:
         target: moderngl.Framebuffer,
         particles: VisibleParticles | None = None,
         shafts: moderngl.Texture | None = None,
+        *,
+        is_exposed: bool = True,
     ) -> None:
         """Draw the image of a camera from the image of surfaces.
 
@@ -153,6 +155,7 @@ class Development:
             target: the framebuffer of the colours.
             particles: the particles in view; None: none are drawn.
             shafts: the radiance of light shafts; None: there are none.
+            is_exposed: True if exposure and curve follow; False: the target gets the light.
         """
         plan = plan_blur(intrinsics, has_blur=water.has_blur)
         n_veils = n_lamps if water.has_lamp_veil else 0
@@ -177,7 +180,9 @@ class Development:
         if shafts is not None:
             shafts.use(SHAFT_UNIT)
             switches += (("SHAFTS", SHAFT_RATIO),)
-        if water.transfer == "linear":
+        if not is_exposed:
+            switches += (("LIGHT", 1),)
+        elif water.transfer == "linear":
             switches += (("LINEAR", 1),)
         self._draw("developed", switches, target)
 

@@ -1,6 +1,7 @@
 // Provides: the stored colours of an image through physical water: direct light, blur, veil, exposure, curve.
 // Needs: optics.glsl, transmission.glsl, open_water.glsl, grey.glsl; the image of the surfaces; with SCATTERED, the sum of the
-// levels; with PARTICLES, the image of the particles; with SHAFTS, the edge of a texel [px], that of the shafts; the switches BLUR, and LINEAR for no curve.
+// levels; with PARTICLES, the image of the particles; with SHAFTS, the edge of a texel [px], that of the shafts; the switches BLUR,
+// LINEAR for no curve, and LIGHT for no exposure either.
 // B + D (J - B) + blur + veil: physical/development.py; the curve: physical/transfer_curve.py.
 #include "optics.glsl"
 #include "transmission.glsl"
@@ -66,6 +67,9 @@ void main() {
 #ifdef CLOUDS
     light = through_clouds(light, water, is_surface > 0.5 ? range : FAR);
 #endif
+#ifdef LIGHT
+    colour_out = vec4(light, 1.0);
+#else
     vec3 value = clamp(light * camera.y, 0.0, 1.0);
 #ifndef LINEAR
     vec3 second = sqrt(value);
@@ -74,4 +78,5 @@ void main() {
     value = mix(12.92 * value, curve, step(0.0031308, value));
 #endif
     colour_out = vec4(camera_colour(value), 1.0);
+#endif
 }

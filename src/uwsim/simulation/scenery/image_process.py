@@ -115,8 +115,7 @@ class ImageProcess:
         self._capacity = len(self._pack_state()) + SPARE_BYTES
         size = self._capacity
         for topic, publisher in self._simulation.world.images.items():
-            pinhole = publisher.camera.intrinsics
-            n_bytes = pinhole.width * pinhole.height * 3
+            n_bytes = _count_bytes(publisher)
             self._slots[topic] = size, n_bytes
             size += n_bytes
         self._memory = SharedMemory(create=True, size=size)
@@ -139,8 +138,8 @@ class ImageProcess:
         """Request an image; return False if the simulation has to render the image itself."""
         if self._process is None:
             self._start_process()
-        pinhole, slot = publisher.camera.intrinsics, self._slots[publisher.image_topic]
-        if not self._is_ready or pinhole.width * pinhole.height * 3 > slot[1]:
+        slot = self._slots[publisher.image_topic]
+        if not self._is_ready or _count_bytes(publisher) > slot[1]:
             return False
         if self._is_busy:
             self.n_left_out += 1
@@ -166,10 +165,16 @@ class ImageProcess:
                 continue
             publisher = self._simulation.world.images[topic]
             offset = self._slots[topic][0]
-            pixels = np.ndarray(shape, np.uint8, self._memory.buf, offset)
+            pixels = np.ndarray(shape, publisher.camera.pixel_type, self._memory.buf, offset)
             frame = publisher.camera.frame_id
             publisher.deliver(image(pixels.copy(), time=time, frame_id=frame))
         self._is_busy = False
+
+
+def _count_bytes(publisher: ImagePublisher) -> int:
+    """Return the size of the images of a publisher [bytes]."""
+    pinhole = publisher.camera.intrinsics
+    return 3 * pinhole.width * pinhole.height * np.dtype(publisher.camera.pixel_type).itemsize
 
 
 def draw_images(
@@ -198,7 +203,7 @@ def draw_images(
                 for topic, time in requests:
                     pixels = simulation.world.images[topic].camera.capture()
                     offset = slots[topic][0]
-                    np.ndarray(pixels.shape, np.uint8, memory.buf, offset)[...] = pixels
+                    np.ndarray(pixels.shape, pixels.dtype, memory.buf, offset)[...] = pixels
                     images.append((topic, time, pixels.shape))
                 pipe.send(images)
     except (EOFError, OSError):

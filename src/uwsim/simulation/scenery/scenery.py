@@ -9,10 +9,13 @@ from typing import TYPE_CHECKING
 import numpy as np
 import numpy.typing as npt
 
-from ...assets.mesh import Model
 from ...base.geometry import Array, Intrinsics, Pose
 from ...base.numerics.linear import product
 from ...base.record import Record
+from ...cameras.digital_numbers import light_table
+from ...cameras.exposure import Displacement, Exposure, PlainExposure, take_image
+from ...cameras.lens_image import map_lens
+from ...cameras.response import Pixels
 from ...devices.lamp import MAX_LAMPS, MountedLamp
 from ...devices.led_array import Led
 from ...devices.structured_light_projector import MountedProjector
@@ -25,16 +28,17 @@ from ...rendering.lights.projector import Projector
 from ...rendering.noise import add_noise
 from ...rendering.physical.moving_surface import MovingSurface
 from ...rendering.rendered_image import ImageModel, RenderedImage
-from ...rendering.smoothing import mean_of_squares
+from ...rendering.smoothing import find_means
 from ...rendering.water import Light, Water
-from ...scene.spec import SceneSpec
-from ..unique_names import make_unique
-from .light_sources import make_lamp, make_projector
+from .heap_models import HeapModels
+from .light_sources import has_sun_shadows, make_lamp, make_projector
+from .part_names import find_generated_hashes, name_parts
 from .part_poses import PartPoses
 from .renderer_pool import RendererPool
 from .sand import HeapState, make_heaps
 from .scene_particles import ParticlesState, SceneParticles
 from .scene_water import choose_water, make_water, set_exposure
+from .through_lens import map_image
 
 if TYPE_CHECKING:
     from ...rendering.renderer import Renderer
@@ -88,7 +92,6 @@ class Scenery:
         self._handles: list[int] = []  # the renderer's handle of each part
         self._drawn_version = -1
         self._vehicle_names = tuple(vehicle.name for vehicle in scene.vehicles)
-        self._vehicle_labels = make_unique(self._vehicle_names)
         self.parts = model.parts
         """The visible parts of the scene: models of links and objects."""
         self._poses = PartPoses(self.parts, engine.poses)
@@ -105,12 +108,13 @@ class Scenery:
         """The heaps of sand over buried objects."""
         self.state = SceneryState(
             make_water(model),
-            Light(rate=scene.sim_params.light_rate, shadows=_has_sun_shadows(scene)),
+            Light(rate=scene.sim_params.light_rate, shadows=has_sun_shadows(scene)),
             [heap.state for heap in self.heaps],
             None if particles is None else particles.state,
         )
         """The state: water, light and sand."""
-        self._drawn_heaps: dict[int, tuple[int, int, Model]] = {}  # version, handle, model
+        first_heap_id = max((part.id for part in self.parts), default=0) + 1
+        self._heap_models = HeapModels(self.heaps, first_heap_id)
         self._find_surface: Callable[[], MovingSurface] | None = None
 
     def set_surface(self, find_surface: Callable[[], MovingSurface]) -> None:
@@ -163,40 +167,46 @@ class Scenery:
         world_from_mesh = self.world_from_mesh(part)
         return product(part.model.box.corners(), world_from_mesh[:3, :3].T) + world_from_mesh[:3, 3]
 
-    def render(
-        self,
-        world_from_camera: Pose,
-        intrinsics: Intrinsics,
-        *,
-        std: float,
-        rng: np.random.Generator,
-        grey: bool,
-        is_polished: bool = False,
-    ) -> npt.NDArray[np.uint8]:
-        """Render the noisy image of a camera, (h, w, 3), or (h, w) if ``grey``.
-
-        Args:
-            world_from_camera: the pose of the camera; OpenGL axes.
-            intrinsics: the pinhole model of the camera.
-            std: the standard deviation of the noise, as a fraction of the full brightness [1].
-            rng: the random generator of the noise.
-            grey: return a grey image.
-            is_polished: render for presentation (`Light.is_polished`), with smooth edges.
-        """
+    def render(self, exposure: Exposure | PlainExposure) -> Pixels:
+        """Take the image of a camera, (h, w, 3), or (h, w) if it is grey."""
+        if isinstance(exposure, Exposure):
+            return self._expose(exposure)
         image = self._draw_smooth(
-            world_from_camera,
-            intrinsics,
+            exposure.world_from_camera,
+            exposure.intrinsics,
             self.state.water,
-            light=self._light(is_polished=is_polished),
-            colour="linear16" if std > 0.0 else "uint8",
-            samples=POLISHED_SAMPLES if is_polished else 1,
+            light=self._light(is_polished=exposure.is_polished),
+            colour="linear16" if exposure.std > 0.0 else "uint8",
+            samples=POLISHED_SAMPLES if exposure.is_polished else 1,
         )
         assert image.colour is not None
         if image.colour.dtype == np.uint16:
-            pixels = add_noise(image.colour.view(np.uint16), std, rng)
+            pixels = add_noise(image.colour.view(np.uint16), exposure.std, exposure.rng)
         else:
             pixels = image.colour.view(np.uint8)
-        return grey_truncated(pixels) if grey else pixels
+        return grey_truncated(pixels) if exposure.is_grey else pixels
+
+    def _expose(self, exposure: Exposure) -> Pixels:
+        """Take an image with a response; colours of the fog law are light by the sRGB curve."""
+        water = self.state.water.physical_water
+
+        def draw_light(pose: Pose, displacement: Displacement | None) -> npt.NDArray[np.float32]:
+            image = self._draw_smooth(
+                pose,
+                exposure.intrinsics,
+                self.state.water,
+                light=self._light(is_polished=exposure.is_polished),
+                colour="linear16" if water is None else "light",
+                samples=POLISHED_SAMPLES if exposure.is_polished else 1,
+                displacement=displacement,
+            )
+            assert image.colour is not None
+            light = light_table()[image.colour] if water is None else image.colour
+            return light.view(np.float32)
+
+        return take_image(
+            exposure, draw_light, self.depth, 1.0 if water is None else water.exposure
+        )
 
     def depth(self, world_from_camera: Pose, intrinsics: Intrinsics) -> npt.NDArray[np.float64]:
         """Render the distance along the optical axis, (h, w) [m]; +inf where no surface is."""
@@ -288,6 +298,7 @@ class Scenery:
         targets: frozenset[str] = frozenset({"colour"}),
         colour: str = "uint8",
         hidden_ids: frozenset[int] | None = None,
+        displacement: Displacement | None = None,
     ) -> RenderedImage:
         """Render an image in which each pixel is the mean of ``samples`` x ``samples`` samples.
 
@@ -302,6 +313,7 @@ class Scenery:
                 targets=targets,
                 colour=colour,
                 hidden_ids=hidden_ids,
+                displacement=displacement,
             )
         image = self._draw(
             world_from_camera,
@@ -311,9 +323,10 @@ class Scenery:
             targets=frozenset({"colour"}),
             colour=colour,
             hidden_ids=hidden_ids,
+            displacement=displacement,
         )
         assert image.colour is not None
-        return replace(image, intrinsics=intrinsics, colour=mean_of_squares(image.colour, samples))
+        return replace(image, intrinsics=intrinsics, colour=find_means(image.colour, samples))
 
     def _draw(
         self,
@@ -325,6 +338,7 @@ class Scenery:
         targets: frozenset[str] = ALL_TARGETS,
         colour: str = "uint8",
         hidden_ids: frozenset[int] | None = None,
+        displacement: Displacement | None = None,
     ) -> RenderedImage:
         """Render an image at the present poses of all parts.
 
@@ -334,8 +348,9 @@ class Scenery:
             water: the water.
             light: the light; None: the light of the scene.
             targets: the images to render, some of `ALL_TARGETS`.
-            colour: the number format of the colour image, ``uint8`` or ``linear16``.
+            colour: the number format of the colour image, ``uint8``, ``linear16`` or ``light``.
             hidden_ids: the segmentation IDs of the parts that are left out; None: the ghosts.
+            displacement: the motion of a vehicle from its present pose; None: none moves.
         """
         renderer = self._open()
         if not self._handles:
@@ -345,44 +360,43 @@ class Scenery:
             if self.mounted_projector is not None:
                 self._projector = make_projector(*self.mounted_projector)
             self._drawn_version = self._engine.poses.version
-        self._draw_heaps(renderer)
+        if displacement is not None:
+            self._displace(renderer, displacement)
+        self._heap_models.update(renderer)
+        lens_image = None if intrinsics.lens is None else map_lens(intrinsics)
         lit_lamps = [lamp for lamp in self.mounted_lamps if lamp.is_on]
+        pinhole = intrinsics if lens_image is None else lens_image.pinhole
         particles = None
         if (
             self._particles is not None
             and "colour" in targets
             and water.physical_water == self.state.water.physical_water  # not the purest water
         ):
-            particles = self._particles.find_visible(world_from_camera, intrinsics)
-        return renderer.draw(
+            particles = self._particles.find_visible(world_from_camera, pinhole)
+        image = renderer.draw(
             world_from_camera,
-            intrinsics,
+            pinhole,
             water,
             self.state.light if light is None else light,
             targets=targets,
             colour=colour,
             hidden_ids=self._hidden_ids if hidden_ids is None else hidden_ids,
-            lamps=tuple(map(make_lamp, lit_lamps[:MAX_LAMPS])),
+            lamps=tuple(make_lamp(lamp, displacement) for lamp in lit_lamps[:MAX_LAMPS]),
             projector=self._projector,
             surface=None if self._find_surface is None else self._find_surface(),
             particles=particles,
         )
+        return image if lens_image is None else map_image(image, intrinsics, lens_image)
 
-    def _draw_heaps(self, renderer: Renderer) -> None:
-        for index, heap in enumerate(self.heaps):
-            drawing = self._drawn_heaps.get(index)
-            if drawing is not None and drawing[0] == heap.version:
-                continue
-            if drawing is not None:
-                renderer.remove(drawing[1])
-                renderer.discard(drawing[2])
-            model = heap.model()
-            handle = renderer.add(model, self.heap_id(index))
-            self._drawn_heaps[index] = heap.version, handle, model
-
-    def heap_id(self, index: int) -> int:
-        """Return the id of a heap of sand in segmentation images, by the index of the heap."""
-        return max((part.id for part in self.parts), default=0) + 1 + index
+    def _displace(self, renderer: Renderer, displacement: Displacement) -> None:
+        """Place the parts of a vehicle where it is at another time; the next image resets them."""
+        poses = self._poses.compute_all()
+        for index, part in enumerate(self.parts):
+            vehicle = None if part.vehicle is None else self._vehicle_names[part.vehicle]
+            if vehicle == displacement.vehicle:
+                poses[index] = product(displacement.matrix, poses[index])
+        renderer.place_all(self._handles, poses)
+        self._drawn_version = -1
 
     @property
     def renderer_name(self) -> str:
@@ -401,15 +415,7 @@ class Scenery:
     @property
     def part_names(self) -> dict[int, str]:
         """The unique names of parts, ``vehicle/link`` or object, by segmentation ID."""
-        names = {}
-        for part in self.parts:
-            names[part.id] = part.name
-            if part.vehicle is not None:
-                name = self._vehicle_names[part.vehicle]
-                names[part.id] = self._vehicle_labels[part.vehicle] + part.name.removeprefix(name)
-        heaps = enumerate(self.heaps)
-        names |= {self.heap_id(i): f"sand/{heap.name}" for i, heap in heaps}
-        return dict(zip(names, make_unique(names.values()), strict=True))
+        return name_parts(self.parts, self._vehicle_names, self._heap_models.names)
 
     @property
     def generated_hashes(self) -> dict[str, str]:
@@ -417,11 +423,7 @@ class Scenery:
 
         Boxes, cylinders and spheres are left out: the robot or scene file contains their sizes.
         """
-        generated_models = [
-            part.model for part in self.parts if part.model.sha256 and not part.model.files
-        ]
-        models = {model.name: model.sha256 for model in generated_models}
-        return {name: models[name] for name in sorted(models)}
+        return find_generated_hashes(self.parts)
 
     def redraw(self) -> None:
         """Mark all poses as changed, so that the next image updates them."""
@@ -438,12 +440,6 @@ class Scenery:
             self._pool.release(self._renderer)
             self._renderer = None
             self._handles = []
-            self._drawn_heaps = {}
+            self._heap_models.forget()
             self._drawn_version = -1
         self._own_pool.close()
-
-
-def _has_sun_shadows(scene: SceneSpec) -> bool:
-    """Return whether vehicles and objects cast the sun's shadow."""
-    sun_shadow = scene.sim_params.sun_shadow
-    return not scene.is_original if sun_shadow is None else sun_shadow
