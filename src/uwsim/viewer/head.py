@@ -21,13 +21,18 @@ multiple of 4; the number of elements; and their type, one of ``f4 u4 u2 i2 i1 u
     title       "currents, PI, seed 7"
     live        true if rows of motion arrive over a WebSocket
     meshes      [{positions: ref, normals: ref, uvs: ref or null, tints: ref, triangles: ref,
-                  pieces}]    normals are i2 / 32767, tints (colours 0..1) u2 / 65535;
+                  pieces, tangents: ref i2 / 32767, finish: ref, emissions: ref}]
+                  normals are i2 / 32767, tints (colours 0..1) u2 / 65535; the last three are
+                  absent without a material (`uwsim.rendering.merged.MATERIAL_VERTEX`);
                   pieces: [first index, count, centre 3, radius, lower corner 3, upper corner 3,
                   normal 3, density] (`uwsim.rendering.merged.Piece`)
+    reflectance  in physical water with materials: ref f4, the table of rough surfaces, 32 x 32 x 4
+                  (`uwsim.rendering.materials.reflectance`)
     textures    [{type: "image/webp", bytes: ref, width, height, repeats}]
     bodies      [{name, vehicle: name or null, pose: [x y z w x y z],
                   visuals: [{part: index of the model in the scene, mesh, matrix: 16 (body from
-                  mesh), texture or null, opacity, two_sided,
+                  mesh), texture or null, opacity, two_sided, material: absent, or {maps: {name
+                  in the shaders: index of a texture}, cutoff: alpha of holes or null, emits},
                   hidden: true if cameras do not draw it}]}]
     cameras     [{name, body, pose: 7 (body from camera), width, height, fx, fy, cx, cy, skew,
                   near, far, grey}]
@@ -210,7 +215,8 @@ def scene_head(
         media: the media of physical water besides the present one.
     """
     world = simulation.world
-    models = Models(blob)
+    water, light = world.scenery.state.water, world.scenery.state.light
+    models = Models(blob, has_finish=water.physical_water is not None)
     bodies = Bodies(world)
     for part in world.scenery.parts:
         bodies.add(part, models)
@@ -235,6 +241,7 @@ def scene_head(
         "bodies": bodies.rows,
         "meshes": models.meshes,
         "textures": models.textures,
+        **models.reflectance(),
     }
 
 

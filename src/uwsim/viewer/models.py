@@ -10,13 +10,17 @@ import numpy.typing as npt
 from PIL import Image
 
 from ..assets.mesh import Model, Texture
+from ..rendering.materials.maps import find_maps
+from ..rendering.materials.reflectance import compute_table
 from ..rendering.merged import MergedMesh, Piece, merge_model
-from .pack import Blob
+from .pack import Blob, Ref
 
 WEBP_QUALITY = 95
 """The quality of lossy WebP textures, 0..100."""
 MAX_LOSS = 12.0
 """The greatest 99th percentile of the error of a lossy texture [grey levels]; see `_texture`."""
+RGB_CHANNELS = 3
+"""The number of channels of an image without alpha."""
 MAX_EXACT_BYTES = 70_000
 """The greatest size of a lossless texture [bytes]; a larger texture is stored lossy."""
 
@@ -26,10 +30,11 @@ class Models:
 
     Args:
         blob: the binary part of the pack, to which their arrays are appended.
+        has_finish: True if finish and emission are included, which only physical water needs.
     """
 
-    def __init__(self, blob: Blob) -> None:
-        self._blob = blob
+    def __init__(self, blob: Blob, *, has_finish: bool = False) -> None:
+        self._blob, self._has_finish = blob, has_finish
         self.meshes: list[dict[str, Any]] = []
         """The entries of ``meshes`` in the head so far."""
         self.textures: list[dict[str, Any]] = []
@@ -46,11 +51,41 @@ class Models:
                     "texture": None if part.texture is None else self._texture(part.texture),
                     "opacity": part.opacity,
                     "two_sided": part.two_sided,
+                    **self._material(part),
                 }
                 for part in merge_model(model)
             ]
             self._visuals[id(model)] = model, visuals  # keeps the model, so that its id is unique
         return self._visuals[id(model)][1]
+
+    def _material(self, part: MergedMesh) -> dict[str, Any]:
+        """Return the entry ``material`` of a visual; nothing, if the page needs none."""
+        maps, material = self._maps(part), part.material
+        cutoff = None if material is None else material.alpha_cutoff
+        if material is None or not (maps or self._has_finish or cutoff is not None):
+            return {}
+        return {
+            "material": {
+                "maps": {name: self._texture(texture) for name, texture in maps.items()},
+                "cutoff": cutoff,
+                "emits": self._has_finish and any(material.emission),
+            }
+        }
+
+    def _maps(self, part: MergedMesh) -> dict[str, Texture]:
+        """Return the maps of a mesh that the page needs, by their names in the shaders."""
+        maps = find_maps(part.material)
+        return {
+            name: texture
+            for name, texture in maps.items()
+            if name == "normal_map" or self._has_finish
+        }
+
+    def reflectance(self) -> dict[str, Ref]:
+        """Return the entry ``reflectance`` of the head; nothing if no surface has a finish."""
+        if not any("finish" in mesh for mesh in self.meshes) or not self._has_finish:
+            return {}
+        return {"reflectance": self._blob.add(compute_table())}
 
     def pattern(self, pixels: npt.NDArray[np.uint8]) -> int:
         """Return the index of the texture of a projector's pattern (h, w, 4), lossless."""
@@ -60,14 +95,23 @@ class Models:
         vertices, add = part.vertices, self._blob.add
         indices = part.triangles.ravel()
         is_small = len(vertices) < 2**16
+        maps = self._maps(part)
+        has_uvs = part.texture is not None or bool(maps)
+        rows = {}
+        if part.material is not None and (maps or self._has_finish):
+            rows["finish"] = add(vertices["finish"])
+            rows["emissions"] = add(vertices["emission"])
+        if "normal_map" in maps:
+            rows["tangents"] = add(np.rint(vertices["tangent"] * 32767.0).astype("<i2"))
         self.meshes.append(
             {
                 "positions": add(vertices["vertex"]),
                 "normals": add(np.rint(vertices["vertex_normal"] * 32767.0).astype("<i2")),
-                "uvs": None if part.texture is None else add(vertices["uv"]),
+                "uvs": add(vertices["uv"]) if has_uvs else None,
                 "tints": add(np.rint(vertices["tint"] * 65535.0).astype("<u2")),
                 "triangles": add(indices.astype("<u2" if is_small else "<u4")),
                 "pieces": [_piece(piece) for piece in part.pieces],
+                **rows,
             }
         )
         return len(self.meshes) - 1
@@ -105,7 +149,8 @@ def _encode_webp(pixels: npt.NDArray[np.uint8], **options: Any) -> bytes:
 
 def _loss(pixels: npt.NDArray[np.uint8], data: bytes) -> float:
     """Return the 99th percentile of the error of a WebP image's values [grey levels]."""
-    pixels_again = np.asarray(Image.open(io.BytesIO(data)).convert("RGB"), dtype=np.int16)
+    mode = "RGB" if pixels.shape[2] == RGB_CHANNELS else "RGBA"
+    pixels_again = np.asarray(Image.open(io.BytesIO(data)).convert(mode), dtype=np.int16)
     return float(np.percentile(np.abs(pixels_again - pixels), 99.0))
 
 

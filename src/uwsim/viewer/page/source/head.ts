@@ -1,6 +1,7 @@
 // Types of the *head*: the JSON description of the scene that the page receives; viewer/head.py
 // documents the format and the units. Lengths are in metres, angles in radians, positions and poses
 // in W unless a comment states another frame; a pose is x y z w x y z.
+import type { Material, MaterialArrays } from "./drawing/material";
 import type { Intrinsics } from "./geometry";
 import type { MediumSpec } from "./water/medium";
 
@@ -19,6 +20,8 @@ export interface Visual {
   /** From 0 to 1. */
   opacity: number;
   two_sided: boolean;
+  /** The properties besides the base colour; absent: none that the page needs. */
+  material?: Material;
   /** True if cameras do not draw it. */
   hidden: boolean;
 }
@@ -32,7 +35,7 @@ export interface Body {
   visuals: Visual[];
 }
 
-export interface Mesh {
+export interface Mesh extends MaterialArrays {
   /** Vertices in the frame of the mesh [m], f4. */
   positions: Ref;
   /** Unit normals of the vertices, i2 / 32767. */
@@ -235,6 +238,8 @@ export interface Head {
   meshes: Mesh[];
   /** Images; `repeats`: beyond the texture coordinates 0 to 1. */
   textures: { type: string; bytes: Ref; width: number; height: number; repeats: boolean }[];
+  /** Shares of even light that rough surfaces reflect, f4, in physical water (uwsim.rendering.materials.reflectance). */
+  reflectance?: Ref;
   bodies: Body[];
   cameras: Camera[];
   lamps: Lamp[];

@@ -6,6 +6,7 @@ import {
 } from "./geometry";
 import type { Pack } from "./pack";
 import { Sand, type Removal } from "./sand";
+import { forMaterialAttributes, MaterialMaps } from "./drawing/material";
 import { ATTRIBUTES } from "./drawing/shaders";
 
 /** A range of adjacent triangles of an instance, with its bounds in W, as in uwsim.rendering.gpu_model. */
@@ -96,6 +97,8 @@ export class Models {
   version = 0;
   /** The projector's pattern; empty if there is no projector. */
   readonly patterns: WebGLTexture[] = [];
+  /** The maps of the materials; null without WebGL. */
+  maps: MaterialMaps | null = null;
   private readonly bodies = new Map<string, Matrix>(); // world from body, by the body's name
   private readonly radii = new Map<number, number>(); // half the longest side of a model [m], by its index in the scene
   private readonly sand: { heap: Sand; positions: WebGLBuffer; normals: WebGLBuffer }[] = [];
@@ -115,6 +118,7 @@ export class Models {
       textures.map(({ repeats }, i) => loadTexture(gl, pack, i, i !== projector?.pattern && repeats)),
     );
     if (projector) models.patterns.push(images[projector.pattern]);
+    models.maps = new MaterialMaps(gl, pack, images, textures);
     const gpuMeshes = meshes.map((_, i) => upload(gl, pack, i));
     const vertexArrays = gpuMeshes.map(({ vertexArray }) => vertexArray);
     for (const heap of pack.head.sand ?? []) {
@@ -224,6 +228,7 @@ function upload(gl: WebGL2RenderingContext, pack: Pack, index: number): GpuMesh 
   const normals = attribute("vertex_normal", 3, gl.SHORT, numbers(mesh.normals));
   attribute("tint", 3, gl.UNSIGNED_SHORT, numbers(mesh.tints));
   if (mesh.uvs) attribute("uv", 2, gl.FLOAT, numbers(mesh.uvs));
+  forMaterialAttributes(mesh, (name, n, type, ref) => attribute(name, n, gl[type], numbers(ref)));
   gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
   gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, numbers(mesh.triangles), gl.STATIC_DRAW);
   gl.bindVertexArray(null);

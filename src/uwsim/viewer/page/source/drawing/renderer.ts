@@ -164,6 +164,7 @@ export class Renderer {
       const opacity = Math.round(255 * piece.instance.visual.opacity);
       if (opacity > 0) this.drawPiece(piece, eye, { ...switches, OPACITY: opacity }, isFlipped);
     }
+    this.models.maps?.release();
     gl.depthMask(true);
     gl.disable(gl.BLEND);
     gl.disable(gl.SCISSOR_TEST);
@@ -202,13 +203,14 @@ export class Renderer {
   }
 
   private drawPiece(piece: Piece, eye: Eye, switches: Switches, isFlipped: boolean): void {
-    const { gl } = this;
-    const { texture, repeats } = piece.instance;
+    const [{ gl }, { texture, repeats, visual }] = [this, piece.instance];
+    const plain = canSkipMipmaps(piece, eye) ? this.samplers : null;
     if (texture) {
       this.bind(UNITS.base_map, texture);
-      gl.bindSampler(UNITS.base_map, canSkipMipmaps(piece, eye) ? this.samplers[Number(repeats)] : null);
+      gl.bindSampler(UNITS.base_map, plain && plain[Number(repeats)]);
     }
-    gl.useProgram(this.programs.get("surface", texture ? { ...switches, TEXTURED: 1 } : switches));
+    const surface = this.models.maps!.use(visual.material, texture ? { ...switches, TEXTURED: 1 } : switches, plain);
+    gl.useProgram(this.programs.get("surface", surface));
     this.instanceBlocks.drawPiece(piece, isFlipped);
   }
 

@@ -3,6 +3,8 @@ import backgroundFragment from "../../../../rendering/shaders/background.frag.gl
 import backgroundVertex from "../../../../rendering/shaders/background.vert.glsl";
 import blurredFragment from "../../../../rendering/shaders/blurred.frag.glsl";
 import blurredRowsFragment from "../../../../rendering/shaders/blurred_rows.frag.glsl";
+import caustics from "../../../../rendering/shaders/caustics.glsl";
+import causticsBlock from "../../../../rendering/shaders/caustics_block.glsl";
 import daylight from "../../../../rendering/shaders/daylight.glsl";
 import developedFragment from "../../../../rendering/shaders/developed.frag.glsl";
 import frame from "../../../../rendering/shaders/frame.glsl";
@@ -40,6 +42,8 @@ const FILES: Record<string, string> = {
   "background.vert.glsl": backgroundVertex,
   "blurred.frag.glsl": blurredFragment,
   "blurred_rows.frag.glsl": blurredRowsFragment,
+  "caustics.glsl": caustics,
+  "caustics_block.glsl": causticsBlock,
   "daylight.glsl": daylight,
   "developed.frag.glsl": developedFragment,
   "frame.glsl": frame,
@@ -97,9 +101,15 @@ export const UNITS: Record<string, number> = {
   level_4: 11,
   level_5: 12,
   surface_image: 13,
+  normal_map: 11,
+  finish_map: 12,
+  emission_map: 13,
+  reflectance_table: 14,
 };
 /** The location of each attribute. */
-export const ATTRIBUTES: Record<string, number> = { vertex: 0, vertex_normal: 1, uv: 2, tint: 3 };
+export const ATTRIBUTES: Record<string, number> = {
+  vertex: 0, vertex_normal: 1, uv: 2, tint: 3, tangent: 4, finish: 5, emission: 6,
+};
 
 /** The preprocessor macros of a program, by name. */
 export type Switches = Record<string, number | string>;

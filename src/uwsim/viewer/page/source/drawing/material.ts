@@ -1,0 +1,125 @@
+// The materials of surfaces besides their base colour, as in uwsim.rendering.materials.maps.
+import type { Head, Mesh, Ref } from "../head";
+import type { Pack } from "../pack";
+import { UNITS, type Switches } from "./shaders";
+
+/** The arrays of a mesh with a material. */
+export interface MaterialArrays {
+  /** Tangents of the vertices, i2 / 32767, with 1 or -1 as the fourth number; absent without a normal map. */
+  tangents?: Ref;
+  /** Roughness, share of metal and scale of the normal map, f4; absent without a material. */
+  finish?: Ref;
+  /** Emitted radiance, f4; absent without a material. */
+  emissions?: Ref;
+}
+
+/** The properties of a surface besides its base colour. */
+export interface Material {
+  /** The index in `textures` of each map, by its name in the shaders. */
+  maps: Record<string, number>;
+  /** The alpha below which there is a hole; null: no holes. */
+  cutoff: number | null;
+  /** True if it emits light. */
+  emits: boolean;
+}
+
+/** The switch of each map, by its name in the shaders. */
+const MAP_SWITCHES: Record<string, string> = {
+  normal_map: "NORMAL_MAP",
+  finish_map: "FINISH_MAP",
+  emission_map: "EMISSION_MAP",
+};
+const TABLE_EDGE = 32; // the number of cosines and of roughnesses in the table of reflectances
+
+/** The attributes of vertices for materials: name in the shaders, components, and type; the arrays of a mesh have them. */
+export const MATERIAL_ATTRIBUTES = [
+  ["tangent", "tangents", 4, "SHORT"],
+  ["finish", "finish", 3, "FLOAT"],
+  ["emission", "emissions", 3, "FLOAT"],
+] as const;
+
+/** Return the switches of the shaders for a material; `isPhysical`: in physical water. */
+function materialSwitches(material: Material, isPhysical: boolean, isTextured: boolean): Switches {
+  const switches: Switches = {};
+  if ("normal_map" in material.maps) switches.NORMAL_MAP = 1;
+  if (isPhysical) {
+    switches.MICROFACET = 1;
+    if ("finish_map" in material.maps) switches.FINISH_MAP = 1;
+    if (material.emits) switches.EMISSION = 1;
+    if (material.emits && "emission_map" in material.maps) switches.EMISSION_MAP = 1;
+  }
+  if (isTextured && material.cutoff !== null)
+    switches.ALPHA_TEST = Math.max(1, Math.min(255, Math.round(255 * material.cutoff)));
+  return switches;
+}
+
+/** Call a function for each attribute of a mesh that only materials need. */
+export function forMaterialAttributes(
+  mesh: Mesh, add: (name: string, components: number, type: "SHORT" | "FLOAT", ref: Mesh["positions"]) => void,
+): void {
+  for (const [name, entry, components, type] of MATERIAL_ATTRIBUTES) {
+    const ref = mesh[entry];
+    if (ref) add(name, components, type, ref);
+  }
+}
+
+/** The maps of materials on the GPU, and their binding. */
+export class MaterialMaps {
+  private readonly samplers: WebGLSampler[];
+  private readonly table: WebGLTexture | null;
+
+  constructor(
+    private readonly gl: WebGL2RenderingContext,
+    pack: Pack,
+    /** The textures of the head. */
+    private readonly images: readonly WebGLTexture[],
+    private readonly textures: Head["textures"],
+  ) {
+    this.samplers = [gl.CLAMP_TO_EDGE, gl.REPEAT].map((wrap) => {
+      const sampler = gl.createSampler();
+      gl.samplerParameteri(sampler, gl.TEXTURE_MIN_FILTER, gl.LINEAR_MIPMAP_NEAREST);
+      gl.samplerParameteri(sampler, gl.TEXTURE_MAG_FILTER, gl.LINEAR);
+      gl.samplerParameteri(sampler, gl.TEXTURE_WRAP_S, wrap);
+      gl.samplerParameteri(sampler, gl.TEXTURE_WRAP_T, wrap);
+      return sampler;
+    });
+    const { reflectance } = pack.head;
+    this.table = reflectance ? uploadTable(gl, pack.numbers(reflectance) as Float32Array) : null;
+  }
+
+  /** Return the switches for a surface, and bind its maps; `plain`: samplers without mipmaps, or null for mipmaps. */
+  use(material: Material | undefined, surface: Switches, plain: readonly WebGLSampler[] | null): Switches {
+    if (!material) return surface;
+    const gl = this.gl;
+    const switches = { ...surface, ...materialSwitches(material, "PHYSICAL" in surface, "TEXTURED" in surface) };
+    for (const [name, index] of Object.entries(material.maps)) {
+      if (!(MAP_SWITCHES[name] in switches)) continue;
+      const repeats = Number(this.textures[index].repeats);
+      this.bindTexture(UNITS[name], this.images[index]);
+      gl.bindSampler(UNITS[name], (plain ?? this.samplers)[repeats]);
+    }
+    if (switches.MICROFACET && this.table) this.bindTexture(UNITS.reflectance_table, this.table);
+    return switches;
+  }
+
+  /** Unbind the samplers of all maps, whose units other passes use. */
+  release(): void {
+    for (const name of Object.keys(MAP_SWITCHES)) this.gl.bindSampler(UNITS[name], null);
+  }
+
+  private bindTexture(unit: number, texture: WebGLTexture): void {
+    this.gl.activeTexture(this.gl.TEXTURE0 + unit);
+    this.gl.bindTexture(this.gl.TEXTURE_2D, texture);
+    this.gl.activeTexture(this.gl.TEXTURE0);
+  }
+}
+
+/** Upload the table of reflectances, four numbers for each pair of roughness and cosine, in half precision. */
+function uploadTable(gl: WebGL2RenderingContext, numbers: Float32Array): WebGLTexture {
+  const texture = gl.createTexture();
+  gl.bindTexture(gl.TEXTURE_2D, texture);
+  gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA16F, TABLE_EDGE, TABLE_EDGE, 0, gl.RGBA, gl.FLOAT, numbers);
+  for (const wrap of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.texParameteri(gl.TEXTURE_2D, wrap, gl.CLAMP_TO_EDGE);
+  for (const filter of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, filter, gl.LINEAR);
+  return texture;
+}
