@@ -47,13 +47,19 @@ def write_plate(folder: Path) -> Path:
     return plates.write(folder / "plate.glb")
 
 
+WATER = "<u:water law='physical'> <u:type>jerlov-IB</u:type> </u:water>"
+
+
 @pytest.mark.slow
-def test_the_page_draws_normal_maps_and_holes_as_the_renderer_does(
-    tab: Any, tmp_path: Path
+@pytest.mark.parametrize("is_physical", [False, True])
+def test_the_page_draws_materials_as_the_renderer_does(
+    tab: Any, tmp_path: Path, is_physical: bool
 ) -> None:
     objects = OBJECT.format(name="rock", file="objects/rock1.glb", x=1.4, y=0.3)
     objects += OBJECT.format(name="net", file=write_plate(tmp_path), x=0.2, y=1.6)
     text = scene_file("shapes-scene").read_text(encoding="utf-8")
+    if is_physical:
+        text = text.replace("</oceanState>", WATER + "</oceanState>", 1)
     scene = tmp_path / "scene.xml"
     scene.write_text(text.replace("<object>", objects + "<object>", 1), encoding="utf-8")
     blob = Blob()
@@ -67,12 +73,13 @@ def test_the_page_draws_normal_maps_and_holes_as_the_renderer_does(
         camera = head["cameras"][0]
         view = simulation.world.sensors.camera(camera["name"])
         drawn = simulation.world.scenery.render_clean(
-            view.world_from_camera, view.intrinsics, fog=0.0
+            view.world_from_camera, view.intrinsics, targets={"colour"}
         ).colour
     script = "([name, water]) => uwsim.image(name, water)"
-    data = base64.b64decode(tab.evaluate(script, [camera["name"], {"fog": 0.0}]))
+    data = base64.b64decode(tab.evaluate(script, [camera["name"], {}]))
     pixels = np.frombuffer(data, np.uint8).reshape(camera["height"], camera["width"], 4)
     assert drawn is not None
+    assert drawn.mean() > 20.0
     off = np.abs(pixels[..., :3].astype(np.int16) - drawn)
     assert off.mean() <= 1.0
     assert (off.max(axis=2) > 8).mean() <= 0.01
