@@ -1,12 +1,11 @@
 // Types of the *head*: the JSON description of the scene that the page receives; viewer/head.py
 // documents the format and the units. Lengths are in metres, angles in radians, positions and poses
 // in W unless a comment states another frame; a pose is x y z w x y z.
-import type { Material, MaterialArrays } from "./drawing/material";
+import type { Material, MaterialArrays, Ref } from "./drawing/entries";
 import type { Intrinsics } from "./geometry";
 import type { MediumSpec } from "./water/medium";
 
-/** A reference to an array: offset of its first byte from the end of the JSON, number of elements, their type. */
-export type Ref = [number, number, string];
+export type { Ref };
 
 export interface Visual {
   /** The index of the model in the scene. */

@@ -6,7 +6,7 @@ import {
 } from "./geometry";
 import type { Pack } from "./pack";
 import { Sand, type Removal } from "./sand";
-import { forMaterialAttributes, MaterialMaps } from "./drawing/material";
+import { addMaterialAttributes, MaterialMaps } from "./drawing/material";
 import { ATTRIBUTES } from "./drawing/shaders";
 
 /** A range of adjacent triangles of an instance, with its bounds in W, as in uwsim.rendering.gpu_model. */
@@ -228,7 +228,7 @@ function upload(gl: WebGL2RenderingContext, pack: Pack, index: number): GpuMesh 
   const normals = attribute("vertex_normal", 3, gl.SHORT, numbers(mesh.normals));
   attribute("tint", 3, gl.UNSIGNED_SHORT, numbers(mesh.tints));
   if (mesh.uvs) attribute("uv", 2, gl.FLOAT, numbers(mesh.uvs));
-  forMaterialAttributes(mesh, (name, n, type, ref) => attribute(name, n, gl[type], numbers(ref)));
+  addMaterialAttributes(mesh, (name, n, type, ref) => attribute(name, n, gl[type], numbers(ref)));
   gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
   gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, numbers(mesh.triangles), gl.STATIC_DRAW);
   gl.bindVertexArray(null);

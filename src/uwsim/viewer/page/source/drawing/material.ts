@@ -1,27 +1,8 @@
 // The materials of surfaces besides their base colour, as in uwsim.rendering.materials.maps.
-import type { Head, Mesh, Ref } from "../head";
+import type { Head, Mesh } from "../head";
+import type { Material } from "./entries";
 import type { Pack } from "../pack";
 import { UNITS, type Switches } from "./shaders";
-
-/** The arrays of a mesh with a material. */
-export interface MaterialArrays {
-  /** Tangents of the vertices, i2 / 32767, with 1 or -1 as the fourth number; absent without a normal map. */
-  tangents?: Ref;
-  /** Roughness, share of metal and scale of the normal map, f4; absent without a material. */
-  finish?: Ref;
-  /** Emitted radiance, f4; absent without a material. */
-  emissions?: Ref;
-}
-
-/** The properties of a surface besides its base colour. */
-export interface Material {
-  /** The index in `textures` of each map, by its name in the shaders. */
-  maps: Record<string, number>;
-  /** The alpha below which there is a hole; null: no holes. */
-  cutoff: number | null;
-  /** True if it emits light. */
-  emits: boolean;
-}
 
 /** The switch of each map, by its name in the shaders. */
 const MAP_SWITCHES: Record<string, string> = {
@@ -54,7 +35,7 @@ function materialSwitches(material: Material, isPhysical: boolean, isTextured: b
 }
 
 /** Call a function for each attribute of a mesh that only materials need. */
-export function forMaterialAttributes(
+export function addMaterialAttributes(
   mesh: Mesh, add: (name: string, components: number, type: "SHORT" | "FLOAT", ref: Mesh["positions"]) => void,
 ): void {
   for (const [name, entry, components, type] of MATERIAL_ATTRIBUTES) {
@@ -87,8 +68,8 @@ export class MaterialMaps {
     this.table = reflectance ? uploadTable(gl, pack.numbers(reflectance) as Float32Array) : null;
   }
 
-  /** Return the switches for a surface, and bind its maps; `plain`: samplers without mipmaps, or null for mipmaps. */
-  use(material: Material | undefined, surface: Switches, plain: readonly WebGLSampler[] | null): Switches {
+  /** Return the switches for a surface, and bind its maps; `plainSamplers`: samplers without mipmaps, or null for mipmaps. */
+  use(material: Material | undefined, surface: Switches, plainSamplers: readonly WebGLSampler[] | null): Switches {
     if (!material) return surface;
     const gl = this.gl;
     const switches = { ...surface, ...materialSwitches(material, "PHYSICAL" in surface, "TEXTURED" in surface) };
@@ -96,7 +77,7 @@ export class MaterialMaps {
       if (!(MAP_SWITCHES[name] in switches)) continue;
       const repeats = Number(this.textures[index].repeats);
       this.bindTexture(UNITS[name], this.images[index]);
-      gl.bindSampler(UNITS[name], (plain ?? this.samplers)[repeats]);
+      gl.bindSampler(UNITS[name], (plainSamplers ?? this.samplers)[repeats]);
     }
     if (switches.MICROFACET && this.table) this.bindTexture(UNITS.reflectance_table, this.table);
     return switches;

@@ -204,12 +204,12 @@ export class Renderer {
 
   private drawPiece(piece: Piece, eye: Eye, switches: Switches, isFlipped: boolean): void {
     const [{ gl }, { texture, repeats, visual }] = [this, piece.instance];
-    const plain = canSkipMipmaps(piece, eye) ? this.samplers : null;
+    const plainSamplers = canSkipMipmaps(piece, eye) ? this.samplers : null;
     if (texture) {
       this.bind(UNITS.base_map, texture);
-      gl.bindSampler(UNITS.base_map, plain && plain[Number(repeats)]);
+      gl.bindSampler(UNITS.base_map, plainSamplers && plainSamplers[Number(repeats)]);
     }
-    const surface = this.models.maps!.use(visual.material, texture ? { ...switches, TEXTURED: 1 } : switches, plain);
+    const surface = this.models.maps!.use(visual.material, texture ? { ...switches, TEXTURED: 1 } : switches, plainSamplers);
     gl.useProgram(this.programs.get("surface", surface));
     this.instanceBlocks.drawPiece(piece, isFlipped);
   }
