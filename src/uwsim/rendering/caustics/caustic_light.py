@@ -45,6 +45,10 @@ LOST_CONTRAST = 3.0
 SHAFT_OPTICAL_DEPTH, MAX_SHAFT = 4.0, 40.0
 """The limits of the way along which shafts are added up: attenuation times way, and way [m]."""
 
+MAX_PHASE_RATIOS = (3.0, 15.0)
+"""The greatest ratio of b p to b* p* on the way to the surface, without and with the image of the
+sun, whose aureole is the mean of the shafts near it [1]."""
+
 
 @lru_cache(maxsize=16)
 def find_contrast_loss(medium: Medium, sun_cosine: float) -> Array:
@@ -165,7 +169,7 @@ class CausticLight:
         values["caustic_depths"] = depths[0], 1.0 / ratio, -math.log2(depths[0]) / ratio, depths[-1]
         field = compute_light_field(water.medium, water.daylight)
         loss = find_contrast_loss(water.medium, float(field.towards_sun[2]))
-        values["caustic_loss"][:3] = loss
+        values["caustic_loss"] = *loss, MAX_PHASE_RATIOS[water.has_surface]
         g = water.medium.phase_function.mean_cosine
         attenuation = float(compute_scaled_attenuation(water.medium).min())
         longest_way = min(SHAFT_OPTICAL_DEPTH / max(attenuation, 1e-6), MAX_SHAFT)

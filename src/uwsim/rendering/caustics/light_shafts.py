@@ -5,15 +5,17 @@ surface. A moving surface multiplies the beam by the gain :math:`G` (`caustic_ma
 along a ray to the surface in the range :math:`R` is
 
 .. math::
-    \Delta B = \frac{\pi}{\mu_w}\, \min(b\, p(\Theta), 3\, b^* p^*(\Theta)) \int_0^R
+    \Delta B = \frac{\pi}{\mu_w}\, \min(b\, p(\Theta), r\, b^* p^*(\Theta)) \int_0^R
         E_b(z)\, m(z)\, (G(x, z) - 1)\, e^{-c^* t}\, dt
 
 with :math:`m` the contrast that scattering leaves (`caustic_light.find_contrast_loss`). The mean of
-:math:`G` is 1, so the mean of open water stays, whatever the phase function is. Its forward peak
-has at most three times the light of open water's own beam, whose aureole is not modelled; so the
-sum is hardly ever negative. The integral has 10 steps, whose lengths grow along the ray, in an
-image of a sixth of the resolution. Each step reads the mean of the map over its length from the
-maps' mipmaps, so that shafts that the ray crosses are averaged.
+:math:`G` is 1, so the mean of open water stays, whatever the phase function is. The limit :math:`r`
+keeps the sum from being negative: 3, but 15 on rays to a surface with the image of the sun, whose
+aureole is the mean of these shafts.
+
+The integral has 10 steps, whose lengths grow along the ray, in an image of a sixth of the
+resolution. Each step reads the mean of the map over its length from the maps' mipmaps, so that
+shafts that the ray crosses are averaged.
 
 Not modelled: shadows of bodies in the shafts, and shafts that a camera in air sees.
 """

@@ -20,7 +20,9 @@ void main() {
     float rise = dot(ray, up.xyz);
     vec3 loss = sun_loss.rgb * upwelling.w;  // c*
     float length = min(range, shaft_numbers.z);
-    if (rise > 0.0) length = min(length, depth / max(rise, 1e-4));
+    float surface_range = depth / max(rise, 1e-4);
+    float ratio = rise > 0.0 && range > 0.8 * surface_range ? caustic_loss.w : 3.0;  // a body hides the sun's aureole
+    if (rise > 0.0) length = min(length, surface_range);
     if (depth <= 0.0 || length <= 0.0) {
         colour_out = vec4(0.0);
         return;
@@ -48,6 +50,6 @@ void main() {
     float g = shaft_numbers.x;
     float root = sqrt(max(1.0 + g * g - 2.0 * g * cosine, 1e-6));
     float scaled_phase = shaft_numbers.y * (1.0 - g * g) / (12.566371 * root * root * root);  // p* b* / b
-    float phase = min(exp(log_phase), 3.0 * scaled_phase);
+    float phase = min(exp(log_phase), ratio * scaled_phase);
     colour_out = vec4(sun_beam.rgb * scattering.rgb * sum * (phase * 3.1415927 / upwelling.w), 0.0);
 }
