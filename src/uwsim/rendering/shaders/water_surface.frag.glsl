@@ -1,5 +1,5 @@
 // Provides: the radiance and the range in water of the water's surface, from below, or with the switch ABOVE from above.
-// Needs: optics.glsl, surface_block.glsl, waves.glsl, sky.glsl, fresnel.glsl; open_water.glsl from below, transmission.glsl from above;
+// Needs: optics.glsl, surface_block.glsl, waves.glsl, sky.glsl, fresnel.glsl; transmission.glsl from above;
 // without the switch DIRECT, the image of the surfaces, whose alpha is the whole range.
 // From below: sky refracted, open water reflected; the water before it follows in whole images (physical/development.py), which
 // takes the open water B behind it away. From above: sky reflected, the water and the bodies in it refracted. See surface_pass.py.
@@ -10,13 +10,14 @@
 #include "fresnel.glsl"
 #ifdef ABOVE
 #include "transmission.glsl"
-#else
-#include "open_water.glsl"
 #endif
 #ifndef DIRECT
 uniform sampler2D surface_image;
 #endif
 in vec3 v_offset;
+#ifndef ABOVE
+in vec3 v_open_water;
+#endif
 out vec4 light_out;
 const float PI = 3.14159265;
 #ifdef FOAM
@@ -25,50 +26,50 @@ const float FOAM_END = 0.5;
 #endif
 
 #ifdef ABOVE
-// True if a body under water is before a point, by at most a thickness; then texel is its pixel.
-bool meets_body(vec3 offset, float range, float thickness, ivec2 size, out vec4 texel) {
-    vec4 clip = clip_from_offset * vec4(offset, 1.0);
-    ivec2 pixel = ivec2((clip.xy / clip.w * 0.5 + 0.5) * vec2(size));
-    texel = texelFetch(surface_image, clamp(pixel, ivec2(0), size - 1), 0);
-    float distance = length(offset);
-    return texel.a > range && texel.a < distance && texel.a > distance - thickness && eye.x + offset.z * texel.a / distance < 0.0;
-}
-
-// Light of the water and of bodies in it below a point of the surface, in the direction of refraction. The refracted ray is followed
-// within the picture: 8 depths, each 1.8 times the one before, then the depth between the last two.
-vec3 refracted_light(float range, vec3 direction, vec4 texel, ivec2 size) {
-    vec3 water = water_in(direction);
-    float fall = 1.0 / max(-direction.z, 0.1);
-    float before = 0.0;
-    float way = 0.2 * fall;
-    bool is_met = false;
-    for (int i = 0; i < 8 && !is_met; ++i) {
-        is_met = meets_body(v_offset + way * direction, range, max(way, 1.0), size, texel);
-        if (!is_met) {
-            before = way;
-            way *= 1.8;
-        }
-    }
-    if (!is_met) return water;
-    vec4 seen = texel;
-    for (int i = 0; i < 4; ++i) {
-        float middle = 0.5 * (before + way);
-        if (meets_body(v_offset + middle * direction, range, max(way, 1.0), size, texel)) {
-            way = middle;
+// Follow a ray from a point of the surface within the picture to a body above (side 1) or below (side -1) the still surface: six
+// distances, each 2.2 times the one before, then two halvings. Return the way to the body, or 0; seen is its pixel. Below, the border of the picture is continued.
+float follow(vec3 direction, float side, float range, ivec2 size, out vec4 seen) {
+    vec4 here = clip_from_offset * vec4(v_offset, 1.0);
+    vec4 change = clip_from_offset * vec4(direction, 0.0);
+    float first = 0.0;
+    float way = 0.25 / max(abs(direction.z), 0.1);
+    float met = 0.0;
+    seen = vec4(0.0);
+    for (int i = 0; i < 8; ++i) {
+        vec4 clip = here + way * change;
+        vec2 place = clip.xy / clip.w * 0.5 + 0.5;
+        vec4 texel = texelFetch(surface_image, ivec2(clamp(place, 0.0, 0.9999) * vec2(size)), 0);
+        vec3 offset = v_offset + way * direction;
+        float distance = length(offset);
+        bool is_seen = clip.w > 0.0 && (side < 0.0 || place == clamp(place, 0.0, 1.0)) && texel.a > range * (0.5 - 0.5 * side)
+            && texel.a < distance && texel.a > distance - max(way, 1.0) && side * (eye.x + offset.z * texel.a / distance) > 0.0;
+        if (is_seen) {
+            met = way;
             seen = texel;
+        }
+        if (met > 0.0) {
+            if (!is_seen) first = way;
+            way = 0.5 * (first + met);
+            if (i >= 7) break;
         } else {
-            before = middle;
+            first = way;
+            if (i >= 5) break;
+            way *= 2.2;
         }
     }
-    return mix(water, seen.rgb, whole_field(way));
+    return met;
 }
 
-vec3 light_above(vec3 towards, float range, vec3 normal, float variance, vec4 texel, ivec2 size) {
+vec3 light_above(vec3 towards, float range, vec3 normal, float variance, ivec2 size) {
     float cosine = max(-dot(towards, normal), 0.0);
     float share = reflectance(sqrt(min(cosine * cosine + 0.5 * variance, 1.0)), 1.0 / air.y);
     vec3 mirrored = reflect(towards, normal);
     mirrored = normalize(vec3(mirrored.xy, abs(mirrored.z) + 0.5 * sqrt(variance)));
-    vec3 light = share * sky_in(mirrored);
+    vec4 seen;
+    vec3 above = sky_in(mirrored);
+    float met = follow(mirrored, 1.0, range, size, seen);
+    if (met > 0.0) above = seen.rgb;
+    vec3 light = share * above;
     vec3 half_way = normalize(sky_sun.xyz - towards);
     float steep = max(half_way.z, 0.05);
     float spread = variance + 0.0625 * sky_sun.w * sky_sun.w + 0.0625 * air.z * air.z;
@@ -77,7 +78,10 @@ vec3 light_above(vec3 towards, float range, vec3 normal, float variance, vec4 te
     float glint = reflectance(max(-dot(half_way, towards), 0.0), 1.0 / air.y) * PI * facets;
     light += sky_sun_light.rgb * (glint / (4.0 * max(cosine, 0.05) * steep * steep * steep * steep));
     vec3 refracted = refract(towards, normal, 1.0 / air.y);
-    return light + (1.0 - share) / (air.y * air.y) * refracted_light(range, refracted, texel, size);
+    vec3 below = water_in(refracted);
+    met = follow(refracted, -1.0, range, size, seen);
+    if (met > 0.0) below = mix(below, seen.rgb, whole_field(met));
+    return light + (1.0 - share) / (air.y * air.y) * below;
 }
 
 #else
@@ -122,7 +126,7 @@ void main() {
     vec3 lit = sky_light.rgb + sky_sun_light.rgb * sky_sun.z;
 #endif
 #ifdef ABOVE
-    vec3 light = light_above(towards, range, normal, variance, texel, textureSize(surface_image, 0));
+    vec3 light = light_above(towards, range, normal, variance, textureSize(surface_image, 0));
 #ifdef FOAM
     light = mix(light, 0.5 * lit, foam);
 #endif
@@ -132,6 +136,6 @@ void main() {
 #ifdef FOAM
     light = mix(light, 0.3 * lit, foam);
 #endif
-    light_out = vec4(light + open_water(gl_FragCoord.xy, image_size.xy), range);
+    light_out = vec4(light + v_open_water, range);
 #endif
 }
