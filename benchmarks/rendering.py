@@ -9,6 +9,7 @@ so that every one is drawn and read back. ``colour`` is 8 bit; ``colour + noise`
 from __future__ import annotations
 
 import time
+from dataclasses import replace
 
 import numpy as np
 from measure import main, milliseconds
@@ -16,9 +17,11 @@ from measure import main, milliseconds
 from uwsim.assets import load_model
 from uwsim.base.geometry import Intrinsics, Pose, rotation_from_xyz
 from uwsim.optics import find_water
+from uwsim.rendering.caustics.ripples import Ripples
 from uwsim.rendering.grey import grey_truncated
 from uwsim.rendering.lights.lamp import Lamp
 from uwsim.rendering.noise import add_noise
+from uwsim.rendering.physical.moving_surface import MovingSurface
 from uwsim.rendering.physical.physical_water import PhysicalWater
 from uwsim.rendering.renderer import Renderer
 from uwsim.rendering.targets import TARGETS
@@ -147,6 +150,21 @@ def measure() -> dict[str, object]:
             pose, camera, PHYSICAL_WATER, Light(), targets=targets, lamps=(lamp,) * n_lamps
         )
 
+    time_of_image = 0.0
+
+    def draw_focused(*, is_moving: bool, **settings: bool) -> None:
+        nonlocal time_of_image
+        time_of_image += 0.05 if is_moving else 0.0
+        optics = replace(PHYSICAL_WATER.physical_water, ripples=Ripples(), **settings)
+        renderer.draw(
+            move_camera(down_view),
+            large_camera,
+            replace(PHYSICAL_WATER, physical_water=optics),
+            Light(),
+            targets=COLOUR,
+            surface=MovingSurface(time=time_of_image),
+        )
+
     figures: dict[str, object] = {
         "renderer": renderer.description,
         "triangles_in_scene": n_triangles,
@@ -180,6 +198,15 @@ def measure() -> dict[str, object]:
         ),
         "640x480 physical, sun + lamp, range + ids": milliseconds(
             lambda: draw_physical(large_camera, all_targets, 1), calls=15
+        ),
+        "640x480 physical, sun, caustics, still surface": milliseconds(
+            lambda: draw_focused(is_moving=False, has_light_shafts=False), calls=15
+        ),
+        "640x480 physical, sun, caustics + shafts, still surface": milliseconds(
+            lambda: draw_focused(is_moving=False), calls=15
+        ),
+        "640x480 physical, sun, caustics + shafts, moving surface": milliseconds(
+            lambda: draw_focused(is_moving=True), calls=15
         ),
         "320x240 range": milliseconds(lambda: draw(small_camera, frozenset({"range"}))),
         "320x240 noise": milliseconds(lambda: add_noise(image16, 0.02, rng), target=0.4),
