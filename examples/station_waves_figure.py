@@ -1,16 +1,16 @@
 """Draw the figure of docs/waves.md, and print its table.
 
-    python examples/station_waves_figure.py RESULTS docs/images/station-waves.png
+    python examples/station_waves_figure.py docs/images/station-waves.png RESULTS ...
 
 RESULTS has a folder for each controller, which `uwsim bench station-waves` writes with
-``--algorithm p --algorithm pi --algorithm feedforward --seed 1 --repeat 6 --out RESULTS``. A PDF
-for a paper is written beside the PNG.
+``--algorithm p --algorithm pi --algorithm feedforward --seed 1 --repeat 6 --out RESULTS``. Several
+RESULTS with different wave heights count as one. ``--pdf`` writes a PDF, too.
 """
 
 from __future__ import annotations
 
 import argparse
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -36,43 +36,50 @@ Values = Mapping[tuple[int, float], float]
 
 def main() -> None:
     parser = argparse.ArgumentParser(description="Draw the figure of station keeping in waves.")
-    parser.add_argument("results", type=Path)
     parser.add_argument("image", type=Path)
+    parser.add_argument("results", type=Path, nargs="+")
+    parser.add_argument("--pdf", action="store_true", help="a PDF for a paper, too")
     options = parser.parse_args()
-    results = {name: load(options.results / name) for name in CONTROLLERS}
+    results = {name: [load(folder / name) for folder in options.results] for name in CONTROLLERS}
     print_table(results)
-    draw(results, options.image)
+    draw(results, options.image, has_pdf=options.pdf)
 
 
-def read_values(result: Result, column: str) -> dict[tuple[int, float], float]:
+def read_values(results: Sequence[Result], column: str) -> dict[tuple[int, float], float]:
     """Return the values of a column in the rows that are ok."""
-    rows = zip(
-        result.values("seed"),
-        result.numbers(HEIGHT),
-        result.values("status"),
-        result.numbers(column),
-        strict=True,
-    )
     return {
         (int(str(seed)), round(height, 6)): value
-        for seed, height, status, value in rows
+        for result in results
+        for seed, height, status, value in zip(
+            result.values("seed"),
+            result.numbers(HEIGHT),
+            result.values("status"),
+            result.numbers(column),
+            strict=True,
+        )
         if status == "ok" and height is not None and value is not None
     }
 
 
-def find_heights(results: Mapping[str, Result]) -> list[float]:
-    """Return the wave heights that all results have [m]."""
+def find_heights(controllers: Mapping[str, Sequence[Result]]) -> list[float]:
+    """Return the wave heights at which all controllers have results [m]."""
     heights = [
-        {round(height, 6) for height in result.numbers(HEIGHT) if height is not None}
-        for result in results.values()
+        {
+            round(height, 6)
+            for result in results
+            for height in result.numbers(HEIGHT)
+            if height is not None
+        }
+        for results in controllers.values()
     ]
     return sorted(set.intersection(*heights))
 
 
-def count_ok(result: Result, height: float) -> tuple[int, int]:
+def count_ok(results: Sequence[Result], height: float) -> tuple[int, int]:
     """Return the number of rows that are ok at a height, and of all rows."""
     statuses = [
         status
+        for result in results
         for level, status in zip(result.numbers(HEIGHT), result.values("status"), strict=True)
         if level is not None and round(level, 6) == height
     ]
@@ -99,7 +106,7 @@ def format_interval(interval: Interval) -> str:
     return f"{interval.mean:.3f} ({interval.low:.3f} to {interval.high:.3f})"
 
 
-def print_table(results: Mapping[str, Result]) -> None:
+def print_table(results: Mapping[str, Sequence[Result]]) -> None:
     """Print the table of position errors, paired differences and losses."""
     offsets = {name: read_values(result, "offset") for name, result in results.items()}
     names = " | ".join(f"`{name}`" for name in results)
@@ -116,7 +123,7 @@ def print_table(results: Mapping[str, Result]) -> None:
         print(f"| {height:g} | " + " | ".join(cells) + " |")
 
 
-def draw(results: Mapping[str, Result], image: Path) -> None:
+def draw(results: Mapping[str, Sequence[Result]], image: Path, *, has_pdf: bool) -> None:
     """Draw position error, energy and success over the wave height."""
     with styled_figure((7.2, 2.7)) as figure:
         grid = figure.subplots(1, 3)
@@ -126,7 +133,7 @@ def draw(results: Mapping[str, Result], image: Path) -> None:
         grid[1].set_ylabel("energy in 60 s [kJ]")
         draw_success(grid[2], results)
         for axes in grid:
-            axes.set(xlabel="significant wave height [m]", xlim=(-0.05, 1.05))
+            axes.set(xlabel="significant wave height [m]", xlim=(-0.05, 1.45))
         handles, names = grid[0].get_legend_handles_labels()
         figure.legend(handles, names, loc="outside upper center", ncols=len(names))
         write_note(
@@ -134,18 +141,17 @@ def draw(results: Mapping[str, Result], image: Path) -> None:
             "bars: 95 % intervals over 6 seeds; hollow: without the seeds that lost the box",
         )
     save_plot(figure, image)
-    save_pdf(figure, image.with_suffix(".pdf"))
+    if has_pdf:
+        save_pdf(figure, image.with_suffix(".pdf"))
 
 
-def draw_means(axes: Axes, results: Mapping[str, Result], column: str, scale: float) -> None:
+def draw_means(
+    axes: Axes, results: Mapping[str, Sequence[Result]], column: str, scale: float
+) -> None:
     """Draw the means of a column with their intervals, times a factor."""
     for i, (name, result) in enumerate(results.items()):
         values, colour = read_values(result, column), PALETTE[i]
-        heights = [
-            height
-            for height in sorted({level for _, level in values})
-            if count_ok(result, height)[0] > 1
-        ]
+        heights = [height for height in find_heights(results) if count_ok(result, height)[0] > 1]
         intervals = [compute_interval(values, height) for height in heights]
         means = scale * np.array([interval.mean or 0.0 for interval in intervals])
         spreads = np.array(
@@ -170,10 +176,10 @@ def draw_means(axes: Axes, results: Mapping[str, Result], column: str, scale: fl
     axes.set_ylim(bottom=0.0)
 
 
-def draw_success(axes: Axes, results: Mapping[str, Result]) -> None:
+def draw_success(axes: Axes, results: Mapping[str, Sequence[Result]]) -> None:
     """Draw the share of seeds whose tracker keeps the box, with exact intervals."""
     for i, (_, result) in enumerate(results.items()):
-        heights = sorted({round(level, 6) for level in result.numbers(HEIGHT) if level is not None})
+        heights = find_heights(results)
         counts = [count_ok(result, height) for height in heights]
         rates = [share for n_ok, n in counts if (share := rate(n_ok, n)) is not None]
         values = np.array([share.value for share in rates])
@@ -182,7 +188,7 @@ def draw_success(axes: Axes, results: Mapping[str, Result]) -> None:
             np.array(heights) + 0.012 * (i - 1), values, yerr=np.maximum(spreads.T, 0.0),
             color=PALETTE[i], marker=MARKERS[i], capsize=2.0, linewidth=1.2,
         )  # fmt: skip
-    axes.set(ylabel="share of seeds that keep the box", ylim=(-0.03, 1.03))
+    axes.set(ylabel="share of seeds with the box", ylim=(-0.03, 1.03))
 
 
 if __name__ == "__main__":

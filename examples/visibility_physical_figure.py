@@ -1,9 +1,10 @@
-"""Draw the figure of docs/visibility-physical.md, and print its tables.
+r"""Draw the figure of docs/visibility-physical.md, and print its tables.
 
-    python examples/visibility_physical_figure.py RESULTS docs/images/visibility-physical.png
+    python examples/visibility_physical_figure.py RESULTS docs/images/visibility-physical.png \
+        --views docs/images/visibility-physical-views.jpg
 
 RESULTS has the folders ``day``, ``lamp-0.1`` and ``lamp-0.5``, each with the results of several
-trackers, which the commands of the page write. A PDF for a paper is written beside the PNG.
+trackers, which the commands of the page write. ``--pdf`` writes a PDF, too.
 
 The second table has what is expected without a tracker. The contrast is that of the model,
 M(psi) J / L, with the light J of a white board and its radiance L, veil included. The correlation
@@ -19,10 +20,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+import numpy.typing as npt
 from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter
+from PIL import Image, ImageDraw, ImageFont
 
 from uwsim.analysis.plots import (
+    INK,
     MARKERS,
     PALETTE,
     curves_of,
@@ -59,6 +63,7 @@ TITLES = {
     "lamp-0.1": "lamp 0.1 m beside the lens",
     "lamp-0.5": "lamp 0.5 m beside the lens",
 }
+SHORT_TITLES = {"day": "sun", "lamp-0.1": "lamp 0.1 m", "lamp-0.5": "lamp 0.5 m"}
 TRACKERS = ("esm", "ic", "ecc", "orb", "ssd-esm")
 LEVEL, CORNERS = "attenuationLengths", "corners"
 MAX_ERROR = 5.0
@@ -67,6 +72,8 @@ MAX_LEVEL = 6.0
 """The greatest number of attenuation lengths in the figure."""
 FREQUENCIES = (10.0, 30.0)
 """The frequencies of detail for which a contrast is stated [cycles/rad]."""
+VIEW_LEVELS = (0.5, 2.0, 3.0, 4.0)
+"""The attenuation lengths of the images of the camera."""
 LEVELS = (0.5, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0)
 NOISE = 0.02 * 255.0 * 0.668
 """The standard deviation of the noise of a grey image, of 2 % in each channel [grey level]."""
@@ -89,7 +96,12 @@ def main() -> None:
     parser = argparse.ArgumentParser(description="Draw the figure of visibility in water.")
     parser.add_argument("results", type=Path)
     parser.add_argument("image", type=Path)
+    parser.add_argument("--views", type=Path, metavar="FILE.jpg", help="images of the camera, too")
+    parser.add_argument("--pdf", action="store_true", help="a PDF for a paper, too")
     options = parser.parse_args()
+    if options.views is not None:
+        rows = [draw_views(lamp) for lamp in LIGHTS.values()]
+        Image.fromarray(np.concatenate(rows)).save(options.views, quality=88, optimize=True)
     results = {
         light: {name: load(path) for name in TRACKERS if is_complete(path := folder / name)}
         for light in LIGHTS
@@ -97,7 +109,7 @@ def main() -> None:
     }
     print_losses(results)
     print_expectations({light: compute_expectations(LIGHTS[light]) for light in results})
-    draw(results, options.image)
+    draw(results, options.image, has_pdf=options.pdf)
 
 
 def is_complete(folder: Path) -> bool:
@@ -208,6 +220,23 @@ def compute_contrast(simulation: Simulation, sight: LineOfSight, frequency: floa
     return float((light * transfer / radiance)[1])
 
 
+def draw_views(lamp: str) -> npt.NDArray[np.uint8]:
+    """Draw a row of images of the camera at `VIEW_LEVELS`, for a distance of the lamp [m]."""
+    spec = read_benchmark(bundled_files("benchmarks")["visibility-physical"]).scene_updater
+    path = bundled_files("scenes")["visibility-physical-scene"]
+    with load_scene(path, settings={"xacro.lamp": lamp}, seed=1) as simulation:
+        updater, images = spec.bind(simulation.world.stage_view), []
+        for level in VIEW_LEVELS:
+            updater.apply(level)
+            pixels = simulation.world.sensors.camera("bowtech1").capture()
+            image = Image.fromarray(np.ascontiguousarray(pixels[..., :3]))
+            text = f"{level:g} attenuation lengths"
+            font = ImageFont.load_default(size=15)
+            ImageDraw.Draw(image).text((8, 5), text, "white", font, stroke_width=2, stroke_fill=INK)
+            images.append(np.pad(np.asarray(image), ((0, 4), (0, 4), (0, 0)), constant_values=255))
+    return np.concatenate(images, axis=1)
+
+
 def print_expectations(expectations: Mapping[str, Mapping[float, Expectation]]) -> None:
     """Print the table of what is expected without a tracker."""
     print("| attenuation lengths | " + " | ".join(TITLES[light] for light in expectations) + " |")
@@ -220,7 +249,7 @@ def print_expectations(expectations: Mapping[str, Mapping[float, Expectation]]) 
         print(f"| {level:g} | " + " | ".join(cells) + " |")
 
 
-def draw(results: Mapping[str, Mapping[str, Result]], image: Path) -> None:
+def draw(results: Mapping[str, Mapping[str, Result]], image: Path, *, has_pdf: bool) -> None:
     """Draw the errors of the corners for each light, and the losses."""
     with styled_figure((7.2, 5.4)) as figure:
         grid = figure.subplots(2, 2).ravel()
@@ -234,10 +263,11 @@ def draw(results: Mapping[str, Mapping[str, Result]], image: Path) -> None:
         write_note(
             figure,
             "bands and bars: 95 % intervals over 6 seeds (means; medians of losses); "
-            "cross: the last level before the loss",
+            "cross: the last level before the loss; lines that leave a panel: above 100 px",
         )
     save_plot(figure, image)
-    save_pdf(figure, image.with_suffix(".pdf"))
+    if has_pdf:
+        save_pdf(figure, image.with_suffix(".pdf"))
 
 
 def draw_errors(axes: Axes, trackers: Mapping[str, Result]) -> None:
@@ -266,12 +296,12 @@ def draw_losses(axes: Axes, results: Mapping[str, Mapping[str, Result]]) -> None
             axes.errorbar(
                 [median.value], [y], xerr=spread,
                 fmt=MARKERS[j], color=PALETTE[(j + 4) % len(PALETTE)], capsize=2.5,
-                label=TITLES[light] if tracker == TRACKERS[0] else None,
+                label=SHORT_TITLES[light] if tracker == TRACKERS[0] else None,
             )  # fmt: skip
     axes.set_yticks(range(len(TRACKERS)), TRACKERS)
     axes.set(xlabel="attenuation lengths to the target", xlim=(0.0, MAX_LEVEL))
     axes.set_ylim(len(TRACKERS) - 0.4, -0.6)
-    axes.legend(loc="lower right")
+    axes.legend(loc="center left")
 
 
 if __name__ == "__main__":
