@@ -57,6 +57,6 @@ def _points(mesh: Mesh, frame_from_mesh: Array) -> list[Point]:
 
 def _colour(mesh: Mesh) -> ColorRGBA:
     """Return the mesh's colour times the mean of its texture."""
-    mean = np.ones(3) if mesh.texture is None else mesh.texture.pixels.mean(axis=(0, 1)) / 255.0
+    mean = np.ones(3) if mesh.texture is None else mesh.texture.pixels[..., :3].mean((0, 1)) / 255.0
     r, g, b = (np.array(mesh.colour) * mean).tolist()
     return ColorRGBA(r=r, g=g, b=b, a=mesh.opacity)
