@@ -16,6 +16,9 @@ from measure import main, milliseconds
 
 from uwsim.assets import load_model
 from uwsim.base.geometry import Intrinsics, Pose, rotation_from_xyz
+from uwsim.cameras import CameraResponse, FlatPort, Lens
+from uwsim.cameras.lens_image import map_lens
+from uwsim.cameras.vignetting import compute_falloff
 from uwsim.optics import find_water
 from uwsim.rendering.caustics.ripples import Ripples
 from uwsim.rendering.grey import grey_truncated
@@ -165,6 +168,18 @@ def measure() -> dict[str, object]:
             surface=MovingSurface(time=time_of_image),
         )
 
+    response = CameraResponse()
+    lens = Lens(distortion=(-0.1, 0.02, 0.0, 0.0, 0.0), port=FlatPort())
+    scale = lens.magnification
+    lens_camera = replace(
+        large_camera, fx=scale * large_camera.fx, fy=scale * large_camera.fy, lens=lens
+    )
+    lens_image, falloff = map_lens(lens_camera), compute_falloff(lens_camera, None)
+    wide_light = renderer.draw(
+        down_view, lens_image.pinhole, PHYSICAL_WATER, Light(), targets=COLOUR, colour="light"
+    ).colour
+    light = lens_image.interpolate(wide_light)
+
     figures: dict[str, object] = {
         "renderer": renderer.description,
         "triangles_in_scene": n_triangles,
@@ -209,6 +224,11 @@ def measure() -> dict[str, object]:
             lambda: draw_focused(is_moving=True), calls=15
         ),
         "320x240 range": milliseconds(lambda: draw(small_camera, frozenset({"range"}))),
+        "640x480 lens": milliseconds(lambda: lens_image.interpolate(wide_light)),
+        "640x480 response": milliseconds(lambda: response.expose(light, falloff, 1)),
+        "640x480 lens + response": milliseconds(
+            lambda: response.expose(lens_image.interpolate(wide_light), falloff, 1), target=3.0
+        ),
         "320x240 noise": milliseconds(lambda: add_noise(image16, 0.02, rng), target=0.4),
         "320x240 grey": milliseconds(lambda: grey_truncated(image8)),
     }
