@@ -1,7 +1,7 @@
 r"""Synthetic pictures of LEDs, boards and the lamp's veil, with the noise of a camera.
 
 A picture is first drawn as light: the radiance of each pixel times its solid angle on the axis. A
-camera then gives electrons with shot and read noise, a black level, and whole numbers. The light
+camera then gives linear numbers of 12 bit, with the noise of its electrons (`cameras`). The light
 comes from functions that the caller gives: the formulas of `optics` for the example, the signals of
 the path tracer in the tests.
 
@@ -16,6 +16,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...cameras import CameraResponse
+from ...cameras.digital_numbers import FULL_SCALE
+from ...cameras.noise_words import frame_key
 from ...optics.phase_function import FloatArray
 
 SPOT_SIZE = 1.0
@@ -44,7 +47,7 @@ class SyntheticCamera:
     """The black level as a share of full scale."""
     black_drift: float = 0.1
     """The standard deviation of the black level between a picture and its dark frames [e-]."""
-    full_scale: int = 65535
+    full_scale: int = FULL_SCALE
     """The number of a file at full scale."""
 
     @property
@@ -66,13 +69,22 @@ class SyntheticCamera:
             generator: the source of noise.
         """
         drift = self.black_drift * generator.standard_normal() * bool(light.any())
-        electrons = np.maximum(light, 0.0) * exposure * self.full_well
-        frames = []
+        gain = self.full_well / self.full_scale
+        response = CameraResponse(
+            exposure_time=exposure,
+            sensitivity=self.full_well,
+            full_well=2.0 * self.full_well,  # full scale is reached first
+            gain=gain,
+            read_noise=self.read_noise,
+            black_level=self.black_level * self.full_scale + drift / gain,
+            output="linear12",
+        )
+        falloff = np.ones(light.shape, np.float32)
+        pixels = light[..., None].astype(np.float32)
+        frames: list[FloatArray] = []
         for _ in range(n_frames):
-            noise = self.read_noise * generator.standard_normal(light.shape)
-            signal = generator.poisson(np.minimum(electrons, 1e9)) + noise + drift
-            share = signal / self.full_well + self.black_level
-            frames.append(np.clip(np.round(share * self.full_scale), 0, self.full_scale))
+            numbers = response.expose(pixels, falloff, frame_key(generator))
+            frames.append(numbers.astype(np.float64))
         return frames
 
 
