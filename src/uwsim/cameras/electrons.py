@@ -22,7 +22,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..base.numerics.jit import njit
-from .noise_words import GOLDEN_GAMMA, fill_words
+from .noise_words import GOLDEN_GAMMA, Words, fill_words
 
 EXACT_LIMIT = 1.0
 """The read noise from which electrons have the normal law at every mean [e-]."""
@@ -64,7 +64,6 @@ def draw_numbers(
     unit, zero, half, top = np.float32(1), np.float32(0), np.float32(0.5), np.float32(4095)
     epsilon, sixth, share = np.float32(1e-12), np.float32(1 / 6), np.float32(1 / 36)
     read_variance = read_noise * read_noise
-    mask = np.uint64(0xFFFF)
     words = np.empty(width, np.uint64)
     # Row by row, in separate loops: the compiler vectorises those without tables.
     deviations, means = (
@@ -78,16 +77,19 @@ def draw_numbers(
         if has_noise > zero:
             fill_words(counter, words)
             counter += np.uint64(width) * GOLDEN_GAMMA
+            look_up_deviations(words, quantiles, channels, deviations)
+        if channels == 3 and stride == 3:
             for column in range(width):
-                word = words[column]
+                factor = scale * falloff_row[column]
+                for channel in range(3):
+                    means[3 * column + channel] = light_row[3 * column + channel] * factor
+        else:
+            for column in range(width):
+                factor = scale * falloff_row[column]
                 for channel in range(channels):
-                    deviations[channels * column + channel] = quantiles[
-                        (word >> np.uint64(16 * channel)) & mask
-                    ]
-        for column in range(width):
-            factor = scale * falloff_row[column]
-            for channel in range(channels):
-                means[channels * column + channel] = light_row[stride * column + channel] * factor
+                    means[channels * column + channel] = (
+                        light_row[stride * column + channel] * factor
+                    )
         for index in range(channels * width):
             mean = max(means[index], zero) + dark_electrons
             electrons = mean
@@ -101,6 +103,21 @@ def draw_numbers(
                 electrons += sixth * ratio * (z * z - unit)
             number = min(electrons, full_well) * gain + black + half
             numbers_row[index] = np.uint16(np.int32(max(min(number, top), zero)))
+
+
+@njit
+def look_up_deviations(words: Words, quantiles: Floats, channels: int, deviations: Floats) -> None:
+    """Write the normal numbers of a row, (channels * n,), by words of 16 bit each."""
+    mask = np.uint64(0xFFFF)
+    if channels == 3:
+        for column in range(len(words)):
+            word = words[column]
+            deviations[3 * column] = quantiles[word & mask]
+            deviations[3 * column + 1] = quantiles[(word >> np.uint64(16)) & mask]
+            deviations[3 * column + 2] = quantiles[(word >> np.uint64(32)) & mask]
+    else:
+        for column in range(len(words)):
+            deviations[column] = quantiles[words[column] & mask]
 
 
 @njit
