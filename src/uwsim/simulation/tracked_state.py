@@ -21,6 +21,8 @@ BRIGHTNESS_RESOLUTION = 0.01
 BEAM_ATTENUATION, EXPOSURE_LEVEL = "beam_attenuation", "exposure_level"
 """The names of the signals of physical water: the beam attenuation of green, and the exposure as a
 binary logarithm."""
+DRIFT_SIGNALS = {"particles": "m", "particle_velocity": "m/s"}
+"""The names and units of the signals of the water's displacement that carries particles, in W."""
 EXPOSURE_RESOLUTION = 1e-3
 """The resolution at which an exposure is recorded [stops]."""
 
@@ -57,6 +59,9 @@ class TrackedState:
                 signals += engine.actuation[index].commands().tolist()
         signals += [lamp.state.brightness for lamp in self._lamps]
         signals += measure_water(scenery.state.water)
+        if self._world.scenery.particles is not None:
+            drift = self._world.scenery.particles.find_drift()
+            signals += [*drift.displacement, *drift.velocity]
         return np.concatenate([rows.reshape(-1), signals])
 
     def _water_velocity(self, position: Array, vehicle: str) -> Array:
@@ -80,3 +85,6 @@ class TrackedState:
         if self._world.scenery.state.water.physical_water is not None:
             yield Signal(name=BEAM_ATTENUATION, unit="1/m")
             yield Signal(name=EXPOSURE_LEVEL, step=EXPOSURE_RESOLUTION)
+        if self._world.scenery.particles is not None:
+            for name, unit in DRIFT_SIGNALS.items():
+                yield from (Signal(name=f"{name}/{axis}", unit=unit) for axis in "xyz")

@@ -58,6 +58,7 @@ multiple of 4; the number of elements; and their type, one of ``f4 u4 u2 i2 i1 u
                  numbers of each medium that occurs, and clear those of the purest water
                  (`uwsim.viewer.optics`); nodes are those of a mean over a Gaussian. Else these
                  three are null
+    particles   null or the marine snow and bubbles in physical water (`uwsim.viewer.particles`)
     suns        {name: {direction, colour}}
     ambient, specular    constants of the lighting (`uwsim.rendering.water`)
     localized   pose in W of the localized frame L, the frame of the scene file
@@ -106,6 +107,9 @@ optional::
     beam_attenuation, exposure_level
                                of physical water: that of green [1/m], and the binary logarithm of
                                the exposure [1]
+    particles/x|y|z, particle_velocity/x|y|z
+                               displacement [m] and velocity [m/s] of the water that carries
+                               particles, in W
     lamp/NAME                  its brightness, 0..1 of the lamp's intensity in the head
     thrust/VEHICLE/NAME        command of a thruster, -1..1 of its largest [1], or [N] with unit
     water/VEHICLE/x|y|z        velocity of the water at the vehicle, in W [m/s]
@@ -188,6 +192,7 @@ from .mounts import (
     describe_vehicles,
 )
 from .pack import Blob
+from .particles import describe_particles
 from .water import describe_water
 
 Json = dict[str, Any]
@@ -238,6 +243,7 @@ def scene_head(
         "view": _orbit(simulation),
         "file_view": _file_view(simulation),
         **describe_water(world, blob, media),
+        "particles": describe_particles(world),
         "bodies": bodies.rows,
         "meshes": models.meshes,
         "textures": models.textures,

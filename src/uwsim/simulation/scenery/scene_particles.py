@@ -63,21 +63,26 @@ class SceneParticles:
         stream: Callable[[str], np.random.Generator],
         clock: Callable[[], float],
     ) -> None:
-        self._spec, self._clock = spec, clock
+        self.spec = spec
+        """The element of the scene file."""
+        self._clock = clock
         self._surface_height = model.scene.ocean_state.ocean_surface_height
-        self._classes: list[SizeClass] = []
-        self._plume_classes: list[SizeClass] = []
-        self._source: Array | None = None
+        self.classes: list[SizeClass] = []
+        """The classes of particles that are everywhere."""
+        self.plume_classes: list[SizeClass] = []
+        """The classes of bubbles that rise from the source."""
+        self.source: Array | None = None
+        """The place of the source in W, (3,) [m]; None without one."""
         if spec.marine_snow is not None:
-            self._classes += spec.marine_snow.divide(_draw_keys(stream("scene/marine_snow")))
+            self.classes += spec.marine_snow.divide(_draw_keys(stream("scene/marine_snow")))
         if spec.bubbles is not None:
             classes = spec.bubbles.divide(_draw_keys(stream("scene/bubbles")))
             if spec.bubbles.source is None:
-                self._classes += classes
+                self.classes += classes
             else:
-                self._plume_classes += classes
+                self.plume_classes += classes
                 place = np.array([spec.bubbles.source])
-                self._source = model.scene.world_from_localized.transform(place)[0]
+                self.source = model.scene.world_from_localized.transform(place)[0]
         self.sediment: SceneSediment | None = None
         """The clouds of sediment; None in scenes without any."""
         if spec.sediment is not None:
@@ -98,22 +103,27 @@ class SceneParticles:
         state.velocity[:] = velocity
         state.time = time
 
-    def find_visible(
-        self, world_from_camera: Pose, intrinsics: Intrinsics
-    ) -> VisibleParticles | None:
-        """Return the particles and clouds in the view of a camera; None without any."""
-        spec, state, time = self._spec, self.state, self._clock()
-        clouds = None
-        if self.sediment is not None:
-            clouds = self.sediment.find_visible(world_from_camera, time, state.velocity)
-        if clouds is None and not (self._classes or self._plume_classes):
-            return None
+    def find_drift(self) -> Drift:
+        """Return the displacement of the water at the present time."""
+        state, time = self.state, self._clock()
         displacement = state.displacement + state.velocity * (time - state.time)
-        drift = Drift(
+        return Drift(
             displacement=_make_triple(displacement),
             velocity=_make_triple(state.velocity),
             time=time,
         )
+
+    def find_visible(
+        self, world_from_camera: Pose, intrinsics: Intrinsics
+    ) -> VisibleParticles | None:
+        """Return the particles and clouds in the view of a camera; None without any."""
+        spec, state, time = self.spec, self.state, self._clock()
+        clouds = None
+        if self.sediment is not None:
+            clouds = self.sediment.find_visible(world_from_camera, time, state.velocity)
+        if clouds is None and not (self.classes or self.plume_classes):
+            return None
+        drift = self.find_drift()
         view = View(
             world_from_camera=world_from_camera,
             intrinsics=intrinsics,
@@ -121,9 +131,9 @@ class SceneParticles:
             max_range=spec.range,
             exposure_time=spec.exposure_time,
         )
-        parts = [find_particles(size_class, view, drift) for size_class in self._classes]
-        if self._source is not None:
-            parts += [find_plume(c, self._source, view, drift) for c in self._plume_classes]
+        parts = [find_particles(size_class, view, drift) for size_class in self.classes]
+        if self.source is not None:
+            parts += [find_plume(c, self.source, view, drift) for c in self.plume_classes]
         return VisibleParticles(
             records=np.concatenate([np.zeros(0, PARTICLE), *parts]),
             aperture=spec.aperture,

@@ -83,7 +83,8 @@ class Scenery:
         particles: SceneParticles | None = None,
     ) -> None:
         scene = model.scene
-        self._particles = particles
+        self.particles = particles
+        """The particles in the water; None without any."""
         self._model = model
         self._engine = engine
         self._own_pool = RendererPool()
@@ -368,11 +369,11 @@ class Scenery:
         pinhole = intrinsics if lens_image is None else lens_image.pinhole
         particles = None
         if (
-            self._particles is not None
+            self.particles is not None
             and "colour" in targets
             and water.physical_water == self.state.water.physical_water  # not the purest water
         ):
-            particles = self._particles.find_visible(world_from_camera, pinhole)
+            particles = self.particles.find_visible(world_from_camera, pinhole)
         image = renderer.draw(
             world_from_camera,
             pinhole,

@@ -4,6 +4,7 @@
 import type { Material, MaterialArrays, Ref } from "./drawing/entries";
 import type { Intrinsics } from "./geometry";
 import type { MediumSpec } from "./water/medium";
+import type { ParticlesSpec } from "./water/particles";
 
 export type { Ref };
 
@@ -128,9 +129,8 @@ export interface ViewSpec {
 export interface Water {
   /** The fog density [1/m]. */
   fog: number;
-  /** Red, green, blue, 0 to 1. */
+  /** Red, green, blue, 0 to 1; `colour` is that of the light that the water scatters into a long ray. */
   fog_colour: number[];
-  /** The colour of the light that the water scatters into a long ray, 0 to 1. */
   colour: number[];
   /** The attenuation of red, green and blue [1/m]. */
   attenuation: number[];
@@ -255,6 +255,8 @@ export interface Head {
   /** The view of the scene file's camera. */
   file_view: ViewSpec | null;
   water: Water;
+  /** Marine snow and bubbles in physical water; null or undefined: none. */
+  particles?: ParticlesSpec | null;
   /** By name: a vector towards the sun in W, of any length, and the colour of its light, 0 to 1. */
   suns: Record<string, { direction: number[]; colour: number[] }>;
   /** The brightness of ambient light, as a fraction of a surface's colour [1]. */

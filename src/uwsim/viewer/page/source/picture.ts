@@ -9,7 +9,8 @@ import { element, indexAt, make } from "./panels";
 import type { Player } from "./player";
 import type { Snapshot } from "./snapshot";
 import { drawCompass } from "./display/compass";
-import { isSoftware, Renderer, type RenderState } from "./drawing/renderer";
+import type { RenderState } from "./drawing/frame";
+import { isSoftware, Renderer } from "./drawing/renderer";
 import { fitIntrinsics, type ViewCamera, type Views } from "./views";
 import { scaleIntrinsics, type Intrinsics } from "./geometry";
 
@@ -133,14 +134,14 @@ export class Picture {
     const viewCamera = views.viewCamera(w, h);
     const water = this.water(player, snapshot, switches);
     const optics = this.media.mediumAt(snapshot);
-    const clearWater = switches.clear ? { ...water, fog: 0 } : water;
-    const viewOptics = switches.clear ? this.media.clearOptics(optics) : optics;
     const lamps = this.lamps(snapshot);
     const { worldFromCamera, isExternal } = viewCamera;
     const intrinsics = scaleIntrinsics(viewCamera.intrinsics, ratio);
     const grey = viewCamera.camera?.grey;
-    const state = { worldFromCamera, intrinsics, water: clearWater, optics: viewOptics, lamps, isExternal, grey };
-    this.renderer?.draw(state, null, [0, 0]);
+    const drift = snapshot.drift();
+    const state = { worldFromCamera, intrinsics, water, optics, lamps, isExternal, grey, drift };
+    const clearState = { ...state, water: { ...water, fog: 0 }, optics: this.media.clearOptics(optics), drift: null };
+    this.renderer?.draw(switches.clear ? clearState : state, null, [0, 0]);
     const context = this.overlay.getContext("2d")!;
     context.setTransform(ratio, 0, 0, ratio, 0, 0);
     context.clearRect(0, 0, w, h);
@@ -151,7 +152,7 @@ export class Picture {
       drawCompass(context, viewCamera.intrinsics, views.height, hud.offsetTop + hud.offsetHeight);
     }
     this.frames.forEach((frame, i) => (frame.hidden = head.cameras[i] === viewCamera.camera));
-    this.drawPictures(context, { ...state, water, optics, isExternal: false }, snapshot, switches, ratio, h);
+    this.drawPictures(context, { ...state, isExternal: false }, snapshot, switches, ratio, h);
     this.pacing?.begin();
     return viewCamera;
   }
@@ -190,6 +191,7 @@ export class Picture {
     const optics = this.media.mediumAt(snapshot);
     const state = {
       worldFromCamera, intrinsics, lamps: this.lamps(snapshot), isExternal, isExact: true, grey,
+      drift: isClear ? null : snapshot.drift(),
       optics: isClear ? this.media.clearOptics(optics) : optics,
       water: { ...this.water(player, snapshot, switches), ...settings.water, ...(isClear ? { fog: 0 } : {}) },
     };

@@ -26,6 +26,12 @@ export class Snapshot {
     return value === undefined || Number.isNaN(value) ? undefined : value;
   }
 
+  /** Return the displacement and the velocity of the water that carries particles; at rest without signals. */
+  drift(): { displacement: number[]; velocity: number[]; time: number } {
+    const read = (name: string) => [..."xyz"].map((axis) => this.signal(`${name}/${axis}`) ?? 0);
+    return { displacement: read("particles"), velocity: read("particle_velocity"), time: this.time };
+  }
+
   /**
    * Return the points whose coordinates are the signals prefix/0/x, prefix/0/y, prefix/1/x, ...
    *

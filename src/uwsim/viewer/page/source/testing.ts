@@ -2,6 +2,7 @@
 import type { Controls } from "./controls";
 import { valueAt } from "./curves";
 import { matrix } from "./geometry";
+import { findParticles } from "./water/particles";
 import { indexAt } from "./panels";
 
 /** Set `window.uwsim` to the interface of the page. */
@@ -22,6 +23,15 @@ export function exposeToConsole(page: Controls): void {
       markers: () => player.markers(page.time),
       /** The heights of the columns of a heap of sand [m]. */
       sand: (index: number) => Array.from(picture.models.heights(index)),
+      /** The records of the particles in the image of a camera. */
+      particles: (name: string) => {
+        const { cameras, particles, water } = page.pack.head;
+        const camera = cameras.find((candidate) => candidate.name === name)!;
+        const snapshot = player.snapshot(page.time);
+        picture.models.place(snapshot.poses);
+        const worldFromCamera = picture.models.worldFromMount(camera);
+        return Array.from(findParticles(particles!, snapshot.drift(), worldFromCamera, camera, water.surface_height));
+      },
       /** The image of a camera in the camera's resolution: RGBA, row 0 at the top, as base64. */
       image: (name: string, water = {}) => {
         const camera = page.pack.head.cameras.find((candidate) => candidate.name === name)!;

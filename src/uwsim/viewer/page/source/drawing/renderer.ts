@@ -1,16 +1,18 @@
 // The renderer: it draws a scene through its water with the shaders of uwsim.rendering.renderer.
-import type { Head, Water } from "../head";
+import type { Head } from "../head";
 import {
-  clipFromCamera, columns, inverse, matrix, origin, product, rotateBack, scaleIntrinsics, unit, type Intrinsics,
-  type Matrix,
+  clipFromCamera, inverse, matrix, origin, scaleIntrinsics, unit, type Intrinsics, type Matrix,
 } from "../geometry";
 import {
-  isOpaque, lampBlockValues, projectorBlockValues, projectorIntrinsics, Shadows, type ActiveLamp,
+  isOpaque, lampBlockValues, projectorBlockValues, projectorIntrinsics, Shadows,
 } from "./light";
 import type { Optics } from "../water/medium";
 import type { Models, Piece } from "../models";
 import { opticsBlockValues } from "../water/optics";
 import { Development } from "../water/development";
+import type { VisibleParticles } from "../water/particle_pass";
+import { findParticles } from "../water/particles";
+import { frameBlockValues, type RenderState } from "./frame";
 import { BLOCKS, Programs, UNITS, type Switches } from "./shaders";
 import { InstanceBlocks } from "./instance_blocks";
 import { findVisible, canSkipMipmaps, castersInView, type Eye } from "./visibility";
@@ -24,23 +26,6 @@ export function isSoftware(gl: WebGL2RenderingContext): boolean {
   const name = gl.getExtension("WEBGL_debug_renderer_info");
   const renderer = name ? String(gl.getParameter(name.UNMASKED_RENDERER_WEBGL)) : "";
   return /swiftshader|llvmpipe|software|softpipe/i.test(renderer);
-}
-
-/** The values that determine an image, in addition to the poses of the bodies. */
-export interface RenderState {
-  /** The pose of the camera in W, with OpenGL axes. */
-  worldFromCamera: Matrix;
-  intrinsics: Intrinsics;
-  water: Water;
-  /** The numbers of physical water; null: the fog law holds. */
-  optics: Optics | null;
-  lamps: ActiveLamp[];
-  /** True for an external view: there is air above the water, and the parts that cameras do not draw are visible. */
-  isExternal: boolean;
-  /** True if the image is greyscale, as the image of a greyscale camera. */
-  grey?: boolean;
-  /** True for the image that the simulation's renderer draws, without savings in quality. */
-  isExact?: boolean;
 }
 
 export class Renderer {
@@ -105,8 +90,15 @@ export class Renderer {
     });
     if (lamps.length) this.drawLampPoints(lamps.length, development.switches);
     this.gl.disable(this.gl.DEPTH_TEST);
-    const image = development.develop(optics, intrinsics, plan, lamps.length, state.grey === true);
+    const particles = this.findParticles(state, intrinsics);
+    const image = development.develop(optics, intrinsics, plan, lamps.length, state.grey === true, particles);
     development.present(image, target, corner, state.intrinsics, isFlipped);
+  }
+
+  private findParticles({ drift, worldFromCamera, water }: RenderState, lens: Intrinsics): VisibleParticles | null {
+    const spec = this.head.particles;
+    if (!spec || !drift) return null;
+    return { spec, records: findParticles(spec, drift, worldFromCamera, lens, water.surface_height) };
   }
 
   /** Add the lamps that the camera sees to the surfaces in the current framebuffer. */
@@ -144,7 +136,7 @@ export class Renderer {
     const hasShadows = water.shadows && this.updateSunShadows(pieces, visiblePieces, sun, eye);
     if (hasShadows) switches.SHADOWS = 1;
     this.lightScene(state, pieces, switches);
-    this.fillFrame(state, clip, sun);
+    this.fill("Frame", frameBlockValues(state, this.head, clip, sun, this.shadows));
     this.instanceBlocks.fill(inverse(worldFromCamera), rotationOf(worldFromCamera));
     gl.bindFramebuffer(gl.FRAMEBUFFER, target);
     gl.viewport(corner[0], corner[1], intrinsics.width, intrinsics.height);
@@ -221,31 +213,6 @@ export class Renderer {
     gl.bindVertexArray(null);
     gl.useProgram(this.programs.get("background", switches));
     gl.drawArrays(gl.TRIANGLES, 0, 3);
-  }
-
-  private fillFrame({ worldFromCamera: m, intrinsics, water, optics }: RenderState, clip: Matrix, sun: number[]): void {
-    const { near, far } = intrinsics;
-    const { ambient: ambientLight, specular, suns } = this.head;
-    const rate = water.light_rate;
-    const attenuation = optics?.absorption.map((a, i) => a + optics.scattering[i]) ?? water.attenuation;
-    const waterRate = water.follows_light === false ? 1 : rate;
-    const [water_colour, fog_colour] = [water.colour, water.fog_colour].map((colour) =>
-      colour.map((c) => waterRate * c),
-    );
-    const far_colour = water.fog > 0 ? fog_colour : water_colour;
-    this.fill("Frame", Float32Array.from([
-      ...columns(clip),
-      ...columns(product(this.shadows.textureFromWorld, m)),
-      m[8], m[9], m[10], origin(m)[2] - water.surface_height,
-      ...rotateBack(m, sun), this.shadows.lift,
-      ...suns[water.sun].colour.map((c) => rate * c), 0,
-      rate * ambientLight, rate * specular, 0, 0,
-      ...water_colour, 0,
-      ...attenuation, 0,
-      ...fog_colour, water.fog ** 2,
-      (far + near) / (far - near), (-2 * far * near) / (far - near), 0, 0,
-      ...far_colour, 0,
-    ]));
   }
 
   private fill(name: string, values: Float32Array<ArrayBuffer>): void {

@@ -34,6 +34,9 @@ import targets from "../../../../rendering/shaders/targets.glsl";
 import transmission from "../../../../rendering/shaders/transmission.glsl";
 import varyings from "../../../../rendering/shaders/varyings.glsl";
 import water from "../../../../rendering/shaders/water.glsl";
+import particleFragment from "../../../../rendering/shaders/particle.frag.glsl";
+import particleVertex from "../../../../rendering/shaders/particle.vert.glsl";
+import particleLens from "../../../../rendering/shaders/particle_lens.glsl";
 import presentedFragment from "./presented.frag.glsl";
 import presentedVertex from "./presented.vert.glsl";
 
@@ -58,6 +61,9 @@ const FILES: Record<string, string> = {
   "material.glsl": material,
   "open_water.glsl": openWater,
   "optics.glsl": optics,
+  "particle.frag.glsl": particleFragment,
+  "particle.vert.glsl": particleVertex,
+  "particle_lens.glsl": particleLens,
   "presented.frag.glsl": presentedFragment,
   "presented.vert.glsl": presentedVertex,
   "projection.glsl": projection,
@@ -82,9 +88,10 @@ precision highp float;
 precision highp int;
 precision highp sampler2D;
 precision highp sampler2DShadow;
+#define noperspective
 `;
 /** The binding of each uniform block. */
-export const BLOCKS: Record<string, number> = { Frame: 0, Instance: 1, Lamps: 2, Projector: 3, Optics: 4 };
+export const BLOCKS: Record<string, number> = { Frame: 0, Instance: 1, Lamps: 2, Projector: 3, Optics: 4, ParticleLens: 9 };
 /** The texture unit of each sampler. */
 export const UNITS: Record<string, number> = {
   base_map: 0,
@@ -98,17 +105,18 @@ export const UNITS: Record<string, number> = {
   level_1: 8,
   level_2: 9,
   level_3: 10,
-  level_4: 11,
-  level_5: 12,
-  surface_image: 13,
+  level_4: 15,
+  level_5: 16,
+  surface_image: 17,
   normal_map: 11,
   finish_map: 12,
   emission_map: 13,
   reflectance_table: 14,
+  particle_image: 18,
 };
 /** The location of each attribute. */
 export const ATTRIBUTES: Record<string, number> = {
-  vertex: 0, vertex_normal: 1, uv: 2, tint: 3, tangent: 4, finish: 5, emission: 6,
+  vertex: 0, vertex_normal: 1, uv: 2, tint: 3, tangent: 4, finish: 5, emission: 6, place: 8, extent: 9, traits: 10,
 };
 
 /** The preprocessor macros of a program, by name. */

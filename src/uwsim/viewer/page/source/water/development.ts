@@ -4,6 +4,7 @@ import type { Intrinsics, Matrix } from "../geometry";
 import { kernelSwitches, MAX_LEVELS, planBlur, type BlurPlan } from "./blur_plan";
 import { N_RANGES, weightTable } from "./blur_weights";
 import { openWaterMap, MAP_SIZE } from "./open_water";
+import { ParticlePass, type VisibleParticles } from "./particle_pass";
 import { UNITS, type Programs, type Switches } from "../drawing/shaders";
 
 const MAX_TABLES = 16; // greatest number of tables of weights that are kept
@@ -23,6 +24,8 @@ interface Targets {
   /** The radiance and the range of surfaces. */
   surfaces: Target;
   colours: Target;
+  /** The sum of the particles; null until there are any. */
+  particles: Target | null;
   /** The scattered light of the coarse levels: of the first one with the mean light; of all others; of these without the narrowest ... */
   sources: Target[];
   /** Each coarse level after the Gaussian along its rows, and after both with the wider levels. */
@@ -34,6 +37,7 @@ export class Development {
   /** The switches of all programs that depend on the format of the textures. */
   readonly switches: Switches;
   private readonly format: number;
+  private readonly particlePass: ParticlePass;
   private readonly map: WebGLTexture;
   private readonly tables: { optics: Optics["transform"]; key: string; texture: WebGLTexture }[] = [];
   private table: WebGLTexture | null = null; // the weights of the prepared image
@@ -47,6 +51,7 @@ export class Development {
   ) {
     this.format = isHalf ? gl.RGBA16F : gl.RGBA32F;
     this.switches = isHalf ? { FAR: HALF_FAR } : {};
+    this.particlePass = new ParticlePass(gl, programs);
     this.map = this.texture(MAP_SIZE[0], MAP_SIZE[1], this.format);
   }
 
@@ -73,7 +78,10 @@ export class Development {
   }
 
   /** Draw the finished image of prepared surfaces; row 0 of the texture is the top. */
-  develop(optics: Optics, intrinsics: Intrinsics, plan: BlurPlan, nLamps: number, grey: boolean): WebGLTexture {
+  develop(
+    optics: Optics, intrinsics: Intrinsics, plan: BlurPlan, nLamps: number, grey: boolean,
+    particles: VisibleParticles | null,
+  ): WebGLTexture {
     const targets = this.targetsOf(intrinsics, plan);
     const nVeils = optics.lamp_veil ? nLamps : 0;
     this.bind(UNITS.open_water_map, this.map);
@@ -85,6 +93,13 @@ export class Development {
       switches.SCATTERED = 1;
     }
     this.bind(UNITS.surface_image, targets.surfaces.textures[0]);
+    if (particles) {
+      const target = (targets.particles ??= this.target(intrinsics.width, intrinsics.height, 1, this.format));
+      this.begin(target);
+      this.particlePass.draw(particles, nLamps, this.switches);
+      this.bind(UNITS.particle_image, target.textures[0]);
+      switches.PARTICLES = 1;
+    }
     if (optics.linear) switches.LINEAR = 1;
     if (grey) switches.GREY = 1;
     this.draw("developed", switches, targets.colours);
@@ -138,10 +153,14 @@ export class Development {
     }
   }
 
+  private begin(target: Target): void {
+    this.gl.bindFramebuffer(this.gl.FRAMEBUFFER, target.buffer);
+    this.gl.viewport(0, 0, target.width, target.height);
+  }
+
   private draw(effect: string, switches: Switches, target: Target): void {
     const { gl } = this;
-    gl.bindFramebuffer(gl.FRAMEBUFFER, target.buffer);
-    gl.viewport(0, 0, target.width, target.height);
+    this.begin(target);
     gl.useProgram(this.programs.get(effect, { ...this.switches, ...switches }, "screen"));
     gl.drawArrays(gl.TRIANGLES, 0, 3);
   }
@@ -177,7 +196,9 @@ export class Development {
     const surfaces = this.target(width, height, 1, format);
     gl.framebufferRenderbuffer(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT, gl.RENDERBUFFER, depth);
     surfaces.depth = depth;
-    targets = { surfaces, colours: this.target(width, height, 1, gl.RGBA8), sources: [], levels: [] };
+    targets = {
+      surfaces, colours: this.target(width, height, 1, gl.RGBA8), particles: null, sources: [], levels: [],
+    };
     let [w, h] = [width, height];
     for (let level = 0; level < Math.max(nLevels, 1); ++level) {
       [w, h] = [Math.ceil(w / 2), Math.ceil(h / 2)];
@@ -219,8 +240,8 @@ export class Development {
 
   private deleteTargets(): void {
     const { gl } = this;
-    for (const { surfaces, colours, sources, levels } of this.targets.values())
-      for (const target of [surfaces, colours, ...sources, ...levels.flatMap(({ rows, total }) => [rows, total])]) {
+    for (const { surfaces, colours, particles, sources, levels } of this.targets.values())
+      for (const target of [surfaces, colours, ...(particles ? [particles] : []), ...sources, ...levels.flatMap(({ rows, total }) => [rows, total])]) {
         for (const texture of target.textures) gl.deleteTexture(texture);
         gl.deleteFramebuffer(target.buffer);
         if (target.depth) gl.deleteRenderbuffer(target.depth);
