@@ -11,6 +11,7 @@ import uwsim
 from uwsim.errors import FileError, UwsimError
 from uwsim.optics import FournierForand, HenyeyGreenstein, find_water
 from uwsim.optics.water_file import WaterFile, write_water
+from uwsim.rendering.caustics.ripples import Ripples
 from uwsim.simulation.scenery.scene_water import choose_water
 
 SCENE = """<UWSimScene xmlns:u="urn:uwsim:1">
@@ -126,3 +127,43 @@ def test_fog_cannot_be_set_in_physical_water(tmp_path: Path) -> None:
         pytest.raises(UwsimError, match="no effect in physical water"),
     ):
         simulation.set_fog(0.2)
+
+
+WAVES = """<depth>20</depth> <u:waves>
+  <u:regularWave> <u:height>0.2</u:height> <u:period>3</u:period> </u:regularWave>
+</u:waves>
+<u:water law="physical">"""
+
+
+def ripples_of(folder: Path, water: str, *, has_waves: bool = False) -> Ripples | None:
+    """Return the ripples of a scene with water, and with waves."""
+    scene = SCENE.replace('<u:water law="physical">', WAVES) if has_waves else SCENE
+    (folder / "scene.xml").write_text(scene.format(water=water))
+    with uwsim.load(folder / "scene.xml") as simulation:
+        optics = simulation.world.scenery.state.water.physical_water
+        assert optics is not None
+        return optics.ripples
+
+
+def test_ripples_are_those_of_the_scene_or_of_a_light_wind_over_waves(tmp_path: Path) -> None:
+    named = "<u:type>clear</u:type>"
+    stated = "<u:ripples> <u:windSpeed>5</u:windSpeed> <u:direction>0.5</u:direction> </u:ripples>"
+    assert ripples_of(tmp_path, named) is None
+    assert ripples_of(tmp_path, named, has_waves=True) == Ripples(wind_speed=2.0)
+    ripples = ripples_of(tmp_path, named + stated, has_waves=True)
+    assert ripples is not None
+    assert (ripples.wind_speed, ripples.direction) == (5.0, pytest.approx(0.5))
+
+
+def test_caustics_and_shafts_of_a_scene_can_be_switched_off(tmp_path: Path) -> None:
+    switches = "<u:caustics>0</u:caustics> <u:lightShafts>0</u:lightShafts>"
+    with compile_water(tmp_path, "<u:type>clear</u:type>" + switches) as simulation:
+        optics = simulation.world.scenery.state.water.physical_water
+        assert optics is not None
+        assert not optics.has_caustics
+        assert not optics.has_light_shafts
+    text = error_of(
+        tmp_path, "<u:type>clear</u:type><u:ripples><u:windSpeed>50</u:windSpeed></u:ripples>"
+    )
+    assert "windSpeed" in text
+    assert "20" in text

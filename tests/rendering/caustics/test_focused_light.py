@@ -209,3 +209,27 @@ def test_images_are_the_same_bytes_twice() -> None:
         images.append(photograph_tile(renderer, physical_water(0.1), 3.0, surface).tobytes())
         renderer.close()
     assert images[0] == images[1]
+
+
+def test_a_shadow_of_the_sun_has_no_caustics(renderer: Renderer) -> None:
+    depth = 3.0
+    show_floor(renderer, depth)
+    renderer.place(renderer.add(plate(3.0, 3.0, (1.0, 1.0, 1.0)), 2), placed(z=-1.5))
+    water = Water(
+        physical_water=physical_water(
+            has_light_shafts=False, daylight=Daylight(elevation=0.5 * math.pi)
+        )
+    )
+    pose, camera = Pose(np.array([0.0, 0.0, -2.0]), np.eye(3)), Intrinsics.from_fovy(64, 64, 1.0)
+    shadowed, sunlit = (
+        [
+            renderer.draw(
+                pose, camera, water, Light(shadows=has_shadows),
+                targets={"colour"}, colour="linear16", surface=surface,
+            ).colour
+            for surface in (LEVEL, None)
+        ]
+        for has_shadows in (True, False)
+    )  # fmt: skip
+    assert np.array_equal(shadowed[0], shadowed[1])
+    assert not np.array_equal(sunlit[0], sunlit[1])

@@ -76,9 +76,9 @@ class LightShafts:
         buffer = self._buffers[size]
         buffer.use()
         self._find_program(has_swell=has_swell).render(moderngl.TRIANGLES, vertices=3)
-        texture = buffer.color_attachments[0]
-        assert isinstance(texture, moderngl.Texture)
-        return texture
+        image = buffer.color_attachments[0]
+        assert isinstance(image, moderngl.Texture)
+        return image
 
     def _find_program(self, *, has_swell: bool) -> moderngl.VertexArray:
         if has_swell not in self._programs:
