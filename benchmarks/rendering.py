@@ -20,11 +20,13 @@ from uwsim.cameras import CameraResponse, FlatPort, Lens
 from uwsim.cameras.lens_image import map_lens
 from uwsim.cameras.vignetting import compute_falloff
 from uwsim.optics import find_water
+from uwsim.particles import Drift, MarineSnowSpec, SizeClass, View, find_particles
 from uwsim.rendering.caustics.ripples import Ripples
 from uwsim.rendering.grey import grey_truncated
 from uwsim.rendering.lights.lamp import Lamp
 from uwsim.rendering.noise import add_noise
 from uwsim.rendering.physical.moving_surface import MovingSurface
+from uwsim.rendering.physical.particle_pass import VisibleParticles
 from uwsim.rendering.physical.physical_water import PhysicalWater
 from uwsim.rendering.renderer import Renderer
 from uwsim.rendering.targets import TARGETS
@@ -96,6 +98,11 @@ def view_pose(eye: tuple[float, float, float], target: tuple[float, float, float
     right = np.cross([0.0, 0.0, 1.0], back)
     right /= np.linalg.norm(right)
     return Pose(points[0], np.stack([right, np.cross(back, right), back], axis=1))
+
+
+def divide_snow() -> tuple[SizeClass, ...]:
+    """Return the classes of marine snow with some 2000 flocs in view."""
+    return MarineSnowSpec(concentration=4200.0).divide(iter(range(100)).__next__)
 
 
 def measure() -> dict[str, object]:
@@ -179,8 +186,32 @@ def measure() -> dict[str, object]:
         down_view, lens_image.pinhole, PHYSICAL_WATER, Light(), targets=COLOUR, colour="light"
     ).colour
     light = lens_image.interpolate(wide_light)
+    snow = divide_snow()
+
+    def find_snow(pose: Pose) -> VisibleParticles:
+        view = View(
+            world_from_camera=pose,
+            intrinsics=large_camera,
+            surface_height=5.0,
+            max_range=8.0,
+            exposure_time=0.01,
+        )
+        parts = [find_particles(size_class, view, Drift()) for size_class in snow]
+        return VisibleParticles(np.concatenate(parts), aperture=0.003, focus_distance=2.0)
+
+    def draw_snow() -> None:
+        pose = move_camera(down_view)
+        offset = pose.rotation @ np.array([0.3, 0.0, 0.0])
+        lamp = Lamp(world_from_lamp=Pose(pose.position + offset, pose.rotation), half_angle=0.6)
+        renderer.draw(
+            pose, large_camera, PHYSICAL_WATER, Light(), targets=COLOUR, lamps=(lamp,),
+            particles=find_snow(pose),
+        )  # fmt: skip
 
     figures: dict[str, object] = {
+        "flocs in view": len(find_snow(down_view).records),
+        "640x480 flocs found": milliseconds(lambda: find_snow(down_view), target=2.0),
+        "640x480 physical, sun + lamp + snow": milliseconds(draw_snow, calls=15),
         "renderer": renderer.description,
         "triangles_in_scene": n_triangles,
         "context_s": round(context_s, 4),

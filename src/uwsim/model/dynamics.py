@@ -368,6 +368,9 @@ class NameResolution:
                 self._report(str(one_error), water)
         except (UwsimError, OSError) as error:
             self._report(str(error), water)
+        if water.particles is not None:
+            for spec, text in water.particles.find_errors():
+                self._report(text, spec)
 
     def _report(
         self, message: str, spec: Spec, element: str = "", severity: Severity = "error"

@@ -12,8 +12,10 @@ Each kind that has no element is absent.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
+from ..errors import BadSetting
 from ..schema import Spec, element
 from .bubbles import BubblesSpec
 from .marine_snow import MarineSnowSpec
@@ -38,3 +40,12 @@ class ParticlesSpec(Spec):
     """The diameter of the aperture of the lens [m]; with 0 near particles are sharp."""
     focus_distance: float = element(namespaced=True, default=2.0, minimum=0.05, maximum=1000.0)
     """The distance at which the lens is focused [m]."""
+
+    def find_errors(self) -> Iterator[tuple[Spec, str]]:
+        """Yield errors of the numbers, each with the spec of its element."""
+        for spec in (self.marine_snow, self.bubbles):
+            if spec is not None:
+                try:
+                    spec.divide(lambda: 0)
+                except BadSetting as error:
+                    yield spec, str(error)
