@@ -83,9 +83,9 @@ class ParticlePass:
         """
         context = self._context
         if size not in self._framebuffers:
-            texture = context.texture(size, 4, dtype="f4")
-            texture.filter = (moderngl.NEAREST, moderngl.NEAREST)
-            self._framebuffers[size] = context.framebuffer([texture])
+            sums = context.texture(size, 4, dtype="f4")
+            sums.filter = (moderngl.NEAREST, moderngl.NEAREST)
+            self._framebuffers[size] = context.framebuffer([sums])
         framebuffer = self._framebuffers[size]
         framebuffer.use()
         framebuffer.clear(0.0, 0.0, 0.0, 0.0)
