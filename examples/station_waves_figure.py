@@ -168,9 +168,11 @@ def draw_means(
             marker=MARKERS[i], capsize=2.0, linewidth=1.2, label=name,
         )  # fmt: skip
         n_seeds = max(count_ok(result, height)[1] for height in heights)
-        partial = [k for k, height in enumerate(heights) if count_ok(result, height)[0] < n_seeds]
+        partial_indices = [
+            k for k, height in enumerate(heights) if count_ok(result, height)[0] < n_seeds
+        ]
         axes.plot(
-            np.array(heights)[partial] + 0.012 * (i - 1), means[partial], MARKERS[i],
+            np.array(heights)[partial_indices] + 0.012 * (i - 1), means[partial_indices], MARKERS[i],
             color=colour, markerfacecolor="white", zorder=4,
         )  # fmt: skip
     axes.set_ylim(bottom=0.0)

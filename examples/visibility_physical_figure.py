@@ -207,8 +207,8 @@ def compute_contrast(simulation: Simulation, sight: LineOfSight, frequency: floa
     light: Array = compute_board_light(optics, height, rate, sight)
     radiance: Array = compute_sunlit_board(optics, height, rate, sight)
     normal = (sight.camera - sight.point) / sight.length
-    for mounted in scenery.mounted_lamps:
-        lamp = make_lamp(mounted)
+    for mounted_lamp in scenery.mounted_lamps:
+        lamp = make_lamp(mounted_lamp)
         light = (
             light
             + compute_lamp_irradiance(
