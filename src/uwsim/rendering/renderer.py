@@ -1,8 +1,8 @@
 """The renderer: it draws images of instances of models, seen through water.
 
 One forward pass draws the requested targets: colour through the water (`rendering.water`), range
-and ids. Transparent surfaces are blended over the others, the farthest first. Not modelled: the
-water's surface, caustics, reflections, refraction.
+and ids. Transparent surfaces are blended over the others, the farthest first. The water's
+surface, caustics and light shafts are those of physical water. Not modelled: reflections.
 """
 
 from __future__ import annotations

@@ -135,6 +135,31 @@ def test_light_shafts_keep_the_mean_of_open_water(renderer: Renderer, pitch: flo
     assert np.abs(images[0] - level).max() > (0.003 if pitch == 0.0 else 0.05) * level.mean()
 
 
+def test_shafts_near_the_image_of_the_sun_keep_the_mean_light(renderer: Renderer) -> None:
+    renderer.clear()
+    cosine, sine = math.cos(0.9), math.sin(0.9)
+    rotation = np.array([[1, 0, 0], [0, -sine, -cosine], [0, cosine, -sine]])
+    camera = Intrinsics.from_fovy(160, 120, 1.0)
+    water = physical_water(
+        medium=find_water("jerlov-II"),
+        daylight=Daylight(elevation=1.0, azimuth=1.5),
+        has_surface=True,
+        has_blur=True,
+        exposure=0.02,
+    )
+    still_water = replace(water, has_light_shafts=False)
+    sums, largest = np.zeros(2), 0.0
+    for i in range(16):
+        pose = Pose(np.array([2.0 * (i % 4), 2.0 * (i // 4), -6.0]), rotation)
+        surface = MovingSurface(time=3.0 * i)
+        images = [draw(renderer, pose, camera, w, surface) for w in (water, still_water)]
+        sums += [image.mean() for image in images]
+        largest = max(largest, float(np.abs(images[0] - images[1]).max()))
+        assert images[0][..., 1:].min() > 0.1 * images[1][..., 1:].min()
+    assert sums[0] == pytest.approx(sums[1], rel=0.01)
+    assert largest > 0.2 * sums[1] / 16.0
+
+
 def make_swell(amplitude: float) -> Waves:
     """Return a regular wave of 16 m along x, with its crest at the origin at time 0."""
     frequency = math.sqrt(9.80665 * 2.0 * math.pi / SWELL_LENGTH)
