@@ -30,6 +30,10 @@ from uwsim.statistics import Interval, mean_interval, rate
 
 CONTROLLERS = ("p", "pi", "feedforward")
 HEIGHT = "waveHeight"
+MIN_SEEDS = 3
+"""The least number of seeds of a mean in the figure."""
+SHIFT = 0.025
+"""The shift between the bars of controllers [m]."""
 Values = Mapping[tuple[int, float], float]
 """The value of each seed and level."""
 
@@ -138,7 +142,8 @@ def draw(results: Mapping[str, Sequence[Result]], image: Path, *, has_pdf: bool)
         figure.legend(handles, names, loc="outside upper center", ncols=len(names))
         write_note(
             figure,
-            "bars: 95 % intervals over 6 seeds; hollow: without the seeds that lost the box",
+            "bars: 95 % intervals over 6 seeds; hollow: without the seeds that lost the box, "
+            "if 3 or more are left",
         )
     save_plot(figure, image)
     if has_pdf:
@@ -151,7 +156,9 @@ def draw_means(
     """Draw the means of a column with their intervals, times a factor."""
     for i, (name, result) in enumerate(results.items()):
         values, colour = read_values(result, column), PALETTE[i]
-        heights = [height for height in find_heights(results) if count_ok(result, height)[0] > 1]
+        heights = [
+            height for height in find_heights(results) if count_ok(result, height)[0] >= MIN_SEEDS
+        ]
         intervals = [compute_interval(values, height) for height in heights]
         means = scale * np.array([interval.mean or 0.0 for interval in intervals])
         spreads = np.array(
@@ -164,7 +171,7 @@ def draw_means(
             ]
         )
         axes.errorbar(
-            np.array(heights) + 0.012 * (i - 1), means, yerr=spreads.T, color=colour,
+            np.array(heights) + SHIFT * (i - 1), means, yerr=spreads.T, color=colour,
             marker=MARKERS[i], capsize=2.0, linewidth=1.2, label=name,
         )  # fmt: skip
         n_seeds = max(count_ok(result, height)[1] for height in heights)
@@ -172,7 +179,7 @@ def draw_means(
             k for k, height in enumerate(heights) if count_ok(result, height)[0] < n_seeds
         ]
         axes.plot(
-            np.array(heights)[partial_indices] + 0.012 * (i - 1), means[partial_indices], MARKERS[i],
+            np.array(heights)[partial_indices] + SHIFT * (i - 1), means[partial_indices], MARKERS[i],
             color=colour, markerfacecolor="white", zorder=4,
         )  # fmt: skip
     axes.set_ylim(bottom=0.0)
@@ -187,7 +194,7 @@ def draw_success(axes: Axes, results: Mapping[str, Sequence[Result]]) -> None:
         values = np.array([share.value for share in rates])
         spreads = np.array([(r.value - r.low, r.high - r.value) for r in rates])
         axes.errorbar(
-            np.array(heights) + 0.012 * (i - 1), values, yerr=np.maximum(spreads.T, 0.0),
+            np.array(heights) + SHIFT * (i - 1), values, yerr=np.maximum(spreads.T, 0.0),
             color=PALETTE[i], marker=MARKERS[i], capsize=2.0, linewidth=1.2,
         )  # fmt: skip
     axes.set(ylabel="share of seeds with the box", ylim=(-0.03, 1.03))
