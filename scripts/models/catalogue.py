@@ -7,7 +7,7 @@ from collections.abc import Callable
 from uwsim.assets.mesh import Mesh
 
 from .parts import Part
-from .scenery import chain, nets, pier, pipes, rocks, seabed, wreck
+from .scenery import chain, nets, pier, pipes, pool, rocks, seabed, vehicles, wreck
 from .stand_ins import (
     amphora,
     arm5e,
@@ -106,6 +106,9 @@ SCENERY: dict[str, dict[str, Callable[[], tuple[Part, ...]]]] = {
     "objects/pier": {"objects/pier": pier.pier},
     "objects/pipes": {"objects/pipe_flanged": pipes.pipe, "objects/pipe_elbow": pipes.elbow},
     "objects/wreck": {"objects/wreck": wreck.wreck},
+    "robot/BLUEROV2": {"robot/BLUEROV2/bluerov2_heavy": vehicles.bluerov2_heavy},
+    "robot/girona500": {"robot/GIRONA500/girona500": vehicles.girona500},
+    "terrain/pool": {"terrain/pool/pool": pool.pool},
     "terrain/seabed": {
         "terrain/seabed/sand": seabed.sand,
         "terrain/seabed/gravel": seabed.gravel,

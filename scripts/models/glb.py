@@ -29,7 +29,7 @@ HALF = math.sqrt(0.5)
 Y_UP_FROM_Z_UP = (-HALF, 0.0, 0.0, HALF)
 """The rotation by -90 degrees about x, xyzw."""
 UPSIDE_DOWN = {"KHR_texture_transform": {"offset": [0, 1], "scale": [1, -1]}}
-JPEG_QUALITY = {"colour": 80, "normal": 76, "surface": 66}
+JPEG_QUALITY = {"colour": 75, "normal": 66, "surface": 60}
 """The quality of images by their use, 0 to 100."""
 MAX_SHORT_INDEX = 65534
 

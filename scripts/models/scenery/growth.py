@@ -103,7 +103,7 @@ def _paint(kind: str, points: Points, direction: Points) -> Skin:
     bumps = noise3(f"growth/{kind}/bumps", points, 0.16, octaves=3, gain=0.7)
     share = smoothstep(-0.2, 1.0, bumps + 0.7 * direction[..., 2])
     low, high = (np.array(table[kind], dtype=np.float32) for table in (COLOURS, TOPS))
-    colour = low + (high - low) * share[..., None]
+    colour = 1.3 * (low + (high - low) * share[..., None])
     colour = colour * (1.0 + 0.22 * bumps)[..., None]
     roughness = np.full(bumps.shape, 0.5 if kind == "mussels" else 0.85, dtype=np.float32)
     return Skin(colour, 0.03 * bumps, roughness)

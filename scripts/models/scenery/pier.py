@@ -39,8 +39,8 @@ HALF_LENGTH, HALF_WIDTH, DECK = 6.2, 2.6, 2.2
 """The half length and half width of the deck, and its height [m]."""
 IMAGE = (1152, 192)
 """The rows and columns of the image round a pile."""
-CEMENT, ALGAE, MUSSEL = (0.44, 0.425, 0.39), (0.19, 0.20, 0.11), (0.075, 0.075, 0.085)
-TURF, BARNACLE, STAIN = (0.20, 0.185, 0.125), (0.56, 0.54, 0.49), (0.30, 0.27, 0.23)
+CEMENT, ALGAE, MUSSEL = (0.44, 0.425, 0.39), (0.25, 0.27, 0.15), (0.11, 0.11, 0.12)
+TURF, BARNACLE, STAIN = (0.29, 0.27, 0.19), (0.56, 0.54, 0.49), (0.30, 0.27, 0.23)
 
 
 def pier() -> tuple[Part, ...]:

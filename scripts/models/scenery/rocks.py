@@ -20,8 +20,8 @@ from ..textures import Colour, smoothstep
 
 BURIED_SHARE = 0.2
 """The share of the height that is below z = 0."""
-BASALT, GRANITE, LIMESTONE = (0.20, 0.205, 0.21), (0.36, 0.33, 0.30), (0.52, 0.49, 0.42)
-CRUST, TURF, BARNACLE = (0.34, 0.235, 0.235), (0.185, 0.185, 0.105), (0.60, 0.57, 0.50)
+BASALT, GRANITE, LIMESTONE = (0.31, 0.31, 0.305), (0.44, 0.41, 0.375), (0.57, 0.54, 0.475)
+CRUST, TURF, BARNACLE = (0.44, 0.33, 0.325), (0.285, 0.28, 0.175), (0.66, 0.63, 0.56)
 """The colours of coralline algae, of turf, and of barnacles and worm tubes."""
 
 
@@ -42,12 +42,12 @@ def rock3() -> tuple[Part, ...]:
 
 def rock4() -> tuple[Part, ...]:
     """A boulder of 3 m."""
-    return _rock("rock4", (1.6, 1.35, 1.15), BASALT, n=24)
+    return _rock("rock4", (1.6, 1.35, 1.15), BASALT, n=22, side=208)
 
 
 def rock5() -> tuple[Part, ...]:
     """A standing rock of 4 m."""
-    return _rock("rock5", (1.5, 1.3, 2.3), GRANITE, n=24)
+    return _rock("rock5", (1.5, 1.3, 2.3), GRANITE, n=22, side=208)
 
 
 def _rock(

@@ -14,6 +14,8 @@ from ..textures import Colour, Grey, Pixels, noise, smoothstep
 
 DARK_RUST, RUST, ORANGE = (0.135, 0.10, 0.08), (0.225, 0.15, 0.10), (0.33, 0.205, 0.12)
 SILT, TURF, SHELL = (0.36, 0.335, 0.27), (0.205, 0.195, 0.135), (0.47, 0.44, 0.38)
+BRIGHTNESS = 1.42
+"""The factor on all colours: reflectances of 0.05 to 0.15, as of rust and turf."""
 N_BARNACLES = 28
 """The number of barnacles along a side of an image that they cover entirely."""
 
@@ -55,7 +57,7 @@ def weathered_steel(name: str, coat: Coat, *, size: int = 512, metres: float = 3
     silt = smoothstep(0.0, 1.2, 2.2 * (coat.silt - 0.5) + noise(f"{key}/silt", size, size, cells=4))
     image = _blend(image, SILT, 0.8 * silt)
     image, height, roughness = _add_growth(key, coat.growth, image, height, roughness, metres)
-    image *= (1.0 + 0.05 * grain + 0.05 * clouds)[..., None]
+    image *= (1.0 + 0.05 * grain + 0.05 * clouds)[..., None] * BRIGHTNESS
     pixel = metres / size
     return make_material(key, image, height, roughness, pixel=(pixel, pixel), occlusion_depth=0.012)
 

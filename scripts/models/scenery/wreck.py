@@ -29,7 +29,7 @@ from .wreck_hull import (
 
 LIST, TRIM, KEEL_DEPTH = -0.16, 0.03, 0.7
 """The list and trim [rad], and the depth of the keel in the sand [m]."""
-N_CLUMPS = 64
+N_CLUMPS = 48
 """The number of clumps of growth."""
 
 SIDE = Coat(paint=(0.17, 0.18, 0.19), paint_share=0.45, growth=0.52, silt=0.25, streaks=0.8)

@@ -43,7 +43,7 @@ def to_mesh_frame(shape: Shape) -> Shape:
     return shape.shift(-x, -y, -z).rotate(base_from_mesh.T)
 
 
-def _hull_texture() -> Texture:
+def hull_texture() -> Texture:
     """Return the image round the hull (u, from starboard down) and from tail (bottom) to nose."""
     name, height, width = "girona500/hull", 640, 384
     clouds = noise(name, height, width, cells=3, octaves=6)
@@ -105,10 +105,21 @@ def _bar(*path: tuple[float, float, float], radius: float = 0.015) -> Shape:
     return tube(path, radius, n=6, has_lids=False)
 
 
-def _frame() -> list[Shape]:
-    """Return the aluminium frame: three ribs that carry the hulls, rails between them."""
+def make_frame(n: int = 6, n_strap: int = 16) -> list[Shape]:
+    """Return the aluminium frame: three ribs that carry the hulls, rails between them.
+
+    Args:
+        n: the number of sides of a bar.
+        n_strap: the number of sides of the straps round the hulls.
+    """
+
+    def _bar(*path: tuple[float, float, float], radius: float = 0.015) -> Shape:
+        return tube(path, radius, n=n, has_lids=False)
+
     parts = []
-    strap = lathe([(HULL_RADIUS, -0.024), (HULL_RADIUS + 0.011, 0.0), (HULL_RADIUS, 0.024)], n=16)
+    strap = lathe(
+        [(HULL_RADIUS, -0.024), (HULL_RADIUS + 0.011, 0.0), (HULL_RADIUS, 0.024)], n=n_strap
+    )
     strap = strap.rotate(rotation_to(np.array([1.0, 0.0, 0.0])))
     for x in RIBS:
         parts.append(_bar((x, -0.22, 0.06), (x, 0.22, 0.06)))
@@ -145,7 +156,7 @@ def girona500() -> tuple[Mesh, ...]:
         rounded_box((-0.46, -0.14, 0.42), (-0.12, 0.14, 0.55), radius=0.02, n=1),  # computer
     ]
     frame = [
-        *_frame(),
+        *make_frame(),
         *(propeller for _, propeller in thrusters),
         rounded_box((-0.16, -0.06, 0.86), (0.36, 0.06, 0.905), radius=0.012, n=1),  # arm's saddle
         _bar((-0.60, 0.0, 0.06), (-0.60, 0.0, -0.20), radius=0.010),  # antenna
@@ -155,7 +166,7 @@ def girona500() -> tuple[Mesh, ...]:
     metal = worn_paint("girona500/metal", (0.90, 0.90, 0.90))
     hulls = [to_mesh_frame(_hull().shift(*centre)) for centre in HULLS]
     return (
-        mesh(*hulls, texture=_hull_texture()),
+        mesh(*hulls, texture=hull_texture()),
         mesh(*(to_mesh_frame(part).project_uv(0.4) for part in pods), colour=BLACK, texture=metal),
         mesh(
             *(to_mesh_frame(part).project_uv(0.4) for part in frame),

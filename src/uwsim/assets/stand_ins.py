@@ -100,6 +100,9 @@ SCENERY: dict[str, StandIn] = {
     "objects/rock4": _scenery("objects/rocks"),
     "objects/rock5": _scenery("objects/rocks"),
     "objects/wreck": _scenery("objects/wreck"),
+    "robot/BLUEROV2/bluerov2_heavy": _scenery("robot/BLUEROV2"),
+    "robot/GIRONA500/girona500": _scenery("robot/girona500"),
+    "terrain/pool/pool": _scenery("terrain/pool"),
     "terrain/seabed/gravel": _scenery("terrain/seabed"),
     "terrain/seabed/sand": _scenery("terrain/seabed"),
 }
