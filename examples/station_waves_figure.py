@@ -179,8 +179,8 @@ def draw_means(
             k for k, height in enumerate(heights) if count_ok(result, height)[0] < n_seeds
         ]
         axes.plot(
-            np.array(heights)[partial_indices] + SHIFT * (i - 1), means[partial_indices], MARKERS[i],
-            color=colour, markerfacecolor="white", zorder=4,
+            np.array(heights)[partial_indices] + SHIFT * (i - 1), means[partial_indices],
+            MARKERS[i], color=colour, markerfacecolor="white", zorder=4,
         )  # fmt: skip
     axes.set_ylim(bottom=0.0)
 
