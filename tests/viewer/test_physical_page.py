@@ -151,6 +151,7 @@ def test_external_views_are_those_of_an_observer(
     """Below the surface and above it, where only a part of each ray is in water."""
     blob = Blob()
     with uwsim.load(SCENE) as simulation:
+        set_water(simulation, has_surface=False)  # the page does not draw it
         head = scene_head(simulation, SCENE, blob)
         eye = head["view"]["pose"]
         eye[2] = height

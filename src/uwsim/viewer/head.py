@@ -220,7 +220,7 @@ def scene_head(
         media: the media of physical water besides the present one.
     """
     world = simulation.world
-    water, light = world.scenery.state.water, world.scenery.state.light
+    water = world.scenery.state.water
     models = Models(blob, has_finish=water.physical_water is not None)
     bodies = Bodies(world)
     for part in world.scenery.parts:
