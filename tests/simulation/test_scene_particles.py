@@ -10,6 +10,7 @@ import pytest
 import uwsim
 from uwsim.assets.bundled import bundled_files
 from uwsim.base.geometry import Intrinsics
+from uwsim.cameras.exposure import Displacement
 from uwsim.errors import UwsimError
 from uwsim.messages import Twist, TwistStamped, Vector3
 from uwsim.particles.puffs import MASS
@@ -96,6 +97,30 @@ def test_the_same_seed_gives_the_same_bytes(tmp_path: Path) -> None:
     assert images[0] == images[2]
     assert images[1] == images[3]
     assert images[0] != images[1]
+
+
+def test_particles_streak_from_image_to_image_of_an_exposure(tmp_path: Path) -> None:
+    with load(tmp_path, "<u:bubbles> <u:depthScale>100</u:depthScale> </u:bubbles>") as simulation:
+        particles = simulation.world.scenery.particles
+        assert particles is not None
+        camera = simulation.world.sensors.camera("camera")
+        displacement = Displacement(
+            "g500",
+            np.eye(4),
+            time=0.004,
+            duration=0.002,
+            velocity=np.array([1.0, 0.0, 0.0]),
+            angular_velocity=np.zeros(3),
+        )
+        still = particles.find_visible(camera.world_from_camera, LENS)
+        visible = particles.find_visible(camera.world_from_camera, LENS, displacement)
+        assert still is not None
+        assert visible is not None
+        rotation = camera.world_from_camera.rotation
+        extents = visible.records["extent"].astype(np.float64) @ rotation.T  # in W
+        np.testing.assert_allclose(extents[:, 0], -0.002, atol=1e-6)
+        assert 0.0 < extents[:, 2].min() < extents[:, 2].max() < 0.002 * 0.3
+        assert still.records["extent"].max() < 0.01 * 0.3
 
 
 def test_a_scene_without_particles_has_no_state_of_them(tmp_path: Path) -> None:

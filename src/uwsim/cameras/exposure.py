@@ -71,6 +71,14 @@ class Displacement:
     """The name of the vehicle."""
     matrix: Array
     """The transform of points in W, (4, 4)."""
+    time: float
+    """The time from the present pose [s]."""
+    duration: float
+    """The time from one image of the exposure to the next, over which near particles streak [s]."""
+    velocity: Array
+    """The velocity of the camera in W, (3,) [m/s]."""
+    angular_velocity: Array
+    """The angular velocity of the camera in W, (3,) [rad/s]."""
 
 
 DrawLight = Callable[[Pose, Displacement | None], Light]
@@ -132,7 +140,15 @@ def _average_light(exposure: Exposure, draw_light: DrawLight, times: Array) -> L
             continue
         moved_pose = move_pose(pose, exposure.velocity, exposure.angular_velocity, time)
         matrix = product(moved_pose.matrix, pose.inverse().matrix)
-        light = draw_light(moved_pose, Displacement(exposure.vehicle, matrix))
+        displacement = Displacement(
+            exposure.vehicle,
+            matrix,
+            time=time,
+            duration=float(times[1] - times[0]),
+            velocity=exposure.velocity,
+            angular_velocity=exposure.angular_velocity,
+        )
+        light = draw_light(moved_pose, displacement)
         total = np.zeros_like(light) if total is None else total
         _add_rows(light, row_weights, total)
     assert total is not None

@@ -8,12 +8,13 @@ measured `UPDATE_RATE` times a second of simulation time.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from ...base.geometry import Array, Intrinsics, Pose
 from ...base.record import Record
+from ...cameras.exposure import Displacement
 from ...model.scene_model import SceneModel
 from ...particles import (
     PARTICLE,
@@ -103,9 +104,9 @@ class SceneParticles:
         state.velocity[:] = velocity
         state.time = time
 
-    def find_drift(self) -> Drift:
-        """Return the displacement of the water at the present time."""
-        state, time = self.state, self._clock()
+    def find_drift(self, delay: float = 0.0) -> Drift:
+        """Return the displacement of the water after a delay from the present time [s]."""
+        state, time = self.state, self._clock() + delay
         displacement = state.displacement + state.velocity * (time - state.time)
         return Drift(
             displacement=_make_triple(displacement),
@@ -114,16 +115,26 @@ class SceneParticles:
         )
 
     def find_visible(
-        self, world_from_camera: Pose, intrinsics: Intrinsics
+        self,
+        world_from_camera: Pose,
+        intrinsics: Intrinsics,
+        displacement: Displacement | None = None,
     ) -> VisibleParticles | None:
-        """Return the particles and clouds in the view of a camera; None without any."""
+        """Return the particles and clouds in the view of a camera; None without any.
+
+        Args:
+            world_from_camera: the pose of the camera; OpenGL axes.
+            intrinsics: the pinhole of the camera.
+            displacement: the motion to this pose in an exposure of several images. Particles then
+                streak from one image to the next; else over the exposure time of the element.
+        """
         spec, state, time = self.spec, self.state, self._clock()
         clouds = None
         if self.sediment is not None:
             clouds = self.sediment.find_visible(world_from_camera, time, state.velocity)
         if clouds is None and not (self.classes or self.plume_classes):
             return None
-        drift = self.find_drift()
+        drift = self.find_drift(0.0 if displacement is None else displacement.time)
         view = View(
             world_from_camera=world_from_camera,
             intrinsics=intrinsics,
@@ -131,6 +142,13 @@ class SceneParticles:
             max_range=spec.range,
             exposure_time=spec.exposure_time,
         )
+        if displacement is not None:
+            view = replace(
+                view,
+                exposure_time=displacement.duration,
+                velocity=_make_triple(displacement.velocity),
+                angular_velocity=_make_triple(displacement.angular_velocity),
+            )
         parts = [find_particles(size_class, view, drift) for size_class in self.classes]
         if self.source is not None:
             parts += [find_plume(c, self.source, view, drift) for c in self.plume_classes]

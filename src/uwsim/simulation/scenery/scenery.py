@@ -373,7 +373,7 @@ class Scenery:
             and "colour" in targets
             and water.physical_water == self.state.water.physical_water  # not the purest water
         ):
-            particles = self.particles.find_visible(world_from_camera, pinhole)
+            particles = self.particles.find_visible(world_from_camera, pinhole, displacement)
         image = renderer.draw(
             world_from_camera,
             pinhole,
