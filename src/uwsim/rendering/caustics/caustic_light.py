@@ -15,7 +15,7 @@ from ..physical.daylight_field import compute_light_field, compute_scaled_attenu
 from ..physical.moving_surface import MovingSurface
 from ..physical.physical_water import Daylight, PhysicalWater
 from ..program import Block
-from .caustic_map import N_SLICES, CausticMapper, FloatMaps, make_optics
+from .caustic_map import N_SLICES, CausticMapper, CausticOptics, FloatMaps, make_optics
 from .refraction import make_beam
 from .ripples import Ripples
 from .swell import N_POINTS, SPACING, compute_swell, find_short_waves
@@ -84,6 +84,7 @@ class CausticLight:
         self._swell = context.texture((N_POINTS, N_POINTS), 4, dtype="f4")
         self._swell.filter = (moderngl.LINEAR, moderngl.LINEAR)
         self._swell.repeat_x = self._swell.repeat_y = False
+        self._mapper: CausticMapper | None = None
         self._maps_key: object = None
         self._swell_key: object = None
         self._corner = (0.0, 0.0)
@@ -103,7 +104,7 @@ class CausticLight:
         ripples = water.ripples
         assert ripples is not None
         key = surface, water.daylight, water.medium, ripples
-        mapper = find_mapper(water.medium, water.daylight, ripples)
+        mapper = self._find_mapper(water)
         if key != self._maps_key:
             self._maps_key = key
             maps = mapper.compute(_find_tile_waves(ripples, surface), surface.time)
@@ -116,6 +117,14 @@ class CausticLight:
             self._update_swell(key, mapper, surface, world_from_camera, surface_height)
         self._fill(water, mapper, world_from_camera, surface_height)
         return switches
+
+    def _find_mapper(self, water: PhysicalWater) -> CausticMapper:
+        """Return the computation of maps of this water; its memory is the renderer's own."""
+        assert water.ripples is not None
+        optics = find_optics(water.medium, water.daylight, water.ripples)
+        if self._mapper is None or self._mapper.optics is not optics:
+            self._mapper = CausticMapper(optics)
+        return self._mapper
 
     def use(self, maps_unit: int, swell_unit: int) -> None:
         """Bind the textures to their units."""
@@ -190,13 +199,13 @@ def pack_maps(maps: FloatMaps, pixels: FloatMaps) -> None:
 
 
 @lru_cache(maxsize=4)
-def find_mapper(medium: Medium, daylight: Daylight, ripples: Ripples) -> CausticMapper:
-    """Return the computation of maps for a medium, a sun and ripples."""
+def find_optics(medium: Medium, daylight: Daylight, ripples: Ripples) -> CausticOptics:
+    """Return the beam, the depths and the blur of maps for a medium, a sun and ripples; shared."""
     beam = make_beam(daylight)
     field = compute_light_field(medium, daylight)
     loss = float(find_contrast_loss(medium, float(field.towards_sun[2])).min())
     depth = min(max(LOST_CONTRAST / max(loss, 1e-6), LEAST_MAX_DEPTH), MAX_DEPTH)
-    return CausticMapper(make_optics(beam, depth, ripples.unresolved_slope))
+    return make_optics(beam, depth, ripples.unresolved_slope)
 
 
 @lru_cache(maxsize=4)
