@@ -31,6 +31,7 @@ from uwsim.rendering.physical.physical_water import PhysicalWater
 from uwsim.rendering.renderer import Renderer
 from uwsim.rendering.targets import TARGETS
 from uwsim.rendering.water import Light, Water
+from uwsim.waves import JonswapSpec, SeaSettings, Waves
 
 WORLD_FROM_LOCALIZED = Pose(np.zeros(3), rotation_from_xyz(np.pi, 0.0, -np.pi / 2))
 WATER = Water(fog=0.4)
@@ -103,6 +104,16 @@ def view_pose(eye: tuple[float, float, float], target: tuple[float, float, float
 def divide_snow() -> tuple[SizeClass, ...]:
     """Return the classes of marine snow with some 2000 flocs in view."""
     return MarineSnowSpec(concentration=4200.0).divide(iter(range(100)).__next__)
+
+
+def make_waves() -> Waves:
+    """Return waves of 0.5 m and 5 s, of 200 components over 30 m of water."""
+    spec = JonswapSpec(significant_height=0.5, peak_period=5.0, direction=0.4, spreading=10.0)
+    sea = SeaSettings(
+        depth=30.0, wind=(0.04, 0.04), wind_speed=12.0, reflection_damping=0.35, wave_scale=1e-7
+    )
+    components = spec.components(sea, np.random.Generator(np.random.Philox(3)))
+    return Waves(components, sea.depth, Pose.identity(), 0.0, np.ones(1))
 
 
 def measure() -> dict[str, object]:
@@ -208,6 +219,26 @@ def measure() -> dict[str, object]:
             particles=find_snow(pose),
         )  # fmt: skip
 
+    surface_pose = view_pose((2.0, 1.5, 3.5), (2.0, -2.0, 0.5))
+
+    dry_pose = view_pose((2.0, 1.5, -2.0), (2.0, -4.0, 0.0))
+    waves = make_waves()
+
+    def draw_surface(pose: Pose, **settings: bool) -> None:
+        nonlocal time_of_image
+        time_of_image += 0.05
+        optics = replace(
+            PHYSICAL_WATER.physical_water, ripples=Ripples(), has_surface=True, **settings
+        )
+        renderer.draw(
+            move_camera(pose),
+            large_camera,
+            replace(PHYSICAL_WATER, physical_water=optics),
+            Light(),
+            targets=COLOUR,
+            surface=MovingSurface(time=time_of_image, waves=waves),
+        )
+
     figures: dict[str, object] = {
         "flocs in view": len(find_snow(down_view).records),
         "640x480 flocs found": milliseconds(lambda: find_snow(down_view), target=2.0),
@@ -253,6 +284,16 @@ def measure() -> dict[str, object]:
         ),
         "640x480 physical, sun, caustics + shafts, moving surface": milliseconds(
             lambda: draw_focused(is_moving=True), calls=15
+        ),
+        "640x480 physical, sun, surface from below": milliseconds(
+            lambda: draw_surface(surface_pose, has_caustics=False, has_light_shafts=False),
+            calls=15,
+        ),
+        "640x480 physical, sun, surface from below, caustics": milliseconds(
+            lambda: draw_surface(surface_pose, has_light_shafts=False), target=40.0, calls=15
+        ),
+        "640x480 physical, sun, surface from above": milliseconds(
+            lambda: draw_surface(dry_pose, has_caustics=False, has_light_shafts=False), calls=15
         ),
         "320x240 range": milliseconds(lambda: draw(small_camera, frozenset({"range"}))),
         "640x480 lens": milliseconds(lambda: lens_image.interpolate(wide_light)),

@@ -24,7 +24,7 @@ FIRST_RADIUS, LAST_RADIUS = 0.2, 2e5
 """The radius of the first and of the last ring [m]."""
 FINE_RADIUS = 1500.0
 """The radius up to which rings are close to each other [m]."""
-N_RINGS = 136
+N_RINGS = 170
 """The number of rings up to `FINE_RADIUS`."""
 N_BORDER_POINTS = 12
 """The number of rays along each side of an image that find the sectors in view."""
