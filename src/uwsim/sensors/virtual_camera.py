@@ -259,6 +259,11 @@ class VirtualCamera:
         self._intrinsics = intrinsics
 
     @property
+    def has_response(self) -> bool:
+        """True if the noise is that of electrons, not Gaussian noise of stored values."""
+        return self._response is not None
+
+    @property
     def pixel_type(self) -> type[np.uint8 | np.uint16]:
         """The type of the numbers of its images."""
         is_linear = self._response is not None and self._response.output == "linear12"

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from tests.simulation.small_robots import begin, scene_of, shape, write_robot
-from uwsim.errors import SceneError
+from uwsim.errors import SceneError, UwsimError
 from uwsim.messages import numbers_of, pixels_of
 from uwsim.scene.reader import read_scene
 from uwsim.scene.vehicle import VehicleSpec
@@ -80,6 +80,13 @@ def test_an_image_that_nothing_reads_draws_its_random_number(folder: Path) -> No
         camera.state.rng.bit_generator.state = start
         camera.skip()
         assert np.array_equal(camera.capture(), second_image)
+
+
+def test_a_sweep_of_noise_that_no_camera_has_is_an_error(folder: Path) -> None:
+    with one_camera(folder, response=LINEAR) as simulation:
+        stage = simulation.world.stage_view
+        with pytest.raises(UwsimError, match="<u:response>"):
+            stage.set_camera_noise(0.1)
 
 
 @pytest.mark.parametrize("lens", [FLAT, BARREL])

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
+from ...errors import UwsimError
 from ...model.robots import find_file
 from ...world import World
 from ..physical_scene import PhysicalScene
@@ -41,9 +42,18 @@ class StageView(SceneView):
         return find_file(name, named_by, self._data_path)
 
     def set_camera_noise(self, std: float) -> None:
-        """Set the noise of virtual cameras: standard deviation, as a fraction of full scale [1]."""
-        for name in self._sensors.cameras:
-            self._sensors.camera(name).state.std = std
+        """Set the noise of virtual cameras: standard deviation, as a fraction of full scale [1].
+
+        Cameras with a response keep the noise of their electrons; raise UwsimError if all are such.
+        """
+        cameras = [self._sensors.camera(name) for name in self._sensors.cameras]
+        if cameras and all(camera.has_response for camera in cameras):
+            raise UwsimError(
+                "Every camera of the scene has a <u:response>, whose noise is that of its "
+                "electrons; expected a camera with <std>."
+            )
+        for camera in cameras:
+            camera.state.std = std
 
     def set_joints(self, vehicle: str, values: Mapping[int, float]) -> None:
         """Set joints by their index in the joint vector [rad or m], clamped to the joint limits."""
