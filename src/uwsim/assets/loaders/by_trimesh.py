@@ -29,6 +29,7 @@ from . import (
 )
 from .directed_meshes import Directions, convert_directed, transform_directions
 from .materials import Materials, check_image_size
+from .mtl_materials import read_mtl_materials
 from .obj_lines import find_invalid_line
 from .references import References
 
@@ -216,6 +217,10 @@ def _parts(
             references.check()
         meshes = [item for item in posed_parts if isinstance(item[1], trimesh.Trimesh)]
         _check_triangle_count(path, sum(len(part.faces) for _, part in meshes))
+        if suffix == ".obj":
+            used_materials = [getattr(part.visual, "material", None) for _, part in meshes]
+            numbers = read_mtl_materials(used_materials, references)
+            references.check()
         parts = [
             Part(
                 _transform_part(part, transform),
