@@ -29,7 +29,11 @@ def scene(image: str, *, laser: bool = True) -> SceneSpec:
         position=(-0.2, 0.2, 0.0), look_at="down",
     )  # fmt: skip
     (vehicle,) = scene.vehicles
-    return replace(scene, vehicles=(replace(vehicle, parts=(*vehicle.parts, projector)),))
+    return replace(
+        scene,
+        vehicles=(replace(vehicle, parts=(*vehicle.parts, projector)),),
+        ocean_state=replace(scene.ocean_state, water=None),  # its green light is not counted
+    )
 
 
 def n_green(simulation: Simulation) -> int:
