@@ -49,7 +49,11 @@ class Medium:
     scattering: tuple[float, ...]
     """The scattering coefficient b of each channel [1/m]."""
     phase_function: PhaseFunction = PETZOLD_AVERAGE
-    """The phase function, the same for all channels."""
+    """The phase function of particles, the same for all channels."""
+    molecular_scattering: tuple[float, ...] = ()
+    """The part of the scattering coefficient of each channel that the molecules of the water cause
+    [1/m]; empty: none. Half of it goes backwards, so that it counts in daylight, where particles
+    scatter 2 % backwards; blur and veils of lamps have the phase function of the particles."""
 
     def __post_init__(self) -> None:
         errors = ErrorCollector()
@@ -100,7 +104,16 @@ class Medium:
             self,
             absorption=tuple(factor * value for value in self.absorption),
             scattering=tuple(factor * value for value in self.scattering),
+            molecular_scattering=tuple(factor * value for value in self.molecular_scattering),
         )
+
+    @property
+    def molecules(self) -> FloatArray:
+        """The molecular scattering of each channel, not more than the scattering [1/m]."""
+        scattering = np.array(self.scattering)
+        if not self.molecular_scattering:
+            return np.zeros_like(scattering)
+        return np.minimum(np.array(self.molecular_scattering), scattering)
 
     @property
     def n_channels(self) -> int:
@@ -133,7 +146,9 @@ class Medium:
     @property
     def backscattering(self) -> FloatArray:
         """The backscattering coefficient bb [1/m]."""
-        return np.array(self.scattering) * self.phase_function.backscatter_ratio
+        molecules = self.molecules
+        particles = np.array(self.scattering) - molecules
+        return particles * self.phase_function.backscatter_ratio + 0.5 * molecules
 
     @property
     def diffuse_attenuation(self) -> FloatArray:

@@ -87,7 +87,7 @@ WATERS: dict[str, NamedWater] = {
 
 
 def find_water(name: str) -> Medium:
-    """Return the water of a name, with the default phase function.
+    """Return the water of a name, with the default phase function and molecules of pure water.
 
     Raises:
         UnknownName: no water has this name; the error message gives the nearest one.
@@ -95,4 +95,8 @@ def find_water(name: str) -> Medium:
     water = WATERS.get(name)
     if water is None:
         raise UnknownName("water", name, WATERS)
-    return Medium(absorption=water.absorption, scattering=water.scattering)
+    return Medium(
+        absorption=water.absorption,
+        scattering=water.scattering,
+        molecular_scattering=WATERS["clear"].scattering,
+    )

@@ -13,8 +13,8 @@ The numbers of one medium in one light are ``optics``::
                                        ratios [cycles/rad]
      sun: 3, beam: 3, beam_loss: 3, total: 3, loss: 3, reflectance: 3,
                                        `uwsim.rendering.physical.daylight_field.LightField`
-     open_water: {scattering: 3, attenuation: 3, asymmetry, backscatter, window}
-                                       b*, c* [1/m]; g and the backscatter ratio of p*; the
+     open_water: {scattering: 3, molecules: 3, attenuation: 3, asymmetry, backscatter, window}
+                                       b*, b_w, c* [1/m]; g and the backscatter ratio of p*; the
                                        radiance of the sky in Snell's window
      lamps: [[share, factor]],         EE(half angle) - A and k_L of each lamp of the head
      linear, blur, lamp_veil}          true for linear stored values, for blur, for veils of lamps
@@ -91,6 +91,7 @@ def describe_optics(
         "reflectance": field.reflectance.tolist(),
         "open_water": {
             "scattering": scattering.tolist(),
+            "molecules": medium.molecules.tolist(),
             "attenuation": compute_scaled_attenuation(medium).tolist(),
             "asymmetry": phase.asymmetry,
             "backscatter": phase.backscatter_ratio,

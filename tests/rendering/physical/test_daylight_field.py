@@ -66,6 +66,23 @@ def test_daylight_decreases_with_depth_and_none_is_negative() -> None:
     assert totals[2][0] < 0.2 * totals[2][1]  # red is lost first
 
 
+def test_molecules_make_clear_water_blue() -> None:
+    """Half of the molecular scattering goes backwards, 2 % of that of particles."""
+    water = find_water("jerlov-I")
+    particles = replace(water, molecular_scattering=())
+    assert water.backscattering[2] == pytest.approx(0.5 * 0.004)
+    field = compute_light_field(water, ZENITH)
+    assert 0.02 < field.reflectance[2] < 0.05  # clear ocean at 450 nm: some 4 %
+    down, particles_down = (
+        open_water(PhysicalWater(medium=medium, daylight=ZENITH), 5.0, -1.0)
+        for medium in (water, particles)
+    )
+    beam, diffuse = field.compute_irradiance(5.0)
+    assert down[2] == pytest.approx(field.reflectance[2] * (beam + diffuse)[2], rel=0.35)
+    assert down[2] > 10.0 * particles_down[2]
+    assert down[2] > 3.0 * down[1]
+
+
 @pytest.mark.parametrize("up", [-1.0, -0.3, 0.0, 0.2, 0.6])
 def test_the_light_of_open_water_is_the_integral_along_the_ray(up: float) -> None:
     """Below Snell's window, and without the light of the mirror above."""

@@ -32,7 +32,10 @@ surface in the irradiance 1 has the radiance 1:
 with :math:`F(\kappa) = (1 - e^{-\kappa l}) / \kappa` over the way :math:`l` to the surface
 (infinite for rays that go down), the share :math:`q` of :math:`p^*` in the upper hemisphere, and
 the sky :math:`L_s` in Snell's window. Light from above is stronger than from below, so B is
-brighter above than below.
+brighter above than below. All of this is for particles; the molecules of the water add the same
+terms with their scattering :math:`b_w`, :math:`q = 1/2` and the phase function
+:math:`3 (1 + p \cos^2\Theta) / (4 \pi (3 + p))`, :math:`p = 0.84` (A. Morel, in *Optical Aspects of
+Oceanography*, 1974). In the clearest water most of the light that comes back is theirs.
 
 Not modelled: waves, the image and the aureole of the sun, polarisation, walls and floor that shade
 the open water.
@@ -66,6 +69,8 @@ WINDOW_COSINE = math.sqrt(1.0 - 1.0 / REFRACTIVE_INDEX**2)
 """The cosine at the rim of Snell's window, 48.3 degrees from the zenith."""
 WINDOW_SOFTNESS = 0.05
 """The half width of the rim of Snell's window, as a cosine."""
+MOLECULAR_POLARISATION = 0.84
+"""The degree of polarisation at 90 degrees of light that molecules scatter [1]."""
 HEMISPHERE_WIDTH = 0.1
 """The squared width, as a cosine, of the change of the scattered share q at the horizon."""
 MAX_EXPONENT = 60.0
@@ -134,16 +139,17 @@ def compute_light_field(medium: Medium, daylight: Daylight) -> LightField:
 
 
 def compute_scaled_attenuation(medium: Medium) -> Array:
-    """Compute c* = a + (1 - g^2) b [1/m], (3,)."""
-    share = 1.0 - medium.phase_function.mean_cosine**2
-    attenuation: Array = np.array(medium.absorption) + share * np.array(medium.scattering)
+    """Compute c* = a + (1 - g^2) (b - b_w) + b_w [1/m], (3,)."""
+    _, scattering = scale_scattering(medium)
+    attenuation: Array = np.array(medium.absorption) + scattering + medium.molecules
     return attenuation
 
 
 def scale_scattering(medium: Medium) -> tuple[HenyeyGreenstein, Array]:
-    """Return the phase function p*, and compute the scattering b* = (1 - g^2) b [1/m], (3,)."""
+    """Return p* of the particles, and compute their b* = (1 - g^2) (b - b_w) [1/m], (3,)."""
     g = medium.phase_function.mean_cosine
-    return HenyeyGreenstein(g / (1.0 + g)), (1.0 - g * g) * np.array(medium.scattering)
+    particles = np.array(medium.scattering) - medium.molecules
+    return HenyeyGreenstein(g / (1.0 + g)), (1.0 - g * g) * particles
 
 
 def compute_transmittance(cosine: float) -> float:
@@ -188,18 +194,20 @@ def compute_open_water(water: PhysicalWater, depth: float, directions: Array, ra
     up = directions[:, 2:]  # (n, 1)
     length = np.where(up > 0.0, z / np.maximum(up, 1e-6), np.inf)
     cosine = product(directions, field.towards_sun)[:, None]
-    beam_part = beam * (math.pi / sun_cosine) * _evaluate(phase, cosine)
+    molecules = medium.molecules
+    beam_part = beam * (math.pi / sun_cosine)
+    beam_part = beam_part * (scattering * _evaluate(phase, cosine) + molecules * _molecular(cosine))
     beam_part = beam_part * _integrate(attenuation * (1.0 - up / sun_cosine), length)
     upper = 0.5 + (0.5 - phase.backscatter_ratio) * up / np.sqrt(up * up + HEMISPHERE_WIDTH)
     upward = field.reflectance * (beam + diffuse)
-    diffuse_part = (upper * diffuse + (1.0 - upper) * upward) * _integrate(
-        attenuation - field.diffuse_attenuation * up, length
-    )
+    diffuse_part = scattering * (upper * diffuse + (1.0 - upper) * upward)
+    diffuse_part = diffuse_part + molecules * (0.5 * (diffuse + upward))
+    diffuse_part = diffuse_part * _integrate(attenuation - field.diffuse_attenuation * up, length)
     if water.has_surface:
-        return rate * (scattering * (beam_part + diffuse_part))
+        return rate * (beam_part + diffuse_part)
     surface = _compute_surface_radiance(water.daylight, field, up)
     surface = np.where(up > 0.0, surface * exp(-np.minimum(attenuation * length, 700.0)), 0.0)
-    radiance: Array = rate * (scattering * (beam_part + diffuse_part) + surface)
+    radiance: Array = rate * (beam_part + diffuse_part + surface)
     return radiance
 
 
@@ -222,6 +230,12 @@ def _evaluate(phase: HenyeyGreenstein, cosine: Array) -> Array:
     g = phase.asymmetry
     root = np.sqrt(1.0 + g * g - 2.0 * g * np.clip(cosine, -1.0, 1.0))
     density: Array = (1.0 - g * g) / (4.0 * math.pi * root * root * root)
+    return density
+
+
+def _molecular(cosine: Array) -> Array:
+    p = MOLECULAR_POLARISATION
+    density: Array = 3.0 * (1.0 + p * cosine * cosine) / (4.0 * math.pi * (3.0 + p))
     return density
 
 

@@ -29,7 +29,7 @@ export interface Optics {
   reflectance: number[];
   /** The numbers of the light that open water scatters. */
   open_water: {
-    scattering: number[]; attenuation: number[]; asymmetry: number; backscatter: number; window: number;
+    scattering: number[]; molecules: number[]; attenuation: number[]; asymmetry: number; backscatter: number; window: number;
   };
   /** Two coefficients of the light of each lamp of the head. */
   lamps: [number, number][];

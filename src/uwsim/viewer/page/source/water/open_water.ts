@@ -7,6 +7,7 @@ export const MAP_SIZE = [41, 31];
 const WINDOW_COSINE = Math.sqrt(1 - 1 / 1.34 ** 2); // cosine at the rim of Snell's window
 const WINDOW_SOFTNESS = 0.05; // half width of that rim, as a cosine
 const HEMISPHERE_WIDTH = 0.1; // squared width of the change of scattered light at the horizon, as a cosine
+const POLARISATION = 0.84; // at 90 degrees, of light that molecules scatter
 const MAX_EXPONENT = 60;
 const MAX_LENGTH = 1e9; // greatest way of light [m]
 
@@ -35,18 +36,24 @@ function radianceAt(optics: Optics, depth: number, rate: number): (direction: nu
   return (direction) => {
     const up = direction[2];
     const length = up > 0 ? Math.min(depth / Math.max(up, 1e-6), MAX_LENGTH) : MAX_LENGTH;
-    const phase = henyeyGreenstein(water.asymmetry, dot(direction, sun));
+    const cosine = dot(direction, sun);
+    const phase = henyeyGreenstein(water.asymmetry, cosine);
+    const molecularPhase = (3 * (1 + POLARISATION * cosine * cosine)) / (4 * Math.PI * (3 + POLARISATION));
     const upper = 0.5 + ((0.5 - water.backscatter) * up) / Math.sqrt(up * up + HEMISPHERE_WIDTH);
     return [0, 1, 2].map((i) => {
       const attenuation = water.attenuation[i];
+      const scattering = water.scattering[i];
+      const molecules = water.molecules[i];
       const sunlight =
-        beam[i] * (Math.PI / sun[2]) * phase * integrate(attenuation * (1 - up / sun[2]), length);
+        beam[i] * (Math.PI / sun[2]) * (scattering * phase + molecules * molecularPhase) * integrate(attenuation * (1 - up / sun[2]), length);
       const upward = optics.reflectance[i] * total[i];
+      const diffuse = total[i] - beam[i];
       const skylight =
-        (upper * (total[i] - beam[i]) + (1 - upper) * upward) * integrate(attenuation - optics.loss[i] * up, length);
+        (scattering * (upper * diffuse + (1 - upper) * upward) + 0.5 * molecules * (diffuse + upward)) *
+        integrate(attenuation - optics.loss[i] * up, length);
       const surface =
         up > 0 ? surfaceRadiance(optics, i, up) * Math.exp(-Math.min(attenuation * length, 700)) : 0;
-      return rate * (water.scattering[i] * (sunlight + skylight) + surface);
+      return rate * (sunlight + skylight + surface);
     });
   };
 }
