@@ -18,7 +18,7 @@ from uwsim.calibration.pictures.frames import FrameMean
 from uwsim.calibration.setup import read_setup
 
 CAMERA = SyntheticCamera(rows=360, columns=470)
-"""Pixels of 1 mrad, 10 000 electrons, 3 electrons of read noise."""
+"""Pixels of 1 mrad, 10 000 electrons, 3 electrons of read noise, linear numbers of 12 bit."""
 N_FRAMES = 16
 LED_EXPOSURES = (0.25, 4.0)
 LED_LIGHT = 20.0
@@ -44,7 +44,8 @@ def write_setup(path: Path) -> Path:
     absorption = CLEAR[0] - CLEAR[1]
     squares = "".join(f"<square>{side}</square>" for side in LAYOUT.sides)
     path.write_text(
-        f"<calibration><camera><focalLength>{CAMERA.focal_length}</focalLength></camera>"
+        f"<calibration><camera><focalLength>{CAMERA.focal_length}</focalLength>"
+        f"<fullScale>{CAMERA.full_scale}</fullScale></camera>"
         f"<channel><name>red</name><referenceAbsorption>{absorption}</referenceAbsorption>"
         f"<referenceScattering>{CLEAR[1]}</referenceScattering></channel>"
         f"<led><name>led</name></led><board><name>board</name>{squares}</board>"
@@ -69,19 +70,14 @@ class Tank:
     def average_frames(self, paths: list[Path]) -> FrameMean:
         [path] = paths
         water, source, exposure = path.parts
-        well, generator = CAMERA.full_well, self.generator
-        shape = (CAMERA.rows, CAMERA.columns)
-        electrons = np.zeros(shape)
+        light = np.zeros((CAMERA.rows, CAMERA.columns))
         if water != "dark":
             light = self.light[water][source] * self.drifts[water, source]
-            electrons = np.maximum(light, 0.0) * float(exposure) * well
-        black_error = 0.0 if water == "dark" else CAMERA.black_drift * generator.standard_normal()
-        variances = (electrons + CAMERA.read_noise**2) / N_FRAMES
-        noise = np.sqrt(variances) * generator.standard_normal(shape)
-        values = (electrons + noise + black_error) / well + CAMERA.black_level
-        scale = CAMERA.full_scale
-        numbers = np.minimum(values, 1.0)[..., None] * scale
-        return FrameMean(numbers, variances[..., None] / well**2 * scale**2, numbers)
+        frames = np.stack(CAMERA.expose(light, float(exposure), N_FRAMES, self.generator))[
+            ..., None
+        ]
+        variances = frames.var(axis=0, ddof=1) / N_FRAMES
+        return FrameMean(frames.mean(axis=0), variances, frames.max(axis=0))
 
 
 def estimate_noisy_waters(
