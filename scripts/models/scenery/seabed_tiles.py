@@ -52,8 +52,8 @@ def tile_corners() -> list[Corners]:
 
 def seabed_material() -> Material:
     """Return the material with all tiles."""
-    base = _base()
-    tiles = [_tile(index, corners, base) for index, corners in enumerate(tile_corners())]
+    base = make_base_layers()
+    tiles = [make_tile(index, corners, base) for index, corners in enumerate(tile_corners())]
     images, heights, roughnesses = (
         np.concatenate(
             [np.concatenate(list(row), axis=1) for row in _rows([tile[k] for tile in tiles])]
@@ -76,7 +76,8 @@ def tile_frame(index: int) -> tuple[float, float, float, float]:
     return u0, v1 - CONTENT_SIDE / width, u0 + CONTENT_SIDE / width, v1
 
 
-def _base() -> _Base:
+def make_base_layers() -> _Base:
+    """Make the layers of one period that all tiles use."""
     rows = np.arange(CONTENT_SIDE, dtype=np.float32)[:, None] / np.float32(CONTENT_SIDE)
     columns = np.arange(CONTENT_SIDE, dtype=np.float32)[None, :] / np.float32(CONTENT_SIDE)
     warp = noise("seabed/warp", CONTENT_SIDE, CONTENT_SIDE, cells=2, octaves=4)
@@ -89,7 +90,7 @@ def _base() -> _Base:
     )
 
 
-def _tile(index: int, corners: Corners, base: _Base) -> tuple[Pixels, Grey, Grey]:
+def make_tile(index: int, corners: Corners, base: _Base) -> tuple[Pixels, Grey, Grey]:
     """Return the colour, the height [m] and the roughness of a tile with its margin."""
     layers = _Base(*(np.pad(layer, MARGIN, mode="wrap") for layer in base))
     line = np.clip((np.arange(SIDE, dtype=np.float32) - MARGIN + 0.5) / CONTENT_SIDE, 0.0, 1.0)
