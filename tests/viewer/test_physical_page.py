@@ -97,6 +97,7 @@ def test_cameras_see_what_the_renderer_draws_by_day_and_with_lamps_at_night(
 def test_a_lamp_in_view_and_its_halo_are_there_in_a_grey_image(tab: Any, tmp_path: Path) -> None:
     blob = Blob()
     with uwsim.load(SCENE) as simulation:
+        set_water(simulation)
         head = scene_head(simulation, SCENE, blob)
         (camera,), lamp = head["cameras"], head["lamps"][0]
         assert camera["body"] == lamp["body"]
@@ -151,7 +152,7 @@ def test_external_views_are_those_of_an_observer(
     """Below the surface and above it, where only a part of each ray is in water."""
     blob = Blob()
     with uwsim.load(SCENE) as simulation:
-        set_water(simulation, has_surface=False)  # the page does not draw it
+        set_water(simulation)
         head = scene_head(simulation, SCENE, blob)
         eye = head["view"]["pose"]
         eye[2] = height

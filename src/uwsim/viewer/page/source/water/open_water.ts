@@ -18,7 +18,11 @@ export function openWaterMap(
   const [columns, rows] = MAP_SIZE;
   const values = new Float32Array(4 * columns * rows);
   const { fx, fy, cx, cy, skew, width, height } = intrinsics;
-  const radiance = radianceAt(optics, Math.max(depth, 0), lightRate);
+  const { sky } = optics;
+  const waterRadiance = radianceAt(optics, Math.max(depth, 0), lightRate);
+  // above the water: an even sky, and a sea that reflects nothing
+  const radiance = (direction: number[]) =>
+    sky && depth < 0 && direction[2] >= 0 ? sky.map((value) => lightRate * value) : waterRadiance(direction);
   for (let row = 0; row < rows; ++row)
     for (let column = 0; column < columns; ++column) {
       const y = -((height * row) / (rows - 1) - 0.5 - cy) / fy;
