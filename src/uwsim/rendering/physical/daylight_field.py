@@ -203,8 +203,9 @@ def compute_open_water(water: PhysicalWater, depth: float, directions: Array, ra
     diffuse_part = scattering * (upper * diffuse + (1.0 - upper) * upward)
     diffuse_part = diffuse_part + molecules * (0.5 * (diffuse + upward))
     diffuse_part = diffuse_part * _integrate(attenuation - field.diffuse_attenuation * up, length)
+    scattered_light: Array = rate * (beam_part + diffuse_part)
     if water.has_surface:
-        return rate * (beam_part + diffuse_part)
+        return scattered_light
     surface = _compute_surface_radiance(water.daylight, field, up)
     surface = np.where(up > 0.0, surface * exp(-np.minimum(attenuation * length, 700.0)), 0.0)
     radiance: Array = rate * (beam_part + diffuse_part + surface)
