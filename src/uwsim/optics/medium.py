@@ -148,7 +148,8 @@ class Medium:
         """The backscattering coefficient bb [1/m]."""
         molecules = self.molecules
         particles = np.array(self.scattering) - molecules
-        return particles * self.phase_function.backscatter_ratio + 0.5 * molecules
+        total: FloatArray = particles * self.phase_function.backscatter_ratio + 0.5 * molecules
+        return total
 
     @property
     def diffuse_attenuation(self) -> FloatArray:
