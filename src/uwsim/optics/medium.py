@@ -113,7 +113,8 @@ class Medium:
         scattering = np.array(self.scattering)
         if not self.molecular_scattering:
             return np.zeros_like(scattering)
-        return np.minimum(np.array(self.molecular_scattering), scattering)
+        molecules: FloatArray = np.minimum(np.array(self.molecular_scattering), scattering)
+        return molecules
 
     @property
     def n_channels(self) -> int:
@@ -148,8 +149,10 @@ class Medium:
         """The backscattering coefficient bb [1/m]."""
         molecules = self.molecules
         particles = np.array(self.scattering) - molecules
-        total: FloatArray = particles * self.phase_function.backscatter_ratio + 0.5 * molecules
-        return total
+        backscattering: FloatArray = (
+            particles * self.phase_function.backscatter_ratio + 0.5 * molecules
+        )
+        return backscattering
 
     @property
     def diffuse_attenuation(self) -> FloatArray:
