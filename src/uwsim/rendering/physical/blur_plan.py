@@ -26,7 +26,7 @@ from statistics import NormalDist
 from ...base.geometry import Intrinsics
 from .blur_weights import HIGHEST_FREQUENCY
 
-WIDEST = 0.41
+LAST_DEVIATION = 0.41
 """The deviation of the last level [rad]."""
 RATIO = 2.6
 """The ratio of the deviations of two levels, approximately."""
@@ -67,11 +67,11 @@ class BlurPlan:
 def plan_blur(intrinsics: Intrinsics, *, has_blur: bool) -> BlurPlan:
     """Return the plan of a camera's blur."""
     focal = math.sqrt(intrinsics.fx * intrinsics.fy)
-    n_steps = round(math.log(max(WIDEST * focal, 1.0)) / math.log(RATIO))
+    n_steps = round(math.log(max(LAST_DEVIATION * focal, 1.0)) / math.log(RATIO))
     n_steps = min(n_steps, MAX_LEVELS - 1)
     if not has_blur or n_steps < 1:
         return BlurPlan(sigmas=(), spreads=(), reach=(), highest_frequency=HIGHEST_FREQUENCY)
-    ratio = (WIDEST * focal) ** (1.0 / n_steps)
+    ratio = (LAST_DEVIATION * focal) ** (1.0 / n_steps)
     deviations = [ratio**level for level in range(n_steps + 1)]  # [px]
     sigmas = tuple(deviation / focal for deviation in deviations)
     return BlurPlan(

@@ -112,8 +112,8 @@ def fit_weights(
     return weights * ((field - direct_light) / total) if total > 0.0 else weights
 
 
-def _find_frequencies(highest: float) -> Array:
-    return exp(np.linspace(math.log(LOWEST_FREQUENCY), math.log(highest), N_FREQUENCIES))
+def _find_frequencies(limit: float) -> Array:
+    return exp(np.linspace(math.log(LOWEST_FREQUENCY), math.log(limit), N_FREQUENCIES))
 
 
 @lru_cache(maxsize=32)
