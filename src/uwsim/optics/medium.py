@@ -60,6 +60,18 @@ class Medium:
         for text in find_coefficient_errors(self.absorption, self.scattering):
             with errors.collect():
                 raise BadSetting(text)
+        molecules = self.molecular_scattering
+        with errors.collect():
+            if molecules and len(molecules) != len(self.scattering):
+                raise BadSetting(
+                    f"The molecular scattering has {len(molecules)} channels; expected those of "
+                    f"the scattering, {len(self.scattering)}."
+                )
+            if not all(0.0 <= value <= MAX_COEFFICIENT for value in molecules):
+                raise BadSetting(
+                    f"The molecular scattering is {molecules}; expected 0 to {MAX_COEFFICIENT:g} "
+                    "1/m."
+                )
         errors.raise_errors()
 
     @classmethod

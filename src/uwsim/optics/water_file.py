@@ -14,8 +14,9 @@ r"""A water in a file: what ``uwsim calibrate`` writes, and a scene names.
 
 Coefficients are in 1/m, for red, green and blue. The phase functions are ``FournierForand``,
 ``HenyeyGreenstein`` (``asymmetry``), ``PhaseTable`` (``angles`` in rad, ``values`` in 1/sr) and
-``PhaseMixture`` (``parts``, ``weights``). ``source`` and ``uncertainties`` (standard deviations, by
-the name of the number) may be absent. All errors are reported at once, each with the line of its
+``PhaseMixture`` (``parts``, ``weights``). ``molecular_scattering`` (`Medium.molecular_scattering`),
+``source`` and ``uncertainties`` (standard deviations, by the name of the number) may be absent. All
+errors are reported at once, each with the line of its
 key.
 """
 
@@ -32,7 +33,7 @@ from ..base.files.input_files import read_bytes
 from ..errors import AssetError, Diagnostic, FileError, SeveralErrors, UwsimError, choices
 from .fournier_forand import FournierForand
 from .henyey_greenstein import HenyeyGreenstein
-from .medium import Medium
+from .medium import PETZOLD_AVERAGE, Medium
 from .phase_function import PhaseFunction
 from .phase_mixture import MAX_PARTS, PhaseMixture
 from .phase_table import PhaseTable
@@ -47,7 +48,7 @@ MAX_TEXT = 1000
 """The greatest number of characters of a name or a source."""
 KEYS = (
     *("uwsim_water", "name", "absorption", "scattering", "phase_function"),
-    *("source", "uncertainties"),
+    *("molecular_scattering", "source", "uncertainties"),
 )
 PARAMETERS: dict[str, tuple[str, ...]] = {
     "FournierForand": ("refractive_index", "slope"),
@@ -98,6 +99,7 @@ def write_water(water: WaterFile) -> str:
         "absorption": list(water.medium.absorption),
         "scattering": list(water.medium.scattering),
         "phase_function": _describe_phase(water.medium.phase_function),
+        "molecular_scattering": list(water.medium.molecular_scattering),
         "source": water.source,
         "uncertainties": {name: list(values) for name, values in water.uncertainties.items()},
     }
@@ -130,13 +132,21 @@ class _Reader:
         absorption = self._read_numbers(document, "absorption")
         scattering = self._read_numbers(document, "scattering")
         phase = self._read_phase(document.get("phase_function"), 0)
+        molecules: tuple[float, ...] | None = ()
+        if "molecular_scattering" in document:
+            molecules = self._read_numbers(document, "molecular_scattering")
         name, source = self._read_text(document, "name"), self._read_text(document, "source")
         uncertainties = self._read_uncertainties(document)
         medium = None
-        if absorption is not None and scattering is not None and phase is not None:
+        if None not in (absorption, scattering, phase, molecules):
             medium = self._build(
                 "absorption",
-                lambda: Medium(absorption=absorption, scattering=scattering, phase_function=phase),
+                lambda: Medium(
+                    absorption=absorption or (),
+                    scattering=scattering or (),
+                    phase_function=phase or PETZOLD_AVERAGE,
+                    molecular_scattering=molecules or (),
+                ),
             )
         self._raise_errors()
         assert medium is not None
