@@ -1,8 +1,8 @@
 """Vehicles without facets: ``robot/GIRONA500/girona500`` and ``robot/BLUEROV2/bluerov2_heavy``.
 
 The Girona 500 has the frame and layout of the stand-in `stand_ins.girona500`, which scenes of
-UWSim and its benchmarks show. The BlueROV2 Heavy has x forward and z up, its origin in the middle
-of its box of 0.457 x 0.575 x 0.254 m (Blue Robotics' data sheet); its parts are modelled by eye.
+UWSim and its benchmarks show. The BlueROV2 Heavy has x forward and z down, its origin in the
+middle of its box of 0.457 x 0.575 x 0.254 m (Blue Robotics' data sheet); its parts are modelled by eye.
 """
 
 from __future__ import annotations
@@ -130,7 +130,8 @@ def bluerov2_heavy() -> tuple[Part, ...]:
 
 
 def _wrap(shape: Shape) -> Shape:
-    return shape.project_uv(TILE)
+    """Return a shape with texture coordinates, in the frame of the robot: z down."""
+    return shape.project_uv(TILE).rotate(np.diag([1.0, -1.0, -1.0]))
 
 
 def _rov_frame() -> list[Shape]:

@@ -1,6 +1,6 @@
-// Provides: sky_in(direction), the sky without the sun; sun_in(direction, variance), the sun's image with a blur of that variance
-// along each axis [rad2]; water_in(direction), the open water below the surface; through_air(light, direction, range).
+// Provides: sky_in(direction), the sky without the sun; sun_in(direction, variance); water_in(direction); through_air(light, direction, range).
 // Needs: surface_block.glsl; the hemispheres of surface/hemispheres.py. Directions are unit vectors in W.
+// sun_in: the sun's image with a blur of that variance along each axis [rad2]; water_in: the open water below the surface.
 uniform sampler2DArray hemispheres;
 
 vec3 hemisphere(vec3 direction, float layer) {

@@ -1,6 +1,5 @@
-// Provides: direct(range) and whole_field(range), shares of light that arrives; weight(row, range), the share of scattered light that
-// is sharp (row 0) or blurred by a level (row 1 + level).
-// Needs: optics.glsl; the table of physical/blur_weights.py.
+// Provides: direct(range) and whole_field(range), shares of light that arrives; weight(row, range), a share of scattered light.
+// Needs: optics.glsl; the table of physical/blur_weights.py: row 0 is sharp light, row 1 + level that of a level of blur.
 // Direct light is neither absorbed nor scattered; the whole field is that of a wide target. Formulas: optics/transmission.py.
 uniform sampler2D weight_table;
 
