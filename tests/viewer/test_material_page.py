@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import re
 from pathlib import Path
 from typing import Any
 
@@ -58,8 +59,7 @@ def test_the_page_draws_materials_as_the_renderer_does(
     objects = OBJECT.format(name="rock", file="objects/rock1.glb", x=1.4, y=0.3)
     objects += OBJECT.format(name="net", file=write_plate(tmp_path), x=0.2, y=1.6)
     text = scene_file("shapes-scene").read_text(encoding="utf-8")
-    if is_physical:
-        text = text.replace("</oceanState>", WATER + "</oceanState>", 1)
+    text = re.sub("<u:water.*</u:water>", WATER if is_physical else "", text, flags=re.DOTALL)
     scene = tmp_path / "scene.xml"
     scene.write_text(text.replace("<object>", objects + "<object>", 1), encoding="utf-8")
     blob = Blob()
