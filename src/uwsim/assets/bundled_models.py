@@ -141,10 +141,12 @@ def _decode(file: _BundledFile, texture: int) -> Texture:
 
     entry = file.tree["textures"][texture]
     image = file.tree["images"][entry["source"]]
-    with Image.open(io.BytesIO(file.view(image["bufferView"]))) as picture:
+    data = bytes(file.view(image["bufferView"]))
+    with Image.open(io.BytesIO(data)) as picture:
         pixels = np.array(picture.convert("RGB"), dtype=np.uint8)
+    jpeg = data if image["mimeType"] == "image/jpeg" else None
     wrap = file.tree["samplers"][entry["sampler"]]["wrapS"]
-    return Texture(name=image["name"], pixels=pixels, repeats=wrap != CLAMP)
+    return Texture(name=image["name"], pixels=pixels, repeats=wrap != CLAMP, jpeg=jpeg)
 
 
 def to_encoded(value: float) -> float:

@@ -23,6 +23,8 @@ class Texture:
     of a texture with holes."""
     repeats: bool = True
     """True if the image repeats outside the coordinates 0..1; False if its edge continues there."""
+    jpeg: bytes | None = None
+    """The JPEG file from which the pixels were decoded; None if they are from anywhere else."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

@@ -50,4 +50,4 @@ def _add_clouds(texture: Texture, pattern: int, strength: float) -> Texture:
     pixels = texture.pixels.copy()
     colours = np.rint(pixels[..., :3] * factor[..., None])
     pixels[..., :3] = np.clip(colours, 0.0, 255.0).astype(np.uint8)
-    return replace(texture, name=f"{texture.name}+{pattern}*{strength:g}", pixels=pixels)
+    return replace(texture, name=f"{texture.name}+{pattern}*{strength:g}", pixels=pixels, jpeg=None)

@@ -28,7 +28,7 @@ multiple of 4; the number of elements; and their type, one of ``f4 u4 u2 i2 i1 u
                   normal 3, density] (`uwsim.rendering.merged.Piece`)
     reflectance  in physical water with materials: ref f4, the table of rough surfaces, 32 x 32 x 4
                   (`uwsim.rendering.materials.reflectance`)
-    textures    [{type: "image/webp", bytes: ref, width, height, repeats}]
+    textures    [{type: "image/webp" or "image/jpeg", bytes: ref, width, height, repeats}]
     bodies      [{name, vehicle: name or null, pose: [x y z w x y z],
                   visuals: [{part: index of the model in the scene, mesh, matrix: 16 (body from
                   mesh), texture or null, opacity, two_sided, material: absent, or {maps: {name

@@ -15,10 +15,12 @@ from ..rendering.materials.reflectance import compute_table
 from ..rendering.merged import MergedMesh, Piece, merge_model
 from .pack import Blob, Ref
 
-WEBP_QUALITY = 95
-"""The quality of lossy WebP textures, 0..100."""
+TEXTURE_QUALITY = 95
+"""The quality of lossy WebP and JPEG textures, 0..100."""
+NUMBER_MAPS = ("normal_map", "finish_map")
+"""The maps whose channels are numbers and not colours, by their names in the shaders."""
 MAX_LOSS = 12.0
-"""The greatest 99th percentile of the error of a lossy texture [grey levels]; see `_texture`."""
+"""The greatest 99th percentile of the error of a lossy texture [grey levels]; see `_encode`."""
 RGB_CHANNELS = 3
 """The number of channels of an image without alpha."""
 MAX_EXACT_BYTES = 70_000
@@ -66,7 +68,10 @@ class Models:
             return {}
         return {
             "material": {
-                "maps": {name: self._texture(texture) for name, texture in maps.items()},
+                "maps": {
+                    name: self._texture(texture, has_numbers=name in NUMBER_MAPS)
+                    for name, texture in maps.items()
+                },
                 "cutoff": cutoff,
                 "emits": self._has_finish and any(material.emission),
             }
@@ -89,7 +94,8 @@ class Models:
 
     def pattern(self, pixels: npt.NDArray[np.uint8]) -> int:
         """Return the index of the texture of a projector's pattern (h, w, 4), lossless."""
-        return self._add("pattern", pixels, _encode_webp(pixels, lossless=True), repeats=False)
+        data = _encode_image(pixels, "webp", lossless=True)
+        return self._add("pattern", pixels, ("webp", data), repeats=False)
 
     def _mesh(self, part: MergedMesh) -> int:
         vertices, add = part.vertices, self._blob.add
@@ -116,22 +122,22 @@ class Models:
         )
         return len(self.meshes) - 1
 
-    def _texture(self, texture: Texture) -> int:
-        """Return the index of a texture; store it lossless if lossy WebP is not good enough."""
+    def _texture(self, texture: Texture, *, has_numbers: bool = False) -> int:
         if texture.name in self._texture_indices:
             return self._texture_indices[texture.name]
-        data = _encode_webp(texture.pixels, quality=WEBP_QUALITY, method=4)
-        if _loss(texture.pixels, data) > MAX_LOSS:
-            exact_data = _encode_webp(texture.pixels, lossless=True, quality=60, method=4)
-            data = exact_data if len(exact_data) <= MAX_EXACT_BYTES else data
-        return self._add(texture.name, texture.pixels, data, repeats=texture.repeats)
+        file = _encode(texture, has_numbers=has_numbers)
+        return self._add(texture.name, texture.pixels, file, repeats=texture.repeats)
 
-    def _add(self, name: str, pixels: npt.NDArray[np.uint8], data: bytes, *, repeats: bool) -> int:
+    def _add(
+        self, name: str, pixels: npt.NDArray[np.uint8], file: tuple[str, bytes], *, repeats: bool
+    ) -> int:
+        """Return the index of a new texture from its file: the format and the bytes."""
+        image_format, data = file
         height, width = pixels.shape[:2]
         self._texture_indices[name] = len(self.textures)
         self.textures.append(
             {
-                "type": "image/webp",
+                "type": f"image/{image_format}",
                 "bytes": self._blob.add_bytes(data),
                 "width": width,
                 "height": height,
@@ -141,14 +147,39 @@ class Models:
         return self._texture_indices[name]
 
 
-def _encode_webp(pixels: npt.NDArray[np.uint8], **options: Any) -> bytes:
+def _encode(texture: Texture, *, has_numbers: bool) -> tuple[str, bytes]:
+    """Encode a texture: the format and the bytes of the file.
+
+    Args:
+        texture: the texture. If it is from a JPEG file, the file is used: no second loss.
+        has_numbers: True if its channels are numbers. Lossy WebP halves the resolution of
+            differences between channels, so numbers are stored as JPEG, which can keep it.
+    """
+    if texture.jpeg is not None:
+        return "jpeg", texture.jpeg
+    pixels, image_format = texture.pixels, "webp"
+    if has_numbers:
+        image_format, options = "jpeg", {"subsampling": 0, "optimize": True}
+        data = _encode_image(pixels, "jpeg", quality=TEXTURE_QUALITY, **options)
+    else:
+        data = _encode_image(pixels, "webp", quality=TEXTURE_QUALITY, method=4)
+    if _loss(pixels, data) > MAX_LOSS:
+        exact_data = _encode_image(pixels, "webp", lossless=True, quality=60, method=4)
+        if len(exact_data) <= MAX_EXACT_BYTES:
+            return "webp", exact_data
+    return image_format, data
+
+
+def _encode_image(pixels: npt.NDArray[np.uint8], image_format: str, **options: Any) -> bytes:
     stream = io.BytesIO()
-    Image.fromarray(pixels).save(stream, "WEBP", exact=True, **options)
+    if image_format == "webp":
+        options["exact"] = True  # the colours of transparent pixels too
+    Image.fromarray(pixels).save(stream, image_format, **options)
     return stream.getvalue()
 
 
 def _loss(pixels: npt.NDArray[np.uint8], data: bytes) -> float:
-    """Return the 99th percentile of the error of a WebP image's values [grey levels]."""
+    """Return the 99th percentile of the error of an encoded image's values [grey levels]."""
     mode = "RGB" if pixels.shape[2] == RGB_CHANNELS else "RGBA"
     pixels_again = np.asarray(Image.open(io.BytesIO(data)).convert(mode), dtype=np.int16)
     return float(np.percentile(np.abs(pixels_again - pixels), 99.0))
