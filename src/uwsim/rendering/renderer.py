@@ -23,10 +23,9 @@ from .context import create_context
 from .frame import Frame
 from .gpu_model import GpuModels
 from .instance import Indices, Instances, Slots, find_visible
+from .lights.artificial_light import ArtificialLight
 from .lights.lamp import Lamp
-from .lights.lamps import Lamps
 from .lights.projector import Projector
-from .lights.projector_light import ProjectorLight
 from .lights.shadow_region import Region, compute_tile_bounds, find_shaded_region
 from .lights.sun_shadow import MAX_CASTER_RADIUS, SHADOW_MARGIN, SunShadow, find_shadow_pairs
 from .materials.maps import Switches
@@ -118,8 +117,7 @@ class Renderer:
         self._passes = Passes(
             self._context, self._models, self._instances, self._slots, self._shadow
         )
-        self._lamps: Lamps | None = None
-        self._projector: ProjectorLight | None = None
+        self._artificial_light = ArtificialLight(self._context, self._instances, SAMPLERS)
         self._development: Development | None = None
         self._focused_light = FocusedLight(self._context)
         self._surface_pass: SurfacePass | None = None
@@ -299,7 +297,7 @@ class Renderer:
 
     def _issue_draw_calls(self, view: View, world_from_camera: Pose) -> Colours | None:
         """Issue the draw calls without waiting for them; return the backdrop, if there is one."""
-        water, light, hidden_ids, lamps = view.water, view.light, view.hidden_ids, view.lamps
+        water, light, hidden_ids = view.water, view.light, view.hidden_ids
         candidates = self._instances.find_shown(hidden_ids)
         pinhole = projection(view.intrinsics)
         indices = find_visible(self._instances, candidates, world_from_camera, pinhole.planes)
@@ -309,12 +307,10 @@ class Renderer:
             casters, may_cast = self._update_sun_shadow(
                 candidates, indices, view, world_from_camera, pinhole
             )
-        if lamps and "colour" in view.targets:
-            switches += (("LAMPS", len(lamps)),)
-            self._update_lamps(lamps, candidates, world_from_camera, hidden_ids)
-        if view.projector is not None and "colour" in view.targets:
-            switches += (("PROJECTOR", 1),)
-            self._update_projector(view.projector, candidates, world_from_camera, hidden_ids)
+        if "colour" in view.targets:
+            switches += self._artificial_light.prepare(
+                view.lamps, view.projector, candidates, world_from_camera, hidden_ids
+            )
         self._frame.fill(
             world_from_camera,
             view.intrinsics,
@@ -412,37 +408,6 @@ class Renderer:
         if is_needed.any():
             self._shadow.update(instances, casters[is_needed], sun)
         return casters[is_needed], may_cast[:, is_needed]
-
-    def _update_lamps(
-        self,
-        lamps: Sequence[Lamp],
-        casters: Indices,
-        world_from_camera: Pose,
-        hidden_ids: frozenset[int],
-    ) -> None:
-        """Update the lamps and their shadow maps."""
-        if self._lamps is None:
-            self._lamps = Lamps(self._context)
-        self._lamps.update(lamps, self._instances, casters, (self._instances.version, hidden_ids))
-        self._lamps.fill(lamps, world_from_camera)
-        self._lamps.texture.use(SAMPLERS["lamp_maps"])
-
-    def _update_projector(
-        self,
-        projector: Projector,
-        casters: Indices,
-        world_from_camera: Pose,
-        hidden_ids: frozenset[int],
-    ) -> None:
-        """Update the projector and its shadow map."""
-        if self._projector is None:
-            self._projector = ProjectorLight(self._context)
-        version = self._instances.version, hidden_ids
-        self._projector.update(projector, self._instances, casters, version)
-        self._projector.fill(projector, world_from_camera)
-        self._projector.use(
-            shadow_map=SAMPLERS["projector_map"], pattern=SAMPLERS["projector_pattern"]
-        )
 
     def _find_targets(self, view: View) -> Targets:
         size = view.intrinsics.width, view.intrinsics.height

@@ -134,10 +134,11 @@ def test_a_map_is_drawn_anew_only_when_something_moved(stage: Renderer) -> None:
     lamps = [lamp(), lamp(0.5)]
 
     def maps_drawn(*shining: Lamp) -> int:
-        before = 0 if stage._lamps is None else stage._lamps.n_drawn
+        light = stage._artificial_light
+        before = 0 if light._lamps is None else light._lamps.n_drawn
         rendered(stage, *shining)
-        assert stage._lamps is not None
-        return stage._lamps.n_drawn - before
+        assert light._lamps is not None
+        return light._lamps.n_drawn - before
 
     assert maps_drawn(*lamps) == 2
     assert maps_drawn(*lamps) == 0  # another camera of the same tick
