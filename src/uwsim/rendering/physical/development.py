@@ -30,9 +30,9 @@ from .physical_water import PhysicalWater
 
 SURFACE_UNIT, MAP_UNIT, TABLE_UNIT, FIRST_LEVEL_UNIT = 0, 5, 6, 7
 """The texture units of the image of surfaces, the open water, the weights, and the first level."""
-LAMP_MAP_UNIT, PARTICLE_UNIT, CLOUD_UNIT = 2, 13, 14
-"""The texture units of the lamps' shadow maps, as in the surface pass, of the particles, and of the
-first of three textures of clouds."""
+LAMP_MAP_UNIT, CLOUD_UNIT, PARTICLE_UNIT = 2, 10, 13
+"""The texture units of the lamps' shadow maps, as in the surface pass, of the first of the three
+textures of clouds, which follow the blur and use units of its levels, and of the particles."""
 SHAFT_UNIT = 3
 """The texture unit of light shafts, which the surface pass uses for a projector."""
 SAMPLERS = {
