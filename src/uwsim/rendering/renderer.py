@@ -280,7 +280,10 @@ class Renderer:
         surface_pass = self._surface_pass if physical_water.has_surface else None
         if surface_pass is not None and not surface_pass.is_direct:
             self._development.use_textures()
-            radiance = surface_pass.draw(lens, radiance)
+            indices = self._instances.find_shown(view.hidden_ids)
+            tops = self._instances.corners[indices, :, 2]
+            has_bodies_above = bool((tops > view.water.surface_height).any())
+            radiance = surface_pass.draw(lens, radiance, has_bodies_above=has_bodies_above)
         target = self._find_targets(replace(view, targets=frozenset({"colour"})))
         self._development.develop(
             physical_water,

@@ -13,6 +13,7 @@ from tests.rendering.models import placed, plate
 from uwsim.base.geometry import Intrinsics, Pose, image_centre
 from uwsim.optics import HenyeyGreenstein, Medium, find_water
 from uwsim.rendering.caustics.caustic_light import find_contrast_loss
+from uwsim.rendering.caustics.focused_light import FocusedLight
 from uwsim.rendering.caustics.refraction import make_beam
 from uwsim.rendering.caustics.ripples import Ripples
 from uwsim.rendering.caustics.swell import SPACING, compute_swell
@@ -258,3 +259,10 @@ def test_a_shadow_of_the_sun_has_no_caustics(renderer: Renderer) -> None:
     )  # fmt: skip
     assert np.array_equal(shadowed[0], shadowed[1])
     assert not np.array_equal(sunlit[0], sunlit[1])
+
+
+def test_no_map_is_computed_without_caustics_and_light_shafts(renderer: Renderer) -> None:
+    light = FocusedLight(renderer._context)
+    water = physical_water(has_caustics=False, has_light_shafts=False)
+    assert light.prepare(water, LEVEL, Pose.identity(), 0.0) == ()
+    assert light._caustics is None

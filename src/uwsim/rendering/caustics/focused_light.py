@@ -48,6 +48,8 @@ class FocusedLight:
         """
         if surface is None or not water.has_focused_light:
             return ()
+        if not (water.has_caustics or water.has_light_shafts):
+            return ()
         if self._caustics is None:
             self._caustics = CausticLight(self._context)
         switches = self._caustics.prepare(water, surface, world_from_camera, surface_height)

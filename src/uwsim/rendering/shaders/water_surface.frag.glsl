@@ -1,10 +1,13 @@
 // Provides: the radiance and the range in water of the water's surface, from below, or with the switch ABOVE from above.
-// Needs: optics.glsl, surface_block.glsl, waves.glsl, sky.glsl, fresnel.glsl; transmission.glsl from above;
-// without the switch DIRECT, the image of the surfaces, whose alpha is the whole range.
+// Needs: optics.glsl, surface_block.glsl, surface_varyings.glsl, waves.glsl, sky.glsl, fresnel.glsl; transmission.glsl from above;
+// without the switch DIRECT, the image of the surfaces, whose alpha is the whole range; the switch BODIES_ABOVE if one may be mirrored.
 // From below: sky refracted, open water reflected; the water before it follows in whole images (physical/development.py), which
 // takes the open water B behind it away. From above: sky reflected, the water and the bodies in it refracted. See surface_pass.py.
 #include "optics.glsl"
 #include "surface_block.glsl"
+#define VARYING in
+#define READS_VARYINGS
+#include "surface_varyings.glsl"
 #include "waves.glsl"
 #include "sky.glsl"
 #include "fresnel.glsl"
@@ -34,18 +37,20 @@ float follow(vec3 direction, float side, float range, ivec2 size, out vec4 seen)
     float first = 0.0;
     float way = 0.25 / max(abs(direction.z), 0.1);
     float met = 0.0;
-    seen = vec4(0.0);
+    ivec2 pixel = ivec2(0);
     for (int i = 0; i < 8; ++i) {
         vec4 clip = here + way * change;
         vec2 place = clip.xy / clip.w * 0.5 + 0.5;
-        vec4 texel = texelFetch(surface_image, ivec2(clamp(place, 0.0, 0.9999) * vec2(size)), 0);
+        if (side > 0.0 && (clip.w <= 0.0 || place != clamp(place, 0.0, 1.0))) break;  // it does not come back
+        ivec2 there = ivec2(clamp(place, 0.0, 0.9999) * vec2(size));
+        float body_range = texelFetch(surface_image, there, 0).a;
         vec3 offset = v_offset + way * direction;
         float distance = length(offset);
-        bool is_seen = clip.w > 0.0 && (side < 0.0 || place == clamp(place, 0.0, 1.0)) && texel.a > range * (0.5 - 0.5 * side)
-            && texel.a < distance && texel.a > distance - max(way, 1.0) && side * (eye.x + offset.z * texel.a / distance) > 0.0;
+        bool is_seen = clip.w > 0.0 && body_range > range * (0.5 - 0.5 * side)
+            && body_range < distance && body_range > distance - max(way, 1.0) && side * (eye.x + offset.z * body_range / distance) > 0.0;
         if (is_seen) {
             met = way;
-            seen = texel;
+            pixel = there;
         }
         if (met > 0.0) {
             if (!is_seen) first = way;
@@ -57,6 +62,7 @@ float follow(vec3 direction, float side, float range, ivec2 size, out vec4 seen)
             way *= 2.2;
         }
     }
+    seen = met > 0.0 ? texelFetch(surface_image, pixel, 0) : vec4(0.0);
     return met;
 }
 
@@ -67,8 +73,9 @@ vec3 light_above(vec3 towards, float range, vec3 normal, float variance, ivec2 s
     mirrored = normalize(vec3(mirrored.xy, abs(mirrored.z) + 0.5 * sqrt(variance)));
     vec4 seen;
     vec3 above = sky_in(mirrored);
-    float met = follow(mirrored, 1.0, range, size, seen);
-    if (met > 0.0) above = seen.rgb;
+#ifdef BODIES_ABOVE
+    if (follow(mirrored, 1.0, range, size, seen) > 0.0) above = seen.rgb;
+#endif
     vec3 light = share * above;
     vec3 half_way = normalize(sky_sun.xyz - towards);
     float steep = max(half_way.z, 0.05);
@@ -79,7 +86,7 @@ vec3 light_above(vec3 towards, float range, vec3 normal, float variance, ivec2 s
     light += sky_sun_light.rgb * (glint / (4.0 * max(cosine, 0.05) * steep * steep * steep * steep));
     vec3 refracted = refract(towards, normal, 1.0 / air.y);
     vec3 below = water_in(refracted);
-    met = follow(refracted, -1.0, range, size, seen);
+    float met = follow(refracted, -1.0, range, size, seen);
     if (met > 0.0) below = mix(below, seen.rgb, whole_field(met));
     return light + (1.0 - share) / (air.y * air.y) * below;
 }

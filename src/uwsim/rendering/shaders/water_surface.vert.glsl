@@ -1,7 +1,9 @@
 // Provides: the water's surface around the camera, raised by the waves.
-// Needs: surface_block.glsl, waves.glsl, open_water.glsl without the switch ABOVE; vertices are offsets from the camera in the horizontal plane of W [m].
+// Needs: surface_block.glsl, surface_varyings.glsl, waves.glsl, open_water.glsl without the switch ABOVE; vertices are offsets from the camera in the horizontal plane of W [m].
 // The far plane is at infinity; with the switch DIRECT it is that of the camera.
 #include "surface_block.glsl"
+#define VARYING out
+#include "surface_varyings.glsl"
 #include "waves.glsl"
 #ifndef ABOVE
 #include "open_water.glsl"
@@ -11,6 +13,7 @@ in vec2 vertex;
 out vec3 v_offset;
 
 void main() {
+    pass_on_surface();
     float variance;
     v_offset = vec3(vertex, waves_at(vertex, 0.0, variance).x - eye.x);
     gl_Position = clip_from_offset * vec4(v_offset, 1.0);

@@ -173,7 +173,9 @@ class SurfacePass:
         self._draw_sides((("DIRECT", 1),))
         target.write_all()
 
-    def draw(self, intrinsics: Intrinsics, bodies: moderngl.Texture) -> moderngl.Texture:
+    def draw(
+        self, intrinsics: Intrinsics, bodies: moderngl.Texture, *, has_bodies_above: bool
+    ) -> moderngl.Texture:
         """Draw the surface and the sky into a copy of an image of bodies.
 
         ``Optics`` and its textures must be bound.
@@ -181,6 +183,7 @@ class SurfacePass:
         Args:
             intrinsics: the pinhole of the camera.
             bodies: the radiance and the range of bodies, four floats.
+            has_bodies_above: True if a body reaches above the still surface, which mirrors it.
 
         Returns:
             The radiance and the range in water, four floats.
@@ -197,7 +200,7 @@ class SurfacePass:
         self._array("air", "screen", ()).render(moderngl.TRIANGLES, vertices=3)
         context.enable_only(moderngl.DEPTH_TEST)
         context.depth_func = "<"
-        self._draw_sides(())
+        self._draw_sides((("BODIES_ABOVE", 1),) if has_bodies_above else ())
         return target.radiance
 
     def _draw_sides(self, switches: Switches) -> None:
