@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 import random
+import re
 from pathlib import Path
 from typing import Any
 
@@ -12,6 +13,7 @@ import numpy.typing as npt
 import pytest
 
 import uwsim
+from uwsim.assets.bundled import scene_file
 from uwsim.rendering.grey import grey_truncated
 from uwsim.results import journal
 from uwsim.results.motion import load_track
@@ -22,6 +24,7 @@ from uwsim.viewer.replay import Replay
 
 pytestmark = pytest.mark.slow
 SCENES = ("currents-scene", "shipwreck-scene", "structured-light-scene", "two-vehicles-scene")
+PHYSICAL_SCENES = ("shipwreck-scene", "structured-light-scene", "two-vehicles-scene")
 EVERY = "window.uwsim !== undefined"
 PLAYED_AND_STOPPED = """() => new Promise(done => {
     const press = () => document.dispatchEvent(new KeyboardEvent("keydown", { key: " " }))
@@ -150,22 +153,34 @@ def test_a_grey_camera_is_grey_in_the_page(tab: Any, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("scene", SCENES)
+def test_cameras_see_in_fog_what_the_renderer_draws(tab: Any, scene: str, tmp_path: Path) -> None:
+    text = scene_file(scene).read_text(encoding="utf-8")
+    path = tmp_path / "scene.xml"
+    path.write_text(re.sub("<u:water.*</u:water>", "", text, flags=re.DOTALL), encoding="utf-8")
+    check_cameras(tab, str(path), tmp_path / "page.html", [{"fog": 0.0}, {"fog": 0.4}])
+
+
+@pytest.mark.parametrize("scene", PHYSICAL_SCENES)
 def test_cameras_see_what_the_renderer_draws(tab: Any, scene: str, tmp_path: Path) -> None:
+    check_cameras(tab, scene, tmp_path / "page.html", [{}])
+
+
+def check_cameras(tab: Any, scene: str, path: Path, waters: list[dict[str, float]]) -> None:
+    """Compare the images of all cameras in some waters with those of the renderer."""
     blob = Blob()
     with uwsim.load(scene) as simulation:
         head = scene_head(simulation, scene, blob)
-        path = tmp_path / "page.html"
         path.write_text(document(scene, make_pack(head, blob)), encoding="utf-8")
         tab.goto(path.as_uri())
         tab.wait_for_function(EVERY)
         for camera in head["cameras"]:
             view = simulation.world.sensors.camera(camera["name"])
-            for fog in (0.0, 0.4):
+            for water in waters:
                 drawn = simulation.world.scenery.render_clean(
-                    view.world_from_camera, view.intrinsics, fog=fog
+                    view.world_from_camera, view.intrinsics, fog=water.get("fog")
                 ).colour
                 assert drawn is not None
-                off = np.abs(image(tab, camera, {"fog": fog}) - drawn)
+                off = np.abs(image(tab, camera, water) - drawn)
                 assert off.mean() <= 1.0
                 assert np.percentile(off, 99) <= 4.0
                 assert (off.max(axis=2) > 8).mean() <= 0.005
