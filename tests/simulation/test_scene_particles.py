@@ -18,8 +18,8 @@ from uwsim.simulation.scenery.scene_particles import ParticlesState
 from uwsim.simulation.state.state import State
 
 LENS = Intrinsics.from_fovy(96, 72, 0.9)
-START = "<x>5.4</x> <y>1.2</y> <z>11.8</z>"
-LOW_START = "<x>5.4</x> <y>1.2</y> <z>12.5</z>"
+START = "<x>4.4</x> <y>6.6</y> <z>12.4</z>"
+LOW_START = "<x>4.4</x> <y>9</y> <z>13.2</z>"
 CURRENT = """
 <u:current> <u:constant>
   <u:velocity> <x>0.2</x> <y>0.1</y> <z>0</z> </u:velocity>
@@ -142,7 +142,7 @@ def test_thrusters_near_the_floor_stir_up_sediment(tmp_path: Path) -> None:
 
 
 def test_thrusters_high_above_the_floor_stir_up_nothing(tmp_path: Path) -> None:
-    high_start = START.replace("11.8", "4")
+    high_start = START.replace("12.4", "4")
     with load(tmp_path, "<u:sediment/>", start=high_start) as simulation:
         climb(simulation, 1.0)
         puffs = state_of(simulation).sediment

@@ -31,10 +31,10 @@ NO_FLOATS = """(names) => {
 
 
 def set_water(simulation: Simulation, **changes: Any) -> None:
-    """Change the physical water of a scene; the page draws no waves."""
+    """Change the physical water of a scene; the page draws no waves and ripples."""
     state = simulation.world.scenery.state
     assert state.water.physical_water is not None
-    optics = replace(state.water.physical_water, has_surface=False, **changes)
+    optics = replace(state.water.physical_water, has_surface=False, ripples=None, **changes)
     state.water = replace(state.water, physical_water=optics)
 
 

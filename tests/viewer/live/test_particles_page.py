@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import re
 from pathlib import Path
 from typing import Any
 
@@ -18,9 +19,10 @@ from uwsim.viewer.live.session import LiveSession
 
 __all__ = ["server"]
 pytestmark = pytest.mark.slow
-TYPE = "<u:type>jerlov-II</u:type>"
+MOVING = re.compile(r"<u:ripples>.*</u:particles>", re.DOTALL)
+"""The ripples, whose light the page does not draw, and the particles of the scene."""
 SNOW = "<u:marineSnow/>"
-BUBBLES = """<u:bubbles> <u:source> <x>4.26</x> <y>-0.3</y> <z>12.3</z> </u:source>
+BUBBLES = """<u:bubbles> <u:source> <x>3.05</x> <y>5.35</y> <z>12.9</z> </u:source>
     <u:rate>500</u:rate> </u:bubbles>"""
 NEAR_SURFACE = "<u:bubbles> <u:depthScale>20</u:depthScale> </u:bubbles>"
 
@@ -31,7 +33,7 @@ def test_particles_are_those_of_the_simulation(
 ) -> None:
     text = bundled_files("scenes")["wreck-physical-scene"].read_text()
     path = tmp_path / "scene.xml"
-    path.write_text(text.replace(TYPE, f"{TYPE} <u:particles>{kinds}</u:particles>"))
+    path.write_text(MOVING.sub(f"<u:particles>{kinds}</u:particles>", text))
     session = LiveSession(server, mapping=PilotMapping())
     with uwsim.load(str(path)) as simulation:
         world = simulation.world
