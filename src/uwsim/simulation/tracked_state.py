@@ -23,6 +23,10 @@ BEAM_ATTENUATION, EXPOSURE_LEVEL = "beam_attenuation", "exposure_level"
 binary logarithm."""
 DRIFT_SIGNALS = {"particles": "m", "particle_velocity": "m/s"}
 """The names and units of the signals of the water's displacement that carries particles, in W."""
+WAVE_SCALE = "wave_scale"
+"""The name of the signal of the factor on the amplitudes of waves, where images show them [1]."""
+WAVE_RESOLUTION = 1e-4
+"""The resolution at which that factor is recorded [1]."""
 EXPOSURE_RESOLUTION = 1e-3
 """The resolution at which an exposure is recorded [stops]."""
 
@@ -62,7 +66,14 @@ class TrackedState:
         if self._world.scenery.particles is not None:
             drift = self._world.scenery.particles.find_drift()
             signals += [*drift.displacement, *drift.velocity]
+        if self._shows_waves:
+            signals.append(float(self._world.water.state.wave_scale[0]))
         return np.concatenate([rows.reshape(-1), signals])
+
+    @property
+    def _shows_waves(self) -> bool:
+        water = self._world.scenery.state.water.physical_water
+        return water is not None and self._world.water.waves is not None
 
     def _water_velocity(self, position: Array, vehicle: str) -> Array:
         """Return the velocity of the water at the position of a vehicle, in W, (3,) [m/s]."""
@@ -88,3 +99,5 @@ class TrackedState:
         if self._world.scenery.particles is not None:
             for name, unit in DRIFT_SIGNALS.items():
                 yield from (Signal(name=f"{name}/{axis}", unit=unit) for axis in "xyz")
+        if self._shows_waves:
+            yield Signal(name=WAVE_SCALE, step=WAVE_RESOLUTION)

@@ -59,12 +59,14 @@ multiple of 4; the number of elements; and their type, one of ``f4 u4 u2 i2 i1 u
                  (`uwsim.viewer.optics`); nodes are those of a mean over a Gaussian. Else these
                  three are null
     particles   null or the marine snow and bubbles in physical water (`uwsim.viewer.particles`)
+    surface     null or the moving surface of physical water (`uwsim.viewer.surface`)
     suns        {name: {direction, colour}}
     ambient, specular    constants of the lighting (`uwsim.rendering.water`)
     localized   pose in W of the localized frame L, the frame of the scene file
-    trials      replays only: [{title, motion: ref u1 or null, levels, curves, poses}]
+    trials      replays only: [{title, motion: ref u1 or null, levels, curves, poses, surface}]
                   poses: {body: pose} of the bodies whose initial pose is not that of ``bodies``,
-                  because the seed varies the scene
+                  because the seed varies the scene; surface: absent, or {waves, ripples} of
+                  another seed
 
     levels      [{label, status, why, start, end, values: {fog: ...}}]
                   start, end: simulation times [s]; why: the reason of a status other than ok, or
@@ -110,6 +112,7 @@ optional::
     particles/x|y|z, particle_velocity/x|y|z
                                displacement [m] and velocity [m/s] of the water that carries
                                particles, in W
+    wave_scale                 factor on the amplitudes of waves that physical water shows [1]
     lamp/NAME                  its brightness, 0..1 of the lamp's intensity in the head
     thrust/VEHICLE/NAME        command of a thruster, -1..1 of its largest [1], or [N] with unit
     water/VEHICLE/x|y|z        velocity of the water at the vehicle, in W [m/s]
@@ -193,6 +196,7 @@ from .mounts import (
 )
 from .pack import Blob
 from .particles import describe_particles
+from .surface import describe_surface
 from .water import describe_water
 
 Json = dict[str, Any]
@@ -244,6 +248,7 @@ def scene_head(
         "file_view": _file_view(simulation),
         **describe_water(world, blob, media),
         "particles": describe_particles(world),
+        "surface": describe_surface(world, blob),
         "bodies": bodies.rows,
         "meshes": models.meshes,
         "textures": models.textures,

@@ -16,8 +16,6 @@ The numbers of one medium in one light are ``optics``::
      open_water: {scattering: 3, molecules: 3, attenuation: 3, asymmetry, backscatter, window}
                                        b*, b_w, c* [1/m]; g and the backscatter ratio of p*; the
                                        radiance of the sky in Snell's window
-     sky: null or 3,                   the irradiance of a level surface by the sky, if images show
-                                       the sky
      lamps: [[share, factor]],         EE(half angle) - A and k_L of each lamp of the head
      linear, blur, lamp_veil}          true for linear stored values, for blur, for veils of lamps
 """
@@ -49,7 +47,6 @@ from ..rendering.physical.daylight_field import (
 )
 from ..rendering.physical.optics_block import compute_phase_numbers, find_lamp_numbers
 from ..rendering.physical.physical_water import PhysicalWater
-from ..rendering.surface.sky import compute_sky
 from .pack import Blob
 
 Json = dict[str, Any]
@@ -100,7 +97,6 @@ def describe_optics(
             "backscatter": phase.backscatter_ratio,
             "window": compute_window_radiance(water.daylight),
         },
-        "sky": compute_sky(water.daylight).irradiance.tolist() if water.has_surface else None,
         "lamps": [
             find_lamp_numbers(medium.phase_function, float(np.radians(lamp.spec.fov / 2.0)))
             for lamp in lamps

@@ -25,6 +25,7 @@ from .film.trial_scene import open_scene
 from .head import body_poses, scene_head
 from .pack import Blob, make_pack
 from .recorded import Curve, RecordedLevel, RecordedTrial, levels_without_motion
+from .surface import describe_moving_surface
 
 Json = dict[str, Any]
 SUFFIXES = (".html", ".htm")
@@ -101,6 +102,10 @@ class Replay:
         poses = {seed: _moved_poses(trial, initial_poses) for seed, trial in varied_trials}
         for trial in self._trials:
             descriptions[trial.index]["poses"] = poses.get(trial.seed, {})
+        if head["surface"] is not None:
+            surfaces = self._surfaces(head["surface"], blob)
+            for trial in self._trials:
+                descriptions[trial.index] |= surfaces.get(trial.seed, {})
         names = list(first_trial.track.levels[0].values) if first_trial.track.levels else []
         for index in self.trials_without_motion:
             descriptions[index] = _trial_without_motion(self.directory, index, names, blob)
@@ -121,6 +126,17 @@ class Replay:
                 optics = restore_water(water, medium, attenuation, 0.0).physical_water
                 assert optics is not None
                 yield optics.medium
+
+    def _surfaces(self, surface: Json, blob: Blob) -> dict[int, Json]:
+        """Return, by seed, the surface of the trials whose waves are not those of the first."""
+        first_seed, surfaces = self._trials[0].seed, dict[int, Json]()
+        if surface["waves"] is None and surface["ripples"] is None:
+            return surfaces
+        for trial in {t.seed: t for t in self._trials if t.seed != first_seed}.values():
+            with open_scene(trial) as simulation:
+                entry = describe_moving_surface(simulation.world, blob)
+            surfaces[trial.seed] = {"surface": entry}
+        return surfaces
 
     def _varied_trials(self) -> dict[int, RecordedTrial]:
         """Return, by seed, a trial whose scene differs from the scene of the first trial."""

@@ -108,6 +108,14 @@ def compute_sky(daylight: Daylight) -> Sky:
     )
 
 
+def compute_sky_levels(sky: Sky) -> tuple[float, float]:
+    """Compute the factors on the formulas of the clear and of the overcast sky in the radiance."""
+    share = sky.overcast_share
+    sun_angle = math.acos(min(max(float(sky.towards_sun[2]), -1.0), 1.0))
+    clear_level = sky.level * (1.0 - share) / _integrate_clear(round(sun_angle, 12))
+    return clear_level, sky.level * share / _integrate_overcast()
+
+
 def _compute_distribution(directions: Array, towards_sun: Array, overcast_share: float) -> Array:
     """Compute the relative radiance, whose clear and overcast parts have the irradiance 1."""
     cosine = np.maximum(directions[:, 2], MIN_COSINE)

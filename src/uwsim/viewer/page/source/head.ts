@@ -4,9 +4,11 @@
 import type { Material, MaterialArrays, Ref } from "./drawing/entries";
 import type { Intrinsics } from "./geometry";
 import type { MediumSpec } from "./water/medium";
+import type { MotionHead, Marker, MarkerChange } from "./motion_head";
 import type { ParticlesSpec } from "./water/particles";
+import type { SurfaceSpec, WavesSpec } from "./water/surface/spec";
 
-export type { Ref };
+export type { Marker, MarkerChange, MotionHead, Ref };
 
 export interface Visual {
   /** The index of the model in the scene. */
@@ -185,45 +187,12 @@ export interface Trial {
   title: string;
   /** World from body at step 0, where a seed changes it, by name of the body. */
   poses?: Record<string, number[]>;
+  /** The waves and ripples, where a seed changes them. */
+  surface?: WavesSpec;
   /** The bytes of its motion track, u1; null: not recorded. */
   motion: Ref | null;
   levels: Level[];
   curves: Curve[];
-}
-
-/** A marker: lines in W. */
-export interface Marker {
-  name: string;
-  /** The position of its origin. */
-  at: number[];
-  /** As `#rrggbb`. */
-  colour: string;
-  /** Polylines of points. */
-  lines: number[][][];
-}
-
-/** A change from a frame on: a marker is removed, or gets a shape (by index), a colour and a pose in W. */
-export type MarkerChange = [number, string] | [number, string, number, string, number[]];
-
-export interface MotionHead {
-  /** Rows per second [Hz]. */
-  rate: number;
-  /** The number of rows. */
-  n: number;
-  /** The simulation time of the first row [s]. */
-  start: number;
-  /** The names of the bodies, in the order of the columns. */
-  bodies: string[];
-  /** The resolution of positions [m]. */
-  length: number;
-  /** The resolution of quaternions [1]. */
-  quaternion: number;
-  /** The recorded signals; `step` is the resolution in `unit`. */
-  signals: { name: string; unit: string; step: number }[];
-  /** The number of removals of sand, and the resolution of their positions [m]. */
-  sand?: { n: number; grain: number };
-  /** The shapes of markers, and the changes by frame. */
-  markers?: { shapes: number[][][][]; changes: MarkerChange[] };
 }
 
 export interface Head {
@@ -257,6 +226,8 @@ export interface Head {
   water: Water;
   /** Marine snow and bubbles in physical water; null or undefined: none. */
   particles?: ParticlesSpec | null;
+  /** The water's surface in physical water; null or undefined: images do not show it. */
+  surface?: SurfaceSpec | null;
   /** By name: a vector towards the sun in W, of any length, and the colour of its light, 0 to 1. */
   suns: Record<string, { direction: number[]; colour: number[] }>;
   /** The brightness of ambient light, as a fraction of a surface's colour [1]. */

@@ -2,6 +2,7 @@
 import type { Camera, Head, Water } from "./head";
 import type { ActiveLamp } from "./drawing/light";
 import { Media } from "./water/media";
+import { MovingSurfaces } from "./water/surface/moving_surface";
 import { Models } from "./models";
 import { drawOverlay, drawQuads, type OverlaySwitches } from "./overlay";
 import type { Pack } from "./pack";
@@ -10,14 +11,12 @@ import type { Player } from "./player";
 import type { Snapshot } from "./snapshot";
 import { drawCompass } from "./display/compass";
 import type { RenderState } from "./drawing/frame";
+import { SoftwarePacing } from "./drawing/pacing";
 import { isSoftware, Renderer } from "./drawing/renderer";
 import { fitIntrinsics, type ViewCamera, type Views } from "./views";
 import { scaleIntrinsics, type Intrinsics } from "./geometry";
 
 const PICTURE_HEIGHT = 150; // height of a camera's image on the page [px]
-const MAX_DRAWING_TIME = 2000; // time after which an image that is not complete is given up [ms]
-const RESPONSIVE_TIME = 300; // time after a pilot's input in which images are drawn without pauses [ms]
-const MAX_PAUSE = 100; // longest pause between two images of a software renderer [ms]
 
 /** The settings of the image that buttons and keys change. */
 export interface Switches extends OverlaySwitches {
@@ -50,41 +49,6 @@ export function graphics(canvas: HTMLCanvasElement): WebGL2RenderingContext | nu
   return canvas.getContext("webgl2", { alpha: false, antialias, powerPreference: "high-performance" });
 }
 
-/** The pacing of a software renderer: an image begins after the last one is complete and other processes had a pause. */
-class SoftwarePacing {
-  private fence: WebGLSync | null = null;
-  private beginTime = 0; // wall time of the beginning of the last image [ms]
-  private pauseEnd = 0; // wall time of the end of the pause [ms]
-  private responsiveEnd = 0; // wall time until which there are no pauses [ms]
-
-  constructor(private readonly gl: WebGL2RenderingContext) {}
-
-  /** Record that the commands of an image have been issued. */
-  begin(): void {
-    if (this.fence) this.gl.deleteSync(this.fence);
-    this.fence = this.gl.fenceSync(this.gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
-    this.gl.flush();
-    this.beginTime = performance.now();
-  }
-
-  /** Draw without pauses for `RESPONSIVE_TIME`, after an input. */
-  skipPauses(): void {
-    this.responsiveEnd = performance.now() + RESPONSIVE_TIME;
-  }
-
-  /** Return true if the last image is complete, and a pause as long as its drawing time, `MAX_PAUSE` at most, has passed. */
-  isReady(now: number): boolean {
-    const { gl, fence } = this;
-    const isLost = gl.isContextLost() || now - this.beginTime > MAX_DRAWING_TIME;
-    if (fence && (isLost || gl.getSyncParameter(fence, gl.SYNC_STATUS) === gl.SIGNALED)) {
-      gl.deleteSync(fence);
-      this.fence = null;
-      this.pauseEnd = Math.min(2 * now - this.beginTime, now + MAX_PAUSE);
-    }
-    return !this.fence && (now >= this.pauseEnd || now < this.responsiveEnd);
-  }
-}
-
 /** The image of the scene: the canvas, the renderer, and the overlay. */
 export class Picture {
   readonly canvas = element<HTMLCanvasElement>("image");
@@ -95,6 +59,7 @@ export class Picture {
   private readonly images: ImageBitmap[] = []; // the newest image of each camera, from a running simulation
   private readonly pacing: SoftwarePacing | null;
   readonly media: Media;
+  private readonly surfaces: MovingSurfaces;
 
   private constructor(
     private readonly gl: WebGL2RenderingContext | null,
@@ -103,6 +68,7 @@ export class Picture {
   ) {
     const head = (this.head = pack.head);
     this.media = new Media(pack);
+    this.surfaces = new MovingSurfaces(pack, head);
     this.renderer = gl && new Renderer(gl, head, models);
     this.pacing = gl && isSoftware(gl) ? new SoftwarePacing(gl) : null;
     for (const camera of head.cameras) {
@@ -139,7 +105,8 @@ export class Picture {
     const intrinsics = scaleIntrinsics(viewCamera.intrinsics, ratio);
     const grey = viewCamera.camera?.grey;
     const drift = snapshot.drift();
-    const state = { worldFromCamera, intrinsics, water, optics, lamps, isExternal, grey, drift };
+    const surface = this.surfaces.surfaceAt(player.trial, snapshot);
+    const state = { worldFromCamera, intrinsics, water, optics, lamps, isExternal, grey, drift, surface };
     const clearState = { ...state, water: { ...water, fog: 0 }, optics: this.media.clearOptics(optics), drift: null };
     this.renderer?.draw(switches.clear ? clearState : state, null, [0, 0]);
     const context = this.overlay.getContext("2d")!;
@@ -192,6 +159,7 @@ export class Picture {
     const state = {
       worldFromCamera, intrinsics, lamps: this.lamps(snapshot), isExternal, isExact: true, grey,
       drift: isClear ? null : snapshot.drift(),
+      surface: this.surfaces.surfaceAt(player.trial, snapshot),
       optics: isClear ? this.media.clearOptics(optics) : optics,
       water: { ...this.water(player, snapshot, switches), ...settings.water, ...(isClear ? { fog: 0 } : {}) },
     };

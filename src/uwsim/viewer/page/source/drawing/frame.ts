@@ -3,6 +3,7 @@ import type { Head, Water } from "../head";
 import { columns, origin, product, rotateBack, type Intrinsics, type Matrix } from "../geometry";
 import type { Optics } from "../water/medium";
 import type { Drift } from "../water/particles";
+import type { MovingSurface } from "../water/surface/spec";
 import type { ActiveLamp, Shadows } from "./light";
 
 /** The values that determine an image, in addition to the poses of the bodies. */
@@ -16,6 +17,8 @@ export interface RenderState {
   lamps: ActiveLamp[];
   /** The displacement of the water, with which particles move; null: none are drawn. */
   drift?: Drift | null;
+  /** The water's surface; null: it is not drawn. */
+  surface?: MovingSurface | null;
   /** True for an external view: there is air above the water, and the parts that cameras do not draw are visible. */
   isExternal: boolean;
   /** True if the image is greyscale, as the image of a greyscale camera. */

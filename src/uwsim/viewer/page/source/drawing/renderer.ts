@@ -12,6 +12,7 @@ import { opticsBlockValues } from "../water/optics";
 import { Development } from "../water/development";
 import type { VisibleParticles } from "../water/particle_pass";
 import { findParticles } from "../water/particles";
+import { SurfacePass } from "../water/surface/surface_pass";
 import { frameBlockValues, type RenderState } from "./frame";
 import { BLOCKS, Programs, UNITS, type Switches } from "./shaders";
 import { InstanceBlocks } from "./instance_blocks";
@@ -36,6 +37,7 @@ export class Renderer {
   private readonly blocks: Record<string, WebGLBuffer> = {};
   private readonly samplers: WebGLSampler[];
   private readonly development: Development | null; // the passes of physical water, if the scene has it
+  private readonly surfacePass: SurfacePass | null; // the passes of the water's surface, if images show it
 
   constructor(
     private readonly gl: WebGL2RenderingContext,
@@ -48,6 +50,10 @@ export class Renderer {
     this.shadows = new Shadows(gl, this.programs, this.instanceBlocks);
     const { nodes } = head.water;
     this.development = nodes ? Development.make(gl, this.programs, nodes) : null;
+    this.surfacePass =
+      head.surface && this.development
+        ? new SurfacePass(gl, this.programs, head.surface, this.development.format, this.development.switches)
+        : null;
     this.samplers = [gl.CLAMP_TO_EDGE, gl.REPEAT].map((wrap) => {
       const sampler = gl.createSampler();
       gl.samplerParameteri(sampler, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
@@ -83,12 +89,27 @@ export class Renderer {
     const plan = development.plan(intrinsics, optics.blur && !(isFast && isLarge));
     const lamps = state.lamps.slice(0, MAX_LAMPS);
     const depth = water.surface_height - origin(worldFromCamera)[2];
-    const surfaces = development.prepare(optics, worldFromCamera, intrinsics, plan, depth, water.light_rate);
+    const surfacePass = state.surface ? this.surfacePass : null;
+    if (surfacePass) {
+      const values = surfacePass.prepare(
+        state.surface!, optics, water.surface_height, worldFromCamera, intrinsics, water.light_rate,
+      );
+      this.fill("Surface", values);
+    }
+    const surfaces = development.prepare(
+      optics, worldFromCamera, intrinsics, plan, depth, water.light_rate, surfacePass !== null,
+    );
     this.fill("Optics", opticsBlockValues(optics, intrinsics, lamps, water.light_rate, plan.reach));
-    this.drawSurfaces({ ...state, intrinsics, grey: false }, surfaces, [0, 0], true, {
-      PHYSICAL: 1, ...development.switches,
-    });
+    const isDirect = surfacePass?.isDirect;
+    const law = { PHYSICAL: 1, ...(surfacePass ? { SKY: 1 } : {}), ...development.switches };
+    this.drawSurfaces(
+      { ...state, intrinsics, grey: false }, surfaces, [0, 0], true, law, () => isDirect && surfacePass!.drawAmong(),
+    );
     if (lamps.length) this.drawLampPoints(lamps.length, development.switches);
+    if (surfacePass && !isDirect) {
+      const isAbove = ({ corners }: Piece) => corners.some((corner) => corner[2] > water.surface_height);
+      development.drawOver(() => surfacePass.draw(this.shownPieces(state).some(isAbove)));
+    }
     this.gl.disable(this.gl.DEPTH_TEST);
     const particles = this.findParticles(state, intrinsics);
     const image = development.develop(optics, intrinsics, plan, lamps.length, state.grey === true, particles);
@@ -113,24 +134,27 @@ export class Renderer {
     gl.depthMask(true);
   }
 
-  /** Draw surfaces and background with some switches of the law of the water: none for the fog law. */
+  /**
+   * Draw surfaces and background with some switches of the law of the water: none for the fog law.
+   *
+   * `drawAmong` draws between opaque and transparent surfaces.
+   */
   private drawSurfaces(
     state: RenderState, target: WebGLFramebuffer | null, corner: [number, number], isFlipped: boolean, law: Switches,
+    drawAmong: () => void = () => undefined,
   ): void {
-    const { gl, models } = this;
+    const { gl } = this;
     const { worldFromCamera, intrinsics, water } = state;
     const clip = clipFromCamera(intrinsics, isFlipped);
     const eye: Eye = { worldFromCamera, clip, intrinsics };
-    const pieces = models.instances
-      .filter((piece) => state.isExternal || !piece.visual.hidden)
-      .flatMap((piece) => piece.pieces);
+    const pieces = this.shownPieces(state);
     const visiblePieces = findVisible(pieces, eye);
     const switches: Switches = { COLOUR: 0, ...law };
     const isFoggy = water.fog > 0;
     if (!law.PHYSICAL && !isFoggy) switches.NO_FOG = 1;
     if (!law.PHYSICAL && isFoggy && water.clip && !state.isExternal) switches.FOG_CLIP = 1;
     if (state.grey) switches.GREY = 1;
-    if (state.isExternal) Object.assign(switches, { AIR: 1, POLISHED: 1 });
+    if (state.isExternal) Object.assign(switches, law.SKY ? { POLISHED: 1 } : { AIR: 1, POLISHED: 1 });
     if (state.isExternal && !this.isSoftware) switches.SOFT = 1;
     const sun = law.PHYSICAL ? state.optics!.sun : unit(this.head.suns[water.sun].direction);
     const hasShadows = water.shadows && this.updateSunShadows(pieces, visiblePieces, sun, eye);
@@ -149,6 +173,7 @@ export class Renderer {
     gl.disable(gl.BLEND);
     for (const piece of visiblePieces.filter(isOpaque)) this.drawPiece(piece, eye, switches, isFlipped);
     this.drawBackground(state.grey ? { COLOUR: 0, GREY: 1, ...law } : { COLOUR: 0, ...law });
+    drawAmong();
     gl.enable(gl.BLEND);
     gl.blendFuncSeparate(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA, gl.ZERO, gl.ONE);
     gl.depthMask(false);
@@ -161,6 +186,10 @@ export class Renderer {
     gl.disable(gl.BLEND);
     gl.disable(gl.SCISSOR_TEST);
     gl.bindVertexArray(null);
+  }
+
+  private shownPieces({ isExternal }: RenderState): Piece[] {
+    return this.models.instances.filter(({ visual }) => isExternal || !visual.hidden).flatMap(({ pieces }) => pieces);
   }
 
   /** Update the sun's shadow map; return true if a piece casts a shadow into the image. */

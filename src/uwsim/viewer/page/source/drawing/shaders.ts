@@ -37,8 +37,18 @@ import water from "../../../../rendering/shaders/water.glsl";
 import particleFragment from "../../../../rendering/shaders/particle.frag.glsl";
 import particleVertex from "../../../../rendering/shaders/particle.vert.glsl";
 import particleLens from "../../../../rendering/shaders/particle_lens.glsl";
+import airFragment from "../../../../rendering/shaders/air.frag.glsl";
+import fresnel from "../../../../rendering/shaders/fresnel.glsl";
+import sky from "../../../../rendering/shaders/sky.glsl";
+import skylight from "../../../../rendering/shaders/skylight.glsl";
+import surfaceBlock from "../../../../rendering/shaders/surface_block.glsl";
+import surfaceVaryings from "../../../../rendering/shaders/surface_varyings.glsl";
+import waterSurfaceFragment from "../../../../rendering/shaders/water_surface.frag.glsl";
+import waterSurfaceVertex from "../../../../rendering/shaders/water_surface.vert.glsl";
+import waves from "../../../../rendering/shaders/waves.glsl";
 import presentedFragment from "./presented.frag.glsl";
 import presentedVertex from "./presented.vert.glsl";
+import waveGridFragment from "../water/surface/wave_grid.frag.glsl";
 
 const FILES: Record<string, string> = {
   "background.frag.glsl": backgroundFragment,
@@ -81,17 +91,28 @@ const FILES: Record<string, string> = {
   "transmission.glsl": transmission,
   "varyings.glsl": varyings,
   "water.glsl": water,
+  "air.frag.glsl": airFragment,
+  "fresnel.glsl": fresnel,
+  "sky.glsl": sky,
+  "skylight.glsl": skylight,
+  "surface_block.glsl": surfaceBlock,
+  "surface_varyings.glsl": surfaceVaryings,
+  "water_surface.frag.glsl": waterSurfaceFragment,
+  "water_surface.vert.glsl": waterSurfaceVertex,
+  "waves.glsl": waves,
+  "wave_grid.frag.glsl": waveGridFragment,
 };
 
 const SHADER_HEADER = `#version 300 es
 precision highp float;
 precision highp int;
 precision highp sampler2D;
+precision highp sampler2DArray;
 precision highp sampler2DShadow;
 #define noperspective
 `;
 /** The binding of each uniform block. */
-export const BLOCKS: Record<string, number> = { Frame: 0, Instance: 1, Lamps: 2, Projector: 3, Optics: 4, ParticleLens: 9 };
+export const BLOCKS: Record<string, number> = { Frame: 0, Instance: 1, Lamps: 2, Projector: 3, Optics: 4, Surface: 7, ParticleLens: 9 };
 /** The texture unit of each sampler. */
 export const UNITS: Record<string, number> = {
   base_map: 0,
@@ -113,6 +134,12 @@ export const UNITS: Record<string, number> = {
   emission_map: 13,
   reflectance_table: 14,
   particle_image: 18,
+  wave_grids: 19,
+  wave_grid: 20,
+  ripple_tile: 21,
+  hemispheres: 22,
+  factors_x: 23,
+  factors_y: 24,
 };
 /** The location of each attribute. */
 export const ATTRIBUTES: Record<string, number> = {

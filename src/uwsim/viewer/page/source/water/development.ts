@@ -5,43 +5,25 @@ import { kernelSwitches, MAX_LEVELS, planBlur, type BlurPlan } from "./blur_plan
 import { N_RANGES, weightTable } from "./blur_weights";
 import { openWaterMap, MAP_SIZE } from "./open_water";
 import { ParticlePass, type VisibleParticles } from "./particle_pass";
+import type { Target, Targets } from "./targets";
 import { UNITS, type Programs, type Switches } from "../drawing/shaders";
 
 const MAX_TABLES = 16; // greatest number of tables of weights that are kept
 const HALF_FAR = "6e4"; // range of pixels without a surface in half floats [m]
 
-/** A texture, or several of one size, in which passes draw. */
-interface Target {
-  buffer: WebGLFramebuffer;
-  textures: WebGLTexture[];
-  width: number;
-  height: number;
-  depth?: WebGLRenderbuffer;
-}
-
-/** The targets of images of one size. */
-interface Targets {
-  /** The radiance and the range of surfaces. */
-  surfaces: Target;
-  colours: Target;
-  /** The sum of the particles; null until there are any. */
-  particles: Target | null;
-  /** The scattered light of the coarse levels: of the first one with the mean light; of all others; of these without the narrowest ... */
-  sources: Target[];
-  /** Each coarse level after the Gaussian along its rows, and after both with the wider levels. */
-  levels: { rows: Target; total: Target }[];
-}
-
 /** The passes of physical water. */
 export class Development {
   /** The switches of all programs that depend on the format of the textures. */
   readonly switches: Switches;
-  private readonly format: number;
+  /** The format of the textures. */
+  readonly format: number;
   private readonly particlePass: ParticlePass;
   private readonly map: WebGLTexture;
   private readonly tables: { optics: Optics["transform"]; key: string; texture: WebGLTexture }[] = [];
   private table: WebGLTexture | null = null; // the weights of the prepared image
   private readonly targets = new Map<string, Targets>();
+  private currentTargets: Targets | null = null;
+  private radiance: WebGLTexture | null = null; // the radiance and the range that are developed
 
   private constructor(
     private readonly gl: WebGL2RenderingContext,
@@ -71,10 +53,29 @@ export class Development {
   /** Set the open water and the weights of an image, and return the target of its surfaces. */
   prepare(
     optics: Optics, worldFromCamera: Matrix, intrinsics: Intrinsics, plan: BlurPlan, depth: number, lightRate: number,
+    hasSurface: boolean,
   ): WebGLFramebuffer {
     this.table = plan.deviations.length ? this.tableOf(optics, plan) : null;
-    this.upload(this.map, MAP_SIZE[0], MAP_SIZE[1], openWaterMap(optics, worldFromCamera, intrinsics, depth, lightRate));
-    return this.targetsOf(intrinsics, plan).surfaces.buffer;
+    this.upload(this.map, MAP_SIZE[0], MAP_SIZE[1], openWaterMap(optics, worldFromCamera, intrinsics, depth, lightRate, hasSurface));
+    this.bind(UNITS.open_water_map, this.map);
+    if (this.table) this.bind(UNITS.weight_table, this.table);
+    this.currentTargets = this.targetsOf(intrinsics, plan);
+    this.radiance = this.currentTargets.surfaces.textures[0];
+    return this.currentTargets.surfaces.buffer;
+  }
+
+  /** Draw into a second image, of which the image of surfaces is the source; it is developed instead. */
+  drawOver(draw: () => void): void {
+    const { gl } = this;
+    const targets = this.currentTargets!;
+    const { width, height } = targets.surfaces;
+    const target = (targets.wateredSurfaces ??= this.depthTarget(width, height));
+    this.bind(UNITS.surface_image, targets.surfaces.textures[0]);
+    this.begin(target);
+    gl.depthMask(true);
+    gl.clear(gl.DEPTH_BUFFER_BIT);
+    draw();
+    this.radiance = target.textures[0];
   }
 
   /** Draw the finished image of prepared surfaces; row 0 of the texture is the top. */
@@ -84,15 +85,13 @@ export class Development {
   ): WebGLTexture {
     const targets = this.targetsOf(intrinsics, plan);
     const nVeils = optics.lamp_veil ? nLamps : 0;
-    this.bind(UNITS.open_water_map, this.map);
-    if (this.table) this.bind(UNITS.weight_table, this.table);
     const switches: Switches = this.table ? { BLUR: 1 } : {};
     if (plan.spreads.length || nVeils) {
       this.drawScattered(targets, plan, nVeils);
       this.bind(UNITS.level_0, targets.levels[0].total.textures[0]);
       switches.SCATTERED = 1;
     }
-    this.bind(UNITS.surface_image, targets.surfaces.textures[0]);
+    this.bind(UNITS.surface_image, this.radiance!);
     if (particles) {
       const target = (targets.particles ??= this.target(intrinsics.width, intrinsics.height, 1, this.format));
       this.begin(target);
@@ -120,9 +119,9 @@ export class Development {
   }
 
   /** Draw the light that coarse levels scatter, and the lamps' veil, into the total of the first level. */
-  private drawScattered({ surfaces, sources, levels }: Targets, plan: BlurPlan, nVeils: number): void {
+  private drawScattered({ sources, levels }: Targets, plan: BlurPlan, nVeils: number): void {
     const nLevels = plan.spreads.length;
-    this.bind(UNITS.surface_image, surfaces.textures[0]);
+    this.bind(UNITS.surface_image, this.radiance!);
     this.draw("scattered", { N_LEVELS: Math.min(nLevels, 1) }, sources[0]);
     if (nLevels > 1) {
       this.bind(UNITS.surface_image, sources[0].textures[1]);
@@ -190,14 +189,9 @@ export class Development {
     let targets = this.targets.get(key);
     if (targets) return targets;
     if (this.targets.size > 7) this.deleteTargets(); // after changes of the window's size
-    const depth = gl.createRenderbuffer();
-    gl.bindRenderbuffer(gl.RENDERBUFFER, depth);
-    gl.renderbufferStorage(gl.RENDERBUFFER, gl.DEPTH_COMPONENT24, width, height);
-    const surfaces = this.target(width, height, 1, format);
-    gl.framebufferRenderbuffer(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT, gl.RENDERBUFFER, depth);
-    surfaces.depth = depth;
     targets = {
-      surfaces, colours: this.target(width, height, 1, gl.RGBA8), particles: null, sources: [], levels: [],
+      surfaces: this.depthTarget(width, height), wateredSurfaces: null,
+      colours: this.target(width, height, 1, gl.RGBA8), particles: null, sources: [], levels: [],
     };
     let [w, h] = [width, height];
     for (let level = 0; level < Math.max(nLevels, 1); ++level) {
@@ -208,6 +202,17 @@ export class Development {
     }
     this.targets.set(key, targets);
     return targets;
+  }
+
+  /** Return a target of radiance and range with a depth buffer. */
+  private depthTarget(width: number, height: number): Target {
+    const { gl } = this;
+    const depth = gl.createRenderbuffer();
+    gl.bindRenderbuffer(gl.RENDERBUFFER, depth);
+    gl.renderbufferStorage(gl.RENDERBUFFER, gl.DEPTH_COMPONENT24, width, height);
+    const target = this.target(width, height, 1, this.format);
+    gl.framebufferRenderbuffer(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT, gl.RENDERBUFFER, depth);
+    return { ...target, depth };
   }
 
   private target(width: number, height: number, nTextures: number, format: number): Target {
@@ -240,8 +245,8 @@ export class Development {
 
   private deleteTargets(): void {
     const { gl } = this;
-    for (const { surfaces, colours, particles, sources, levels } of this.targets.values())
-      for (const target of [surfaces, colours, ...(particles ? [particles] : []), ...sources, ...levels.flatMap(({ rows, total }) => [rows, total])]) {
+    for (const { surfaces, wateredSurfaces, colours, particles, sources, levels } of this.targets.values())
+      for (const target of [surfaces, colours, ...[wateredSurfaces, particles].filter((target) => target !== null), ...sources, ...levels.flatMap(({ rows, total }) => [rows, total])]) {
         for (const texture of target.textures) gl.deleteTexture(texture);
         gl.deleteFramebuffer(target.buffer);
         if (target.depth) gl.deleteRenderbuffer(target.depth);

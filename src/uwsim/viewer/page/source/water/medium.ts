@@ -31,8 +31,6 @@ export interface Optics {
   open_water: {
     scattering: number[]; molecules: number[]; attenuation: number[]; asymmetry: number; backscatter: number; window: number;
   };
-  /** The irradiance of a level surface by the sky above the water; null: images show no sky. */
-  sky?: number[] | null;
   /** Two coefficients of the light of each lamp of the head. */
   lamps: [number, number][];
   /** True if stored values are linear. */

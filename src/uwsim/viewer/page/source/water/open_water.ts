@@ -14,15 +14,12 @@ const MAX_LENGTH = 1e9; // greatest way of light [m]
 /** Return the radiance of open water at the points of a grid over the image, RGB and an unused number each. */
 export function openWaterMap(
   optics: Optics, worldFromCamera: Matrix, intrinsics: Intrinsics, depth: number, lightRate: number,
+  hasSurface: boolean,
 ): Float32Array<ArrayBuffer> {
   const [columns, rows] = MAP_SIZE;
   const values = new Float32Array(4 * columns * rows);
   const { fx, fy, cx, cy, skew, width, height } = intrinsics;
-  const { sky } = optics;
-  const waterRadiance = radianceAt(optics, Math.max(depth, 0), lightRate);
-  // above the water: an even sky, and a sea that reflects nothing
-  const radiance = (direction: number[]) =>
-    sky && depth < 0 && direction[2] >= 0 ? sky.map((value) => lightRate * value) : waterRadiance(direction);
+  const radiance = radianceAt(optics, Math.max(depth, 0), lightRate, hasSurface);
   for (let row = 0; row < rows; ++row)
     for (let column = 0; column < columns; ++column) {
       const y = -((height * row) / (rows - 1) - 0.5 - cy) / fy;
@@ -32,8 +29,14 @@ export function openWaterMap(
   return values;
 }
 
-/** Return the function from a unit direction in W to the radiance of open water, for a camera's depth [m]. */
-function radianceAt(optics: Optics, depth: number, rate: number): (direction: number[]) => number[] {
+/**
+ * Return the function from a unit direction in W to the radiance of open water, for a camera's depth [m].
+ *
+ * `hasSurface`: true if the surface is drawn; else a level one is part of the open water.
+ */
+export function radianceAt(
+  optics: Optics, depth: number, rate: number, hasSurface: boolean,
+): (direction: number[]) => number[] {
   const { sun, open_water: water } = optics;
   const total = optics.total.map((value, i) => value * Math.exp(-optics.loss[i] * depth));
   const beam = optics.beam.map((value, i) => Math.min(value * Math.exp(-optics.beam_loss[i] * depth), total[i]));
@@ -56,7 +59,7 @@ function radianceAt(optics: Optics, depth: number, rate: number): (direction: nu
         (scattering * (upper * diffuse + (1 - upper) * upward) + 0.5 * molecules * (diffuse + upward)) *
         integrate(attenuation - optics.loss[i] * up, length);
       const surface =
-        up > 0 ? surfaceRadiance(optics, i, up) * Math.exp(-Math.min(attenuation * length, 700)) : 0;
+        up > 0 && !hasSurface ? surfaceRadiance(optics, i, up) * Math.exp(-Math.min(attenuation * length, 700)) : 0;
       return rate * (sunlight + skylight + surface);
     });
   };
