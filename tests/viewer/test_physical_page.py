@@ -31,10 +31,11 @@ NO_FLOATS = """(names) => {
 
 
 def set_water(simulation: Simulation, **changes: Any) -> None:
-    """Change the physical water of a scene; the page draws no waves and ripples."""
+    """Change the physical water of a scene; the page draws no caustics and shafts."""
     state = simulation.world.scenery.state
     assert state.water.physical_water is not None
-    optics = replace(state.water.physical_water, has_surface=False, ripples=None, **changes)
+    without = {"has_caustics": False, "has_light_shafts": False}
+    optics = replace(state.water.physical_water, **without, **changes)
     state.water = replace(state.water, physical_water=optics)
 
 
@@ -126,6 +127,7 @@ def test_half_floats_are_enough(tab: Any, tmp_path: Path) -> None:
     tab.add_init_script(f"({NO_FLOATS})({names})")
     blob = Blob()
     with uwsim.load(SCENE) as simulation:
+        set_water(simulation)
         head = scene_head(simulation, SCENE, blob)
         open_page(tab, head, blob, tmp_path / "page.html")
         (camera,) = head["cameras"]
