@@ -2,7 +2,8 @@
 
 The Girona 500 has the frame and layout of the stand-in `stand_ins.girona500`, which scenes of
 UWSim and its benchmarks show. The BlueROV2 Heavy has x forward and z down, its origin in the
-middle of its box of 0.457 x 0.575 x 0.254 m (Blue Robotics' data sheet); its parts are modelled by eye.
+middle of its box of 0.457 x 0.575 x 0.254 m (Blue Robotics' data sheet); its parts are modelled
+by eye.
 """
 
 from __future__ import annotations
