@@ -387,7 +387,7 @@ class CurveSpec:
         ("<terms>,</terms>", "<terms> contains ','; expected numbers >= 0 [N]"),
         ("<terms>1e12</terms>", "<terms> contains '1e12'; no quantity is beyond 1e+09"),
         ("<ends>1 2 3</ends>", "<ends> has 3 numbers; expected 2"),
-        (f"<terms>{'1 ' * 37}</terms>", "<terms> has 37 numbers; expected 36 at most"),
+        (f"<terms>{'1 ' * 201}</terms>", "<terms> has 201 numbers; expected 200 at most"),
     ],
 )
 def test_numbers_stand_in_one_text(text: str, expected: object) -> None:

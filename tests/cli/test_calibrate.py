@@ -7,6 +7,7 @@ import math
 from pathlib import Path
 
 import pytest
+from PIL import Image
 
 from uwsim.calibration import LedReading
 from uwsim.calibration.example import write_example as example
@@ -61,6 +62,26 @@ def test_readings_are_calibrated_into_a_directory(capsys: pytest.CaptureFixture[
     assert water.medium.scattering[0] == pytest.approx(channel["scattering"], rel=1e-4)
     assert "chi²" in Path("out/report.html").read_text()
     assert [path for path in Path().iterdir() if path.name.endswith(".part")] == []
+
+
+@pytest.mark.filterwarnings("error")
+def test_a_focal_length_without_a_pixel_of_open_water_is_reported(
+    folder: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    Image.new("L", (32, 24), 100).save(folder / "open.png")
+    picture = (
+        "<picture><source>open-water</source><exposure><time>1</time>"
+        "<frames>open.png</frames></exposure></picture>"
+    )
+    water = f"<water><name>dyed</name>{picture}</water></calibration>"
+    board = (
+        "<board><name>board</name><distance>1</distance><lampPosition><x>0.1</x><y>0</y><z>0</z>"
+        "</lampPosition><lampHalfAngle>0.5</lampHalfAngle><square>0.04</square></board>"
+    )
+    setup = SETUP.replace(">1000<", ">10<").replace("</calibration>", board + water)
+    (folder / "setup.xml").write_text(setup)
+    assert main(["calibrate", "setup.xml"]) == 2
+    assert "has no pixel; <focalLength> is 10 pixels" in capsys.readouterr().err
 
 
 @pytest.mark.slow

@@ -18,6 +18,7 @@ from uwsim.cli import main
 from uwsim.cli.list import KINDS, find_limitation
 from uwsim.cli.options.descriptions import first_line, head_comment, remove_title
 from uwsim.model.robots import find_file
+from uwsim.optics import WATERS
 from uwsim.scene.hydrodynamics.vehicle_file import read_vehicle
 from uwsim.scene.hydrodynamics.vehicle_sets import find_vehicle
 from uwsim.scene.unsupported import UNSIMULATED_ELEMENTS
@@ -130,3 +131,12 @@ def test_every_bundled_robot_is_listed_documented_found_by_that_name_and_has_its
         robot = read_urdf(find_file(name, str(tmp_path / "scene.xml"), ()))
         for one in re.findall(r"`(\w+)`", sets):
             assert read_vehicle(find_vehicle(one), [link.name for link in robot.links]).bodies
+
+
+def test_a_water_is_listed_with_its_coefficients_at_green_and_its_source(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    assert main(["list", "waters"]) == 0
+    lines = {line.split()[0]: line for line in capsys.readouterr().out.splitlines()}
+    assert set(WATERS) <= set(lines)
+    assert "coast; at green (550 nm) c 1.142 and b 1.06 1/m. Source:" in lines["jerlov-3C"]

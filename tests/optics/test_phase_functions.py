@@ -185,16 +185,29 @@ def test_a_scattering_function_gives_its_scattering() -> None:
         ((0.3, 1.0, 2.0, 3.0, 3.1), (0.08,) * 5, "begins at 0.3 rad"),
         ((0.0, 1.0, 1.2, 1.4, 1.5), (0.08,) * 5, "ends at 1.5 rad"),
         ((0.0, 1.0, 2.0, 3.0, 3.1), (0.08, 0.0, 0.08, 0.08, 0.08), "the value 0"),
+        ((0.0, 1.0, 2.0, 3.0, 3.1), (1e-320,) * 5, "the value .*e-321; expected 1e-12 to"),
+        ((0.0, 1.0, 2.0, 3.0, 3.1), (1e300,) * 5, "the value 1e.300; expected 1e-12 to"),
+        ((0.1, math.nextafter(0.1, 1.0), 2.0, 3.0, 3.1), (1e-9,) * 5, "integral of a phase"),
+        ((5e-324, 1e-323, 2.0, 3.0, 3.1), (1e-9,) * 5, "integral of a phase function"),
         ((0.0, 1.0, 2.0, 3.0, 3.1), (0.08, math.nan, 0.08, 0.08, 0.08), "not finite"),
         ((0.0, 1.0, 2.0, 3.0, 3.1), (0.2,) * 5, "integral of a phase function"),
         ((0.0,) * 10_001, (1.0,) * 10_001, "10001 rows"),
     ],
 )
+@pytest.mark.filterwarnings("error")
 def test_an_invalid_table_is_rejected(
     angles: tuple[float, ...], values: tuple[float, ...], message: str
 ) -> None:
     with pytest.raises((BadSetting, SeveralErrors), match=message):
         PhaseTable(angles, values)
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("value", [1e-12, 1e-3])
+def test_a_table_that_rises_steeply_from_its_first_angle_has_no_warnings(value: float) -> None:
+    table = PhaseTable((0.1, 0.1001, 1.0, 2.0, 3.1), (value, 0.08, 0.08, 0.08, 0.08))
+    assert np.isfinite(table.compute_density(np.array([0.0, 1e-8, 0.05, 1.0]))).all()
+    assert float(table.compute_cumulative(math.pi)) == 1.0
 
 
 def test_all_errors_of_parameters_are_reported() -> None:

@@ -256,7 +256,7 @@ THRUST = "<forward>0 40</forward>"
         ("<forward>,</forward>", "<forward> contains ','; expected numbers"),
         ("<forward>nan</forward>", "<forward> contains 'nan'; expected numbers"),
         (f"{THRUST} <radius>-inf</radius>", "<radius> is '-inf'; expected a number >= 0.001 [m]"),
-        (f"<forward>{'1 ' * 37}</forward>", "<forward> has 37 numbers; expected 36 at most"),
+        (f"<forward>{'1 ' * 201}</forward>", "<forward> has 201 numbers; expected 200 at most"),
     ],
 )
 def test_a_thruster_that_cannot_be_is_refused(curve: str, said: str, tmp_path: Path) -> None:

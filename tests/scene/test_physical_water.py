@@ -167,3 +167,19 @@ def test_caustics_and_shafts_of_a_scene_can_be_switched_off(tmp_path: Path) -> N
     )
     assert "windSpeed" in text
     assert "20" in text
+
+
+@pytest.mark.parametrize("n", [4, 5, 200, 201])
+def test_a_phase_table_has_5_to_200_numbers(n: int, tmp_path: Path) -> None:
+    angles = " ".join(f"{3.14 * i / (n - 1):.9f}" for i in range(n))
+    values = " ".join(["0.0795775"] * n)
+    table = f"<u:angles>{angles}</u:angles> <u:values>{values}</u:values>"
+    water = (
+        "<u:type>clear</u:type>"
+        f"<u:phaseFunction> <u:phaseTable> {table} </u:phaseTable> </u:phaseFunction>"
+    )
+    if 5 <= n <= 200:
+        compile_water(tmp_path, water).close()
+        return
+    expected = "4 rows; expected 5" if n == 4 else "<u:angles> has 201 numbers; expected 200"
+    assert expected in error_of(tmp_path, water)

@@ -31,7 +31,7 @@ def list_names(
         typer.Argument(
             metavar="KIND",
             help="scenes, benchmarks, algorithms, vehicles, measures, triggers, updaters, sensors, "
-            "devices or interfaces; without it all of them.",
+            "devices, interfaces or waters; without it all of them.",
             autocompletion=lambda incomplete: complete_names(KINDS)(incomplete),
         ),
     ] = None,
@@ -146,6 +146,18 @@ def interfaces(tables: Tables) -> dict[str, str]:
     return {prefixed_name(name): first_line(spec.__doc__) for name, spec in INTERFACES.items()}
 
 
+def waters(tables: Tables) -> dict[str, str]:
+    """Return the named waters of ``<u:water>``, with coefficients at green and their source."""
+    from ..optics import WATERS
+
+    return {
+        name: f"{water.description}; at green (550 nm) c {water.absorption[1] + b:.4g} and "
+        f"b {b:.4g} 1/m. Source: {water.source}."
+        for name, water in WATERS.items()
+        for b in [water.scattering[1]]
+    }
+
+
 def qualified_name(name: str) -> str:
     """Return the qualified name of an element such as ``u:lamp``, with its namespace."""
     from ..schema import NAMESPACE
@@ -164,4 +176,5 @@ KINDS: dict[str, Callable[[Tables], dict[str, str]]] = {
     "sensors": sensors,
     "devices": devices,
     "interfaces": interfaces,
+    "waters": waters,
 }

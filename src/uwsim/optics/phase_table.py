@@ -22,6 +22,14 @@ MIN_LAST_ANGLE = math.radians(150.0)
 """The smallest last angle of a table [rad]; what is above has the last value."""
 MAX_INTEGRAL_ERROR = 0.1
 """The greatest distance from 1 of the integral of a table over all directions."""
+MIN_VALUE = 1e-12
+"""The smallest value of a table [1/sr]; those of water are above 1e-5."""
+MAX_VALUE = 1e18
+"""The greatest value of a table [1/sr]: those of power laws at the smallest angle are below."""
+STEEPEST_RISE = 10.0
+"""The steepest rising power law of the extrapolation to zero."""
+MIN_LOG_STEP = 1e-12
+"""The smallest difference of the logarithms of the first two angles that sets a power law."""
 STEEPEST_SLOPE = -1.9
 """The steepest power law of the extrapolation to zero; at -2 the fraction would be infinite."""
 
@@ -40,7 +48,7 @@ class PhaseTable(PhaseFunction):
     angles: tuple[float, ...]
     """The scattering angles [rad], increasing, from at most 10 to at least 150 degrees."""
     values: tuple[float, ...]
-    """The values at the angles [1/sr], positive."""
+    """The values at the angles [1/sr], from `MIN_VALUE` to `MAX_VALUE`."""
 
     def __post_init__(self) -> None:
         errors = ErrorCollector()
@@ -117,10 +125,13 @@ class PhaseTable(PhaseFunction):
                 f"A phase function ends at {self.angles[-1]:g} rad; expected "
                 f"{MIN_LAST_ANGLE:.4g} to {math.pi:.4g} rad."
             )
-        if not min(self.values) > 0.0:
-            errors.append(
-                f"A phase function has the value {min(self.values):g}; expected positive values."
-            )
+        for value in (min(self.values), max(self.values)):
+            if not MIN_VALUE <= value <= MAX_VALUE:
+                errors.append(
+                    f"A phase function has the value {value:g}; expected {MIN_VALUE:g} to "
+                    f"{MAX_VALUE:g} 1/sr."
+                )
+                break
         return errors
 
     def _interpolate(self, angle: npt.ArrayLike) -> FloatArray:
@@ -130,12 +141,13 @@ class PhaseTable(PhaseFunction):
         if self.angles[0] < MIN_ANGLE:
             rows = np.array(self.angles[1:])
             interpolated_values = np.interp(log(angles), log(rows), log_values[1:])
-            share = np.clip(angles / rows[0], 0.0, 1.0)
+            share = np.minimum(angles, rows[0]) / rows[0]
             start = log_values[0] + share * (log_values[1] - log_values[0])
             return np.where(angles < rows[0], start, interpolated_values)
         log_rows = log(np.array(self.angles))
-        slope = (log_values[1] - log_values[0]) / (log_rows[1] - log_rows[0])
-        slope = max(slope, STEEPEST_SLOPE)
+        step = max(log_rows[1] - log_rows[0], MIN_LOG_STEP)
+        slope = (log_values[1] - log_values[0]) / step
+        slope = min(max(slope, STEEPEST_SLOPE), STEEPEST_RISE)
         start = log_values[0] + slope * (log(angles) - log_rows[0])
         interpolated_values = np.interp(log(angles), log_rows, log_values)
         return np.where(angles < self.angles[0], start, interpolated_values)

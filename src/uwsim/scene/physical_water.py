@@ -112,9 +112,9 @@ class PhaseTableSpec(PhaseFunctionSpec):
     """A ``<u:phaseTable>``: a measured phase function."""
 
     angles: Numbers = element(namespaced=True, minimum=0.0, maximum=3.2)
-    """The scattering angles, rising, from at most 10 to at least 150 degrees [rad]."""
+    """The 5 to 200 scattering angles, rising, from at most 10 to at least 150 degrees [rad]."""
     values: Numbers = element(namespaced=True, minimum=0.0)
-    """The value at each angle [1/sr]."""
+    """The value at each angle, 5 to 200 numbers [1/sr]."""
 
     @property
     def phase_function(self) -> PhaseFunction:

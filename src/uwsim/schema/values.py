@@ -23,8 +23,8 @@ TOKENS = {
 }
 """The constants that are read as numbers."""
 
-MAX_NUMBERS = 36
-"""The greatest count of numbers in one element: a full matrix of six rows."""
+MAX_NUMBERS = 200
+"""The greatest count of numbers in one element: the angles of a measured phase function."""
 BLANKS = " \t\n\r"
 """The blank characters of XML, which are removed around a text."""
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?", re.ASCII)

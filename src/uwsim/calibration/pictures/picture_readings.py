@@ -173,6 +173,11 @@ class _PictureReader:
         y, x = np.indices(picture.values.shape)
         radii = np.hypot(x - (columns - 1) / 2.0, y - (rows - 1) / 2.0)
         is_near = radii <= self._setup.camera.focal_length * math.tan(OPEN_WATER_ANGLE)
+        if not is_near.any():
+            raise BadSetting(
+                f"the disc of {math.degrees(OPEN_WATER_ANGLE):g}° at the centre has no pixel; "
+                f"<focalLength> is {self._setup.camera.focal_length:g} pixels."
+            )
         if not picture.is_valid[is_near].all():
             raise BadSetting("the centre is saturated; use a shorter exposure.")
         variance = float(picture.variances[is_near].sum()) / is_near.sum() ** 2
