@@ -23,6 +23,7 @@ SCENE = """<UWSimScene xmlns:u="urn:uwsim:1">
     <orientation> {roll} <p>0</p> <y>0.5</y> </orientation>
     <multibeamSensor>
       <name>beams</name> <relativeTo>base_link</relativeTo>
+      <position> <x>0.4</x> <y>0</y> <z>0</z> </position>
       <orientation> <r>0.1</r> <p>{pitch}</p> <y>0</y> </orientation>
       <initAngle>-40</initAngle> <finalAngle>40</finalAngle> <angleIncr>4</angleIncr>
       <range>4.2</range>

@@ -126,7 +126,7 @@ def test_a_late_web_client_gets_what_was_published_once(tmp_path: Path) -> None:
         simulation.watch(bridge.step)
         try:
             simulation.advance(0.1)
-            with connect(f"ws://127.0.0.1:{bridge.port}") as client:
+            with connect(f"ws://127.0.0.1:{bridge.port}", max_size=None) as client:
                 topics = ("tf_static", "robot_description", "scene", "tf")
                 for topic in topics:
                     client.send(json.dumps({"op": "subscribe", "topic": f"/{topic}"}))
