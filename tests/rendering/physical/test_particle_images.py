@@ -187,6 +187,85 @@ def test_a_black_particle_dims_the_water_behind_it(renderer: Renderer) -> None:
     )
 
 
+def make_snow(
+    concentration: float, radii: tuple[float, float], reflectance: float
+) -> VisibleParticles:
+    """Return flocs of a concentration [1/m3], up to 1.2 m in the view of `CAMERA`."""
+    random, reach = np.random.default_rng(3), 1.2
+    width, height = reach * CAMERA.width / CAMERA.fx, reach * CAMERA.height / CAMERA.fy
+    count = int(concentration * width * height * reach)
+    places = (random.random((count, 3)) - (0.5, 0.5, 1.0)) * (width, height, reach)
+    places = places[places[:, 2] < -0.05]
+    radius = random.uniform(*radii, len(places))
+    particles = make_particles([tuple(place) for place in places], reflectance=reflectance)
+    particles.records["radius"] = radius
+    return particles
+
+
+def make_dense_snow(reflectance: float) -> VisibleParticles:
+    """Return flocs with diameters of 5 to 10 mm, 1e5 per cubic metre."""
+    return make_snow(1e5, (0.0025, 0.005), reflectance)
+
+
+def test_thin_snow_keeps_the_light_of_its_flocs(renderer: Renderer) -> None:
+    renderer.clear()
+    snow = make_snow(5000.0, (0.0005, 0.001), 0.2)
+    water, lamps = night_water(exposure=0.5), [make_lamp()]
+    light = photograph(renderer, water, snow, lamps=lamps).sum(axis=(0, 1))
+    alone = sum(
+        photograph(
+            renderer, water, VisibleParticles(snow.records[i::20].copy(), 0.0, 1.0), lamps=lamps
+        ).sum(axis=(0, 1))
+        for i in range(20)
+    )
+    np.testing.assert_allclose(light, alone, rtol=0.05)
+
+
+@pytest.mark.parametrize("is_plane_visible", [False, True])
+@pytest.mark.parametrize("reflectance", [0.0, 0.05, 0.2])
+def test_dense_snow_has_no_colour_below_that_of_flocs_and_water(
+    renderer: Renderer, reflectance: float, *, is_plane_visible: bool
+) -> None:
+    medium = Medium(absorption=(0.4, 0.1, 0.03), scattering=(0.3, 0.3, 0.3))
+    water = PhysicalWater(medium=medium, transfer="linear", isotropic_radiance=(0.1, 0.4, 0.6))
+    if is_plane_visible:  # black, so that it takes light from the water around its image, too
+        show_plane(renderer, 1.5, (0.0, 0.0, 0.0))
+    else:
+        renderer.clear()
+    bare = photograph(renderer, water, None)
+    light = photograph(renderer, water, make_dense_snow(reflectance))
+    least = np.minimum(bare, 4.0 * reflectance * np.array(water.isotropic_radiance))
+    assert (light >= least - 2e-3).all()
+    assert (light <= bare.max(axis=(0, 1)) + 2e-3).all() or is_plane_visible
+    if reflectance < 0.1:
+        assert light.mean() < 0.8 * bare.mean() or is_plane_visible  # the snow is dense
+
+
+def test_dense_white_snow_in_an_isotropic_field_is_invisible(renderer: Renderer) -> None:
+    renderer.clear()
+    medium = Medium(absorption=(0.1, 0.2, 0.3), scattering=(0.5, 0.5, 0.5))
+    light = photograph(renderer, isotropic_water(medium), make_dense_snow(0.25))
+    np.testing.assert_allclose(light, 0.5, rtol=2e-3)
+
+
+@pytest.mark.parametrize("near_first", [False, True])
+def test_a_near_particle_hides_a_far_one_in_any_order(
+    renderer: Renderer, *, near_first: bool
+) -> None:
+    renderer.clear()
+    places = [(0.0, 0.0, -1.0), (0.0, 0.0, -2.0)]
+    particles = make_particles(places, radius=0.05)
+    particles.records["reflectance"] = 0.0, 0.2
+    if not near_first:
+        particles = VisibleParticles(particles.records[::-1].copy(), 0.0, 1.0)
+    light = photograph(renderer, night_water(), particles, lamps=[make_lamp()])
+    far = make_particles(places[1:], radius=0.05)
+    alone = photograph(renderer, night_water(), far, lamps=[make_lamp()])
+    row, column = round(CAMERA.cy), round(CAMERA.cx)
+    assert alone[row, column].min() > 1e-3
+    assert light[row, column].max() < 0.02 * alone[row, column].min()
+
+
 def make_cloud(centre: tuple[float, float, float], width: float, depth: float) -> VisibleClouds:
     """Return a cloud of one lump with an optical depth through its centre."""
     lumps = np.zeros(1, LUMP)

@@ -13,10 +13,13 @@ and the streak of the motion during the exposure. A particle that scatters evenl
 an isotropic field a particle with :math:`\omega = 1` is invisible. The light of lamps is that on
 surfaces, with both legs, lobes and shadows.
 
-The texture has the sum over the particles of coverage times :math:`e^{-c r} (J - B)` with the light
-B of open water, and of the coverage, by which the light of surfaces behind decreases. Not modelled:
-particles that hide each other, the blur of their light by the water, the sun's shadow and caustics
-on them, and the change of the lobe of scattering with the direction.
+Particles are drawn from the farthest to the nearest, each over those behind it with its coverage
+:math:`\alpha`. The texture has the light :math:`S \leftarrow (1 - \alpha) S + \alpha\, e^{-c r}
+(J - B)` with the light B of open water, and the coverage of all, by which the light of surfaces
+behind decreases. The weights of the particles and of what is behind add up to 1: however dense the
+particles are, no colour lies outside those of the particles, the water and the surfaces. Not
+modelled: the shade of particles on each other, the blur of their light by the water, the sun's
+shadow and caustics on them, and the change of the lobe of scattering with the direction.
 """
 
 from __future__ import annotations
@@ -93,7 +96,7 @@ class ParticlePass:
         if len(records):
             if records.nbytes > self._records.size:
                 self._records.orphan(2 * records.nbytes)
-            self._records.write(records.tobytes())
+            self._records.write(sort_by_range(records).tobytes())
             self._lens_values["particle_lens"] = (
                 0.5 * particles.aperture,
                 1.0 / particles.focus_distance,
@@ -103,7 +106,7 @@ class ParticlePass:
             self._lens.write(self._lens_values.tobytes())
             self._lens.bind_to_uniform_block(LENS.binding)
             context.enable_only(moderngl.BLEND)
-            context.blend_func = moderngl.ONE, moderngl.ONE
+            context.blend_func = moderngl.ONE, moderngl.ONE_MINUS_SRC_ALPHA
             array = self._find_array(n_lamps)
             array.render(moderngl.TRIANGLE_STRIP, vertices=4, instances=len(records))
             context.enable_only(moderngl.NOTHING)
@@ -123,3 +126,10 @@ class ParticlePass:
             members = (self._records, FORMAT, "place", "extent", "traits")
             self._programs[n_lamps] = program, self._context.vertex_array(program, [members])
         return self._programs[n_lamps][1]
+
+
+def sort_by_range(records: npt.NDArray[np.void]) -> npt.NDArray[np.void]:
+    """Return particles from the farthest to the nearest; equal ranges keep their order."""
+    place = records["place"]
+    squares = place[:, 0] ** 2 + place[:, 1] ** 2 + place[:, 2] ** 2
+    return records[np.argsort(-squares, kind="stable")]

@@ -44,8 +44,14 @@ void main() {
     vec4 texel = texelFetch(surface_image, pixel, 0);
     vec3 water = open_water(gl_FragCoord.xy, vec2(size));
     vec3 light = water;
+#ifdef PARTICLES
+    vec4 particles = texelFetch(particle_image, pixel, 0);
+    float seen = 1.0 - min(particles.a, 1.0);
+#else
+    const float seen = 1.0;
+#endif
 #ifdef SHAFTS
-    light += textureLod(shaft_image, gl_FragCoord.xy / (float(SHAFTS) * vec2(textureSize(shaft_image, 0))), 0.0).rgb;
+    light += seen * textureLod(shaft_image, gl_FragCoord.xy / (float(SHAFTS) * vec2(textureSize(shaft_image, 0))), 0.0).rgb;
 #endif
     float is_surface = texel.a < 0.5 * FAR ? 1.0 : 0.0;
     float range = texel.a * is_surface;
@@ -56,13 +62,17 @@ void main() {
     vec3 sharp = whole_field(range);
 #endif
 #ifdef PARTICLES
-    vec4 particles = texelFetch(particle_image, pixel, 0);
-    excess *= 1.0 - min(particles.a, 1.0);
+    excess *= seen;
     light += particles.rgb;
 #endif
     light += sharp * excess;
 #ifdef SCATTERED
-    light += textureLod(level_0, gl_FragCoord.xy / (2.0 * vec2(textureSize(level_0, 0))), 0.0).rgb;
+    vec3 scattered = textureLod(level_0, gl_FragCoord.xy / (2.0 * vec2(textureSize(level_0, 0))), 0.0).rgb;
+#ifdef PARTICLES
+    // what dark surfaces take from the water is behind the particles; the veil is mostly in front of them
+    scattered = max(scattered, 0.0) + seen * min(scattered, 0.0);
+#endif
+    light += scattered;
 #endif
 #ifdef CLOUDS
     light = through_clouds(light, water, is_surface > 0.5 ? range : FAR);

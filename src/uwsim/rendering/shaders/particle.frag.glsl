@@ -1,4 +1,4 @@
-// Provides: coverage D (J - B) of a particle, and its coverage as alpha; the renderer adds them up.
+// Provides: coverage D (J - B) of a particle, and its coverage as alpha; the renderer draws it over those behind.
 // Needs: optics.glsl, open_water.glsl; the outputs of particle.vert.glsl; the image of the surfaces.
 // J: radiance of the particle, B: of open water behind it, D = exp(-c r). Nearer surfaces hide it.
 #include "optics.glsl"

@@ -50,12 +50,25 @@ export class ParticlePass {
     gl.bindBufferBase(gl.UNIFORM_BUFFER, BLOCKS.ParticleLens, this.lens);
     gl.useProgram(this.programs.get("particle", nLamps ? { LAMPS: nLamps, ...switches } : switches));
     gl.enable(gl.BLEND);
-    gl.blendFunc(gl.ONE, gl.ONE);
+    gl.blendFunc(gl.ONE, gl.ONE_MINUS_SRC_ALPHA);
     gl.bindVertexArray(this.vertexArray);
     gl.bindBuffer(gl.ARRAY_BUFFER, this.records);
-    gl.bufferData(gl.ARRAY_BUFFER, records, gl.STREAM_DRAW);
+    gl.bufferData(gl.ARRAY_BUFFER, sortByRange(records), gl.STREAM_DRAW);
     gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, 4, records.length / RECORD_LENGTH);
     gl.bindVertexArray(null);
     gl.disable(gl.BLEND);
   }
+}
+
+/** Return particles from the farthest to the nearest; equal ranges keep their order. */
+function sortByRange(records: Float32Array<ArrayBuffer>): Float32Array<ArrayBuffer> {
+  const squares = new Float64Array(records.length / RECORD_LENGTH);
+  for (let i = 0, first = 0; i < squares.length; ++i, first += RECORD_LENGTH)
+    squares[i] = records[first] ** 2 + records[first + 1] ** 2 + records[first + 2] ** 2;
+  const order = Array.from(squares.keys()).sort((i, j) => squares[j] - squares[i]);
+  const result = new Float32Array(records.length);
+  order.forEach((i, place) =>
+    result.set(records.subarray(RECORD_LENGTH * i, RECORD_LENGTH * (i + 1)), RECORD_LENGTH * place),
+  );
+  return result;
 }
