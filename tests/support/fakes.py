@@ -237,7 +237,7 @@ class FakeWorld:
     def set_light_rate(self, rate: float) -> None:
         self.light_rate = rate
 
-    def set_camera_noise(self, std: float) -> None:
+    def set_camera_noise(self, std: float | None) -> None:
         self.camera_noise = std
 
     def set_joints(self, vehicle: str, values: Mapping[int, float]) -> None:

@@ -227,6 +227,8 @@ class VirtualCamera:
         self._response, self._motion = spec.response, motion
         self.state = CameraState(spec.std, None, rng)
         """The state: the noise, and the number of images."""
+        self.scene_std = spec.std
+        """The standard deviation of the noise in the scene file [1: full scale]."""
         self._baseline = spec.baseline
         self._intrinsics = spec.intrinsics(world.compatibility)
         self._principal_point = written_principal_point(spec.parameters, world.compatibility)

@@ -138,8 +138,11 @@ class Stage(TimedWorld, Protocol):
     def set_light_rate(self, rate: float) -> None:
         """Scale the light of the scene by a factor; 1 is the light in the scene file."""
 
-    def set_camera_noise(self, std: float) -> None:
-        """Set the standard deviation of the noise of every colour camera [1: full scale]."""
+    def set_camera_noise(self, std: float | None) -> None:
+        """Set the standard deviation of the noise of every colour camera [1: full scale].
+
+        None: the noise in the scene file; raise UwsimError if every camera has a response.
+        """
 
     def set_joints(self, vehicle: str, values: Mapping[int, float]) -> None:
         """Set joints, by index in the joint vector, to values [rad or m], clamped to limits."""

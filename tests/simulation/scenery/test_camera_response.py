@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 from tests.simulation.small_robots import begin, scene_of, shape, write_robot
+from uwsim.benchmark.updaters import CameraNoiseUpdaterSpec
 from uwsim.errors import SceneError, UwsimError
 from uwsim.messages import numbers_of, pixels_of
 from uwsim.scene.reader import read_scene
@@ -87,6 +88,18 @@ def test_a_sweep_of_noise_that_no_camera_has_is_an_error(folder: Path) -> None:
         stage = simulation.world.stage_view
         with pytest.raises(UwsimError, match="<u:response>"):
             stage.set_camera_noise(0.1)
+        sweep = CameraNoiseUpdaterSpec(initial_value=0.0, final_value=0.1, step=0.1, interval=1.0)
+        with pytest.raises(UwsimError, match="<u:response>"):
+            sweep.bind(stage)
+
+
+def test_binding_a_sweep_of_noise_leaves_the_noise_of_the_scene(folder: Path) -> None:
+    sweep = CameraNoiseUpdaterSpec(initial_value=0.0, final_value=0.1, step=0.1, interval=1.0)
+    with one_camera(folder, std=0.05) as simulation:
+        updater = sweep.bind(simulation.world.stage_view)
+        assert camera_of(simulation).state.std == 0.05
+        updater.apply(0.1)
+        assert camera_of(simulation).state.std == 0.1
 
 
 @pytest.mark.parametrize("lens", [FLAT, BARREL])

@@ -30,5 +30,10 @@ class CameraNoiseUpdaterSpec(SweepSpec):
     """The greatest standard deviation of the noise in a level; 1 is the full range of a colour."""
 
     def bind(self, stage: Stage) -> Setter:
-        """Return a setter of the noise of all colour cameras."""
+        """Return a setter of the noise of all colour cameras.
+
+        Raises:
+            UwsimError: the noise of every camera is that of its electrons.
+        """
+        stage.set_camera_noise(None)
         return Setter(stage.set_camera_noise)

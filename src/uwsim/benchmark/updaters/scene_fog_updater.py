@@ -12,6 +12,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ...errors import UwsimError
 from ...world import Stage
 from .fog_sweep import FogSweepSpec
 from .sweep import Setter
@@ -22,5 +23,14 @@ class SceneFogUpdaterSpec(FogSweepSpec):
     """A ``<sceneFogUpdater>`` element."""
 
     def bind(self, stage: Stage) -> Setter:
-        """Return a setter of the fog of the sea and of all cameras."""
+        """Return a setter of the fog of the sea and of all cameras.
+
+        Raises:
+            UwsimError: the scene has physical water, which has no fog.
+        """
+        if stage.water.medium is not None:
+            raise UwsimError(
+                "The scene has physical water, in which fog has no effect; expected "
+                "<u:waterUpdater>, or a scene without <u:water>."
+            )
         return Setter(lambda value: stage.set_fog(self.density(value)))

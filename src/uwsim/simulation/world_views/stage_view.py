@@ -41,9 +41,10 @@ class StageView(SceneView):
         """Return the path of a file that the file ``named_by`` names; raise AssetNotFound."""
         return find_file(name, named_by, self._data_path)
 
-    def set_camera_noise(self, std: float) -> None:
+    def set_camera_noise(self, std: float | None) -> None:
         """Set the noise of virtual cameras: standard deviation, as a fraction of full scale [1].
 
+        None: the noise of each camera in the scene file.
         Cameras with a response keep the noise of their electrons; raise UwsimError if all are such.
         """
         cameras = [self._sensors.camera(name) for name in self._sensors.cameras]
@@ -53,7 +54,7 @@ class StageView(SceneView):
                 "electrons; expected a camera with <std>."
             )
         for camera in cameras:
-            camera.state.std = std
+            camera.state.std = camera.scene_std if std is None else std
 
     def set_joints(self, vehicle: str, values: Mapping[int, float]) -> None:
         """Set joints by their index in the joint vector [rad or m], clamped to the joint limits."""
