@@ -53,7 +53,7 @@ def test_all_errors_of_coefficients_are_reported() -> None:
     with pytest.raises(SeveralErrors) as error:
         Medium(absorption=(0.1, -0.1, math.nan), scattering=(1e6, 0.1, 0.1))
     lines = str(error.value).splitlines()
-    assert lines[0].startswith("The absorption of channel 2 is -0.1 1/m; expected 0 to 1000")
+    assert lines[0].startswith("The absorption of green is -0.1 1/m; expected 0 to 1000")
     assert len(lines) == 3
 
 

@@ -100,7 +100,7 @@ def test_an_error_of_a_water_file_has_its_line(tmp_path: Path) -> None:
         ("<u:type>jerlov-1D</u:type>", r"scene.xml:3: .*'jerlov-1D'.*jerlov-1C"),
         ("", "scene.xml:3: The water has no numbers; expected one of"),
         ("<u:type>pool</u:type>" + COEFFICIENTS, "has <u:type> and coefficients"),
-        (BEAM, "The scattering of channel 2 is 0.25 1/m; expected at most the beam"),
+        (BEAM, "The scattering of green is 0.25 1/m; expected at most the beam"),
         ("<u:file>missing.json</u:file>", "'missing.json' is in none of the folders"),
         ("<u:typ>pool</u:typ>", "<u:typ> is not an element of <u:water>"),
         ("<u:type>pool</u:type> <u:exposure>0</u:exposure>", "scene.xml:4: .*exposure"),

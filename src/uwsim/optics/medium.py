@@ -24,6 +24,8 @@ from .phase_function import FloatArray, PhaseFunction
 
 MAX_CHANNELS = 64
 """The greatest number of channels or spectral bands."""
+COLOURS = ("red", "green", "blue")
+"""The names of the channels of a medium that has three."""
 MAX_COEFFICIENT = 1000.0
 """The greatest absorption or scattering coefficient [1/m]; milk has about 700."""
 PETZOLD_AVERAGE = FournierForand(1.10, 3.5835)
@@ -88,15 +90,15 @@ class Medium:
             SeveralErrors: several are.
         """
         errors = ErrorCollector()
+        n_channels = min(len(beam_attenuation), len(scattering))
         for number, (c, b) in enumerate(zip(beam_attenuation, scattering, strict=False), start=1):
             with errors.collect():
                 if b > c:
                     raise BadSetting(
-                        f"The scattering of channel {number} is {b:g} 1/m; expected at most the "
-                        f"beam attenuation, {c:g} 1/m."
+                        f"The scattering of {name_channel(number, n_channels)} is {b:g} 1/m; "
+                        f"expected at most the beam attenuation, {c:g} 1/m."
                     )
         errors.raise_errors()
-        n_channels = min(len(beam_attenuation), len(scattering))
         differences = [beam_attenuation[i] - scattering[i] for i in range(n_channels)]
         remainder = tuple(beam_attenuation[n_channels:])
         return cls(
@@ -185,8 +187,14 @@ def find_coefficient_errors(absorption: Sequence[float], scattering: Sequence[fl
             "expected one of each for every channel."
         ]
     return [
-        f"The {name} of channel {number} is {value:g} 1/m; expected 0 to {MAX_COEFFICIENT:g} 1/m."
+        f"The {name} of {name_channel(number, n_absorption)} is {value:g} 1/m; expected 0 to "
+        f"{MAX_COEFFICIENT:g} 1/m."
         for name, values in (("absorption", absorption), ("scattering", scattering))
         for number, value in enumerate(values, start=1)
         if not 0.0 <= value <= MAX_COEFFICIENT
     ]
+
+
+def name_channel(number: int, n_channels: int) -> str:
+    """Return the name of a channel by its number from 1; three are red, green and blue."""
+    return COLOURS[number - 1] if n_channels == len(COLOURS) else f"channel {number}"

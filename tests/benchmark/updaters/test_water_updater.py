@@ -162,10 +162,14 @@ def test_a_target_at_the_camera_and_too_much_turbidity_are_errors() -> None:
     spec = replace(SPEC, quantity="attenuationLengths", from_="auv", target="box")
     with pytest.raises(BadSetting, match="'box' is 0 m from the camera"):
         spec.bind(stage_with(distance=-0.1))
-    with pytest.raises(UwsimError, match="expected 0 to 1000 1/m"):
+    with pytest.raises(BadSetting) as error:
         replace(SPEC, quantity="scale", final_value=1000.0, step=999.5).bind(
-            stage_with(replace(MEDIUM, absorption=(2.0, 0.1, 0.1)))
+            stage_with(replace(MEDIUM, absorption=(2.0, 0.1, 3.0), scattering=(1.5, 0.1, 0.1)))
         )
+    assert str(error.value) == (
+        "At waterScale 1000 the water has an absorption of 2000 1/m in red, 3000 1/m in blue, "
+        "a scattering of 1500 1/m in red; expected at most 1000 1/m."
+    )
 
 
 @pytest.mark.parametrize(
@@ -198,6 +202,18 @@ def test_unknown_names_and_a_scene_with_fog_are_errors_before_the_run(tmp_path: 
     assert "blackbox" in text
     plan = make_plan(tmp_path, Idle, UPDATER.format("", 1, ""))
     with pytest.raises(UwsimError, match=r"benchmark.xml:3: .*no physical water"):
+        hash_inputs(plan)
+
+
+def test_fog_in_physical_water_is_an_error_before_the_run(tmp_path: Path) -> None:
+    fog = """<sceneFogUpdater> <initialValue>0</initialValue> <finalValue>1</finalValue>
+    <step>0.5</step> <interval>1</interval> </sceneFogUpdater>"""
+    plan = make_plan(tmp_path, Idle, fog, scene=water())
+    (found,) = check_file(tmp_path / "benchmark.xml", scene=DATA / "scenes" / f"{SCENE}.xml")
+    message = "The scene has physical water, in which fog has no effect; expected <u:waterUpdater>"
+    assert (found.severity, found.line) == ("error", 3)
+    assert found.message.startswith(message)
+    with pytest.raises(UwsimError, match=r"benchmark.xml:3: The scene has physical water"):
         hash_inputs(plan)
 
 

@@ -39,7 +39,7 @@ import numpy as np
 from ...base.geometry import Array, Triple
 from ...errors import BadSetting, UwsimError
 from ...optics import Medium
-from ...optics.medium import MAX_COEFFICIENT
+from ...optics.medium import MAX_COEFFICIENT, name_channel
 from ...schema import element
 from ...world import Body, Camera, LineOfSight, Stage, StageWater
 from .sweep import SweepSpec, step_values
@@ -225,7 +225,6 @@ class WaterUpdater(SceneUpdater):
 
         Raises:
             BadSetting: a coefficient is more than allowed, or the target is at the camera.
-            SeveralErrors: several coefficients are.
         """
         sight = None if self._find_sight is None else self._find_sight()
         if sight is not None and sight.length < MIN_DISTANCE:
@@ -234,8 +233,26 @@ class WaterUpdater(SceneUpdater):
                 f"expected {MIN_DISTANCE:g} m or more."
             )
         factor = self._spec.compute_factor(value, self._medium, sight)
+        if texts := list(_find_excesses(self._medium, factor)):
+            raise BadSetting(
+                f"At {self._spec.parameter} {value:g} the water has {', '.join(texts)}; expected "
+                f"at most {MAX_COEFFICIENT:g} 1/m."
+            )
         is_automatic = self._spec.exposure == "automatic"
         self._water.set_medium(self._medium.scale(factor), sight=sight if is_automatic else None)
+
+
+def _find_excesses(medium: Medium, factor: float) -> Iterator[str]:
+    """Yield the coefficients that are more than allowed after they are scaled by a factor."""
+    columns = (("an absorption", medium.absorption), ("a scattering", medium.scattering))
+    for name, values in columns:
+        numbers = [
+            f"{factor * value:.4g} 1/m in {name_channel(number, medium.n_channels)}"
+            for number, value in enumerate(values, start=1)
+            if not factor * value <= MAX_COEFFICIENT
+        ]
+        if numbers:
+            yield f"{name} of {', '.join(numbers)}"
 
 
 def _find_position(camera: Camera | None, body: Body | None) -> Array:
