@@ -17,6 +17,8 @@ from .seawater import sea_water_density
 
 NIGHT_BLUE: Triple = (0.0, 0.05, 0.3)
 """The default colour of the water, RGB [0..1]."""
+WAVE_SETTING = Original(is_window_setting=True, used_by=f"{{{NAMESPACE}}}waves")
+"""The option of an element that affects the original's window, and ``<u:waves>`` here."""
 DEFAULT_TEMPERATURE = 15.0
 """The temperature of water of which only the salinity is given [degrees Celsius]."""
 
@@ -77,17 +79,17 @@ class ProfileSpec(Spec):
 class OceanStateSpec(Spec):
     """An ``<oceanState>``: the water surface and the properties of the water."""
 
-    windx: float = element(default=0.04, original=Original(is_window_setting=True))
+    windx: float = element(default=0.04, original=WAVE_SETTING)
     """The wind direction along x; the length of the direction vector scales the waves [1]."""
-    windy: float = element(default=0.04, original=Original(is_window_setting=True))
+    windy: float = element(default=0.04, original=WAVE_SETTING)
     """The wind direction along y; the length of the direction vector scales the waves [1]."""
-    wind_speed: float = element(default=12.0, original=Original(is_window_setting=True))
+    wind_speed: float = element(default=12.0, original=WAVE_SETTING)
     """The wind speed of the wave spectrum [m/s]."""
-    depth: float = element(default=1000.0, original=Original(is_window_setting=True))
+    depth: float = element(default=1000.0, original=WAVE_SETTING)
     """The depth of the water, only for waves; it adds no floor [m]."""
-    reflection_damping: float = element(default=0.35, original=Original(is_window_setting=True))
+    reflection_damping: float = element(default=0.35, original=WAVE_SETTING)
     """The factor on waves that travel against the wind [1]."""
-    wave_scale: float = element(default=1e-7, original=Original(is_window_setting=True))
+    wave_scale: float = element(default=1e-7, original=WAVE_SETTING)
     """The amplitude of the wave spectrum [1]."""
     is_not_choppy: bool = element(
         default=False, original=Original(invalid_flag_value=True, is_window_setting=True)

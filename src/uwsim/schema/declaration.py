@@ -26,6 +26,8 @@ class Original:
     """True if a number beyond the limits is clamped with a warning. The original has no limits."""
     is_window_setting: bool = False
     """True if the element affects the original's window only; an error in it is a warning here."""
+    used_by: str = ""
+    """The qualified name of the sibling that uses a window setting; beside it errors are errors."""
 
 
 CLAMPED_NUMBER = Original(is_clamped=True)

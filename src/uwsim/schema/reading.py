@@ -187,7 +187,9 @@ def _read_field(
     field: Field, parent: etree._Element, nodes: list[etree._Element], diagnostics: Diagnostics
 ) -> Any:
     """Read a field that is not an attribute; NO_VALUE if it is absent or invalid."""
-    if field.xml.original.is_window_setting and nodes:
+    original = field.xml.original
+    is_used = bool(original.used_by) and parent.find(original.used_by) is not None
+    if original.is_window_setting and nodes and not is_used:
         with diagnostics.errors_as_warnings(WINDOW_REASON):
             return _read_present_field(field, parent, nodes, diagnostics)
     return _read_present_field(field, parent, nodes, diagnostics)
