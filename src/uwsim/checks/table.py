@@ -68,6 +68,7 @@ SCENE_RULES: tuple[Rule[CheckedScene], ...] = (
     Rule(angles.angles_in_degrees, Need.SPEC, in_runs=True),
     Rule(water.unstable_water, Need.SPEC),
     Rule(water.slow_currents, Need.SPEC),
+    Rule(water.unused_fog, Need.SPEC, in_runs=True),
     Rule(waves.breaking_waves, Need.SPEC, in_runs=True),
     Rule(forces.forces_on_bodies, Need.SPEC, in_runs=True),
     Rule(models.projectors, Need.SPEC),

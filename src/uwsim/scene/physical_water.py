@@ -35,6 +35,8 @@ from ..particles import ParticlesSpec
 from ..schema import NAMESPACE, Numbers, Spec, element
 
 TransferCurve = Literal["srgb", "linear"]
+REPLACED_ELEMENTS = ("fog", "color", "attenuation")
+"""The elements of ``<oceanState>`` that physical water replaces in images."""
 
 
 @dataclass(frozen=True, kw_only=True)

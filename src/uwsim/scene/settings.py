@@ -170,12 +170,13 @@ def apply_setting(spec: T, path: str, value: str) -> T:
 
     Raises:
         BadSetting: the path is unknown, or the value is invalid; the error message lists valid
-            ones.
+            ones. Or the value has no effect in ``spec``.
     """
     if path.startswith(XACRO_PREFIX):
         return spec
     try:
         location = locate(spec, path)
+        check_effect(location)
         new_spec = location.with_value(value)
     except BadSetting as error:
         raise BadSetting(f"--set {path}={value}: {error}") from None
@@ -237,6 +238,21 @@ def _hydrodynamics_location(
     number = ".".join(name if key is None else f"{name}[{key}]" for name, key in parts)
     field = _field(type(vehicle), "dynamics")
     return HydrodynamicsLocation(steps, vehicle, field, (), number)
+
+
+def check_effect(location: ValueLocation) -> None:
+    """Raise BadSetting for fog, colour and attenuation that physical water replaces."""
+    from .ocean_state import OceanStateSpec
+    from .physical_water import REPLACED_ELEMENTS
+
+    owners = [(step.spec, step.field) for step in location.steps]
+    for owner, name in [*owners, (location.owner, location.field.name)]:
+        is_physical = isinstance(owner, OceanStateSpec) and owner.water is not None
+        if is_physical and name in REPLACED_ELEMENTS:
+            raise BadSetting(
+                f"<{name}> has no effect: the scene has physical water; set a value of "
+                "oceanState.water instead, such as oceanState.water.type."
+            )
 
 
 def overlaps(left: ValueLocation, right: ValueLocation) -> bool:

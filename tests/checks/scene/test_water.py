@@ -6,7 +6,11 @@ from pathlib import Path
 
 import pytest
 
-from uwsim.checks import check_file
+import uwsim
+from uwsim.checks import check_file, model_warnings
+from uwsim.errors import BadSetting
+from uwsim.scene.reader import read_scene
+from uwsim.scene.settings import apply_setting
 
 
 def said(water: str, folder: Path) -> list[str]:
@@ -77,3 +81,44 @@ def test_a_current_that_python_computes_is_said_to_slow_down_what_floats_in_it(
         text.startswith("4 warning <u:function> is 'my_eddy:eddy': Python calls it in every step")
         for text in slow
     )
+
+
+PHYSICAL = '<u:water law="physical"> <u:type>pool</u:type> </u:water>\n'
+
+
+def test_fog_colour_and_attenuation_beside_physical_water_are_warned_of(tmp_path: Path) -> None:
+    colour = "<r>0</r> <g>0</g> <b>0</b>"
+    fog = f"<fog> <density>0.1</density> <color> {colour} </color> </fog>\n"
+    rest = f"<color> {colour} </color>\n<attenuation> {colour} </attenuation>\n"
+    assert said(fog + rest, tmp_path) == []
+    reason = 'has no effect on images: <u:water law="physical"> replaces it'
+    assert said(PHYSICAL + fog + rest, tmp_path) == [
+        f"4 warning <fog> {reason}",
+        f"5 warning <color> {reason}",
+        f"6 warning <attenuation> {reason}",
+    ]
+    with uwsim.load(tmp_path / "scene.xml") as simulation:
+        warnings = model_warnings(simulation.world.model)
+    assert [warning.line for warning in warnings] == [4, 5, 6]
+
+
+@pytest.mark.parametrize("name", ["fog.density", "color", "attenuation.r"])
+def test_a_setting_that_physical_water_replaces_is_an_error(name: str, tmp_path: Path) -> None:
+    said(PHYSICAL, tmp_path)
+    scene = read_scene(tmp_path / "scene.xml")
+    with pytest.raises(BadSetting, match="has no effect: the scene has physical water"):
+        apply_setting(scene, f"oceanState.{name}", "0.5 0.5 0.5")
+    said("", tmp_path)
+    apply_setting(read_scene(tmp_path / "scene.xml"), "oceanState.fog.density", "0.5")
+
+
+def test_a_depth_that_is_no_number_is_an_error_where_waves_use_it(tmp_path: Path) -> None:
+    waves = (
+        "<u:waves> <u:regularWave> <u:height>0.2</u:height> <u:period>3</u:period> "
+        "</u:regularWave> </u:waves>"
+    )
+    found = said("<depth>inf</depth>", tmp_path)
+    assert found[0].startswith("3 warning <depth> is 'inf'; expected a number [m]; it affects the")
+    assert said(f"<depth>inf</depth> {waves}", tmp_path) == [
+        "3 error <depth> is 'inf'; expected a number [m]"
+    ]

@@ -1,4 +1,4 @@
-"""Warnings about the water of a scene: its density, unused values, and slow currents."""
+"""Warnings about the water of a scene: its density, unused values and fog, slow currents."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from itertools import pairwise
 
 from ...errors import Diagnostic
+from ...scene.physical_water import REPLACED_ELEMENTS
 from ...schema import NAMESPACE, line_of
 from ..subjects import CheckedScene
 
@@ -50,3 +51,19 @@ def slow_currents(scene: CheckedScene) -> Iterator[Diagnostic]:
                 "compiled; <u:field> reads a flow that a program has computed before",
                 "function",
             )
+
+
+def unused_fog(scene: CheckedScene) -> Iterator[Diagnostic]:
+    """Warn of fog, colour and attenuation that physical water replaces, and of their variations."""
+    ocean = scene.spec.ocean_state
+    if ocean.water is None:
+        return
+    reason = 'has no effect on images: <u:water law="physical"> replaces it'
+    elements = {} if ocean.source_line is None else ocean.source_line.elements
+    for name in REPLACED_ELEMENTS:
+        if name in elements:
+            yield scene.warning(ocean, f"<{name}> {reason}", name)
+    for variation in scene.spec.vary:
+        parts = variation.path.split(".")
+        if parts[0] == "oceanState" and parts[1:2] and parts[1] in REPLACED_ELEMENTS:
+            yield scene.warning(variation, f"a variation of <{parts[1]}> {reason}")
