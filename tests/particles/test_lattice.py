@@ -19,6 +19,7 @@ from uwsim.particles import (
     find_particles,
     find_plume,
 )
+from uwsim.particles.lattice import MAX_PARTICLES
 
 LENS = Intrinsics.from_fovy(640, 480, math.radians(50.0))
 SNOW = SizeClass(
@@ -180,3 +181,21 @@ def test_diameters_follow_the_power_law() -> None:
     share = np.count_nonzero(diameters > 0.03) / len(diameters)
     expected = (0.03**-2 - 0.06**-2) / (0.02**-2 - 0.06**-2)
     assert share == pytest.approx(expected, abs=4.0 * math.sqrt(expected / len(diameters)))
+
+
+def test_a_view_of_too_many_particles_shows_the_nearest_ones() -> None:
+    dense = replace(SNOW, concentration=1e5)
+    records = find_particles(dense, VIEW, Drift())
+    places = records["place"].astype(np.float64)
+    ranges = np.sqrt((places**2).sum(axis=1))
+    reach = ranges.max()
+    assert 5000 < len(records) < MAX_PARTICLES
+    slopes = np.abs(places[:, :2] / -places[:, 2:])
+    inside = (slopes <= (0.5 * LENS.width / LENS.fx, 0.5 * LENS.height / LENS.fy)).all(axis=1)
+    volume = compute_volume(replace(VIEW, max_range=float(reach)))
+    assert inside.sum() == pytest.approx(1e5 * volume, rel=0.05)
+    centre = (places[:, :2] / -places[:, 2:]).mean(axis=0)
+    np.testing.assert_allclose(centre, 0.0, atol=0.02)  # they are on all sides
+    near = find_particles(dense, replace(VIEW, max_range=0.5), Drift())["place"]
+    wanted = {tuple(place) for place in near.tolist()}
+    assert wanted <= {tuple(place) for place in places.astype(np.float32).tolist()}

@@ -37,7 +37,7 @@ MEAN_COUNT = 3.0
 MIN_EDGE, MAX_EDGE = 0.02, 4.0
 """The limits of the edge of a cell [m]."""
 MAX_PARTICLES = 20_000
-"""The largest number of particles in a view; the excess is not drawn."""
+"""The largest number of particles of a class in a view; one with more is shortened."""
 MAX_CELLS = 4_000_000
 """The largest number of cells of a view that is searched; a longer view is shortened to it."""
 
@@ -75,7 +75,18 @@ def find_particles(size_class: SizeClass, view: View, drift: Drift) -> npt.NDArr
         motions,
         particles,
     )
+    if n == MAX_PARTICLES:
+        return find_particles(
+            size_class, _shorten(view, _limit_reach(size_class, slopes, reach)), drift
+        )
     return particles[:n]
+
+
+def _limit_reach(size_class: SizeClass, slopes: Array, reach: float) -> float:
+    """Return a range within which a view has fewer than `MAX_PARTICLES` of a class [m]."""
+    solid_angle = (slopes[1] - slopes[0] + 0.05) * (slopes[3] - slopes[2] + 0.05)
+    volume = 0.9 * MAX_PARTICLES / size_class.concentration
+    return min(float((3.0 * volume / solid_angle) ** (1.0 / 3.0)), 0.7 * reach)
 
 
 def _shorten(view: View, max_range: float) -> View:

@@ -4,7 +4,7 @@ import { hashCell, parseWord, uniform, type Word } from "./hash64";
 
 /** The numbers of a record: place 3, radius, extent 3, weight, reflectance, kind. */
 export const RECORD_LENGTH = 10;
-const MAX_PARTICLES = 20000;
+const MAX_PARTICLES = 20000; // of a class in a view; one with more is shortened
 const MAX_CELLS = 4e6; // largest number of cells of a view that is searched
 const [MIN_EDGE, MAX_EDGE, MEAN_COUNT] = [0.02, 4, 3]; // limits of the edge of a cell [m]; mean number of particles in it
 const [MAX_COUNT, FADE_SHARE, MAX_ELONGATION, MIN_SHARE, LENS_CLEARANCE] = [64, 0.25, 2, 0.02, 0.08];
@@ -39,7 +39,13 @@ export function findParticles(
     const view = new ParticleView(sizeClass, spec, drift, m, intrinsics);
     if (sizeClass.concentration > 0) {
       if (sizeClass.is_plume) fillPlume(view, spec.source!, surfaceHeight);
-      else fillView(view, surfaceHeight);
+      else {
+        fillView(view, surfaceHeight);
+        while (view.isFull) {
+          view.shorten();
+          fillView(view, surfaceHeight);
+        }
+      }
     }
     return view.records;
   });
@@ -70,6 +76,19 @@ class ParticleView {
     this.motion = this.toCamera(velocity[0], velocity[1], velocity[2] + sizeClass.rise_speed).map(
       (speed) => speed * spec.exposure_time,
     );
+  }
+
+  /** True if the view has the largest number of particles. */
+  get isFull(): boolean {
+    return this.records.length >= RECORD_LENGTH * MAX_PARTICLES;
+  }
+
+  /** Remove all particles, and limit the range so that fewer are found. */
+  shorten(): void {
+    const [left, right, lower, upper] = this.slopes;
+    const volume = (0.9 * MAX_PARTICLES) / this.sizeClass.concentration;
+    this.reach = Math.min(Math.cbrt((3 * volume) / ((right - left + 0.05) * (upper - lower + 0.05))), 0.7 * this.reach);
+    this.records.length = 0;
   }
 
   /** Return a vector of W in the camera's frame. */
@@ -104,7 +123,7 @@ class ParticleView {
     if (x < slopes[0] * -z - margin || x > slopes[1] * -z + margin) return;
     if (y < slopes[2] * -z - margin || y > slopes[3] * -z + margin) return;
     const share = Math.hypot(x, y, z) / Math.min(this.reach, (diameter * this.focal) / MIN_WIDTH);
-    if (share >= 1 || this.records.length >= RECORD_LENGTH * MAX_PARTICLES) return;
+    if (share >= 1 || this.isFull) return;
     const fade = Math.min((1 - share) / FADE_SHARE, 1);
     let [extent, factor] = [motion, 1];
     if (sizeClass.kind === FLOC) {
@@ -131,7 +150,7 @@ function fillView(view: ParticleView, surfaceHeight: number): void {
   }
   const radius = 0.8660254037844387 * edge + sizeClass.max_diameter;
   const cameraDepth = surfaceHeight - m[11];
-  for (let i = lower[0]; i <= upper[0]; ++i)
+  for (let i = lower[0]; i <= upper[0] && !view.isFull; ++i)
     for (let j = lower[1]; j <= upper[1]; ++j)
       for (let k = lower[2]; k <= upper[2]; ++k) {
         const centre = view.toCamera((i + 0.5) * edge - eye[0], (j + 0.5) * edge - eye[1], (k + 0.5) * edge - eye[2]);
