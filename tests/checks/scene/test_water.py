@@ -102,6 +102,21 @@ def test_fog_colour_and_attenuation_beside_physical_water_are_warned_of(tmp_path
     assert [warning.line for warning in warnings] == [4, 5, 6]
 
 
+def test_a_variation_that_physical_water_replaces_is_warned_of(tmp_path: Path) -> None:
+    vary = (
+        "<u:vary> <u:uniform> <u:path>oceanState.fog.density</u:path> "
+        "<u:low>0.1</u:low> <u:high>0.2</u:high> </u:uniform> </u:vary>"
+    )
+    path = tmp_path / "scene.xml"
+    path.write_text(
+        f"<UWSimScene xmlns:u='urn:uwsim:1'>\n<oceanState>{PHYSICAL}</oceanState>\n{vary}"
+        "</UWSimScene>"
+    )
+    (found,) = check_file(path)
+    assert (found.severity, found.line) == ("warning", 4)
+    assert found.message.startswith("a variation of <fog> has no effect on images")
+
+
 @pytest.mark.parametrize("name", ["fog.density", "color", "attenuation.r"])
 def test_a_setting_that_physical_water_replaces_is_an_error(name: str, tmp_path: Path) -> None:
     said(PHYSICAL, tmp_path)
