@@ -224,7 +224,7 @@ def test_a_sparse_accessor_beyond_its_buffer_is_one_error(tmp_path: Path) -> Non
         "indices": {"bufferView": view, "componentType": 5123},
         "values": {"bufferView": view},
     }
-    with pytest.raises(AssetError, match=r"plates\.glb: not a \.glb file that can be read"):
+    with pytest.raises(AssetError, match=r"plates\.glb: its accessors\[1\]\.sparse is invalid"):
         read_material({"normalTexture": normal}, tmp_path, plates)
 
 

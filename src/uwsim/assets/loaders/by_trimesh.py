@@ -24,6 +24,7 @@ from . import (
     gltf_limits,
     gltf_materials,
     gltf_rewriting,
+    gltf_structure,
     mesh_cache,
     obj_rewriting,
 )
@@ -35,6 +36,8 @@ from .references import References
 
 MESH_FORMATS = (".glb", ".gltf", ".obj", ".stl", ".ply", ".dae")
 """The formats that are read without an external program."""
+GLTF_FORMATS = (".glb", ".gltf")
+"""The suffixes of glTF files."""
 
 MAX_TRIANGLES = 4_000_000
 """The greatest number of triangles of a model."""
@@ -116,6 +119,10 @@ def _raise_asset_errors(path: Path) -> Iterator[None]:
         reason = messages[0][:200] if messages else ""
         if path.suffix.lower() == ".obj" and (place := find_invalid_line(path.read_bytes())):
             raise AssetError(f"{path}:{place}.") from error
+        if path.suffix.lower() in GLTF_FORMATS and not isinstance(error, OSError):
+            raise AssetError(
+                f"{path}: not valid glTF 2.0; a validator of glTF names the entry at fault."
+            ) from error
         raise AssetError(
             f"{path}: not a {path.suffix.lower()} file that can be read "
             f"({type(error).__name__}{': ' + reason if reason else ''})."
@@ -160,7 +167,9 @@ def _read_checked(path: Path, name: str, original: Path | None) -> bytes:
 def _limit_error(data: bytes, suffix: str) -> str:
     if suffix == ".dae":
         return collada_limits.limit_error(data)
-    return gltf_limits.limit_error(data, suffix) if suffix in (".gltf", ".glb") else ""
+    if suffix not in GLTF_FORMATS:
+        return ""
+    return gltf_limits.limit_error(data, suffix) or gltf_structure.structure_error(data, suffix)
 
 
 def _read_reference(path: Path, name: str, original: Path | None, suffix: str) -> bytes:
@@ -198,7 +207,7 @@ def _parts(
 
     logging.getLogger("trimesh").setLevel(logging.CRITICAL)
     suffix = path.suffix.lower()
-    is_gltf = suffix in (".gltf", ".glb")
+    is_gltf = suffix in GLTF_FORMATS
     numbers, material_remarks = gltf_materials.read_materials(data, suffix) if is_gltf else ({}, [])
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -236,7 +245,7 @@ def _read_by_trimesh(data: bytes, suffix: str, references: References) -> list[t
     """Return the pose and the geometry of each node."""
     import trimesh
 
-    if suffix in (".gltf", ".glb"):
+    if suffix in GLTF_FORMATS:
         data = gltf_rewriting.rewrite(data, suffix, references.get)
     data = to_utf8(data, suffix)
     if suffix == ".obj":

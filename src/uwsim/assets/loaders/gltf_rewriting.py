@@ -244,15 +244,25 @@ class _Rewriter:
         else:
             values = np.zeros((n, k), dtype)
         if "sparse" in accessor:
-            sparse_part = accessor["sparse"]
-            values, count = values.copy(), sparse_part["count"]
-            index_view = sparse_part["indices"]
-            index_dtype = np.dtype(DTYPES[index_view["componentType"]])
-            indices = self._numbers(index_view, index_dtype, count, 1)[:, 0]
-            values[indices] = self._numbers(sparse_part["values"], dtype, count, k)
+            try:
+                values = self._replace_values(values, accessor["sparse"])
+            except (IndexError, KeyError, TypeError, ValueError):
+                raise AssetError(
+                    f"its accessors[{index}].sparse is invalid; expected indices below {n}, and "
+                    "as many values, in views of its buffers"
+                ) from None
         if accessor.get("normalized") and dtype.kind in "iu":
             max_value = np.iinfo(dtype).max
             values = np.maximum(values.astype(np.float32) / np.float32(max_value), np.float32(-1.0))
+        return values
+
+    def _replace_values(self, values: Numbers, sparse_part: Tree) -> Numbers:
+        """Return values with those of a sparse accessor; raise one of many types of exceptions."""
+        values, count = values.copy(), sparse_part["count"]
+        index_view = sparse_part["indices"]
+        index_dtype = np.dtype(DTYPES[index_view["componentType"]])
+        indices = self._numbers(index_view, index_dtype, count, 1)[:, 0]
+        values[indices] = self._numbers(sparse_part["values"], values.dtype, count, values.shape[1])
         return values
 
     def _numbers(self, part: Tree, dtype: np.dtype[Any], n: int, k: int) -> Numbers:
