@@ -32,7 +32,7 @@ from .materials.maps import Switches
 from .passes import SAMPLERS, Passes
 from .physical.development import Development
 from .physical.moving_surface import MovingSurface
-from .physical.particle_pass import VisibleParticles
+from .physical.visible_particles import VisibleParticles
 from .projection import Projection, projection
 from .rendered_image import RenderedImage
 from .surface.surface_pass import SurfacePass

@@ -21,9 +21,8 @@ from uwsim.optics import Medium
 from uwsim.particles import PARTICLE, Kind
 from uwsim.particles.puffs import compute_optical_depth
 from uwsim.rendering.lights.lamp import Lamp
-from uwsim.rendering.physical.cloud_pass import LUMP, VisibleClouds
-from uwsim.rendering.physical.particle_pass import VisibleParticles
 from uwsim.rendering.physical.physical_water import Daylight, PhysicalWater
+from uwsim.rendering.physical.visible_particles import LUMP, VisibleClouds, VisibleParticles
 from uwsim.rendering.renderer import Renderer
 from uwsim.rendering.water import Water
 

@@ -19,37 +19,21 @@ Not modelled: shadows of and in clouds, the blur by their scattering, the colour
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import moderngl
 import numpy as np
-import numpy.typing as npt
 
-from ...base.geometry import Triple
 from ..frame import FRAME
 from ..lights.lamps import LAMPS
 from ..program import Block, build
 from .optics_block import OPTICS
+from .visible_particles import LUMP, VisibleClouds
 
 EDGE = 8
 """The edge of a texel of the clouds [px], as in ``shaders/cloud_edge.glsl``."""
 CLOUDS = Block("Clouds", 10, {"cloud_layers": "vec4", "cloud_colour": "vec4"})
-LUMP = np.dtype([("place", np.float32, 4), ("depth", np.float32)])
-"""A lump of a cloud: its centre in the camera's frame and its width [m], and the optical depth
-along a whole ray through its centre."""
 N_LAYERS = 4
 LAYER_MARGIN = 2.5
 """The distance from centres at which the layers begin and end, in widths [1]."""
-
-
-@dataclass(frozen=True, eq=False)
-class VisibleClouds:
-    """The clouds of sediment before a camera."""
-
-    lumps: npt.NDArray[np.void]
-    """The lumps, records of `LUMP`, (n,), one at least."""
-    colour: Triple
-    """The albedo of a thick cloud in daylight [1]."""
 
 
 class CloudPass:

@@ -25,8 +25,9 @@ from .blur_weights import N_RANGES, compute_weight_table
 from .cloud_pass import CLOUDS, CloudPass
 from .open_water_map import OpenWaterMap
 from .optics_block import OPTICS, OpticsBlock
-from .particle_pass import ParticlePass, VisibleParticles
+from .particle_pass import ParticlePass
 from .physical_water import PhysicalWater
+from .visible_particles import VisibleParticles
 
 SURFACE_UNIT, MAP_UNIT, TABLE_UNIT, FIRST_LEVEL_UNIT = 0, 5, 6, 7
 """The texture units of the image of surfaces, the open water, the weights, and the first level."""

@@ -24,8 +24,6 @@ shadow and caustics on them, and the change of the lobe of scattering with the d
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import moderngl
 import numpy as np
 import numpy.typing as npt
@@ -34,28 +32,14 @@ from ...particles import PARTICLE
 from ..frame import FRAME
 from ..lights.lamps import LAMPS
 from ..program import Block, build
-from .cloud_pass import VisibleClouds
 from .optics_block import OPTICS
+from .visible_particles import VisibleParticles
 
 MIN_RADIUS = 1.5
 """The least radius of the image of a particle [px]; smaller ones would flicker."""
 LENS = Block("ParticleLens", 9, {"particle_lens": "vec4"})
 FORMAT = "4f 4f 2f/i"
 """The format of `PARTICLE` for OpenGL, a record for each instance."""
-
-
-@dataclass(frozen=True, eq=False)
-class VisibleParticles:
-    """The particles in a camera's view."""
-
-    records: npt.NDArray[np.void]
-    """The particles, records of `uwsim.particles.PARTICLE`, (n,)."""
-    aperture: float
-    """The diameter of the lens's aperture [m]; 0: all particles are sharp."""
-    focus_distance: float
-    """The distance at which the lens is focused [m]."""
-    clouds: VisibleClouds | None = None
-    """The clouds of sediment; None without any."""
 
 
 class ParticlePass:

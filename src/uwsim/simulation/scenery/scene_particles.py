@@ -26,7 +26,7 @@ from ...particles import (
     find_plume,
 )
 from ...particles.puffs import PuffsState
-from ...rendering.physical.particle_pass import VisibleParticles
+from ...rendering.physical.visible_particles import VisibleParticles
 from .scene_sediment import SceneSediment
 
 UPDATE_RATE = 20.0

@@ -16,7 +16,7 @@ from ...particles.jet import WIDTH, Jet
 from ...particles.puffs import BIRTH, MASS, NUMBER, VARIANCE, Puffs, X, Z
 from ...particles.sediment import SedimentSpec
 from ...physics.engine import Engine
-from ...rendering.physical.cloud_pass import LUMP, VisibleClouds
+from ...rendering.physical.visible_particles import LUMP, VisibleClouds
 from .scene_rays import SceneRays
 
 UPDATE_RATE = 4.0
