@@ -124,6 +124,13 @@ def test_a_scene_without_any_camera_is_seen_from_where_all_of_its_vehicle_is(
 ALONE = [path for path in SCENES if path.read_text().count("<vehicle>") == 1]
 """Scenes with one vehicle: two of them may be too far apart to be seen in one view."""
 
+COVERED = {
+    ("pier-waves-scene", "orbit"): 0.005,
+    ("pier-waves-scene", "top"): 0.002,
+    ("wreck-physical-scene", "top"): 0.005,
+}
+"""The least shares of the image of vehicles that a pier or a wreck covers in part; else 1 %."""
+
 
 def vehicles_of(scene: Path) -> tuple[str, ...]:
     """Beginnings of the names of links, ``vehicle/``."""
@@ -143,7 +150,7 @@ def test_every_bundled_and_original_scene_shows_all_of_its_vehicle(
         rows = [row for row in csv.DictReader(file) if row["name"].startswith(vehicles_of(path))]
     own = np.isin(ids, [int(row["id"]) for row in rows])
     frame = np.concatenate([own[0], own[-1], own[:, 0], own[:, -1]])
-    assert own.mean() > 0.002  # a wreck and a pier are large, and hide a part
+    assert own.mean() > COVERED.get((path.stem, view), 0.01)
     assert not frame.any()  # nothing is cut off
 
 
