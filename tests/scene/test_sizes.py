@@ -46,6 +46,20 @@ def test_an_image_may_have_8k_and_no_more(kind: str, tmp_path: Path) -> None:
     ]
 
 
+def test_the_margin_of_blur_counts_in_the_size_of_an_image(tmp_path: Path) -> None:
+    path = tmp_path / "scene.xml"
+    text = (
+        "<UWSimScene xmlns:u='urn:uwsim:1'><oceanState><u:water law='physical'>"
+        "<u:type>tank</u:type><u:blurMargin>0.5</u:blurMargin></u:water></oceanState>"
+        "<vehicle><name>v</name><file>g500ARM5.urdf</file>{}</vehicle></UWSimScene>"
+    )
+    path.write_text(text.format(camera(3840, 2160)))
+    read_scene(path)
+    path.write_text(text.format(camera(3840, 2162)))
+    with pytest.raises(SceneError, match=r"33\.2 million with <u:blurMargin>; expected"):
+        read_scene(path)
+
+
 def test_the_window_is_made_as_large_as_8k(tmp_path: Path) -> None:
     path = tmp_path / "scene.xml"
     size = "<resw>99999</resw><resh>99999</resh>"

@@ -281,6 +281,16 @@ class Intrinsics:
             skew=self.skew * factor,
         )
 
+    def with_margin(self, columns: int, rows: int) -> Intrinsics:
+        """Return the pinhole with additional columns and rows of pixels on each side."""
+        return replace(
+            self,
+            width=self.width + 2 * columns,
+            height=self.height + 2 * rows,
+            cx=self.cx + columns,
+            cy=self.cy + rows,
+        )
+
     def project(self, points: Array, *, includes_behind: bool = False) -> Array:
         """Return the image coordinates (n, 2) [px] of points in the camera frame (n, 3) [m].
 

@@ -64,6 +64,25 @@ class RenderedImage:
             ids=None if self.ids is None else self.ids.copy(),
         )
 
+    def crop(self, intrinsics: Intrinsics, columns: int, rows: int) -> RenderedImage:
+        """Return the image without a margin of columns and rows on each side.
+
+        Args:
+            intrinsics: the pinhole of the image without its margin.
+            columns: the number of columns to remove on the left and on the right.
+            rows: the number of rows to remove above and below.
+        """
+        if columns == rows == 0:
+            return self
+        part = slice(rows, rows + intrinsics.height), slice(columns, columns + intrinsics.width)
+        return replace(
+            self,
+            intrinsics=intrinsics,
+            colour=None if self.colour is None else self.colour[part].copy(),
+            range=None if self.range is None else self.range[part].copy(),
+            ids=None if self.ids is None else self.ids[part].copy(),
+        )
+
     @property
     def depth(self) -> npt.NDArray[np.float32]:
         """The distance along the optical axis (h, w) [m]; inf: no surface.

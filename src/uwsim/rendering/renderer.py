@@ -1,7 +1,7 @@
 """The renderer: it draws images of instances of models, seen through water.
 
 One forward pass draws the requested targets: colour through the water (`rendering.water`), range
-and ids. Transparent surfaces are blended over the others, the farthest first. The water's
+and ids. Transparent surfaces are blended over the other_view, the farthest first. The water's
 surface, caustics and light shafts are those of physical water. Not modelled: reflections.
 """
 
@@ -85,6 +85,14 @@ class View:
     def is_physical(self) -> bool:
         """True if the image has colours through physical water."""
         return self.water.physical_water is not None and "colour" in self.targets
+
+    @property
+    def margin(self) -> tuple[int, int]:
+        """The columns and rows that are drawn beyond each edge of the image [px]."""
+        water, lens = self.water.physical_water, self.intrinsics
+        if water is None or not water.has_blur:
+            return 0, 0
+        return round(water.blur_margin * lens.width), round(water.blur_margin * lens.height)
 
     @property
     def has_surface(self) -> bool:
@@ -239,9 +247,30 @@ class Renderer:
         """Draw an image and read it back."""
         with self._context:
             if view.is_physical:
-                return self._draw_physical(view, world_from_camera)
+                return (
+                    self._draw_with_margin(view, world_from_camera)
+                    if any(view.margin)
+                    else self._draw_physical(view, world_from_camera)
+                )
             background = self._issue_draw_calls(view, world_from_camera)
             return self._find_targets(view).read_image(view.intrinsics, background)
+
+    def _draw_with_margin(self, view: View, world_from_camera: Pose) -> RenderedImage:
+        """Draw an image whose colours have light from a margin around it."""
+        columns, rows = view.margin
+        wide_view = replace(
+            view,
+            intrinsics=view.intrinsics.with_margin(columns, rows),
+            targets=frozenset({"colour"}),
+        )
+        colours = self._draw_physical(wide_view, world_from_camera)
+        image = colours.crop(view.intrinsics, columns, rows)
+        other_view = replace(view, targets=view.targets - {"colour"})
+        if other_view.targets:
+            self._issue_draw_calls(other_view, world_from_camera)
+            other_image = self._find_targets(other_view).read_image(view.intrinsics)
+            image = replace(image, range=other_image.range, ids=other_image.ids)
+        return image
 
     def _draw_physical(self, view: View, world_from_camera: Pose) -> RenderedImage:
         """Draw an image through physical water: surfaces first, then whole images."""

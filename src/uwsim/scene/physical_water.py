@@ -35,6 +35,8 @@ from ..particles import ParticlesSpec
 from ..schema import NAMESPACE, Numbers, Spec, element
 
 TransferCurve = Literal["srgb", "linear"]
+MAX_MARGIN = 0.5
+"""The greatest margin of images, with which they have four times the pixels [1]."""
 REPLACED_ELEMENTS = ("fog", "color", "attenuation")
 """The elements of ``<oceanState>`` that physical water replaces in images."""
 
@@ -182,6 +184,9 @@ class PhysicalWaterSpec(Spec):
     """The curve of stored values: sRGB, or linear."""
     blur: bool = element(namespaced=True, default=True)
     """True if light that is scattered forward blurs images."""
+    blur_margin: float = element(namespaced=True, default=0.0, minimum=0.0, maximum=MAX_MARGIN)
+    """The share of the image that is drawn beyond each of its edges, so that scattered light of
+    what is outside reaches it [1]."""
     lamp_veil: bool = element(namespaced=True, default=True)
     """True if the water scatters the light of lamps into cameras."""
     particles: ParticlesSpec | None = element(namespaced=True, default=None)

@@ -34,11 +34,13 @@ def check_sizes(scene: SceneSpec, diagnostics: Diagnostics) -> None:
         diagnostics.error(line_of(ocean, tag), message)
     n_total = 0
     for image in _cameras(scene):
-        n = image.resw * image.resh
+        scale = 1.0 + 2.0 * ocean.water.blur_margin if ocean.water is not None else 1.0
+        n = round(image.resw * image.resh * scale * scale)
         if n > MAX_PIXELS:
+            margin = f", {n / 1e6:.1f} million with <u:blurMargin>" if scale > 1.0 else ""
             diagnostics.error(
                 image,
-                f"an image of {image.resw} x {image.resh} pixels; expected at most "
+                f"an image of {image.resw} x {image.resh} pixels{margin}; expected at most "
                 f"{MAX_PIXELS / 1e6:.0f} million",
             )
             continue

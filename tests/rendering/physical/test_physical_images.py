@@ -10,6 +10,8 @@ import pytest
 
 from tests.optics.reference_tables import PHASES, PIXELS, name_of_row, read_rows
 from tests.rendering.physical.photographs import (
+    AT_ORIGIN,
+    SHADOWLESS,
     FloatArray,
     camera_of,
     lamp_beside_camera,
@@ -20,6 +22,7 @@ from tests.rendering.physical.photographs import (
 from uwsim.optics import Medium
 from uwsim.rendering.physical.physical_water import Daylight, PhysicalWater
 from uwsim.rendering.renderer import Renderer
+from uwsim.rendering.water import Water
 
 ISOTROPIC = 0.5
 """The radiance of the isotropic field in these tests."""
@@ -104,19 +107,21 @@ N_PHASES = 24
 22nd have no part in the amplitude."""
 
 
-def amplitude_of(renderer: Renderer, water: PhysicalWater, frequency: float) -> FloatArray:
+def amplitude_of(
+    renderer: Renderer, water: PhysicalWater, frequency: float, width: int = 1601
+) -> FloatArray:
     """Return the amplitude of the fundamental wave of stripes on the axis, by moving them.
 
     The image is 106 degrees wide: at an optical depth of 4 light comes from all of it.
     """
-    camera = camera_of(600.0, 1601, 49)
+    camera = camera_of(600.0, width, 49)
     n_halves = 2 * math.ceil(3.0 * frequency)
     half_periods = np.arange(-n_halves, n_halves)
     total = np.zeros(3)
     for phase in range(N_PHASES):
         edges = (0.5 * half_periods + 0.25 + phase / N_PHASES) / frequency
         show_stripes(renderer, 1.0, tuple(edges.tolist()))
-        light = photograph(renderer, water, camera)[24, 800]
+        light = photograph(renderer, water, camera)[24, width // 2]
         total += light * math.cos(2.0 * math.pi * phase / N_PHASES)
     return np.abs(total)
 
@@ -132,6 +137,43 @@ def test_the_contrast_of_stripes_is_the_tabled_transfer(
     rows = [find_row("transfer", name, albedo, depth) for depth in depths]
     tabled = np.array([float(row[f"{frequency:g}"]) for row in rows])
     np.testing.assert_allclose(contrast, tabled, rtol=0.03)
+
+
+@pytest.mark.parametrize("frequency", [3.0, 10.0])
+def test_the_margin_of_a_narrow_image_supplies_light_from_outside(
+    renderer: Renderer, frequency: float
+) -> None:
+    depths = (1.0, 2.0, 4.0)
+    row = [find_row("transfer", "FF", 0.85, depth) for depth in depths]
+    tabled = np.array([float(values[f"{frequency:g}"]) for values in row])
+    clear = amplitude_of(renderer, water_of("FF", 0.85, (0.0, 0.0, 0.0)), frequency, 801)
+    errors = []
+    for margin in (0.0, 0.5):
+        water = replace(water_of("FF", 0.85, depths), blur_margin=margin)
+        contrast = amplitude_of(renderer, water, frequency, 801) / clear
+        errors.append(np.abs(contrast / tabled - 1.0))
+    np.testing.assert_array_less(errors[1], 0.03)
+    assert errors[0][2] > 0.03  # 67 degrees are too narrow at an optical depth of 4
+
+
+def test_a_margin_changes_neither_range_nor_ids(renderer: Renderer) -> None:
+    show_stripes(renderer, 1.0, (-0.3, 0.1))
+    camera = camera_of(150.0, 161, 120)
+    images = [
+        renderer.draw(
+            AT_ORIGIN, camera, Water(physical_water=replace(water, blur_margin=margin)), SHADOWLESS
+        )
+        for water in (water_of("FF", 0.85, (0.2, 1.0, 2.0)),)
+        for margin in (0.0, 0.3)
+    ]
+    assert {image.intrinsics for image in images} == {camera}
+    for image in images[1:]:
+        np.testing.assert_array_equal(image.range, images[0].range)
+        np.testing.assert_array_equal(image.ids, images[0].ids)
+        assert image.colour is not None
+        assert images[0].colour is not None
+        assert image.colour.shape == images[0].colour.shape
+        assert (image.colour != images[0].colour).any()
 
 
 @pytest.mark.parametrize("row", read_rows("lamp"), ids=name_of_row)

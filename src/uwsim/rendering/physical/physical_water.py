@@ -82,6 +82,9 @@ class PhysicalWater:
     """The curve from linear to stored values."""
     has_blur: bool = True
     """True if light that is scattered forward blurs the image; else it counts as sharp."""
+    blur_margin: float = 0.0
+    """The share of the image that is drawn beyond each of its edges, so that scattered light of
+    what is outside reaches it [1]."""
     has_lamp_veil: bool = True
     """True if the water scatters the light of lamps into the camera."""
     ripples: Ripples | None = None

@@ -38,6 +38,7 @@ def make_water(model: SceneModel) -> Water:
         ),
         transfer=spec.transfer,
         has_blur=spec.blur,
+        blur_margin=spec.blur_margin,
         has_lamp_veil=spec.lamp_veil,
         ripples=_make_ripples(model),
         has_caustics=spec.caustics,
