@@ -104,18 +104,19 @@ def find_view(
     y = -(rows - lens.cy) / lens.fy
     x = (columns - lens.cx - lens.skew * y) / lens.fx
     rays = rotate_rows(world_from_camera.rotation, np.stack([x, y, np.full_like(x, -1.0)], axis=1))
-    sees_all = _sees_vertical(world_from_camera, lens)
-    sectors = range(N_SECTORS) if sees_all else _find_sectors(world_from_camera, rays)
     side = -1.0 if height > 0.0 else 1.0
+    sees_centre = _sees_vertical(world_from_camera, lens, side)
+    sees_all = sees_centre or _sees_vertical(world_from_camera, lens, -side)
+    sectors = range(N_SECTORS) if sees_all else _find_sectors(world_from_camera, rays)
     near, far = abs(height) - max_elevation, abs(height) + max_elevation
     climbs = side * rays[:, 2] / np.sqrt(rays[:, 0] ** 2 + rays[:, 1] ** 2)
     looks_towards = side * world_from_camera.rotation[2, 2] < 0.0
     max_climb, min_climb = 1.05 * float(climbs.max()), 0.95 * float(climbs.min())
     min_radius, max_radius = 0.0, LAST_RADIUS
     if near > 0.0:
-        if not sees_all and max_climb <= 0.0:
+        if not sees_centre and max_climb <= 0.0:
             sectors = range(0)
-        if not sees_all:
+        if not sees_centre:
             min_radius = near / max(max_climb, 1e-9)
         if min_climb > 0.0 and (not sees_all or looks_towards):
             max_radius = min(far / min_climb, LAST_RADIUS)
@@ -134,18 +135,15 @@ def _find_sectors(world_from_camera: Pose, rays: Array) -> list[int]:
     return sorted({sector % N_SECTORS for sector in range(first, last_index + 1)})
 
 
-def _sees_vertical(world_from_camera: Pose, lens: Intrinsics) -> bool:
-    """Return whether the zenith or the nadir is in view, or near its border."""
-    up = world_from_camera.rotation[2]  # W's z axis in the camera frame
-    for x, y, z in (up, -up):
-        if z >= -1e-6:
-            continue
-        u = lens.fx * x / -z + lens.skew * y / -z + lens.cx
-        v = -lens.fy * y / -z + lens.cy
-        margin = 0.1 * lens.width
-        if -margin <= u <= lens.width + margin and -margin <= v <= lens.height + margin:
-            return True
-    return False
+def _sees_vertical(world_from_camera: Pose, lens: Intrinsics, side: float) -> bool:
+    """Return whether the zenith, or with ``side`` -1 the nadir, is in view or near its border."""
+    x, y, z = side * world_from_camera.rotation[2]  # W's z axis in the camera frame
+    if z >= -1e-6:
+        return False
+    u = lens.fx * x / -z + lens.skew * y / -z + lens.cx
+    v = -lens.fy * y / -z + lens.cy
+    margin = 0.1 * lens.width
+    return bool(-margin <= u <= lens.width + margin and -margin <= v <= lens.height + margin)
 
 
 def _compute_radii() -> Array:
