@@ -243,3 +243,26 @@ def test_wrong_input_gets_one_line_that_names_what_is_right(
     (line,) = capsys.readouterr().err.splitlines()
     assert said in line
     assert list(tmp_path.iterdir()) == []
+
+
+SEA = """<UWSimScene xmlns:u="urn:uwsim:1"><oceanState> <depth>30</depth>
+<u:waves><u:jonswap><u:significantHeight>0.8</u:significantHeight><u:peakPeriod>4</u:peakPeriod>
+</u:jonswap></u:waves><u:water law="physical"><u:type>jerlov-II</u:type></u:water></oceanState>
+</UWSimScene>"""
+
+
+def test_the_time_moves_the_waves(tmp_path: Path) -> None:
+    (tmp_path / "sea.xml").write_text(SEA)
+    view = ("--from", "0,0,2", "--at", "8,0,0", "--size", "160x120")
+    images = [
+        draw(tmp_path / "sea.xml", tmp_path / f"{i}.png", *view, *time).astype(np.float64)
+        for i, time in enumerate(((), ("--time", "0"), ("--time", "1.5s"), ("--time", "1500ms")))
+    ]
+    assert np.array_equal(images[0], images[1])
+    assert np.array_equal(images[2], images[3])
+    assert np.abs(images[2] - images[0]).mean() > 3.0
+
+
+def test_a_wrong_time_names_its_option(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    assert main([*SCENE, "-o", str(tmp_path / "a.png"), "--time", "soon"]) == 2
+    assert "--time 'soon': expected a duration" in capsys.readouterr().err

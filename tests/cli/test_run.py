@@ -15,7 +15,7 @@ import pytest
 from rosbags.highlevel import AnyReader
 
 from uwsim.cli import main
-from uwsim.cli.run import read_duration
+from uwsim.cli.simulated_time import read_duration
 from uwsim.errors import BadSetting
 from uwsim.simulation import Simulation
 

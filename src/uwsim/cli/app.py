@@ -119,6 +119,7 @@ COMMANDS: dict[str, Command] = {
             "uwsim render visibility-scene --camera bowtech1 -o view.png",
             "uwsim render my-scene.xml --camera bowtech1 -o view.png --depth "
             "--set oceanState.fog.density=0.4",
+            "uwsim render pier-waves-scene --view viewer --time 20 -o waves.png",
         ),
     ),
     "replay": Command(

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 from ..assets.bundled import scene_file
+from ..base.exceptions import convert_to_run_failed
 from ..base.terminal import print_warnings
 from ..errors import BadSetting, ErrorCollector
 from ..runs.foreign_code import announce_code, refuse_code
@@ -16,10 +17,12 @@ from ..runs.substituted_files import warn_of_substituted_files
 from .options.help_texts import INPUT, OUTPUT, option
 from .options.options import DataPathOption, NoCodeOption, SceneArgument, SettingOptions
 from .output.image_files import save_depth, save_ids, save_image
+from .simulated_time import read_duration, run_pieces
 from .views import RenderedView, ViewRequest
 
 if TYPE_CHECKING:
     from ..scene.spec import SceneSpec
+    from ..simulation import Simulation
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -107,9 +110,19 @@ def render(
     ] = 0,
     output: ImageOptions,
     no_code: NoCodeOption = False,
+    time: Annotated[
+        str,
+        option(
+            INPUT,
+            "--time",
+            metavar="SECONDS",
+            help="Simulate the scene up to this time before the image, as 20 or 2min: with its "
+            "waves, currents and forces, without programs.",
+        ),
+    ] = "0",
     data_path: DataPathOption = None,
 ) -> None:
-    """Draw a scene at time 0: the image of a camera in it, or a view of it.
+    """Draw a scene: the image of a camera in it, or a view of it.
 
     The image of a virtual camera has its noise and the water. A view has no noise, and air above
     the water; orbit and top are rendered without fog, unless --set sets it. Without --camera,
@@ -120,7 +133,7 @@ def render(
     from ..physics.compile_scene import compile_scene
     from ..simulation import Simulation
 
-    errors, view_request = ErrorCollector(), None
+    errors, view_request, duration = ErrorCollector(), None, 0.0
     folders = tuple(data_path or ())
     with errors.collect():
         if output.out.suffix.lower() != ".png":
@@ -131,6 +144,8 @@ def render(
         view_request = ViewRequest.from_options(
             view_options.camera, view_options.view, *points, output.size, changes.all_settings
         )
+    with errors.collect():
+        duration = read_duration(time, "--time")
     with errors.collect():
         if spec is not None and no_code:
             refuse_code(spec)
@@ -144,11 +159,20 @@ def render(
     simulation = Simulation(model)
     try:
         print_warnings(model_warnings(model))
+        if duration > 0.0:
+            advance_to(simulation, duration, Path(spec.path).stem)
         rendered_view = view_request.render(simulation, spec)
         paths = save_images(rendered_view, simulation.world.scenery.part_names, output)
     finally:
         simulation.close()
     print(f"{rendered_view.title}; written: " + ", ".join(str(path) for path in paths))
+
+
+def advance_to(simulation: Simulation, duration: float, title: str) -> None:
+    """Simulate a scene up to a time [s], and show the progress."""
+    with convert_to_run_failed():
+        for _ in run_pieces(simulation, duration, title):
+            pass
 
 
 def load_scene(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import re
 import sys
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, nullcontext, redirect_stdout
@@ -15,7 +14,7 @@ from ..base.exceptions import convert_to_run_failed
 from ..base.interrupts import raise_on_interrupt
 from ..base.terminal import print_warnings, warn
 from ..base.tracked_parameters import describe_unread_parameters
-from ..errors import BadSetting, ErrorCollector, RunFailed, did_you_mean
+from ..errors import BadSetting, ErrorCollector, RunFailed
 from ..runs.foreign_code import announce_code, refuse_code
 from ..runs.planning.make_plan import ALGORITHM_PREFIX, check_parameters
 from ..runs.planning.option_values import compatibility_of, number_or_text, pairs_of
@@ -25,9 +24,9 @@ from .options.connections import ConnectionOptions, open_connections
 from .options.live import LiveOptions
 from .options.options import DataPathOption, NoCodeOption, SceneArgument, SettingOptions
 from .options.run_options import ProgramOptions, RecordOptions, SeedOption
-from .output.progress import progress
 from .output.topic_table import print_json, print_topics
 from .render import load_scene
+from .simulated_time import read_duration, run_pieces
 
 if TYPE_CHECKING:
     from ..bus import Algorithm
@@ -35,12 +34,6 @@ if TYPE_CHECKING:
     from ..scene.spec import SceneSpec
     from ..simulation import Simulation
     from ..viewer.scene_topics import SceneTopics
-
-UNITS = {"ms": 1e-3, "s": 1.0, "min": 60.0, "h": 3600.0}
-"""The units of durations, in seconds."""
-DURATION = re.compile(r"\s*(\d+\.?\d*|\.\d+)\s*([a-z]*)\s*")
-MAX_DURATION = 1e8
-"""The longest simulation time [s]; a longer one is an error."""
 
 
 def run(
@@ -214,24 +207,6 @@ def scene_settings(changes: SettingOptions) -> list[str]:
     return [setting for setting in changes.all_settings if not setting.startswith(ALGORITHM_PREFIX)]
 
 
-def read_duration(text: str) -> float:
-    """Parse a duration such as ``10s``, ``2min`` or ``0.5``; return it in seconds.
-
-    Raises:
-        BadSetting: the text is not a duration, or the duration is longer than `MAX_DURATION`.
-    """
-    match = DURATION.fullmatch(text)
-    if match is None:
-        raise BadSetting(f"--for {text!r}: expected a duration such as 10s, 500ms, 2min or 1h.")
-    number, unit = float(match[1]), match[2] or "s"
-    if unit not in UNITS:
-        hint = did_you_mean(unit, UNITS)
-        raise BadSetting(f"--for {text!r}: expected one of the units {', '.join(UNITS)}.{hint}")
-    if not number * UNITS[unit] <= MAX_DURATION:
-        raise BadSetting(f"--for {text!r}: expected at most {MAX_DURATION:g} s.")
-    return number * UNITS[unit]
-
-
 def run_and_report(
     simulation: Simulation,
     spec: SceneSpec,
@@ -302,22 +277,6 @@ def report_run(
         print(f"{Path(spec.path).name}: stopped before the first step; no topic has a message")
     else:
         print_topics(spec.path, simulation, rates.rates(), output.record)
-
-
-def run_pieces(simulation: Simulation, duration: float, title: str) -> Iterator[None]:
-    """Advance in pieces of at most one second, showing progress if there is an end."""
-    if duration == math.inf:
-        while True:
-            simulation.advance(1.0)
-            yield
-    total = max(1, math.ceil(duration))
-    with progress(title, total, unit="s of simulation time") as on_piece:
-        simulation.advance(0.0)
-        yield
-        for i in range(total):
-            simulation.advance(duration * (i + 1) / total - simulation.time)
-            on_piece()
-            yield
 
 
 def warn_left_out(recorder: Recorder) -> None:

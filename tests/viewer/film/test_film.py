@@ -18,6 +18,7 @@ import uwsim
 from tests.simulation.test_lamp import LAMP, night
 from tests.support.stored_rows import stored_row
 from uwsim.assets.find import find
+from uwsim.base.geometry import Intrinsics, Pose
 from uwsim.cli import main
 from uwsim.rendering.grey import grey_truncated
 from uwsim.results.journal import recorded_trials, track_path
@@ -82,6 +83,54 @@ def test_physical_water_is_as_turbid_as_it_was(trial: RecordedTrial) -> None:
         assert water.beam_attenuation == pytest.approx((levels[frame],) * 3)
         assert water.exposure == pytest.approx(2.0 ** (levels[frame] - 1.0))
         assert water.medium.single_scattering_albedo == pytest.approx(0.85)
+    scene.close()
+
+
+def test_waves_are_those_of_the_time_and_the_sea_state(
+    trial: RecordedTrial, tmp_path: Path
+) -> None:
+    track = trial.track
+    heights = np.linspace(0.5, 2.0, track.n_frames)
+    drift = np.column_stack([heights, np.zeros((track.n_frames, 2))])
+    signals = (
+        Signal(name="wave_scale"),
+        *(Signal(name=f"particles/{axis}") for axis in "xyz"),
+        *(Signal(name=f"particle_velocity/{axis}") for axis in "xyz"),
+    )
+    recorded = replace(
+        track,
+        signals=(*track.signals, *signals),
+        values=np.column_stack([track.values, heights, drift, np.ones((track.n_frames, 3))]),
+    )
+    path = find("pier-waves-scene.xml")
+    assert path is not None
+    snow = (
+        "<u:particles><u:marineSnow><u:concentration>10</u:concentration></u:marineSnow>"
+        "</u:particles></u:water>"
+    )
+    file = tmp_path / "sea.xml"
+    file.write_text(path.read_text().replace("</u:water>", snow))
+    scene = TrialScene(replace(trial, scene=read_scene(file), track=recorded))
+    scenery = scene.simulation.world.scenery
+    pose, intrinsics = (
+        Pose(np.array([30.0, 0.0, 4.0]), np.eye(3)),
+        Intrinsics.from_fovy(64, 48, 1.0),
+    )
+    images = []
+    for frame in (0, 5):
+        time = (frame + 0.5) / track.rate
+        scene.show_time(time)
+        surface = scenery.find_surface()
+        assert surface is not None
+        assert surface.time == time
+        assert surface.wave_scale == pytest.approx(heights[frame])
+        assert scenery.particles is not None
+        displacement = scenery.particles.find_drift().displacement
+        assert displacement == pytest.approx(
+            (heights[frame] + 0.5 / track.rate, *(0.5 / track.rate,) * 2)
+        )
+        images.append(scenery.render_view(pose, intrinsics, targets={"colour"}).colour)
+    assert not np.array_equal(images[0], images[1])
     scene.close()
 
 

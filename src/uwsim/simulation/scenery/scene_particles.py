@@ -96,6 +96,10 @@ class SceneParticles:
         )
         """The state: the displacement of the water, and the clouds of sediment."""
 
+    def set_clock(self, clock: Callable[[], float]) -> None:
+        """Set the function that returns the time [s], as that of a recording."""
+        self._clock = clock
+
     def measure_water(self, velocity: Array) -> None:
         """Take the velocity of the water in W, (3,) [m/s], from now on."""
         state = self.state

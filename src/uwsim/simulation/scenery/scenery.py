@@ -122,6 +122,10 @@ class Scenery:
         """Set the function that returns the moving surface at the present time."""
         self._find_surface = find_surface
 
+    def find_surface(self) -> MovingSurface | None:
+        """Return the moving surface at the present time; None if images do not depend on it."""
+        return None if self._find_surface is None else self._find_surface()
+
     def set_lamps(self, lamps: Sequence[MountedLamp], leds: Sequence[Led] = ()) -> None:
         """Set the lamps and the signal lamps of the scene.
 
@@ -384,7 +388,7 @@ class Scenery:
             hidden_ids=self._hidden_ids if hidden_ids is None else hidden_ids,
             lamps=tuple(make_lamp(lamp, displacement) for lamp in lit_lamps[:MAX_LAMPS]),
             projector=self._projector,
-            surface=None if self._find_surface is None else self._find_surface(),
+            surface=self.find_surface(),
             particles=particles,
         )
         return image if lens_image is None else map_image(image, intrinsics, lens_image)

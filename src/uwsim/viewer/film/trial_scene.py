@@ -3,17 +3,25 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 
 from ...base.geometry import Array
 from ...devices.lamp import MountedLamp
 from ...physics.compile_scene import compile_scene
+from ...rendering.physical.moving_surface import MovingSurface
 from ...results.motion import DrawnMarker, MotionTrack, markers_at
 from ...simulation import Simulation
 from ...simulation.scenery.recorded_water import restore_water
 from ...simulation.tracked_bodies import TrackedBodies
-from ...simulation.tracked_state import BEAM_ATTENUATION, EXPOSURE_LEVEL, LAMP_PREFIX
+from ...simulation.tracked_state import (
+    BEAM_ATTENUATION,
+    DRIFT_SIGNALS,
+    EXPOSURE_LEVEL,
+    LAMP_PREFIX,
+    WAVE_SCALE,
+)
 from ..recorded import RecordedTrial
 
 
@@ -36,9 +44,13 @@ class TrialScene:
         self._track_indices = [indices.get(name) for name in self._bodies.names]
         self._initial_rows = self._bodies.rows()
         self._owns_simulation = simulation is None
+        self._time = 0.0  # that the scene shows [s]
+        self._surface = self.simulation.world.scenery.find_surface()
 
     def show_time(self, time: float) -> None:
         """Set the scene to its state at a simulation time [s]; poses are interpolated."""
+        self._time = time
+        self._set_clocks()
         frame, fraction = frame_at(self.track, time)
         next_frame = min(frame + 1, self.track.n_frames - 1)
         poses = interpolate_poses(self.track.poses[frame], self.track.poses[next_frame], fraction)
@@ -54,6 +66,7 @@ class TrialScene:
         if light is not None:
             world.scenery.set_light_rate(light)
         self._show_physical_water(frame)
+        self._show_drift(frame)
         for lamp in world.devices:
             if isinstance(lamp, MountedLamp):
                 brightness = self.signal(f"{LAMP_PREFIX}{lamp.spec.name}", frame)
@@ -71,6 +84,32 @@ class TrialScene:
         water = restore_water(scenery.state.water, medium, attenuation, exposure)
         if water != scenery.state.water:
             scenery.state.water = water
+
+    def _set_clocks(self) -> None:
+        """Let surface and particles show the time of this trial; several may share a scene."""
+        scenery = self.simulation.world.scenery
+        if self._surface is not None:
+            scenery.set_surface(self._find_surface)
+        if scenery.particles is not None:
+            scenery.particles.set_clock(lambda: self._time)
+
+    def _find_surface(self) -> MovingSurface:
+        """Return the surface at the time that the scene shows, which may be between frames."""
+        assert self._surface is not None
+        scale = self.signal(WAVE_SCALE, frame_at(self.track, self._time)[0])
+        return replace(self._surface, time=self._time, wave_scale=1.0 if scale is None else scale)
+
+    def _show_drift(self, frame: int) -> None:
+        """Set the displacement of the water that carries particles to that of a frame."""
+        particles = self.simulation.world.scenery.particles
+        if particles is None:
+            return
+        displacement, velocity = (
+            [self.signal(f"{name}/{axis}", frame) or 0.0 for axis in "xyz"]
+            for name in DRIFT_SIGNALS
+        )
+        particles.state.displacement[:], particles.state.velocity[:] = displacement, velocity
+        particles.state.time = frame / self.track.rate
 
     def signal(self, name: str, frame: int) -> float | None:
         """Return the value of a signal in a frame of the track; None if there is no value."""
