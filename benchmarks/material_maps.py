@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 from measure import main, milliseconds
 
+from uwsim.assets.images import PixelImage
 from uwsim.assets.mesh import Material, Mesh, Model, Texture
 from uwsim.base.geometry import Intrinsics, Pose
 from uwsim.optics import find_water
@@ -32,7 +33,7 @@ def make_texture(name: str, low: tuple[int, ...], high: tuple[int, ...]) -> Text
     """Return a texture of even noise."""
     generator = np.random.Generator(np.random.Philox(len(name)))
     pixels = generator.integers(low, high, (SIDE, SIDE, 3)).astype(np.uint8)
-    return Texture(name=name, pixels=pixels)
+    return Texture(name=name, image=PixelImage(pixels))
 
 
 def make_floor(base: Texture, material: Material | None) -> Model:

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 LEFT_OUT = (
-    *("cv2", "glfw", "lark", "matplotlib"),
+    *("PIL", "cv2", "glfw", "lark", "matplotlib"),
     *("pandas", "rosbags", "scipy.linalg", "trimesh"),
 )
 """Modules that a scene without cameras, images and formulas does without."""

@@ -18,6 +18,7 @@ import numpy as np
 import numpy.typing as npt
 
 from uwsim.assets.mesh import Mesh, Texture
+from uwsim.base.numerics.srgb import decode_number
 
 from .parts import Maps, Part
 from .png import encode_png
@@ -134,7 +135,7 @@ class _Writer:
             return entry
 
         surface: Tree = {
-            "baseColorFactor": [*map(to_linear, mesh.colour), mesh.opacity],
+            "baseColorFactor": [*map(decode_number, mesh.colour), mesh.opacity],
             "metallicFactor": maps.metallic,
             "roughnessFactor": maps.roughness,
         }
@@ -175,10 +176,3 @@ def encode_jpeg(pixels: npt.NDArray[np.uint8], quality: int) -> bytes:
     file = io.BytesIO()
     Image.fromarray(pixels).save(file, "JPEG", quality=quality, subsampling=0, optimize=True)
     return file.getvalue()
-
-
-def to_linear(value: float) -> float:
-    """Convert a stored colour of sRGB, 0..1, to the linear one of glTF (IEC 61966-2-1)."""
-    if value <= 0.04045:
-        return value / 12.92
-    return float(((value + 0.055) / 1.055) ** 2.4)

@@ -16,7 +16,7 @@ import trimesh
 from scripts.models.build import FILES, build_file
 from tests.support.gltf_structure import structure_errors
 from uwsim.assets import BUNDLED_MODELS, STAND_INS, load_model
-from uwsim.assets.bundled_models import FOLDER, to_encoded
+from uwsim.assets.bundled_models import FOLDER
 from uwsim.assets.stand_ins import BundledModel
 
 ROOT = Path(__file__).parents[2]
@@ -112,7 +112,6 @@ def test_structural_errors_are_seen() -> None:
 def test_colours_are_the_written_ones() -> None:
     colours = [mesh.colour for mesh in load_model("robot/GIRONA500/g500_March11").meshes]
     assert colours == [(1.0, 1.0, 1.0), (0.16, 0.17, 0.19), (0.78, 0.80, 0.82)]
-    assert to_encoded(0.0) == 0.0
 
 
 def test_parts_of_an_arm_share_their_texture() -> None:

@@ -17,6 +17,7 @@ import pytest
 from PIL import Image
 
 from tests.rendering.models import ball, block, placed, plate
+from uwsim.assets.images import PixelImage
 from uwsim.assets.mesh import Texture
 from uwsim.base.geometry import Intrinsics, Pose
 from uwsim.rendering.renderer import Renderer
@@ -32,7 +33,7 @@ def floor_image() -> Texture:
     pixels = np.full((128, 128, 3), 200, np.uint8)
     pixels[::16] = pixels[:, ::16] = 60
     pixels[:48, :48, 1:] //= 3
-    return Texture(name="tiles", pixels=pixels)
+    return Texture(name="tiles", image=PixelImage(pixels))
 
 
 def furnish(renderer: Renderer) -> None:

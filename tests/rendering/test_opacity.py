@@ -9,6 +9,7 @@ import pytest
 
 from tests.rendering.models import plate
 from uwsim.assets import paint_model
+from uwsim.assets.images import PixelImage
 from uwsim.assets.mesh import Model, Texture
 from uwsim.base.geometry import Intrinsics, Pose
 from uwsim.rendering.lights.lamp import Lamp
@@ -139,7 +140,7 @@ def test_the_next_image_knows_nothing_of_the_glass_in_the_last(renderer: Rendere
 
 
 def test_paint_takes_the_place_of_a_meshs_colour_and_tints_its_texture() -> None:
-    checks = Texture(name="half", pixels=np.full((4, 4, 3), 128, np.uint8))
+    checks = Texture(name="half", image=PixelImage(np.full((4, 4, 3), 128, np.uint8)))
     model = paint_model(plate(1, 1, (0.2, 0.9, 0.2), texture=checks), (1.0, 0.5, 0.0, 1.0))
     assert model.meshes[0].colour == (1.0, 0.5, 0.0)
     assert model.meshes[0].texture is checks

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from tests.rendering.models import ball, block, placed, plate
+from uwsim.assets.images import PixelImage
 from uwsim.assets.mesh import Model, Texture
 from uwsim.base.geometry import Intrinsics, Pose, rotation_from_rpy
 from uwsim.errors import UnknownName
@@ -165,7 +166,7 @@ def test_a_texture_stands_upright(renderer: Renderer) -> None:
     pixels = np.zeros((64, 64, 3), np.uint8)
     pixels[:32, :, 0] = 255  # the upper half is red
     pixels[32:, :, 2] = 255  # the lower half is blue
-    texture = Texture(name="flag", pixels=pixels, repeats=False)
+    texture = Texture(name="flag", image=PixelImage(pixels), repeats=False)
     renderer.place(renderer.add(plate(1.0, 1.0, texture=texture), 1), placed(z=-2.0))
     image = renderer.draw(HERE, CAMERA, DRY, Light(), targets={"colour"})
     assert image.colour is not None
@@ -176,7 +177,9 @@ def test_a_texture_stands_upright(renderer: Renderer) -> None:
 
 def test_a_texture_far_away_is_averaged_not_sampled(renderer: Renderer) -> None:
     checks = np.indices((256, 256)).sum(axis=0) % 2 * 255
-    texture = Texture(name="checks", pixels=np.repeat(checks[..., None], 3, 2).astype(np.uint8))
+    texture = Texture(
+        name="checks", image=PixelImage(np.repeat(checks[..., None], 3, 2).astype(np.uint8))
+    )
     renderer.place(renderer.add(plate(2.0, 2.0, texture=texture), 1), placed(z=-5.0))
     image = renderer.draw(HERE, CAMERA, DRY, Light(), targets={"colour"})
     assert image.colour is not None

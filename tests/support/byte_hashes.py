@@ -14,7 +14,7 @@ from pathlib import Path
 from scripts.models.catalogue import STAND_INS
 from tests.sensors.acoustic_world import AcousticWorld, FakeCarrier, plate, sphere
 from tests.support.short_benchmark import fingerprint, run, write_benchmark
-from uwsim.assets.bundled_models import hash_meshes
+from uwsim.assets.mesh import ArrayDigest
 from uwsim.base.expression import parse
 from uwsim.base.geometry import Pose
 from uwsim.base.numerics.opencv import deterministic_opencv
@@ -42,7 +42,7 @@ def model_hashes() -> Iterator[tuple[str, str]]:
     makers = {name: make for models in STAND_INS.values() for name, make in models.items()}
     with deterministic_opencv():
         for name in MODELS:
-            yield name, hash_meshes(makers[name]())
+            yield name, ArrayDigest(makers[name]()).sha256
 
 
 def sonar_hash() -> str:

@@ -12,6 +12,7 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 
+from uwsim.assets.images import PixelImage
 from uwsim.assets.mesh import Texture
 from uwsim.base import rng
 
@@ -137,7 +138,7 @@ def mosaic() -> Texture:
         band = _paint_rows(first_row, Fields(*(values[first_row:end_row] for values in fields)))
         pixels[top : top + BAND_ROWS] = band[top - first_row : top - first_row + BAND_ROWS]
     _scatter_shells(pixels)
-    return Texture(name=name, pixels=pixels, repeats=False)
+    return Texture(name=name, image=PixelImage(pixels), repeats=False)
 
 
 def _paint_rows(first_row: int, fields: Fields) -> Pixels:

@@ -175,7 +175,7 @@ def unknown_model(name: str) -> Model:
         name=plain_name(name),
         meshes=labelled_box(label, (0.3, 0.3, 0.3)),
         source="labelled box",
-        sha256=hashlib.sha256(f"labelled box {label}".encode()).hexdigest(),
+        digest=hashlib.sha256(f"labelled box {label}".encode()).hexdigest(),
     )
 
 

@@ -7,8 +7,6 @@ their vertices and normals are read as they are stored, without the rotations of
 
 from __future__ import annotations
 
-import hashlib
-import io
 import json
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -19,8 +17,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ..base.numerics.srgb import encode_number
+from .images import EncodedImage
 from .loaders.gltf_limits import GLB_JSON_START
-from .mesh import Material, Mesh, Model, Texture
+from .mesh import ArrayDigest, Material, Mesh, Model, Texture
 from .stand_ins import BUNDLED_MODELS, LabelledBox
 
 FOLDER = Path(__file__).resolve().parent.parent / "data" / "models"
@@ -45,21 +45,7 @@ def bundled_model(name: str) -> Model:
         meshes, source = labelled_box(entry.label, entry.size), "labelled box"
     else:
         meshes, source = tuple(_open(entry.file).read_meshes(entry.scene or name)), entry.source
-    return Model(name=name, meshes=meshes, source=source, sha256=hash_meshes(meshes))
-
-
-def hash_meshes(meshes: tuple[Mesh, ...]) -> str:
-    """Return the sha256 of the arrays and images of meshes, which results record."""
-    digest = hashlib.sha256()
-    for mesh in meshes:
-        for array in (mesh.vertices, mesh.normals, mesh.uvs, mesh.triangles):
-            digest.update(array.tobytes())
-        material = mesh.material
-        maps = () if material is None else (material.finish_map, material.normal_map)
-        for texture in (mesh.texture, *maps):
-            if texture is not None:
-                digest.update(texture.pixels.tobytes())
-    return digest.hexdigest()
+    return Model(name=name, meshes=meshes, source=source, digest=ArrayDigest(meshes))
 
 
 @cache
@@ -87,7 +73,7 @@ class _BundledFile:
         material = self.tree["materials"][primitive["material"]]
         surface = material["pbrMetallicRoughness"]
         *colour, opacity = surface["baseColorFactor"]
-        red, green, blue = (round(to_encoded(value), DECIMALS) for value in colour)
+        red, green, blue = (round(encode_number(value), DECIMALS) for value in colour)
         image = surface.get("baseColorTexture")
         attributes = primitive["attributes"]
         uvs = self._array(attributes["TEXCOORD_0"])
@@ -120,7 +106,7 @@ class _BundledFile:
         )
 
     def _texture(self, reference: Tree) -> Texture:
-        return _decode(self, reference["index"])
+        return _find_texture(self, reference["index"])
 
     def _array(self, index: int) -> npt.NDArray[Any]:
         accessor = self.tree["accessors"][index]
@@ -135,22 +121,14 @@ class _BundledFile:
 
 
 @cache
-def _decode(file: _BundledFile, texture: int) -> Texture:
-    """Decode an image once, so that all meshes that use it are drawn together."""
-    from PIL import Image
-
+def _find_texture(file: _BundledFile, texture: int) -> Texture:
+    """Return the texture of an image, one for all meshes that use it: they are drawn together."""
     entry = file.tree["textures"][texture]
     image = file.tree["images"][entry["source"]]
     data = bytes(file.view(image["bufferView"]))
-    with Image.open(io.BytesIO(data)) as picture:
-        pixels = np.array(picture.convert("RGB"), dtype=np.uint8)
-    jpeg = data if image["mimeType"] == "image/jpeg" else None
     wrap = file.tree["samplers"][entry["sampler"]]["wrapS"]
-    return Texture(name=image["name"], pixels=pixels, repeats=wrap != CLAMP, jpeg=jpeg)
-
-
-def to_encoded(value: float) -> float:
-    """Convert a linear colour, 0..1, to the stored one of sRGB (IEC 61966-2-1)."""
-    if value <= 0.0031308:
-        return value * 12.92
-    return float(1.055 * value ** (1.0 / 2.4) - 0.055)
+    return Texture(
+        name=image["name"],
+        image=EncodedImage(data, is_jpeg=image["mimeType"] == "image/jpeg"),
+        repeats=wrap != CLAMP,
+    )

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import hashlib
+from collections.abc import Iterator
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
@@ -10,6 +13,7 @@ import numpy.typing as npt
 from ..base.files.input_files import InputFile
 from ..world import Box
 from .collada_asset import ColladaAsset
+from .images import EncodedImage, PixelImage
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -18,13 +22,20 @@ class Texture:
 
     name: str
     """The name of the image; equal names mean equal pixels."""
-    pixels: npt.NDArray[np.uint8]
-    """The stored values (no gamma applied), (h, w, 3), row 0 at the top; (h, w, 4) with the alpha
-    of a texture with holes."""
+    image: PixelImage | EncodedImage
+    """The image; an encoded one is decoded when its pixels are read."""
     repeats: bool = True
     """True if the image repeats outside the coordinates 0..1; False if its edge continues there."""
-    jpeg: bytes | None = None
-    """The JPEG file from which the pixels were decoded; None if they are from anywhere else."""
+
+    @property
+    def pixels(self) -> npt.NDArray[np.uint8]:
+        """The stored values (no gamma applied), (h, w, 3) or, with holes, (h, w, 4)."""
+        return self.image.pixels
+
+    @property
+    def jpeg(self) -> bytes | None:
+        """The JPEG file from which the pixels are decoded; None if they are from anywhere else."""
+        return self.image.jpeg
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -83,6 +94,29 @@ class Mesh:
     the texture is mirrored. None: they are computed from the texture coordinates."""
 
 
+@dataclass(frozen=True, eq=False)
+class ArrayDigest:
+    """The hash of the arrays and images of meshes, which is computed when it is read."""
+
+    meshes: tuple[Mesh, ...]
+    """The meshes as they were generated."""
+
+    @cached_property
+    def sha256(self) -> str:
+        """The sha256 in hexadecimal."""
+        digest = hashlib.sha256()
+        for array in self._arrays():
+            digest.update(array.tobytes())
+        return digest.hexdigest()
+
+    def _arrays(self) -> Iterator[npt.NDArray[np.generic]]:
+        for mesh in self.meshes:
+            yield from (mesh.vertices, mesh.normals, mesh.uvs, mesh.triangles)
+            material = mesh.material
+            maps = () if material is None else (material.finish_map, material.normal_map)
+            yield from (image.pixels for image in (mesh.texture, *maps) if image is not None)
+
+
 @dataclass(frozen=True, eq=False, kw_only=True)
 class Model:
     """A model: several meshes in one frame."""
@@ -94,8 +128,8 @@ class Model:
     source: str
     """The origin: ``"file"``, ``"bundled"``, ``"stand-in"`` (bundled, in place of a model of UWSim)
     or ``"labelled box"`` (a placeholder)."""
-    sha256: str = ""
-    """The hash of the file's bytes, or of the arrays of a generated model."""
+    digest: str | ArrayDigest = ""
+    """The sha256 of the file's bytes, or that of the arrays of a generated model."""
     files: tuple[InputFile, ...] = ()
     """The file and all files that were read with it: materials, buffers, images."""
     asset: ColladaAsset | None = None
@@ -109,6 +143,11 @@ class Model:
         points = np.concatenate([mesh.vertices for mesh in self.meshes])
         low, high = points.min(axis=0).tolist(), points.max(axis=0).tolist()
         object.__setattr__(self, "box", Box(tuple(low), tuple(high)))
+
+    @property
+    def sha256(self) -> str:
+        """The hash of the file's bytes, or of the arrays of a generated model; "" without one."""
+        return self.digest.sha256 if isinstance(self.digest, ArrayDigest) else self.digest
 
     @property
     def n_triangles(self) -> int:

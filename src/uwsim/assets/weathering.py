@@ -16,6 +16,7 @@ from functools import lru_cache
 import numpy as np
 
 from ..base.numerics.opencv import deterministic_opencv
+from .images import PixelImage
 from .mesh import Model, Texture
 
 CACHE_SIZE = 16
@@ -50,4 +51,4 @@ def _add_clouds(texture: Texture, pattern: int, strength: float) -> Texture:
     pixels = texture.pixels.copy()
     colours = np.rint(pixels[..., :3] * factor[..., None])
     pixels[..., :3] = np.clip(colours, 0.0, 255.0).astype(np.uint8)
-    return replace(texture, name=f"{texture.name}+{pattern}*{strength:g}", pixels=pixels, jpeg=None)
+    return replace(texture, name=f"{texture.name}+{pattern}*{strength:g}", image=PixelImage(pixels))

@@ -1,6 +1,6 @@
 """Digital numbers of 12 bit, their sRGB values of 8 bit, and the light of stored sRGB values.
 
-The curve is that of sRGB (IEC 61966-2-1), with its powers.
+The curve is that of `base.numerics.srgb`, with its powers.
 """
 
 from __future__ import annotations
@@ -10,33 +10,17 @@ from functools import cache
 import numpy as np
 import numpy.typing as npt
 
-from ..base.numerics.elementwise import power
 from ..base.numerics.jit import njit
 from ..base.numerics.linear import Array
+from ..base.numerics.srgb import decode_array, encode_array
 
 FULL_SCALE = 4095
 """The greatest digital number."""
-LINEAR_LIMIT = 0.0031308
-STORED_LIMIT = 0.04045
 
 
 def encode(light: Array) -> Array:
     """Compute stored values 0..1 of sRGB from relative light, which is clipped to 0..1."""
-    x = np.clip(light, 0.0, 1.0)
-    stored_values: Array = np.where(
-        x > LINEAR_LIMIT, 1.055 * power(x, 1.0 / 2.4) - 0.055, 12.92 * x
-    )
-    return stored_values
-
-
-def decode(stored_values: Array) -> Array:
-    """Compute relative light from stored values 0..1 of sRGB."""
-    light: Array = np.where(
-        stored_values > STORED_LIMIT,
-        power((stored_values + 0.055) / 1.055, 2.4),
-        stored_values / 12.92,
-    )
-    return light
+    return encode_array(np.clip(light, 0.0, 1.0))
 
 
 @cache
@@ -51,7 +35,7 @@ def srgb_table(black_level: float) -> npt.NDArray[np.uint8]:
 @cache
 def light_table() -> npt.NDArray[np.float32]:
     """Return the relative light of each sRGB value of 16 bit, (65536,)."""
-    light: npt.NDArray[np.float32] = decode(np.arange(65536) / 65535.0).astype(np.float32)
+    light: npt.NDArray[np.float32] = decode_array(np.arange(65536) / 65535.0).astype(np.float32)
     return light
 
 

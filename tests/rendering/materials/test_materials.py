@@ -11,6 +11,7 @@ import pytest
 from tests.rendering.materials.brdf import FloatArray, reflected_share
 from tests.rendering.models import block, placed, plate
 from tests.rendering.physical.photographs import AT_ORIGIN, SHADOWLESS, camera_of, photograph
+from uwsim.assets.images import PixelImage
 from uwsim.assets.mesh import Material, Model, Texture
 from uwsim.base.geometry import Pose, rotation_from_xyz
 from uwsim.optics import HenyeyGreenstein, Medium
@@ -44,7 +45,7 @@ def one_colour(name: str, red: float, green: float, blue: float, alpha: float = 
     """Return a texture of 4 x 4 equal texels, with alpha if it is below 1."""
     values = [red, green, blue] if alpha == 1.0 else [red, green, blue, alpha]
     pixels = np.tile(np.rint(np.array(values) * 255.0).astype(np.uint8), (4, 4, 1))
-    return Texture(name=name, pixels=pixels)
+    return Texture(name=name, image=PixelImage(pixels))
 
 
 def normal_texture(normal: FloatArray) -> Texture:
@@ -250,9 +251,8 @@ def test_emission_is_seen_at_night(renderer: Renderer) -> None:
 def test_holes_show_what_is_behind_them(renderer: Renderer, targets: set[str]) -> None:
     pixels = np.full((8, 8, 4), 255, np.uint8)
     pixels[:, :4, 3] = 0  # the left half
-    net = with_material(
-        plate(9.0, 9.0, texture=Texture(name="net", pixels=pixels)), Material(alpha_cutoff=0.5)
-    )
+    texture = Texture(name="net", image=PixelImage(pixels))
+    net = with_material(plate(9.0, 9.0, texture=texture), Material(alpha_cutoff=0.5))
     show(renderer, net)
     renderer.place(renderer.add(block((0.5, 0.5, 0.5)), 2), placed(x=-0.5, z=-DISTANCE - 1.0))
     renderer.place(renderer.add(block((0.5, 0.5, 0.5)), 3), placed(x=0.5, z=-DISTANCE - 1.0))

@@ -90,7 +90,7 @@ def _read(path: Path, name: str, allowed_folders: tuple[Path, ...]) -> Model:
         name=name,
         meshes=meshes,
         source="file",
-        sha256=digest,
+        digest=digest,
         files=tuple(files),
         asset=asset,
         remarks=remarks,

@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...errors import AssetError
+from ..images import PixelImage
 from ..mesh import Material, Texture
 from .gltf_materials import GltfMaterial
 
@@ -220,7 +221,7 @@ class Materials:
 
     def _create_texture(self, pixels: npt.NDArray[np.uint8]) -> Texture:
         digest = hashlib.sha256(pixels.tobytes()).hexdigest()[:16]
-        return Texture(name=f"{self._path}#{digest}", pixels=pixels)
+        return Texture(name=f"{self._path}#{digest}", image=PixelImage(pixels))
 
 
 def has_alpha(image: Any) -> bool:

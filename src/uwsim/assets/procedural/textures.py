@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...base import rng
+from ..images import PixelImage
 from ..mesh import Texture
 
 Grey = npt.NDArray[np.float32]
@@ -90,7 +91,8 @@ def mix(start: Pixels | Colour, end: Pixels | Colour, amount: Grey) -> Pixels:
 def to_texture(name: str, image: Pixels, *, repeats: bool = True) -> Texture:
     """Convert an image to a texture, clipped to 0..1 and rounded to 8 bit."""
     pixels = cv2.convertScaleAbs(np.clip(image, 0.0, 1.0), alpha=255.0)
-    return Texture(name=name, pixels=np.ascontiguousarray(pixels, dtype=np.uint8), repeats=repeats)
+    image_pixels = np.ascontiguousarray(pixels, dtype=np.uint8)
+    return Texture(name=name, image=PixelImage(image_pixels), repeats=repeats)
 
 
 @lru_cache(maxsize=64)
