@@ -133,10 +133,10 @@ def test_every_bundled_robot_is_listed_documented_found_by_that_name_and_has_its
             assert read_vehicle(find_vehicle(one), [link.name for link in robot.links]).bodies
 
 
-def test_a_water_is_listed_with_its_coefficients_at_green_and_its_source(
+def test_a_water_is_listed_with_its_coefficients_in_green_and_its_source(
     capsys: pytest.CaptureFixture[str],
 ) -> None:
     assert main(["list", "waters"]) == 0
     lines = {line.split()[0]: line for line in capsys.readouterr().out.splitlines()}
     assert set(WATERS) <= set(lines)
-    assert "coast; at green (550 nm) c 1.142 and b 1.06 1/m. Source:" in lines["jerlov-3C"]
+    assert "coast; in green c 1.197 and b 1.099 1/m. Source:" in lines["jerlov-3C"]

@@ -88,6 +88,41 @@ def test_a_water_file_is_read(tmp_path: Path) -> None:
         assert medium.phase_function == FournierForand()
 
 
+SPECTRUM = """<u:spectrum>
+  <u:wavelengths>412 440 488 510 532 555 650 676 715</u:wavelengths>
+  <u:beamAttenuation>1.2 1.1 1 0.95 0.9 0.9 0.8 0.8 0.7</u:beamAttenuation>
+  <u:scattering>1 0.9 0.85 0.8 0.8 0.75 0.7 0.7 0.65</u:scattering>
+  <u:excludesWater>1</u:excludesWater>
+</u:spectrum>
+"""
+
+
+def test_a_spectrum_has_three_channels(tmp_path: Path) -> None:
+    with compile_water(tmp_path, SPECTRUM) as simulation:
+        medium = simulation.world.model.optical_water
+        assert medium is not None
+        assert medium.scattering == pytest.approx((0.7, 0.79, 0.89), abs=0.04)
+        assert medium.absorption == pytest.approx((0.4, 0.2, 0.19), abs=0.06)
+
+
+def test_a_spectrum_is_read_from_a_table(tmp_path: Path) -> None:
+    (tmp_path / "ac-s.csv").write_text(
+        "wavelength,absorption,scattering\n400,0.3,0.5\n550,0.3,0.5\n700,0.3,0.5\n"
+    )
+    water = "<u:spectrum> <u:file>ac-s.csv</u:file> </u:spectrum>"
+    with compile_water(tmp_path, water) as simulation:
+        medium = simulation.world.model.optical_water
+        assert medium is not None
+        assert medium.n_channels == 3
+        assert medium.scattering == pytest.approx((0.5, 0.5, 0.5), abs=0.01)
+
+
+def test_an_error_of_a_table_of_spectra_has_its_line(tmp_path: Path) -> None:
+    (tmp_path / "ac-s.csv").write_text("wavelength,absorption,scatering\n400,0.3,0.5\n")
+    with pytest.raises(FileError, match=r"ac-s.csv:1: no column is called 'scatering'"):
+        compile_water(tmp_path, "<u:spectrum> <u:file>ac-s.csv</u:file> </u:spectrum>")
+
+
 def test_an_error_of_a_water_file_has_its_line(tmp_path: Path) -> None:
     (tmp_path / "tank.json").write_text('{\n  "uwsim_water": 1,\n  "scatering": [1, 1, 1]\n}\n')
     with pytest.raises(FileError, match=r"tank.json:3: 'scatering' is not a key"):
@@ -101,6 +136,12 @@ def test_an_error_of_a_water_file_has_its_line(tmp_path: Path) -> None:
         ("", "scene.xml:3: The water has no numbers; expected one of"),
         ("<u:type>pool</u:type>" + COEFFICIENTS, "has <u:type> and coefficients"),
         (BEAM, "The scattering of green is 0.25 1/m; expected at most the beam"),
+        ("<u:spectrum/>", "has none of <u:file> and <u:wavelengths>"),
+        (SPECTRUM.replace("0.65<", "0.65 0.6<"), "have 9 and 10 values; expected one of each"),
+        (SPECTRUM.replace("412 ", "200 "), "wavelengths"),
+        (SPECTRUM.replace("beamAtt", "att"), "is not an element of"),
+        (SPECTRUM.replace("1.2 ", "0.2 "), "The absorption at 412 nm is -0.7"),
+        ("<u:type>pool</u:type>" + SPECTRUM, "has <u:type> and <u:spectrum>"),
         ("<u:file>missing.json</u:file>", "'missing.json' is in none of the folders"),
         ("<u:typ>pool</u:typ>", "<u:typ> is not an element of <u:water>"),
         ("<u:type>pool</u:type> <u:exposure>0</u:exposure>", "scene.xml:4: .*exposure"),

@@ -151,7 +151,7 @@ def waters(tables: Tables) -> dict[str, str]:
     from ..optics import WATERS
 
     return {
-        name: f"{water.description}; at green (550 nm) c {water.absorption[1] + b:.4g} and "
+        name: f"{water.description}; in green c {water.absorption[1] + b:.4g} and "
         f"b {b:.4g} 1/m. Source: {water.source}."
         for name, water in WATERS.items()
         for b in [water.scattering[1]]

@@ -1,14 +1,10 @@
 """Waters by name, with the sources of their numbers.
 
-The effective wavelengths of the channels are 680 nm (red), 550 nm (green) and 440 nm (blue). The
-types of N. G. Jerlov (*Marine Optics*, 1976) are classes of diffuse attenuation: I to III in the
-open ocean, 1C to 9C at the coast. Their absorption and scattering here are those of M. G. Solonenko
-and C. D. Mobley (*Appl. Opt.* 54, 5392 (2015)) as the simulator Stonefish ships them. Kirk's
-diffuse attenuation of these agrees with Jerlov's at 550 nm within 25 %. The order of the types is
-not that of beam attenuation: type III scatters more than 1C.
-
-The red channel of type I at 680 nm has the absorption of pure water, 0.46 1/m; a camera's red
-channel at 620 nm would have about 0.28 1/m. Give measured coefficients where they exist.
+The numbers are those of spectra, reduced to the three channels of an image and rounded to four
+digits; `spectral.spectral_water` has the method and its errors. The types of N. G. Jerlov (*Marine
+Optics*, 1976) are classes of diffuse attenuation: I to III in the open ocean, 1C to 9C at the
+coast (`spectral.jerlov`). The order of the types is not that of beam attenuation: type III
+scatters more than 1C. Give measured coefficients where they exist.
 """
 
 from __future__ import annotations
@@ -21,7 +17,8 @@ from .medium import Medium
 Coefficients = tuple[float, float, float]
 
 JERLOV_SOURCE = (
-    "Solonenko and Mobley, Appl. Opt. 54, 5392 (2015), as decoded from the table of Stonefish"
+    "diffuse attenuation of Jerlov, Marine Optics (1976), and scattering of Solonenko and Mobley, "
+    "Appl. Opt. 54, 5392 (2015)"
 )
 CLEAR_SOURCE = (
     "pure water: absorption of Pope and Fry, Appl. Opt. 36, 8710 (1997), scattering of sea water "
@@ -40,46 +37,102 @@ class NamedWater:
     """The absorption coefficients a [1/m]."""
     scattering: Coefficients
     """The scattering coefficients b [1/m]."""
+    molecular_scattering: Coefficients
+    """The part of the scattering that the molecules of the water cause [1/m]."""
     source: str
     """The source of the numbers."""
 
 
-def _jerlov(description: str, absorption: Coefficients, scattering: Coefficients) -> NamedWater:
-    return NamedWater(
-        description=description,
-        absorption=absorption,
-        scattering=scattering,
-        source=JERLOV_SOURCE,
-    )
-
-
 WATERS: dict[str, NamedWater] = {
-    "jerlov-I": _jerlov("clearest ocean", (0.460, 0.062, 0.018), (0.001, 0.002, 0.004)),
-    "jerlov-IA": _jerlov("ocean", (0.461, 0.062, 0.022), (0.002, 0.0035, 0.007)),
-    "jerlov-IB": _jerlov("ocean", (0.461, 0.062, 0.024), (0.043, 0.054, 0.070)),
-    "jerlov-II": _jerlov("ocean", (0.462, 0.062, 0.025), (0.250, 0.358, 0.524)),
-    "jerlov-III": _jerlov("ocean, productive", (0.465, 0.065, 0.041), (0.683, 0.980, 1.433)),
-    "jerlov-1C": _jerlov("clearest coast", (0.480, 0.076, 0.120), (0.254, 0.365, 0.534)),
-    "jerlov-3C": _jerlov("coast", (0.484, 0.082, 0.182), (0.741, 1.060, 1.559)),
-    "jerlov-5C": _jerlov("coast", (0.520, 0.117, 0.347), (0.929, 1.330, 1.942)),
-    "jerlov-7C": _jerlov("turbid coast", (0.578, 0.195, 0.620), (1.639, 2.350, 3.427)),
-    "jerlov-9C": _jerlov("harbour", (0.621, 0.348, 1.055), (2.172, 3.120, 4.561)),
+    "jerlov-I": NamedWater(
+        description="clearest ocean",
+        absorption=(0.3423, 0.05388, 0.01718),
+        scattering=(0.0006568, 0.002, 0.004613),
+        molecular_scattering=(0.0005935, 0.001899, 0.004473),
+        source=JERLOV_SOURCE,
+    ),
+    "jerlov-IA": NamedWater(
+        description="ocean",
+        absorption=(0.3476, 0.05821, 0.0239),
+        scattering=(0.001606, 0.003553, 0.006706),
+        molecular_scattering=(0.0005935, 0.001923, 0.004473),
+        source=JERLOV_SOURCE,
+    ),
+    "jerlov-IB": NamedWater(
+        description="ocean",
+        absorption=(0.3462, 0.05811, 0.02575),
+        scattering=(0.03492, 0.05502, 0.07724),
+        molecular_scattering=(0.0005935, 0.001928, 0.004475),
+        source=JERLOV_SOURCE,
+    ),
+    "jerlov-II": NamedWater(
+        description="ocean",
+        absorption=(0.3284, 0.05092, 0.02809),
+        scattering=(0.236, 0.3659, 0.5023),
+        molecular_scattering=(0.0005935, 0.001955, 0.00448),
+        source=JERLOV_SOURCE,
+    ),
+    "jerlov-III": NamedWater(
+        description="ocean, productive",
+        absorption=(0.32, 0.05094, 0.0434),
+        scattering=(0.6457, 1.011, 1.378),
+        molecular_scattering=(0.0005935, 0.002028, 0.004512),
+        source=JERLOV_SOURCE,
+    ),
+    "jerlov-1C": NamedWater(
+        description="clearest coast",
+        absorption=(0.3646, 0.08623, 0.193),
+        scattering=(0.2379, 0.3795, 0.5224),
+        molecular_scattering=(0.0005935, 0.002111, 0.004612),
+        source=JERLOV_SOURCE,
+    ),
+    "jerlov-3C": NamedWater(
+        description="coast",
+        absorption=(0.3202, 0.09841, 0.2516),
+        scattering=(0.7021, 1.099, 1.524),
+        molecular_scattering=(0.0005935, 0.002101, 0.004673),
+        source=JERLOV_SOURCE,
+    ),
+    "jerlov-5C": NamedWater(
+        description="coast",
+        absorption=(0.368, 0.1751, 0.3903),
+        scattering=(0.9151, 1.376, 1.916),
+        molecular_scattering=(0.0005935, 0.002083, 0.004698),
+        source=JERLOV_SOURCE,
+    ),
+    "jerlov-7C": NamedWater(
+        description="turbid coast",
+        absorption=(0.3382, 0.2496, 0.6047),
+        scattering=(1.716, 2.421, 3.41),
+        molecular_scattering=(0.0007092, 0.002062, 0.004773),
+        source=JERLOV_SOURCE,
+    ),
+    "jerlov-9C": NamedWater(
+        description="harbour",
+        absorption=(0.3411, 0.3851, 1.179),
+        scattering=(2.466, 3.187, 4.583),
+        molecular_scattering=(0.0009851, 0.002017, 0.004898),
+        source=JERLOV_SOURCE,
+    ),
     "clear": NamedWater(
         description="pure water, the reference of a calibration",
-        absorption=(0.465, 0.0565, 0.00635),
-        scattering=(0.0007, 0.0019, 0.0049),
+        absorption=(0.3201, 0.05037, 0.007591),
+        scattering=(0.0005935, 0.001794, 0.0048),
+        molecular_scattering=(0.0005935, 0.001794, 0.0048),
         source=CLEAR_SOURCE,
     ),
     "pool": NamedWater(
         description="filtered swimming pool",
-        absorption=(0.465, 0.0565, 0.00635),
-        scattering=(0.040, 0.050, 0.0625),
+        absorption=(0.3201, 0.05037, 0.007591),
+        scattering=(0.0397, 0.05016, 0.06178),
+        molecular_scattering=(0.0005935, 0.001794, 0.0048),
         source=f"{POOL_SOURCE}, 0.05 1/m at 550 nm",
     ),
     "tank": NamedWater(
         description="test tank",
-        absorption=(0.465, 0.0565, 0.00635),
-        scattering=(0.116, 0.144, 0.180),
+        absorption=(0.3201, 0.05037, 0.007591),
+        scattering=(0.1139, 0.144, 0.1773),
+        molecular_scattering=(0.0005935, 0.001794, 0.0048),
         source=f"{POOL_SOURCE}, which give c = 0.2 1/m at 550 nm; test tanks have 0.1 to 0.3 1/m",
     ),
 }
@@ -87,7 +140,7 @@ WATERS: dict[str, NamedWater] = {
 
 
 def find_water(name: str) -> Medium:
-    """Return the water of a name, with the default phase function and molecules of pure water.
+    """Return the water of a name, with the default phase function.
 
     Raises:
         UnknownName: no water has this name; the error message gives the nearest one.
@@ -98,5 +151,5 @@ def find_water(name: str) -> Medium:
     return Medium(
         absorption=water.absorption,
         scattering=water.scattering,
-        molecular_scattering=WATERS["clear"].scattering,
+        molecular_scattering=water.molecular_scattering,
     )

@@ -30,6 +30,7 @@ from ..optics import (
     find_water,
 )
 from ..optics.medium import MAX_COEFFICIENT
+from ..optics.spectral import SpectralWater, read_spectrum_table
 from ..optics.water_file import read_water
 from ..particles import ParticlesSpec
 from ..schema import NAMESPACE, Numbers, Spec, element
@@ -135,11 +136,82 @@ PHASE_FUNCTIONS: dict[str, type[PhaseFunctionSpec]] = {
 
 
 @dataclass(frozen=True, kw_only=True)
+class WaterSpectrumSpec(Spec):
+    """A ``<u:spectrum>``: coefficients by wavelength, of which images have three channels.
+
+    The numbers are here, or in a table. Two of absorption, beam attenuation and scattering follow.
+    """
+
+    file: str = element(namespaced=True, default="")
+    """The name of a table: a CSV file with the columns ``wavelength`` [nm] and two of
+    ``absorption``, ``beam_attenuation`` and ``scattering`` [1/m]."""
+    wavelengths: Numbers = element(namespaced=True, default=(), minimum=300.0, maximum=1000.0)
+    """The 3 to 1000 wavelengths, rising, from at most 450 to at least 620 [nm]."""
+    absorption: Numbers = element(namespaced=True, default=(), maximum=MAX_COEFFICIENT)
+    """The absorption at each wavelength [1/m]."""
+    beam_attenuation: Numbers = element(namespaced=True, default=(), maximum=MAX_COEFFICIENT)
+    """The beam attenuation at each wavelength [1/m]."""
+    scattering: Numbers = element(namespaced=True, default=(), maximum=MAX_COEFFICIENT)
+    """The scattering at each wavelength [1/m]."""
+    excludes_water: bool = element(namespaced=True, default=False)
+    """True if the numbers are those of what the water contains, such as from an ac-s that was set
+    to zero in pure water; then absorption and scattering of pure sea water are added."""
+
+    def read_medium(self, find: Callable[[str], Path]) -> Medium:
+        """Return the water in three channels; its table is read.
+
+        Args:
+            find: finds the path of a file.
+
+        Raises:
+            UwsimError: the numbers are inconsistent, or the table is missing or invalid.
+        """
+        if bool(self.file) == bool(self.wavelengths):
+            number = "both" if self.file else "none"
+            raise BadSetting(
+                f"The spectrum has {number} of <u:file> and <u:wavelengths>; expected one of them."
+            )
+        columns: dict[str, tuple[float, ...]] = {
+            "wavelength": tuple(self.wavelengths),
+            "absorption": tuple(self.absorption),
+            "beam_attenuation": tuple(self.beam_attenuation),
+            "scattering": tuple(self.scattering),
+        }
+        given_columns = [name for name in columns if columns[name] and name != "wavelength"]
+        if len(given_columns) != (0 if self.file else 2):
+            raise BadSetting(
+                f"The spectrum has {' and '.join(given_columns) or 'no coefficients'}; expected "
+                "two of <u:absorption>, <u:beamAttenuation> and <u:scattering> beside "
+                "<u:wavelengths>, or a <u:file> alone."
+            )
+        if self.file:
+            columns |= read_spectrum_table(find(self.file))
+        return self._combine_columns(columns).reduce()
+
+    def _combine_columns(self, columns: dict[str, tuple[float, ...]]) -> SpectralWater:
+        absorption, attenuation, scattering = (
+            columns[name] for name in ("absorption", "beam_attenuation", "scattering")
+        )
+        lengths = {len(values) for values in columns.values() if values}
+        if len(lengths) > 1:
+            raise BadSetting(
+                f"The columns of the spectrum have {' and '.join(map(str, sorted(lengths)))} "
+                "values; expected one of each for every wavelength."
+            )
+        if attenuation:
+            column = absorption or scattering
+            remainder = tuple(c - value for c, value in zip(attenuation, column, strict=True))
+            absorption, scattering = absorption or remainder, scattering or remainder
+        make = SpectralWater.from_contents if self.excludes_water else SpectralWater
+        return make(wavelengths=columns["wavelength"], absorption=absorption, scattering=scattering)
+
+
+@dataclass(frozen=True, kw_only=True)
 class PhysicalWaterSpec(Spec):
     """A ``<u:water law="physical">``: the optical properties of the water, and its light.
 
     They replace fog, colour and attenuation of the ``<oceanState>`` in images. The water is one of
-    a named water (``type``), a water file (``file``), and coefficients.
+    a named water (``type``), a water file (``file``), a spectrum, and coefficients.
     """
 
     law: Literal["physical"] = element(attribute=True)
@@ -148,6 +220,8 @@ class PhysicalWaterSpec(Spec):
     """The name of a water, such as ``jerlov-1C``, ``tank`` or ``clear``."""
     file: str = element(namespaced=True, default="")
     """The name of a water file, such as `uwsim calibrate` writes."""
+    spectrum: WaterSpectrumSpec | None = element(namespaced=True, default=None)
+    """The coefficients by wavelength."""
     absorption: Triple | None = element(
         namespaced=True, default=None, parts="rgb", minimum=0.0, maximum=MAX_COEFFICIENT
     )
@@ -213,14 +287,15 @@ class PhysicalWaterSpec(Spec):
         sources = {
             "<u:type>": bool(self.type),
             "<u:file>": bool(self.file),
+            "<u:spectrum>": self.spectrum is not None,
             "coefficients": given_attenuations or self.scattering is not None,
         }
         names = [name for name, is_given in sources.items() if is_given]
         if len(names) != 1:
             raise BadSetting(
                 f"The water has {' and '.join(names) or 'no numbers'}; expected one of <u:type>, "
-                "<u:file>, and coefficients (<u:absorption> or <u:beamAttenuation>, and "
-                "<u:scattering>)."
+                "<u:file>, <u:spectrum>, and coefficients (<u:absorption> or <u:beamAttenuation>, "
+                "and <u:scattering>)."
             )
         if len(self.phase_function) > 1:
             raise BadSetting(
@@ -230,6 +305,8 @@ class PhysicalWaterSpec(Spec):
             medium = find_water(self.type)
         elif self.file:
             medium = read_water(find(self.file)).medium
+        elif self.spectrum is not None:
+            medium = self.spectrum.read_medium(find)
         else:
             medium = self._combine_coefficients()
         if self.phase_function:
