@@ -151,6 +151,29 @@ def test_invalid_water_is_reported_with_its_line(tmp_path: Path, water: str, tex
     assert re.search(text, error_of(tmp_path, water))
 
 
+def test_all_errors_of_a_water_are_reported_at_once(tmp_path: Path) -> None:
+    phase = (
+        "<u:phaseFunction> <u:phaseTable> <u:angles>0.1 0.2 3</u:angles> <u:values>1 1</u:values>"
+        " </u:phaseTable> </u:phaseFunction>"
+    )
+    file = "<u:file>missing.json</u:file>"
+    error = error_of(tmp_path, f"<u:type>jerlov-1D</u:type> {BEAM} {file} {phase}")
+    for text in (
+        "has <u:type> and <u:file> and coefficients; expected one of",
+        "No water is called 'jerlov-1D'. Did you mean 'jerlov-1C'?",
+        "The scattering of green is 0.25 1/m",
+        "'missing.json' is in none of the folders",
+        "A phase function has 3 angles and 2 values",
+    ):
+        assert text in error
+
+
+def test_an_empty_phase_function_is_an_error_with_the_names_of_all(tmp_path: Path) -> None:
+    error = error_of(tmp_path, "<u:type>pool</u:type>\n<u:phaseFunction> </u:phaseFunction>")
+    assert "scene.xml:5: <u:phaseFunction> has 0 phase functions; expected one of" in error
+    assert "<u:fournierForand>, <u:henyeyGreenstein>, <u:phaseTable>" in error
+
+
 def test_a_view_without_fog_is_in_the_purest_water(tmp_path: Path) -> None:
     with compile_water(tmp_path, "<u:type>jerlov-9C</u:type>") as simulation:
         scenery = simulation.world.scenery

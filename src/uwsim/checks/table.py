@@ -18,7 +18,18 @@ from .model import (
     wave_lengths,
 )
 from .rule import Need, Rule
-from .scene import angles, comms, forces, models, names, not_simulated, shared_names, water, waves
+from .scene import (
+    angles,
+    comms,
+    forces,
+    models,
+    names,
+    not_simulated,
+    shared_names,
+    unused_values,
+    water,
+    waves,
+)
 from .scene import sensor_directions as directions
 from .subjects import CheckedBenchmark, CheckedRobot, CheckedScene
 
@@ -69,12 +80,14 @@ SCENE_RULES: tuple[Rule[CheckedScene], ...] = (
     Rule(water.unstable_water, Need.SPEC),
     Rule(water.slow_currents, Need.SPEC),
     Rule(water.unused_fog, Need.SPEC, in_runs=True),
+    Rule(unused_values.unused_values, Need.SPEC, in_runs=True),
     Rule(waves.breaking_waves, Need.SPEC, in_runs=True),
     Rule(forces.forces_on_bodies, Need.SPEC, in_runs=True),
     Rule(models.projectors, Need.SPEC),
     Rule(models.model_files, Need.SPEC),
     Rule(not_simulated.not_simulated, Need.SPEC),
     Rule(partial(robots.robot_files, rules=ROBOT_RULES), Need.FILES),
+    Rule(water.invalid_water, Need.FILES),
     Rule(robots.unused_arguments, Need.FILES, in_check=False, in_runs=True),
     Rule(dynamics.hydrodynamic_names, Need.VALID),
     Rule(dynamics.object_shapes, Need.VALID),

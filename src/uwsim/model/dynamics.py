@@ -18,9 +18,7 @@ from ..devices.fault_fields import numeric_fields
 from ..errors import (
     BadSetting,
     Diagnostic,
-    FileError,
     SceneError,
-    SeveralErrors,
     UnknownName,
     UwsimError,
     did_you_mean,
@@ -41,6 +39,7 @@ from .inertias import MAX_BUOYANCY, MIN_MASS, check_inertias
 from .named_sensors import NamedSensors
 from .resolved_scene import ResolvedScene
 from .robots import find_file
+from .water_errors import find_water_errors
 
 Severity = Literal["error", "warning"]
 U = f"{{{NAMESPACE}}}"
@@ -100,7 +99,7 @@ class NameResolution:
         self._choose_density()
         self._check_interfaces()
         self._check_currents(is_thorough)
-        self._check_water()
+        self.diagnostics += find_water_errors(scene, self._data_path)
 
     def _read(self, index: int, name: str, robot: RobotSpec) -> None:
         named_by = Path(self._scene.path) if self._scene.path else None
@@ -354,23 +353,6 @@ class NameResolution:
                     current.bind(context)
             except UwsimError as error:
                 self._report(str(error), current)
-
-    def _check_water(self) -> None:
-        water = self._scene.ocean_state.water
-        if water is None:
-            return
-        try:
-            water.read_medium(lambda name: find_file(name, self._scene.path, self._data_path))
-        except FileError as error:
-            self.diagnostics += error.diagnostics
-        except SeveralErrors as error:
-            for one_error in error.errors:
-                self._report(str(one_error), water)
-        except (UwsimError, OSError) as error:
-            self._report(str(error), water)
-        if water.particles is not None:
-            for spec, text in water.particles.find_errors():
-                self._report(text, spec)
 
     def _report(
         self, message: str, spec: Spec, element: str = "", severity: Severity = "error"

@@ -20,7 +20,7 @@ from pathlib import Path
 from typing import Literal
 
 from ..base.geometry import Triple
-from ..errors import BadSetting
+from ..errors import BadSetting, ErrorCollector
 from ..optics import (
     FournierForand,
     HenyeyGreenstein,
@@ -283,12 +283,56 @@ class PhysicalWaterSpec(Spec):
             UwsimError: the numbers are inconsistent, a name is unknown, or the file is missing or
                 invalid.
         """
-        given_attenuations = self.absorption is not None or self.beam_attenuation is not None
+        errors = ErrorCollector()
+        medium = phase_function = None
+        with errors.collect():
+            medium = self.read_source(find)
+        with errors.collect():
+            phase_function = self.read_phase_function()
+        errors.raise_errors()
+        assert medium is not None
+        return medium if phase_function is None else replace(medium, phase_function=phase_function)
+
+    def read_source(self, find: Callable[[str], Path]) -> Medium:
+        """Return the water of the type, the file or the coefficients, with its phase function.
+
+        Args:
+            find: finds the path of a file.
+
+        Raises:
+            UwsimError: the numbers are inconsistent, a name is unknown, or the file is missing or
+                invalid; also those of a source beside another.
+        """
+        errors = ErrorCollector()
+        medium = None
+        with errors.collect():
+            self._check_sources()
+        readers: tuple[tuple[bool, Callable[[], Medium]], ...] = (
+            (bool(self.type), lambda: find_water(self.type)),
+            (bool(self.file), lambda: read_water(find(self.file)).medium),
+            (self.spectrum is not None, lambda: self._read_spectrum(find)),
+            (self._has_coefficients, self._combine_coefficients),
+        )
+        for is_given, read in readers:
+            if is_given:
+                with errors.collect():
+                    medium = read()
+        errors.raise_errors()
+        assert medium is not None
+        return medium
+
+    @property
+    def _has_coefficients(self) -> bool:
+        values = (self.absorption, self.beam_attenuation, self.scattering)
+        return any(value is not None for value in values)
+
+    def _check_sources(self) -> None:
+        """Raise BadSetting unless the numbers have one source."""
         sources = {
             "<u:type>": bool(self.type),
             "<u:file>": bool(self.file),
             "<u:spectrum>": self.spectrum is not None,
-            "coefficients": given_attenuations or self.scattering is not None,
+            "coefficients": self._has_coefficients,
         }
         names = [name for name, is_given in sources.items() if is_given]
         if len(names) != 1:
@@ -297,21 +341,29 @@ class PhysicalWaterSpec(Spec):
                 "<u:file>, <u:spectrum>, and coefficients (<u:absorption> or <u:beamAttenuation>, "
                 "and <u:scattering>)."
             )
-        if len(self.phase_function) > 1:
+
+    def read_phase_function(self) -> PhaseFunction | None:
+        """Return the phase function of the element; None if there is no element.
+
+        Raises:
+            BadSetting: the element has none or several.
+            UwsimError: its numbers are invalid.
+        """
+        source = self.source_line
+        is_given = source is not None and f"{{{NAMESPACE}}}phaseFunction" in source.elements
+        if not self.phase_function and not is_given:
+            return None
+        if len(self.phase_function) != 1:
             raise BadSetting(
-                f"The water has {len(self.phase_function)} phase functions; expected at most one."
+                f"<u:phaseFunction> has {len(self.phase_function)} phase functions; expected one "
+                f"of {', '.join(f'<u:{name}>' for name in PHASE_FUNCTIONS)}.",
+                name="phaseFunction",
             )
-        if self.type:
-            medium = find_water(self.type)
-        elif self.file:
-            medium = read_water(find(self.file)).medium
-        elif self.spectrum is not None:
-            medium = self.spectrum.read_medium(find)
-        else:
-            medium = self._combine_coefficients()
-        if self.phase_function:
-            return replace(medium, phase_function=self.phase_function[0].phase_function)
-        return medium
+        return self.phase_function[0].phase_function
+
+    def _read_spectrum(self, find: Callable[[str], Path]) -> Medium:
+        assert self.spectrum is not None
+        return self.spectrum.read_medium(find)
 
     def _combine_coefficients(self) -> Medium:
         attenuations = (self.absorption, self.beam_attenuation)

@@ -137,3 +137,38 @@ def test_a_depth_that_is_no_number_is_an_error_where_waves_use_it(tmp_path: Path
     assert said(f"<depth>inf</depth> {waves}", tmp_path) == [
         "3 error <depth> is 'inf'; expected a number [m]"
     ]
+
+
+LARGE_BUBBLES = "<u:particles> <u:bubbles> <u:minDiameter>0.01</u:minDiameter> </u:bubbles>"
+
+
+@pytest.mark.parametrize(
+    ("water", "lines"),
+    [
+        # a value that cannot be read hides no other error, and adds none that depends on it
+        ("<u:exposure>0</u:exposure>\n<u:type>jerlov-1D</u:type>", [(4, "exposure"), (3, "1D")]),
+        ("<u:exposure>0</u:exposure>\n<u:type>pool</u:type>", [(4, "exposure")]),
+        ("<u:typ>pool</u:typ>\n<u:blur>1</u:blur>", [(4, "<u:typ>")]),
+        (
+            f"<u:typ>pool</u:typ>\n{LARGE_BUBBLES} </u:particles>\n<u:blur>1</u:blur>",
+            [(4, "<u:typ>"), (5, "has diameters")],
+        ),
+        (
+            "<u:type>pool</u:type>\n<u:phaseFunction>\n<u:henyey/>\n</u:phaseFunction>",
+            [(6, "<u:henyey>")],
+        ),
+    ],
+)
+def test_errors_of_a_water_are_reported_beside_values_that_cannot_be_read(
+    water: str, lines: list[tuple[int, str]], tmp_path: Path
+) -> None:
+    found = said(f'<u:water law="physical">\n{water}\n</u:water>', tmp_path)
+    assert len(found) == len(lines)
+    for text, (line, part) in zip(found, lines, strict=True):
+        assert text.startswith(f"{line} error ")
+        assert part in text
+
+
+def test_the_water_of_a_scene_without_vehicles_is_checked(tmp_path: Path) -> None:
+    (found,) = said('<u:water law="physical"> <u:type>jerlov-1D</u:type> </u:water>', tmp_path)
+    assert found.startswith("3 error No water is called 'jerlov-1D'. Did you mean 'jerlov-1C'?")

@@ -1,4 +1,4 @@
-"""Warnings about the water of a scene: its density, unused values and fog, slow currents."""
+"""Errors and warnings about the water of a scene: optics, density, unused fog, slow currents."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from itertools import pairwise
 
 from ...errors import Diagnostic
+from ...model.water_errors import find_water_errors
 from ...scene.physical_water import REPLACED_ELEMENTS
 from ...schema import NAMESPACE, line_of
 from ..subjects import CheckedScene
@@ -67,3 +68,11 @@ def unused_fog(scene: CheckedScene) -> Iterator[Diagnostic]:
         parts = variation.path.split(".")
         if parts[0] == "oceanState" and parts[1:2] and parts[1] in REPLACED_ELEMENTS:
             yield scene.warning(variation, f"a variation of <{parts[1]}> {reason}")
+
+
+def invalid_water(scene: CheckedScene) -> Iterator[Diagnostic]:
+    """Report errors of physical water beside other errors; a valid scene is checked as a whole."""
+    if not scene.is_valid:
+        errors = scene.diagnostics.to_list()
+        lines = {item.line for item in errors if item.severity == "error" and item.line}
+        yield from find_water_errors(scene.spec, scene.data_path, lines)
