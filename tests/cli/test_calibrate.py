@@ -114,6 +114,21 @@ def test_written_readings_give_the_same_bytes_again(capsys: pytest.CaptureFixtur
 
 
 @pytest.mark.usefixtures("without_plots")
+@pytest.mark.parametrize("words", [(), ("--json",)])
+def test_a_failed_quality_gate_is_one_line_and_exit_status_3(
+    folder: Path, capsys: pytest.CaptureFixture[str], words: tuple[str, ...]
+) -> None:
+    # the exposure time of the last disc is stated as half of what it was
+    (folder / "readings.csv").write_text(READINGS.replace("10,0.8", "10,1.6"))
+    assert run_on_readings("-o", "out", *words) == 3
+    error = capsys.readouterr().err
+    assert error.count("\n") == 1
+    assert "of 3 quality gates are failed (fit" in error
+    assert "do not use this water. Compare the exposure times" in error
+    assert Path("out/water.json").is_file()
+
+
+@pytest.mark.usefixtures("without_plots")
 def test_an_error_is_one_line_and_leaves_the_directory_as_it_was(
     folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -53,6 +53,19 @@ def check_quality(
     return tuple(gates)
 
 
+def summarize_failures(gates: Sequence[Gate]) -> str:
+    """Return one line about the gates that are failed; empty if none is."""
+    names = [gate.name for gate in gates if gate.is_passed is False]
+    if not names:
+        return ""
+    n_measured = sum(gate.is_passed is not None for gate in gates)
+    return (
+        f"{len(names)} of {n_measured} quality gates are failed ({', '.join(dict.fromkeys(names))})"
+        ": do not use this water. Compare the exposure times, distances and focal length of the "
+        "set-up with those of the pictures."
+    )
+
+
 def _check_fit(name: str, estimate: Estimate) -> list[Gate]:
     subject = f"{name}, {estimate.channel}"
     chi_squared = estimate.reduced_chi_squared

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated
@@ -10,6 +11,7 @@ import typer
 
 from ..base.terminal import clean_text
 from ..errors import BadSetting
+from .exit_status import RUN_FAILED
 from .options.help_texts import INPUT, OUTPUT, option
 from .options.options import JsonOption
 from .output.console import standard_output
@@ -97,7 +99,8 @@ def calibrate(
     channel. Without clear water, a board at three or more distances is sufficient.
 
     It writes a water file that a scene names, readings.csv, calibration.json, plots and
-    report.html. docs/calibration.md gives the protocol for a tank and a phone.
+    report.html. docs/calibration.md gives the protocol for a tank and a phone. The exit status is 3
+    if a quality gate is failed: the files are written, but the water is not to be trusted.
     """
     from ..results.directory import check_output
 
@@ -112,6 +115,7 @@ def calibrate(
     from ..calibration import calibrate as compute_calibration
     from ..calibration.measurements import make_measurements
     from ..calibration.pictures.picture_readings import read_pictures
+    from ..calibration.quality import summarize_failures
     from ..calibration.readings_file import read_readings
     from ..calibration.report import WRITTEN_FILES, WRITTEN_FOLDERS, print_tables, write_calibration
     from ..calibration.report.document import json_text
@@ -136,10 +140,13 @@ def calibrate(
     water_files = write_calibration(calibration, out, setup.name, overwrite=output.overwrite)
     if as_json:
         print(json_text(calibration), end="")
-        return
-    print_tables(calibration, standard_output())
-    names = ", ".join(path.name for path in water_files)
-    print(clean_text(f"written: {out}/{names}, readings.csv, calibration.json, report.html"))
+    else:
+        print_tables(calibration, standard_output())
+        names = ", ".join(path.name for path in water_files)
+        print(clean_text(f"written: {out}/{names}, readings.csv, calibration.json, report.html"))
+    if summary := summarize_failures(calibration.gates):
+        print(f"uwsim: {summary}", file=sys.stderr)
+        raise typer.Exit(RUN_FAILED)
 
 
 def print_example(directory: Path) -> None:

@@ -30,22 +30,24 @@ def find_water_errors(
     water = scene.ocean_state.water
     if water is None:
         return
-    unread = _find_unread(scene, water, lines)
+    invalid_names = _find_invalid_names(scene, water, lines)
     names = {field.tag.removeprefix(PREFIX) for field in fields_of(PhysicalWaterSpec)}
-    if unread <= names - set(NUMBERS):  # an unknown name may be that of a number
+    if invalid_names <= names - set(NUMBERS):  # an unknown name may be that of a number
         yield from _report(
             scene,
             water,
             lambda: water.read_source(lambda name: find_file(name, scene.path, data_path)),
         )
-    if "phaseFunction" not in unread:
+    if "phaseFunction" not in invalid_names:
         yield from _report(scene, water, water.read_phase_function)
-    if water.particles is not None and "particles" not in unread:
+    if water.particles is not None and "particles" not in invalid_names:
         for spec, text in water.particles.find_errors():
             yield diagnostic_at(spec, text, file=scene.path)
 
 
-def _find_unread(scene: SceneSpec, water: PhysicalWaterSpec, lines: Collection[int]) -> set[str]:
+def _find_invalid_names(
+    scene: SceneSpec, water: PhysicalWaterSpec, lines: Collection[int]
+) -> set[str]:
     """Return the names of the elements of a water that begin at lines, or contain them."""
     source = water.source_line
     if source is None:
