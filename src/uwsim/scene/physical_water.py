@@ -251,9 +251,9 @@ class PhysicalWaterSpec(Spec):
         namespaced=True, default=None, exclusive_minimum=0.0, maximum=1e9
     )
     """The ratio of linear full scale to light [1]; a white surface in the irradiance 1 has the
-    light 1. Without it, the brightest channel of a white board has 0.7 of linear full scale. The
-    board faces up at the depth of the first vehicle's start; or it is 4 m from the strongest lamp,
-    if it is brighter there."""
+    light 1. Without it, the brightest of these has 0.7 of linear full scale: a white board that
+    faces up at the depth of the first vehicle's start, open water there, and a board 4 m from the
+    strongest lamp or projector, with the veil of the lamp. Without any light it is 1."""
     transfer: TransferCurve = element(namespaced=True, default="srgb")
     """The curve of stored values: sRGB, or linear."""
     blur: bool = element(namespaced=True, default=True)

@@ -28,7 +28,7 @@ from ...rendering.physical.daylight_field import compute_light_field, compute_op
 from ...rendering.physical.physical_water import PhysicalWater
 from ...rendering.water import Water
 from ...world import LineOfSight
-from .scene_water import MIN_RADIANCE, WHITE_LEVEL
+from .automatic_exposure import MIN_RADIANCE, WHITE_LEVEL
 
 
 def expose_board(

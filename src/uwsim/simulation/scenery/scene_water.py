@@ -3,22 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
 from dataclasses import replace
 
 from ...model.scene_model import SceneModel
-from ...optics import compute_full_field, find_water
+from ...optics import find_water
 from ...rendering.caustics.ripples import Ripples
 from ...rendering.physical.daylight_field import compute_light_field
 from ...rendering.physical.physical_water import Daylight, PhysicalWater
 from ...rendering.water import Water
-
-WHITE_LEVEL = 0.7
-"""The linear value of a white board at the start with automatic exposure [1: full scale]."""
-LAMP_DISTANCE = 4.0
-"""The distance of a board in the light of the strongest lamp [m]."""
-MIN_RADIANCE = 1e-6
-"""The least radiance of the board, so that a dark scene has a finite exposure."""
+from .automatic_exposure import MIN_RADIANCE, LightSources, compute_exposure
 
 
 def make_water(model: SceneModel) -> Water:
@@ -46,28 +39,24 @@ def make_water(model: SceneModel) -> Water:
         has_surface=spec.surface,
         visibility=spec.sky.visibility,
     )
-    return set_exposure(replace(water, physical_water=physical_water), model, ())
+    return set_exposure(replace(water, physical_water=physical_water), model, LightSources())
 
 
-def set_exposure(water: Water, model: SceneModel, lamp_intensities: Iterable[float]) -> Water:
+def set_exposure(water: Water, model: SceneModel, sources: LightSources) -> Water:
     """Return water with the exposure of a scene; see `PhysicalWaterSpec.exposure`.
 
     Args:
         water: the water.
         model: the compiled scene.
-        lamp_intensities: the intensity of each lamp at full brightness.
+        sources: the light sources of the scene.
     """
     spec, physical_water = model.scene.ocean_state.water, water.physical_water
     if spec is None or physical_water is None:
         return water
     exposure = spec.exposure
     if exposure is None:
-        field = compute_light_field(physical_water.medium, physical_water.daylight)
-        beam, diffuse = field.compute_irradiance(_find_start_depth(model))
-        daylight = model.scene.sim_params.light_rate * float((beam + diffuse).max())
-        losses = compute_full_field(physical_water.medium, 2.0 * LAMP_DISTANCE)
-        lamp = max(lamp_intensities, default=0.0) / LAMP_DISTANCE**2 * float(losses.max())
-        exposure = WHITE_LEVEL / max(daylight, lamp, MIN_RADIANCE)
+        depth, light_rate = _find_start_depth(model), model.scene.sim_params.light_rate
+        exposure = compute_exposure(physical_water, depth, light_rate, sources)
     return replace(water, physical_water=replace(physical_water, exposure=exposure))
 
 
