@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import moderngl
@@ -129,6 +130,16 @@ class Instances:
         is_small = self._radii[self._owners[indices]] <= max_radius
         casters: Indices = indices[self._is_opaque[indices] & is_small]
         return casters
+
+    def find_lowest_point(self, min_radius: float) -> float:
+        """Return the height of the lowest corner of large instances; -infinity without any [m].
+
+        Args:
+            min_radius: half the longest side of the smallest bounding box that counts [m].
+        """
+        self._update_bounds()
+        heights = self._corners[self._radii[self._owners] > min_radius, :, 2]
+        return float(heights.min()) if heights.size > 0 else -math.inf
 
     def are_opaque(self, indices: Indices) -> bool:
         """Return True if all batches with these numbers are opaque."""

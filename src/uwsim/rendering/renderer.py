@@ -298,7 +298,11 @@ class Renderer:
                 view.light.rate,
             )
         focusing_switches = self._focused_light.prepare(
-            physical_water, view.surface, world_from_camera, view.water.surface_height
+            physical_water,
+            view.surface,
+            world_from_camera,
+            view.water.surface_height,
+            view.water.surface_height - self._instances.find_lowest_point(MAX_CASTER_RADIUS),
         )
         surface_view = replace(view, colour_format=RADIANCE, switches=focusing_switches)
         self._issue_draw_calls(surface_view, world_from_camera)

@@ -10,10 +10,22 @@ import pytest
 
 from uwsim.optics import HenyeyGreenstein, Medium
 from uwsim.rendering.caustics.caustic_light import find_contrast_loss
-from uwsim.rendering.caustics.caustic_map import CausticMapper, CausticOptics, make_optics
+from uwsim.rendering.caustics.caustic_map import (
+    MAX_SPREAD,
+    CausticMapper,
+    CausticOptics,
+    make_optics,
+)
 from uwsim.rendering.caustics.refraction import SUN_RADIUS, Beam, compute_drift, make_beam
+from uwsim.rendering.caustics.ripple_spectrum import compute_saturation, find_slope_share
 from uwsim.rendering.caustics.ripples import Ripples
-from uwsim.rendering.caustics.wave_tile import N_NODES, NODE_SPACING, TILE_EDGE, TileWaves
+from uwsim.rendering.caustics.wave_tile import (
+    MAX_WAVE_LENGTH,
+    N_NODES,
+    NODE_SPACING,
+    TILE_EDGE,
+    TileWaves,
+)
 from uwsim.rendering.physical.daylight_field import REFRACTIVE_INDEX
 from uwsim.rendering.physical.physical_water import Daylight
 
@@ -52,8 +64,8 @@ def some_waves(n: int, slope: float) -> TileWaves:
 
 def sharp_optics(beam: Beam, depths: tuple[float, ...]) -> CausticOptics:
     """Return optics without blur in some depths."""
-    shape = (len(depths), N_NODES, N_NODES // 2 + 1)
-    return CausticOptics(beam, depths, 0.0, np.full(shape, N_NODES**2, np.float32))
+    no_blur = np.zeros((0, N_NODES, N_NODES // 2 + 1), np.float32)
+    return CausticOptics(beam, depths, 0.0, no_blur, (MAX_SPREAD,) * len(depths))
 
 
 def sharp_maps(
@@ -239,10 +251,40 @@ def test_ripples_have_the_slopes_of_cox_and_munk() -> None:
     for wind_speed, total in ((0.0, 0.003), (2.0, 0.01316), (10.0, 0.0538)):
         ripples = Ripples(wind_speed=wind_speed)
         assert sum(ripples.slope_variances) == pytest.approx(total)
-        resolved = ripples.draw(2).mean_square_slope
-        assert resolved + 2.0 * ripples.unresolved_slope**2 == pytest.approx(total, rel=1e-6)
+        drawn = ripples.draw(2).mean_square_slope + 2.0 * ripples.unresolved_slope**2
+        long_share = find_slope_share(wind_speed, MAX_WAVE_LENGTH, math.inf)
+        assert drawn == pytest.approx((1.0 - long_share) * total, rel=1e-6)
     waves, slopes = Ripples(wind_speed=10.0).draw(2), np.zeros((N_NODES, N_NODES), np.complex64)
     waves.compute_slopes(0.0, slopes)
     variances = slopes.real.var(), slopes.imag.var()
     assert sum(variances) == pytest.approx(waves.mean_square_slope, rel=0.03)
     assert variances[0] / variances[1] == pytest.approx(0.0316 / 0.0222, rel=0.1)
+
+
+@pytest.mark.parametrize("wind_speed", [4.0, 6.0, 8.0, 10.0])
+def test_all_waves_of_the_spectrum_have_the_slopes_of_cox_and_munk(wind_speed: float) -> None:
+    """Two publications: the spectrum of Elfouhaily et al., and the glitter of Cox and Munk."""
+    numbers = np.geomspace(0.005, 2000.0, 4000)
+    saturation = compute_saturation(numbers, wind_speed)
+    total = saturation.sum() * math.log(numbers[1] / numbers[0])
+    assert total == pytest.approx(sum(Ripples(wind_speed=wind_speed).slope_variances), rel=0.12)
+
+
+def test_a_film_leaves_no_waves_shorter_than_one_foot_in_light_wind() -> None:
+    """Cox and Munk found them missing in slicks, which wind breaks."""
+    shares = [find_slope_share(wind_speed, 0.0, 0.15) for wind_speed in (0.5, 2.0, 3.0, 4.0)]
+    assert shares[0] == pytest.approx(shares[1])
+    assert shares[1] < 0.01
+    assert 0.1 < shares[2] < shares[3]
+
+
+def test_light_wind_makes_a_net_of_thin_lines() -> None:
+    """Lines are narrow against the cells of the net: most of the area is dark."""
+    ripples = Ripples(wind_speed=0.5)
+    mapper = CausticMapper(make_optics(make_beam(ZENITH), 5.0, ripples.unresolved_slope))
+    gain = 1.0 + mapper.compute(ripples.draw(1), 0.0)[-1]
+    assert np.median(gain) < 0.7
+    assert gain[gain > 2.0].sum() > 0.3 * gain.sum()
+    spread = make_optics(make_beam(ZENITH), 5.0, Ripples(wind_speed=8.0).unresolved_slope)
+    blurred = 1.0 + CausticMapper(spread).compute(Ripples(wind_speed=8.0).draw(1), 0.0)[-1]
+    assert np.median(blurred) > 0.8

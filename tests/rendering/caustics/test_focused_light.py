@@ -86,7 +86,7 @@ def draw(
 @pytest.mark.parametrize("depth", [0.5, 3.0, 9.0])
 def test_caustics_keep_the_mean_light_of_a_floor(renderer: Renderer, depth: float) -> None:
     show_floor(renderer, depth)
-    water = physical_water(has_light_shafts=False)
+    water = physical_water(has_light_shafts=False, exposure=0.02)
     # divide out the loss between floor and camera, which differs from pixel to pixel
     level = photograph_tile(renderer, water, depth, None)
     gain = photograph_tile(renderer, water, depth) / level

@@ -15,7 +15,7 @@ from ..physical.daylight_field import compute_light_field, compute_scaled_attenu
 from ..physical.moving_surface import MovingSurface
 from ..physical.physical_water import Daylight, PhysicalWater
 from ..program import Block
-from .caustic_map import N_SLICES, CausticMapper, CausticOptics, FloatMaps, make_optics
+from .caustic_map import CausticMapper, CausticOptics, FloatMaps, make_optics
 from .refraction import make_beam
 from .ripples import Ripples
 from .swell import N_POINTS, SPACING, compute_swell, find_short_waves
@@ -33,12 +33,13 @@ CAUSTICS = Block(
         "shaft_numbers": "vec4",
     },
 )
-N_LAYERS = 2
-"""The layers of the texture: the first four maps, and the last four of all six."""
 PATTERN_FREQUENCY = 10.0
 """The frequency of the pattern in the blur by scattering [cycles/rad]: 0.5 m in 5 m."""
-MAX_DEPTH, LEAST_MAX_DEPTH = 20.0, 3.0
-"""The limits of the depth of the deepest map [m]."""
+MAX_DEPTH, LEAST_LOST_DEPTH, LEAST_FLOOR_DEPTH = 20.0, 3.0, 1.0
+"""The greatest depth of the deepest map, and the least by the loss of contrast and by the floor
+[m]."""
+DEPTH_STEP = 0.05
+"""The step to which the depth of the floor is rounded up [m]."""
 LOST_CONTRAST = 3.0
 """The exponent of the loss of contrast in the deepest map, in the clearest channel."""
 
@@ -78,12 +79,11 @@ class CausticLight:
         self._context = context
         self._values = np.zeros((), dtype=CAUSTICS.dtype)
         self._buffer = context.buffer(reserve=CAUSTICS.dtype.itemsize, dynamic=True)
-        self._maps = context.texture_array((N_NODES, N_NODES, N_LAYERS), 4, dtype="f4")
-        self._maps.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
-        self._pixels = np.zeros((N_LAYERS, N_NODES, N_NODES, 4), np.float32)
+        self._all_maps: dict[int, moderngl.TextureArray] = {}  # by the number of layers
         self._swell = context.texture((N_POINTS, N_POINTS), 4, dtype="f4")
         self._swell.filter = (moderngl.LINEAR, moderngl.LINEAR)
         self._swell.repeat_x = self._swell.repeat_y = False
+        self._maps: moderngl.TextureArray | None = None
         self._mapper: CausticMapper | None = None
         self._maps_key: object = None
         self._swell_key: object = None
@@ -95,39 +95,66 @@ class CausticLight:
         surface: MovingSurface,
         world_from_camera: Pose,
         surface_height: float,
+        floor_depth: float,
     ) -> tuple[tuple[str, int], ...]:
         """Compute and upload what has changed, and fill the uniform block.
+
+        Args:
+            water: the water.
+            surface: the moving surface.
+            world_from_camera: the pose of the camera; OpenGL axes.
+            surface_height: the height of the still surface in W [m].
+            floor_depth: the depth of the lowest point of the ground; infinity if unknown [m].
 
         Returns:
             The switches of the shaders.
         """
         ripples = water.ripples
         assert ripples is not None
-        key = surface, water.daylight, water.medium, ripples
-        mapper = self._find_mapper(water)
+        mapper = self._find_mapper(water, floor_depth)
+        key = surface, water.daylight, water.medium, ripples, mapper.optics.depths
         if key != self._maps_key:
             self._maps_key = key
             maps = mapper.compute(_find_tile_waves(ripples, surface), surface.time)
-            pack_maps(maps, self._pixels)
-            self._maps.write(self._pixels)
-            self._maps.build_mipmaps()
-        switches: tuple[tuple[str, int], ...] = (("CAUSTICS", 1), ("N_SLICES", N_SLICES))
+            self._upload(maps)
+        switches: tuple[tuple[str, int], ...] = (("CAUSTICS", 1), ("N_SLICES", self.n_slices))
         if surface.waves is not None:
             switches += (("SWELL", 1),)
             self._update_swell(key, mapper, surface, world_from_camera, surface_height)
         self._fill(water, mapper, world_from_camera, surface_height)
         return switches
 
-    def _find_mapper(self, water: PhysicalWater) -> CausticMapper:
+    def _upload(self, maps: FloatMaps) -> None:
+        """Upload the maps: the first four, and of six the last four in a second layer."""
+        n_layers = len(maps) // 2 - 1
+        if n_layers not in self._all_maps:
+            texture = self._context.texture_array((N_NODES, N_NODES, n_layers), 4, dtype="f4")
+            texture.filter = (moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
+            self._all_maps[n_layers] = texture
+        pixels = np.empty((n_layers, N_NODES, N_NODES, 4), np.float32)
+        pack_maps(maps, pixels)
+        self._maps = self._all_maps[n_layers]
+        self._maps.write(pixels)
+        self._maps.build_mipmaps()
+
+    def _find_mapper(self, water: PhysicalWater, floor_depth: float) -> CausticMapper:
         """Return the computation of maps of this water; its memory is the renderer's own."""
         assert water.ripples is not None
-        optics = find_optics(water.medium, water.daylight, water.ripples)
+        steps = math.ceil(min(floor_depth, MAX_DEPTH) / DEPTH_STEP - 1e-6)
+        optics = find_optics(water.medium, water.daylight, water.ripples, steps * DEPTH_STEP)
         if self._mapper is None or self._mapper.optics is not optics:
             self._mapper = CausticMapper(optics)
         return self._mapper
 
+    @property
+    def n_slices(self) -> int:
+        """The number of maps of the last image."""
+        assert self._mapper is not None
+        return len(self._mapper.optics.depths)
+
     def use(self, maps_unit: int, swell_unit: int) -> None:
         """Bind the textures to their units."""
+        assert self._maps is not None
         self._maps.use(maps_unit)
         self._swell.use(swell_unit)
 
@@ -189,22 +216,28 @@ class CausticLight:
 
 @njit
 def pack_maps(maps: FloatMaps, pixels: FloatMaps) -> None:
-    """Copy six maps into the channels of the two layers, which have two maps in common."""
+    """Copy maps into the channels of layers, of which two have two maps in common."""
     _, n_rows, n_columns = maps.shape
-    for row in range(n_rows):
-        for column in range(n_columns):
-            for channel in range(4):
-                pixels[0, row, column, channel] = maps[channel, row, column]
-                pixels[1, row, column, channel] = maps[channel + 2, row, column]
+    for layer in range(len(pixels)):
+        for row in range(n_rows):
+            for column in range(n_columns):
+                for channel in range(4):
+                    pixels[layer, row, column, channel] = maps[channel + 2 * layer, row, column]
 
 
 @lru_cache(maxsize=4)
-def find_optics(medium: Medium, daylight: Daylight, ripples: Ripples) -> CausticOptics:
-    """Return the beam, the depths and the blur of maps for a medium, a sun and ripples; shared."""
+def find_optics(
+    medium: Medium, daylight: Daylight, ripples: Ripples, floor_depth: float
+) -> CausticOptics:
+    """Return the beam, the depths and the blur of maps for a medium, a sun and ripples; shared.
+
+    The deepest map is that of the floor, unless the contrast is lost above it.
+    """
     beam = make_beam(daylight)
     field = compute_light_field(medium, daylight)
     loss = float(find_contrast_loss(medium, float(field.towards_sun[2])).min())
-    depth = min(max(LOST_CONTRAST / max(loss, 1e-6), LEAST_MAX_DEPTH), MAX_DEPTH)
+    lost_depth = max(LOST_CONTRAST / max(loss, 1e-6), LEAST_LOST_DEPTH)
+    depth = min(lost_depth, max(floor_depth, LEAST_FLOOR_DEPTH), MAX_DEPTH)
     return make_optics(beam, depth, ripples.unresolved_slope)
 
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import moderngl
 
 from ...base.geometry import Intrinsics, Pose
@@ -34,6 +36,7 @@ class FocusedLight:
         surface: MovingSurface | None,
         world_from_camera: Pose,
         surface_height: float,
+        floor_depth: float = math.inf,
     ) -> Switches:
         """Update the maps, the uniform block and the textures before surfaces are drawn.
 
@@ -42,6 +45,7 @@ class FocusedLight:
             surface: the moving surface; None: it is level.
             world_from_camera: the pose of the camera; OpenGL axes.
             surface_height: the height of the still surface in W [m].
+            floor_depth: the depth of the lowest point of the ground; infinity if unknown [m].
 
         Returns:
             The switches of the shaders of surfaces.
@@ -52,7 +56,9 @@ class FocusedLight:
             return ()
         if self._caustics is None:
             self._caustics = CausticLight(self._context)
-        switches = self._caustics.prepare(water, surface, world_from_camera, surface_height)
+        switches = self._caustics.prepare(
+            water, surface, world_from_camera, surface_height, floor_depth
+        )
         self._use_textures()
         return switches if water.has_caustics else ()
 
@@ -76,7 +82,13 @@ class FocusedLight:
         if self._shafts is None:
             self._shafts = LightShafts(self._context, SAMPLERS)
         self._use_textures()
-        return self._shafts.draw(intrinsics, surfaces, has_swell=surface.waves is not None)
+        assert self._caustics is not None
+        return self._shafts.draw(
+            intrinsics,
+            surfaces,
+            has_swell=surface.waves is not None,
+            n_slices=self._caustics.n_slices,
+        )
 
     def _use_textures(self) -> None:
         assert self._caustics is not None

@@ -29,7 +29,6 @@ from ..frame import FRAME
 from ..physical.optics_block import OPTICS
 from ..program import build
 from .caustic_light import CAUSTICS
-from .caustic_map import N_SLICES
 
 RATIO = 6
 """The edge of a texel of the image of shafts [px]."""
@@ -54,7 +53,12 @@ class LightShafts:
         self._programs: dict[object, moderngl.VertexArray] = {}
 
     def draw(
-        self, intrinsics: Intrinsics, surfaces: moderngl.Texture, *, has_swell: bool
+        self,
+        intrinsics: Intrinsics,
+        surfaces: moderngl.Texture,
+        *,
+        has_swell: bool,
+        n_slices: int,
     ) -> moderngl.Texture:
         """Draw the shafts; return their radiance, which may be negative.
 
@@ -64,6 +68,7 @@ class LightShafts:
             intrinsics: the pinhole of the camera.
             surfaces: the radiance and the range of surfaces, four floats.
             has_swell: True if the surface has long waves.
+            n_slices: the number of maps of caustics.
         """
         size = -(-intrinsics.width // RATIO), -(-intrinsics.height // RATIO)
         if size not in self._buffers:
@@ -75,14 +80,15 @@ class LightShafts:
         surfaces.use(SURFACE_UNIT)
         buffer = self._buffers[size]
         buffer.use()
-        self._find_program(has_swell=has_swell).render(moderngl.TRIANGLES, vertices=3)
+        self._find_program(has_swell, n_slices).render(moderngl.TRIANGLES, vertices=3)
         image = buffer.color_attachments[0]
         assert isinstance(image, moderngl.Texture)
         return image
 
-    def _find_program(self, *, has_swell: bool) -> moderngl.VertexArray:
-        if has_swell not in self._programs:
-            defines = {"RATIO": RATIO, "N_STEPS": N_STEPS, "N_SLICES": N_SLICES, "MAP_LEVEL": 1}
+    def _find_program(self, has_swell: bool, n_slices: int) -> moderngl.VertexArray:
+        key = has_swell, n_slices
+        if key not in self._programs:
+            defines = {"RATIO": RATIO, "N_STEPS": N_STEPS, "N_SLICES": n_slices, "MAP_LEVEL": 1}
             program = build(
                 self._context,
                 "light_shafts",
@@ -91,5 +97,5 @@ class LightShafts:
                 samplers=self._samplers,
                 vertex="screen",
             )
-            self._programs[has_swell] = self._context.vertex_array(program, [])
-        return self._programs[has_swell]
+            self._programs[key] = self._context.vertex_array(program, [])
+        return self._programs[key]

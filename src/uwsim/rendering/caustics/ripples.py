@@ -6,11 +6,9 @@ The slopes follow C. Cox and W. Munk (*J. Opt. Soc. Am.* 44, 838 (1954)), with t
 .. math::
     \overline{s_u^2} = 0.00316\, W, \quad \overline{s_c^2} = 0.003 + 0.00192\, W
 
-along the wind and across it. Their total is spread evenly over the logarithm of the wave number
-from 2 m to 1.7 cm, the shortest waves of gravity: the saturation spectrum of O. M. Phillips (*J.
-Fluid Mech.* 4, 426 (1958)) has constant slopes in each octave. Longer waves are those of
-``<u:waves>``. Waves of more than 12.5 cm are drawn in a tile, with random phases. The slopes of
-shorter ones blur the light (`unresolved_slope`). The directions have the distribution
+along the wind and across it. `ripple_spectrum` spreads their total over the wave number. Waves of
+2 m to 12.5 cm are drawn in a tile, with random phases. Longer waves are those of ``<u:waves>``. The
+slopes of shorter ones blur the light (`unresolved_slope`). The directions have the distribution
 
 .. math::
     D(\vartheta) \propto 1 + \min(W / 2, 1) \cos\vartheta + 2\, \max\left(\frac{\overline{s_u^2} -
@@ -19,7 +17,7 @@ shorter ones blur the light (`unresolved_slope`). The directions have the distri
 So ripples run with the wind from 2 m/s on, and in all directions in calm air. They obey
 :math:`\omega^2 = g k + (\sigma/\rho) k^3`.
 
-Not modelled: gusts, damping, slicks, waves of walls, and the growth of ripples on crests.
+Not modelled: gusts, waves of walls, and the growth of ripples on crests.
 """
 
 from __future__ import annotations
@@ -33,6 +31,7 @@ from ...base import rng
 from ...base.geometry import Array
 from ...base.numerics.elementwise import arctan2
 from ...world import GRAVITY
+from .ripple_spectrum import SURFACE_TENSION, compute_saturation, find_slope_share
 from .wave_tile import (
     MAX_WAVE_LENGTH,
     MIN_WAVE_LENGTH,
@@ -40,10 +39,8 @@ from .wave_tile import (
     TileWaves,
 )
 
-SHORTEST_WAVE = 0.017
-"""The shortest wave of the spectrum [m], where gravity and surface tension are equally strong."""
-SURFACE_TENSION = 7.4e-5
-"""The surface tension of water over its density [m3/s2]."""
+LEAST_SHARE = 1e-7
+"""The share of the variance of slopes below which a wave is not drawn [1]."""
 STREAM = "scene/ripples"
 """The random stream of the phases."""
 
@@ -65,7 +62,8 @@ class Ripples:
     @property
     def unresolved_slope(self) -> float:
         """The standard deviation of the slope along one axis by waves that are not drawn [1]."""
-        return math.sqrt(0.5 * sum(self.slope_variances) * (1.0 - RESOLVED_SHARE))
+        share = find_slope_share(self.wind_speed, 0.0, MIN_WAVE_LENGTH)
+        return math.sqrt(0.5 * sum(self.slope_variances) * share)
 
     def draw(self, seed: int) -> TileWaves:
         """Draw the waves of a tile.
@@ -75,9 +73,14 @@ class Ripples:
         """
         columns, rows = _find_lattice()
         numbers = 2.0 * math.pi / TILE_EDGE * np.sqrt(columns**2 + rows**2)  # (n,) [rad/m]
-        variance_along, variance_across = self.slope_variances
-        density = self._compute_directions(arctan2(rows, columns)) / numbers**2
-        variances = density * ((variance_along + variance_across) * RESOLVED_SHARE / density.sum())
+        saturation = compute_saturation(numbers, self.wind_speed)
+        density = self._compute_directions(arctan2(rows, columns)) * saturation / numbers**2
+        is_strong = density > LEAST_SHARE * density.sum()
+        columns, rows, numbers, density = (
+            array[is_strong] for array in (columns, rows, numbers, density)
+        )
+        share = find_slope_share(self.wind_speed, MIN_WAVE_LENGTH, MAX_WAVE_LENGTH)
+        variances = density * (sum(self.slope_variances) * share / density.sum())
         generator = rng.stream(seed, STREAM)
         return TileWaves(
             columns=columns,
@@ -117,9 +120,3 @@ def _find_lattice() -> tuple[np.ndarray, np.ndarray]:
     min_number = TILE_EDGE / MAX_WAVE_LENGTH
     is_drawn = (squares >= min_number**2) & (squares <= max_number**2)
     return columns[is_drawn], rows[is_drawn]
-
-
-RESOLVED_SHARE = math.log(MAX_WAVE_LENGTH / MIN_WAVE_LENGTH) / math.log(
-    MAX_WAVE_LENGTH / SHORTEST_WAVE
-)
-"""The share of the variance of slopes that a tile has [1]."""

@@ -22,7 +22,11 @@ float caustic_excess(vec2 place, float depth, vec4 depths, vec4 frame) {
     place -= z * frame.w * swell.xy;
 #endif
     float level = clamp(log2(max(z, depths.x)) * depths.y + depths.z, 0.0, float(N_SLICES - 1));
+#if N_SLICES > 4
     float layer = step(0.5 * float(N_SLICES), level);  // of the maps 0 to 3, or 2 to 5
+#else
+    const float layer = 0.0;
+#endif
     vec4 shares = max(1.0 - abs(vec4(0.0, 1.0, 2.0, 3.0) + 2.0 * layer - level), 0.0);
     float excess = dot(READ_MAP(place, layer), shares);
     float far = depths.w / max(z, depths.w);
