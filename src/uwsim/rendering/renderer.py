@@ -223,7 +223,7 @@ class Renderer:
             surface=surface if water.physical_water is not None and "colour" in names else None,
             particles=particles,
         )
-        if lamps or projector is not None or particles is not None:
+        if projector is not None or particles is not None:
             return self._draw_view(view, world_from_camera)
         image = self._images.get(view)
         return image.copy() if image is not None else self._draw_and_store(view, world_from_camera)

@@ -156,3 +156,16 @@ def test_the_shadow_follows_lamp_and_box(stage: Renderer) -> None:
     assert not np.array_equal(first, rendered(stage, lamp()))
     stage.remove(body)
     assert np.array_equal(first, rendered(stage, lamp()))
+
+
+def test_an_image_of_lamps_that_do_not_move_is_drawn_once(
+    stage: Renderer, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    images = [rendered(stage, lamp()) for _ in range(2)]  # the second image is stored
+    with monkeypatch.context() as patch:
+        patch.setattr(stage, "_issue_draw_calls", None)
+        images.append(rendered(stage, lamp()))
+    for image in images[1:]:
+        np.testing.assert_array_equal(image, images[0])
+    assert (rendered(stage, lamp(x=0.2)) != images[0]).any()
+    assert (rendered(stage, lamp(intensity=2.0)) != images[0]).any()

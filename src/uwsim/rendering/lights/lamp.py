@@ -18,7 +18,7 @@ camera only), specular reflection, and an image of the lamp itself.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -42,8 +42,10 @@ class Lamp:
         ValueError: a number is outside its bounds.
     """
 
-    world_from_lamp: Pose
+    world_from_lamp: Pose = field(compare=False)
     """The pose of the lamp in W; OpenGL axes: the lamp shines along -z."""
+    pose_bytes: bytes = field(init=False, repr=False)
+    """The bytes of the matrix of the pose: lamps at equal poses are equal."""
     half_angle: float
     """The angle between axis and edge of the cone, above 0 and at most 80 degrees; or pi for a lamp
     that shines in all directions and casts no shadows [rad]."""
@@ -57,6 +59,7 @@ class Lamp:
     """True if bodies in the lamp's light cast shadows."""
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "pose_bytes", self.world_from_lamp.matrix.tobytes())
         is_cone = 0.0 < self.half_angle <= MAX_HALF_ANGLE
         if not (is_cone or (self.half_angle == math.pi and not self.casts_shadow)):
             raise ValueError(f"the half angle {self.half_angle} is not in (0, 80 degrees]")
