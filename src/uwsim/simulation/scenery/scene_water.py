@@ -4,7 +4,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from typing import Protocol
 
+import numpy as np
+import numpy.typing as npt
+
+from ...devices.lamp import MountedLamp
+from ...devices.led_array import Led
+from ...devices.structured_light_projector import MountedProjector
 from ...model.scene_model import SceneModel
 from ...optics import find_water
 from ...rendering.caustics.ripples import Ripples
@@ -39,25 +46,48 @@ def make_water(model: SceneModel) -> Water:
         has_surface=spec.surface,
         visibility=spec.sky.visibility,
     )
-    return set_exposure(replace(water, physical_water=physical_water), model, LightSources())
+    return set_exposure(replace(water, physical_water=physical_water), model)
 
 
-def set_exposure(water: Water, model: SceneModel, sources: LightSources) -> Water:
+class LitScene(Protocol):
+    """The light sources of a scene."""
+
+    @property
+    def mounted_lamps(self) -> tuple[MountedLamp | Led, ...]:
+        """The lamps and signal lamps."""
+
+    @property
+    def mounted_projector(self) -> tuple[MountedProjector, npt.NDArray[np.uint8]] | None:
+        """The projector, and its pattern; None: none."""
+
+
+def set_exposure(water: Water, model: SceneModel, scene: LitScene | None = None) -> Water:
     """Return water with the exposure of a scene; see `PhysicalWaterSpec.exposure`.
 
     Args:
         water: the water.
         model: the compiled scene.
-        sources: the light sources of the scene.
+        scene: the light sources of the scene; None: none.
     """
     spec, physical_water = model.scene.ocean_state.water, water.physical_water
     if spec is None or physical_water is None:
         return water
     exposure = spec.exposure
     if exposure is None:
+        sources = LightSources() if scene is None else find_light_sources(scene)
         depth, light_rate = _find_start_depth(model), model.scene.sim_params.light_rate
         exposure = compute_exposure(physical_water, depth, light_rate, sources)
     return replace(water, physical_water=replace(physical_water, exposure=exposure))
+
+
+def find_light_sources(scene: LitScene) -> LightSources:
+    """Return the light sources of a scene at full brightness."""
+    projector = None if scene.mounted_projector is None else scene.mounted_projector[0].spec
+    return LightSources(
+        lamps=tuple(lamp.spec for lamp in scene.mounted_lamps),
+        has_laser=projector is not None and projector.laser,
+        has_projector_lamp=projector is not None and not projector.laser,
+    )
 
 
 def choose_water(water: Water, fog: float | None, model: SceneModel) -> Water:

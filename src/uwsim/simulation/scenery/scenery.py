@@ -30,7 +30,6 @@ from ...rendering.physical.moving_surface import MovingSurface
 from ...rendering.rendered_image import ImageModel, RenderedImage
 from ...rendering.smoothing import find_means
 from ...rendering.water import Light, Water
-from .automatic_exposure import LightSources
 from .heap_models import HeapModels
 from .light_sources import has_sun_shadows, make_lamp, make_projector
 from .part_names import find_generated_hashes, name_parts
@@ -136,22 +135,12 @@ class Scenery:
         self.mounted_lamps = (*lamps, *leds)
         if (n_lamps := len(lamps)) > MAX_LAMPS:
             raise UwsimError(f"{n_lamps} lamps are in the scene; expected at most {MAX_LAMPS}.")
-        self._set_exposure()
+        self.state.water = set_exposure(self.state.water, self._model, self)
 
     def set_projector(self, projector: MountedProjector, pattern: npt.NDArray[np.uint8]) -> None:
         """Set the projector of the scene, and its pattern (h, w, 4)."""
         self.mounted_projector = projector, pattern
-        self._set_exposure()
-
-    def _set_exposure(self) -> None:
-        """Set the exposure of physical water for the light sources of the scene."""
-        projector = None if self.mounted_projector is None else self.mounted_projector[0].spec
-        sources = LightSources(
-            lamps=tuple(lamp.spec for lamp in self.mounted_lamps),
-            has_laser=projector is not None and projector.laser,
-            has_projector_lamp=projector is not None and not projector.laser,
-        )
-        self.state.water = set_exposure(self.state.water, self._model, sources)
+        self.state.water = set_exposure(self.state.water, self._model, self)
 
     def set_fog(self, density: float) -> None:
         """Set the fog density [1/m] of the water, not the colour of the fog.
