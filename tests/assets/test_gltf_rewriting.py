@@ -237,6 +237,18 @@ def test_without_a_material_it_is_white(has_uvs: bool, tmp_path: Path) -> None:
     assert file.read(tmp_path, ".glb").colour == (1.0, 1.0, 1.0)
 
 
+def test_a_file_that_is_shorter_than_its_buffer_is_an_error(tmp_path: Path) -> None:
+    file = File()
+    file.read(tmp_path)
+    data = (tmp_path / "plate.bin").read_bytes()
+    (tmp_path / "plate.bin").write_bytes(data + b"more")  # a longer one is valid
+    load_model(str(tmp_path / "plate.gltf"))
+    (tmp_path / "plate.bin").write_bytes(data[:-4])
+    text = rf"buffers\[0\].byteLength is {len(data)}; expected at most the {len(data) - 4} bytes of"
+    with pytest.raises(AssetError, match=rf"plate.gltf: .*{text} 'plate.bin'"):
+        load_model(str(tmp_path / "plate.gltf"))
+
+
 @pytest.mark.parametrize("written", ["a%20plate.bin", "a plate.bin"])
 def test_the_name_of_a_file_may_have_escapes(written: str, plate: Mesh, tmp_path: Path) -> None:
     file = File()

@@ -14,6 +14,7 @@ import json
 import math
 import struct
 from collections.abc import Callable
+from contextlib import suppress
 from typing import Any
 
 import numpy as np
@@ -108,7 +109,12 @@ class _Rewriter:
         self._has_changed = False
 
     def run(self) -> bool:
-        """Rewrite the parts that trimesh does not read; return whether anything changed."""
+        """Rewrite the parts that trimesh does not read; return whether anything changed.
+
+        Raises:
+            AssetError: a file of a buffer is shorter than the buffer.
+        """
+        self._check_files()
         for texture in self._tree.get("textures", []):
             if WEBP in texture.get("extensions", {}) and "source" not in texture:
                 texture["source"] = texture["extensions"][WEBP]["source"]
@@ -272,6 +278,20 @@ class _Rewriter:
         data = memoryview(self._buffer(view["buffer"]))[start : start + view["byteLength"]]
         stride = view.get("byteStride") or dtype.itemsize * k
         return np.ndarray((n, k), dtype, data, part.get("byteOffset", 0), (stride, dtype.itemsize))
+
+    def _check_files(self) -> None:
+        """Raise AssetError if a file of a buffer is shorter than the buffer."""
+        for index, buffer in enumerate(self._tree.get("buffers", [])):
+            uri, n_bytes = buffer.get("uri"), buffer["byteLength"]
+            if uri is None or uri.startswith("data:"):
+                continue
+            with suppress(FileNotFoundError):  # trimesh reports it
+                n_found = len(self._buffer(index))
+                if n_found < n_bytes:
+                    raise AssetError(
+                        f"its buffers[{index}].byteLength is {n_bytes}; expected at most the "
+                        f"{n_found} bytes of {uri[:200]!r}"
+                    )
 
     def _buffer(self, index: int) -> bytes:
         if index not in self._read:
