@@ -12,6 +12,7 @@ import pytest
 from tests.rendering.models import placed, plate
 from uwsim.base.geometry import Intrinsics, Pose, image_centre
 from uwsim.optics import HenyeyGreenstein, Medium, find_water
+from uwsim.rendering.caustics import light_shafts
 from uwsim.rendering.caustics.caustic_light import find_contrast_loss
 from uwsim.rendering.caustics.focused_light import FocusedLight
 from uwsim.rendering.caustics.refraction import make_beam
@@ -159,6 +160,32 @@ def test_shafts_near_the_image_of_the_sun_keep_the_mean_light(renderer: Renderer
         assert images[0][..., 1:].min() > 0.1 * images[1][..., 1:].min()
     assert sums[0] == pytest.approx(sums[1], rel=0.01)
     assert largest > 0.2 * sums[1] / 16.0
+
+
+@pytest.mark.parametrize("pitch", [0.35, 0.75])
+def test_shafts_have_the_contrast_of_a_fine_integral(
+    renderer: Renderer, monkeypatch: pytest.MonkeyPatch, pitch: float
+) -> None:
+    """Compare with 400 steps of the full length, towards the sun from 4 m deep."""
+    renderer.clear()
+    cosine, sine = math.cos(pitch), math.sin(pitch)
+    rotation = np.array([[0, -sine, -cosine], [-1, 0, 0], [0, cosine, -sine]])
+    pose, camera = Pose(np.array([0.3, 0.2, -4.0]), rotation), Intrinsics.from_fovy(320, 240, 1.05)
+    medium = find_water("jerlov-II")
+    daylight = Daylight(elevation=1.0, azimuth=0.0)
+    water = physical_water(medium=medium, daylight=daylight, ripples=Ripples(wind_speed=1.0))
+    level = draw(renderer, pose, camera, water, None)
+    shafts = []
+    for n_steps, share in ((light_shafts.N_STEPS, light_shafts.MAP_SHARE), (400, 1.0)):
+        monkeypatch.setattr(light_shafts, "N_STEPS", n_steps)
+        monkeypatch.setattr(light_shafts, "MAP_SHARE", share)
+        renderer._focused_light._shafts = None
+        image = draw(renderer, pose, camera, water, MovingSurface(time=2.0, seed=3))
+        shafts.append((image / level)[..., 1])
+    renderer._focused_light._shafts = None
+    assert shafts[0].std() == pytest.approx(shafts[1].std(), rel=0.15)
+    assert shafts[1].std() > 0.03
+    assert np.corrcoef(shafts[0].ravel(), shafts[1].ravel())[0, 1] > 0.7
 
 
 def make_swell(amplitude: float) -> Waves:

@@ -13,9 +13,10 @@ with :math:`m` the contrast that scattering leaves (`caustic_light.find_contrast
 keeps the sum from being negative: 3, but 15 on rays to a surface with the image of the sun, whose
 aureole is the mean of these shafts.
 
-The integral has 10 steps, whose lengths grow along the ray, in an image of a sixth of the
-resolution. Each step reads the mean of the map over its length from the maps' mipmaps, so that
-shafts that the ray crosses are averaged.
+The integral has 16 steps, whose lengths grow along the ray, in an image of a sixth of the
+resolution. Each step reads the mean of the map over a square from the maps' mipmaps. A square of
+the step's length would be as wide as it is long, and hide the shafts beside each other; one of 0.3
+of it leaves the contrast of 400 steps, within 15 %.
 
 Not modelled: shadows of bodies in the shafts, and shafts that a camera in air sees.
 """
@@ -32,8 +33,10 @@ from .caustic_light import CAUSTICS
 
 RATIO = 6
 """The edge of a texel of the image of shafts [px]."""
-N_STEPS = 10
+N_STEPS = 16
 """The number of steps along a ray."""
+MAP_SHARE = 0.3
+"""The edge of the square of a map that a step averages, over the way of the step [1]."""
 SURFACE_UNIT = 0
 """The texture unit of the image of surfaces."""
 
@@ -88,7 +91,13 @@ class LightShafts:
     def _find_program(self, has_swell: bool, n_slices: int) -> moderngl.VertexArray:
         key = has_swell, n_slices
         if key not in self._programs:
-            defines = {"RATIO": RATIO, "N_STEPS": N_STEPS, "N_SLICES": n_slices, "MAP_LEVEL": 1}
+            defines = {
+                "RATIO": RATIO,
+                "N_STEPS": N_STEPS,
+                "N_SLICES": n_slices,
+                "MAP_LEVEL": 1,
+                "MAP_PERCENT": round(100 * MAP_SHARE),
+            }
             program = build(
                 self._context,
                 "light_shafts",

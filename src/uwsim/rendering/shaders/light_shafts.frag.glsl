@@ -1,6 +1,6 @@
 // Provides: light shafts: what the waves add to the sun's light that the water scatters into the camera, or take from it.
 // Needs: frame.glsl, optics.glsl, caustics_block.glsl, caustics.glsl with MAP_LEVEL; the image of the surfaces; the switches
-// RATIO, the edge of a texel in pixels, and N_STEPS.
+// RATIO, the edge of a texel in pixels, N_STEPS, and MAP_PERCENT, the edge of a mean of the map in percent of a step.
 // b pi E_b / mu p(Theta) integral of exp(-c* t) (G - 1) over the way t in water: caustics/light_shafts.py.
 #include "frame.glsl"
 #include "optics.glsl"
@@ -36,7 +36,7 @@ void main() {
         float share = (float(i) + 0.5) / float(N_STEPS);
         float way = length * share * share;
         float width = length * share * (2.0 / float(N_STEPS));
-        float map_level = log2(max(max(step_texels * width, pixel_texels * way), 1.0));
+        float map_level = log2(max(max(0.01 * float(MAP_PERCENT) * step_texels * width, pixel_texels * way), 1.0));
         float sample_depth = depth - rise * way;
         float excess = caustic_excess(start + drift * way, sample_depth, caustic_depths, swell_frame, map_level);
         sum += exp(loss * -way - (sun_loss.rgb + caustic_loss.rgb) * max(sample_depth, 0.0)) * (excess * width);
