@@ -7,6 +7,7 @@ from collections.abc import Callable
 from uwsim.assets.mesh import Mesh
 
 from .parts import Part
+from .scenery import arm5e as smooth_arm5e
 from .scenery import chain, nets, pier, pipes, pool, rocks, seabed, vehicles, wreck
 from .stand_ins import (
     amphora,
@@ -107,7 +108,16 @@ SCENERY: dict[str, dict[str, Callable[[], tuple[Part, ...]]]] = {
     "objects/pipes": {"objects/pipe_flanged": pipes.pipe, "objects/pipe_elbow": pipes.elbow},
     "objects/wreck": {"objects/wreck": wreck.wreck},
     "robot/BLUEROV2": {"robot/BLUEROV2/bluerov2_heavy": vehicles.bluerov2_heavy},
-    "robot/girona500": {"robot/GIRONA500/girona500": vehicles.girona500},
+    "robot/arm5e_smooth": {
+        "robot/ARM5E/arm5e_base": smooth_arm5e.base,
+        "robot/ARM5E/arm5e_shoulder": smooth_arm5e.shoulder,
+        "robot/ARM5E/arm5e_upper_arm": smooth_arm5e.upper_arm,
+        "robot/ARM5E/arm5e_forearm": smooth_arm5e.forearm,
+        "robot/ARM5E/arm5e_wrist": smooth_arm5e.wrist,
+        "robot/ARM5E/arm5e_jaw1": smooth_arm5e.jaw1,
+        "robot/ARM5E/arm5e_jaw2": smooth_arm5e.jaw2,
+    },
+    "robot/girona500_smooth": {"robot/GIRONA500/girona500": vehicles.girona500},
     "terrain/pool": {"terrain/pool/pool": pool.pool},
     "terrain/seabed": {
         "terrain/seabed/sand": seabed.sand,

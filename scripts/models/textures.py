@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cache
 from typing import Any
 
 import cv2
@@ -19,6 +18,8 @@ from uwsim.assets.procedural.textures import (
     to_texture,
 )
 from uwsim.base import rng
+
+from .cached import cache_image
 
 Grey = npt.NDArray[Any]
 """A grey image, (h, w), about 0..1."""
@@ -59,7 +60,7 @@ def shading(height_map: Grey, strength: float, *, tiles: bool = False) -> Grey:
     return shade
 
 
-@cache
+@cache_image
 def worn_paint(name: str, colour: Colour, *, size: int = 256, grain: float = 0.06) -> Texture:
     """Return the texture of used paint or metal: cloudy, with fine scratches."""
     clouds = noise(f"{name}/clouds", size, size, cells=3, octaves=6)
@@ -71,7 +72,7 @@ def worn_paint(name: str, colour: Colour, *, size: int = 256, grain: float = 0.0
     return to_texture(name, image)
 
 
-@cache
+@cache_image
 def cement(name: str, colour: Colour, *, size: int = 512, joints: int = 0) -> Texture:
     """Return cement with stains and pores; ``joints`` tiles along each side when not 0."""
     clouds = noise(f"{name}/clouds", size, size, cells=2, octaves=7, gain=0.62)

@@ -55,12 +55,12 @@ def test_an_edited_copy_is_used(tmp_path: Path) -> None:
 def test_a_file_that_exists_is_kept_without_overwrite(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    mine = tmp_path / "g500ARM5.urdf"
+    mine = tmp_path / "girona500_arm5e.urdf"
     mine.write_text("mine")
     assert main(["copy", "cirs", str(tmp_path)]) == 2
     assert "--overwrite" in capsys.readouterr().err
     assert mine.read_text() == "mine"
-    assert [path.name for path in tmp_path.iterdir()] == ["g500ARM5.urdf"]
+    assert [path.name for path in tmp_path.iterdir()] == ["girona500_arm5e.urdf"]
     assert main(["copy", "cirs", str(tmp_path), "--overwrite"]) == 0
     assert mine.read_text() != "mine"
     assert "uwsim run" in capsys.readouterr().out

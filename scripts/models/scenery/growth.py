@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
-from functools import cache, partial
+from functools import partial
 
 import numpy as np
 
@@ -12,6 +12,7 @@ from uwsim.base import rng
 from uwsim.base.geometry import rotation_from_rpy
 
 from ..baked import Skin, bake
+from ..cached import cache_image
 from ..fields import Points, Values, noise3
 from ..parts import Part
 from ..shapes import rotation_to
@@ -88,7 +89,7 @@ def _copy_clump(
     )
 
 
-@cache
+@cache_image
 def _clump(kind: str) -> Part:
     """Return a clump of about 1 m, to be scaled."""
     return bake(f"growth/{kind}", partial(_radius, kind), partial(_paint, kind), n=3, side=72)

@@ -8,12 +8,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from functools import cache
 
 import numpy as np
 
 from uwsim.base import rng
 
+from ..cached import cache_image
 from ..fields import Points, Values, cells3, noise3
 from ..parts import Part
 from ..shapes import (
@@ -107,7 +107,7 @@ def _make_pile(index: int, x: float, y: float) -> Shape:
     return pile.rotate(rotation).shift(x, y)
 
 
-@cache
+@cache_image
 def _pile_material() -> Material:
     points = _pile_points(IMAGE[0], IMAGE[1] + 1)[:, :-1]
     algae, barnacles, mussels, turf = _zones(points)
@@ -221,7 +221,7 @@ def _make_growth(piles: Part) -> list[Part]:
     return scatter_growth("pier", points, normals, size=(0.06, 0.2))
 
 
-@cache
+@cache_image
 def _timber() -> Material:
     """Return grey planks, whose grain runs along the columns."""
     size = 256
@@ -236,7 +236,7 @@ def _timber() -> Material:
     return make_material("pier/timber", image, 0.0012 * grain, 0.85, pixel=(pixel, pixel))
 
 
-@cache
+@cache_image
 def _cement() -> Material:
     size = 256
     clouds = noise("pier/concrete", size, size, cells=3, octaves=6, gain=0.6)

@@ -7,13 +7,13 @@ origin, so that pieces join. The axis is at z = 0.
 from __future__ import annotations
 
 import math
-from functools import cache
 
 import numpy as np
 
 from uwsim.base import rng
 from uwsim.base.geometry import Array, rotation_from_rpy
 
+from ..cached import cache_image
 from ..fields import noise3
 from ..parts import Part
 from ..shapes import Shape, cylinder, lathe, ring, rotation_to, surface
@@ -107,7 +107,7 @@ def _flange() -> list[Shape]:
     return shapes
 
 
-@cache
+@cache_image
 def _steel() -> Material:
     coat = Coat(paint=(0.30, 0.29, 0.13), paint_share=0.55, growth=0.5, silt=0.4, streaks=0.3)
     return weathered_steel("pipes", coat, size=384, metres=TILE)

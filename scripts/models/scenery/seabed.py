@@ -7,7 +7,7 @@ of sand and gravel by tiles in random order (`seabed_tiles`).
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import cache, partial
+from functools import partial
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from uwsim.base import rng
 from uwsim.base.geometry import rotation_from_rpy
 
 from ..baked import bake
+from ..cached import cache_image
 from ..fields import noise3
 from ..parts import Part
 from ..shapes import Shape, join, surface
@@ -119,6 +120,6 @@ def _stones(name: str, count: int) -> Part:
     return replace(stone, mesh=stones)
 
 
-@cache
+@cache_image
 def _material() -> Material:
     return seabed_material()

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cache
 
 import cv2
 import numpy as np
 
+from ..cached import cache_image
 from ..fields import cells3
 from ..surfaces import Material, make_material
 from ..textures import Colour, Grey, Pixels, noise, smoothstep
@@ -36,7 +36,7 @@ class Coat:
     """The strength of streaks that run down."""
 
 
-@cache
+@cache_image
 def weathered_steel(name: str, coat: Coat, *, size: int = 512, metres: float = 3.0) -> Material:
     """Return a material that repeats every ``metres``; its rows run down."""
     key = f"steel/{name}"

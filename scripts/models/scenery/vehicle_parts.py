@@ -3,15 +3,27 @@
 from __future__ import annotations
 
 import math
-from functools import cache
 
 import numpy as np
 
 from uwsim.base.geometry import rotation_z
+from uwsim.base.numerics.linear import product
 
+from ..cached import cache_image
 from ..shapes import Shape, join, lathe, rotation_to, surface
 from ..surfaces import Material, make_material
 from ..textures import Colour, noise, smoothstep
+
+PROJECTION = np.array([[0.8, 0.5, 0.4], [-0.45, 0.75, -0.6]])
+"""The directions of the axes of a texture that is oblique to all faces of a vehicle, (2, 3)."""
+
+
+def project_obliquely(shape: Shape, metres: float) -> Shape:
+    """Return a shape with an image every ``metres``, in one projection, which has no seams.
+
+    The image of paint has no direction, so that stretching is not seen.
+    """
+    return Shape(shape.corners, product(shape.corners, PROJECTION.T) / metres)
 
 
 def make_thruster(radius: float) -> tuple[Shape, Shape]:
@@ -68,7 +80,7 @@ def place_thruster(
     return first, second
 
 
-@cache
+@cache_image
 def make_paint(name: str, colour: Colour, roughness: float, *, metallic: float = 0.0) -> Material:
     """Return a used surface of one colour, with faint clouds and scratches, 0.4 m an image."""
     size = 128

@@ -25,7 +25,7 @@ from ..stand_ins.girona500 import (
 )
 from ..surfaces import Material, make_material
 from ..textures import noise
-from .vehicle_parts import make_paint, make_thruster, place_thruster
+from .vehicle_parts import make_paint, make_thruster, place_thruster, project_obliquely
 
 TILE = 0.4
 """The side of an image of paint [m]."""
@@ -71,7 +71,7 @@ def girona500() -> tuple[Part, ...]:
 
 
 def _fit(shape: Shape) -> Shape:
-    return to_mesh_frame(shape).project_uv(TILE)
+    return project_obliquely(to_mesh_frame(shape), TILE)
 
 
 def _girona_hull() -> Shape:
@@ -132,7 +132,7 @@ def bluerov2_heavy() -> tuple[Part, ...]:
 
 def _wrap(shape: Shape) -> Shape:
     """Return a shape with texture coordinates, in the frame of the robot: z down."""
-    return shape.project_uv(TILE).rotate(np.diag([1.0, -1.0, -1.0]))
+    return project_obliquely(shape, TILE).rotate(np.diag([1.0, -1.0, -1.0]))
 
 
 def _rov_frame() -> list[Shape]:

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from functools import cache
 
 import numpy as np
 
 from uwsim.assets.mesh import Mesh, Texture
 from uwsim.base.numerics.elementwise import power
 
+from ..cached import cache_image
 from ..shapes import Shape, lathe, mesh, tube
 from ..textures import fill, mix, noise, smoothstep, to_texture
 
@@ -25,7 +25,7 @@ OUTER_PROFILE = (
 INNER_PROFILE = ((0.040, TOP), (0.030, 0.72), (0.028, 0.66), (0.036, 0.615))
 
 
-@cache
+@cache_image
 def _clay() -> Texture:
     """Return fired clay with turning marks and growth."""
     size = 256

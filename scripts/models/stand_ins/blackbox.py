@@ -6,12 +6,11 @@ be on top.
 
 from __future__ import annotations
 
-from functools import cache
-
 import numpy as np
 
 from uwsim.assets.mesh import Mesh, Texture
 
+from ..cached import cache_image
 from ..shapes import Shape, box, cylinder, join, mesh, quad, tube
 from ..textures import Pixels, fill, mix, noise, paint_text, smoothstep, to_texture, worn_paint
 
@@ -47,7 +46,7 @@ def _paint_bars(image: Pixels, left: float, right: float, period: float) -> None
     image[is_ink & (x < right * width)] = INK
 
 
-@cache
+@cache_image
 def face() -> Texture:
     """Return the image of the large faces, with the box's +y end to the right."""
     height, width = 192, 640
@@ -66,7 +65,7 @@ def face() -> Texture:
     return to_texture("blackbox/face", image * (1.0 + 0.05 * dirt)[..., None], repeats=False)
 
 
-@cache
+@cache_image
 def side() -> Texture:
     """Return the image of the narrow faces."""
     height, width = 128, 480

@@ -6,14 +6,13 @@ They are at z = -15 m and extend 40 m each way: the vehicles of UWSim's scenes s
 
 from __future__ import annotations
 
-from functools import cache
-
 import cv2
 import numpy as np
 
 from uwsim.assets.mesh import Mesh, Texture
 from uwsim.base.geometry import Array, rotation_from_rpy, rotation_y
 
+from ..cached import cache_image
 from ..shapes import Shape, cylinder, join, mesh, quad, sphere, surface
 from ..textures import fill, mix, noise, shading, smoothstep, to_texture, worn_paint
 from .ships import hull
@@ -24,7 +23,7 @@ FLAT_SIDE = 24.0
 """The edge of the plane of sand [m]."""
 
 
-@cache
+@cache_image
 def sand() -> Texture:
     """Return rippled sand with grit, 4 m an image."""
     size = 512
