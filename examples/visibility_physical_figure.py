@@ -28,7 +28,6 @@ from PIL import Image, ImageDraw, ImageFont
 from uwsim.analysis.plots import (
     INK,
     MARKERS,
-    PALETTE,
     curves_of,
     save_pdf,
     save_plot,
@@ -64,6 +63,8 @@ TITLES = {
     "lamp-0.5": "lamp 0.5 m beside the lens",
 }
 SHORT_TITLES = {"day": "sun", "lamp-0.1": "lamp 0.1 m", "lamp-0.5": "lamp 0.5 m"}
+LIGHT_COLOURS = (INK, "#8c8c8c", "#3b6ea8")
+"""The colours of the lights, none of which is that of a tracker."""
 TRACKERS = ("esm", "ic", "ecc", "orb", "ssd-esm")
 LEVEL, CORNERS = "attenuationLengths", "corners"
 MAX_ERROR = 5.0
@@ -295,13 +296,13 @@ def draw_losses(axes: Axes, results: Mapping[str, Mapping[str, Result]]) -> None
             spread = [[median.value - low], [min(high, MAX_LEVEL) - median.value]]
             axes.errorbar(
                 [median.value], [y], xerr=spread,
-                fmt=MARKERS[j], color=PALETTE[(j + 4) % len(PALETTE)], capsize=2.5,
+                fmt=MARKERS[j], color=LIGHT_COLOURS[j], capsize=2.5,
                 label=SHORT_TITLES[light] if tracker == TRACKERS[0] else None,
             )  # fmt: skip
     axes.set_yticks(range(len(TRACKERS)), TRACKERS)
     axes.set(xlabel="attenuation lengths to the target", xlim=(0.0, MAX_LEVEL))
-    axes.set_ylim(len(TRACKERS) - 0.4, -0.6)
-    axes.legend(loc="center left")
+    axes.set_ylim(len(TRACKERS) + 0.3, -0.6)
+    axes.legend(loc="lower center", ncols=len(results), columnspacing=1.0, handletextpad=0.2)
 
 
 if __name__ == "__main__":

@@ -27,6 +27,8 @@ MAX_PIXELS = 26_000_000
 """The greatest number of pixels of a frame."""
 MAX_PLANES = 4
 SUFFIXES = (".png", ".tif", ".tiff", ".npy", *raw_files.SUFFIXES)
+PHONE_SUFFIXES = (".jpg", ".jpeg", ".heic", ".heif")
+"""The suffixes of pictures to which a phone has applied its tone curve."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,9 +50,12 @@ def read_frame(path: Path) -> FloatArray:
         AssetError: the file is not a picture of a known format, or is too large.
     """
     if path.suffix.lower() not in SUFFIXES:
+        advice = ""
+        if path.suffix.lower() in PHONE_SUFFIXES:
+            advice = " Its tone curve is unknown: take raw pictures (.dng) with the phone."
         raise AssetError(
             f"{path}: {path.suffix or 'a file without suffix'} is not read; expected "
-            f"{', '.join(SUFFIXES)}."
+            f"{', '.join(SUFFIXES)}.{advice}"
         )
     try:
         data = read_bytes(path, at_most=MAX_BYTES)

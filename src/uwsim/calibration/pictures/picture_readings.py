@@ -68,12 +68,13 @@ def read_pictures(setup: SetupSpec, folder: Path) -> tuple[WaterReadings, ...]:
     reference = None
     if setup.reference is not None:
         reference = pictures.read_all(setup.reference.pictures, {})
-    waters = []
-    for water in setup.waters:
-        signals = pictures.read_all(water.pictures, reference.checkers if reference else {})
-        waters.append(_make_readings(setup, water, signals, reference))
+    checkers = reference.checkers if reference else {}
+    signals = [pictures.read_all(water.pictures, checkers) for water in setup.waters]
     diagnostics.check(SetupError)
-    return tuple(waters)
+    return tuple(
+        _make_readings(setup, water, water_signals, reference)
+        for water, water_signals in zip(setup.waters, signals, strict=True)
+    )
 
 
 class _PictureReader:
@@ -285,14 +286,19 @@ def _make_open_water(
         return ()
     open_readings = []
     for channel, centre in signals.centres.items():
-        boards = [r for r in readings if isinstance(r, BoardReading) and r.channel == channel]
+        boards = {
+            reading: reading.reference
+            for reading in readings
+            if isinstance(reading, BoardReading)
+            and reading.channel == channel
+            and reading.reference is not None
+        }
         if not boards or centre.value <= 0.0:
             continue
         board = max(boards, key=lambda reading: reading.side)
         spec = setup.find_source(board.source)
         assert isinstance(spec, BoardSpec)
-        assert board.reference is not None
-        board_light = board.reference / (spec.white - spec.black) / board.geometry
+        board_light = boards[board] / (spec.white - spec.black) / board.geometry
         open_readings.append(
             OpenWaterReading(
                 channel=channel,
