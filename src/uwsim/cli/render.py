@@ -194,7 +194,7 @@ def load_scene(
 
 def save_images(view: RenderedView, names: dict[int, str], output: ImageOptions) -> list[Path]:
     """Write all requested files."""
-    paths = [save_image(output.out, view.pixels)]
+    paths = [save_image(output.out, view.pixels, view.record)]
     if output.depth:
         paths += save_depth(output.out, view.render_clean())
     if output.segmentation:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Literal
 import numpy as np
 import numpy.typing as npt
 
+from ..base.files.image_record import ImageRecord
 from ..errors import BadSetting, did_you_mean
 
 if TYPE_CHECKING:
@@ -35,6 +36,8 @@ class RenderedView:
     """The description for the user."""
     pixels: npt.NDArray[np.uint8] | npt.NDArray[np.uint16]
     """The pixels, (h, w, 3) or (h, w)."""
+    record: ImageRecord
+    """The record of the image, in its file."""
     render_clean: Callable[[], RenderedImage]
     """A function that draws the image without noise, with depth and segmentation IDs."""
 
@@ -110,6 +113,8 @@ class ViewRequest:
         return self._render_view(simulation, view, title)
 
     def _render_view(self, simulation: Simulation, view: View, title: str) -> RenderedView:
+        from ..simulation.scenery.image_origin import describe_image
+
         fog = 0.0 if view.is_clear and not self.has_fog else None
 
         def draw(samples: int = 1) -> RenderedImage:
@@ -119,15 +124,21 @@ class ViewRequest:
 
         pixels = draw(self.samples).colour
         assert pixels is not None
-        return RenderedView(title, pixels.view(np.uint8), draw)
+        record = describe_image(simulation, title, fog)
+        return RenderedView(title, pixels.view(np.uint8), record, draw)
 
     def _render_camera(self, simulation: Simulation, name: str) -> RenderedView:
+        from ..simulation.scenery.image_origin import describe_image
+
         camera = simulation.world.sensors.camera(name)
         if self.size is not None:
             camera.resize(camera.intrinsics.with_size(*self.size))
+        pixels = camera.capture()
+        record = describe_image(simulation, name, is_linear=pixels.dtype == np.uint16)
         return RenderedView(
             f"camera {name!r}",
-            camera.capture(),
+            pixels,
+            record,
             lambda: simulation.world.scenery.render_clean(
                 camera.world_from_camera, camera.intrinsics, is_polished=camera.is_polished
             ),

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import csv
+import io
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import numpy as np
 from PIL import Image
 
+from ...base.files.image_record import N_BITS, ImageRecord, add_record, fill_sixteen_bits
 from ...messages.compressed import encode_png
 from ...results.atomic_file import atomic_write
 
@@ -21,13 +23,26 @@ MAX_DEPTH_MM = 65535
 a surface are 0."""
 
 
-def save_image(path: Path, pixels: np.ndarray) -> Path:
-    """Write a PNG image of colours (h, w, 3) or of values (h, w), uint8 or uint16."""
+def save_image(path: Path, pixels: np.ndarray, record: ImageRecord) -> Path:
+    """Write a PNG image of colours (h, w, 3) or greys (h, w) with its record.
+
+    Numbers of 12 bit (uint16) fill the 16 bit of the file.
+    """
+    if pixels.dtype == np.uint16:
+        file = add_record(encode_png(fill_sixteen_bits(pixels)), record, n_bits=N_BITS)
+    else:
+        stream = io.BytesIO()
+        Image.fromarray(pixels).save(stream, format="PNG")
+        file = add_record(stream.getvalue(), record)
     with atomic_write(path) as draft:
-        if pixels.dtype == np.uint16 and pixels.ndim == 3:  # which Pillow does not write
-            draft.write_bytes(encode_png(pixels))
-        else:
-            Image.fromarray(pixels).save(draft, format="PNG")
+        draft.write_bytes(file)
+    return path
+
+
+def save_values(path: Path, values: np.ndarray) -> Path:
+    """Write a PNG image of values (h, w), uint16."""
+    with atomic_write(path) as draft:
+        Image.fromarray(values).save(draft, format="PNG")
     return path
 
 
@@ -40,7 +55,7 @@ def save_depth(out: Path, image: RenderedImage) -> list[Path]:
     with atomic_write(array_path) as draft, draft.open("wb") as stream:
         np.save(stream, metres)
     clipped_depth = np.minimum(millimetres, MAX_DEPTH_MM).astype(np.uint16)
-    return [save_image(sibling_path(out, "-depth.png"), clipped_depth), array_path]
+    return [save_values(sibling_path(out, "-depth.png"), clipped_depth), array_path]
 
 
 def save_ids(out: Path, image: RenderedImage, names: dict[int, str]) -> list[Path]:
@@ -53,7 +68,7 @@ def save_ids(out: Path, image: RenderedImage, names: dict[int, str]) -> list[Pat
         table.writerow(["id", "name", "pixels"])
         for body, count in zip(ids.tolist(), counts.tolist(), strict=True):
             table.writerow([body, names.get(body, ""), count])
-    return [save_image(sibling_path(out, "-ids.png"), image.ids), legend]
+    return [save_values(sibling_path(out, "-ids.png"), image.ids), legend]
 
 
 def sibling_path(out: Path, ending: str) -> Path:

@@ -16,6 +16,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ...base.files.file_names import file_names
+from ...base.files.image_record import ImageRecord, add_record
 from ...errors import RunFailed
 from ...results import journal
 from ...results.atomic_file import atomic_write
@@ -99,7 +100,7 @@ def run_trial(
             yield LevelEnded(
                 row=_row(outcome, images),
                 images=tuple(
-                    (images[snapshot.camera], _png(snapshot.pixels))
+                    (images[snapshot.camera], _png(snapshot.pixels, snapshot.record))
                     for snapshot in outcome.snapshots
                 ),
             )
@@ -160,9 +161,9 @@ def make_picklable(error: BaseException) -> Exception:
     return substitute
 
 
-def _png(pixels: npt.NDArray[np.uint8]) -> bytes:
+def _png(pixels: npt.NDArray[np.uint8], record: ImageRecord) -> bytes:
     _, png = cv2.imencode(".png", np.ascontiguousarray(pixels[..., ::-1]))
-    return bytes(png.tobytes())
+    return add_record(bytes(png.tobytes()), record)
 
 
 def _row(row: LevelRow, images: dict[str, str]) -> StoredRow:

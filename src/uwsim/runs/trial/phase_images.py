@@ -11,11 +11,13 @@ from collections.abc import Sequence
 import numpy as np
 import numpy.typing as npt
 
+from ...base.files.image_record import ImageRecord
 from ...base.geometry import Array, Intrinsics, Pose
 from ...base.numerics.linear import length
 from ...benchmark.measures import Measure
 from ...scene.mounts import camera_axes
 from ...simulation import Simulation
+from ...simulation.scenery.image_origin import describe_image
 from ...world import Body
 from .snapshots import Snapshot, capture
 from .triggered_measure import TriggeredMeasure
@@ -43,15 +45,21 @@ class PhaseImages:
     def __init__(self, simulation: Simulation) -> None:
         self._simulation = simulation
         self._phase: str | None = None
-        self._images: dict[str, npt.NDArray[np.uint8]] = {}
+        self._images: dict[str, tuple[npt.NDArray[np.uint8], ImageRecord]] = {}
         self._n_images = 0
 
     @property
     def snapshots(self) -> tuple[Snapshot, ...]:
         """The images, one for each phase, in the order in which the phases first ended."""
         return tuple(
-            Snapshot(camera=f"{PREFIX} {i} {name}", pixels=pixels, truth=None, estimate=None)
-            for i, (name, pixels) in enumerate(self._images.items(), 1)
+            Snapshot(
+                camera=f"{PREFIX} {i} {name}",
+                pixels=pixels,
+                truth=None,
+                estimate=None,
+                record=record,
+            )
+            for i, (name, (pixels, record)) in enumerate(self._images.items(), 1)
         )
 
     def update(self, measures: Sequence[TriggeredMeasure]) -> None:
@@ -77,7 +85,8 @@ class PhaseImages:
         if self._phase is None or bodies is None or self._n_images >= MAX_IMAGES:
             return
         self._n_images += 1
-        self._images[self._phase] = self._draw(*bodies)
+        record = describe_image(self._simulation, f"view at the end of {self._phase}")
+        self._images[self._phase] = self._draw(*bodies), record
 
     def _draw(self, vehicle: Body, target: Body) -> npt.NDArray[np.uint8]:
         """Return an external view with a camera's last image in a corner, (h, w, 3) RGB."""

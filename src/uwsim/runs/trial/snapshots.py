@@ -8,9 +8,11 @@ from dataclasses import dataclass
 import numpy as np
 import numpy.typing as npt
 
+from ...base.files.image_record import ImageRecord
 from ...benchmark.ground_truth import CornersFromCameraSpec
 from ...benchmark.measures import EuclideanNorm, EuclideanNormSpec, Measure, MeasureSpec
 from ...simulation import Simulation
+from ...simulation.scenery.image_origin import describe_image
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -25,6 +27,8 @@ class Snapshot:
     """x, y of the target's four corners [px]; None if no measure compares corners."""
     estimate: tuple[float, ...] | None
     """x, y of the four corners in the algorithm's last estimate [px]; None without an estimate."""
+    record: ImageRecord
+    """The record of the image, in its file; its time is that of the end of the level or phase."""
 
 
 def capture(
@@ -47,6 +51,9 @@ def capture(
                 pixels=images.last_pixels,
                 truth=truth,
                 estimate=estimate if is_tracking else None,
+                record=describe_image(
+                    simulation, name, is_linear=images.camera.pixel_type is np.uint16
+                ),
             )
     return tuple(snapshots.values())
 
