@@ -28,6 +28,7 @@ from uwsim.rendering.noise import add_noise
 from uwsim.rendering.physical.moving_surface import MovingSurface
 from uwsim.rendering.physical.particle_pass import VisibleParticles
 from uwsim.rendering.physical.physical_water import PhysicalWater
+from uwsim.rendering.physical.view import ViewContents
 from uwsim.rendering.renderer import Renderer
 from uwsim.rendering.targets import TARGETS
 from uwsim.rendering.water import Light, Water
@@ -168,7 +169,12 @@ def measure() -> dict[str, object]:
         offset = pose.rotation @ np.array([0.3, 0.0, 0.0])
         lamp = Lamp(world_from_lamp=Pose(pose.position + offset, pose.rotation), half_angle=0.6)
         renderer.draw(
-            pose, camera, PHYSICAL_WATER, Light(), targets=targets, lamps=(lamp,) * n_lamps
+            pose,
+            camera,
+            PHYSICAL_WATER,
+            Light(),
+            targets=targets,
+            contents=ViewContents(lamps=(lamp,) * n_lamps),
         )
 
     time_of_image = 0.0
@@ -183,7 +189,7 @@ def measure() -> dict[str, object]:
             replace(PHYSICAL_WATER, physical_water=optics),
             Light(),
             targets=COLOUR,
-            surface=MovingSurface(time=time_of_image),
+            contents=ViewContents(surface=MovingSurface(time=time_of_image)),
         )
 
     response = CameraResponse()
@@ -215,8 +221,8 @@ def measure() -> dict[str, object]:
         offset = pose.rotation @ np.array([0.3, 0.0, 0.0])
         lamp = Lamp(world_from_lamp=Pose(pose.position + offset, pose.rotation), half_angle=0.6)
         renderer.draw(
-            pose, large_camera, PHYSICAL_WATER, Light(), targets=COLOUR, lamps=(lamp,),
-            particles=find_snow(pose),
+            pose, large_camera, PHYSICAL_WATER, Light(), targets=COLOUR,
+            contents=ViewContents(lamps=(lamp,), particles=find_snow(pose)),
         )  # fmt: skip
 
     surface_pose = view_pose((2.0, 1.5, 3.5), (2.0, -2.0, 0.5))
@@ -236,7 +242,7 @@ def measure() -> dict[str, object]:
             replace(PHYSICAL_WATER, physical_water=optics),
             Light(),
             targets=COLOUR,
-            surface=MovingSurface(time=time_of_image, waves=waves),
+            contents=ViewContents(surface=MovingSurface(time=time_of_image, waves=waves)),
         )
 
     figures: dict[str, object] = {

@@ -25,6 +25,7 @@ from uwsim.base.geometry import Array, Intrinsics, Pose
 from uwsim.optics import Medium
 from uwsim.rendering.lights.lamp import Lamp
 from uwsim.rendering.physical.physical_water import Daylight, PhysicalWater
+from uwsim.rendering.physical.view import ViewContents
 from uwsim.rendering.renderer import Renderer
 from uwsim.rendering.water import Light, Water
 from uwsim.scene.urdf.kinematics import link_poses
@@ -162,7 +163,7 @@ def draw_models(renderer: Renderer, placed: Placed, view: View, size: tuple[int,
     surface_height = float(points[:, 2].max()) + 4.0
     image = renderer.draw(
         pose, lens, Water(surface_height=surface_height, physical_water=water), Light(),
-        targets={"colour", "ids"}, lamps=(lamp,),
+        targets={"colour", "ids"}, contents=ViewContents(lamps=(lamp,)),
     )  # fmt: skip
     assert image.colour is not None
     assert image.ids is not None

@@ -13,6 +13,7 @@ from uwsim.assets.images import PixelImage
 from uwsim.assets.mesh import Model, Texture
 from uwsim.base.geometry import Intrinsics, Pose
 from uwsim.rendering.lights.lamp import Lamp
+from uwsim.rendering.physical.view import ViewContents
 from uwsim.rendering.renderer import RenderedImage, Renderer
 from uwsim.rendering.water import Light, Water
 
@@ -118,7 +119,7 @@ def test_glass_casts_no_shadow(renderer: Renderer) -> None:
             world_from_lamp=Pose.from_rpy((2.0, 0.0, 0.0), (0.0, 0.6, 0.0)),
             half_angle=0.6, intensity=3.0,
         )  # fmt: skip
-        colour = middle(look(own, light=Light(rate=0.1), lamps=[lamp]))
+        colour = middle(look(own, light=Light(rate=0.1), contents=ViewContents(lamps=[lamp])))
         own.close()
         return colour
 

@@ -8,7 +8,7 @@ surface, caustics and light shafts are those of physical water. Not modelled: re
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -24,15 +24,12 @@ from .frame import Frame
 from .gpu_model import GpuModels
 from .instance import Indices, Instances, Slots, find_visible
 from .lights.artificial_light import ArtificialLight
-from .lights.lamp import Lamp
-from .lights.projector import Projector
 from .lights.shadow_region import Region, compute_tile_bounds, find_shaded_region
 from .lights.sun_shadow import MAX_CASTER_RADIUS, SHADOW_MARGIN, SunShadow, find_shadow_pairs
 from .materials.maps import Switches
 from .passes import SAMPLERS, Passes
 from .physical.development import Development
-from .physical.moving_surface import MovingSurface
-from .physical.visible_particles import VisibleParticles
+from .physical.view import NO_CONTENTS, View, ViewContents
 from .projection import Projection, projection
 from .rendered_image import RenderedImage
 from .surface.surface_pass import SurfacePass
@@ -48,57 +45,6 @@ MAX_SHADED_SHARE = 0.75
 to draw the whole image takes less time."""
 MAX_STORED_BYTES = 2**24
 """The largest image that is stored for a view that does not change [bytes]."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class View:
-    """The inputs of an image: equal views give equal images."""
-
-    pose: bytes
-    """The bytes of the matrix ``world_from_camera``."""
-    intrinsics: Intrinsics
-    """The pinhole of the camera."""
-    water: Water
-    """The water between surfaces and camera."""
-    light: Light
-    """The light of the scene."""
-    targets: frozenset[str]
-    """The requested targets."""
-    hidden_ids: frozenset[int]
-    """The ids of instances that are not drawn."""
-    colour_format: str
-    """The format of colours (`targets.COLOUR_FORMATS`)."""
-    version: int
-    """The version of the instances and their poses."""
-    lamps: tuple[Lamp, ...]
-    """The lamps."""
-    projector: Projector | None
-    """The projector of a pattern, if there is one."""
-    surface: MovingSurface | None = None
-    """The moving surface, if images depend on it."""
-    particles: VisibleParticles | None = None
-    """The particles in physical water, if there are any."""
-    switches: Switches = ()
-    """The switches of the shaders of surfaces for focused sunlight."""
-
-    @property
-    def is_physical(self) -> bool:
-        """True if the image has colours through physical water."""
-        return self.water.physical_water is not None and "colour" in self.targets
-
-    @property
-    def margin(self) -> tuple[int, int]:
-        """The columns and rows that are drawn beyond each edge of the image [px]."""
-        water, lens = self.water.physical_water, self.intrinsics
-        if water is None or not water.has_blur:
-            return 0, 0
-        return round(water.blur_margin * lens.width), round(water.blur_margin * lens.height)
-
-    @property
-    def has_surface(self) -> bool:
-        """True if the water's surface is drawn."""
-        water = self.water.physical_water
-        return water is not None and self.is_physical and water.has_surface
 
 
 class Renderer:
@@ -179,10 +125,7 @@ class Renderer:
         targets: Iterable[str] = TARGETS,
         hidden_ids: frozenset[int] = frozenset(),
         colour: str = "uint8",
-        lamps: Sequence[Lamp] = (),
-        projector: Projector | None = None,
-        surface: MovingSurface | None = None,
-        particles: VisibleParticles | None = None,
+        contents: ViewContents = NO_CONTENTS,
     ) -> RenderedImage:
         """Draw one image.
 
@@ -195,10 +138,7 @@ class Renderer:
             hidden_ids: the ids of instances that are not drawn and cast no shadows.
             colour: the format of colours: ``uint8``, ``linear16`` if noise is added before
                 conversion to 8 bit, or ``light`` in physical water, for a camera's response.
-            lamps: the lamps, at most four.
-            projector: the projector of a pattern, if there is one.
-            surface: the moving surface of physical water, if there is one.
-            particles: the particles in view, which only physical water shows.
+            contents: the lamps, projector, surface and particles.
         """
         names = frozenset(targets)
         if not names or not names <= set(TARGETS) or colour not in COLOUR_FORMATS:
@@ -207,6 +147,7 @@ class Renderer:
             )
         if colour == LIGHT and water.physical_water is None:
             raise ValueError("the fog law has colours, not light; expected physical water")
+        lamps, surface = tuple(contents.lamps), contents.surface
         if len(lamps) > MAX_LAMPS:
             raise ValueError(f"{len(lamps)} lamps are more than {MAX_LAMPS}")
         view = View(
@@ -218,12 +159,12 @@ class Renderer:
             hidden_ids=hidden_ids,
             colour_format=colour,
             version=self._instances.version,
-            lamps=tuple(lamps),
-            projector=projector,
+            lamps=lamps,
+            projector=contents.projector,
             surface=surface if water.physical_water is not None and "colour" in names else None,
-            particles=particles,
+            particles=contents.particles,
         )
-        if projector is not None or particles is not None:
+        if contents.projector is not None or contents.particles is not None:
             return self._draw_view(view, world_from_camera)
         image = self._images.get(view)
         return image.copy() if image is not None else self._draw_and_store(view, world_from_camera)

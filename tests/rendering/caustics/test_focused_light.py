@@ -22,6 +22,7 @@ from uwsim.rendering.caustics.wave_tile import TILE_EDGE
 from uwsim.rendering.physical.daylight_field import compute_light_field
 from uwsim.rendering.physical.moving_surface import MovingSurface
 from uwsim.rendering.physical.physical_water import Daylight, PhysicalWater
+from uwsim.rendering.physical.view import ViewContents
 from uwsim.rendering.renderer import Renderer
 from uwsim.rendering.water import Light, Water
 from uwsim.waves import WaveComponents, Waves
@@ -78,7 +79,7 @@ def draw(
     """Return the linear light of an image without shadows."""
     image = renderer.draw(
         pose, camera, Water(physical_water=water), Light(shadows=False),
-        targets={"colour"}, colour="linear16", surface=surface,
+        targets={"colour"}, colour="linear16", contents=ViewContents(surface=surface),
     )  # fmt: skip
     assert image.colour is not None
     return image.colour[..., :3] / 65535.0 / water.exposure
@@ -278,7 +279,7 @@ def test_a_shadow_of_the_sun_has_no_caustics(renderer: Renderer) -> None:
         [
             renderer.draw(
                 pose, camera, water, Light(shadows=has_shadows),
-                targets={"colour"}, colour="linear16", surface=surface,
+                targets={"colour"}, colour="linear16", contents=ViewContents(surface=surface),
             ).colour
             for surface in (LEVEL, None)
         ]

@@ -10,6 +10,7 @@ import pytest
 from tests.rendering.models import ball, placed, plate
 from uwsim.base.geometry import Intrinsics, Pose
 from uwsim.rendering.lights.lamp import MAX_HALF_ANGLE, Lamp
+from uwsim.rendering.physical.view import ViewContents
 from uwsim.rendering.renderer import Renderer
 from uwsim.rendering.water import Light, Water, apply_water
 
@@ -34,7 +35,9 @@ def rendered(
     renderer: Renderer, *lamps: Lamp, water: Water = DRY, light: Light = DARK
 ) -> np.ndarray:
     """What the camera at the origin sees, (h, w, 3), 0..1."""
-    image = renderer.draw(HERE, CAMERA, water, light, targets=COLOUR, lamps=lamps)
+    image = renderer.draw(
+        HERE, CAMERA, water, light, targets=COLOUR, contents=ViewContents(lamps=lamps)
+    )
     assert image.colour is not None
     return image.colour / 255.0
 
@@ -136,7 +139,9 @@ def test_without_lamps_the_bytes_are_those_before_a_lamp_shone(renderer: Rendere
     renderer.place(renderer.add(plate(9.0, 9.0, GREY), 1), placed(z=-3.0))
     renderer.place(renderer.add(ball(0.4, (0.9, 0.4, 0.2)), 2), placed(z=-2.0))
     before = renderer.draw(HERE, CAMERA, Water(), Light(), colour="linear16").colour
-    shone = renderer.draw(HERE, CAMERA, Water(), Light(), colour="linear16", lamps=[lamp()]).colour
+    shone = renderer.draw(
+        HERE, CAMERA, Water(), Light(), colour="linear16", contents=ViewContents(lamps=[lamp()])
+    ).colour
     after = renderer.draw(HERE, CAMERA, Water(), Light(), colour="linear16").colour
     assert np.array_equal(before, after)  # type: ignore[arg-type]
     assert not np.array_equal(before, shone)  # type: ignore[arg-type]
@@ -144,8 +149,10 @@ def test_without_lamps_the_bytes_are_those_before_a_lamp_shone(renderer: Rendere
 
 def test_range_and_ids_do_not_depend_on_lamps(renderer: Renderer) -> None:
     renderer.place(renderer.add(ball(0.4), 2), placed(z=-2.0))
-    with_lamp = renderer.draw(HERE, CAMERA, DRY, DARK, lamps=[lamp()])
-    without = renderer.draw(HERE, CAMERA, DRY, DARK, targets={"range", "ids"}, lamps=[lamp()])
+    with_lamp = renderer.draw(HERE, CAMERA, DRY, DARK, contents=ViewContents(lamps=[lamp()]))
+    without = renderer.draw(
+        HERE, CAMERA, DRY, DARK, targets={"range", "ids"}, contents=ViewContents(lamps=[lamp()])
+    )
     assert np.array_equal(with_lamp.range, without.range)  # type: ignore[arg-type]
     assert np.array_equal(with_lamp.ids, without.ids)  # type: ignore[arg-type]
 

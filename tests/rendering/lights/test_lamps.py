@@ -10,6 +10,7 @@ import pytest
 from tests.rendering.models import ball, block, placed, plate
 from uwsim.base.geometry import Intrinsics, Pose
 from uwsim.rendering.lights.lamp import Lamp
+from uwsim.rendering.physical.view import ViewContents
 from uwsim.rendering.renderer import Renderer
 from uwsim.rendering.water import Light, Water
 
@@ -26,7 +27,9 @@ def lamp(x: float = 0.0, y: float = 0.0, **numbers: object) -> Lamp:
 
 
 def rendered(renderer: Renderer, *lamps: Lamp, **how: object) -> np.ndarray:
-    image = renderer.draw(EYE, CAMERA, DRY, DARK, targets={"colour"}, lamps=lamps, **how)  # type: ignore[arg-type]
+    image = renderer.draw(
+        EYE, CAMERA, DRY, DARK, targets={"colour"}, contents=ViewContents(lamps=lamps), **how
+    )  # type: ignore[arg-type]
     assert image.colour is not None
     return image.colour[..., 0].astype(float)
 

@@ -10,6 +10,7 @@ import pytest
 from tests.rendering.models import block, placed, plate
 from uwsim.base.geometry import Intrinsics, Pose
 from uwsim.rendering.lights.projector import Projector
+from uwsim.rendering.physical.view import ViewContents
 from uwsim.rendering.renderer import Renderer
 from uwsim.rendering.water import Light, Water
 
@@ -35,7 +36,9 @@ def projector(colour: tuple[int, int, int, int] = (255, 0, 0, 255), **how: objec
 
 
 def rendered(renderer: Renderer, one: Projector | None, water: Water = DRY) -> np.ndarray:
-    image = renderer.draw(EYE, CAMERA, water, DARK, targets={"colour"}, projector=one)
+    image = renderer.draw(
+        EYE, CAMERA, water, DARK, targets={"colour"}, contents=ViewContents(projector=one)
+    )
     assert image.colour is not None
     return image.colour.astype(float)
 

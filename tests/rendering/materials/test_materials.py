@@ -17,6 +17,7 @@ from uwsim.base.geometry import Pose, rotation_from_xyz
 from uwsim.optics import HenyeyGreenstein, Medium
 from uwsim.rendering.lights.lamp import Lamp
 from uwsim.rendering.physical.physical_water import Daylight, PhysicalWater
+from uwsim.rendering.physical.view import ViewContents
 from uwsim.rendering.renderer import Renderer
 from uwsim.rendering.water import Light, Water
 
@@ -95,7 +96,12 @@ def test_a_tilted_normal_map_looks_like_a_tilted_plane(
     def draw(model: Model) -> FloatArray:
         show(renderer, model)
         image = renderer.draw(
-            AT_ORIGIN, CAMERA, water, SHADOWLESS, targets={"colour"}, lamps=(LAMP,)
+            AT_ORIGIN,
+            CAMERA,
+            water,
+            SHADOWLESS,
+            targets={"colour"},
+            contents=ViewContents(lamps=(LAMP,)),
         )
         assert image.colour is not None
         return image.colour.astype(np.float64)
@@ -268,7 +274,9 @@ def test_a_finish_without_maps_changes_no_byte_of_uwsims_images(renderer: Render
     images = []
     for material in (None, Material(roughness=0.2, metallic=1.0, emission=(1.0, 1.0, 1.0))):
         show(renderer, with_material(plate(9.0, 9.0, texture=texture), material))
-        image = renderer.draw(AT_ORIGIN, CAMERA, Water(), Light(), lamps=(LAMP,))
+        image = renderer.draw(
+            AT_ORIGIN, CAMERA, Water(), Light(), contents=ViewContents(lamps=(LAMP,))
+        )
         assert image.colour is not None
         images.append(image.colour.tobytes())
     assert images[0] == images[1]

@@ -13,6 +13,7 @@ from uwsim.assets.mesh import Mesh, Model
 from uwsim.base.geometry import Intrinsics, Pose, image_centre
 from uwsim.rendering.lights.lamp import Lamp
 from uwsim.rendering.physical.physical_water import PhysicalWater
+from uwsim.rendering.physical.view import ViewContents
 from uwsim.rendering.renderer import Renderer
 from uwsim.rendering.water import Light, Water
 
@@ -35,7 +36,7 @@ def photograph(
     """Return the radiance of each pixel in linear light, (h, w, 3)."""
     image = renderer.draw(
         AT_ORIGIN, camera, Water(physical_water=water), SHADOWLESS,
-        targets={"colour"}, colour="linear16", lamps=lamps,
+        targets={"colour"}, colour="linear16", contents=ViewContents(lamps=lamps),
     )  # fmt: skip
     assert image.colour is not None
     return image.colour[..., :3] / 65535.0 / water.exposure

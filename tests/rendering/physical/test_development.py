@@ -17,6 +17,7 @@ from uwsim.optics import compute_lamp_veil, find_water
 from uwsim.rendering.lights.lamp import Lamp
 from uwsim.rendering.physical.daylight_field import compute_open_water
 from uwsim.rendering.physical.physical_water import Daylight, PhysicalWater
+from uwsim.rendering.physical.view import ViewContents
 from uwsim.rendering.renderer import Renderer
 from uwsim.rendering.water import Light, Water
 
@@ -45,7 +46,13 @@ def test_the_shaders_agree_with_numpy_to_a_grey_level(
     renderer: Renderer, lamps: tuple[Lamp, ...]
 ) -> None:
     show_scene(renderer)
-    image = renderer.draw(AT_ORIGIN, CAMERA, Water(physical_water=WATER), SHADOWLESS, lamps=lamps)
+    image = renderer.draw(
+        AT_ORIGIN,
+        CAMERA,
+        Water(physical_water=WATER),
+        SHADOWLESS,
+        contents=ViewContents(lamps=lamps),
+    )
     radiance = read_radiance(renderer)
     assert image.colour is not None
     assert image.range is not None
@@ -80,7 +87,11 @@ def test_the_water_changes_neither_range_nor_ids(renderer: Renderer) -> None:
     show_scene(renderer)
     fog = renderer.draw(AT_ORIGIN, CAMERA, Water(), SHADOWLESS)
     physical = renderer.draw(
-        AT_ORIGIN, CAMERA, Water(physical_water=WATER), SHADOWLESS, lamps=(LAMP,)
+        AT_ORIGIN,
+        CAMERA,
+        Water(physical_water=WATER),
+        SHADOWLESS,
+        contents=ViewContents(lamps=(LAMP,)),
     )
     assert np.array_equal(fog.range, physical.range)
     assert np.array_equal(fog.ids, physical.ids)
@@ -91,13 +102,22 @@ def test_equal_views_have_equal_bytes(renderer: Renderer) -> None:
     show_scene(renderer)
     water = Water(physical_water=WATER)
     first, second = (
-        renderer.draw(AT_ORIGIN, CAMERA, water, Light(), targets={"colour"}, lamps=(LAMP,)).colour
+        renderer.draw(
+            AT_ORIGIN,
+            CAMERA,
+            water,
+            Light(),
+            targets={"colour"},
+            contents=ViewContents(lamps=(LAMP,)),
+        ).colour
         for _ in range(2)
     )
     renderer.draw(AT_ORIGIN, CAMERA, Water(), Light(), targets={"colour"})
     other = Renderer()
     show_scene(other)
-    third = other.draw(AT_ORIGIN, CAMERA, water, Light(), targets={"colour"}, lamps=(LAMP,)).colour
+    third = other.draw(
+        AT_ORIGIN, CAMERA, water, Light(), targets={"colour"}, contents=ViewContents(lamps=(LAMP,))
+    ).colour
     other.close()
     assert np.array_equal(first, second)
     assert np.array_equal(first, third)
@@ -106,7 +126,13 @@ def test_equal_views_have_equal_bytes(renderer: Renderer) -> None:
 def test_fog_images_are_the_same_after_physical_ones(renderer: Renderer) -> None:
     show_scene(renderer)
     before = renderer.draw(AT_ORIGIN, CAMERA, Water(), Light(), targets={"colour"}).colour
-    renderer.draw(AT_ORIGIN, CAMERA, Water(physical_water=WATER), Light(), lamps=(LAMP,))
+    renderer.draw(
+        AT_ORIGIN,
+        CAMERA,
+        Water(physical_water=WATER),
+        Light(),
+        contents=ViewContents(lamps=(LAMP,)),
+    )
     after = renderer.draw(AT_ORIGIN, CAMERA, Water(), Light(), targets={"colour"}).colour
     assert np.array_equal(before, after)
 
@@ -116,7 +142,9 @@ def test_the_light_rate_scales_daylight_and_not_lamps(renderer: Renderer) -> Non
     night = Light(rate=0.0, shadows=False)
     water = Water(physical_water=WATER)
     dark = renderer.draw(AT_ORIGIN, CAMERA, water, night, targets={"colour"}).colour
-    lit = renderer.draw(AT_ORIGIN, CAMERA, water, night, targets={"colour"}, lamps=(LAMP,)).colour
+    lit = renderer.draw(
+        AT_ORIGIN, CAMERA, water, night, targets={"colour"}, contents=ViewContents(lamps=(LAMP,))
+    ).colour
     assert dark is not None
     assert lit is not None
     assert dark.max() == 0
@@ -125,7 +153,9 @@ def test_the_light_rate_scales_daylight_and_not_lamps(renderer: Renderer) -> Non
 
 def test_the_veil_is_brighter_on_the_side_of_the_lamp(renderer: Renderer) -> None:
     water = Water(physical_water=replace(WATER, daylight=Daylight(irradiance=0.0)))
-    image = renderer.draw(AT_ORIGIN, CAMERA, water, Light(), targets={"colour"}, lamps=(LAMP,))
+    image = renderer.draw(
+        AT_ORIGIN, CAMERA, water, Light(), targets={"colour"}, contents=ViewContents(lamps=(LAMP,))
+    )
     assert image.colour is not None
     row = image.colour[120].sum(axis=1).astype(int)
     assert row[300] > 2 * row[100]
@@ -141,7 +171,7 @@ def test_blur_and_veil_can_be_switched_off(renderer: Renderer, option: str) -> N
             Water(physical_water=water),
             SHADOWLESS,
             targets={"colour"},
-            lamps=(LAMP,),
+            contents=ViewContents(lamps=(LAMP,)),
         ).colour
         for water in (WATER, replace(WATER, **{option: False}))
     ]

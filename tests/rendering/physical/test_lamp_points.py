@@ -15,6 +15,7 @@ from uwsim.base.geometry import Pose
 from uwsim.optics import Medium, find_water
 from uwsim.rendering.lights.lamp import Lamp
 from uwsim.rendering.physical.physical_water import Daylight, PhysicalWater
+from uwsim.rendering.physical.view import ViewContents
 from uwsim.rendering.renderer import Renderer
 from uwsim.rendering.water import Light, Water
 
@@ -86,7 +87,8 @@ def test_a_visible_lamp_changes_neither_range_nor_ids(renderer: Renderer) -> Non
     renderer.place(renderer.add(block((0.5, 0.5, 0.5)), 7), placed(z=-2.0))
     water = Water(physical_water=PhysicalWater(medium=find_water("pool"), daylight=NIGHT))
     images = [
-        renderer.draw(AT_ORIGIN, CAMERA, water, Light(), lamps=lamps) for lamps in ((), (LAMP,))
+        renderer.draw(AT_ORIGIN, CAMERA, water, Light(), contents=ViewContents(lamps=lamps))
+        for lamps in ((), (LAMP,))
     ]
     assert np.array_equal(images[0].range, images[1].range)
     assert np.array_equal(images[0].ids, images[1].ids)

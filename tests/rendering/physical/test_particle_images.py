@@ -22,6 +22,7 @@ from uwsim.particles import PARTICLE, Kind
 from uwsim.particles.puffs import compute_optical_depth
 from uwsim.rendering.lights.lamp import Lamp
 from uwsim.rendering.physical.physical_water import Daylight, PhysicalWater
+from uwsim.rendering.physical.view import ViewContents
 from uwsim.rendering.physical.visible_particles import LUMP, VisibleClouds, VisibleParticles
 from uwsim.rendering.renderer import Renderer
 from uwsim.rendering.water import Water
@@ -57,7 +58,8 @@ def photograph(
     """Return the radiance of each pixel in linear light, (h, w, 3)."""
     image = renderer.draw(
         AT_ORIGIN, camera, Water(physical_water=water), SHADOWLESS,
-        targets={"colour"}, colour="linear16", lamps=lamps, particles=particles,
+        targets={"colour"}, colour="linear16",
+        contents=ViewContents(lamps=lamps, particles=particles),
     )  # fmt: skip
     assert image.colour is not None
     return image.colour[..., :3] / 65535.0 / water.exposure
@@ -315,7 +317,11 @@ def test_without_particles_the_bytes_are_the_same(renderer: Renderer) -> None:
 
     def draw(particles: VisibleParticles | None) -> npt.NDArray[np.uint8]:
         image = renderer.draw(
-            AT_ORIGIN, CAMERA, Water(physical_water=water), SHADOWLESS, particles=particles
+            AT_ORIGIN,
+            CAMERA,
+            Water(physical_water=water),
+            SHADOWLESS,
+            contents=ViewContents(particles=particles),
         )
         assert image.colour is not None
         return image.colour
@@ -327,7 +333,9 @@ def test_range_and_ids_do_not_show_particles(renderer: Renderer) -> None:
     show_plane(renderer, 2.0, (0.5, 0.5, 0.5))
     water = Water(physical_water=night_water())
     particles = make_particles([(0.0, 0.0, -1.0)], radius=0.05)
-    image = renderer.draw(AT_ORIGIN, CAMERA, water, SHADOWLESS, particles=particles)
+    image = renderer.draw(
+        AT_ORIGIN, CAMERA, water, SHADOWLESS, contents=ViewContents(particles=particles)
+    )
     assert image.range is not None
     assert image.ids is not None
     assert image.range[60, 80] == pytest.approx(2.0, rel=1e-4)

@@ -11,6 +11,7 @@ from uwsim.base.geometry import Array, Intrinsics, Pose
 from uwsim.optics import Medium
 from uwsim.rendering.physical.moving_surface import MovingSurface
 from uwsim.rendering.physical.physical_water import Daylight, PhysicalWater
+from uwsim.rendering.physical.view import ViewContents
 from uwsim.rendering.renderer import Renderer
 from uwsim.rendering.water import Light, Water
 from uwsim.waves import JonswapSpec, SeaSettings, Waves
@@ -67,7 +68,7 @@ def take(
     """Return the radiance of each pixel, (h, w, 3)."""
     image = renderer.draw(
         pose, lens, Water(physical_water=water), Light(shadows=False),
-        targets={"colour"}, colour="linear16", surface=surface,
+        targets={"colour"}, colour="linear16", contents=ViewContents(surface=surface),
     )  # fmt: skip
     assert image.colour is not None
     return image.colour[..., :3] / 65535.0 / water.exposure

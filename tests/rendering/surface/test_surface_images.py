@@ -24,6 +24,7 @@ from uwsim.rendering.caustics.ripples import Ripples
 from uwsim.rendering.physical.daylight_field import REFRACTIVE_INDEX
 from uwsim.rendering.physical.moving_surface import MovingSurface
 from uwsim.rendering.physical.physical_water import Daylight
+from uwsim.rendering.physical.view import ViewContents
 from uwsim.rendering.renderer import Renderer
 from uwsim.rendering.surface.sky import compute_sky
 from uwsim.rendering.water import Light, Water
@@ -142,7 +143,7 @@ def test_range_and_ids_ignore_the_surface(renderer: Renderer) -> None:
             lens,
             Water(physical_water=water),
             Light(),
-            surface=MovingSurface(time=1.0, waves=make_waves(0.5)),
+            contents=ViewContents(surface=MovingSurface(time=1.0, waves=make_waves(0.5))),
         )
         for water in (
             water_of(BLACK_WATER, OVERCAST),

@@ -27,6 +27,7 @@ from ...rendering.grey import grey_truncated
 from ...rendering.lights.projector import Projector
 from ...rendering.noise import add_noise
 from ...rendering.physical.moving_surface import MovingSurface
+from ...rendering.physical.view import ViewContents
 from ...rendering.rendered_image import ImageModel, RenderedImage
 from ...rendering.smoothing import find_means
 from ...rendering.water import Light, Water
@@ -386,10 +387,12 @@ class Scenery:
             targets=targets,
             colour=colour,
             hidden_ids=self._hidden_ids if hidden_ids is None else hidden_ids,
-            lamps=tuple(make_lamp(lamp, displacement) for lamp in lit_lamps[:MAX_LAMPS]),
-            projector=self._projector,
-            surface=self.find_surface(),
-            particles=particles,
+            contents=ViewContents(
+                lamps=tuple(make_lamp(lamp, displacement) for lamp in lit_lamps[:MAX_LAMPS]),
+                projector=self._projector,
+                surface=self.find_surface(),
+                particles=particles,
+            ),
         )
         return image if lens_image is None else map_image(image, intrinsics, lens_image)
 
