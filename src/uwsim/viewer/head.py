@@ -58,15 +58,18 @@ multiple of 4; the number of elements; and their type, one of ``f4 u4 u2 i2 i1 u
                  numbers of each medium that occurs, and clear those of the purest water
                  (`uwsim.viewer.optics`); nodes are those of a mean over a Gaussian. Else these
                  three are null
-    particles   null or the marine snow and bubbles in physical water (`uwsim.viewer.particles`)
+    particles   null or the marine snow, bubbles and clouds of sediment in physical water
+                 (`uwsim.viewer.particles`)
     surface     null or the moving surface of physical water (`uwsim.viewer.surface`)
+    caustics    null or the caustics and light shafts of that surface (`uwsim.viewer.caustics`)
     suns        {name: {direction, colour}}
     ambient, specular    constants of the lighting (`uwsim.rendering.water`)
     localized   pose in W of the localized frame L, the frame of the scene file
-    trials      replays only: [{title, motion: ref u1 or null, levels, curves, poses, surface}]
+    trials      replays only: [{title, motion: ref u1 or null, levels, curves, poses, surface,
+                  caustics}]
                   poses: {body: pose} of the bodies whose initial pose is not that of ``bodies``,
-                  because the seed varies the scene; surface: absent, or {waves, ripples} of
-                  another seed
+                  because the seed varies the scene; surface, caustics: absent, or {waves,
+                  ripples} and {phases, waves} of another seed
 
     levels      [{label, status, why, start, end, values: {fog: ...}}]
                   start, end: simulation times [s]; why: the reason of a status other than ok, or
@@ -97,8 +100,12 @@ heap, and the position x y z of the dredge from the heap's corner in multiples o
 From that frame on, each column of the heap whose top is nearer than ``reach`` to the position is
 lower by ``bite``, but not below the corner. A position of smallest int32 restores the whole heap.
 
-If programs added markers, the version is 2, too, and ``"markers"`` is in the line, in the format
-of `uwsim.results.motion.marker_log`.
+If thrusters stirred up sediment, the version is 3, ``"sediment": {"n": 90, "steps": [...]}`` is in
+the line, and a last table of n rows follows: a puff in each, in multiples of ``steps``
+(`uwsim.results.motion.stirred_sediment`). A mass of smallest int32 removes all puffs.
+
+If programs added markers, the version is 2 at least, and ``"markers"`` is in the line, in the
+format of `uwsim.results.motion.marker_log`.
 
 The name of a body is ``vehicle/link``; links that are connected by fixed joints are one body, named
 after the link nearest to the root (`uwsim.simulation.tracked_bodies`). The body of an object has
@@ -131,6 +138,8 @@ uint32 step, float64 time [s]::
     kind 3   a JPEG of the free view, for pages without WebGL
     kind 4   float32 heights [m] of the columns of the heap with that index, above its corner
     kind 5   a pack with {"optics": ...}, the numbers of a medium that is new in this run
+    kind 6   float64: the time of the puffs of sediment [s], then eleven columns of each
+             (`uwsim.particles.puffs`)
 
 and text messages, JSON::
 
@@ -185,6 +194,7 @@ from ..simulation.scenery.sand import CELL_WIDTH, TOOL_REACH, Heap
 from ..simulation.unique_names import make_unique
 from ..simulation.views import FIELD_OF_VIEW, find_focus, orbit_view, viewer_view
 from .bodies import Bodies, pose_row
+from .caustics import describe_caustics
 from .models import Models
 from .mounts import (
     describe_cameras,
@@ -249,6 +259,7 @@ def scene_head(
         **describe_water(world, blob, media),
         "particles": describe_particles(world),
         "surface": describe_surface(world, blob),
+        "caustics": describe_caustics(world, blob),
         "bodies": bodies.rows,
         "meshes": models.meshes,
         "textures": models.textures,

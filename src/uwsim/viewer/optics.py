@@ -17,6 +17,7 @@ The numbers of one medium in one light are ``optics``::
                                        b*, b_w, c* [1/m]; g and the backscatter ratio of p*; the
                                        radiance of the sky in Snell's window
      lamps: [[share, factor]],         EE(half angle) - A and k_L of each lamp of the head
+     caustics: null or {...},          `uwsim.viewer.caustics`
      linear, blur, lamp_veil}          true for linear stored values, for blur, for veils of lamps
 """
 
@@ -47,6 +48,7 @@ from ..rendering.physical.daylight_field import (
 )
 from ..rendering.physical.optics_block import compute_phase_numbers, find_lamp_numbers
 from ..rendering.physical.physical_water import PhysicalWater
+from .caustics import describe_focusing
 from .pack import Blob
 
 Json = dict[str, Any]
@@ -101,6 +103,7 @@ def describe_optics(
             find_lamp_numbers(medium.phase_function, float(np.radians(lamp.spec.fov / 2.0)))
             for lamp in lamps
         ],
+        "caustics": describe_focusing(water),
         "linear": water.transfer == "linear",
         "blur": water.has_blur,
         "lamp_veil": water.has_lamp_veil,

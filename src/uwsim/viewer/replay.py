@@ -20,6 +20,7 @@ from ..simulation import Simulation
 from ..simulation.scenery.recorded_water import restore_water
 from ..simulation.tracked_state import BEAM_ATTENUATION
 from ..verify.recorded_plan import FileOverrides
+from .caustics import describe_focusing_waves
 from .document import document
 from .film.trial_scene import open_scene
 from .head import body_poses, scene_head
@@ -102,10 +103,9 @@ class Replay:
         poses = {seed: _moved_poses(trial, initial_poses) for seed, trial in varied_trials}
         for trial in self._trials:
             descriptions[trial.index]["poses"] = poses.get(trial.seed, {})
-        if head["surface"] is not None:
-            surfaces = self._surfaces(head["surface"], blob)
-            for trial in self._trials:
-                descriptions[trial.index] |= surfaces.get(trial.seed, {})
+        surfaces = self._surfaces(head, blob)
+        for trial in self._trials:
+            descriptions[trial.index] |= surfaces.get(trial.seed, {})
         names = list(first_trial.track.levels[0].values) if first_trial.track.levels else []
         for index in self.trials_without_motion:
             descriptions[index] = _trial_without_motion(self.directory, index, names, blob)
@@ -127,15 +127,20 @@ class Replay:
                 assert optics is not None
                 yield optics.medium
 
-    def _surfaces(self, surface: Json, blob: Blob) -> dict[int, Json]:
+    def _surfaces(self, head: Json, blob: Blob) -> dict[int, Json]:
         """Return, by seed, the surface of the trials whose waves are not those of the first."""
         first_seed, surfaces = self._trials[0].seed, dict[int, Json]()
-        if surface["waves"] is None and surface["ripples"] is None:
+        surface, caustics = head["surface"], head["caustics"]
+        has_waves = surface is not None and (surface["waves"] or surface["ripples"])
+        if not has_waves and caustics is None:
             return surfaces
         for trial in {t.seed: t for t in self._trials if t.seed != first_seed}.values():
+            entries = surfaces[trial.seed] = {}
             with open_scene(trial) as simulation:
-                entry = describe_moving_surface(simulation.world, blob)
-            surfaces[trial.seed] = {"surface": entry}
+                if has_waves:
+                    entries["surface"] = describe_moving_surface(simulation.world, blob)
+                if caustics is not None:
+                    entries["caustics"] = describe_focusing_waves(simulation.world, blob)
         return surfaces
 
     def _varied_trials(self) -> dict[int, RecordedTrial]:

@@ -203,15 +203,25 @@ class CausticLight:
         values["swell_frame"][3] = 1.0 / TILE_EDGE
         ratio = math.log2(depths[1] / depths[0])
         values["caustic_depths"] = depths[0], 1.0 / ratio, -math.log2(depths[0]) / ratio, depths[-1]
-        field = compute_light_field(water.medium, water.daylight)
-        loss = find_contrast_loss(water.medium, float(field.towards_sun[2]))
-        values["caustic_loss"] = *loss, MAX_PHASE_RATIOS[water.has_surface]
-        g = water.medium.phase_function.mean_cosine
-        attenuation = float(compute_scaled_attenuation(water.medium).min())
-        longest_way = min(SHAFT_OPTICAL_DEPTH / max(attenuation, 1e-6), MAX_SHAFT)
-        values["shaft_numbers"] = g / (1.0 + g), 1.0 - g * g, longest_way, N_NODES
+        values["caustic_loss"], shaft_numbers = find_medium_numbers(water)
+        values["shaft_numbers"] = *shaft_numbers, N_NODES
         self._buffer.write(values.tobytes())
         self._buffer.bind_to_uniform_block(CAUSTICS.binding)
+
+
+def find_medium_numbers(water: PhysicalWater) -> tuple[list[float], list[float]]:
+    """Find the numbers of the uniform block that follow from the medium.
+
+    Returns:
+        ``caustic_loss`` (4,), and ``shaft_numbers`` without the last one (3,).
+    """
+    field = compute_light_field(water.medium, water.daylight)
+    loss = find_contrast_loss(water.medium, float(field.towards_sun[2]))
+    g = water.medium.phase_function.mean_cosine
+    attenuation = float(compute_scaled_attenuation(water.medium).min())
+    longest_way = min(SHAFT_OPTICAL_DEPTH / max(attenuation, 1e-6), MAX_SHAFT)
+    shaft_numbers = [g / (1.0 + g), 1.0 - g * g, longest_way]
+    return [*loss.tolist(), MAX_PHASE_RATIOS[water.has_surface]], shaft_numbers
 
 
 @njit

@@ -1,7 +1,8 @@
 """Motion tracks: the poses of all bodies during a trial, 30 times a second, in a small file.
 
 `motion_track` reads and writes the file, and `packing` encodes its numbers. `dug_sand` holds the
-sand that dredges removed, `marker_log` the markers that programs added.
+sand that dredges removed, `stirred_sediment` the clouds that thrusters stirred up, and
+`marker_log` the markers that programs added.
 """
 
 from __future__ import annotations
@@ -17,6 +18,7 @@ from .motion_track import (
     read_track,
     track_bytes,
 )
+from .stirred_sediment import StirredSediment
 
 __all__ = [
     "GRAIN",
@@ -27,6 +29,7 @@ __all__ = [
     "MotionTrack",
     "Signal",
     "Spot",
+    "StirredSediment",
     "TrackLevel",
     "load_track",
     "markers_at",

@@ -15,7 +15,10 @@ Equal tracks give equal bytes.
 In a track of version 2, sand was removed (`dug_sand`) or markers were added (`marker_log`). With
 sand the head has ``"sand":{"n":412,"grain":0.000001}``, and a second table of n rows, packed
 separately, follows the first; with markers the head has
-``"markers":{"shapes":[...],"changes":[...]}``. A track with neither is of version 1.
+``"markers":{"shapes":[...],"changes":[...]}``. In a track of version 3, thrusters stirred up
+sediment, too (`stirred_sediment`): the head has ``"sediment":{"n":90,"steps":[...]}`` with the
+resolution of each column, and a table of n rows is the last one. A track with none of these is of
+version 1.
 """
 
 from __future__ import annotations
@@ -36,10 +39,11 @@ from ...errors import ResultError
 from .dug_sand import COLUMNS, GRAIN, NO_VALUE, DugSand
 from .marker_log import MarkerChange, as_json, from_json
 from .packing import BYTES, Table, pack_table, unpack_table
+from .stirred_sediment import STEPS, StirredSediment
 
 Array = npt.NDArray[np.float64]
 
-FORMAT, VERSIONS = "uwsim_motion", (1, 2)
+FORMAT, VERSIONS = "uwsim_motion", (1, 2, 3)
 RATE = 30.0
 """The number of frames in a second of simulation time [Hz]."""
 POSITION_STEP = 1e-4
@@ -101,6 +105,8 @@ class MotionTrack:
     """The spots where sand was removed."""
     markers: tuple[MarkerChange, ...] = ()
     """The changes of the markers that programs added, in the order of their frames."""
+    sediment: StirredSediment = field(default_factory=StirredSediment)
+    """The puffs of sediment that thrusters stirred up."""
 
     @property
     def n_frames(self) -> int:
@@ -144,6 +150,7 @@ def track_bytes(
     *,
     sand: DugSand | None = None,
     markers: Sequence[MarkerChange] = (),
+    sediment: StirredSediment | None = None,
 ) -> bytes:
     """Return the content of the file of a track.
 
@@ -155,10 +162,11 @@ def track_bytes(
         rate: the number of frames in a second of simulation time [Hz].
         sand: the spots where sand was removed; None if no sand was removed.
         markers: the changes of markers, in the order of their frames.
+        sediment: the puffs that thrusters stirred up; None if there are none.
     """
-    digs = (sand or DugSand()).table
+    digs, births = (sand or DugSand()).table, (sediment or StirredSediment()).table
     head = {
-        FORMAT: VERSIONS[1 if len(digs) or markers else 0],
+        FORMAT: 3 if len(births) else 2 if len(digs) or markers else 1,
         "rate": rate,
         "n": len(table),
         "start": 0.0,
@@ -172,8 +180,11 @@ def track_bytes(
         head["sand"] = {"n": len(digs), "grain": GRAIN}
     if markers:
         head["markers"] = as_json(markers)
+    if len(births):
+        head["sediment"] = {"n": len(births), "steps": list(STEPS)}
     text = json.dumps(head, allow_nan=False, ensure_ascii=True, separators=(",", ":"))
-    content = text.encode() + b"\n" + pack_table(table) + pack_table(digs)
+    tables = pack_table(table) + pack_table(digs) + pack_table(births)
+    content = text.encode() + b"\n" + tables
     return gzip.compress(content, compresslevel=9, mtime=0)
 
 
@@ -193,7 +204,7 @@ def read_track(data: bytes) -> MotionTrack:
         OverflowError,
         RecursionError,
     ) as error:
-        raise ResultError(f"is no motion track of version 1 or 2: {error}") from None
+        raise ResultError(f"is no motion track of version 1 to 3: {error}") from None
 
 
 def load_track(path: Path) -> MotionTrack:
@@ -241,7 +252,7 @@ def _track(head: dict[str, Any], rest: bytes) -> MotionTrack:
         values=rows[:, NUMBERS_PER_BODY * len(bodies) :],
         levels=tuple(_level(entry) for entry in head["levels"]),
         rate=rate,
-        sand=_read_sand(head.get("sand", {"n": 0}), rest[size:]),
+        **_read_tables(head, rest[size:]),
         markers=from_json(head.get("markers", {"shapes": (), "changes": ()})),
     )
 
@@ -287,8 +298,17 @@ def _text(name: str, value: object) -> str:
     return value
 
 
-def _read_sand(head: dict[str, Any], rest: bytes) -> DugSand:
-    n = int(head["n"])
-    if n and head["grain"] != GRAIN:
-        raise ValueError(f"sand was taken in steps of {head['grain']!r} m, not {GRAIN}")
-    return DugSand(table=unpack_table(rest, n, COLUMNS))
+def _read_tables(head: dict[str, Any], rest: bytes) -> dict[str, Any]:
+    """Read the tables of sand and sediment, which follow that of the frames."""
+    sand, sediment = head.get("sand", {"n": 0}), head.get("sediment", {"n": 0})
+    n, n_births = int(sand["n"]), int(sediment["n"])
+    if n and sand["grain"] != GRAIN:
+        raise ValueError(f"sand was taken in steps of {sand['grain']!r} m, not {GRAIN}")
+    if n_births and sediment["steps"] != list(STEPS):
+        raise ValueError(f"sediment has the resolutions {sediment['steps']!r}, not {list(STEPS)}")
+    size = max(0, n) * COLUMNS * BYTES
+    births = unpack_table(rest[size:], n_births, len(STEPS))
+    return {
+        "sand": DugSand(table=unpack_table(rest[:size], n, COLUMNS)),
+        "sediment": StirredSediment(table=births),
+    }

@@ -1,12 +1,16 @@
-"""Logs of changes of a scene between frames of its motion: removed sand, and markers."""
+"""Logs of changes of a scene between frames of its motion: sand, sediment, and markers."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from ...messages import Marker
-from ...results.motion import DrawnMarker, DugSand, MarkerChange, Spot
+from ...particles import puffs as p
+from ...results.motion import DrawnMarker, DugSand, MarkerChange, Spot, StirredSediment
 from ...results.motion.dug_sand import COLUMNS, NO_VALUE
+from ...results.motion.motion_track import quantise
+from ...results.motion.packing import Table
+from ...results.motion.stirred_sediment import STEPS, make_removal, no_births
 from ...simulation import Simulation
 from ...simulation.markers.lines import MAX_POINTS, count_points, draw_marker
 
@@ -45,6 +49,42 @@ class SandLog:
     def sand(self) -> DugSand:
         """Return all spots dug so far."""
         return DugSand(table=np.array(self._rows, np.int32).reshape(-1, COLUMNS))
+
+
+class SedimentLog:
+    """A log of the puffs of sediment that were born between one frame and the next.
+
+    Args:
+        simulation: the simulation with the sediment, if it has any.
+    """
+
+    def __init__(self, simulation: Simulation) -> None:
+        particles = simulation.world.scenery.particles
+        self._sediment = None if particles is None else particles.sediment
+        self._n_born = 0
+        self._tables: list[Table] = []
+
+    def update(self) -> None:
+        """Record the puffs that were born since the last call."""
+        if self._sediment is None or self._sediment.puffs.state.n_born == self._n_born:
+            return
+        state = self._sediment.puffs.state
+        births = state.puffs[: state.n_puffs]
+        if state.n_born < self._n_born:  # the scene was reset
+            self._tables.append(make_removal(state.time))
+        else:
+            births = births[births[:, p.NUMBER] >= self._n_born]
+        self._n_born = state.n_born
+        columns = [np.full(len(births), state.time), births[:, p.NUMBER]]
+        columns += [births[:, column] for column in (p.X, p.Y, p.Z)]
+        columns.append(np.sqrt(births[:, p.VARIANCE]))
+        columns += [births[:, c] for c in (p.MASS, p.VELOCITY_X, p.VELOCITY_Y, p.VELOCITY_Z)]
+        columns.append(births[:, p.FLOOR])
+        self._tables.append(quantise(np.stack(columns, axis=1), np.array(STEPS)))
+
+    def sediment(self) -> StirredSediment:
+        """Return all puffs so far."""
+        return StirredSediment(table=np.concatenate([no_births(), *self._tables]))
 
 
 class MarkerLog:

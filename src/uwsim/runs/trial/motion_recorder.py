@@ -16,7 +16,7 @@ from ...results.motion.packing import Table
 from ...simulation import Simulation
 from ...simulation.tracked_state import BRIGHTNESS_RESOLUTION, LAMP_PREFIX, TrackedState
 from .level_row import LevelRow
-from .motion_events import MarkerLog, SandLog
+from .motion_events import MarkerLog, SandLog, SedimentLog
 from .triggered_measure import TriggeredMeasure
 
 CORNERS = 8
@@ -47,6 +47,7 @@ class MotionRecorder:
         self._n_rows = 0
         self._levels: list[TrackLevel] = []
         self._sand, self._markers = SandLog(simulation), MarkerLog(simulation)
+        self._sediment = SedimentLog(simulation)
         self._due = 0
         simulation.watch(self._update)
 
@@ -79,14 +80,17 @@ class MotionRecorder:
         table = np.concatenate(self._tables or [np.zeros((0, len(self._steps)), np.int32)])
         signals = compact_lamps(self._signals, table)
         sand, markers = self._sand.sand(), self._markers.changes
-        bodies, levels = self._state.bodies, self._levels
-        return track_bytes(bodies, signals, table, levels, sand=sand, markers=markers)
+        bodies, levels, sediment = self._state.bodies, self._levels, self._sediment.sediment()
+        return track_bytes(
+            bodies, signals, table, levels, sand=sand, markers=markers, sediment=sediment
+        )
 
     def _update(self) -> None:
         while self._simulation.step >= self._due:
             self._rows.append(self._row())
             self._sand.update(self._n_rows)
             self._markers.update(self._n_rows)
+            self._sediment.update()
             self._n_rows += 1
             self._due = round(self._n_rows / (RATE * self._simulation.timestep))
             if len(self._rows) == BATCH_SIZE:

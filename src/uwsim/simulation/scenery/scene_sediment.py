@@ -63,7 +63,11 @@ class SceneSediment:
     """
 
     def __init__(self, model: SceneModel, spec: SedimentSpec, key: int) -> None:
-        self._model, self._spec, self._key = model, spec, np.uint64(key)
+        self._model = model
+        self.spec = spec
+        """The element of the scene file."""
+        self.key = np.uint64(key)
+        """The key of the random numbers."""
         self.puffs = Puffs(spec)
         """The puffs of sediment."""
 
@@ -109,10 +113,10 @@ class SceneSediment:
     def _erode(self, jet: FloorJet) -> None:
         """Add the puff that a jet erodes in one period."""
         area = math.pi * jet.width**2
-        mass = self._spec.compute_erosion(jet.speed) * area / UPDATE_RATE
+        mass = self.spec.compute_erosion(jet.speed) * area / UPDATE_RATE
         if mass <= 0.0:
             return
-        numbers = draw_uniforms(self._key, self.puffs.state.n_born, 5).tolist()
+        numbers = draw_uniforms(self.key, self.puffs.state.n_born, 5).tolist()
         angle = 2.0 * math.pi * numbers[0]
         radial_direction = np.array([math.cos(angle), math.sin(angle), 0.0])
         place = jet.contact + jet.width * math.sqrt(numbers[1]) * radial_direction
@@ -139,7 +143,7 @@ class SceneSediment:
         )
         lump_widths = np.repeat(LUMP_WIDTH * widths, N_LUMPS)
         masses = np.repeat(puffs[:, MASS] * np.minimum(ages / BIRTH_TIME, 1.0) / N_LUMPS, N_LUMPS)
-        depths = self._spec.scattering * masses / (2.0 * math.pi * lump_widths**2)
+        depths = self.spec.scattering * masses / (2.0 * math.pi * lump_widths**2)
         ranges = np.sqrt((places * places).sum(axis=1))
         is_visible = (places[:, 2] < 3.0 * lump_widths) & (ranges < MAX_REACH) & (depths > 1e-4)
         if not is_visible.any():
@@ -148,14 +152,14 @@ class SceneSediment:
         lumps["place"][:, :3] = places[is_visible]
         lumps["place"][:, 3] = lump_widths[is_visible]
         lumps["depth"] = depths[is_visible]
-        return VisibleClouds(lumps, self._spec.color)
+        return VisibleClouds(lumps, self.spec.color)
 
     def _draw_offsets(self, number: int) -> Array:
         """Draw the places of the lumps of a puff, in its widths, (`N_LUMPS`, 3).
 
         Their mean is 0, and their variance along each axis is 1 - `LUMP_WIDTH`^2 on the average.
         """
-        numbers = draw_uniforms(self._key, number, 5 + 3 * N_LUMPS)[5:].reshape(-1, 3)
+        numbers = draw_uniforms(self.key, number, 5 + 3 * N_LUMPS)[5:].reshape(-1, 3)
         offsets = numbers - numbers.mean(axis=0)
         scale = math.sqrt(12.0 * (1.0 - LUMP_WIDTH**2) * N_LUMPS / (N_LUMPS - 1))
         result: Array = scale * offsets

@@ -55,7 +55,7 @@ JPEG_QUALITY = 85
 """The quality of JPEG images, 0..100."""
 HEADER = struct.Struct("<BBHId")
 """The header of binary messages: kind, index, 0, step, simulation time [s]."""
-ROW, IMAGE, VIEW, SAND, MEDIUM = 1, 2, 3, 4, 5
+ROW, IMAGE, VIEW, SAND, MEDIUM, SEDIMENT = 1, 2, 3, 4, 5, 6
 """The kinds of binary messages (`uwsim.viewer.head`)."""
 
 
@@ -93,6 +93,7 @@ class LiveView:
         self._sand_versions = [heap.version for heap in simulation.world.scenery.heaps]
         optics = simulation.world.scenery.state.water.physical_water
         self._medium = None if optics is None else optics.medium  # the medium that was sent last
+        self._sediment_key: tuple[float, int] = (0.0, 0)  # time and births of the puffs sent last
         self._n_batches = 0
         # the wall time at which each kind of content is due [s]
         self._due = {"row": 0.0, "images": 0.0, "samples": 0.0, "readings": 0.0}
@@ -145,6 +146,7 @@ class LiveView:
         if self._is_due("row", now, RATE):
             row = self._state.row().astype("<f4").tobytes()
             self._server.publish("row", self._header(ROW, 0) + row)
+            self._send_sediment()
         if self._is_due("samples", now, SAMPLE_RATE):
             self._send_samples()
             self._send_markers()
@@ -218,6 +220,20 @@ class LiveView:
                 self._sand_versions[index] = heap.version
                 content = self._header(SAND, index) + heap.heights.astype("<f4").tobytes()
                 self._server.publish(f"sand/{index}", content)
+
+    def _send_sediment(self) -> None:
+        """Send the puffs of sediment, if they have moved or changed."""
+        particles = self._simulation.world.scenery.particles
+        if particles is None or particles.sediment is None:
+            return
+        state = particles.sediment.puffs.state
+        key = state.time, state.n_born
+        if key == self._sediment_key or not (state.n_born or self._sediment_key[1]):
+            return
+        self._sediment_key = key
+        numbers = np.concatenate([[state.time], state.puffs[: state.n_puffs].ravel()])
+        content = self._header(SEDIMENT, 0) + numbers.astype("<f8").tobytes()
+        self._server.publish("sediment", content)
 
     def _send_medium(self) -> None:
         """Send the numbers of the medium of physical water, if it is new."""

@@ -6,6 +6,7 @@ import type { Intrinsics } from "./geometry";
 import type { MediumSpec } from "./water/medium";
 import type { MotionHead, Marker, MarkerChange } from "./motion_head";
 import type { ParticlesSpec } from "./water/particles";
+import type { CausticsSpec, FocusingWavesSpec } from "./water/caustics/spec";
 import type { SurfaceSpec, WavesSpec } from "./water/surface/spec";
 
 export type { Marker, MarkerChange, MotionHead, Ref };
@@ -189,6 +190,7 @@ export interface Trial {
   poses?: Record<string, number[]>;
   /** The waves and ripples, where a seed changes them. */
   surface?: WavesSpec;
+  caustics?: FocusingWavesSpec;
   /** The bytes of its motion track, u1; null: not recorded. */
   motion: Ref | null;
   levels: Level[];
@@ -228,6 +230,8 @@ export interface Head {
   particles?: ParticlesSpec | null;
   /** The water's surface in physical water; null or undefined: images do not show it. */
   surface?: SurfaceSpec | null;
+  /** The caustics and light shafts in physical water; null or undefined: none. */
+  caustics?: CausticsSpec | null;
   /** By name: a vector towards the sun in W, of any length, and the colour of its light, 0 to 1. */
   suns: Record<string, { direction: number[]; colour: number[] }>;
   /** The brightness of ambient light, as a fraction of a surface's colour [1]. */

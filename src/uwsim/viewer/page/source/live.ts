@@ -4,7 +4,7 @@ import type { Level, Marker } from "./head";
 import { toPose } from "./geometry";
 import type { MediumSpec } from "./water/medium";
 import { unpack, type Pack } from "./pack";
-import type { Stream } from "./player";
+import type { Stream } from "./players/stream";
 import { element } from "./panels";
 import { Pilot, type PilotState } from "./pilot";
 import type { Reading } from "./display/quantities";
@@ -111,6 +111,7 @@ export class Connection {
     if (kind === 2) void this.showImage(index, event.data.slice(HEADER_LENGTH), page, stream);
     if (kind === 4) stream.setSand(index, new Float32Array(event.data, HEADER_LENGTH));
     if (kind === 5) void this.addMedium(event.data.slice(HEADER_LENGTH), page, stream);
+    if (kind === 6) stream.setPuffs(new Float64Array(event.data, HEADER_LENGTH));
     if (kind === 3 && this.isServerDrawn) this.showView(event.data.slice(HEADER_LENGTH));
   }
 

@@ -31,6 +31,8 @@ export interface MotionHead {
   signals: { name: string; unit: string; step: number }[];
   /** The number of removals of sand, and the resolution of their positions [m]. */
   sand?: { n: number; grain: number };
+  /** The number of puffs of sediment, and the resolution of each of their numbers. */
+  sediment?: { n: number; steps: number[] };
   /** The shapes of markers, and the changes by frame. */
   markers?: { shapes: number[][][][]; changes: MarkerChange[] };
 }

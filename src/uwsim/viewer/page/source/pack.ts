@@ -1,6 +1,7 @@
 // Readers of packs (a scene with its arrays) and of recorded motion; viewer/head.py documents their formats.
 import type { Head, MotionHead, Ref } from "./head";
 import type { Removal } from "./sand";
+import { BIRTH, N_COLUMNS, NUMBER, type Birth } from "./water/sediment/puffs";
 
 /** A pack: the head, which describes the scene, and the arrays to which it refers. */
 export class Pack {
@@ -68,6 +69,8 @@ export class Motion {
     readonly rows: Float64Array,
     /** The removals of sand, in order. */
     readonly removals: Removal[] = [],
+    /** The births of puffs of sediment, in order. */
+    readonly births: Birth[] = [],
   ) {}
 
   /** The number of columns. */
@@ -117,7 +120,8 @@ export async function readMotion(data: Uint8Array<ArrayBuffer>): Promise<Motion>
     const isPose = column < 7 * head.bodies.length;
     return isPose ? pose : head.signals[column - 7 * head.bodies.length].step;
   });
-  return new Motion(head, rows, readRemovals(head, planes.subarray(4 * n * m)));
+  const removals = readRemovals(head, planes.subarray(4 * n * m));
+  return new Motion(head, rows, removals, readBirths(head, planes.subarray(4 * (n * m + 5 * removals.length))));
 }
 
 /**
@@ -147,5 +151,20 @@ function readRemovals({ sand }: MotionHead, planes: Uint8Array): Removal[] {
   return Array.from({ length: sand.n }, (_, i) => {
     const [rowIndex, heap, x, y, z] = numbers.subarray(5 * i, 5 * i + 5);
     return { row: rowIndex, heap, position: Number.isNaN(x) ? null : [x, y, z] };
+  });
+}
+
+/** Decode the births of puffs of sediment, which follow the removals of sand. */
+function readBirths({ sediment }: MotionHead, planes: Uint8Array): Birth[] {
+  if (!sediment) return [];
+  const { n, steps } = sediment;
+  const numbers = decodeTable(planes, n, steps.length, (column) => steps[column]);
+  return Array.from({ length: n }, (_, i) => {
+    const [time, number, x, y, z, width, mass, vx, vy, vz, floor] = numbers.subarray(steps.length * i);
+    if (Number.isNaN(mass)) return { time, puff: null };
+    const puff = new Array<number>(N_COLUMNS);
+    [x, y, z, width * width, mass, vx, vy, vz, floor].forEach((value, column) => (puff[column] = value));
+    [puff[BIRTH], puff[NUMBER]] = [time, number];
+    return { time, puff };
   });
 }

@@ -1,4 +1,5 @@
 // The image of the scene in the selected view, with the overlay and the images of the scene's cameras (pictures).
+import { FocusingSurfaces } from "./water/caustics/tile_waves";
 import type { Camera, Head, Water } from "./head";
 import type { ActiveLamp } from "./drawing/light";
 import { Media } from "./water/media";
@@ -60,6 +61,7 @@ export class Picture {
   private readonly pacing: SoftwarePacing | null;
   readonly media: Media;
   private readonly surfaces: MovingSurfaces;
+  private readonly focusingSurfaces: FocusingSurfaces;
 
   private constructor(
     private readonly gl: WebGL2RenderingContext | null,
@@ -69,6 +71,7 @@ export class Picture {
     const head = (this.head = pack.head);
     this.media = new Media(pack);
     this.surfaces = new MovingSurfaces(pack, head);
+    this.focusingSurfaces = new FocusingSurfaces(pack, head);
     this.renderer = gl && new Renderer(gl, head, models);
     this.pacing = gl && isSoftware(gl) ? new SoftwarePacing(gl) : null;
     for (const camera of head.cameras) {
@@ -105,8 +108,12 @@ export class Picture {
     const intrinsics = scaleIntrinsics(viewCamera.intrinsics, ratio);
     const grey = viewCamera.camera?.grey;
     const drift = snapshot.drift();
+    const puffs = player.puffs(snapshot.time);
     const surface = this.surfaces.surfaceAt(player.trial, snapshot);
-    const state = { worldFromCamera, intrinsics, water, optics, lamps, isExternal, grey, drift, surface };
+    const focusing = this.focusingSurfaces.surfaceAt(player.trial, snapshot);
+    const state = {
+      worldFromCamera, intrinsics, water, optics, lamps, isExternal, grey, drift, puffs, surface, focusing,
+    };
     const clearState = { ...state, water: { ...water, fog: 0 }, optics: this.media.clearOptics(optics), drift: null };
     this.renderer?.draw(switches.clear ? clearState : state, null, [0, 0]);
     const context = this.overlay.getContext("2d")!;
@@ -159,7 +166,9 @@ export class Picture {
     const state = {
       worldFromCamera, intrinsics, lamps: this.lamps(snapshot), isExternal, isExact: true, grey,
       drift: isClear ? null : snapshot.drift(),
+      puffs: player.puffs(snapshot.time),
       surface: this.surfaces.surfaceAt(player.trial, snapshot),
+      focusing: this.focusingSurfaces.surfaceAt(player.trial, snapshot),
       optics: isClear ? this.media.clearOptics(optics) : optics,
       water: { ...this.water(player, snapshot, switches), ...settings.water, ...(isClear ? { fog: 0 } : {}) },
     };

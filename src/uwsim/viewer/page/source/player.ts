@@ -1,9 +1,10 @@
-// Players: sources of the state of the scene at a time, for a trial of a replay or for a running simulation.
-import type { Head, Level, Marker, MarkerChange } from "./head";
+// Players: sources of the state of the scene at a time. Here is that for a trial of a replay; players/stream.ts has the other.
+import type { Level, Marker, MarkerChange } from "./head";
 import { fromPose, transform } from "./geometry";
 import { readMotion, type Motion, type Pack } from "./pack";
 import type { Removal } from "./sand";
 import { Snapshot } from "./snapshot";
+import { RecordedPuffs, type Puffs } from "./water/sediment/puffs";
 
 /** The samples of a curve. */
 export interface Samples {
@@ -46,12 +47,14 @@ export interface Player {
   markers(time: number): Marker[];
   /** Return the removals of sand from a heap up to a time, in order, or the heights of its columns [m]. */
   sand(heap: number, time: number): Removal[] | Float32Array;
+  /** Return the puffs of sediment at the last period up to a time; null: there are none. */
+  puffs(time: number): Puffs | null;
   /** Select the trial with an index, and load its motion and curves. */
   select(trial: number): Promise<void>;
 }
 
-const TRAIL_RATE = 6; // [Hz]
-const SPEED_SPAN = 0.2; // the time over which a speed is computed [s]
+export const TRAIL_RATE = 6; // [Hz]
+export const SPEED_SPAN = 0.2; // the time over which a speed is computed [s]
 const MAX_SPEED = 30; // the speed above which a displacement counts as a jump [m/s]
 const TICK_RATE = 1e4; // [Hz]; the times of curves are stored in ticks of 0.1 ms
 
@@ -64,6 +67,7 @@ export class Replay implements Player {
   readonly version = 0;
   title = "";
   private motion: Motion | null = null;
+  private recordedPuffs: RecordedPuffs | null = null;
   private trailStart = -Infinity; // the start of the trails [s]
 
   constructor(private readonly pack: Pack) {
@@ -85,7 +89,7 @@ export class Replay implements Player {
     if (trial === this.trial) return;
     const trialHead = this.pack.head.trials?.[trial];
     this.trial = trial;
-    this.motion = null;
+    this.motion = this.recordedPuffs = null;
     this.trailStart = -Infinity;
     this.curves = [];
     if (!trialHead) return;
@@ -97,6 +101,11 @@ export class Replay implements Player {
     }));
     if (trialHead.motion)
       this.motion = await readMotion(this.pack.numbers(trialHead.motion) as Uint8Array<ArrayBuffer>);
+    const sediment = this.pack.head.particles?.sediment;
+    if (sediment && this.motion?.births.length)
+      this.recordedPuffs = new RecordedPuffs(
+        sediment, this.motion.births, (time) => this.snapshot(time).drift().velocity,
+      );
   }
 
   snapshot(time: number): Snapshot {
@@ -136,6 +145,10 @@ export class Replay implements Player {
     return this.motion?.removals.filter((removal) => removal.heap === heap && removal.row <= row) ?? [];
   }
 
+  puffs(time: number): Puffs | null {
+    return this.recordedPuffs?.puffsAt(time) ?? null;
+  }
+
   trail(body: string, endTime: number): number[][] {
     const motion = this.motion;
     const index = motion?.head.bodies.indexOf(body) ?? -1;
@@ -157,101 +170,7 @@ export class Replay implements Player {
 }
 
 /** Return the mean speed between two positions [m/s]; null if the displacement is a jump, such as a reset. */
-function speedOf(start: number[], end: number[], seconds: number): number | null {
+export function speedOf(start: number[], end: number[], seconds: number): number | null {
   const speed = Math.hypot(...end.map((value, i) => value - start[i])) / seconds;
   return seconds > 0 && speed < MAX_SPEED ? speed : null;
-}
-
-/** The state of a running simulation, which `live.ts` sets. */
-export class Stream implements Player {
-  readonly isLive = true;
-  readonly start = 0;
-  readonly curves: Samples[] = [];
-  readonly levels: { trial: number; level: Level }[] = [];
-  readonly trial = 0;
-  end = 0;
-  title: string;
-  version = 0;
-  private currentMarkers: Marker[] = [];
-  /** The heights of the columns [m] of each heap that has changed, by the heap's index. */
-  private readonly heights = new Map<number, Float32Array>();
-  private row: ArrayLike<number> | null = null;
-  private readonly recentRows: { time: number; row: ArrayLike<number> }[] = []; // rows of the last SPEED_SPAN
-  /** The rows since the trails were cleared or the simulation was reset, at `TRAIL_RATE` at most. */
-  private readonly trails: { time: number; row: ArrayLike<number> }[] = [];
-
-  constructor(private readonly head: Head) {
-    this.title = head.title;
-  }
-
-  /** Add the newest row, of a simulation time [s]. */
-  push(time: number, row: ArrayLike<number>): void {
-    const lastRow = this.trails.at(-1);
-    if (time === this.end) this.version += 1; // a reset during a pause
-    if (time < this.end) this.trails.length = this.recentRows.length = 0;
-    if (!lastRow || time - lastRow.time >= 1 / TRAIL_RATE) this.trails.push({ time, row });
-    if (this.trails.length > 20000) this.trails.splice(0, 10000);
-    this.recentRows.push({ time, row });
-    while (this.recentRows.length > 2 && this.recentRows[1].time <= time - SPEED_SPAN) this.recentRows.shift();
-    this.row = row;
-    this.end = time;
-  }
-
-  speed(body: string): number | null {
-    const index = this.head.motion?.bodies.indexOf(body) ?? -1;
-    const [firstRow, lastRow] = [this.recentRows[0], this.recentRows.at(-1)];
-    if (index < 0 || !firstRow || !lastRow || lastRow.time <= firstRow.time) return null;
-    const ends = [firstRow, lastRow].map(({ row }) => [0, 1, 2].map((i) => row[7 * index + i]));
-    return speedOf(ends[0], ends[1], lastRow.time - firstRow.time);
-  }
-
-  /** Add a sample to a curve. */
-  sample(name: string, unit: string, time: number, value: number | null): void {
-    let curve = this.curves.find((samples) => samples.name === name);
-    if (!curve) {
-      curve = { name, unit, times: [], values: [] };
-      this.curves.push(curve);
-    }
-    curve.times.push(time);
-    curve.values.push(value);
-  }
-
-  setLevels(levels: Level[]): void {
-    this.levels.splice(0, this.levels.length, ...levels.map((level) => ({ trial: 0, level })));
-    this.version += 1;
-  }
-
-  async select(): Promise<void> {}
-
-  snapshot(): Snapshot {
-    return new Snapshot(this.end, this.head.motion ?? null, this.row);
-  }
-
-  setMarkers(markers: Marker[]): void {
-    this.currentMarkers = markers;
-    this.version += 1;
-  }
-
-  markers(): Marker[] {
-    return this.currentMarkers;
-  }
-
-  setSand(heap: number, heights: Float32Array): void {
-    this.heights.set(heap, heights);
-    this.version += 1;
-  }
-
-  sand(heap: number): Removal[] | Float32Array {
-    return this.heights.get(heap) ?? [];
-  }
-
-  trail(body: string): number[][] {
-    const index = this.head.motion?.bodies.indexOf(body) ?? -1;
-    if (index < 0) return [];
-    return this.trails.map(({ row }) => [0, 1, 2].map((i) => row[7 * index + i]));
-  }
-
-  clearTrails(): void {
-    this.trails.length = 0;
-  }
 }

@@ -23,6 +23,8 @@ export function exposeToConsole(page: Controls): void {
       markers: () => player.markers(page.time),
       /** The heights of the columns of a heap of sand [m]. */
       sand: (index: number) => Array.from(picture.models.heights(index)),
+      /** The puffs of sediment at the displayed time. */
+      puffs: () => player.puffs(page.time)?.puffs ?? [],
       /** The records of the particles in the image of a camera. */
       particles: (name: string) => {
         const { cameras, particles, water } = page.pack.head;

@@ -3,6 +3,8 @@ import type { Head, Water } from "../head";
 import { columns, origin, product, rotateBack, type Intrinsics, type Matrix } from "../geometry";
 import type { Optics } from "../water/medium";
 import type { Drift } from "../water/particles";
+import type { FocusingSurface } from "../water/caustics/spec";
+import type { Puffs } from "../water/sediment/puffs";
 import type { MovingSurface } from "../water/surface/spec";
 import type { ActiveLamp, Shadows } from "./light";
 
@@ -17,8 +19,12 @@ export interface RenderState {
   lamps: ActiveLamp[];
   /** The displacement of the water, with which particles move; null: none are drawn. */
   drift?: Drift | null;
+  /** The puffs of sediment; null: none are drawn. */
+  puffs?: Puffs | null;
   /** The water's surface; null: it is not drawn. */
   surface?: MovingSurface | null;
+  /** The surface that focuses the sun's light; null: none does. */
+  focusing?: FocusingSurface | null;
   /** True for an external view: there is air above the water, and the parts that cameras do not draw are visible. */
   isExternal: boolean;
   /** True if the image is greyscale, as the image of a greyscale camera. */

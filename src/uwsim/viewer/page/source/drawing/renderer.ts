@@ -1,7 +1,7 @@
 // The renderer: it draws a scene through its water with the shaders of uwsim.rendering.renderer.
 import type { Head } from "../head";
 import {
-  clipFromCamera, inverse, matrix, origin, scaleIntrinsics, unit, type Intrinsics, type Matrix,
+  clipFromCamera, inverse, matrix, origin, scaleIntrinsics, unit, type Matrix,
 } from "../geometry";
 import {
   isOpaque, lampBlockValues, projectorBlockValues, projectorIntrinsics, Shadows,
@@ -10,8 +10,8 @@ import type { Optics } from "../water/medium";
 import type { Models, Piece } from "../models";
 import { opticsBlockValues } from "../water/optics";
 import { Development } from "../water/development";
-import type { VisibleParticles } from "../water/particle_pass";
-import { findParticles } from "../water/particles";
+import { findVisibleClouds, findVisibleParticles } from "../water/visible_particles";
+import { FocusedLight } from "../water/caustics/focused_light";
 import { SurfacePass } from "../water/surface/surface_pass";
 import { frameBlockValues, type RenderState } from "./frame";
 import { BLOCKS, Programs, UNITS, type Switches } from "./shaders";
@@ -38,6 +38,7 @@ export class Renderer {
   private readonly samplers: WebGLSampler[];
   private readonly development: Development | null; // the passes of physical water, if the scene has it
   private readonly surfacePass: SurfacePass | null; // the passes of the water's surface, if images show it
+  private readonly focusedLight: FocusedLight | null; // caustics and light shafts, if the surface focuses light
 
   constructor(
     private readonly gl: WebGL2RenderingContext,
@@ -54,6 +55,8 @@ export class Renderer {
       head.surface && this.development
         ? new SurfacePass(gl, this.programs, head.surface, this.development.format, this.development.switches)
         : null;
+    this.focusedLight =
+      head.caustics && this.development ? new FocusedLight(gl, head.caustics, this.development.format) : null;
     this.samplers = [gl.CLAMP_TO_EDGE, gl.REPEAT].map((wrap) => {
       const sampler = gl.createSampler();
       gl.samplerParameteri(sampler, gl.TEXTURE_MIN_FILTER, gl.LINEAR);
@@ -101,7 +104,9 @@ export class Renderer {
     );
     this.fill("Optics", opticsBlockValues(optics, intrinsics, lamps, water.light_rate, plan.reach));
     const isDirect = surfacePass?.isDirect;
-    const law = { PHYSICAL: 1, ...(surfacePass ? { SKY: 1 } : {}), ...development.switches };
+    const focusing = this.focusedLight?.prepare(state, optics) ?? null;
+    if (focusing) this.fill("Caustics", focusing.values);
+    const law = { PHYSICAL: 1, ...(surfacePass ? { SKY: 1 } : {}), ...development.switches, ...focusing?.surfaces };
     this.drawSurfaces(
       { ...state, intrinsics, grey: false }, surfaces, [0, 0], true, law, () => isDirect && surfacePass!.drawAmong(),
     );
@@ -111,15 +116,13 @@ export class Renderer {
       development.drawOver(() => surfacePass.draw(this.shownPieces(state).some(isAbove)));
     }
     this.gl.disable(this.gl.DEPTH_TEST);
-    const particles = this.findParticles(state, intrinsics);
-    const image = development.develop(optics, intrinsics, plan, lamps.length, state.grey === true, particles);
+    const particles = findVisibleParticles(this.head.particles, state, intrinsics);
+    const clouds = findVisibleClouds(this.head.particles, state);
+    const isGrey = state.grey === true;
+    const image = development.develop(
+      optics, intrinsics, plan, lamps.length, isGrey, particles, clouds, focusing?.shafts ?? null,
+    );
     development.present(image, target, corner, state.intrinsics, isFlipped);
-  }
-
-  private findParticles({ drift, worldFromCamera, water }: RenderState, lens: Intrinsics): VisibleParticles | null {
-    const spec = this.head.particles;
-    if (!spec || !drift) return null;
-    return { spec, records: findParticles(spec, drift, worldFromCamera, lens, water.surface_height) };
   }
 
   /** Add the lamps that the camera sees to the surfaces in the current framebuffer. */

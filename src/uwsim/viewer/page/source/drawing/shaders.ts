@@ -6,6 +6,10 @@ import blurredRowsFragment from "../../../../rendering/shaders/blurred_rows.frag
 import caustics from "../../../../rendering/shaders/caustics.glsl";
 import causticsBlock from "../../../../rendering/shaders/caustics_block.glsl";
 import daylight from "../../../../rendering/shaders/daylight.glsl";
+import cloudFragment from "../../../../rendering/shaders/cloud.frag.glsl";
+import cloudVertex from "../../../../rendering/shaders/cloud.vert.glsl";
+import cloudEdge from "../../../../rendering/shaders/cloud_edge.glsl";
+import clouds from "../../../../rendering/shaders/clouds.glsl";
 import developedFragment from "../../../../rendering/shaders/developed.frag.glsl";
 import frame from "../../../../rendering/shaders/frame.glsl";
 import gaussian from "../../../../rendering/shaders/gaussian.glsl";
@@ -16,6 +20,7 @@ import lampPointVertex from "../../../../rendering/shaders/lamp_point.vert.glsl"
 import lampVeil from "../../../../rendering/shaders/lamp_veil.glsl";
 import lamplight from "../../../../rendering/shaders/lamplight.glsl";
 import lamps from "../../../../rendering/shaders/lamps.glsl";
+import lightShaftsFragment from "../../../../rendering/shaders/light_shafts.frag.glsl";
 import material from "../../../../rendering/shaders/material.glsl";
 import openWater from "../../../../rendering/shaders/open_water.glsl";
 import optics from "../../../../rendering/shaders/optics.glsl";
@@ -57,6 +62,10 @@ const FILES: Record<string, string> = {
   "blurred_rows.frag.glsl": blurredRowsFragment,
   "caustics.glsl": caustics,
   "caustics_block.glsl": causticsBlock,
+  "cloud.frag.glsl": cloudFragment,
+  "cloud.vert.glsl": cloudVertex,
+  "cloud_edge.glsl": cloudEdge,
+  "clouds.glsl": clouds,
   "daylight.glsl": daylight,
   "developed.frag.glsl": developedFragment,
   "frame.glsl": frame,
@@ -68,6 +77,7 @@ const FILES: Record<string, string> = {
   "lamp_veil.glsl": lampVeil,
   "lamplight.glsl": lamplight,
   "lamps.glsl": lamps,
+  "light_shafts.frag.glsl": lightShaftsFragment,
   "material.glsl": material,
   "open_water.glsl": openWater,
   "optics.glsl": optics,
@@ -112,7 +122,7 @@ precision highp sampler2DShadow;
 #define noperspective
 `;
 /** The binding of each uniform block. */
-export const BLOCKS: Record<string, number> = { Frame: 0, Instance: 1, Lamps: 2, Projector: 3, Optics: 4, Surface: 7, ParticleLens: 9 };
+export const BLOCKS: Record<string, number> = { Frame: 0, Instance: 1, Lamps: 2, Projector: 3, Optics: 4, Caustics: 5, Surface: 7, ParticleLens: 9, Clouds: 10 };
 /** The texture unit of each sampler. */
 export const UNITS: Record<string, number> = {
   base_map: 0,
@@ -140,10 +150,16 @@ export const UNITS: Record<string, number> = {
   hemispheres: 22,
   factors_x: 23,
   factors_y: 24,
+  cloud_layers_map: 25,
+  cloud_lamplight_map: 26,
+  cloud_daylight_map: 27,
+  caustic_maps: 28,
+  swell_map: 29,
+  shaft_image: 30,
 };
 /** The location of each attribute. */
 export const ATTRIBUTES: Record<string, number> = {
-  vertex: 0, vertex_normal: 1, uv: 2, tint: 3, tangent: 4, finish: 5, emission: 6, place: 8, extent: 9, traits: 10,
+  vertex: 0, vertex_normal: 1, uv: 2, tint: 3, tangent: 4, finish: 5, emission: 6, place: 8, extent: 9, traits: 10, depth: 11,
 };
 
 /** The preprocessor macros of a program, by name. */

@@ -5,7 +5,9 @@ import { kernelSwitches, MAX_LEVELS, planBlur, type BlurPlan } from "./blur_plan
 import { N_RANGES, weightTable } from "./blur_weights";
 import { openWaterMap, MAP_SIZE } from "./open_water";
 import { ParticlePass, type VisibleParticles } from "./particle_pass";
-import type { Target, Targets } from "./targets";
+import { CloudPass, EDGE } from "./sediment/cloud_pass";
+import type { VisibleClouds } from "./sediment/clouds";
+import { TargetPool, type Target, type Targets } from "./targets";
 import { UNITS, type Programs, type Switches } from "../drawing/shaders";
 
 const MAX_TABLES = 16; // greatest number of tables of weights that are kept
@@ -17,11 +19,12 @@ export class Development {
   readonly switches: Switches;
   /** The format of the textures. */
   readonly format: number;
+  private readonly pool: TargetPool;
   private readonly particlePass: ParticlePass;
+  private readonly cloudPass: CloudPass;
   private readonly map: WebGLTexture;
   private readonly tables: { optics: Optics["transform"]; key: string; texture: WebGLTexture }[] = [];
   private table: WebGLTexture | null = null; // the weights of the prepared image
-  private readonly targets = new Map<string, Targets>();
   private currentTargets: Targets | null = null;
   private radiance: WebGLTexture | null = null; // the radiance and the range that are developed
 
@@ -34,7 +37,9 @@ export class Development {
     this.format = isHalf ? gl.RGBA16F : gl.RGBA32F;
     this.switches = isHalf ? { FAR: HALF_FAR } : {};
     this.particlePass = new ParticlePass(gl, programs);
-    this.map = this.texture(MAP_SIZE[0], MAP_SIZE[1], this.format);
+    this.cloudPass = new CloudPass(gl, programs);
+    this.pool = new TargetPool(gl, this.format);
+    this.map = this.pool.texture(MAP_SIZE[0], MAP_SIZE[1], this.format);
   }
 
   /** Return the passes, with floats or half floats; null if this browser cannot draw into either. */
@@ -56,10 +61,10 @@ export class Development {
     hasSurface: boolean,
   ): WebGLFramebuffer {
     this.table = plan.deviations.length ? this.tableOf(optics, plan) : null;
-    this.upload(this.map, MAP_SIZE[0], MAP_SIZE[1], openWaterMap(optics, worldFromCamera, intrinsics, depth, lightRate, hasSurface));
+    this.pool.upload(this.map, MAP_SIZE[0], MAP_SIZE[1], openWaterMap(optics, worldFromCamera, intrinsics, depth, lightRate, hasSurface));
     this.bind(UNITS.open_water_map, this.map);
     if (this.table) this.bind(UNITS.weight_table, this.table);
-    this.currentTargets = this.targetsOf(intrinsics, plan);
+    this.currentTargets = this.pool.find(intrinsics, plan.deviations.length);
     this.radiance = this.currentTargets.surfaces.textures[0];
     return this.currentTargets.surfaces.buffer;
   }
@@ -69,7 +74,7 @@ export class Development {
     const { gl } = this;
     const targets = this.currentTargets!;
     const { width, height } = targets.surfaces;
-    const target = (targets.wateredSurfaces ??= this.depthTarget(width, height));
+    const target = (targets.wateredSurfaces ??= this.pool.depthTarget(width, height));
     this.bind(UNITS.surface_image, targets.surfaces.textures[0]);
     this.begin(target);
     gl.depthMask(true);
@@ -78,12 +83,16 @@ export class Development {
     this.radiance = target.textures[0];
   }
 
-  /** Draw the finished image of prepared surfaces; row 0 of the texture is the top. */
+  /**
+   * Draw the finished image of prepared surfaces; row 0 of the texture is the top.
+   *
+   * `shafts` are the switches of the pass of light shafts; null: there are none.
+   */
   develop(
     optics: Optics, intrinsics: Intrinsics, plan: BlurPlan, nLamps: number, grey: boolean,
-    particles: VisibleParticles | null,
+    particles: VisibleParticles | null, clouds: VisibleClouds | null, shafts: Switches | null,
   ): WebGLTexture {
-    const targets = this.targetsOf(intrinsics, plan);
+    const targets = this.pool.find(intrinsics, plan.deviations.length);
     const nVeils = optics.lamp_veil ? nLamps : 0;
     const switches: Switches = this.table ? { BLUR: 1 } : {};
     if (plan.spreads.length || nVeils) {
@@ -93,11 +102,26 @@ export class Development {
     }
     this.bind(UNITS.surface_image, this.radiance!);
     if (particles) {
-      const target = (targets.particles ??= this.target(intrinsics.width, intrinsics.height, 1, this.format));
+      const target = (targets.particles ??= this.pool.target(intrinsics.width, intrinsics.height, 1, this.format));
       this.begin(target);
       this.particlePass.draw(particles, nLamps, this.switches);
       this.bind(UNITS.particle_image, target.textures[0]);
       switches.PARTICLES = 1;
+    }
+    if (clouds) {
+      const size = [intrinsics.width, intrinsics.height].map((length) => Math.ceil(length / EDGE));
+      const target = (targets.clouds ??= this.pool.target(size[0], size[1], 3, this.format));
+      this.begin(target);
+      this.cloudPass.draw(clouds, nLamps, this.switches);
+      target.textures.forEach((texture, i) => this.bind(UNITS.cloud_layers_map + i, texture));
+      switches.CLOUDS = 1;
+    }
+    if (shafts) {
+      const size = [intrinsics.width, intrinsics.height].map((length) => Math.ceil(length / Number(shafts.RATIO)));
+      const target = (targets.shafts ??= this.pool.target(size[0], size[1], 1, this.format));
+      this.draw("light_shafts", shafts, target);
+      this.bind(UNITS.shaft_image, target.textures[0]);
+      switches.SHAFTS = shafts.RATIO;
     }
     if (optics.linear) switches.LINEAR = 1;
     if (grey) switches.GREY = 1;
@@ -176,81 +200,9 @@ export class Development {
     const entry = this.tables.find((table) => table.key === key && table.optics === optics.transform);
     if (entry) return entry.texture;
     if (this.tables.length >= MAX_TABLES) this.gl.deleteTexture(this.tables.shift()!.texture);
-    const texture = this.texture(N_RANGES, 1 + MAX_LEVELS, this.format);
-    this.upload(texture, N_RANGES, 1 + MAX_LEVELS, weightTable(optics, plan, 1 + MAX_LEVELS));
+    const texture = this.pool.texture(N_RANGES, 1 + MAX_LEVELS, this.format);
+    this.pool.upload(texture, N_RANGES, 1 + MAX_LEVELS, weightTable(optics, plan, 1 + MAX_LEVELS));
     this.tables.push({ optics: optics.transform, key, texture });
     return texture;
-  }
-
-  private targetsOf({ width, height }: Intrinsics, plan: BlurPlan): Targets {
-    const { gl, format } = this;
-    const nLevels = plan.deviations.length;
-    const key = `${width} ${height} ${nLevels}`;
-    let targets = this.targets.get(key);
-    if (targets) return targets;
-    if (this.targets.size > 7) this.deleteTargets(); // after changes of the window's size
-    targets = {
-      surfaces: this.depthTarget(width, height), wateredSurfaces: null,
-      colours: this.target(width, height, 1, gl.RGBA8), particles: null, sources: [], levels: [],
-    };
-    let [w, h] = [width, height];
-    for (let level = 0; level < Math.max(nLevels, 1); ++level) {
-      [w, h] = [Math.ceil(w / 2), Math.ceil(h / 2)];
-      const nTextures = level === 0 ? Math.min(nLevels, 1) + 1 : nLevels - level;
-      targets.sources.push(this.target(w, h, nTextures, format));
-      targets.levels.push({ rows: this.target(w, h, 1, format), total: this.target(w, h, 1, format) });
-    }
-    this.targets.set(key, targets);
-    return targets;
-  }
-
-  /** Return a target of radiance and range with a depth buffer. */
-  private depthTarget(width: number, height: number): Target {
-    const { gl } = this;
-    const depth = gl.createRenderbuffer();
-    gl.bindRenderbuffer(gl.RENDERBUFFER, depth);
-    gl.renderbufferStorage(gl.RENDERBUFFER, gl.DEPTH_COMPONENT24, width, height);
-    const target = this.target(width, height, 1, this.format);
-    gl.framebufferRenderbuffer(gl.FRAMEBUFFER, gl.DEPTH_ATTACHMENT, gl.RENDERBUFFER, depth);
-    return { ...target, depth };
-  }
-
-  private target(width: number, height: number, nTextures: number, format: number): Target {
-    const { gl } = this;
-    const textures = Array.from({ length: nTextures }, () => this.texture(width, height, format));
-    const buffer = gl.createFramebuffer();
-    gl.bindFramebuffer(gl.FRAMEBUFFER, buffer);
-    textures.forEach((texture, i) =>
-      gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0 + i, gl.TEXTURE_2D, texture, 0),
-    );
-    gl.drawBuffers(textures.map((_, i) => gl.COLOR_ATTACHMENT0 + i));
-    return { buffer, textures, width, height };
-  }
-
-  private texture(width: number, height: number, format: number): WebGLTexture {
-    const { gl } = this;
-    const texture = gl.createTexture();
-    gl.bindTexture(gl.TEXTURE_2D, texture);
-    gl.texStorage2D(gl.TEXTURE_2D, 1, format, width, height);
-    for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, name, gl.LINEAR);
-    for (const name of [gl.TEXTURE_WRAP_S, gl.TEXTURE_WRAP_T]) gl.texParameteri(gl.TEXTURE_2D, name, gl.CLAMP_TO_EDGE);
-    return texture;
-  }
-
-  private upload(texture: WebGLTexture, width: number, height: number, values: Float32Array<ArrayBuffer>): void {
-    const { gl } = this;
-    gl.bindTexture(gl.TEXTURE_2D, texture);
-    gl.texSubImage2D(gl.TEXTURE_2D, 0, 0, 0, width, height, gl.RGBA, gl.FLOAT, values);
-  }
-
-  private deleteTargets(): void {
-    const { gl } = this;
-    for (const { surfaces, wateredSurfaces, colours, particles, sources, levels } of this.targets.values())
-      for (const target of [surfaces, colours, ...[wateredSurfaces, particles].filter((target) => target !== null), ...sources, ...levels.flatMap(({ rows, total }) => [rows, total])]) {
-        for (const texture of target.textures) gl.deleteTexture(texture);
-        gl.deleteFramebuffer(target.buffer);
-        if (target.depth) gl.deleteRenderbuffer(target.depth);
-      }
-    this.targets.clear();
   }
 }

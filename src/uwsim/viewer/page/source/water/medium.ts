@@ -1,4 +1,5 @@
 // Types of the numbers of physical water in the head; viewer/optics.py documents them.
+import type { FocusingMedium } from "./caustics/spec";
 
 /** The numbers of a medium in the light of the scene; viewer/optics.py documents them. */
 export interface Optics {
@@ -33,6 +34,8 @@ export interface Optics {
   };
   /** Two coefficients of the light of each lamp of the head. */
   lamps: [number, number][];
+  /** The numbers of caustics and light shafts; null: none. */
+  caustics: FocusingMedium | null;
   /** True if stored values are linear. */
   linear: boolean;
   /** True if light that is scattered forward blurs images. */

@@ -1,6 +1,7 @@
 // The particles in a view, as in uwsim.particles: the same ones as in the images of the simulation.
 import type { Intrinsics, Matrix } from "../geometry";
 import { hashCell, parseWord, uniform, type Word } from "./hash64";
+import type { SedimentSpec } from "./sediment/puffs";
 
 /** The numbers of a record: place 3, radius, extent 3, weight, reflectance, kind. */
 export const RECORD_LENGTH = 10;
@@ -22,6 +23,7 @@ export interface SizeClass {
 export interface ParticlesSpec {
   range: number; exposure_time: number; aperture: number; focus_distance: number; source: number[] | null;
   classes: SizeClass[];
+  sediment: SedimentSpec | null;
 }
 
 /** The displacement [m] and the velocity [m/s] of the water in W, and the time [s]. */

@@ -21,16 +21,17 @@ export class MovingSurfaces {
     if (!this.current || trial !== this.trial) {
       const spec = trials?.[trial]?.surface ?? surface;
       this.trial = trial;
-      this.current = { waves: this.read(spec.waves), ripples: this.read(spec.ripples) };
+      this.current = { waves: readComponents(this.pack, spec.waves), ripples: readComponents(this.pack, spec.ripples) };
     }
     return { ...this.current, time: snapshot.time, scale: snapshot.signal("wave_scale") ?? surface.scale };
   }
+}
 
-  private read(ref: Ref | null): Components | null {
-    if (!ref) return null;
-    const values = this.pack.numbers(ref) as Float32Array;
-    const n = values.length / 5;
-    const [amplitude, omega, kx, ky, phase] = [0, 1, 2, 3, 4].map((i) => values.subarray(n * i, n * (i + 1)));
-    return { amplitude, omega, kx, ky, phase };
-  }
+/** Return the components of waves from a pack. */
+export function readComponents(pack: Pack, ref: Ref | null): Components | null {
+  if (!ref) return null;
+  const values = pack.numbers(ref) as Float32Array;
+  const n = values.length / 5;
+  const [amplitude, omega, kx, ky, phase] = [0, 1, 2, 3, 4].map((i) => values.subarray(n * i, n * (i + 1)));
+  return { amplitude, omega, kx, ky, phase };
 }
