@@ -20,6 +20,7 @@ from uwsim.results.motion.stirred_sediment import MASS_COLUMN, NO_VALUE
 from uwsim.runs.trial.motion_events import SedimentLog
 from uwsim.runs.trial.motion_recorder import MotionRecorder
 from uwsim.viewer.document import document
+from uwsim.viewer.film.recorded_puffs import RecordedPuffs
 from uwsim.viewer.head import scene_head
 from uwsim.viewer.pack import Blob, make_pack
 
@@ -82,6 +83,12 @@ def read_puffs(simulation: uwsim.Simulation) -> npt.NDArray[np.float64]:
     return particles.sediment.puffs[: particles.sediment.n_puffs].copy()
 
 
+def read_velocity(simulation: uwsim.Simulation) -> npt.NDArray[np.float64]:
+    particles = simulation.world.scenery.state.particles
+    assert particles is not None
+    return particles.velocity.copy()
+
+
 @pytest.mark.slow
 def test_a_replay_shows_the_clouds_that_thrusters_stirred_up(tab: Any, tmp_path: Path) -> None:
     blob, images = Blob(), []
@@ -110,7 +117,9 @@ def test_a_replay_shows_the_clouds_that_thrusters_stirred_up(tab: Any, tmp_path:
 
 
 @pytest.mark.slow
-def test_puffs_merge_and_vanish_in_a_replay_as_in_the_simulation(tab: Any, tmp_path: Path) -> None:
+def test_puffs_merge_and_vanish_in_replays_and_films_as_in_the_simulation(
+    tab: Any, tmp_path: Path
+) -> None:
     """After more births than there may be puffs, and after a reset of the scene."""
     blob, high_start = Blob(), LOW_START.replace("13.2", "4")
     with load(tmp_path, "<u:sediment/>", current=CURRENT, start=high_start) as simulation:
@@ -122,15 +131,24 @@ def test_puffs_merge_and_vanish_in_a_replay_as_in_the_simulation(tab: Any, tmp_p
         simulation.advance(0.1)
         puffs = read_puffs(simulation)
         assert len(puffs) == MAX_PUFFS
-        end = simulation.time
+        end, velocity = simulation.time, read_velocity(simulation)
         track = recorder.track()
         log = SedimentLog(simulation)
         log.update()
         simulation.restore(data)
         log.update()
-    births = log.sediment().table
-    assert len(births) == MAX_PUFFS + 1
-    assert births[-1, MASS_COLUMN] == NO_VALUE
+        particles = simulation.world.scenery.particles
+        assert particles is not None
+        assert particles.sediment is not None
+        births = read_track(track).sediment
+        recorded = RecordedPuffs(particles.sediment, births, lambda _: velocity)
+        for time in (end, 3.0, end):
+            recorded.show(time)
+            assert len(read_puffs(simulation)) == (60 if time == 3.0 else MAX_PUFFS)
+        np.testing.assert_allclose(read_puffs(simulation), puffs, atol=2e-3)
+    table = log.sediment().table
+    assert len(table) == MAX_PUFFS + 1
+    assert table[-1, MASS_COLUMN] == NO_VALUE
     head["trials"] = [make_trial(track, blob)]
     (tmp_path / "page.html").write_text(document("x", make_pack(head, blob)), encoding="utf-8")
     tab.goto((tmp_path / "page.html").as_uri())

@@ -165,7 +165,7 @@ def track_bytes(
         sediment: the puffs that thrusters stirred up; None if there are none.
     """
     digs, births = (sand or DugSand()).table, (sediment or StirredSediment()).table
-    head = {
+    head: dict[str, Any] = {
         FORMAT: 3 if len(births) else 2 if len(digs) or markers else 1,
         "rate": rate,
         "n": len(table),

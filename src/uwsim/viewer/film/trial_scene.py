@@ -23,6 +23,10 @@ from ...simulation.tracked_state import (
     WAVE_SCALE,
 )
 from ..recorded import RecordedTrial
+from .recorded_puffs import RecordedPuffs
+
+VELOCITY_SIGNAL = "particle_velocity"
+"""The name of the signals of the velocity of the water."""
 
 
 class TrialScene:
@@ -46,6 +50,11 @@ class TrialScene:
         self._owns_simulation = simulation is None
         self._time = 0.0  # that the scene shows [s]
         self._surface = self.simulation.world.scenery.find_surface()
+        particles, self._puffs = self.simulation.world.scenery.particles, None
+        if particles is not None and particles.sediment is not None:
+            self._puffs = RecordedPuffs(
+                particles.sediment, self.track.sediment, self._find_water_velocity
+            )
 
     def show_time(self, time: float) -> None:
         """Set the scene to its state at a simulation time [s]; poses are interpolated."""
@@ -104,12 +113,19 @@ class TrialScene:
         particles = self.simulation.world.scenery.particles
         if particles is None:
             return
-        displacement, velocity = (
-            [self.signal(f"{name}/{axis}", frame) or 0.0 for axis in "xyz"]
-            for name in DRIFT_SIGNALS
-        )
+        displacement, velocity = (self._read_vector(name, frame) for name in DRIFT_SIGNALS)
         particles.state.displacement[:], particles.state.velocity[:] = displacement, velocity
         particles.state.time = frame / self.track.rate
+        if self._puffs is not None:
+            self._puffs.show(self._time)
+
+    def _find_water_velocity(self, time: float) -> Array:
+        """Return the velocity of the water that carries particles, in W, (3,) [m/s]."""
+        return self._read_vector(VELOCITY_SIGNAL, frame_at(self.track, time)[0])
+
+    def _read_vector(self, name: str, frame: int) -> Array:
+        """Return three signals of a frame, which are 0 where there is no value, (3,)."""
+        return np.array([self.signal(f"{name}/{axis}", frame) or 0.0 for axis in "xyz"])
 
     def signal(self, name: str, frame: int) -> float | None:
         """Return the value of a signal in a frame of the track; None if there is no value."""
