@@ -13,16 +13,20 @@ The entry of the scene is null if the surface focuses no light, or::
      scale,                       the factor on amplitudes of waves at step 0 [1]
      swell: {n_points, spacing},  the grid of longer waves [m]
      sun: 3, drift: 2, matrix: 4, `uwsim.rendering.caustics.refraction.Beam`
-     covariance: 3, blur, index,  the blur of maps: xx, xy, yy of the drift by the sun's disc and by
-                                  shorter ripples, and that of all maps [texels]; the refractive
-                                  index
+     covariance: 3, index,        that of the drift by the sun's disc and by shorter ripples, xx, xy,
+                                  yy; the refractive index
+     maps: {...},                 constants of the maps (below)
      has_caustics,
-     shafts: null or {RATIO, N_STEPS, MAP_LEVEL}}    the switches of their shader
+     shafts: null or {NAME: text}}    the switches of their shader
 
 The entry of a medium, in its ``optics``, is null or::
 
-    {depths: [m], loss: 4, shafts: 3}    those of the maps, and the numbers of the uniform block
+    {lost_depth, loss: 4, shafts: 3}     the depth of the deepest map without a floor above it [m],
+                                         and the numbers of the uniform block
                                          (`uwsim.rendering.caustics.caustic_light`)
+
+The names of constants of maps are those of `uwsim.rendering.caustics.caustic_map` and
+``caustic_light``, in lower case.
 """
 
 from __future__ import annotations
@@ -32,9 +36,25 @@ from typing import Any
 import numpy as np
 
 from ..base.numerics.linear import product
-from ..rendering.caustics.caustic_light import find_medium_numbers, find_optics
-from ..rendering.caustics.caustic_map import MAP_BLUR, CausticOptics
-from ..rendering.caustics.light_shafts import N_STEPS, RATIO
+from ..rendering.caustics.caustic_light import (
+    DEPTH_STEP,
+    LEAST_FLOOR_DEPTH,
+    MAX_DEPTH,
+    find_lost_depth,
+    find_medium_numbers,
+)
+from ..rendering.caustics.caustic_map import (
+    FEW_SLICES,
+    LEAST_BLUR,
+    MANY_SLICES,
+    MAP_BLUR,
+    MAX_RATIO,
+    MAX_SPREAD,
+    MIN_DEPTH,
+    SMOOTH_BLUR,
+)
+from ..rendering.caustics.light_shafts import SWITCHES
+from ..rendering.caustics.refraction import make_beam
 from ..rendering.caustics.ripples import SURFACE_TENSION
 from ..rendering.caustics.swell import N_POINTS, SPACING
 from ..rendering.caustics.wave_tile import MAX_WAVE_LENGTH, MIN_WAVE_LENGTH, N_NODES, TILE_EDGE
@@ -45,8 +65,22 @@ from ..simulation.live_scene import LiveScene
 from .pack import Blob
 
 Json = dict[str, Any]
-N_STEPS_OF_TURN = 65536
+N_TURN_STEPS = 65536
 """The number of steps of a turn in which phases are stored."""
+MAP_CONSTANTS = {
+    "min_depth": MIN_DEPTH,
+    "few_slices": FEW_SLICES,
+    "many_slices": MANY_SLICES,
+    "max_ratio": MAX_RATIO,
+    "max_depth": MAX_DEPTH,
+    "least_floor_depth": LEAST_FLOOR_DEPTH,
+    "depth_step": DEPTH_STEP,
+    "max_spread": MAX_SPREAD,
+    "least_blur": LEAST_BLUR,
+    "smooth_blur": SMOOTH_BLUR,
+    "map_blur": MAP_BLUR,
+}
+"""The constants of maps that the page needs."""
 
 
 def describe_caustics(world: LiveScene, blob: Blob) -> Json | None:
@@ -62,11 +96,10 @@ def describe_caustics(world: LiveScene, blob: Blob) -> Json | None:
     if not (water.has_caustics or water.has_light_shafts):
         return None
     assert water.ripples is not None
-    tile, optics = water.ripples.draw(world.model.seed), _find_optics(water)
+    tile, beam = water.ripples.draw(world.model.seed), make_beam(water.daylight)
     unit = float(tile.amplitude.max()) / 65535.0
-    beam = optics.beam
     spread = product(beam.slope_matrix, beam.slope_matrix.T)
-    covariance = (beam.disc_covariance + optics.unresolved_slope**2 * spread).tolist()
+    covariance = (beam.disc_covariance + water.ripples.unresolved_slope**2 * spread).tolist()
     return {
         "edge": TILE_EDGE,
         "n_nodes": N_NODES,
@@ -83,10 +116,10 @@ def describe_caustics(world: LiveScene, blob: Blob) -> Json | None:
         "drift": beam.level_drift.tolist(),
         "matrix": beam.slope_matrix.ravel().tolist(),
         "covariance": [covariance[0][0], covariance[0][1], covariance[1][1]],
-        "blur": MAP_BLUR,
         "index": REFRACTIVE_INDEX,
+        "maps": MAP_CONSTANTS,
         "has_caustics": water.has_caustics,
-        "shafts": {"RATIO": RATIO, "N_STEPS": N_STEPS, "MAP_LEVEL": 1}
+        "shafts": {name: str(value) for name, value in SWITCHES.items()}
         if water.has_light_shafts
         else None,
     }
@@ -98,7 +131,7 @@ def describe_focusing_waves(world: LiveScene, blob: Blob) -> Json:
     assert water is not None
     assert water.ripples is not None
     phases = water.ripples.draw(world.model.seed).phase / (2.0 * np.pi)
-    steps = np.rint(phases * N_STEPS_OF_TURN) % N_STEPS_OF_TURN
+    steps = np.rint(phases * N_TURN_STEPS) % N_TURN_STEPS
     columns = None
     if waves is not None:
         c = read_components(waves, 1.0)
@@ -114,9 +147,5 @@ def describe_focusing(water: PhysicalWater) -> Json | None:
     if not water.has_focused_light:
         return None
     loss, shafts = find_medium_numbers(water)
-    return {"depths": list(_find_optics(water).depths), "loss": loss, "shafts": shafts}
-
-
-def _find_optics(water: PhysicalWater) -> CausticOptics:
-    assert water.ripples is not None
-    return find_optics(water.medium, water.daylight, water.ripples)
+    lost_depth = find_lost_depth(water.medium, water.daylight)
+    return {"lost_depth": lost_depth, "loss": loss, "shafts": shafts}

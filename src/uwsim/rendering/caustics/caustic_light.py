@@ -243,12 +243,15 @@ def find_optics(
 
     The deepest map is that of the floor, unless the contrast is lost above it.
     """
-    beam = make_beam(daylight)
+    depth = min(find_lost_depth(medium, daylight), max(floor_depth, LEAST_FLOOR_DEPTH))
+    return make_optics(make_beam(daylight), depth, ripples.unresolved_slope)
+
+
+def find_lost_depth(medium: Medium, daylight: Daylight) -> float:
+    """Find the greatest depth of the deepest map, below which contrast is lost [m]."""
     field = compute_light_field(medium, daylight)
     loss = float(find_contrast_loss(medium, float(field.towards_sun[2])).min())
-    lost_depth = max(LOST_CONTRAST / max(loss, 1e-6), LEAST_LOST_DEPTH)
-    depth = min(lost_depth, max(floor_depth, LEAST_FLOOR_DEPTH), MAX_DEPTH)
-    return make_optics(beam, depth, ripples.unresolved_slope)
+    return min(max(LOST_CONTRAST / max(loss, 1e-6), LEAST_LOST_DEPTH), MAX_DEPTH)
 
 
 @lru_cache(maxsize=4)

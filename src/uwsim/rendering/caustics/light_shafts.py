@@ -37,6 +37,13 @@ N_STEPS = 16
 """The number of steps along a ray."""
 MAP_SHARE = 0.3
 """The edge of the square of a map that a step averages, over the way of the step [1]."""
+SWITCHES = {
+    "RATIO": RATIO,
+    "N_STEPS": N_STEPS,
+    "MAP_LEVEL": 1,
+    "MAP_PERCENT": round(100 * MAP_SHARE),
+}
+"""The switches of the shader that are the same in all scenes; the page has them, too."""
 SURFACE_UNIT = 0
 """The texture unit of the image of surfaces."""
 
@@ -91,13 +98,7 @@ class LightShafts:
     def _find_program(self, has_swell: bool, n_slices: int) -> moderngl.VertexArray:
         key = has_swell, n_slices
         if key not in self._programs:
-            defines = {
-                "RATIO": RATIO,
-                "N_STEPS": N_STEPS,
-                "N_SLICES": n_slices,
-                "MAP_LEVEL": 1,
-                "MAP_PERCENT": round(100 * MAP_SHARE),
-            }
+            defines = {**SWITCHES, "N_SLICES": n_slices}
             program = build(
                 self._context,
                 "light_shafts",

@@ -16,7 +16,7 @@ import { SurfacePass } from "../water/surface/surface_pass";
 import { frameBlockValues, type RenderState } from "./frame";
 import { BLOCKS, Programs, UNITS, type Switches } from "./shaders";
 import { InstanceBlocks } from "./instance_blocks";
-import { findVisible, canSkipMipmaps, castersInView, type Eye } from "./visibility";
+import { findLowestPoint, findVisible, canSkipMipmaps, castersInView, type Eye } from "./visibility";
 
 const MAX_CASTER_RADIUS = 5; // radius above which a model casts no shadow of the sun [m]
 const MAX_BLURRED_PIXELS = 320 * 240; // greatest size of an image that a software renderer blurs [px]
@@ -104,7 +104,7 @@ export class Renderer {
     );
     this.fill("Optics", opticsBlockValues(optics, intrinsics, lamps, water.light_rate, plan.reach));
     const isDirect = surfacePass?.isDirect;
-    const focusing = this.focusedLight?.prepare(state, optics) ?? null;
+    const focusing = this.focusedLight?.prepare(state, optics, findLowestPoint(this.models, MAX_CASTER_RADIUS)) ?? null;
     if (focusing) this.fill("Caustics", focusing.values);
     const law = { PHYSICAL: 1, ...(surfacePass ? { SKY: 1 } : {}), ...development.switches, ...focusing?.surfaces };
     this.drawSurfaces(

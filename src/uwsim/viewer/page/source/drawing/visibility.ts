@@ -3,7 +3,7 @@
 import {
   cross, dot, matrix, origin, plus, transform, rotateBack, unit, inverse, type Intrinsics, type Matrix,
 } from "../geometry";
-import type { Piece } from "../models";
+import type { Models, Piece } from "../models";
 
 /** The camera of an image. */
 export interface Eye {
@@ -138,4 +138,11 @@ export function canSkipMipmaps(piece: Piece, eye: Eye): boolean {
   const focal = Math.min(eye.intrinsics.fx, eye.intrinsics.fy);
   const footprint = (Math.max(...depths) / focal) * (1 + (tilt * maxDistance) / distance);
   return piece.density * footprint <= MAX_TEXELS;
+}
+
+/** Return the height of the lowest point of models above a radius [m], which count as the ground; -infinity without any. */
+export function findLowestPoint(models: Models, minRadius: number): number {
+  const largeModels = models.instances.filter((instance) => models.radius(instance) > minRadius);
+  const heights = largeModels.flatMap(({ pieces }) => pieces.flatMap(({ corners }) => corners.map((corner) => corner[2])));
+  return heights.length ? heights.reduce((a, b) => Math.min(a, b)) : -Infinity;
 }

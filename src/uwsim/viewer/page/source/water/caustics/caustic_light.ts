@@ -10,21 +10,19 @@ const MAX_SHARE = 0.3; // greatest share of the wall time that such views spend 
 
 /** The caustics of a scene. */
 export class CausticLight {
-  private readonly maps: WebGLTexture;
+  private readonly maps = new Map<number, WebGLTexture>(); // by the number of layers
   private readonly swell: WebGLTexture;
-  private mapper: { medium: string; mapper: CausticMapper } | null = null;
+  private mapper: { depths: string; mapper: CausticMapper } | null = null;
   private mapKey: { mapper: CausticMapper; tile: TileWaves; time: number } | null = null;
   private nextUpdate = 0; // wall time before which maps are not updated for inexact views [ms]
   private swellKey: unknown[] = [];
   private corner = [0, 0]; // the first point of the grid of long waves in W [m]
-  private nLayers = 0;
 
   constructor(
     private readonly gl: WebGL2RenderingContext,
     private readonly spec: CausticsSpec,
     private readonly format: number,
   ) {
-    this.maps = gl.createTexture();
     this.swell = gl.createTexture();
     gl.bindTexture(gl.TEXTURE_2D, this.swell);
     gl.texStorage2D(gl.TEXTURE_2D, 1, format, spec.swell.n_points, spec.swell.n_points);
@@ -33,22 +31,23 @@ export class CausticLight {
 
   /** Update the textures, and return the values of the uniform block; `isExact`: the maps are those of the very time. */
   prepare(
-    surface: FocusingSurface, medium: FocusingMedium, m: Matrix, surfaceHeight: number, isExact: boolean,
+    surface: FocusingSurface, medium: FocusingMedium, depths: number[], m: Matrix, surfaceHeight: number,
+    isExact: boolean,
   ): Float32Array<ArrayBuffer> {
-    this.updateMaps(surface, medium, isExact);
+    this.updateMaps(surface, depths, isExact);
     if (surface.waves) this.updateSwell(surface, m, surfaceHeight);
     const { gl } = this;
     gl.activeTexture(gl.TEXTURE0 + UNITS.caustic_maps);
-    gl.bindTexture(gl.TEXTURE_2D_ARRAY, this.maps);
+    gl.bindTexture(gl.TEXTURE_2D_ARRAY, this.maps.get(countLayers(depths.length))!);
     gl.activeTexture(gl.TEXTURE0 + UNITS.swell_map);
     gl.bindTexture(gl.TEXTURE_2D, this.swell);
     gl.activeTexture(gl.TEXTURE0);
-    return this.blockValues(medium, m, surfaceHeight);
+    return this.blockValues(medium, depths, m, surfaceHeight);
   }
 
-  private updateMaps({ tile, time }: FocusingSurface, { depths }: FocusingMedium, isExact: boolean): void {
+  private updateMaps({ tile, time }: FocusingSurface, depths: number[], isExact: boolean): void {
     const key = depths.join();
-    if (this.mapper?.medium !== key) this.mapper = { medium: key, mapper: new CausticMapper(this.spec, depths) };
+    if (this.mapper?.depths !== key) this.mapper = { depths: key, mapper: new CausticMapper(this.spec, depths) };
     const { mapper } = this.mapper;
     const lag = this.mapKey?.mapper === mapper && this.mapKey.tile === tile ? Math.abs(time - this.mapKey.time) : Infinity;
     const start = performance.now();
@@ -63,18 +62,19 @@ export class CausticLight {
   private upload(maps: Float32Array[]): void {
     const { gl, format } = this;
     const n = this.spec.n_nodes;
-    const nLayers = Math.max(Math.ceil((maps.length - 2) / 2), 1);
+    const nLayers = countLayers(maps.length);
     gl.activeTexture(gl.TEXTURE0 + UNITS.caustic_maps);
-    gl.bindTexture(gl.TEXTURE_2D_ARRAY, this.maps);
-    if (this.nLayers !== nLayers) {
+    const texture = this.maps.get(nLayers) ?? gl.createTexture();
+    gl.bindTexture(gl.TEXTURE_2D_ARRAY, texture);
+    if (!this.maps.has(nLayers)) {
+      this.maps.set(nLayers, texture);
       gl.texStorage3D(gl.TEXTURE_2D_ARRAY, Math.log2(n) + 1, format, n, n, nLayers);
       this.setFilter(gl.TEXTURE_2D_ARRAY, gl.LINEAR_MIPMAP_NEAREST, gl.REPEAT);
-      this.nLayers = nLayers;
     }
     const texels = new Float32Array(4 * n * n * nLayers);
     for (let layer = 0; layer < nLayers; ++layer)
       for (let channel = 0; channel < 4; ++channel) {
-        const map = maps[Math.min(2 * layer + channel, maps.length - 1)];
+        const map = maps[2 * layer + channel];
         for (let i = 0, place = 4 * n * n * layer + channel; i < map.length; ++i, place += 4) texels[place] = map[i];
       }
     gl.texSubImage3D(gl.TEXTURE_2D_ARRAY, 0, 0, 0, 0, n, n, nLayers, gl.RGBA, gl.FLOAT, texels);
@@ -101,7 +101,9 @@ export class CausticLight {
     gl.activeTexture(gl.TEXTURE0);
   }
 
-  private blockValues({ depths, loss, shafts }: FocusingMedium, m: Matrix, surfaceHeight: number): Float32Array<ArrayBuffer> {
+  private blockValues(
+    { loss, shafts }: FocusingMedium, depths: number[], m: Matrix, surfaceHeight: number,
+  ): Float32Array<ArrayBuffer> {
     const { edge, drift, swell, n_nodes } = this.spec;
     const depth = surfaceHeight - m[11];
     const gridEdge = (swell.n_points * swell.spacing) / edge;
@@ -127,4 +129,9 @@ export class CausticLight {
     ])
       gl.texParameteri(target, name, value);
   }
+}
+
+/** Return the number of layers, of four maps each, for a number of maps. */
+function countLayers(nMaps: number): number {
+  return nMaps / 2 - 1;
 }

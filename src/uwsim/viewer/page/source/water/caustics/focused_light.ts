@@ -3,6 +3,7 @@ import type { RenderState } from "../../drawing/frame";
 import type { Switches } from "../../drawing/shaders";
 import type { Optics } from "../medium";
 import { CausticLight } from "./caustic_light";
+import { findDepths } from "./caustic_map";
 import type { CausticsSpec } from "./spec";
 
 /** What an image with focused sunlight needs. */
@@ -27,13 +28,16 @@ export class FocusedLight {
     this.caustics = new CausticLight(gl, spec, format);
   }
 
-  /** Update and bind the maps for an image; null: no light is focused. */
-  prepare({ focusing, worldFromCamera, water, isExact }: RenderState, optics: Optics): FocusedImage | null {
+  /** Update and bind the maps for an image with the lowest point of the ground at a height [m]; null: no light is focused. */
+  prepare(
+    { focusing, worldFromCamera, water, isExact }: RenderState, optics: Optics, floorHeight: number,
+  ): FocusedImage | null {
     const { spec, caustics } = this;
     const medium = optics.caustics;
     if (!medium || !focusing) return null;
-    const values = caustics.prepare(focusing, medium, worldFromCamera, water.surface_height, isExact === true);
-    const switches: Switches = { N_SLICES: medium.depths.length, ...(focusing.waves ? { SWELL: 1 } : {}) };
+    const depths = findDepths(spec.maps, medium.lost_depth, water.surface_height - floorHeight);
+    const values = caustics.prepare(focusing, medium, depths, worldFromCamera, water.surface_height, isExact === true);
+    const switches: Switches = { N_SLICES: depths.length, ...(focusing.waves ? { SWELL: 1 } : {}) };
     return {
       values,
       surfaces: spec.has_caustics ? { CAUSTICS: 1, ...switches } : {},

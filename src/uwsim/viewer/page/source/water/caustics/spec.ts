@@ -26,16 +26,23 @@ export interface CausticsSpec extends FocusingWavesSpec {
   drift: number[];
   matrix: number[];
   covariance: number[];
-  blur: number;
   index: number;
+  maps: MapConstants;
   has_caustics: boolean;
-  shafts: { RATIO: number; N_STEPS: number; MAP_LEVEL: number } | null;
+  shafts: Record<string, string> | null;
+}
+
+/** The constants of maps; lengths are in m, blurs in texels. */
+export interface MapConstants {
+  min_depth: number; few_slices: number; many_slices: number; max_ratio: number; max_depth: number;
+  least_floor_depth: number; depth_step: number; max_spread: number; least_blur: number; smooth_blur: number;
+  map_blur: number;
 }
 
 /** The numbers of a medium in the head. */
 export interface FocusingMedium {
-  /** The depths of the maps [m]. */
-  depths: number[];
+  /** The depth of the deepest map without a floor above it [m]. */
+  lost_depth: number;
   /** Those of the uniform block: `caustic_loss`, and three of `shaft_numbers`. */
   loss: number[];
   shafts: number[];
