@@ -13,8 +13,8 @@ The entry of the scene is null if the surface focuses no light, or::
      scale,                       the factor on amplitudes of waves at step 0 [1]
      swell: {n_points, spacing},  the grid of longer waves [m]
      sun: 3, drift: 2, matrix: 4, `uwsim.rendering.caustics.refraction.Beam`
-     covariance: 3, index,        that of the drift by the sun's disc and by shorter ripples, xx, xy,
-                                  yy; the refractive index
+     covariance: 3, index,        that of the drift by the sun's disc and by shorter ripples: xx,
+                                  xy, yy; the refractive index
      maps: {...},                 constants of the maps (below)
      has_caustics,
      shafts: null or {NAME: text}}    the switches of their shader
@@ -55,7 +55,7 @@ from ..rendering.caustics.caustic_map import (
 )
 from ..rendering.caustics.light_shafts import SWITCHES
 from ..rendering.caustics.refraction import make_beam
-from ..rendering.caustics.ripples import SURFACE_TENSION
+from ..rendering.caustics.ripple_spectrum import SURFACE_TENSION
 from ..rendering.caustics.swell import N_POINTS, SPACING
 from ..rendering.caustics.wave_tile import MAX_WAVE_LENGTH, MIN_WAVE_LENGTH, N_NODES, TILE_EDGE
 from ..rendering.physical.daylight_field import REFRACTIVE_INDEX

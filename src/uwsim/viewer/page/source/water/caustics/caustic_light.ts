@@ -69,7 +69,8 @@ export class CausticLight {
     if (!this.maps.has(nLayers)) {
       this.maps.set(nLayers, texture);
       gl.texStorage3D(gl.TEXTURE_2D_ARRAY, Math.log2(n) + 1, format, n, n, nLayers);
-      this.setFilter(gl.TEXTURE_2D_ARRAY, gl.LINEAR_MIPMAP_NEAREST, gl.REPEAT);
+      // between two levels, too: so does the renderer's library when it builds the mipmaps
+      this.setFilter(gl.TEXTURE_2D_ARRAY, gl.LINEAR_MIPMAP_LINEAR, gl.REPEAT);
     }
     const texels = new Float32Array(4 * n * n * nLayers);
     for (let layer = 0; layer < nLayers; ++layer)
