@@ -57,9 +57,9 @@ export class CausticMapper {
       const maxSpread = this.blurs[i] < smooth_blur ? max_spread : Infinity;
       this.deposit(maps[i], (depth * spec.n_nodes) / spec.edge, maxSpread);
     });
-    const blurred = [...transfers.keys()];
-    for (let i = 0; i < blurred.length; i += 2) {
-      const [a, b] = [blurred[i], blurred[Math.min(i + 1, blurred.length - 1)]];
+    const indices = [...transfers.keys()];
+    for (let i = 0; i < indices.length; i += 2) {
+      const [a, b] = [indices[i], indices[Math.min(i + 1, indices.length - 1)]];
       this.blur(maps[a], maps[b], transfers.get(a)!, transfers.get(b)!);
     }
     for (const map of maps) for (let i = 0; i < map.length; ++i) map[i] -= 1;
