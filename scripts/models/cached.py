@@ -9,10 +9,10 @@ from typing import ParamSpec, TypeVar, cast
 from uwsim.base.numerics.opencv import deterministic_opencv
 
 Arguments = ParamSpec("Arguments")
-Made = TypeVar("Made")
+Product = TypeVar("Product")
 
 
-def cache_image(make: Callable[Arguments, Made]) -> Callable[Arguments, Made]:
+def cache_image(make: Callable[Arguments, Product]) -> Callable[Arguments, Product]:
     """Cache what a function makes from images, in the deterministic mode of OpenCV.
 
     Whoever calls the function first decides what is cached: without the mode, a file that is built
@@ -21,8 +21,8 @@ def cache_image(make: Callable[Arguments, Made]) -> Callable[Arguments, Made]:
 
     @cache
     @wraps(make)
-    def make_once(*arguments: Arguments.args, **options: Arguments.kwargs) -> Made:
+    def make_once(*arguments: Arguments.args, **options: Arguments.kwargs) -> Product:
         with deterministic_opencv():
             return make(*arguments, **options)
 
-    return cast("Callable[Arguments, Made]", make_once)
+    return cast("Callable[Arguments, Product]", make_once)

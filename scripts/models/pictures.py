@@ -93,7 +93,7 @@ VIEWS = {
 ARM_LINKS = f"{ARM}_"
 """The beginning of the names of links that only the picture of the robot shows."""
 
-Placed = list[tuple[Model, Array]]
+PlacedModels = list[tuple[Model, Array]]
 """Models, with the rotation and position of each as a matrix (4, 4)."""
 
 
@@ -102,11 +102,11 @@ def write_pictures(folder: Path) -> None:
     folder.mkdir(parents=True, exist_ok=True)
     renderer = Renderer()
     pictures = {name: [(load_model(name), np.eye(4))] for name in SCENERY}
-    pictures = {name: placed for name, placed in pictures.items() if not _is_arm(name)}
+    pictures = {name: models for name, models in pictures.items() if not _is_arm(name)}
     pictures[ROBOT] = place_robot()
     pictures[ARM] = pictures[ROBOT][1:]
-    for name, placed in pictures.items():
-        image = draw_models(renderer, placed, VIEWS.get(name, View()), SIZE)
+    for name, models in pictures.items():
+        image = draw_models(renderer, models, VIEWS.get(name, View()), SIZE)
         _save(folder / f"{find_picture_name(name)}.jpg", image)
     _save(folder / "stand-ins.jpg", draw_sheet(renderer))
     renderer.close()
@@ -117,7 +117,7 @@ def find_picture_name(name: str) -> str:
     return re.sub(r"[^a-z0-9]+", "-", name.rpartition("/")[2].removesuffix(".urdf").lower())
 
 
-def place_robot() -> Placed:
+def place_robot() -> PlacedModels:
     """Return the meshes of the robot with an arm, z up."""
     path = find(ROBOT)
     assert path is not None
@@ -134,13 +134,15 @@ def place_robot() -> Placed:
     ]
 
 
-def draw_models(renderer: Renderer, placed: Placed, view: View, size: tuple[int, int]) -> Pixels:
+def draw_models(
+    renderer: Renderer, models: PlacedModels, view: View, size: tuple[int, int]
+) -> Pixels:
     """Draw models on a plain background, (h, w, 3)."""
     renderer.clear()
     corners = []
     turn = np.eye(4)
     turn[:3, :3] = view.rotation
-    for number, (model, matrix) in enumerate(placed):
+    for number, (model, matrix) in enumerate(models):
         world_from_model = turn @ matrix
         renderer.place(renderer.add(model, number + 1), world_from_model)
         vertices = np.concatenate([mesh.vertices for mesh in model.meshes]).astype(float)
@@ -169,9 +171,9 @@ def draw_models(renderer: Renderer, placed: Placed, view: View, size: tuple[int,
     assert image.ids is not None
     ramp = np.linspace(0.0, 1.0, height)[:, None, None]
     low, high = (np.array(colour, dtype=float) for colour in BACKGROUND)
-    plain = low + (high - low) * ramp * np.ones((1, width, 1))
-    mixed = np.where((image.ids > 0)[..., None], image.colour.astype(float), plain)
-    pixels = cv2.resize(mixed.astype(np.float32), size, interpolation=cv2.INTER_AREA)
+    background = low + (high - low) * ramp * np.ones((1, width, 1))
+    samples = np.where((image.ids > 0)[..., None], image.colour.astype(float), background)
+    pixels = cv2.resize(samples.astype(np.float32), size, interpolation=cv2.INTER_AREA)
     return np.rint(pixels).astype(np.uint8)
 
 
@@ -200,20 +202,20 @@ def _draw_cell(renderer: Renderer, name: str) -> Pixels:
 def _fit_camera(points: Array, view: View, size: tuple[int, int]) -> tuple[Pose, float]:
     """Return the camera that looks at all points, and its distance from their middle [m]."""
     middle = 0.5 * (points.min(axis=0) + points.max(axis=0))
-    flat = math.cos(view.elevation)
-    back = np.array([flat * math.cos(view.azimuth), flat * math.sin(view.azimuth),
+    cosine = math.cos(view.elevation)
+    back = np.array([cosine * math.cos(view.azimuth), cosine * math.sin(view.azimuth),
                      math.sin(view.elevation)])  # fmt: skip
     right = np.cross([0.0, 0.0, 1.0], back)
     right /= np.linalg.norm(right)
     rotation = np.stack([right, np.cross(back, right), back], axis=1)
-    local = (points - middle) @ rotation
+    offsets = (points - middle) @ rotation
     for axis in (0, 1):  # the middle of the outline is the middle of the picture
-        shift = 0.5 * (local[:, axis].min() + local[:, axis].max())
+        shift = 0.5 * (offsets[:, axis].min() + offsets[:, axis].max())
         middle = middle + shift * rotation[:, axis]
-        local[:, axis] -= shift
+        offsets[:, axis] -= shift
     slope = math.tan(0.5 * FIELD_OF_VIEW) * 0.94
-    reach = np.maximum(np.abs(local[:, 0]) * size[1] / size[0], np.abs(local[:, 1])) / slope
-    distance = float((reach + local[:, 2]).max()) / view.zoom
+    reach = np.maximum(np.abs(offsets[:, 0]) * size[1] / size[0], np.abs(offsets[:, 1])) / slope
+    distance = float((reach + offsets[:, 2]).max()) / view.zoom
     return Pose(middle + distance * back, rotation), distance
 
 

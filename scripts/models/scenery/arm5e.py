@@ -42,10 +42,14 @@ Profile = list[tuple[float, float]]
 
 def _cover(black: list[Shape], metal: list[Shape], rubber: list[Shape]) -> tuple[Part, ...]:
     """Cover shapes with anodised and bare aluminium; rubber is the former's image, darker."""
-    anodised = make_paint("arm-black", (0.115, 0.12, 0.13), 0.36)
-    bare = make_paint("arm-metal", (0.66, 0.67, 0.68), 0.42, metallic=0.85)
+    black_aluminium = make_paint("arm-black", (0.115, 0.12, 0.13), 0.36)
+    bare_aluminium = make_paint("arm-metal", (0.66, 0.67, 0.68), 0.42, metallic=0.85)
     parts = []
-    for material, shapes in ((anodised, black), (bare, metal), (anodised, rubber)):
+    for material, shapes in (
+        (black_aluminium, black),
+        (bare_aluminium, metal),
+        (black_aluminium, rubber),
+    ):
         if shapes:
             parts.append(
                 material.cover(*(project_obliquely(shape, TILE) for shape in shapes), crease=1.2)
@@ -100,11 +104,9 @@ def _bolts(
     return heads
 
 
-def _clevis(
-    towards: tuple[float, float], radius: float, gap: float, thickness: float
-) -> list[Shape]:
+def _clevis(tip: tuple[float, float], radius: float, gap: float, thickness: float) -> list[Shape]:
     """Return two plates about the axis y at the origin, which reach to a point (x, z)."""
-    reach = math.hypot(*towards)
+    reach = math.hypot(*tip)
     angles = np.linspace(0.5 * math.pi, 1.5 * math.pi, 9)
     round_end = np.stack([radius * np.cos(angles), radius * np.sin(angles)], axis=1)
     width = 0.86 * radius
@@ -114,7 +116,7 @@ def _clevis(
     plates = []
     for low in (gap, -gap - thickness):
         plate = _place_outline(outline, low, thickness, bevel=0.002)
-        plates.append(plate.rotate(_tilt(towards)))
+        plates.append(plate.rotate(_tilt(tip)))
     return plates
 
 
@@ -126,9 +128,9 @@ def _place_outline(outline: Array, low: float, thickness: float, *, bevel: float
     return shape.rotate(y_from_z).shift(middle[0], low + 0.5 * thickness, middle[1])
 
 
-def _tilt(towards: tuple[float, float]) -> Array:
+def _tilt(tip: tuple[float, float]) -> Array:
     """Return the rotation about y of x to the direction (x, z)."""
-    x, z = np.array(towards) / math.hypot(*towards)
+    x, z = np.array(tip) / math.hypot(*tip)
     return np.array([[x, 0.0, -z], [0.0, 1.0, 0.0], [z, 0.0, x]])
 
 
@@ -180,7 +182,7 @@ def base() -> tuple[Part, ...]:
     box = _block((-0.07, -0.037, -0.042), (0.0, 0.037, 0.036), radius=0.012)
     bearing = cylinder((0.0, 0.0, -0.052), (0.0, 0.0, 0.036), 0.044, n=N, bevel=0.004)
     clamps = [_flange((x, 0.0, -0.006), (1.0, 0.0, 0.0), 0.0395, 0.016) for x in (-0.265, -0.16)]
-    stands = [
+    posts = [
         _block((x, -0.02, 0.0), (x + 0.016, 0.02, 0.04), radius=0.004) for x in (-0.265, -0.16)
     ]
     cable = _cable(
@@ -189,7 +191,7 @@ def base() -> tuple[Part, ...]:
     gland = cylinder((-0.325, 0.012, -0.006), (-0.30, 0.012, -0.006), 0.008, n=8, bevel=0.002)
     return _cover(
         [motor, box, bearing, *feet],
-        [plate, collar, *clamps, *stands, gland],
+        [plate, collar, *clamps, *posts, gland],
         [cable],
     )
 
@@ -222,14 +224,14 @@ def shoulder() -> tuple[Part, ...]:
 
 def upper_arm() -> tuple[Part, ...]:
     """Return the clevis of the shoulder, the tube, two motors beside it, the drum of the elbow."""
-    towards = (ELBOW[0], ELBOW[2])
-    reach = math.hypot(*towards)
-    turn = _tilt(towards)
+    tip = (ELBOW[0], ELBOW[2])
+    reach = math.hypot(*tip)
+    turn = _tilt(tip)
 
     def rod(profile: Profile) -> Shape:
         return _turn(profile, (0.0, 0.0, 0.0), (1.0, 0.0, 0.0)).rotate(turn)
 
-    clevis = _clevis((towards[0] / reach * 0.105, towards[1] / reach * 0.105), 0.043, 0.0495, 0.011)
+    clevis = _clevis((tip[0] / reach * 0.105, tip[1] / reach * 0.105), 0.043, 0.0495, 0.011)
     bridge = _block((0.078, -0.0605, -0.037), (0.112, 0.0605, 0.037), radius=0.009).rotate(turn)
     tubing = rod(
         [(0.0, 0.108), (0.041, 0.108), (0.041, 0.124), (0.034, 0.13), (0.034, reach - 0.05),
@@ -245,21 +247,19 @@ def upper_arm() -> tuple[Part, ...]:
         for y in (-0.041, 0.035)
     ]
     motors, clamps, glands, cables = [], [], [], []
-    for side, first, last in ((-1.0, 0.335, 0.128), (1.0, 0.30, 0.128)):
+    for side, cap, rim in ((-1.0, 0.335, 0.128), (1.0, 0.30, 0.128)):
         y = side * 0.063
-        motors.append(_housing((first, y, 0.012), (last, y, 0.012), 0.0265, n=16).rotate(turn))
-        for place in (0.155, first - 0.065):
+        motors.append(_housing((cap, y, 0.012), (rim, y, 0.012), 0.0265, n=16).rotate(turn))
+        for place in (0.155, cap - 0.065):
             ring = _turn([(0.0265, 0.0), (0.03, 0.0025), (0.03, 0.0115), (0.0265, 0.014)],
                          (place, y, 0.012), (place + 1.0, y, 0.012), n=16)  # fmt: skip
             low, high = sorted((side * 0.025, side * 0.045))
             block = _block((place, low, -0.008), (place + 0.014, high, 0.022), radius=0.003)
             clamps += [ring.rotate(turn), block.rotate(turn)]
-        gland = cylinder(
-            (first - 0.003, y, 0.012), (first + 0.014, y, 0.012), 0.007, n=8, bevel=0.0015
-        )
+        gland = cylinder((cap - 0.003, y, 0.012), (cap + 0.014, y, 0.012), 0.007, n=8, bevel=0.0015)
         glands.append(gland.rotate(turn))
-        end = [(first + 0.012, y, 0.012), (first + 0.035, y, 0.014), (first + 0.05, 0.8 * y, 0.032),
-               (first + 0.02, 0.45 * y, 0.038), (0.25, 0.2 * y, 0.036)]  # fmt: skip
+        end = [(cap + 0.012, y, 0.012), (cap + 0.035, y, 0.014), (cap + 0.05, 0.8 * y, 0.032),
+               (cap + 0.02, 0.45 * y, 0.038), (0.25, 0.2 * y, 0.036)]  # fmt: skip
         cables.append(_cable([tuple((turn @ np.array(p)).tolist()) for p in end], n=9))
     return _cover(
         [*clevis, bridge, tubing, drum, *motors],

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..assets.mesh import Material, Model, Texture
+from .materials.masked_levels import compute_masked_levels
 from .merged import MergedMesh, merge_model
 
 
@@ -104,6 +105,10 @@ def _layout(dtype: np.dtype[np.void], attributes: list[str]) -> str:
     return " ".join(f"{n}f" if name in attributes else f"{4 * n}x" for name, n in sizes.items())
 
 
+RGBA_CHANNELS = 4
+"""The number of channels of an image with alpha."""
+TextureKey = tuple[str, int, int | None]
+"""The name of a texture, the identity of its pixels, and the threshold of its holes."""
 MAX_UNUSED_SCENES = 4
 """The number of consecutive scenes without a model or texture after which the GPU discards it."""
 
@@ -130,13 +135,13 @@ class GpuModels:
             )
             for repeats in (False, True)
         }
-        self._textures: dict[tuple[str, int], tuple[Texture, moderngl.Texture]] = {}
+        self._textures: dict[TextureKey, tuple[Texture, moderngl.Texture]] = {}
         self._mipmapped_textures: set[int] = set()  # OpenGL names of the textures with mipmaps
-        # the texture of each unit, and True if it is without mipmaps
-        self._bound: dict[int, tuple[Texture, bool]] = {}
+        # the texture of each unit, True if it is without mipmaps, and the threshold of its holes
+        self._bound: dict[int, tuple[Texture, bool, int | None]] = {}
         self._n_scenes = 0  # number of scenes that have ended
         self._models_used: dict[int, int] = {}  # number of the last scene that used a model
-        self._textures_used: dict[tuple[str, int], int] = {}
+        self._textures_used: dict[TextureKey, int] = {}
 
     def upload(self, model: Model) -> tuple[Batch, ...]:
         """Return the batches of a model, which is uploaded at the first call."""
@@ -192,7 +197,13 @@ class GpuModels:
         ]
 
     def use(
-        self, texture: Texture, unit: int, *, skips_mipmaps: bool, is_map: bool = False
+        self,
+        texture: Texture,
+        unit: int,
+        *,
+        skips_mipmaps: bool,
+        is_map: bool = False,
+        cutoff: int | None = None,
     ) -> None:
         """Bind a texture to a unit until `release`; it is sampled with or without mipmaps.
 
@@ -201,24 +212,24 @@ class GpuModels:
             unit: the texture unit.
             skips_mipmaps: True if it is sampled without mipmaps.
             is_map: True for maps of normals and finish, of which the nearest mipmap is sampled.
+            cutoff: the alpha of its holes, 1..255; None: it has none.
         """
-        bound_texture, has_no_mipmaps = self._bound.get(unit, (None, False))
-        if bound_texture is texture and has_no_mipmaps == skips_mipmaps:
+        if self._bound.get(unit) == (texture, skips_mipmaps, cutoff):
             return
-        gpu_texture = self._upload_texture(texture)
+        gpu_texture = self._upload_texture(texture, cutoff)
         gpu_texture.use(unit)
         if skips_mipmaps:
             self._plain_samplers[texture.repeats].use(unit)
-            self._bound[unit] = texture, True
+            self._bound[unit] = texture, True, cutoff
             return
         if is_map:
             self._map_samplers[texture.repeats].use(unit)
         else:
             self._plain_samplers[True].clear(unit)
-        self._bound[unit] = texture, False
+        self._bound[unit] = texture, False, cutoff
         # Mipmaps are created only when needed: that takes longer than to draw an image.
         if gpu_texture.glo not in self._mipmapped_textures:
-            gpu_texture.build_mipmaps()
+            _build_mipmaps(gpu_texture, texture, cutoff)
             gpu_texture.filter = (moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR)
             self._mipmapped_textures.add(gpu_texture.glo)
 
@@ -228,9 +239,9 @@ class GpuModels:
             self._plain_samplers[True].clear(unit)
         self._bound.clear()
 
-    def _upload_texture(self, texture: Texture) -> moderngl.Texture:
-        """Return the texture on the GPU; it is uploaded once."""
-        key = texture.name, id(texture.pixels)
+    def _upload_texture(self, texture: Texture, cutoff: int | None) -> moderngl.Texture:
+        """Return the texture on the GPU; it is uploaded once for each threshold of holes."""
+        key = texture.name, id(texture.pixels), cutoff
         if key not in self._textures:
             height, width = texture.pixels.shape[:2]
             pixels = np.ascontiguousarray(texture.pixels[::-1])  # OpenGL's first row is v = 0
@@ -241,3 +252,14 @@ class GpuModels:
             self._textures[key] = texture, gpu_texture
         self._textures_used[key] = self._n_scenes
         return self._textures[key][1]
+
+
+def _build_mipmaps(gpu_texture: moderngl.Texture, texture: Texture, cutoff: int | None) -> None:
+    """Create the smaller images of a texture; those of a texture with holes keep its threads."""
+    if cutoff is None or gpu_texture.components != RGBA_CHANNELS:
+        gpu_texture.build_mipmaps()
+        return
+    levels = compute_masked_levels(texture.pixels, cutoff)
+    gpu_texture.build_mipmaps(0, len(levels))
+    for number, pixels in enumerate(levels, start=1):
+        gpu_texture.write(np.ascontiguousarray(pixels[::-1]).tobytes(), level=number, alignment=1)

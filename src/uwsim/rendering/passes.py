@@ -18,7 +18,7 @@ from .lights.lamps import LAMPS
 from .lights.projector_light import PROJECTOR
 from .lights.shadow_region import Region
 from .lights.sun_shadow import SunShadow
-from .materials.maps import Switches, find_switches, find_used_maps
+from .materials.maps import Switches, find_mask, find_switches, find_used_maps
 from .materials.reflectance import create_table
 from .physical.optics_block import OPTICS
 from .program import build
@@ -196,9 +196,13 @@ class Passes:
                 batch.texture, batch.material, has_colour=has_colour, is_physical=is_physical
             )
             maps = find_used_maps(batch.texture, batch.material, surface_switches)
+            mask = find_mask(batch.texture, batch.material)
             for name, texture in maps.items():
                 unit, is_map = SAMPLERS[name], name != "base_map"
-                self._models.use(texture, unit, skips_mipmaps=skips_mipmaps, is_map=is_map)
+                cutoff = None if mask is None or is_map else mask.cutoff
+                self._models.use(
+                    texture, unit, skips_mipmaps=skips_mipmaps, is_map=is_map, cutoff=cutoff
+                )
             drawer.draw(index, program(in_shadow, surface_switches))
 
         return draw

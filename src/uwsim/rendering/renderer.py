@@ -24,6 +24,7 @@ from .frame import Frame
 from .gpu_model import GpuModels
 from .instance import Indices, Instances, Slots, find_visible
 from .lights.artificial_light import ArtificialLight
+from .lights.caster_programs import CasterPrograms
 from .lights.shadow_region import Region, compute_tile_bounds, find_shaded_region
 from .lights.sun_shadow import MAX_CASTER_RADIUS, SHADOW_MARGIN, SunShadow, find_shadow_pairs
 from .materials.maps import Switches
@@ -66,12 +67,15 @@ class Renderer:
         self._targets: dict[tuple[object, ...], Targets] = {}
         self._frame = Frame(self._context)
         self._slots = Slots(self._context)
-        self._shadow = SunShadow(self._context)
+        caster_programs = CasterPrograms(self._context, self._models)
+        self._shadow = SunShadow(self._context, caster_programs)
         self._backdrops: dict[object, Backdrop] = {}  # of recent views, the newest last
         self._passes = Passes(
             self._context, self._models, self._instances, self._slots, self._shadow
         )
-        self._artificial_light = ArtificialLight(self._context, self._instances, SAMPLERS)
+        self._artificial_light = ArtificialLight(
+            self._context, self._instances, SAMPLERS, caster_programs
+        )
         self._development: Development | None = None
         self._focused_light = FocusedLight(self._context)
         self._surface_pass: SurfacePass | None = None

@@ -8,6 +8,7 @@ import moderngl
 
 from ...base.geometry import Pose
 from ..instance import Indices, Instances
+from .caster_programs import CasterPrograms
 from .lamp import Lamp
 from .lamps import Lamps
 from .projector import Projector
@@ -23,12 +24,18 @@ class ArtificialLight:
         context: the context of the renderer.
         instances: all instances.
         samplers: the texture unit of every sampler.
+        programs: the programs that draw shadow maps.
     """
 
     def __init__(
-        self, context: moderngl.Context, instances: Instances, samplers: dict[str, int]
+        self,
+        context: moderngl.Context,
+        instances: Instances,
+        samplers: dict[str, int],
+        programs: CasterPrograms,
     ) -> None:
         self._context, self._instances, self._samplers = context, instances, samplers
+        self._programs = programs
         self._lamps: Lamps | None = None
         self._projector: ProjectorLight | None = None
 
@@ -69,7 +76,7 @@ class ArtificialLight:
         hidden_ids: frozenset[int],
     ) -> None:
         if self._lamps is None:
-            self._lamps = Lamps(self._context)
+            self._lamps = Lamps(self._context, self._programs)
         self._lamps.update(lamps, self._instances, casters, (self._instances.version, hidden_ids))
         self._lamps.fill(lamps, world_from_camera)
         self._lamps.texture.use(self._samplers["lamp_maps"])
@@ -82,7 +89,7 @@ class ArtificialLight:
         hidden_ids: frozenset[int],
     ) -> None:
         if self._projector is None:
-            self._projector = ProjectorLight(self._context)
+            self._projector = ProjectorLight(self._context, self._programs)
         version = self._instances.version, hidden_ids
         self._projector.update(projector, self._instances, casters, version)
         self._projector.fill(projector, world_from_camera)

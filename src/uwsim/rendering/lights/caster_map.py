@@ -9,6 +9,7 @@ import numpy.typing as npt
 from ...base.geometry import Array
 from ..batch_drawer import BatchDrawer
 from ..instance import Indices, Instances, Slots
+from .caster_programs import CasterPrograms
 
 Versions = npt.NDArray[np.int64]
 
@@ -23,12 +24,12 @@ class CasterMap:
 
     Args:
         context: the context of the renderer.
-        program: the program that draws shadow maps.
+        programs: the programs that draw shadow maps.
         size: the edge of the map [texels].
     """
 
-    def __init__(self, context: moderngl.Context, program: moderngl.Program, size: int) -> None:
-        self._context, self._program, self._size = context, program, size
+    def __init__(self, context: moderngl.Context, programs: CasterPrograms, size: int) -> None:
+        self._context, self._programs, self._size = context, programs, size
         self.texture = _depth_texture(context, size)
         """The depth texture."""
         self._framebuffer = context.framebuffer(depth_attachment=self.texture)
@@ -75,8 +76,10 @@ class CasterMap:
         context.depth_func = "<="
         context.polygon_offset = 1.5, 2.0
         drawer = BatchDrawer(context, instances, self._slots, winding="ccw")
+        batches = instances.numbered_batches
         for index in casters.tolist():
-            drawer.draw(index, self._program)
+            drawer.draw(index, self._programs.select(batches[index][1]))
+        self._programs.release()
         context.polygon_offset = 0.0, 0.0
         self.n_drawn += len(casters)
 

@@ -16,9 +16,10 @@ from ...base.geometry import Array, Intrinsics, Pose, image_centre
 from ...base.numerics.linear import product
 from ...devices.lamp import MAX_LAMPS
 from ..batch_drawer import BatchDrawer
-from ..instance import INSTANCE, Indices, Instances, Slots, find_visible
-from ..program import Block, build
+from ..instance import Indices, Instances, Slots, find_visible
+from ..program import Block
 from ..projection import projection
+from .caster_programs import CasterPrograms
 from .lamp import MAX_HALF_ANGLE, Lamp
 
 TILE = 512
@@ -46,8 +47,8 @@ LAMPS = Block(
 class Lamps:
     """The buffer of the uniform block ``Lamps``, and the shadow maps of all lamps."""
 
-    def __init__(self, context: moderngl.Context) -> None:
-        self._context = context
+    def __init__(self, context: moderngl.Context, programs: CasterPrograms) -> None:
+        self._context, self._programs = context, programs
         self._values = np.zeros((), dtype=LAMPS.dtype)
         self._buffer = context.buffer(reserve=LAMPS.dtype.itemsize, dynamic=True)
         self.texture = context.depth_texture((2 * TILE, 2 * TILE))
@@ -56,7 +57,6 @@ class Lamps:
         self.texture.filter = (moderngl.LINEAR, moderngl.LINEAR)
         self.texture.repeat_x = self.texture.repeat_y = False
         self._framebuffer = context.framebuffer(depth_attachment=self.texture)
-        self._program = build(context, "shadow", defines={}, blocks=[INSTANCE], samplers={})
         self._slots = [Slots(context) for _ in range(MAX_LAMPS)]
         self._map_keys: list[object] = [None] * MAX_LAMPS
         self.n_drawn = 0
@@ -117,13 +117,13 @@ class Lamps:
         self._framebuffer.viewport = viewport
         self._framebuffer.use()
         self._framebuffer.clear(depth=1.0, viewport=viewport)
-        target = self._context, self._program, self._slots[tile]
+        target = self._context, self._programs, self._slots[tile]
         draw_casters(*target, instances, casters, lamp.world_from_lamp, view)
 
 
 def draw_casters(
     context: moderngl.Context,
-    program: moderngl.Program,
+    programs: CasterPrograms,
     slots: Slots,
     instances: Instances,
     casters: Indices,
@@ -134,7 +134,7 @@ def draw_casters(
 
     Args:
         context: the context of the renderer.
-        program: the program that draws shadow maps.
+        programs: the programs that draw shadow maps.
         slots: the buffer for the poses of the instances.
         instances: all instances.
         casters: the indices of the batches that may cast shadows.
@@ -153,7 +153,8 @@ def draw_casters(
     batches = instances.numbered_batches
     for index in visible_batches.tolist():
         if batches[index][1].opacity >= 1.0:  # glass casts no shadow
-            drawer.draw(index, program)
+            drawer.draw(index, programs.select(batches[index][1]))
+    programs.release()
     context.polygon_offset = 0.0, 0.0
 
 

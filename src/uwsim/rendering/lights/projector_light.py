@@ -7,9 +7,10 @@ import numpy as np
 
 from ...base.geometry import Pose
 from ...base.numerics.linear import product
-from ..instance import INSTANCE, Indices, Instances, Slots
-from ..program import Block, build
+from ..instance import Indices, Instances, Slots
+from ..program import Block
 from ..projection import projection
+from .caster_programs import CasterPrograms
 from .lamps import draw_casters
 from .projector import Projector
 
@@ -28,11 +29,10 @@ TEXTURE_FROM_CLIP = np.array(
 class ProjectorLight:
     """The buffer of the uniform block ``Projector``, the pattern's texture and the shadow map."""
 
-    def __init__(self, context: moderngl.Context) -> None:
-        self._context = context
+    def __init__(self, context: moderngl.Context, programs: CasterPrograms) -> None:
+        self._context, self._programs = context, programs
         self._values = np.zeros((), dtype=PROJECTOR.dtype)
         self._buffer = context.buffer(reserve=PROJECTOR.dtype.itemsize, dynamic=True)
-        self._program = build(context, "shadow", defines={}, blocks=[INSTANCE], samplers={})
         self._slots = Slots(context)
         self._pattern: object = None
         self._map_key: object = None
@@ -63,7 +63,7 @@ class ProjectorLight:
             assert self._framebuffer is not None
             self._framebuffer.use()
             self._framebuffer.clear(depth=1.0)
-            target = self._context, self._program, self._slots
+            target = self._context, self._programs, self._slots
             draw_casters(*target, instances, casters, pose, projector.pinhole)
 
     def fill(self, projector: Projector, world_from_camera: Pose) -> None:

@@ -11,9 +11,9 @@ import numpy.typing as npt
 from ...base.geometry import Array, Pose
 from ...base.numerics.jit import njit
 from ...base.numerics.linear import cross, multiply_matrices, product
-from ..instance import INSTANCE, Indices, Instances
-from ..program import build
+from ..instance import Indices, Instances
 from .caster_map import CasterMap
+from .caster_programs import CasterPrograms
 
 SMALL_MAP_SIZE, LARGE_MAP_SIZE = 512, 1024
 """The edges of the two maps [texels]; to draw the small map takes a third of the time."""
@@ -42,10 +42,9 @@ class SunShadow:
     all casters are lit. Not modelled: refraction at the water's surface.
     """
 
-    def __init__(self, context: moderngl.Context) -> None:
-        program = build(context, "shadow", defines={}, blocks=[INSTANCE], samplers={})
+    def __init__(self, context: moderngl.Context, programs: CasterPrograms) -> None:
         self._maps = {
-            size: CasterMap(context, program, size) for size in (SMALL_MAP_SIZE, LARGE_MAP_SIZE)
+            size: CasterMap(context, programs, size) for size in (SMALL_MAP_SIZE, LARGE_MAP_SIZE)
         }
         self._map = self._maps[SMALL_MAP_SIZE]
         self._map_key: object = None

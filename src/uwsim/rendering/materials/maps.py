@@ -2,10 +2,29 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 from ...assets.mesh import Material, Texture
 
 Switches = tuple[tuple[str, int], ...]
 """The preprocessor switches of a shader and their values."""
+
+
+@dataclass(frozen=True, eq=False)
+class Mask:
+    """The holes of a surface."""
+
+    texture: Texture
+    """The texture whose alpha has the holes."""
+    cutoff: int
+    """The alpha below which the surface has a hole, 1..255 of 255."""
+
+
+def find_mask(texture: Texture | None, material: Material | None) -> Mask | None:
+    """Return the holes of a surface; None if it has none."""
+    if texture is None or material is None or material.alpha_cutoff is None:
+        return None
+    return Mask(texture, max(1, min(255, round(255.0 * material.alpha_cutoff))))
 
 
 def find_maps(material: Material | None) -> dict[str, Texture]:
@@ -53,9 +72,8 @@ def find_switches(
             if material.emission_map is not None:
                 names.append("EMISSION_MAP")
     switches: Switches = tuple((name, 1) for name in names)
-    if texture is not None and material.alpha_cutoff is not None:
-        cutoff = max(1, min(255, round(255.0 * material.alpha_cutoff)))
-        switches += (("ALPHA_TEST", cutoff),)
+    if (mask := find_mask(texture, material)) is not None:
+        switches += (("ALPHA_TEST", mask.cutoff),)
     return switches
 
 

@@ -932,9 +932,18 @@ void main() {
     gl_Position = vec4(corner, 0.0, 1.0);
 }
 `;var Kc=`// Provides: depth only, which the rasteriser writes.
-// Needs: nothing.
+// Needs: with ALPHA_TEST, the alpha of holes, 1..255 of 255, a texture of the base colour.
 // For all shadow maps.
-void main() {}
+#ifdef ALPHA_TEST
+uniform sampler2D base_map;
+in vec2 v_uv;
+#endif
+
+void main() {
+#ifdef ALPHA_TEST
+    if (texture(base_map, v_uv).a < float(ALPHA_TEST) / 255.0) discard;
+#endif
+}
 `;var $c=`// Provides: sun_share(map_point), 0 in the sun's shadow to 1 in full sunlight.
 // Needs: the shadow map; map_point = texture coordinates and depth of a point in it, 0..1.
 // One hardware comparison of 2 x 2 texels, or with the switch SOFT the mean of four; points outside the map are lit.
@@ -955,13 +964,20 @@ float sun_share(vec3 map_point) {
 }
 `;var Qc=`// Provides: the vertices of a shadow caster in the view of a light.
 // Needs: instance.glsl, filled with matrices to the light's clip space instead of the camera frame.
-// Used for the shadow maps of the sun, the lamps and the projector.
+// Used for the shadow maps of the sun, the lamps and the projector. With ALPHA_TEST, it has holes.
 #include "instance.glsl"
 
 in vec3 vertex;
+#ifdef ALPHA_TEST
+in vec2 uv;
+out vec2 v_uv;
+#endif
 
 void main() {
     gl_Position = camera_from_model * vec4(vertex, 1.0);
+#ifdef ALPHA_TEST
+    v_uv = uv;
+#endif
 }
 `;var Jc=`// Provides: sunlit(colour, facing, mirrored, lit), the sunlight and ambient light that a surface reflects.
 // Needs: varyings.glsl; facing = N.L; mirrored = R.E; lit = share of the sunlight that arrives, 0..1. N: normal,
