@@ -1,20 +1,30 @@
 // Provides: the stored colours of an image through physical water: direct light, blur, veil, exposure, curve.
-// Needs: optics.glsl, transmission.glsl, open_water.glsl, grey.glsl; the image of the surfaces; with SCATTERED, the sum of the
-// levels; with PARTICLES, the image of the particles; with SHAFTS, the edge of a texel [px], that of the shafts; the switches BLUR,
-// LINEAR for no curve, and LIGHT for no exposure either.
+// Needs: blur_weight.glsl with BLUR, else optics.glsl and transmission.glsl; open_water.glsl, grey.glsl, developed.vert.glsl; the image of
+// the surfaces; with SCATTERED, the sum of the levels; with PARTICLES, the image of the particles; with SHAFTS, the edge of a texel [px],
+// that of the shafts; the switches LINEAR for no curve, and LIGHT for no exposure either.
 // B + D (J - B) + blur + veil: physical/development.py; the curve: physical/transfer_curve.py.
+#define VARYING in
+#define READS_VARYINGS
 #include "optics.glsl"
-#include "transmission.glsl"
 #include "open_water.glsl"
 #include "grey.glsl"
+#ifdef BLUR
+#include "blur_weight.glsl"
+#else
+#include "transmission.glsl"
+#endif
 uniform sampler2D surface_image;
+flat in float v_exposure;
+noperspective in vec2 v_water_place;
 #ifdef SCATTERED
+noperspective in vec2 v_level_place;
 uniform sampler2D level_0;
 #endif
 #ifdef PARTICLES
 uniform sampler2D particle_image;
 #endif
 #ifdef SHAFTS
+noperspective in vec2 v_shaft_place;
 uniform sampler2D shaft_image;
 #endif
 #ifdef CLOUDS
@@ -40,9 +50,8 @@ out vec4 colour_out;
 
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
-    ivec2 size = textureSize(surface_image, 0);
     vec4 texel = texelFetch(surface_image, pixel, 0);
-    vec3 water = open_water(gl_FragCoord.xy, vec2(size));
+    vec3 water = texture(open_water_map, v_water_place).rgb;
     vec3 light = water;
 #ifdef PARTICLES
     vec4 particles = texelFetch(particle_image, pixel, 0);
@@ -51,13 +60,13 @@ void main() {
     const float seen = 1.0;
 #endif
 #ifdef SHAFTS
-    light += seen * textureLod(shaft_image, gl_FragCoord.xy / (float(SHAFTS) * vec2(textureSize(shaft_image, 0))), 0.0).rgb;
+    light += seen * texture(shaft_image, v_shaft_place).rgb;
 #endif
     float is_surface = texel.a < 0.5 * FAR ? 1.0 : 0.0;
     float range = texel.a * is_surface;
     vec3 excess = (texel.rgb - water) * is_surface;
 #ifdef BLUR
-    vec3 sharp = direct(range) + weight(0, range);
+    vec3 sharp = weight(0, range);
 #else
     vec3 sharp = whole_field(range);
 #endif
@@ -67,7 +76,7 @@ void main() {
 #endif
     light += sharp * excess;
 #ifdef SCATTERED
-    vec3 scattered = textureLod(level_0, gl_FragCoord.xy / (2.0 * vec2(textureSize(level_0, 0))), 0.0).rgb;
+    vec3 scattered = texture(level_0, v_level_place).rgb;
 #ifdef PARTICLES
     // what dark surfaces take from the water is behind the particles; the veil is mostly in front of them
     scattered = max(scattered, 0.0) + seen * min(scattered, 0.0);
@@ -80,7 +89,7 @@ void main() {
 #ifdef LIGHT
     colour_out = vec4(light, 1.0);
 #else
-    vec3 value = clamp(light * camera.y, 0.0, 1.0);
+    vec3 value = clamp(light * v_exposure, 0.0, 1.0);
 #ifndef LINEAR
     vec3 second = sqrt(value);
     vec3 fourth = sqrt(second);

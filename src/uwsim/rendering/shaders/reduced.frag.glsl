@@ -14,9 +14,9 @@ vec4 smooth_mean(sampler2D level) {
     vec2 low = (2.0 * gl_FragCoord.xy - 0.75) / size;
     vec2 high = low + 1.5 / size;
     vec2 inside = step(high, vec2(1.0));
-    vec4 sum = textureLod(level, low, 0.0) + inside.x * inside.y * textureLod(level, high, 0.0)
-        + inside.y * textureLod(level, vec2(low.x, high.y), 0.0)
-        + inside.x * textureLod(level, vec2(high.x, low.y), 0.0);
+    vec4 sum = texture(level, low) + inside.x * inside.y * texture(level, high)
+        + inside.y * texture(level, vec2(low.x, high.y))
+        + inside.x * texture(level, vec2(high.x, low.y));
     return sum / ((1.0 + inside.x) * (1.0 + inside.y));
 }
 

@@ -1,12 +1,19 @@
 // Provides: the light that levels of blur scatter, w_l (J - B), before their Gaussians.
-// Needs: optics.glsl, transmission.glsl, open_water.glsl; the image of the surfaces; the switch N_LEVELS.
+// Needs: blur_weight.glsl, open_water.glsl; scattered.vert.glsl; the image of the surfaces; the switches N_LEVELS, and FAR of optics.glsl.
 // The first run is at half the resolution and for one level; its last output is the mean of J - B, with the mean range as alpha, or FAR.
 // The second run has the switch WIDE: it is twice as coarse, for all other levels, and reads that mean.
 // J: radiance of a surface without water, B: of open water behind it. Pixels without a surface scatter nothing.
+#define VARYING in
+#define READS_VARYINGS
 #include "optics.glsl"
-#include "transmission.glsl"
+#include "blur_weight.glsl"
 #include "open_water.glsl"
 uniform sampler2D surface_image;
+flat in ivec2 v_last;
+flat in vec4[2] v_reach;
+#ifndef WIDE
+noperspective in vec2 v_water_place;
+#endif
 #ifdef WIDE
 #define FIRST 1
 layout(location = 0) out vec4[N_LEVELS] level_out;
@@ -16,17 +23,16 @@ layout(location = 0) out vec4[N_LEVELS + 1] level_out;
 #endif
 
 vec4 scattered(int level, float range, vec3 excess) {
-    return vec4(weight(1 + level, reach[level / 4][level % 4] * range) * excess, 0.0);
+    return vec4(weight(1 + level, v_reach[level / 4][level % 4] * range) * excess, 0.0);
 }
 
 void main() {
-    ivec2 size = textureSize(surface_image, 0);
     ivec2 corner = 2 * ivec2(gl_FragCoord.xy);
     vec3 sum = vec3(0.0);
     float ranges = 0.0;
     float count = 0.0;
     for (int i = 0; i < 4; ++i) {
-        vec4 texel = texelFetch(surface_image, min(corner + ivec2(i % 2, i / 2), size - 1), 0);
+        vec4 texel = texelFetch(surface_image, min(corner + ivec2(i % 2, i / 2), v_last), 0);
         float is_surface = texel.a < 0.5 * FAR ? 1.0 : 0.0;
         sum += texel.rgb * is_surface;
         ranges += texel.a * is_surface;
@@ -34,7 +40,7 @@ void main() {
     }
     float range = ranges / max(count, 1.0);
 #ifndef WIDE
-    sum -= count * open_water(2.0 * gl_FragCoord.xy, vec2(size));
+    sum -= count * texture(open_water_map, v_water_place).rgb;
 #endif
     vec3 excess = sum / 4.0;
     // no loop: WebGL's outputs have constant indices

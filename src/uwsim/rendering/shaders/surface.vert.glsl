@@ -103,6 +103,13 @@ void main() {
         vec3 towards = lamp_position[i].xyz - v_position;
         float lift = lamp_light[i].w * dot(towards, lamp_axis[i].xyz) * sign(dot(unit_normal, towards));
         v_lamp_uv[i] = lamp_from_camera[i] * vec4(v_position + unit_normal * lift, 1.0);
+#ifdef FLAT_LAMPS
+        v_lamp_position[i] = lamp_position[i];
+        v_lamp_axis[i] = lamp_axis[i];
+        v_lamp_light[i] = lamp_light[i].rgb;
+        v_lamp_loss[i] = absorption.rgb + scattering.rgb * (1.0 - lamp_optics[i].x);
+        v_lamp_spread[i] = scattering.rgb * sqrt(2.0 * absorption.rgb) * lamp_optics[i].y;
+#endif
     }
 #endif
 #ifdef PROJECTOR

@@ -49,6 +49,14 @@ VARYING vec3 v_shadow_uv;  // texture coordinates and depth in the shadow map, 0
 #endif
 #ifdef LAMPS
 VARYING vec4[LAMPS] v_lamp_uv;  // homogeneous texture coordinates and depth in the lamps' shadow maps
+#if defined(PHYSICAL) && LAMPS <= 2 && !defined(GL_ES)  // browsers guarantee fewer varyings
+#define FLAT_LAMPS
+flat VARYING vec4[LAMPS] v_lamp_position;  // these are lamp_position, lamp_axis and lamp_light of lamps.glsl
+flat VARYING vec4[LAMPS] v_lamp_axis;
+flat VARYING vec3[LAMPS] v_lamp_light;
+flat VARYING vec3[LAMPS] v_lamp_loss;  // attenuation of the way from the lamp of the length d: exp(-d (loss + spread sqrt(d)))
+flat VARYING vec3[LAMPS] v_lamp_spread;
+#endif
 #endif
 #ifdef PROJECTOR
 VARYING vec4 v_projector_uv;  // homogeneous texture coordinates and depth in the projector's shadow map

@@ -1,8 +1,10 @@
 // The shaders of uwsim.rendering, compiled for WebGL 2, as in uwsim.rendering.program.
 import backgroundFragment from "../../../../rendering/shaders/background.frag.glsl";
 import backgroundVertex from "../../../../rendering/shaders/background.vert.glsl";
+import blurWeight from "../../../../rendering/shaders/blur_weight.glsl";
 import blurredFragment from "../../../../rendering/shaders/blurred.frag.glsl";
 import blurredRowsFragment from "../../../../rendering/shaders/blurred_rows.frag.glsl";
+import blurredVertex from "../../../../rendering/shaders/blurred.vert.glsl";
 import caustics from "../../../../rendering/shaders/caustics.glsl";
 import causticsBlock from "../../../../rendering/shaders/caustics_block.glsl";
 import daylight from "../../../../rendering/shaders/daylight.glsl";
@@ -11,6 +13,7 @@ import cloudVertex from "../../../../rendering/shaders/cloud.vert.glsl";
 import cloudEdge from "../../../../rendering/shaders/cloud_edge.glsl";
 import clouds from "../../../../rendering/shaders/clouds.glsl";
 import developedFragment from "../../../../rendering/shaders/developed.frag.glsl";
+import developedVertex from "../../../../rendering/shaders/developed.vert.glsl";
 import frame from "../../../../rendering/shaders/frame.glsl";
 import gaussian from "../../../../rendering/shaders/gaussian.glsl";
 import grey from "../../../../rendering/shaders/grey.glsl";
@@ -28,6 +31,7 @@ import projection from "../../../../rendering/shaders/projection.glsl";
 import projector from "../../../../rendering/shaders/projector.glsl";
 import reducedFragment from "../../../../rendering/shaders/reduced.frag.glsl";
 import scatteredFragment from "../../../../rendering/shaders/scattered.frag.glsl";
+import scatteredVertex from "../../../../rendering/shaders/scattered.vert.glsl";
 import screenVertex from "../../../../rendering/shaders/screen.vert.glsl";
 import shadowFragment from "../../../../rendering/shaders/shadow.frag.glsl";
 import shadow from "../../../../rendering/shaders/shadow.glsl";
@@ -38,6 +42,7 @@ import surfaceVertex from "../../../../rendering/shaders/surface.vert.glsl";
 import targets from "../../../../rendering/shaders/targets.glsl";
 import transmission from "../../../../rendering/shaders/transmission.glsl";
 import varyings from "../../../../rendering/shaders/varyings.glsl";
+import veilVaryings from "../../../../rendering/shaders/veil_varyings.glsl";
 import water from "../../../../rendering/shaders/water.glsl";
 import particleFragment from "../../../../rendering/shaders/particle.frag.glsl";
 import particleVertex from "../../../../rendering/shaders/particle.vert.glsl";
@@ -58,8 +63,10 @@ import waveGridFragment from "../water/surface/wave_grid.frag.glsl";
 const FILES: Record<string, string> = {
   "background.frag.glsl": backgroundFragment,
   "background.vert.glsl": backgroundVertex,
+  "blur_weight.glsl": blurWeight,
   "blurred.frag.glsl": blurredFragment,
   "blurred_rows.frag.glsl": blurredRowsFragment,
+  "blurred.vert.glsl": blurredVertex,
   "caustics.glsl": caustics,
   "caustics_block.glsl": causticsBlock,
   "cloud.frag.glsl": cloudFragment,
@@ -68,6 +75,7 @@ const FILES: Record<string, string> = {
   "clouds.glsl": clouds,
   "daylight.glsl": daylight,
   "developed.frag.glsl": developedFragment,
+  "developed.vert.glsl": developedVertex,
   "frame.glsl": frame,
   "gaussian.glsl": gaussian,
   "grey.glsl": grey,
@@ -90,6 +98,7 @@ const FILES: Record<string, string> = {
   "projector.glsl": projector,
   "reduced.frag.glsl": reducedFragment,
   "scattered.frag.glsl": scatteredFragment,
+  "scattered.vert.glsl": scatteredVertex,
   "screen.vert.glsl": screenVertex,
   "shadow.frag.glsl": shadowFragment,
   "shadow.glsl": shadow,
@@ -100,6 +109,7 @@ const FILES: Record<string, string> = {
   "targets.glsl": targets,
   "transmission.glsl": transmission,
   "varyings.glsl": varyings,
+  "veil_varyings.glsl": veilVaryings,
   "water.glsl": water,
   "air.frag.glsl": airFragment,
   "fresnel.glsl": fresnel,

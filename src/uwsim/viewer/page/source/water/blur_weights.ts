@@ -9,7 +9,7 @@ const LOWEST_FREQUENCY = 0.5; // [cycles/rad]
 const FIELD_WEIGHT = 1000; // weight of the whole field against one frequency
 const REGULARISATION = 1e-9;
 
-/** Return the weights as RGB and an unused number for each range of a row; row 0: sharp light, row 1 + i: level i. */
+/** Return the shares of light as RGB and an unused number for each range of a row; row 0: sharp and direct light, row 1 + i: level i. */
 export function weightTable(optics: Optics, plan: BlurPlan, nRows: number): Float32Array<ArrayBuffer> {
   const table = new Float32Array(4 * nRows * N_RANGES);
   const step = Math.log(plan.highestFrequency / LOWEST_FREQUENCY) / (N_FREQUENCIES - 1);
@@ -25,13 +25,14 @@ export function weightTable(optics: Optics, plan: BlurPlan, nRows: number): Floa
       const [a, b] = [optics.absorption[channel], optics.scattering[channel]];
       const wideLoss = optics.field[0] + optics.field[1] * Math.sqrt(a * range);
       const [directLight, field] = [Math.exp(-(a + b) * range), Math.exp(-range * a - wideLoss * b * range)];
+      table[4 * i + channel] = directLight;
       if (!(field - directLight > 1e-9)) continue;
       const transfers = transforms.map((transform) => {
         const wideShare = (transform / optics.forward) ** 12;
         return Math.exp(range * (b * (transform - (wideLoss - (1 - optics.forward)) * wideShare) - (a + b)));
       });
       const weights = fitWeights(levels, transfers, directLight, field);
-      weights.forEach((weight, row) => (table[4 * (N_RANGES * row + i) + channel] = weight));
+      weights.forEach((weight, row) => (table[4 * (N_RANGES * row + i) + channel] += weight));
     }
   }
   return table;

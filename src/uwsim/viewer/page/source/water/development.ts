@@ -11,6 +11,7 @@ import { TargetPool, type Target, type Targets } from "./targets";
 import { UNITS, type Programs, type Switches } from "../drawing/shaders";
 
 const MAX_TABLES = 16; // greatest number of tables of weights that are kept
+const OWN_VERTICES = ["scattered", "blurred", "developed"]; // passes whose vertex shader is not screen.vert.glsl
 const HALF_FAR = "6e4"; // range of pixels without a surface in half floats [m]
 
 /** The passes of physical water. */
@@ -184,7 +185,8 @@ export class Development {
   private draw(effect: string, switches: Switches, target: Target): void {
     const { gl } = this;
     this.begin(target);
-    gl.useProgram(this.programs.get(effect, { ...this.switches, ...switches }, "screen"));
+    const vertex = OWN_VERTICES.includes(effect) ? effect : "screen";
+    gl.useProgram(this.programs.get(effect, { ...this.switches, ...switches }, vertex));
     gl.drawArrays(gl.TRIANGLES, 0, 3);
   }
 
