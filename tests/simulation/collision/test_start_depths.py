@@ -17,6 +17,8 @@ from tests.support.opened import open_scene
 from uwsim.base.geometry import Pose
 from uwsim.checks import check_file
 from uwsim.checks.model.starts import Starts
+from uwsim.model.collision.ground import Ground, triangles_of
+from uwsim.model.collision.shapes import CollisionShape
 from uwsim.model.resolved_scene import ResolvedScene
 from uwsim.physics.kinematics.lift import LIFT_SPEED
 from uwsim.scene.object import ObjectSpec
@@ -48,6 +50,18 @@ def sunk(depth: float, name: str = "thing", x: float = 0.3, **physics: object) -
 
 def height(simulation: Simulation, name: str = "thing") -> float:
     return float(simulation.world.bodies.find(name).world_from_body.position[2])
+
+
+def test_a_body_beside_the_ground_rests_on_the_ground_under_its_corners() -> None:
+    origin = Pose.identity()
+    body = triangles_of(
+        [CollisionShape(kind="box", body_from_shape=origin, size=(1.0, 1.0, 0.5))], origin
+    )
+    low, high = ([[x, y, z] for x, y in ((0.9, 0.8), (3.0, 0.8), (0.9, 3.0))] for z in (-2.0, 0.2))
+    assert Ground(np.array([low, high])).rise(body) == pytest.approx(0.7)
+    beside = np.array([low, high]) + np.array([0.2, 0.0, 0.0])
+    assert Ground(beside).rise(body) is None
+    assert Ground(np.empty((0, 3, 3))).rise(body) is None
 
 
 @pytest.mark.parametrize("timestep", [0.002, 0.01])

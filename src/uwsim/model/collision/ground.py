@@ -149,15 +149,24 @@ class Ground:
             & (self._high[:, :2] >= low[:2]).all(axis=1)
             & (self._double_areas > 0.0)
         )
+        if not is_near.any():
+            return None
         centre = 0.5 * (low + high)
         heights = [self.height_at(centre)]
         if heights[0] is None:
-            heights = [self.height_at(corner) for corner in body.reshape(-1, 3)]
+            heights = [self.height_at(corner) for corner in self._corners_above(body)]
         ground_heights = [height for height in heights if height is not None]
         if not ground_heights:
             return None
         is_near &= self._low[:, 2] <= max(ground_heights) + (high[2] - low[2])
         return self._triangles[is_near], self._double_areas[is_near]
+
+    def _corners_above(self, body: Array) -> Array:
+        """Return the different corners of a body within the horizontal bounds of the ground."""
+        corners = np.unique(body.reshape(-1, 3), axis=0)
+        low, high = self._low[:, :2].min(axis=0), self._high[:, :2].max(axis=0)
+        is_within = ((corners[:, :2] >= low) & (corners[:, :2] <= high)).all(axis=1)
+        return corners[is_within]
 
 
 def triangles_of(shapes: Sequence[CollisionShape], world_from_body: Pose) -> Array:
