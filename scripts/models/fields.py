@@ -69,14 +69,19 @@ def cells3(name: str, points: Points, cell: float, *, period: int = SIDE) -> tup
     base = np.floor(grid_points).astype(np.int32)
     least_square = np.full(points.shape[:-1], 9.0, dtype=np.float32)
     shade = np.zeros_like(least_square)
+    corners = [base[..., k].copy() for k in range(3)]
+    places = [offsets[..., k].ravel() for k in range(3)]
     for shift in np.ndindex(3, 3, 3):
-        cube = base + (np.array(shift, dtype=np.int32) - 1)
-        x, y, z = (cube[..., k] % period for k in range(3))
-        difference = cube + offsets[x, y, z] - grid_points
-        square = (difference * difference).sum(axis=-1)
+        cube = [corners[k] + np.int32(shift[k] - 1) for k in range(3)]
+        x, y, z = (cube[k] % period for k in range(3))
+        index = (x * SIDE + y) * SIDE + z
+        square = np.float32(0.0)
+        for k in range(3):
+            difference = cube[k] + places[k].take(index) - grid_points[..., k]
+            square = square + difference * difference
         is_nearer = square < least_square
         least_square = np.where(is_nearer, square, least_square)
-        shade = np.where(is_nearer, shades[x, y, z], shade)
+        shade = np.where(is_nearer, shades.ravel().take(index), shade)
     return np.sqrt(least_square), shade
 
 
@@ -87,12 +92,18 @@ def _interpolate(grid: Values, points: Points) -> Values:
     t = t * t * (np.float32(3.0) - np.float32(2.0) * t)
     low = base.astype(np.int32) % SIDE
     high = (low + 1) % SIDE
-    (x0, y0, z0), (x1, y1, z1) = np.moveaxis(low, -1, 0), np.moveaxis(high, -1, 0)
-    tx, ty, tz = np.moveaxis(t, -1, 0)
+    # Indices into the flat grid: three indices for each value take several times as long.
+    (x0, y0, z0), (x1, y1, z1) = (
+        [corner[..., axis] * stride for axis, stride in enumerate((SIDE * SIDE, SIDE, 1))]
+        for corner in (low, high)
+    )
+    tx, ty, tz = (t[..., axis].copy() for axis in range(3))
+    values = grid.ravel()
 
     def interpolate_edge(y: npt.NDArray[np.int32], z: npt.NDArray[np.int32]) -> Values:
-        first = grid[x0, y, z]
-        edge: Values = first + (grid[x1, y, z] - first) * tx
+        row = y + z
+        first = values.take(x0 + row)
+        edge: Values = first + (values.take(x1 + row) - first) * tx
         return edge
 
     near, far = interpolate_edge(y0, z0), interpolate_edge(y0, z1)
