@@ -40,10 +40,16 @@ PLAYED_AND_STOPPED = """() => new Promise(done => {
 """Play, and stop in the frame in which 0.2 s are over: a frame is 0.25 s at most."""
 
 
+@pytest.fixture(scope="module")
+def page(stored: Path, tmp_path_factory: pytest.TempPathFactory) -> str:
+    """The address of the page with the replay of the result."""
+    return Replay(stored).save(tmp_path_factory.mktemp("page") / "replay.html").as_uri()
+
+
 @pytest.fixture
-def replayed(tab: Any, stored: Path, tmp_path: Path) -> Any:
+def replayed(tab: Any, page: str) -> Any:
     """The page with the replay of the result."""
-    tab.goto(Replay(stored).save(tmp_path / "replay.html").as_uri())
+    tab.goto(page)
     tab.wait_for_function(EVERY)
     return tab
 
@@ -92,9 +98,9 @@ def test_a_level_is_chosen_by_a_click_and_by_keys(replayed: Any, stored: Path) -
     assert replayed.evaluate("uwsim.time()") == pytest.approx(1 / 30)
 
 
-def test_a_link_to_a_level_opens_it(tab: Any, stored: Path, tmp_path: Path) -> None:
+def test_a_link_to_a_level_opens_it(tab: Any, page: str, stored: Path) -> None:
     levels = load_track(stored / "units" / "00000.motion").levels
-    tab.goto(Replay(stored).save(tmp_path / "replay.html").as_uri() + "#level=2")
+    tab.goto(page + "#level=2")
     tab.wait_for_function(EVERY)
     assert tab.evaluate("uwsim.time()") == pytest.approx(levels[2].start_time)
 
