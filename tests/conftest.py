@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import signal
 from collections.abc import Iterator
 from pathlib import Path
@@ -38,8 +39,16 @@ def _may_dump_core() -> Iterator[None]:
 
 @pytest.fixture(scope="session", autouse=True)
 def home(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Path]:
-    """An empty home directory, which commands of tests inherit."""
+    """A home directory, which commands of tests inherit; it is empty but for caches.
+
+    All processes of a run of tests share the caches, so that each model is compiled once.
+    """
     folder = tmp_path_factory.mktemp("home")
+    is_worker = "PYTEST_XDIST_WORKER" in os.environ
+    run_folder = tmp_path_factory.getbasetemp().parent if is_worker else folder.parent
+    caches = run_folder / "caches"
+    caches.mkdir(exist_ok=True)
+    (folder / ".cache").symlink_to(caches, target_is_directory=True)
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("HOME", str(folder))
         for name in ("XDG_CACHE_HOME", "XDG_CONFIG_HOME", "XDG_DATA_HOME", "MPLCONFIGDIR"):
