@@ -109,33 +109,26 @@ def draw_diameter(number: float, sizes: Array) -> float:
 
 @njit
 def add_particle(
-    x: float,
-    y: float,
-    z: float,
+    place: tuple[float, float, float],
     diameter: float,
     weight: float,
-    sizes: Array,
-    motions: Array,
-    slopes: Array,
-    reach: float,
+    limits: tuple[Array, Array, Array, float],
     value: UInt64,
     particle: npt.NDArray[np.void],
 ) -> bool:
     """Write a particle at a place in the camera's frame; return False if it is not in view.
 
     Args:
-        x: the place [m]; the others alike.
-        y: along the second axis.
-        z: along the third axis.
+        place: the place in the camera's frame [m].
         diameter: the diameter [m].
         weight: the share of its image that is drawn [1].
-        sizes: the numbers of the class.
-        motions: the motions during the exposure, of `find_motions`.
-        slopes: the slopes of the image's edges.
-        reach: the greatest range of the view [m].
+        limits: the numbers of the class, the motions during the exposure of `find_motions`, the
+            slopes of the image's edges, and the greatest range of the view [m].
         value: the hash of the particle, for its shape.
         particle: the record to write, (1,).
     """
+    x, y, z = place
+    sizes, motions, slopes, reach = limits
     # a particle that moves through the image during the exposure is in view, too
     motion_x = motions[0, 0] - (motions[1, 1] * z - motions[1, 2] * y)
     motion_y = motions[0, 1] - (motions[1, 2] * x - motions[1, 0] * z)

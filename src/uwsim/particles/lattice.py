@@ -123,6 +123,7 @@ def fill_view(
     """
     key, lower, upper, edge, mean_count = cells
     eye, rotation, slopes, reach = camera
+    limits = sizes, motions, slopes, reach
     zero_share = math.exp(-mean_count)
     cell_radius = 0.8660254037844387 * edge + sizes[1]
     normals = np.empty(4)  # the lengths of the normals of the view's sides
@@ -172,7 +173,7 @@ def fill_view(
                     y = rotation[0, 1] * px + rotation[1, 1] * py + rotation[2, 1] * pz
                     diameter = draw_diameter(uniform(value, first + 3), sizes)
                     if add_particle(
-                        x, y, z, diameter, weight, sizes, motions, slopes, reach,
+                        (x, y, z), diameter, weight, limits,
                         hash_cell(value, number, 0, 0), particles[n : n + 1],
                     ):  # fmt: skip
                         n += 1

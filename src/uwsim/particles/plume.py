@@ -93,6 +93,7 @@ def fill_plume(
     key, first_bubble, last_bubble, rate, time = emission
     eye, rotation, slopes, reach = camera
     source, velocity, speed = path
+    limits = sizes, motions, slopes, reach
     n = 0
     for bubble in range(first_bubble, last_bubble + 1):
         value = mix(key + np.uint64(bubble) * AXIS_1)
@@ -110,9 +111,7 @@ def fill_plume(
         y = rotation[0, 1] * px + rotation[1, 1] * py + rotation[2, 1] * pz
         z = rotation[0, 2] * px + rotation[1, 2] * py + rotation[2, 2] * pz
         diameter = draw_diameter(uniform(value, 3), sizes)
-        if add_particle(
-            x, y, z, diameter, 1.0, sizes, motions, slopes, reach, value, particles[n : n + 1]
-        ):
+        if add_particle((x, y, z), diameter, 1.0, limits, value, particles[n : n + 1]):
             n += 1
             if n == len(particles):
                 return n
