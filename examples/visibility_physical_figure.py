@@ -263,8 +263,8 @@ def draw(results: Mapping[str, Mapping[str, Result]], image: Path, *, has_pdf: b
         figure.legend(handles, names, loc="outside upper center", ncols=len(names))
         write_note(
             figure,
-            "bands and bars: 95 % intervals over 6 seeds (means; medians of losses); "
-            "cross: the last level before the loss; lines that leave a panel: above 100 px",
+            "bands: 95 % intervals of means over 6 seeds; bars in (d): exact 97 % intervals of "
+            "medians; cross: the last level before the loss; lines that leave a panel: > 100 px",
         )
     save_plot(figure, image)
     if has_pdf:
