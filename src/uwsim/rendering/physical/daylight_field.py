@@ -17,9 +17,12 @@ Joseph, W. J. Wiscombe and J. A. Weinman, *J. Atmos. Sci.* 33, 2452 (1976)): wit
     c^* = a + (1 - f) b, \quad b^* = (1 - f) b, \quad p^* = \mathrm{HG}(g / (1 + g)), \quad
     E_b = E_0 (1 - s)\, T\, e^{-c^* z / \mu_w}
 
-The rest of :math:`E_d` is diffuse, even over the upper hemisphere; :math:`0.33\, b_b / (a + b_b)`
-of :math:`E_d` comes up from below (H. R. Gordon, O. B. Brown and M. M. Jacobs, *Appl. Opt.* 14, 417
-(1975)).
+The rest of :math:`E_d` is diffuse, even over the upper hemisphere. Of :math:`E_d` the share
+
+.. math:: R = \frac{x}{1 + x}, \quad x = (0.975 - 0.629 \mu)\, b_b / a
+
+comes up from below. Kirk's reflectance is x; the denominator keeps it below 1 where absorption is
+small, and is nearer to the path tracer of the tests.
 
 A camera at depth :math:`z` that looks into open water in direction :math:`v` (upward component
 :math:`v_z`) receives the light that is scattered once along its ray, in units in which a white
@@ -61,8 +64,8 @@ DIFFUSE_COSINE = 0.859
 """The mean cosine of the light of an even sky below the surface."""
 KIRK_SLOPE, KIRK_OFFSET = 0.473, 0.218
 """The coefficients of Kirk's G(mu) = 0.473 mu - 0.218."""
-REFLECTANCE_FACTOR = 0.33
-"""The factor of the irradiance reflectance of deep water."""
+REFLECTANCE_OFFSET, REFLECTANCE_SLOPE = 0.975, 0.629
+"""The coefficients of Kirk's irradiance reflectance (0.975 - 0.629 mu) bb / a of deep water."""
 MIN_ELEVATION = math.radians(1.0)
 """The least elevation of the sun in the formulas [rad]."""
 WINDOW_COSINE = math.sqrt(1.0 - 1.0 / REFRACTIVE_INDEX**2)
@@ -123,7 +126,7 @@ def compute_light_field(medium: Medium, daylight: Daylight) -> LightField:
     mean_cosine = (beam * cosine + sky * DIFFUSE_COSINE) / (beam + sky) if beam + sky else cosine
     a, b = np.array(medium.absorption), np.array(medium.scattering)
     factor = KIRK_SLOPE * mean_cosine - KIRK_OFFSET
-    backscattering = medium.backscattering
+    upwelling = (REFLECTANCE_OFFSET - REFLECTANCE_SLOPE * mean_cosine) * medium.backscattering
     return LightField(
         towards_sun=np.array(
             [sine * math.cos(daylight.azimuth), sine * math.sin(daylight.azimuth), cosine]
@@ -132,9 +135,7 @@ def compute_light_field(medium: Medium, daylight: Daylight) -> LightField:
         beam_attenuation=compute_scaled_attenuation(medium) / cosine,
         total=np.full(len(a), beam + sky),
         diffuse_attenuation=np.sqrt(a * a + factor * a * b) / mean_cosine,
-        reflectance=REFLECTANCE_FACTOR
-        * backscattering
-        / np.maximum(a + backscattering, np.finfo(np.float64).tiny),
+        reflectance=upwelling / np.maximum(a + upwelling, np.finfo(np.float64).tiny),
     )
 
 
