@@ -47,7 +47,9 @@ def leave_out_caustics(simulation: Simulation) -> None:
     """Switch off what the page does not draw."""
     state = simulation.world.scenery.state
     assert state.water.physical_water is not None
-    water = replace(state.water.physical_water, has_caustics=False, has_light_shafts=False)
+    water = replace(
+        state.water.physical_water, has_caustics=False, has_light_shafts=False, has_mirror=False
+    )
     state.water = replace(state.water, physical_water=water)
 
 

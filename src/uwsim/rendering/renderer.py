@@ -1,8 +1,9 @@
 """The renderer: it draws images of instances of models, seen through water.
 
 One forward pass draws the requested targets: colour through the water (`rendering.water`), range
-and ids. Transparent surfaces are blended over the other_view, the farthest first. The water's
-surface, caustics and light shafts are those of physical water. Not modelled: reflections.
+and ids. Transparent surfaces are blended over the others, the farthest first. The water's
+surface, caustics and light shafts are those of physical water. Not modelled: reflections in
+other surfaces.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from functools import partial
 
+import moderngl
 import numpy as np
 import numpy.typing as npt
 
@@ -33,7 +35,8 @@ from .physical.development import Development
 from .physical.view import NO_CONTENTS, View, ViewContents
 from .projection import Projection, projection
 from .rendered_image import RenderedImage
-from .surface.surface_pass import SurfacePass
+from .surface.mirror_view import find_mirror_view
+from .surface.surface_pass import SurfacePass, find_visible_range
 from .targets import COLOUR_FORMATS, LIGHT, RADIANCE, TARGETS, Targets
 from .water import Light, Water, find_sun_direction
 
@@ -242,6 +245,8 @@ class Renderer:
                 lens,
                 view.light.rate,
             )
+            if physical_water.has_mirror and self._surface_pass.is_visible:
+                self._surface_pass.set_mirror(self._draw_mirror(view, world_from_camera))
         focusing_switches = self._focused_light.prepare(
             physical_water,
             view.surface,
@@ -258,10 +263,10 @@ class Renderer:
         surface_pass = self._surface_pass if physical_water.has_surface else None
         if surface_pass is not None and not surface_pass.is_direct:
             self._development.use_textures()
-            indices = self._instances.find_shown(view.hidden_ids)
-            tops = self._instances.corners[indices, :, 2]
-            has_bodies_above = bool((tops > view.water.surface_height).any())
-            radiance = surface_pass.draw(lens, radiance, has_bodies_above=has_bodies_above)
+            radiance = surface_pass.draw(
+                lens, radiance, searches_bodies=not physical_water.has_mirror
+            )
+        is_dry = surface_pass is not None and surface_pass.is_dry
         target = self._find_targets(replace(view, targets=frozenset({"colour"})))
         self._development.develop(
             physical_water,
@@ -270,11 +275,48 @@ class Renderer:
             radiance,
             target.framebuffer,
             view.particles,
-            self._focused_light.draw_shafts(physical_water, view.surface, lens, radiance),
+            None
+            if is_dry
+            else self._focused_light.draw_shafts(physical_water, view.surface, lens, radiance),
             is_exposed=view.colour_format != LIGHT,
+            is_dry=is_dry,
         )
         colour = target.read_image(lens).colour
         return replace(surfaces.read_image(lens), colour=colour, image_model="physical")
+
+    def _draw_mirror(self, view: View, world_from_camera: Pose) -> moderngl.Texture | None:
+        """Draw the bodies that the surface mirrors; return None if there are none in view."""
+        water, surface_height = view.water.physical_water, view.water.surface_height
+        assert water is not None
+        assert self._surface_pass is not None
+        is_above = world_from_camera.position[2] > surface_height
+        pose, lens = find_mirror_view(
+            world_from_camera,
+            view.intrinsics,
+            surface_height,
+            view.intrinsics.far if is_above else find_visible_range(water),
+        )
+        indices = self._instances.find_shown(view.hidden_ids)
+        heights = self._instances.corners[indices, :, 2] - surface_height
+        is_mirrored = ((heights if is_above else -heights) > 0.0).any(axis=1)
+        planes = projection(lens).planes
+        if not len(find_visible(self._instances, indices[is_mirrored], pose, planes)):
+            return None
+        switches: Switches = (("MIRROR", 1 if is_above else 2),)
+        if view.surface is None or view.surface.waves is None:
+            switches += self._focused_light.prepare(water, view.surface, pose, surface_height)
+        mirror_view = replace(
+            view,
+            intrinsics=lens,
+            targets=frozenset({"colour"}),
+            colour_format=RADIANCE,
+            switches=switches,
+        )
+        with self._surface_pass.turn_to(pose, world_from_camera):
+            self._issue_draw_calls(mirror_view, pose)
+        radiance = self._find_targets(mirror_view).radiance
+        radiance.filter = (moderngl.NEAREST, moderngl.NEAREST)  # ranges are not to be mixed
+        return radiance
 
     def _issue_draw_calls(self, view: View, world_from_camera: Pose) -> Colours | None:
         """Issue the draw calls without waiting for them; return the backdrop, if there is one."""
@@ -330,7 +372,9 @@ class Renderer:
             if region is not None:
                 self._passes.draw_over_backdrop(target, front, back, region, switches)
                 return backdrop.colours
-        surface_drawer = partial(self._draw_surface, target) if view.has_surface else None
+        is_mirror = any(name == "MIRROR" for name, _ in view.switches)
+        has_surface = view.has_surface and not is_mirror
+        surface_drawer = partial(self._draw_surface, target) if has_surface else None
         self._passes.draw(target, batches, switches, surface_drawer)
         return None
 

@@ -247,6 +247,9 @@ class PhysicalWaterSpec(Spec):
     surface: bool = element(namespaced=True, default=True)
     """True if images show the water's surface, and the sky and the air above it; without it the
     water fills them."""
+    mirror: bool = element(namespaced=True, default=True)
+    """True if the surface mirrors bodies on the side of the camera; without it, it mirrors open
+    water, and those bodies above it that are in the picture."""
     exposure: float | None = element(
         namespaced=True, default=None, exclusive_minimum=0.0, maximum=1e9
     )

@@ -106,6 +106,7 @@ class Development:
         shafts: moderngl.Texture | None = None,
         *,
         is_exposed: bool = True,
+        is_dry: bool = False,
     ) -> None:
         """Draw the image of a camera from the image of surfaces.
 
@@ -118,14 +119,18 @@ class Development:
             particles: the particles in view; None: none are drawn.
             shafts: the radiance of light shafts; None: there are none.
             is_exposed: True if exposure and curve follow; False: the target gets the light.
+            is_dry: True if the camera is in air, so that the image of surfaces is complete.
         """
+        is_dry = is_dry and particles is None
         plan = plan_blur(intrinsics, has_blur=water.has_blur)
         n_veils = n_lamps if water.has_lamp_veil else 0
         self._context.enable_only(moderngl.NOTHING)
         surfaces.use(SURFACE_UNIT)
         self.use_textures()
         switches: Switches = (("BLUR", 1),) if plan.n_levels else ()
-        if plan.n_levels > 0 or n_veils > 0:
+        if is_dry:
+            switches, shafts = (("DRY", 1),), None
+        elif plan.n_levels > 0 or n_veils > 0:
             size = intrinsics.width, intrinsics.height
             self._scattered_light.draw(plan, size, n_veils).use(FIRST_LEVEL_UNIT)
             surfaces.use(SURFACE_UNIT)

@@ -96,6 +96,9 @@ class PhysicalWater:
     has_surface: bool = False
     """True if images show the water's surface, the sky and the air above; else the water fills
     them, and a level surface is part of the open water."""
+    has_mirror: bool = True
+    """True if the surface mirrors bodies on the side of the camera; else it mirrors those above it
+    that are in the picture."""
     visibility: float = 30e3
     """The distance in air at which 2 % of the contrast to the horizon are left [m]."""
     isotropic_radiance: Triple | None = None

@@ -1,6 +1,6 @@
 // Provides: the image of surfaces, radiance and range in water, without the water's surface: bodies, and the sky above it.
 // Needs: optics.glsl, surface_block.glsl, waves.glsl, sky.glsl; the image of the surfaces, whose alpha is the whole range.
-// Pixels that begin in air have the range 0 in water; the sea follows in water_surface.frag.glsl.
+// Pixels that begin in air have the range 0 in water; the sea is drawn before, by water_surface.frag.glsl.
 #include "optics.glsl"
 #include "surface_block.glsl"
 #include "waves.glsl"
@@ -19,6 +19,8 @@ void main() {
     light_out = texel;
     if (height <= 0.0) return;
     vec3 direction = normalize(ray);
-    vec3 light = texel.a < 0.5 * FAR ? through_air(texel.rgb, direction, texel.a) : sky_in(direction) + sun_in(direction, 0.0);
+    bool is_body = texel.a < 0.5 * FAR;
+    vec3 light = sky_in(is_body ? vec3(direction.xy, -1.0) : direction);
+    light = is_body ? mix(light, texel.rgb, exp(-air.x * texel.a)) : light + sun_in(direction, 0.0);
     light_out = vec4(light, 0.0);
 }

@@ -1,7 +1,7 @@
 // Provides: the stored colours of an image through physical water: direct light, blur, veil, exposure, curve.
 // Needs: blur_weight.glsl with BLUR, else optics.glsl and transmission.glsl; open_water.glsl, grey.glsl, developed.vert.glsl; the image of
 // the surfaces; with SCATTERED, the sum of the levels; with PARTICLES, the image of the particles; with SHAFTS, the edge of a texel [px],
-// that of the shafts; the switches LINEAR for no curve, and LIGHT for no exposure either.
+// that of the shafts; the switches DRY for an image without water before the surfaces, LINEAR for no curve, LIGHT for no exposure either.
 // B + D (J - B) + blur + veil: physical/development.py; the curve: physical/transfer_curve.py.
 #define VARYING in
 #define READS_VARYINGS
@@ -51,6 +51,9 @@ out vec4 colour_out;
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
     vec4 texel = texelFetch(surface_image, pixel, 0);
+#ifdef DRY
+    vec3 light = texel.rgb;
+#else
     vec3 water = texture(open_water_map, v_water_place).rgb;
     vec3 light = water;
 #ifdef PARTICLES
@@ -85,6 +88,7 @@ void main() {
 #endif
 #ifdef CLOUDS
     light = through_clouds(light, water, is_surface > 0.5 ? range : FAR);
+#endif
 #endif
 #ifdef LIGHT
     colour_out = vec4(light, 1.0);

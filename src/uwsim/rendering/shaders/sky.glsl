@@ -1,4 +1,4 @@
-// Provides: sky_in(direction), the sky without the sun; sun_in(direction, variance); water_in(direction); through_air(light, direction, range).
+// Provides: sky_in(direction), the sky without the sun; sun_in(direction, variance); water_in(direction).
 // Needs: surface_block.glsl; the hemispheres of surface/hemispheres.py. Directions are unit vectors in W.
 // sun_in: the sun's image with a blur of that variance along each axis [rad2]; water_in: the open water below the surface.
 uniform sampler2DArray hemispheres;
@@ -21,8 +21,4 @@ vec3 sun_in(vec3 direction, float variance) {
     float total = variance + 0.25 * sky_sun.w * sky_sun.w + 0.25 * air.z * air.z;
     vec3 apart = direction - sky_sun.xyz;
     return sky_sun_light.rgb * (0.5 / total * exp(-0.5 * dot(apart, apart) / total));
-}
-
-vec3 through_air(vec3 light, vec3 direction, float range) {
-    return mix(sky_in(vec3(direction.xy, -1.0)), light, exp(-air.x * range));
 }

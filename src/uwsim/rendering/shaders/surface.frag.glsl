@@ -1,6 +1,7 @@
 // Provides: colour, range and id of a surface seen through water, whichever are requested.
 // Needs: varyings.glsl, instance.glsl, sun.glsl, water.glsl, grey.glsl, shadow.glsl, lamplight.glsl, projection.glsl, targets.glsl, material.glsl.
 // The switch ALPHA_TEST is the alpha of holes, 1..255 of 255. EMISSION and EMISSION_MAP add emitted light, under PHYSICAL only.
+// The switch MIRROR leaves out what is above the still surface (2), or below it (1): surface/mirror_view.py.
 // The switch OPACITY is 1..254 of 255; without it the surface is opaque. The renderer blends.
 // Light, then attenuation, then fog, on stored values; noise and conversion to 8 bit follow in noise.py.
 #define VARYING in
@@ -51,6 +52,9 @@ void main() {
 #endif
 #if defined(COLOUR) || defined(RANGE)
     float range = length(v_position);
+#endif
+#ifdef MIRROR
+    if (v_terms.z * (float(MIRROR) - 1.5) < 0.0) discard;
 #endif
 #ifdef COLOUR
     vec3 colour = v_base_colour;

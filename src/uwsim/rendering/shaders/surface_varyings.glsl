@@ -5,6 +5,8 @@ flat VARYING vec4 v_air;
 flat VARYING vec4 v_sky_sun;
 flat VARYING vec4 v_sky_sun_light;
 flat VARYING vec4 v_water_light;
+flat VARYING vec4 v_numbers;  // x: height of the camera above the still surface [m]; yz: width and height of the image [px]
+flat VARYING vec3[3] v_clip;  // the rows x, y and w of clip_from_offset
 #if defined(WAVES) && WAVES == 1
 flat VARYING vec4[1] v_grids;
 flat VARYING vec4 v_roughness;
@@ -36,6 +38,10 @@ void pass_on_surface() {
     v_sky_sun = sky_sun;
     v_sky_sun_light = sky_sun_light;
     v_water_light = water_light;
+    v_numbers = vec4(eye.x, image_size.xy, 0.0);
+    v_clip[0] = vec3(clip_from_offset[0].x, clip_from_offset[1].x, clip_from_offset[2].x);
+    v_clip[1] = vec3(clip_from_offset[0].y, clip_from_offset[1].y, clip_from_offset[2].y);
+    v_clip[2] = vec3(clip_from_offset[0].w, clip_from_offset[1].w, clip_from_offset[2].w);
 #if defined(WAVES) && WAVES == 1
     v_grids[0] = grids[0];
     v_roughness = roughness;

@@ -1,4 +1,4 @@
-// Provides: waves_at(offset, footprint, variance), the waves of the surface; add_ripples(...), the slopes of ripples.
+// Provides: waves_at(offset, footprint, variance), the waves of the surface; find_fades(...) and ripples_at(...), the slopes of ripples.
 // Needs: surface_block.glsl; the switches WAVES, the number of grids, and RIPPLES; the grids of surface/wave_grids.py and the tile of surface/ripples.py.
 // offset: from the camera in the horizontal plane of W [m]; footprint: length of a pixel on the surface [m]; variance of the
 // slopes along one axis that the pixel does not resolve. Finer grids go over into coarser ones without a seam.
@@ -21,6 +21,15 @@ vec4 grid_at(int level, vec2 offset) {
 uniform sampler2D ripple_tile;
 #endif
 
+#if defined(WAVES) && WAVES > 1
+// The continuous number of the grid for a place: finer grids are near the camera and for small footprints.
+float grid_level(vec2 offset, float footprint) {
+    float distance = max(abs(offset.x), abs(offset.y)) * grids[0].z / 0.46;
+    float coarse = 0.5 * log2(max(footprint / grids[0].w, 1e-6));
+    return max(max(0.5 * log2(max(distance, 1e-6)) + 1.0, min(coarse, eye.w - 1.0)), 0.0);
+}
+#endif
+
 // Elevation [m], slopes along x and y, downward acceleration over gravity.
 vec4 waves_at(vec2 offset, float footprint, out float variance) {
     variance = 0.0;
@@ -29,9 +38,7 @@ vec4 waves_at(vec2 offset, float footprint, out float variance) {
     variance = roughness[0];
     wave = grid_at(0, offset);
 #elif defined(WAVES)
-    float distance = max(abs(offset.x), abs(offset.y)) * grids[0].z / 0.46;
-    float coarse = 0.5 * log2(max(footprint / grids[0].w, 1e-6));
-    float level = max(max(0.5 * log2(max(distance, 1e-6)) + 1.0, min(coarse, eye.w - 1.0)), 0.0);
+    float level = grid_level(offset, footprint);
     float share = smoothstep(0.5, 1.0, fract(level));
     int finer = int(level);
     int n = int(eye.w);
@@ -61,13 +68,19 @@ float tile_fade(float footprint, inout float variance) {
     return ripples.x * fade;
 }
 
-vec2 add_ripples(vec2 offset, float footprint, inout float variance) {
-    mat2 turn = mat2(ripple_turn.z, ripple_turn.w, -ripple_turn.w, ripple_turn.z);
+// The factors on the slopes of both uses of the tile, at most 1.
+vec2 find_fades(float footprint, inout float variance) {
     float stretch = length(ripple_turn.zw);
+    float fade = tile_fade(footprint, variance);
+    return vec2(fade, tile_fade(footprint * stretch, variance) / stretch);
+}
+
+vec2 ripples_at(vec2 offset, vec2 fades) {
+    mat2 turn = mat2(ripple_turn.z, ripple_turn.w, -ripple_turn.w, ripple_turn.z);
     vec2 shift = vec2(0.5 / 128.0);
     vec2 slope = textureLod(ripple_tile, (ripple_origin.xy + offset) * ripples.z + shift, 0.0).yz;
     vec2 turned = textureLod(ripple_tile, (ripple_turn.xy + turn * offset) * ripples.z + shift, 0.0).yz;
-    return tile_fade(footprint, variance) * slope + tile_fade(footprint * stretch, variance) / stretch * (transpose(turn) * turned);
+    return fades.x * slope + fades.y * (transpose(turn) * turned);
 }
 
 // An irregular pattern of -0.1 to 0.1 for foam, by the tile and by one five times as large.

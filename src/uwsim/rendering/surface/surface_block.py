@@ -7,7 +7,7 @@ import math
 import moderngl
 import numpy as np
 
-from ...base.geometry import Intrinsics, Pose
+from ...base.geometry import Array, Intrinsics, Pose
 from ...base.numerics.linear import product
 from ..physical.daylight_field import REFRACTIVE_INDEX, compute_light_field
 from ..physical.physical_water import PhysicalWater
@@ -117,4 +117,10 @@ class SurfaceBlock:
         pixel = 1.0 / math.sqrt(intrinsics.fx * intrinsics.fy)
         values["air"] = CONTRAST_LOSS / water.visibility, REFRACTIVE_INDEX, pixel, 0.0
         self._buffer.write(values.tobytes())
+        self._buffer.bind_to_uniform_block(SURFACE.binding)
+
+    def turn(self, rotation: Array) -> None:
+        """Write another rotation from the camera frame to W, for bodies of another view."""
+        self._values["world_from_ray"][:3, :3] = rotation.T
+        self._buffer.write(self._values.tobytes())
         self._buffer.bind_to_uniform_block(SURFACE.binding)

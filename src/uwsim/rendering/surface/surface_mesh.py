@@ -22,10 +22,11 @@ SECTOR_EDGES = 8
 """The number of edges of a ring in a sector."""
 FIRST_RADIUS, LAST_RADIUS = 0.2, 2e5
 """The radius of the first and of the last ring [m]."""
-FINE_RADIUS = 1500.0
-"""The radius up to which rings are close to each other [m]."""
-N_RINGS = 170
-"""The number of rings up to `FINE_RADIUS`."""
+FINE_RADIUS, WAVE_RADIUS = 12.0, 1500.0
+"""The radii up to which rings show short waves, and long waves [m]."""
+N_FINE_RINGS, N_RINGS, N_FAR_RINGS = 80, 48, 15
+"""The number of rings up to each of these radii, and beyond. Rings that are closer to each other
+have triangles of a few pixels, which take most of the time."""
 N_BORDER_POINTS = 12
 """The number of rays along each side of an image that find the sectors in view."""
 
@@ -147,7 +148,11 @@ def _sees_vertical(world_from_camera: Pose, lens: Intrinsics, side: float) -> bo
 
 
 def _compute_radii() -> Array:
-    fine_radii = exp(np.linspace(math.log(FIRST_RADIUS), math.log(FINE_RADIUS), N_RINGS))
-    far_radii = exp(np.linspace(math.log(FINE_RADIUS), math.log(LAST_RADIUS), 16)[1:])
-    radii: Array = np.concatenate([[0.0], fine_radii, far_radii])
+    limits = FIRST_RADIUS, FINE_RADIUS, WAVE_RADIUS, LAST_RADIUS
+    parts = [np.zeros(1), np.array([FIRST_RADIUS])]
+    for start, end, n in zip(
+        limits[:-1], limits[1:], (N_FINE_RINGS, N_RINGS, N_FAR_RINGS), strict=True
+    ):
+        parts.append(exp(np.linspace(math.log(start), math.log(end), n + 1)[1:]))
+    radii: Array = np.concatenate(parts)
     return radii

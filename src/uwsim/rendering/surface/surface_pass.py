@@ -1,7 +1,8 @@
 r"""The passes that add the water's surface, the sky and the air to an image of surfaces.
 
-The image of surfaces has the radiance of bodies and their range. The first pass gives pixels that
-begin in air the sky, or bodies through air; the second draws the surface where no body is nearer.
+The image of surfaces has the radiance of bodies and their range. The first pass draws the surface
+where no body is nearer; the second gives other pixels that begin in air the sky, or bodies through
+air.
 A body that pierces the surface is therefore cut by each pixel, and a camera at the water line sees
 air above and water below it. The output has the same form: radiance, and the range in water.
 
@@ -20,6 +21,8 @@ light that breaking waves take into the water, blur of water that is seen from a
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 
 import moderngl
@@ -44,6 +47,7 @@ SAMPLERS = {
     "surface_image": 0,
     "open_water_map": 5,
     "weight_table": 6,
+    "mirror_image": 6,
     "wave_grids": 7,
     "wave_grid": 7,
     "ripple_tile": 8,
@@ -63,6 +67,8 @@ class Drawing:
     """The switches of the shaders."""
     sides: tuple[bool, ...]
     """The sides of the surface that are drawn: True is from above."""
+    is_above: bool
+    """True if the camera is above the still surface."""
     sectors: tuple[tuple[int, int], ...]
     """The first index and the number of indices of each part of the mesh."""
 
@@ -87,7 +93,8 @@ class SurfacePass:
         self._hemispheres = Hemispheres(context)
         self._mesh = SurfaceMesh(context)
         self._targets: dict[tuple[int, int], Targets] = {}
-        self._drawing = Drawing(switches=(), sides=(), sectors=())
+        self._drawing = Drawing(switches=(), sides=(), is_above=True, sectors=())
+        self._mirror: moderngl.Texture | None = None
         self._programs: dict[object, tuple[moderngl.Program, moderngl.VertexArray]] = {}
 
     def prepare(
@@ -148,9 +155,34 @@ class SurfacePass:
             intrinsics=intrinsics,
             light_rate=light_rate,
         )
+        self._mirror = None
         self._drawing = Drawing(
-            switches=switches, sides=sides, sectors=self._mesh.find_ranges(view)
+            switches=switches,
+            sides=sides,
+            is_above=height > 0.0,
+            sectors=self._mesh.find_ranges(view),
         )
+
+    @contextmanager
+    def turn_to(self, mirror_pose: Pose, world_from_camera: Pose) -> Iterator[None]:
+        """Let ``Surface`` have the rotation of the camera of the mirror for some time."""
+        self._block.turn(mirror_pose.rotation)
+        yield
+        self._block.turn(world_from_camera.rotation)
+
+    def set_mirror(self, mirror: moderngl.Texture | None) -> None:
+        """Set the image of mirrored bodies, radiance and range; None: there are none."""
+        self._mirror = mirror
+
+    @property
+    def is_visible(self) -> bool:
+        """True if the camera may see the surface."""
+        return bool(self._drawing.sectors)
+
+    @property
+    def is_dry(self) -> bool:
+        """True if the whole camera is in air: no water is in front of the surface."""
+        return self._drawing.sides == (True,)
 
     @property
     def is_direct(self) -> bool:
@@ -174,7 +206,7 @@ class SurfacePass:
         target.write_all()
 
     def draw(
-        self, intrinsics: Intrinsics, bodies: moderngl.Texture, *, has_bodies_above: bool
+        self, intrinsics: Intrinsics, bodies: moderngl.Texture, *, searches_bodies: bool
     ) -> moderngl.Texture:
         """Draw the surface and the sky into a copy of an image of bodies.
 
@@ -183,7 +215,7 @@ class SurfacePass:
         Args:
             intrinsics: the pinhole of the camera.
             bodies: the radiance and the range of bodies, four floats.
-            has_bodies_above: True if a body reaches above the still surface, which mirrors it.
+            searches_bodies: True to look for mirrored bodies above the surface in the picture.
 
         Returns:
             The radiance and the range in water, four floats.
@@ -196,11 +228,13 @@ class SurfacePass:
         self._use_textures()
         target.framebuffer.use()
         target.framebuffer.clear(depth=1.0)
-        context.enable_only(moderngl.NOTHING)
-        self._array("air", "screen", ()).render(moderngl.TRIANGLES, vertices=3)
         context.enable_only(moderngl.DEPTH_TEST)
         context.depth_func = "<"
-        self._draw_sides((("BODIES_ABOVE", 1),) if has_bodies_above else ())
+        self._draw_sides((("BODIES_ABOVE", 1),) if searches_bodies else ())
+        context.enable_only(moderngl.DEPTH_TEST)
+        context.depth_func = "<="
+        self._array("air", "screen", (("BEHIND", 1),)).render(moderngl.TRIANGLES, vertices=3)
+        context.enable_only(moderngl.NOTHING)
         return target.radiance
 
     def _draw_sides(self, switches: Switches) -> None:
@@ -211,6 +245,8 @@ class SurfacePass:
         for is_above in self._drawing.sides:
             context.cull_face = "back" if is_above else "front"
             side: Switches = (("ABOVE", 1),) if is_above else ()
+            if self._mirror is not None and is_above == self._drawing.is_above:
+                side += (("MIRROR", 1),)
             array = self._array("water_surface", "water_surface", switches + side)
             for first, n in self._drawing.sectors:
                 array.render(moderngl.TRIANGLES, vertices=n, first=first)
@@ -223,6 +259,8 @@ class SurfacePass:
         self._grids.near_texture.use(SAMPLERS["wave_grid"])
         self._ripples.texture.use(SAMPLERS["ripple_tile"])
         self._hemispheres.texture.use(SAMPLERS["hemispheres"])
+        if self._mirror is not None:
+            self._mirror.use(SAMPLERS["mirror_image"])
 
     def _array(self, effect: str, vertex: str, switches: Switches) -> moderngl.VertexArray:
         switches += self._drawing.switches

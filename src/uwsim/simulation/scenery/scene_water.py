@@ -44,6 +44,7 @@ def make_water(model: SceneModel) -> Water:
         has_caustics=spec.caustics,
         has_light_shafts=spec.light_shafts,
         has_surface=spec.surface,
+        has_mirror=spec.mirror,
         visibility=spec.sky.visibility,
     )
     return set_exposure(replace(water, physical_water=physical_water), model)

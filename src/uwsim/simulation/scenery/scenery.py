@@ -123,10 +123,6 @@ class Scenery:
         """Set the function that returns the moving surface at the present time."""
         self._find_surface = find_surface
 
-    def find_surface(self) -> MovingSurface | None:
-        """Return the moving surface at the present time; None if images do not depend on it."""
-        return None if self._find_surface is None else self._find_surface()
-
     def set_lamps(self, lamps: Sequence[MountedLamp], leds: Sequence[Led] = ()) -> None:
         """Set the lamps and the signal lamps of the scene.
 
@@ -390,7 +386,7 @@ class Scenery:
             contents=ViewContents(
                 lamps=tuple(make_lamp(lamp, displacement) for lamp in lit_lamps[:MAX_LAMPS]),
                 projector=self._projector,
-                surface=self.find_surface(),
+                surface=None if self._find_surface is None else self._find_surface(),
                 particles=particles,
             ),
         )

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from dataclasses import replace
 
 import numpy as np
 
@@ -49,7 +48,6 @@ class TrialScene:
         self._initial_rows = self._bodies.rows()
         self._owns_simulation = simulation is None
         self._time = 0.0  # that the scene shows [s]
-        self._surface = self.simulation.world.scenery.find_surface()
         particles, self._puffs = self.simulation.world.scenery.particles, None
         if particles is not None and particles.sediment is not None:
             self._puffs = RecordedPuffs(
@@ -96,17 +94,23 @@ class TrialScene:
 
     def _set_clocks(self) -> None:
         """Let surface and particles show the time of this trial; several may share a scene."""
-        scenery = self.simulation.world.scenery
-        if self._surface is not None:
+        world = self.simulation.world
+        scenery, water = world.scenery, world.scenery.state.water.physical_water
+        if water is not None and (water.ripples is not None or world.water.waves is not None):
             scenery.set_surface(self._find_surface)
         if scenery.particles is not None:
             scenery.particles.set_clock(lambda: self._time)
 
     def _find_surface(self) -> MovingSurface:
         """Return the surface at the time that the scene shows, which may be between frames."""
-        assert self._surface is not None
+        world = self.simulation.world
         scale = self.signal(WAVE_SCALE, frame_at(self.track, self._time)[0])
-        return replace(self._surface, time=self._time, wave_scale=1.0 if scale is None else scale)
+        return MovingSurface(
+            time=self._time,
+            waves=world.water.waves,
+            wave_scale=1.0 if scale is None else scale,
+            seed=world.model.seed,
+        )
 
     def _show_drift(self, frame: int) -> None:
         """Set the displacement of the water that carries particles to that of a frame."""

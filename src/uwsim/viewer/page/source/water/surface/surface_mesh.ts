@@ -4,8 +4,8 @@ import { rotate, type Intrinsics, type Matrix } from "../../geometry";
 
 const N_SECTORS = 32; // number of sectors, which are drawn or left out
 const SECTOR_EDGES = 8; // number of edges of a ring in a sector
-const [FIRST_RADIUS, FINE_RADIUS, LAST_RADIUS] = [0.2, 1500, 2e5]; // of rings [m]
-const N_RINGS = 170; // number of rings up to FINE_RADIUS
+const RADII = [0.2, 12, 1500, 2e5]; // of the first ring, up to which short and long waves are shown, and of the last ring [m]
+const N_RINGS = [80, 48, 15]; // numbers of rings between these radii
 const N_BORDER_POINTS = 12;
 
 /** The part of the surface that a camera may see. */
@@ -78,12 +78,12 @@ export function findSurfaceView(m: Matrix, lens: Intrinsics, height: number, max
   const [near, far] = [Math.abs(height) - maxElevation, Math.abs(height) + maxElevation];
   const climbs = rays.map(([x, y, z]) => (side * z) / Math.hypot(x, y));
   const [maxClimb, minClimb] = [1.05 * Math.max(...climbs), 0.95 * Math.min(...climbs)];
-  let [minRadius, maxRadius] = [0, LAST_RADIUS];
+  let [minRadius, maxRadius] = [0, RADII[3]];
   if (near > 0) {
     if (!isVerticalVisible && maxClimb <= 0) sectors = [];
     if (!isVerticalVisible) minRadius = near / Math.max(maxClimb, 1e-9);
     const looksTowards = side * m[10] < 0;
-    if (minClimb > 0 && (!isVerticalVisible || looksTowards)) maxRadius = Math.min(far / minClimb, LAST_RADIUS);
+    if (minClimb > 0 && (!isVerticalVisible || looksTowards)) maxRadius = Math.min(far / minClimb, RADII[3]);
   }
   return { sectors, minRadius, maxRadius };
 }
@@ -131,6 +131,6 @@ function indexOf(radii: number[], radius: number): number {
 
 function ringRadii(): number[] {
   const ratios = (start: number, end: number, n: number) =>
-    Array.from({ length: n }, (_, i) => start * (end / start) ** (i / (n - 1)));
-  return [0, ...ratios(FIRST_RADIUS, FINE_RADIUS, N_RINGS), ...ratios(FINE_RADIUS, LAST_RADIUS, 16).slice(1)];
+    Array.from({ length: n }, (_, i) => start * (end / start) ** ((i + 1) / n));
+  return [0, RADII[0], ...N_RINGS.flatMap((n, i) => ratios(RADII[i], RADII[i + 1], n))];
 }
