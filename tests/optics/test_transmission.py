@@ -6,12 +6,10 @@ import math
 
 import numpy as np
 import pytest
-from scipy.special import ndtr
 
 from tests.optics.reference_tables import (
     FREQUENCIES,
     PHASES,
-    PLACES,
     name_of_row,
     read_rows,
     values_of,
@@ -19,7 +17,6 @@ from tests.optics.reference_tables import (
     water_of_row,
 )
 from uwsim.optics import FournierForand, HenyeyGreenstein, Medium, PhaseFunction
-from uwsim.optics.blur import SIGMAS, compute_blur_weights, compute_level_transforms
 from uwsim.optics.transmission import (
     compute_ambient_veil,
     compute_direct,
@@ -79,32 +76,15 @@ def test_the_halo_is_the_derivative_of_the_light_within_an_angle() -> None:
     np.testing.assert_allclose(compute_led_halo(RGB_WATER, 1.5, angles), expected, rtol=2e-3)
 
 
-@pytest.mark.parametrize("row", read_rows("edge"), ids=name_of_row)
-def test_an_edge_of_five_levels_is_that_of_the_tables(row: dict[str, str]) -> None:
-    """Allow 2.4 % of the scattered part."""
-    water = water_of_row(row)
-    weights = compute_blur_weights(water, 1.0)[:, 0]
-    direct_light, field = compute_direct(water, 1.0)[0], compute_full_field(water, 1.0)[0]
-    places = np.array(PLACES)
-    edge = np.where(places > 0.0, direct_light, 0.0)
-    edge = edge + sum(
-        weight * ndtr(places / sigma) for weight, sigma in zip(weights, SIGMAS, strict=True)
-    )
-    np.testing.assert_allclose(edge, values_of(row, PLACES), atol=0.024 * (field - direct_light))
-
-
 @pytest.mark.parametrize("distance", [0.0, 0.3, 2.0, 15.0])
 @pytest.mark.parametrize("phase", [*PHASES.values(), FournierForand(1.15, 4.0)], ids=str)
 def test_a_white_target_in_an_isotropic_field_is_invisible(
     phase: PhaseFunction, distance: float
 ) -> None:
-    """Direct, blurred and veiling light of equal radiance make that radiance at every range."""
+    """Light of the target and veiling light of equal radiance make that radiance at every range."""
     water = Medium(absorption=(0.4, 0.1, 0.05), scattering=(0.3, 0.35, 0.5), phase_function=phase)
     ambient_radiance = np.array([0.2, 0.7, 1.3])
-    arriving_share = compute_direct(water, distance) + compute_blur_weights(water, distance).sum(
-        axis=0
-    )
-    radiance = arriving_share * ambient_radiance + compute_ambient_veil(
+    radiance = compute_full_field(water, distance) * ambient_radiance + compute_ambient_veil(
         water, ambient_radiance, distance
     )
     np.testing.assert_allclose(radiance, ambient_radiance, rtol=1e-12)
@@ -126,20 +106,6 @@ def test_ambient_pictures_of_uniform_targets_are_those_of_the_reference(
             radiance = source * field + float(compute_ambient_veil(water, [1.0], 1.0)[0])
             expected = 1.0 - float(row[column]) * (1.0 - target) / (1.0 - target * reflectance)
             assert radiance == pytest.approx(expected, abs=largest_error)
-
-
-def test_the_blur_weights_are_positive_and_complete() -> None:
-    weights = compute_blur_weights(RGB_WATER, DEPTHS)
-    assert weights.shape == (5, 5, 3)
-    assert weights.min() >= 0.0
-    total = compute_full_field(RGB_WATER, DEPTHS) - compute_direct(RGB_WATER, DEPTHS)
-    np.testing.assert_allclose(weights.sum(axis=-2), total, atol=1e-12)
-
-
-def test_the_transforms_of_the_levels_decrease_with_the_frequency() -> None:
-    transforms = compute_level_transforms(FournierForand())
-    assert transforms.shape == (4,)
-    assert (np.diff(transforms) > 0.0).all()
 
 
 def test_ranges_of_any_shape_are_computed_at_once() -> None:

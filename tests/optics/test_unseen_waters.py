@@ -11,7 +11,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from scipy.special import j0, ndtr
+from scipy.special import j0
 
 from tests.optics.path_tracer import (
     LampScene,
@@ -24,10 +24,8 @@ from tests.optics.path_tracer import (
 )
 from tests.optics.reference_tables import FloatArray, water_of
 from uwsim.optics import FournierForand, HenyeyGreenstein, PhaseFunction
-from uwsim.optics.blur import SIGMAS, compute_blur_weights
 from uwsim.optics.lamp_light import (
     Lamp,
-    compute_lamp_irradiance,
     compute_lamp_veil,
     compute_target_radiance,
 )
@@ -43,7 +41,6 @@ PHASES = [*HELD_OUT, HenyeyGreenstein(0.95), FournierForand(1.15, 4.0), Fournier
 WATERS = [(0.7, 0.35), (0.92, 1.2), (0.75, 3.1), (0.92, 3.8)]
 """The albedos and optical depths."""
 FREQUENCIES = np.array([0.4, 2.0, 6.0, 20.0, 60.0])
-PLACES = np.array([-0.2, -0.05, -0.02, 0.02, 0.05, 0.2])
 HALF_ANGLES = np.radians([0.3, 0.7, 1.5, 4.0, 8.0])
 N_PATHS = 100_000
 N_SIGMAS = 4.0
@@ -109,21 +106,6 @@ def test_the_modulation_transfer_is_within_3_percent(
     assert (np.abs(transfer - expected) <= 0.03 * expected + chance).all()
 
 
-@pytest.mark.parametrize(("phase", "albedo", "depth"), CASES, ids=name_case)
-def test_an_edge_is_within_3_percent_of_the_scattered_part(
-    phase: PhaseFunction, albedo: float, depth: float
-) -> None:
-    weights, radii = spread_of(phase, albedo, depth)
-    ratio = np.clip(PLACES / np.maximum(radii[:, None], 1e-12), -1.0, 1.0)
-    means, chance = summarise(weights[:, None] * (1.0 - np.arccos(ratio) / math.pi))
-    direct_light = np.where(PLACES > 0.0, math.exp(-depth), 0.0)
-    levels = compute_blur_weights(water_of(phase, depth, albedo), 1.0)[:, 0]
-    edge = direct_light + sum(
-        level * ndtr(PLACES / sigma) for level, sigma in zip(levels, SIGMAS, strict=True)
-    )
-    assert (np.abs(edge - direct_light - means) <= 0.03 * weights.mean() + chance).all()
-
-
 @pytest.mark.parametrize(("phase", "albedo", "depth"), CASES[::2] + CASES[1::4], ids=name_case)
 def test_the_light_of_a_small_source_is_as_good_as_stated(
     phase: PhaseFunction, albedo: float, depth: float
@@ -176,30 +158,3 @@ def test_the_veil_of_a_lamp_is_within_15_percent(phase: PhaseFunction, scene: La
     largest_error = 0.15 if phase.backscatter_ratio < 0.05 else 0.2
     tolerance = largest_error * estimate.value + N_SIGMAS * estimate.error
     assert abs(veil[0] - estimate.value) <= tolerance
-
-
-def blur_centre(image: FloatArray, radii: FloatArray, sigma: float) -> float:
-    """Return the centre of a round image, whose values are given by radius, after a blur."""
-    weights = np.exp(-0.5 * (radii / sigma) ** 2) * np.gradient(radii) * radii / sigma**2
-    return float(np.sum(image * weights))
-
-
-@pytest.mark.parametrize("phase", [FournierForand(), HenyeyGreenstein(0.93)], ids=name_case)
-@pytest.mark.parametrize("scene", [LampScene(0.5, 0.85, 1.0, 0.0), LampScene(1.0, 0.8, 2.0, 0.0)])
-def test_a_blurred_image_of_a_lit_plane_is_within_10_percent(
-    phase: PhaseFunction, scene: LampScene
-) -> None:
-    """Blur the lit plane, as a renderer does, instead of using the formula of wide targets."""
-    water = water_of(phase, scene.beam_attenuation, scene.albedo)
-    radii = np.geomspace(1e-5, 4.0, 4000)  # of the image, x/f
-    points = np.stack([radii, np.zeros_like(radii), np.ones_like(radii)], axis=1) * scene.distance
-    normals = np.broadcast_to([0.0, 0.0, -1.0], points.shape)
-    image = compute_lamp_irradiance(water, lamp_of(scene), points, normals)[:, 0] / math.pi
-    levels = compute_blur_weights(water, scene.distance)[:, 0]
-    radiance = compute_direct(water, scene.distance)[0] * image[0] + sum(
-        level * blur_centre(image, radii, sigma)
-        for level, sigma in zip(levels, SIGMAS, strict=True)
-    )
-    estimate = trace_lamp_signal(tables_of(phase), scene, n_paths=60_000, seed=25)
-    tolerance = 0.1 * estimate.value + N_SIGMAS * estimate.error
-    assert abs(radiance - estimate.value) <= tolerance

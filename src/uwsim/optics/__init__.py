@@ -1,6 +1,5 @@
 """Optics of water: phase functions, media, and what they do to images and lamps."""
 
-from .blur import compute_blur_weights, compute_level_transforms
 from .conversions import Quantity, View, WaterEstimate, convert_water
 from .fournier_forand import FournierForand
 from .henyey_greenstein import HenyeyGreenstein
@@ -12,12 +11,6 @@ from .lamp_light import (
 )
 from .medium import PETZOLD_AVERAGE, Medium, find_coefficient_errors
 from .named_waters import WATERS, NamedWater, find_water
-from .phase_fit import (
-    SmallAngleTerms,
-    fit_backward_cubic,
-    fit_encircled_terms,
-    fit_transform_terms,
-)
 from .phase_function import PhaseFunction
 from .phase_mixture import PhaseMixture
 from .phase_table import PhaseTable
@@ -43,27 +36,21 @@ __all__ = [
     "PhaseMixture",
     "PhaseTable",
     "Quantity",
-    "SmallAngleTerms",
     "View",
     "WaterEstimate",
     "WaterFile",
     "compute_ambient_veil",
-    "compute_blur_weights",
     "compute_direct",
     "compute_full_field",
     "compute_lamp_irradiance",
     "compute_lamp_veil",
     "compute_led_halo",
     "compute_led_signal",
-    "compute_level_transforms",
     "compute_modulation_transfer",
     "compute_target_radiance",
     "convert_water",
     "find_coefficient_errors",
     "find_water",
-    "fit_backward_cubic",
-    "fit_encircled_terms",
-    "fit_transform_terms",
     "read_water",
     "write_water",
 ]

@@ -4,8 +4,8 @@ The image model :math:`(D + w_0) J + \sum_l w_l (G_l * J)` has the modulation tr
 :math:`D + w_0 + \sum_l w_l\, e^{-2 \pi^2 \sigma_l^2 \psi^2}`. The weights are not negative and
 minimise the relative error at 36 frequencies from 0.5 to 120 cycles/rad, or to 0.3 cycles a pixel,
 under :math:`D + w_0 + \sum_l w_l = h`. For deviations from 2 to 410 mrad in a ratio of 2.6 the
-largest error is 1 % at an optical depth of 1, 2 % at 2 and 4 % at 4. `optics.blur` has the
-closed form; its transfer is 7 % too large at 1, and 45 % at 4.
+largest error is 1 % at an optical depth of 1, 2 % at 2 and 4 % at 4. Differences of the transfer,
+a closed form, are 7 % too large at 1, and 45 % at 4.
 
 The table is linear between the ranges :math:`r = L s / (1 - s)`, with :math:`s` in equal steps.
 """
