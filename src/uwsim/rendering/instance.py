@@ -131,6 +131,28 @@ class Instances:
         casters: Indices = indices[self._is_opaque[indices] & is_small]
         return casters
 
+    def find_hulls(
+        self, indices: Indices, radii: tuple[float, float], max_height: float
+    ) -> Indices:
+        """Return the indices of the opaque batches of large instances that are no ground.
+
+        They are below a height, and at least a fifth as high as they are long.
+
+        Args:
+            indices: the indices of the batches to check.
+            radii: half the longest side of the box: the excluded least, and the greatest [m].
+            max_height: the height in W of the highest top [m].
+        """
+        self._update_bounds()
+        owners, heights = self._owners[indices], self._corners[indices, :, 2]
+        low, high = np.full(len(self.ids), np.inf), np.full(len(self.ids), -np.inf)
+        np.minimum.at(low, owners, heights.min(axis=1))
+        np.maximum.at(high, owners, heights.max(axis=1))
+        is_hull = (self._radii > radii[0]) & (self._radii <= radii[1]) & (high < max_height)
+        is_hull &= high - low > 0.4 * self._radii
+        hulls: Indices = indices[is_hull[owners] & self._is_opaque[indices]]
+        return hulls
+
     def find_lowest_point(self, min_radius: float) -> float:
         """Return the height of the lowest corner of large instances; -infinity without any [m].
 

@@ -28,7 +28,14 @@ from .instance import Indices, Instances, Slots, find_visible
 from .lights.artificial_light import ArtificialLight
 from .lights.caster_programs import CasterPrograms
 from .lights.shadow_region import Region, compute_tile_bounds, find_shaded_region
-from .lights.sun_shadow import MAX_CASTER_RADIUS, SHADOW_MARGIN, SunShadow, find_shadow_pairs
+from .lights.sun_shadow import (
+    HULL_MARGIN,
+    MAX_CASTER_RADIUS,
+    MAX_HULL_RADIUS,
+    SHADOW_MARGIN,
+    SunShadow,
+    find_shadow_pairs,
+)
 from .materials.maps import Switches
 from .passes import SAMPLERS, Passes
 from .physical.development import Development
@@ -330,6 +337,8 @@ class Renderer:
             casters, may_cast = self._update_sun_shadow(
                 candidates, indices, view, world_from_camera, pinhole
             )
+            if len(np.intersect1d(casters, self._find_hulls(candidates, view))) > 0:
+                switches += (("HULLS", 1),)
         if "colour" in view.targets:
             switches += self._artificial_light.prepare(
                 view.lamps, view.projector, candidates, world_from_camera, hidden_ids
@@ -426,13 +435,23 @@ class Renderer:
         """Update the shadow map; return k casters, and for n receivers which may shade them."""
         instances, sun = self._instances, find_sun_direction(view.water, view.light)
         casters = instances.find_casters(candidates, MAX_CASTER_RADIUS)
+        hulls = self._find_hulls(candidates, view)
+        casters = np.union1d(casters, hulls)
+        margin = HULL_MARGIN if len(hulls) > 0 else SHADOW_MARGIN
         may_cast = find_shadow_pairs(
-            instances, casters, receivers, sun, world_from_camera, pinhole.corner_rays
+            instances, casters, receivers, sun, world_from_camera, pinhole.corner_rays, margin
         )
         is_needed = may_cast.any(axis=0)
         if is_needed.any():
             self._shadow.update(instances, casters[is_needed], sun)
         return casters[is_needed], may_cast[:, is_needed]
+
+    def _find_hulls(self, indices: Indices, view: View) -> Indices:
+        """Return the batches of hulls that shade the light of sun and sky in physical water."""
+        if not (view.is_physical and view.light.shadows):
+            return indices[:0]
+        radii = MAX_CASTER_RADIUS, MAX_HULL_RADIUS
+        return self._instances.find_hulls(indices, radii, view.water.surface_height)
 
     def _find_targets(self, view: View) -> Targets:
         size = view.intrinsics.width, view.intrinsics.height

@@ -43,7 +43,7 @@ DEPTH_STEP = 0.05
 LOST_CONTRAST = 3.0
 """The exponent of the loss of contrast in the deepest map, in the clearest channel."""
 
-SHAFT_OPTICAL_DEPTH, MAX_SHAFT = 4.0, 40.0
+SHAFT_OPTICAL_DEPTH, MAX_SHAFT = 3.0, 24.0
 """The limits of the way along which shafts are added up: attenuation times way, and way [m]."""
 
 MAX_PHASE_RATIOS = (3.0, 15.0)

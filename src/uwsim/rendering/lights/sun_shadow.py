@@ -23,11 +23,14 @@ MAX_SMALL_MAP_TEXEL = 0.008
 
 MAX_CASTER_RADIUS = 5.0
 """The radius above which a model, such as a tank or a sea floor, casts no shadow [m]."""
+MAX_HULL_RADIUS = 20.0
+"""The radius up to which a hull below the surface of physical water casts a shadow [m]."""
 
 LOW_SUN_SINE = 0.3
 """The sine of the elevation below which the sun is low [1]."""
-SHADOW_MARGIN = 0.05
-"""The distance by which shadows may reach beyond bounding boxes: the map's largest texel [m]."""
+SHADOW_MARGIN, HULL_MARGIN = 0.05, 2.05
+"""The distance by which shadows may reach beyond bounding boxes: the map's largest texel, and with
+hulls the radius of the mean of diffuse light (``shadow.glsl``) [m]."""
 
 _TO_TEXTURE = np.array(
     [[0.5, 0.0, 0.0, 0.5], [0.0, 0.5, 0.0, 0.5], [0.0, 0.0, 0.5, 0.5], [0.0, 0.0, 0.0, 1.0]]
@@ -38,7 +41,9 @@ class SunShadow:
     """The shadow map of the sun.
 
     Terrain receives shadows and casts none: otherwise the walls of a tank would shade the whole
-    tank, although a real water surface scatters light into it. Points that are more than 20 m below
+    tank, although a real water surface scatters light into it. In physical water, hulls of wrecks
+    (`Instances.find_hulls`) cast shadows, of diffuse light, too: its share that arrives is the mean
+    of the map around a point (``shadow.glsl``). Points that are more than 20 m below
     all casters are lit. Not modelled: refraction at the water's surface.
     """
 
@@ -91,6 +96,7 @@ def find_shadow_pairs(
     sun: Array,
     world_from_camera: Pose,
     corner_rays: Array,
+    margin: float = SHADOW_MARGIN,
 ) -> npt.NDArray[np.bool_]:
     """Return for each visible batch and each caster whether the caster may shade the batch, (n, k).
 
@@ -105,6 +111,7 @@ def find_shadow_pairs(
         sun: the unit vector towards the sun in W, (3,).
         world_from_camera: the pose of the camera.
         corner_rays: the corners of the image at a depth of 1 m in the camera's frame, (4, 3) [m].
+        margin: the distance by which shadows may reach beyond bounding boxes [m].
     """
     rays = product(corner_rays, world_from_camera.rotation.T)  # (4, 3) [m]
     may_cast = np.empty((len(receivers), len(casters)), dtype=bool)
@@ -116,6 +123,7 @@ def find_shadow_pairs(
         rays,
         world_from_camera.position,
         np.ascontiguousarray(world_from_camera.rotation[:, 2]),
+        margin,
         may_cast,
     )
     return may_cast
@@ -130,6 +138,7 @@ def _write_shadow_pairs(
     rays: Array,
     position: Array,
     back: Array,
+    margin: float,
     may_cast: npt.NDArray[np.bool_],
 ) -> None:
     """Compute `find_shadow_pairs` into ``may_cast``.
@@ -142,6 +151,7 @@ def _write_shadow_pairs(
         rays: the vectors in W from the camera to the image's corners, 1 m deep, (4, 3) [m].
         position: the position of the camera in W, (3,) [m].
         back: the z axis of the camera in W, (3,).
+        margin: the distance by which shadows may reach beyond bounding boxes [m].
         may_cast: the output, (n, k).
     """
     slices = np.empty((8, 3))
@@ -164,12 +174,10 @@ def _write_shadow_pairs(
         compute_box(points, frame, box)
         compute_box(slices, frame, slice_box)
         for k in range(len(casters)):
-            may_cast[n, k] = boxes[k, 1, 2] >= max(box[0, 2], slice_box[0, 2]) - SHADOW_MARGIN
+            may_cast[n, k] = boxes[k, 1, 2] >= max(box[0, 2], slice_box[0, 2]) - margin
             for j in range(2):
                 low, high = max(box[0, j], slice_box[0, j]), min(box[1, j], slice_box[1, j])
-                has_overlap = (
-                    boxes[k, 0, j] <= high + SHADOW_MARGIN and boxes[k, 1, j] >= low - SHADOW_MARGIN
-                )
+                has_overlap = boxes[k, 0, j] <= high + margin and boxes[k, 1, j] >= low - margin
                 may_cast[n, k] = may_cast[n, k] and has_overlap
 
 

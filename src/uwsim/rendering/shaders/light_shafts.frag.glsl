@@ -29,13 +29,17 @@ void main() {
     }
     vec2 start = vec2(caustic_x.w, caustic_y.w);
     vec2 drift = vec2(dot(ray, caustic_x.xyz), dot(ray, caustic_y.xyz));
-    float step_texels = sqrt(dot(drift, drift)) * shaft_numbers.w;  // for each metre
+    float speed = max(sqrt(dot(drift, drift)), 1e-4);  // across the beams [tiles/m]
+    float longest = shaft_numbers.z * swell_frame.w / speed;
+    float step_texels = speed * shaft_numbers.w;  // for each metre
     float pixel_texels = float(RATIO) * ray_column.x * unit * swell_frame.w * shaft_numbers.w;
     vec3 sum = vec3(0.0);
     for (int i = 0; i < N_STEPS; ++i) {
-        float share = (float(i) + 0.5) / float(N_STEPS);
-        float way = length * share * share;
-        float width = length * share * (2.0 / float(N_STEPS));
+        vec2 shares = vec2(i, i + 1) / float(N_STEPS);
+        vec2 ends = longest * shares * shares;
+        float width = min(ends.y, length) - ends.x;
+        if (width <= 0.0) break;
+        float way = ends.x + 0.5 * width;
         float map_level = log2(max(max(0.01 * float(MAP_PERCENT) * step_texels * width, pixel_texels * way), 1.0));
         float sample_depth = depth - rise * way;
         float excess = caustic_excess(start + drift * way, sample_depth, caustic_depths, swell_frame, map_level);

@@ -87,6 +87,12 @@ void main() {
     float lit = 1.0;
 #ifdef SHADOWS
     lit = sun_share(v_shadow_uv);
+#ifdef HULLS
+    sky_arrival = sky_share(v_shadow_uv, v_shadow_scale);
+#endif
+#endif
+#if defined(PHYSICAL) && defined(CAUSTICS)
+    focus_beam(v_terms.z);
 #endif
 #ifdef FOG_CLIP
     float fog_range = v_terms.w;

@@ -96,6 +96,10 @@ void main() {
 #endif
     vec3 lifted = v_position + v_normal * (lift * inversesqrt(max(dot(v_normal, v_normal), 1e-12)));
     v_shadow_uv = (shadow_from_camera * vec4(lifted, 1.0)).xyz;
+#ifdef HULLS
+    mat3 across = transpose(mat3(shadow_from_camera));
+    v_shadow_scale = vec2(length(across[0]), length(across[2]));
+#endif
 #endif
 #ifdef LAMPS
     vec3 unit_normal = v_normal * inversesqrt(max(dot(v_normal, v_normal), 1e-12));

@@ -46,6 +46,9 @@ flat VARYING float v_camera_depth;  // depth of the camera below the water's sur
 #endif
 #ifdef SHADOWS
 VARYING vec3 v_shadow_uv;  // texture coordinates and depth in the shadow map, 0..1
+#ifdef HULLS
+VARYING vec2 v_shadow_scale;  // texture coordinates and depth of the shadow map for each metre
+#endif
 #endif
 #ifdef LAMPS
 VARYING vec4[LAMPS] v_lamp_uv;  // homogeneous texture coordinates and depth in the lamps' shadow maps
