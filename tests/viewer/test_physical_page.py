@@ -31,11 +31,10 @@ NO_FLOATS = """(names) => {
 
 
 def set_water(simulation: Simulation, **changes: Any) -> None:
-    """Change the physical water of a scene; the page draws no caustics and shafts."""
+    """Change the physical water of a scene."""
     state = simulation.world.scenery.state
     assert state.water.physical_water is not None
-    without = {"has_caustics": False, "has_light_shafts": False}
-    optics = replace(state.water.physical_water, **without, **changes)
+    optics = replace(state.water.physical_water, **changes)
     state.water = replace(state.water, physical_water=optics)
 
 
@@ -79,8 +78,9 @@ def check_equal(page: npt.NDArray[np.int16], wanted: npt.NDArray[np.uint8]) -> N
         {"medium": find_water("tank"), "transfer": "linear", "has_lamp_veil": False},
         {"medium": replace(find_water("jerlov-3C"), phase_function=HenyeyGreenstein(0.9))},
         {"has_blur": False},
+        {"medium": find_water("jerlov-7C"), "blur_margin": 0.3},
     ],
-    ids=["scene", "green", "linear", "other-phase", "sharp"],
+    ids=["scene", "green", "linear", "other-phase", "sharp", "margin"],
 )
 def test_cameras_see_what_the_renderer_draws_by_day_and_with_lamps_at_night(
     tab: Any, tmp_path: Path, changes: dict[str, Any], rate: float

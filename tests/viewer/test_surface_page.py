@@ -16,6 +16,7 @@ from uwsim.base.geometry import Pose
 from uwsim.rendering.physical.moving_surface import MovingSurface
 from uwsim.simulation import Simulation
 from uwsim.simulation.tracked_state import WAVE_SCALE, TrackedState
+from uwsim.viewer.caustics import describe_focusing_waves
 from uwsim.viewer.document import document
 from uwsim.viewer.head import scene_head
 from uwsim.viewer.pack import Blob, make_pack
@@ -43,13 +44,11 @@ def look_at(eye: tuple[float, ...], point: tuple[float, ...]) -> Pose:
     return Pose(np.array(eye), np.stack([right, np.cross(back, right), back], axis=1))
 
 
-def leave_out_caustics(simulation: Simulation) -> None:
+def leave_out_mirror(simulation: Simulation) -> None:
     """Switch off what the page does not draw."""
     state = simulation.world.scenery.state
     assert state.water.physical_water is not None
-    water = replace(
-        state.water.physical_water, has_caustics=False, has_light_shafts=False, has_mirror=False
-    )
+    water = replace(state.water.physical_water, has_mirror=False)
     state.water = replace(state.water, physical_water=water)
 
 
@@ -88,11 +87,14 @@ def test_the_page_shows_the_surface_of_the_renderer(tab: Any, tmp_path: Path) ->
     cases += [(1, "above", 2.25), (1, "below", 2.25)]
     with uwsim.load(SCENE) as first, uwsim.load(SCENE, seed=SEED) as second:
         for simulation in (first, second):
-            leave_out_caustics(simulation)
+            leave_out_mirror(simulation)
             simulation.world.water.state.wave_scale[0] = SCALE
         head = scene_head(first, SCENE, blob)
-        surface = describe_moving_surface(second.world, blob)
-        head["trials"] = [make_trial("first"), make_trial("second") | {"surface": surface}]
+        entries = {
+            "surface": describe_moving_surface(second.world, blob),
+            "caustics": describe_focusing_waves(second.world, blob),
+        }
+        head["trials"] = [make_trial("first"), make_trial("second") | entries]
         wanted = [draw_scene((first, second)[i], poses[name], time) for i, name, time in cases]
     (tmp_path / "page.html").write_text(document(SCENE, make_pack(head, blob)), encoding="utf-8")
     tab.goto((tmp_path / "page.html").as_uri())

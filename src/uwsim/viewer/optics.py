@@ -18,7 +18,8 @@ The numbers of one medium in one light are ``optics``::
                                        radiance of the sky in Snell's window
      lamps: [[share, factor]],         EE(half angle) - A and k_L of each lamp of the head
      caustics: null or {...},          `uwsim.viewer.caustics`
-     linear, blur, lamp_veil}          true for linear stored values, for blur, for veils of lamps
+     linear, blur, lamp_veil,          true for linear stored values, for blur, for veils of lamps
+     blur_margin}                      the share of the image that is drawn beyond each edge
 """
 
 from __future__ import annotations
@@ -106,6 +107,7 @@ def describe_optics(
         "caustics": describe_focusing(water),
         "linear": water.transfer == "linear",
         "blur": water.has_blur,
+        "blur_margin": water.blur_margin,
         "lamp_veil": water.has_lamp_veil,
     }
 

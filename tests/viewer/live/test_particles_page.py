@@ -19,8 +19,8 @@ from uwsim.viewer.live.session import LiveSession
 
 __all__ = ["server"]
 pytestmark = pytest.mark.slow
-MOVING = re.compile(r"<u:ripples>.*</u:particles>", re.DOTALL)
-"""The ripples, whose light the page does not draw, and the particles of the scene."""
+PARTICLES = re.compile(r"<u:particles>.*</u:particles>", re.DOTALL)
+"""The particles of the scene."""
 SNOW = "<u:marineSnow/>"
 BUBBLES = """<u:bubbles> <u:source> <x>3.05</x> <y>5.35</y> <z>12.9</z> </u:source>
     <u:rate>500</u:rate> </u:bubbles>"""
@@ -33,7 +33,7 @@ def test_particles_are_those_of_the_simulation(
 ) -> None:
     text = bundled_files("scenes")["wreck-physical-scene"].read_text()
     path = tmp_path / "scene.xml"
-    path.write_text(MOVING.sub(f"<u:particles>{kinds}</u:particles>", text))
+    path.write_text(PARTICLES.sub(f"<u:particles>{kinds}</u:particles>", text))
     session = LiveSession(server, mapping=PilotMapping())
     with uwsim.load(str(path)) as simulation:
         world = simulation.world

@@ -187,3 +187,9 @@ export function clipFromCamera(intrinsics: Intrinsics, isFlipped: boolean): Matr
 export function columns(m: Matrix): number[] {
   return [0, 1, 2, 3].flatMap((i) => [m[i], m[4 + i], m[8 + i], m[12 + i]]);
 }
+
+/** Return the intrinsics of an image with more columns and rows on each side [px]. */
+export function widenIntrinsics(intrinsics: Intrinsics, columns: number, rows: number): Intrinsics {
+  const { width, height, cx, cy } = intrinsics;
+  return { ...intrinsics, width: width + 2 * columns, height: height + 2 * rows, cx: cx + columns, cy: cy + rows };
+}

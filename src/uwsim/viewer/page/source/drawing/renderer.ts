@@ -1,7 +1,7 @@
 // The renderer: it draws a scene through its water with the shaders of uwsim.rendering.renderer.
 import type { Head } from "../head";
 import {
-  clipFromCamera, inverse, matrix, origin, scaleIntrinsics, unit, type Matrix,
+  clipFromCamera, inverse, matrix, origin, scaleIntrinsics, unit, widenIntrinsics, type Matrix,
 } from "../geometry";
 import {
   isOpaque, lampBlockValues, projectorBlockValues, projectorIntrinsics, Shadows,
@@ -87,9 +87,12 @@ export class Renderer {
     const isFast = this.isSoftware && !state.isExact;
     // without multisampling, edges are smooth if each pixel is the mean of four
     const samples = this.isSoftware || state.isExact || devicePixelRatio >= 2 ? 1 : 2;
-    const intrinsics = scaleIntrinsics(state.intrinsics, samples);
-    const isLarge = intrinsics.width * intrinsics.height > MAX_BLURRED_PIXELS;
-    const plan = development.plan(intrinsics, optics.blur && !(isFast && isLarge));
+    const { width, height } = state.intrinsics;
+    const hasBlur = optics.blur && !(isFast && width * height > MAX_BLURRED_PIXELS);
+    const share = hasBlur ? optics.blur_margin : 0;
+    const margin: [number, number] = [Math.round(share * width), Math.round(share * height)];
+    const intrinsics = scaleIntrinsics(widenIntrinsics(state.intrinsics, ...margin), samples);
+    const plan = development.plan(intrinsics, hasBlur);
     const lamps = state.lamps.slice(0, MAX_LAMPS);
     const depth = water.surface_height - origin(worldFromCamera)[2];
     const surfacePass = state.surface ? this.surfacePass : null;
@@ -118,11 +121,9 @@ export class Renderer {
     this.gl.disable(this.gl.DEPTH_TEST);
     const particles = findVisibleParticles(this.head.particles, state, intrinsics);
     const clouds = findVisibleClouds(this.head.particles, state);
-    const isGrey = state.grey === true;
-    const image = development.develop(
-      optics, intrinsics, plan, lamps.length, isGrey, particles, clouds, focusing?.shafts ?? null,
-    );
-    development.present(image, target, corner, state.intrinsics, isFlipped);
+    const [isGrey, shafts] = [state.grey === true, focusing?.shafts ?? null];
+    const image = development.develop(optics, intrinsics, plan, lamps.length, isGrey, particles, clouds, shafts);
+    development.present(image, target, corner, state.intrinsics, margin, isFlipped);
   }
 
   /** Add the lamps that the camera sees to the surfaces in the current framebuffer. */

@@ -130,17 +130,24 @@ export class Development {
     return targets.colours.textures[0];
   }
 
-  /** Draw a finished image into a framebuffer (null: the canvas), with its lower left corner at the pixel `corner`. */
+  /**
+   * Draw a finished image into a framebuffer (null: the canvas), with its lower left corner at the pixel `corner`.
+   *
+   * `margin`: the columns and rows on each side of the image that are left out [px].
+   */
   present(
     image: WebGLTexture, target: WebGLFramebuffer | null, corner: [number, number], { width, height }: Intrinsics,
-    isFlipped: boolean,
+    margin: [number, number], isFlipped: boolean,
   ): void {
     const { gl } = this;
     this.bind(UNITS.level_0, image);
     gl.bindFramebuffer(gl.FRAMEBUFFER, target);
-    gl.viewport(corner[0], corner[1], width, height);
+    gl.enable(gl.SCISSOR_TEST);
+    gl.scissor(corner[0], corner[1], width, height);
+    gl.viewport(corner[0] - margin[0], corner[1] - margin[1], width + 2 * margin[0], height + 2 * margin[1]);
     gl.useProgram(this.programs.get("presented", isFlipped ? {} : { FLIPPED: 1 }, "presented"));
     gl.drawArrays(gl.TRIANGLES, 0, 3);
+    gl.disable(gl.SCISSOR_TEST);
   }
 
   /** Draw the light that coarse levels scatter, and the lamps' veil, into the total of the first level. */

@@ -40,6 +40,8 @@ export interface Optics {
   linear: boolean;
   /** True if light that is scattered forward blurs images. */
   blur: boolean;
+  /** The share of the image that is drawn beyond each of its edges. */
+  blur_margin: number;
   /** True if the water scatters the light of lamps into cameras. */
   lamp_veil: boolean;
 }
