@@ -193,8 +193,19 @@ layout(std140) uniform Caustics {
 `;var Rc=`// Provides: daylight(facing, up_cosine, share, depth), the light of sun and sky under water; albedo_of(stored), a surface's albedo.
 // Needs: varyings.glsl with PHYSICAL; facing = N.L; up_cosine = N.up; share = 0 in the sun's shadow to 1; depth below the surface [m].
 // physical/daylight_field.py, physical/transfer_curve.py: the sun's beam, with CAUSTICS focused by waves; diffuse light from above, light from below.
+// With CAUSTICS, call focus_beam(depth) before; with HULLS, sky_arrival is the share of diffuse light from above that arrives.
 #ifdef CAUSTICS
 #include "caustics.glsl"
+vec3 beam_gain;
+void focus_beam(float depth) {
+    float excess = caustic_excess(v_caustic_place, depth, v_caustic_depths, v_swell_frame);
+    beam_gain = 1.0 + exp(v_caustic_loss * -max(depth, 0.0)) * excess;
+}
+#endif
+#ifdef HULLS
+float sky_arrival = 1.0;
+#else
+const float sky_arrival = 1.0;
 #endif
 vec3 daylight(float facing, float up_cosine, float share, float depth) {
     float z = max(depth, 0.0);
@@ -202,10 +213,10 @@ vec3 daylight(float facing, float up_cosine, float share, float depth) {
     vec3 level = min(v_sun_beam.rgb * exp(v_sun_loss * -z), total);
     vec3 diffuse = total - level;
 #ifdef CAUSTICS
-    level *= 1.0 + exp(v_caustic_loss * -z) * caustic_excess(v_caustic_place, depth, v_caustic_depths, v_swell_frame);
+    level *= beam_gain;
 #endif
     return level * (max(facing, 0.0) * share / v_sun_beam.w)
-        + diffuse * (0.5 + 0.5 * up_cosine) + v_upwelling * total * (0.5 - 0.5 * up_cosine);
+        + diffuse * ((0.5 + 0.5 * up_cosine) * sky_arrival) + v_upwelling * total * (0.5 - 0.5 * up_cosine);
 }
 
 vec3 albedo_of(vec3 stored) {
@@ -753,13 +764,17 @@ void main() {
     }
     vec2 start = vec2(caustic_x.w, caustic_y.w);
     vec2 drift = vec2(dot(ray, caustic_x.xyz), dot(ray, caustic_y.xyz));
-    float step_texels = sqrt(dot(drift, drift)) * shaft_numbers.w;  // for each metre
+    float speed = max(sqrt(dot(drift, drift)), 1e-4);  // across the beams [tiles/m]
+    float longest = shaft_numbers.z * swell_frame.w / speed;
+    float step_texels = speed * shaft_numbers.w;  // for each metre
     float pixel_texels = float(RATIO) * ray_column.x * unit * swell_frame.w * shaft_numbers.w;
     vec3 sum = vec3(0.0);
     for (int i = 0; i < N_STEPS; ++i) {
-        float share = (float(i) + 0.5) / float(N_STEPS);
-        float way = length * share * share;
-        float width = length * share * (2.0 / float(N_STEPS));
+        vec2 shares = vec2(i, i + 1) / float(N_STEPS);
+        vec2 ends = longest * shares * shares;
+        float width = min(ends.y, length) - ends.x;
+        if (width <= 0.0) break;
+        float way = ends.x + 0.5 * width;
         float map_level = log2(max(max(0.01 * float(MAP_PERCENT) * step_texels * width, pixel_texels * way), 1.0));
         float sample_depth = depth - rise * way;
         float excess = caustic_excess(start + drift * way, sample_depth, caustic_depths, swell_frame, map_level);
@@ -1106,7 +1121,7 @@ void main() {
     if (texture(base_map, v_uv).a < float(ALPHA_TEST) / 255.0) discard;
 #endif
 }
-`;var tf=`// Provides: sun_share(map_point), 0 in the sun's shadow to 1 in full sunlight.
+`;var tf=`// Provides: sun_share(map_point), 0 in the sun's shadow to 1 in full sunlight; with HULLS, sky_share(map_point, scale).
 // Needs: the shadow map; map_point = texture coordinates and depth of a point in it, 0..1.
 // One hardware comparison of 2 x 2 texels, or with the switch SOFT the mean of four; points outside the map are lit.
 uniform sampler2DShadow shadow_map;
@@ -1124,6 +1139,21 @@ float sun_share(vec3 map_point) {
     return inside.x * inside.y * inside.z > 0.0 ? texture(shadow_map, map_point) : 1.0;
 #endif
 }
+
+#ifdef HULLS
+// The share of diffuse light that hulls let through, by eight rays along the sun's, up to 2 m beside the point.
+// scale = texture coordinates and depth of the map for each metre. The rays begin on a cone of 45 degrees above the point.
+float sky_share(vec3 map_point, vec2 scale) {
+    float sum = 0.0;
+    for (int i = 0; i < 8; ++i) {
+        float radius = 2.0 * sqrt((float(i) + 0.5) / 8.0);
+        float angle = 2.3999632 * float(i);
+        vec3 offset = radius * vec3(scale.x * cos(angle), scale.x * sin(angle), -scale.y);
+        sum += sun_share(map_point + offset);
+    }
+    return sum / 8.0;
+}
+#endif
 `;var rf=`// Provides: the vertices of a shadow caster in the view of a light.
 // Needs: instance.glsl, filled with matrices to the light's clip space instead of the camera frame.
 // Used for the shadow maps of the sun, the lamps and the projector. With ALPHA_TEST, it has holes.
@@ -1252,6 +1282,12 @@ void main() {
     float lit = 1.0;
 #ifdef SHADOWS
     lit = sun_share(v_shadow_uv);
+#ifdef HULLS
+    sky_arrival = sky_share(v_shadow_uv, v_shadow_scale);
+#endif
+#endif
+#if defined(PHYSICAL) && defined(CAUSTICS)
+    focus_beam(v_terms.z);
 #endif
 #ifdef FOG_CLIP
     float fog_range = v_terms.w;
@@ -1410,6 +1446,10 @@ void main() {
 #endif
     vec3 lifted = v_position + v_normal * (lift * inversesqrt(max(dot(v_normal, v_normal), 1e-12)));
     v_shadow_uv = (shadow_from_camera * vec4(lifted, 1.0)).xyz;
+#ifdef HULLS
+    mat3 across = transpose(mat3(shadow_from_camera));
+    v_shadow_scale = vec2(length(across[0]), length(across[2]));
+#endif
 #endif
 #ifdef LAMPS
     vec3 unit_normal = v_normal * inversesqrt(max(dot(v_normal, v_normal), 1e-12));
@@ -1502,6 +1542,9 @@ flat VARYING float v_camera_depth;  // depth of the camera below the water's sur
 #endif
 #ifdef SHADOWS
 VARYING vec3 v_shadow_uv;  // texture coordinates and depth in the shadow map, 0..1
+#ifdef HULLS
+VARYING vec2 v_shadow_scale;  // texture coordinates and depth of the shadow map for each metre
+#endif
 #endif
 #ifdef LAMPS
 VARYING vec4[LAMPS] v_lamp_uv;  // homogeneous texture coordinates and depth in the lamps' shadow maps
