@@ -176,16 +176,18 @@ def test_shafts_have_the_contrast_of_a_fine_integral(
     daylight = Daylight(elevation=1.0, azimuth=0.0)
     water = physical_water(medium=medium, daylight=daylight, ripples=Ripples(wind_speed=1.0))
     level = draw(renderer, pose, camera, water, None)
-    shafts = []
-    for n_steps, share in ((light_shafts.N_STEPS, light_shafts.MAP_SHARE), (400, 1.0)):
-        monkeypatch.setattr(light_shafts, "N_STEPS", n_steps)
-        monkeypatch.setattr(light_shafts, "MAP_SHARE", share)
+    shafts: list[FloatArray] = []
+    fine_switches: dict[str, int] = {"N_STEPS": 400, "MAP_PERCENT": 100}
+    for switches in ({}, fine_switches):
+        for name, value in switches.items():
+            monkeypatch.setitem(light_shafts.SWITCHES, name, value)
         renderer._focused_light._shafts = None
         image = draw(renderer, pose, camera, water, MovingSurface(time=2.0, seed=3))
         shafts.append((image / level)[..., 1])
     renderer._focused_light._shafts = None
     assert shafts[0].std() == pytest.approx(shafts[1].std(), rel=0.15)
     assert shafts[1].std() > 0.03
+    assert not np.array_equal(shafts[0], shafts[1])
     assert np.corrcoef(shafts[0].ravel(), shafts[1].ravel())[0, 1] > 0.7
 
 
