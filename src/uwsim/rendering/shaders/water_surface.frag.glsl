@@ -1,5 +1,5 @@
 // Provides: the radiance and the range in water of the water's surface, from below, or with the switch ABOVE from above.
-// Needs: optics.glsl, surface_block.glsl, surface_varyings.glsl, waves.glsl, sky.glsl, fresnel.glsl; transmission.glsl from above and for MIRROR;
+// Needs: optics.glsl, surface_block.glsl, surface_varyings.glsl, waves.glsl, sky.glsl, fresnel.glsl, foam.glsl; transmission.glsl from above and for MIRROR;
 // without the switch DIRECT, the image of the surfaces, whose alpha is the whole range; the switch MIRROR for the image of bodies that a still surface mirrors,
 // or BODIES_ABOVE to look for them in the picture.
 // From below: sky refracted, open water and bodies reflected; the water before it follows in whole images (physical/development.py), which
@@ -37,8 +37,7 @@ in vec3 v_fades;
 out vec4 light_out;
 const float PI = 3.14159265;
 #ifdef FOAM
-const float FOAM_START = 0.35;  // downward acceleration over gravity: surface/surface_pass.py
-const float FOAM_END = 0.5;
+#include "foam.glsl"
 #endif
 
 vec3 clip_of(vec3 offset) {
@@ -209,11 +208,12 @@ void main() {
 #endif
     vec3 normal = normalize(vec3(-slope, 1.0));
 #ifdef FOAM
-    float streaks = 0.0;
 #ifdef RIPPLES
-    streaks = foam_pattern(v_offset.xy, range * air.z / clamp(abs(towards.z), 0.02, 1.0));
+    vec2 foam_place = ripple_origin.xy + v_offset.xy;
+#else
+    vec2 foam_place = v_offset.xy;
 #endif
-    float foam = 0.9 * smoothstep(FOAM_START, FOAM_END, wave.w + streaks);
+    float foam = 0.9 * foam_cover(wave.w, foam_place, range * air.z / clamp(abs(towards.z), 0.02, 1.0));
     vec3 lit = sky_light.rgb + sky_sun_light.rgb * sky_sun.z;
 #endif
 #ifdef ABOVE

@@ -82,13 +82,4 @@ vec2 ripples_at(vec2 offset, vec2 fades) {
     vec2 turned = textureLod(ripple_tile, (ripple_turn.xy + turn * offset) * ripples.z + shift, 0.0).yz;
     return fades.x * slope + fades.y * (transpose(turn) * turned);
 }
-
-// An irregular pattern of -0.1 to 0.1 for foam, by the tile and by one five times as large.
-float foam_pattern(vec2 offset, float footprint) {
-    vec2 place = (ripple_origin.xy + offset) * ripples.z;
-    vec2 wide = textureLod(ripple_tile, place * 0.2, 0.0).yz;
-    vec2 small = textureLod(ripple_tile, place, 0.0).yz;
-    float fade = 1.0 - smoothstep(3.0, 12.0, footprint / ripples.w);
-    return clamp(0.07 * (wide.x + wide.y * wide.x) + (0.06 * fade) * (small.x + small.y * small.x), -0.1, 0.1);
-}
 #endif

@@ -15,7 +15,11 @@ is divided by :math:`n^2`: of the open water, and of bodies that the whole field
 reaches, without blur. Their image is refracted within the picture. Air takes contrast: 2 % are left
 at the visibility (H. Koschmieder, *Beitr. Phys. freien Atmos.* 12, 33 (1924)).
 
-Not modelled: bodies above the water in Snell's window, their image on the surface from above,
+Bodies on the side of the camera are mirrored by a second view (`mirror_view`). Where crests break,
+foam covers the surface (`foam.glsl`): from a downward acceleration of 0.35 g on, as the mean of its
+threads and gaps. It neither outlasts its crest nor drifts.
+
+Not modelled: bodies above the water in Snell's window,
 light that breaking waves take into the water, blur of water that is seen from above.
 """
 

@@ -34,7 +34,7 @@ POINTS_PER_WAVE = 4.0
 """The least number of points in a wave length."""
 MAX_DEVIATIONS = 6.0
 """The greatest elevation of a sea, in standard deviations."""
-FOAM_THRESHOLD = 0.25
+FOAM_THRESHOLD = 0.22
 """The least downward acceleration of crests over gravity at which a pixel may have foam [1]."""
 FOAM_DEVIATIONS = 4.5
 """The greatest acceleration of a sea in practice, in standard deviations."""

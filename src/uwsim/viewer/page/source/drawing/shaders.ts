@@ -48,6 +48,7 @@ import particleFragment from "../../../../rendering/shaders/particle.frag.glsl";
 import particleVertex from "../../../../rendering/shaders/particle.vert.glsl";
 import particleLens from "../../../../rendering/shaders/particle_lens.glsl";
 import airFragment from "../../../../rendering/shaders/air.frag.glsl";
+import foam from "../../../../rendering/shaders/foam.glsl";
 import fresnel from "../../../../rendering/shaders/fresnel.glsl";
 import sky from "../../../../rendering/shaders/sky.glsl";
 import skylight from "../../../../rendering/shaders/skylight.glsl";
@@ -112,6 +113,7 @@ const FILES: Record<string, string> = {
   "veil_varyings.glsl": veilVaryings,
   "water.glsl": water,
   "air.frag.glsl": airFragment,
+  "foam.glsl": foam,
   "fresnel.glsl": fresnel,
   "sky.glsl": sky,
   "skylight.glsl": skylight,

@@ -9,7 +9,7 @@ const N_NEAR_POINTS = 192;
 const NEAR_SPACINGS = [0.2, 0.4, 0.8, 1.6]; // possible spacings of the grid of a camera under water [m]
 const POINTS_PER_WAVE = 4;
 const MAX_DEVIATIONS = 6; // greatest elevation of a sea, in standard deviations
-const FOAM_THRESHOLD = 0.25; // least downward acceleration of crests over gravity at which there may be foam
+const FOAM_THRESHOLD = 0.22; // least downward acceleration of crests over gravity at which there may be foam
 const FOAM_DEVIATIONS = 4.5;
 const GRAVITY = 9.81;
 
