@@ -95,3 +95,30 @@ def test_a_mixture_is_normalised_and_linear_in_its_parts() -> None:
     expected = 0.7 * first.backscatter_ratio + 0.3 * second.backscatter_ratio
     assert MIXTURE.backscatter_ratio == pytest.approx(expected)
     assert PhaseMixture((first,), (2.0,)).compute_cumulative(math.pi) == pytest.approx(1.0)
+
+
+SPECTRUM = """{{"uwsim_water": 1, "name": "lake",
+"wavelengths": {wavelengths},
+"absorption": [0.1, 0.12, 0.4], "scattering": [0.5, 0.45, 0.4],
+"phase_function": {{"type": "HenyeyGreenstein", "asymmetry": 0.9}}{end}}}
+"""
+
+
+def test_a_spectrum_is_reduced_to_three_channels(tmp_path: Path) -> None:
+    path = tmp_path / "lake.json"
+    path.write_text(SPECTRUM.format(wavelengths=[440, 550, 660], end=""))
+    medium = read_water(path).medium
+    assert medium.n_channels == 3
+    assert medium.phase_function == HenyeyGreenstein(0.9)
+    assert medium.absorption[0] > medium.absorption[1] > 0.1
+
+
+def test_an_invalid_spectrum_is_reported_with_its_lines(tmp_path: Path) -> None:
+    path = tmp_path / "lake.json"
+    end = ',\n"molecular_scattering": [0, 0, 0]'
+    path.write_text(SPECTRUM.format(wavelengths=[440, 550], end=end))
+    with pytest.raises(FileError) as error:
+        read_water(path)
+    text = str(error.value)
+    assert "lake.json:2: The spectrum has 2 wavelengths; expected 3 to 1000" in text
+    assert "lake.json:5: molecular_scattering is that of pure water" in text

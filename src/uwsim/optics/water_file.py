@@ -12,12 +12,12 @@ r"""A water in a file: what ``uwsim calibrate`` writes, and a scene names.
       "uncertainties": {"absorption": [0.02, 0.02, 0.02], "scattering": [0.02, 0.02, 0.02]}
     }
 
-Coefficients are in 1/m, for red, green and blue. The phase functions are ``FournierForand``,
-``HenyeyGreenstein`` (``asymmetry``), ``PhaseTable`` (``angles`` in rad, ``values`` in 1/sr) and
-``PhaseMixture`` (``parts``, ``weights``). ``molecular_scattering`` (`Medium.molecular_scattering`),
-``source`` and ``uncertainties`` (standard deviations, by the name of the number) may be absent. All
-errors are reported at once, each with the line of its
-key.
+Coefficients are in 1/m, for red, green and blue. With ``wavelengths``, a list of rising wavelengths
+[nm], they are spectra, which are reduced to these channels (`spectral.spectral_water`). The phase
+functions are ``FournierForand``, ``HenyeyGreenstein`` (``asymmetry``), ``PhaseTable`` (``angles``
+in rad, ``values`` in 1/sr) and ``PhaseMixture`` (``parts``, ``weights``). ``molecular_scattering``
+(`Medium.molecular_scattering`), ``source`` and ``uncertainties`` (standard deviations, by the name
+of the number) may be absent. All errors are reported at once, each with the line of its key.
 """
 
 from __future__ import annotations
@@ -37,6 +37,7 @@ from .medium import PETZOLD_AVERAGE, Medium
 from .phase_function import PhaseFunction
 from .phase_mixture import MAX_PARTS, PhaseMixture
 from .phase_table import PhaseTable
+from .spectral.spectral_water import SpectralWater
 
 T = TypeVar("T")
 
@@ -48,7 +49,7 @@ MAX_TEXT = 1000
 """The greatest number of characters of a name or a source."""
 KEYS = (
     *("uwsim_water", "name", "absorption", "scattering", "phase_function"),
-    *("molecular_scattering", "source", "uncertainties"),
+    *("molecular_scattering", "source", "uncertainties", "wavelengths"),
 )
 PARAMETERS: dict[str, tuple[str, ...]] = {
     "FournierForand": ("refractive_index", "slope"),
@@ -138,7 +139,9 @@ class _Reader:
         name, source = self._read_text(document, "name"), self._read_text(document, "source")
         uncertainties = self._read_uncertainties(document)
         medium = None
-        if None not in (absorption, scattering, phase, molecules):
+        if "wavelengths" in document:
+            medium = self._read_spectrum(document, absorption, scattering, phase)
+        elif None not in (absorption, scattering, phase, molecules):
             medium = self._build(
                 "absorption",
                 lambda: Medium(
@@ -151,6 +154,29 @@ class _Reader:
         self._raise_errors()
         assert medium is not None
         return WaterFile(name=name, medium=medium, source=source, uncertainties=uncertainties)
+
+    def _read_spectrum(
+        self,
+        document: dict[str, Any],
+        absorption: tuple[float, ...] | None,
+        scattering: tuple[float, ...] | None,
+        phase: PhaseFunction | None,
+    ) -> Medium | None:
+        if "molecular_scattering" in document:
+            message = "molecular_scattering is that of pure water in a spectrum; expected none"
+            self._report("molecular_scattering", message)
+        wavelengths = self._read_numbers(document, "wavelengths")
+        if wavelengths is None or absorption is None or scattering is None or phase is None:
+            return None
+        return self._build(
+            "wavelengths",
+            lambda: SpectralWater(
+                wavelengths=wavelengths,
+                absorption=absorption,
+                scattering=scattering,
+                phase_function=phase,
+            ).reduce(),
+        )
 
     def _parse(self) -> dict[str, Any]:
         try:
