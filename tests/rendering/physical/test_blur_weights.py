@@ -13,6 +13,8 @@ from uwsim.optics.transmission import compute_direct, compute_full_field
 from uwsim.rendering.physical.blur_plan import plan_blur
 from uwsim.rendering.physical.blur_weights import (
     N_RANGES,
+    N_SHARES,
+    compute_share_table,
     compute_weight_table,
     find_table_scale,
 )
@@ -30,6 +32,25 @@ def test_weights_are_positive_and_sum_to_the_scattered_light(name: str) -> None:
     scattered = compute_full_field(medium, ranges) - compute_direct(medium, ranges)
     assert table.min() >= 0.0
     np.testing.assert_allclose(table.sum(axis=0)[:-1], scattered, atol=1e-8)
+
+
+@pytest.mark.parametrize("name", ["jerlov-I", "jerlov-III", "jerlov-3C", "jerlov-9C", "tank"])
+def test_sharp_light_between_the_ranges_of_the_table_is_exact_to_a_third_of_a_percent(
+    name: str,
+) -> None:
+    medium = find_water(name)
+    plan = plan_blur(Intrinsics.from_fovy(640, 480, 0.9), has_blur=True)
+    settings = medium, plan.sigmas, plan.highest_frequency
+    shares, weights = compute_share_table(*settings), compute_weight_table(*settings)
+    places = np.linspace(0.0, 0.95, 3001)
+    ranges = find_table_scale(medium) * places / (1.0 - places)
+    direct = compute_direct(medium, ranges)
+    for channel in range(3):
+        row = np.interp(places * (N_SHARES - 1), np.arange(N_SHARES), shares[0, :, channel])
+        weight = np.interp(places * (N_RANGES - 1), np.arange(N_RANGES), weights[0, :, channel])
+        expected = direct[:, channel] + weight
+        is_visible = direct[:, channel] > np.exp(-4.0)
+        np.testing.assert_allclose(row[is_visible], expected[is_visible], rtol=1.0 / 300.0)
 
 
 @pytest.mark.parametrize(

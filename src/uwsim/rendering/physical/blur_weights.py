@@ -28,7 +28,9 @@ from ...optics.transmission import (
 )
 
 N_RANGES = 128
-"""The number of ranges of a table."""
+"""The number of ranges of a table of weights."""
+N_SHARES = 2 * N_RANGES - 1
+"""The number of ranges of a table of the shaders."""
 N_FREQUENCIES = 36
 LOWEST_FREQUENCY, HIGHEST_FREQUENCY = 0.5, 120.0
 """The limits of the frequencies at which the transfer is fitted [cycles/rad]."""
@@ -57,7 +59,7 @@ def compute_weight_table(
     Returns:
         The weights of sharp light, then of the levels, (1 + levels, ranges, channels).
     """
-    ranges = find_ranges(medium)
+    ranges = find_ranges(medium, N_RANGES)
     frequencies = _find_frequencies(highest_frequency)
     transforms = _compute_transforms(medium.phase_function, highest_frequency)
     transfers = np.stack(
@@ -81,21 +83,25 @@ def compute_weight_table(
 def compute_share_table(
     medium: Medium, sigmas: tuple[float, ...], highest_frequency: float
 ) -> Array:
-    """Compute the table of the shaders: the sharp light's row includes the direct light D.
+    """Compute the table of the shaders: the row of the sharp light includes the direct light D.
 
-    Between its ranges D is linear, which adds 0.25 % to it at an optical depth of 4.
+    Between two ranges of the weights it has another one with the true D. To interpolate D from
+    there adds 0.3 % at most up to an optical depth of 4.
 
     Returns:
-        The shares of sharp light, then of the levels, (1 + levels, ranges, channels).
+        The shares of sharp light, then of the levels, (1 + levels, `N_SHARES`, channels).
     """
-    table = compute_weight_table(medium, sigmas, highest_frequency).copy()
-    table[0] += compute_direct(medium, find_ranges(medium))
+    weights = compute_weight_table(medium, sigmas, highest_frequency)
+    table = np.zeros((len(weights), N_SHARES, medium.n_channels))
+    table[:, ::2] = weights
+    table[:, 1::2] = 0.5 * (weights[:, :-1] + weights[:, 1:])
+    table[0] += compute_direct(medium, find_ranges(medium, N_SHARES))
     return table
 
 
-def find_ranges(medium: Medium) -> Array:
-    """Return the ranges of a table, (ranges,) [m]; the last one stands for infinity."""
-    shares = np.arange(N_RANGES) / (N_RANGES - 1.0)
+def find_ranges(medium: Medium, n_ranges: int) -> Array:
+    """Return the ranges of a table, (n,) [m]; the last one stands for infinity."""
+    shares = np.arange(n_ranges) / (n_ranges - 1.0)
     ranges: Array = find_table_scale(medium) * shares / np.maximum(1.0 - shares, 1e-6)
     return ranges
 

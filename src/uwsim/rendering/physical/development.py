@@ -18,7 +18,7 @@ from ...optics import Medium
 from ..caustics.light_shafts import RATIO as SHAFT_RATIO
 from ..lights.lamp import Lamp
 from .blur_plan import MAX_LEVELS, plan_blur
-from .blur_weights import N_RANGES, compute_share_table
+from .blur_weights import N_SHARES, compute_share_table
 from .cloud_pass import CloudPass
 from .open_water_map import OpenWaterMap
 from .optics_block import OpticsBlock
@@ -61,7 +61,7 @@ class Development:
         self._context = context
         self._block = OpticsBlock(context)
         self._map = OpenWaterMap(context)
-        self._table = create_texture(context, (N_RANGES, 1 + MAX_LEVELS))
+        self._table = create_texture(context, (N_SHARES, 1 + MAX_LEVELS))
         self._table_key: tuple[Medium, tuple[float, ...]] | None = None
         self._passes = WholeImagePasses(context, SAMPLERS)
         self._scattered_light = ScatteredLight(context, self._passes, SURFACE_UNIT)
@@ -84,7 +84,7 @@ class Development:
         key = water.medium, plan.sigmas
         if plan.n_levels and key != self._table_key:
             shares = compute_share_table(*key, plan.highest_frequency)
-            pixels = np.zeros((1 + MAX_LEVELS, N_RANGES, 4), np.float32)
+            pixels = np.zeros((1 + MAX_LEVELS, N_SHARES, 4), np.float32)
             pixels[: len(shares), :, :3] = shares
             self._table.write(pixels.tobytes())
             self._table_key = key

@@ -2,8 +2,9 @@
 import type { BlurPlan } from "./blur_plan";
 import type { Optics } from "./medium";
 
-/** The number of ranges of a table. */
-export const N_RANGES = 128;
+const N_RANGES = 128; // number of ranges of the weights
+/** The number of ranges of a table: those of the weights, and one between two of them. */
+export const N_SHARES = 2 * N_RANGES - 1;
 const N_FREQUENCIES = 36;
 const LOWEST_FREQUENCY = 0.5; // [cycles/rad]
 const FIELD_WEIGHT = 1000; // weight of the whole field against one frequency
@@ -11,7 +12,7 @@ const REGULARISATION = 1e-9;
 
 /** Return the shares of light as RGB and an unused number for each range of a row; row 0: sharp and direct light, row 1 + i: level i. */
 export function weightTable(optics: Optics, plan: BlurPlan, nRows: number): Float32Array<ArrayBuffer> {
-  const table = new Float32Array(4 * nRows * N_RANGES);
+  const table = new Float32Array(4 * nRows * N_SHARES);
   const step = Math.log(plan.highestFrequency / LOWEST_FREQUENCY) / (N_FREQUENCIES - 1);
   const frequencies = Array.from({ length: N_FREQUENCIES }, (_, i) => LOWEST_FREQUENCY * Math.exp(i * step));
   const transforms = frequencies.map((frequency) => transformAt(optics, frequency));
@@ -25,15 +26,24 @@ export function weightTable(optics: Optics, plan: BlurPlan, nRows: number): Floa
       const [a, b] = [optics.absorption[channel], optics.scattering[channel]];
       const wideLoss = optics.field[0] + optics.field[1] * Math.sqrt(a * range);
       const [directLight, field] = [Math.exp(-(a + b) * range), Math.exp(-range * a - wideLoss * b * range)];
-      table[4 * i + channel] = directLight;
       if (!(field - directLight > 1e-9)) continue;
       const transfers = transforms.map((transform) => {
         const wideShare = (transform / optics.forward) ** 12;
         return Math.exp(range * (b * (transform - (wideLoss - (1 - optics.forward)) * wideShare) - (a + b)));
       });
       const weights = fitWeights(levels, transfers, directLight, field);
-      weights.forEach((weight, row) => (table[4 * (N_RANGES * row + i) + channel] += weight));
+      weights.forEach((weight, row) => (table[4 * (N_SHARES * row + 2 * i) + channel] = weight));
     }
+  }
+  for (let row = 0; row < nRows; ++row)
+    for (let place = 4 * N_SHARES * row + 4; place < 4 * N_SHARES * (row + 1); place += 8)
+      for (let channel = 0; channel < 3; ++channel)
+        table[place + channel] = (table[place + channel - 4] + table[place + channel + 4]) / 2;
+  for (let i = 0; i < N_SHARES; ++i) {
+    const share = i / (N_SHARES - 1);
+    const range = (optics.scale * share) / Math.max(1 - share, 1e-6);
+    for (let channel = 0; channel < 3; ++channel)
+      table[4 * i + channel] += Math.exp(-(optics.absorption[channel] + optics.scattering[channel]) * range);
   }
   return table;
 }

@@ -2,7 +2,7 @@
 import type { Optics } from "./medium";
 import type { Intrinsics, Matrix } from "../geometry";
 import { kernelSwitches, MAX_LEVELS, planBlur, type BlurPlan } from "./blur_plan";
-import { N_RANGES, weightTable } from "./blur_weights";
+import { N_SHARES, weightTable } from "./blur_weights";
 import { openWaterMap, MAP_SIZE } from "./open_water";
 import { ParticlePass, type VisibleParticles } from "./particle_pass";
 import { CloudPass, EDGE } from "./sediment/cloud_pass";
@@ -209,8 +209,8 @@ export class Development {
     const entry = this.tables.find((table) => table.key === key && table.optics === optics.transform);
     if (entry) return entry.texture;
     if (this.tables.length >= MAX_TABLES) this.gl.deleteTexture(this.tables.shift()!.texture);
-    const texture = this.pool.texture(N_RANGES, 1 + MAX_LEVELS, this.format);
-    this.pool.upload(texture, N_RANGES, 1 + MAX_LEVELS, weightTable(optics, plan, 1 + MAX_LEVELS));
+    const texture = this.pool.texture(N_SHARES, 1 + MAX_LEVELS, this.format);
+    this.pool.upload(texture, N_SHARES, 1 + MAX_LEVELS, weightTable(optics, plan, 1 + MAX_LEVELS));
     this.tables.push({ optics: optics.transform, key, texture });
     return texture;
   }
