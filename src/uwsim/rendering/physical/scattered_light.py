@@ -19,6 +19,9 @@ FIRST_LEVEL_UNIT = 7
 """The texture unit of the first level."""
 LEVEL_SAMPLERS = {f"level_{i}": FIRST_LEVEL_UNIT + i for i in range(MAX_LEVELS - 2)}
 """The texture units of the levels."""
+MAX_SMALL_LEVEL = 320
+"""The largest level whose Gaussian is drawn along rows and columns at once, which takes less time
+than two passes of few texels [texels]."""
 
 Size = tuple[int, int]
 
@@ -137,10 +140,13 @@ class ScatteredLight:
                 ("RADIUS", compute_radius(spread)),
                 ("SPREAD", round(1000.0 * spread)),
             )
-            if spread > 0.0:
+            is_small = texture.width * texture.height <= MAX_SMALL_LEVEL
+            if spread > 0.0 and not is_small:
                 yield self._call("blurred_rows", kernel, level.rows, (texture, FIRST_LEVEL_UNIT))
                 texture = _textures(level.rows)[0]
             switches, inputs = kernel, [(texture, FIRST_LEVEL_UNIT)]
+            if spread > 0.0 and is_small:
+                switches += (("SQUARE", 1),)
             if number + 1 < len(buffers.levels):
                 wider_total = _textures(buffers.levels[number + 1].total)[0]
                 inputs.append((wider_total, FIRST_LEVEL_UNIT + 1))

@@ -1,7 +1,7 @@
 // Provides: the Gaussian of a level of blur along its columns, plus the wider levels; at the first level, plus the lamps' veil.
-// Needs: gaussian.glsl; the level after its rows; with WIDER, the sum of the wider levels at half the resolution; with LAMPS,
-// the number of lamps: veil_varyings.glsl, lamp_veil.glsl, and the mean light, whose alpha is the range. With VEIL_ONLY there is no
-// level. blurred.vert.glsl has the varyings.
+// Needs: gaussian.glsl; the level after its rows, or before them with SQUARE; with WIDER, the sum of the wider levels at half the
+// resolution; with LAMPS, the number of lamps: veil_varyings.glsl, lamp_veil.glsl, and the mean light, whose alpha is the range. With
+// VEIL_ONLY there is no level. blurred.vert.glsl has the varyings.
 #include "gaussian.glsl"
 uniform sampler2D level_0;
 #ifdef WIDER
@@ -21,6 +21,8 @@ out vec4 light_out;
 void main() {
 #ifdef VEIL_ONLY
     vec3 sum = vec3(0.0);
+#elif defined(SQUARE)
+    vec3 sum = square_gaussian(level_0).rgb;
 #else
     vec3 sum = gaussian(level_0, ivec2(0, 1)).rgb;
 #endif

@@ -1,4 +1,4 @@
-// Provides: gaussian(level, step), the Gaussian of a level at this texel along step, (1, 0) or (0, 1).
+// Provides: gaussian(level, step), the Gaussian of a level at this texel along step, (1, 0) or (0, 1); with SQUARE, square_gaussian(level).
 // Needs: the switches RADIUS [texels] and SPREAD, a thousand times the standard deviation [texels].
 // Outside the level its edge is continued.
 vec4 gaussian(sampler2D level, ivec2 step_) {
@@ -18,3 +18,21 @@ vec4 gaussian(sampler2D level, ivec2 step_) {
 #endif
     return sum;
 }
+
+#ifdef SQUARE
+// The Gaussian along rows and columns in one pass, for small levels.
+vec4 square_gaussian(sampler2D level) {
+    ivec2 last = textureSize(level, 0) - 1;
+    ivec2 texel = ivec2(gl_FragCoord.xy);
+    const float rate = 500000.0 / (float(SPREAD) * float(SPREAD));
+    vec4 sum = vec4(0.0);
+    float total = 0.0;
+    for (int i = -RADIUS; i <= RADIUS; ++i) {
+        float row_weight = exp(-rate * float(i * i));
+        total += row_weight;
+        for (int j = -RADIUS; j <= RADIUS; ++j)
+            sum += row_weight * exp(-rate * float(j * j)) * texelFetch(level, clamp(texel + ivec2(j, i), ivec2(0), last), 0);
+    }
+    return sum / (total * total);
+}
+#endif

@@ -1,8 +1,6 @@
 // Provides: coverage D (J - B) of a particle, and its coverage as alpha; the renderer draws it over those behind.
-// Needs: optics.glsl, open_water.glsl; the outputs of particle.vert.glsl; the image of the surfaces.
-// J: radiance of the particle, B: of open water behind it, D = exp(-c r). Nearer surfaces hide it.
-#include "optics.glsl"
-#include "open_water.glsl"
+// Needs: the outputs of particle.vert.glsl; the image of the surfaces.
+// J: radiance of the particle, B: of open water behind its centre, D = exp(-c r). Nearer surfaces hide it.
 uniform sampler2D surface_image;
 flat in vec4 v_light;
 flat in vec4 v_shape;
@@ -20,7 +18,5 @@ void main() {
     // the rim of a bubble is seen if its image is large enough
     if (v_shape.w > 0.5) profile = mix(profile, 30.0 * square * square * inside * inside, clamp(0.5 * v_shape.y - 1.0, 0.0, 0.85));
     float coverage = min(v_shape.z * profile, 1.0);
-    vec3 water = open_water(gl_FragCoord.xy, vec2(textureSize(surface_image, 0)));
-    vec3 direct = exp((absorption.rgb + scattering.rgb) * -v_light.a);
-    colour_out = vec4(coverage * direct * (v_light.rgb - water), coverage);
+    colour_out = coverage * vec4(v_light.rgb, 1.0);
 }

@@ -1,8 +1,9 @@
-// Provides: the rectangle around the image of a particle, and the particle's radiance.
-// Needs: frame.glsl, optics.glsl, particle_lens.glsl; lamps.glsl with LAMPS; four vertices for each instance, a record of PARTICLE.
-// The radiance is rho (E_sun + 2 E_down + 2 E_up + sum of E_lamp): physical/particle_pass.py.
+// Provides: the rectangle around the image of a particle, and the light D (J - B) that it adds to open water.
+// Needs: frame.glsl, optics.glsl, open_water.glsl, particle_lens.glsl; lamps.glsl with LAMPS; four vertices for each instance, a record of PARTICLE.
+// The radiance J is rho (E_sun + 2 E_down + 2 E_up + sum of E_lamp): physical/particle_pass.py.
 #include "frame.glsl"
 #include "optics.glsl"
+#include "open_water.glsl"
 #include "particle_lens.glsl"
 #ifdef LAMPS
 #include "lamps.glsl"
@@ -12,7 +13,7 @@ uniform sampler2D surface_image;
 in vec4 place;   // xyz: camera frame [m]; w: radius [m]
 in vec4 extent;  // xyz: motion during the exposure and own length, camera frame [m]; w: share that is drawn
 in vec2 traits;  // x: reflectance; y: kind
-flat out vec4 v_light;   // rgb: radiance; a: range [m]
+flat out vec4 v_light;   // rgb: light; a: range [m]
 flat out vec4 v_shape;   // x, y: half the length and the width [px]; z: coverage; w: kind
 noperspective out vec2 v_offset;  // along and across the streak [px]
 
@@ -64,7 +65,9 @@ void main() {
     float coverage = extent.w * radius * radius / (drawn * (drawn + 0.5 * streak_length));
     vec2 corner = vec2(gl_VertexID % 2 == 0 ? -1.0 : 1.0, gl_VertexID < 2 ? -1.0 : 1.0);
     v_offset = corner * vec2(0.5 * streak_length + drawn, drawn);
-    v_light = vec4(traits.x * lit(place.xyz), range);
+    vec3 direct = exp((absorption.rgb + scattering.rgb) * -range);
+    vec3 water = open_water(0.5 * (first + last), size);
+    v_light = vec4(direct * (traits.x * lit(place.xyz) - water), range);
     v_shape = vec4(0.5 * streak_length + drawn, drawn, coverage, traits.y);
     vec2 pixel = 0.5 * (first + last) + v_offset.x * along + v_offset.y * vec2(-along.y, along.x);
     gl_Position = vec4(2.0 * pixel / size - 1.0, 0.0, 1.0);

@@ -71,9 +71,9 @@ void pass_on_table() {
 }
 #endif
 `;var Ec=`// Provides: the Gaussian of a level of blur along its columns, plus the wider levels; at the first level, plus the lamps' veil.
-// Needs: gaussian.glsl; the level after its rows; with WIDER, the sum of the wider levels at half the resolution; with LAMPS,
-// the number of lamps: veil_varyings.glsl, lamp_veil.glsl, and the mean light, whose alpha is the range. With VEIL_ONLY there is no
-// level. blurred.vert.glsl has the varyings.
+// Needs: gaussian.glsl; the level after its rows, or before them with SQUARE; with WIDER, the sum of the wider levels at half the
+// resolution; with LAMPS, the number of lamps: veil_varyings.glsl, lamp_veil.glsl, and the mean light, whose alpha is the range. With
+// VEIL_ONLY there is no level. blurred.vert.glsl has the varyings.
 #include "gaussian.glsl"
 uniform sampler2D level_0;
 #ifdef WIDER
@@ -93,6 +93,8 @@ out vec4 light_out;
 void main() {
 #ifdef VEIL_ONLY
     vec3 sum = vec3(0.0);
+#elif defined(SQUARE)
+    vec3 sum = square_gaussian(level_0).rgb;
 #else
     vec3 sum = gaussian(level_0, ivec2(0, 1)).rgb;
 #endif
@@ -500,7 +502,7 @@ layout(std140) uniform Frame {
     vec4 clip_fog;            // clip-space z, the distance in UWSim's fog = x * planar depth + y [m]
     vec4 background;          // rgb: colour of pixels without a surface
 };
-`;var Oc=`// Provides: gaussian(level, step), the Gaussian of a level at this texel along step, (1, 0) or (0, 1).
+`;var Oc=`// Provides: gaussian(level, step), the Gaussian of a level at this texel along step, (1, 0) or (0, 1); with SQUARE, square_gaussian(level).
 // Needs: the switches RADIUS [texels] and SPREAD, a thousand times the standard deviation [texels].
 // Outside the level its edge is continued.
 vec4 gaussian(sampler2D level, ivec2 step_) {
@@ -520,6 +522,24 @@ vec4 gaussian(sampler2D level, ivec2 step_) {
 #endif
     return sum;
 }
+
+#ifdef SQUARE
+// The Gaussian along rows and columns in one pass, for small levels.
+vec4 square_gaussian(sampler2D level) {
+    ivec2 last = textureSize(level, 0) - 1;
+    ivec2 texel = ivec2(gl_FragCoord.xy);
+    const float rate = 500000.0 / (float(SPREAD) * float(SPREAD));
+    vec4 sum = vec4(0.0);
+    float total = 0.0;
+    for (int i = -RADIUS; i <= RADIUS; ++i) {
+        float row_weight = exp(-rate * float(i * i));
+        total += row_weight;
+        for (int j = -RADIUS; j <= RADIUS; ++j)
+            sum += row_weight * exp(-rate * float(j * j)) * texelFetch(level, clamp(texel + ivec2(j, i), ivec2(0), last), 0);
+    }
+    return sum / (total * total);
+}
+#endif
 `;var Dc=`// Provides: camera_colour(colour), the colour of a pixel in the image of a colour or grey camera.
 // Needs: nothing.
 // With the switch GREY: int(0.2989 R) + int(0.5870 G) + int(0.1140 B) of 8-bit values, as in grey.py. Only the viewer's page sets it.
@@ -1603,10 +1623,8 @@ vec3 through_water(vec3 lit, float range, float fog_range, float depth) {
 #endif
 }
 `;var hf=`// Provides: coverage D (J - B) of a particle, and its coverage as alpha; the renderer draws it over those behind.
-// Needs: optics.glsl, open_water.glsl; the outputs of particle.vert.glsl; the image of the surfaces.
-// J: radiance of the particle, B: of open water behind it, D = exp(-c r). Nearer surfaces hide it.
-#include "optics.glsl"
-#include "open_water.glsl"
+// Needs: the outputs of particle.vert.glsl; the image of the surfaces.
+// J: radiance of the particle, B: of open water behind its centre, D = exp(-c r). Nearer surfaces hide it.
 uniform sampler2D surface_image;
 flat in vec4 v_light;
 flat in vec4 v_shape;
@@ -1624,15 +1642,14 @@ void main() {
     // the rim of a bubble is seen if its image is large enough
     if (v_shape.w > 0.5) profile = mix(profile, 30.0 * square * square * inside * inside, clamp(0.5 * v_shape.y - 1.0, 0.0, 0.85));
     float coverage = min(v_shape.z * profile, 1.0);
-    vec3 water = open_water(gl_FragCoord.xy, vec2(textureSize(surface_image, 0)));
-    vec3 direct = exp((absorption.rgb + scattering.rgb) * -v_light.a);
-    colour_out = vec4(coverage * direct * (v_light.rgb - water), coverage);
+    colour_out = coverage * vec4(v_light.rgb, 1.0);
 }
-`;var df=`// Provides: the rectangle around the image of a particle, and the particle's radiance.
-// Needs: frame.glsl, optics.glsl, particle_lens.glsl; lamps.glsl with LAMPS; four vertices for each instance, a record of PARTICLE.
-// The radiance is rho (E_sun + 2 E_down + 2 E_up + sum of E_lamp): physical/particle_pass.py.
+`;var df=`// Provides: the rectangle around the image of a particle, and the light D (J - B) that it adds to open water.
+// Needs: frame.glsl, optics.glsl, open_water.glsl, particle_lens.glsl; lamps.glsl with LAMPS; four vertices for each instance, a record of PARTICLE.
+// The radiance J is rho (E_sun + 2 E_down + 2 E_up + sum of E_lamp): physical/particle_pass.py.
 #include "frame.glsl"
 #include "optics.glsl"
+#include "open_water.glsl"
 #include "particle_lens.glsl"
 #ifdef LAMPS
 #include "lamps.glsl"
@@ -1642,7 +1659,7 @@ uniform sampler2D surface_image;
 in vec4 place;   // xyz: camera frame [m]; w: radius [m]
 in vec4 extent;  // xyz: motion during the exposure and own length, camera frame [m]; w: share that is drawn
 in vec2 traits;  // x: reflectance; y: kind
-flat out vec4 v_light;   // rgb: radiance; a: range [m]
+flat out vec4 v_light;   // rgb: light; a: range [m]
 flat out vec4 v_shape;   // x, y: half the length and the width [px]; z: coverage; w: kind
 noperspective out vec2 v_offset;  // along and across the streak [px]
 
@@ -1694,7 +1711,9 @@ void main() {
     float coverage = extent.w * radius * radius / (drawn * (drawn + 0.5 * streak_length));
     vec2 corner = vec2(gl_VertexID % 2 == 0 ? -1.0 : 1.0, gl_VertexID < 2 ? -1.0 : 1.0);
     v_offset = corner * vec2(0.5 * streak_length + drawn, drawn);
-    v_light = vec4(traits.x * lit(place.xyz), range);
+    vec3 direct = exp((absorption.rgb + scattering.rgb) * -range);
+    vec3 water = open_water(0.5 * (first + last), size);
+    v_light = vec4(direct * (traits.x * lit(place.xyz) - water), range);
     v_shape = vec4(0.5 * streak_length + drawn, drawn, coverage, traits.y);
     vec2 pixel = 0.5 * (first + last) + v_offset.x * along + v_offset.y * vec2(-along.y, along.x);
     gl_Position = vec4(2.0 * pixel / size - 1.0, 0.0, 1.0);
