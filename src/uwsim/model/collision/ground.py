@@ -166,7 +166,8 @@ class Ground:
         corners = np.unique(body.reshape(-1, 3), axis=0)
         low, high = self._low[:, :2].min(axis=0), self._high[:, :2].max(axis=0)
         is_within = ((corners[:, :2] >= low) & (corners[:, :2] <= high)).all(axis=1)
-        return corners[is_within]
+        inner_corners: Array = corners[is_within]
+        return inner_corners
 
 
 def triangles_of(shapes: Sequence[CollisionShape], world_from_body: Pose) -> Array:

@@ -34,7 +34,7 @@ import numpy as np
 
 from ...base.geometry import Intrinsics, Pose
 from ...optics import compute_full_field
-from ..physical.development import Switches
+from ..materials.maps import Switches
 from ..physical.moving_surface import MovingSurface
 from ..physical.optics_block import OPTICS
 from ..physical.physical_water import PhysicalWater
