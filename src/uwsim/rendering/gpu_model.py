@@ -128,8 +128,9 @@ class GpuModels:
             repeats: context.sampler(repeats, repeats, filter=(moderngl.LINEAR, moderngl.LINEAR))
             for repeats in (False, True)
         }
-        # Maps of normals and finish are blended less than colours: that takes half the time.
-        self._map_samplers = {
+        # Maps of normals and finish are blended less than colours: that takes half the time. So
+        # are colours with a normal map in UWSim's image model: normals hide where levels change.
+        self._sharp_samplers = {
             repeats: context.sampler(
                 repeats, repeats, filter=(moderngl.LINEAR_MIPMAP_NEAREST, moderngl.LINEAR)
             )
@@ -137,8 +138,7 @@ class GpuModels:
         }
         self._textures: dict[TextureKey, tuple[Texture, moderngl.Texture]] = {}
         self._mipmapped_textures: set[int] = set()  # OpenGL names of the textures with mipmaps
-        # the texture of each unit, True if it is without mipmaps, and the threshold of its holes
-        self._bound: dict[int, tuple[Texture, bool, int | None]] = {}
+        self._bound: dict[int, tuple[Texture, bool, bool, int | None]] = {}  # arguments of `use`
         self._n_scenes = 0  # number of scenes that have ended
         self._models_used: dict[int, int] = {}  # number of the last scene that used a model
         self._textures_used: dict[TextureKey, int] = {}
@@ -202,7 +202,7 @@ class GpuModels:
         unit: int,
         *,
         skips_mipmaps: bool,
-        is_map: bool = False,
+        skips_blending: bool = False,
         cutoff: int | None = None,
     ) -> None:
         """Bind a texture to a unit until `release`; it is sampled with or without mipmaps.
@@ -211,22 +211,23 @@ class GpuModels:
             texture: the texture.
             unit: the texture unit.
             skips_mipmaps: True if it is sampled without mipmaps.
-            is_map: True for maps of normals and finish, of which the nearest mipmap is sampled.
+            skips_blending: True if the nearest mipmap is sampled instead of a blend of two, as for
+                maps of normals and finish.
             cutoff: the alpha of its holes, 1..255; None: it has none.
         """
-        if self._bound.get(unit) == (texture, skips_mipmaps, cutoff):
+        key = texture, skips_mipmaps, skips_blending, cutoff
+        if self._bound.get(unit) == key:
             return
+        self._bound[unit] = key
         gpu_texture = self._upload_texture(texture, cutoff)
         gpu_texture.use(unit)
         if skips_mipmaps:
             self._plain_samplers[texture.repeats].use(unit)
-            self._bound[unit] = texture, True, cutoff
             return
-        if is_map:
-            self._map_samplers[texture.repeats].use(unit)
+        if skips_blending:
+            self._sharp_samplers[texture.repeats].use(unit)
         else:
             self._plain_samplers[True].clear(unit)
-        self._bound[unit] = texture, False, cutoff
         # Mipmaps are created only when needed: that takes longer than to draw an image.
         if gpu_texture.glo not in self._mipmapped_textures:
             _build_mipmaps(gpu_texture, texture, cutoff)

@@ -197,11 +197,15 @@ class Passes:
             )
             maps = find_used_maps(batch.texture, batch.material, surface_switches)
             mask = find_mask(batch.texture, batch.material)
+            hides_levels = "normal_map" in maps and not is_physical
             for name, texture in maps.items():
-                unit, is_map = SAMPLERS[name], name != "base_map"
-                cutoff = None if mask is None or is_map else mask.cutoff
+                is_base = name == "base_map"
                 self._models.use(
-                    texture, unit, skips_mipmaps=skips_mipmaps, is_map=is_map, cutoff=cutoff
+                    texture,
+                    SAMPLERS[name],
+                    skips_mipmaps=skips_mipmaps,
+                    skips_blending=not is_base or (hides_levels and mask is None),
+                    cutoff=mask.cutoff if is_base and mask is not None else None,
                 )
             drawer.draw(index, program(in_shadow, surface_switches))
 

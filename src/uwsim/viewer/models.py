@@ -10,7 +10,8 @@ import numpy.typing as npt
 from PIL import Image
 
 from ..assets.mesh import Model, Texture
-from ..rendering.materials.maps import find_maps
+from ..rendering.materials.maps import find_maps, find_mask
+from ..rendering.materials.masked_levels import compute_masked_levels
 from ..rendering.materials.reflectance import compute_table
 from ..rendering.merged import MergedMesh, Piece, merge_model
 from .pack import Blob, Ref
@@ -50,7 +51,7 @@ class Models:
             visuals = [
                 {
                     "mesh": self._mesh(part),
-                    "texture": None if part.texture is None else self._texture(part.texture),
+                    "texture": None if part.texture is None else self._base(part.texture, part),
                     "opacity": part.opacity,
                     "two_sided": part.two_sided,
                     **self._material(part),
@@ -121,6 +122,16 @@ class Models:
             }
         )
         return len(self.meshes) - 1
+
+    def _base(self, texture: Texture, part: MergedMesh) -> int:
+        """Return the index of a base colour; with holes, it has its smaller images (`levels`)."""
+        index, mask = self._texture(texture), find_mask(part.texture, part.material)
+        if mask is not None and "levels" not in self.textures[index]:
+            self.textures[index]["levels"] = [
+                self._blob.add_bytes(_encode_image(pixels, "webp", lossless=True))
+                for pixels in compute_masked_levels(texture.pixels, mask.cutoff)
+            ]
+        return index
 
     def _texture(self, texture: Texture, *, has_numbers: bool = False) -> int:
         if texture.name in self._texture_indices:

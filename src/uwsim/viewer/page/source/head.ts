@@ -207,7 +207,7 @@ export interface Head {
   localized: number[];
   meshes: Mesh[];
   /** Images; `repeats`: beyond the texture coordinates 0 to 1. */
-  textures: { type: string; bytes: Ref; width: number; height: number; repeats: boolean }[];
+  textures: { type: string; bytes: Ref; width: number; height: number; repeats: boolean; levels?: Ref[] }[];
   /** Shares of even light that rough surfaces reflect, f4, in physical water (uwsim.rendering.materials.reflectance). */
   reflectance?: Ref;
   bodies: Body[];

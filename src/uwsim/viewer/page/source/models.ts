@@ -1,5 +1,5 @@
 // Meshes and textures on the GPU, and the instances of meshes in the scene, which are drawn in pieces.
-import type { Head, Visual } from "./head";
+import type { Head, Ref, Visual } from "./head";
 import {
   determinant, dot, fromPose, matrix, normalMatrix, product, transform, rotate, unit,
   type Matrix,
@@ -238,16 +238,16 @@ function upload(gl: WebGL2RenderingContext, pack: Pack, index: number): GpuMesh 
 async function loadTexture(
   gl: WebGL2RenderingContext, pack: Pack, index: number, repeats: boolean,
 ): Promise<WebGLTexture> {
-  const { type, bytes } = pack.head.textures[index];
+  const { type, bytes, levels } = pack.head.textures[index];
   const isPattern = index === pack.head.projector?.pattern;
-  const image = await createImageBitmap(
-    new Blob([pack.numbers(bytes) as Uint8Array<ArrayBuffer>], { type }),
-    {
+  const decode = (data: Ref, type: string) =>
+    createImageBitmap(new Blob([pack.numbers(data) as Uint8Array<ArrayBuffer>], { type }), {
       imageOrientation: isPattern ? "from-image" : "flipY", // OpenGL's first row is v = 0
       premultiplyAlpha: "none",
       colorSpaceConversion: "none",
-    },
-  );
+    });
+  const image = await decode(bytes, type);
+  const smaller = await Promise.all((levels ?? []).map((level) => decode(level, "image/webp")));
   const texture = gl.createTexture();
   gl.bindTexture(gl.TEXTURE_2D, texture);
   gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE, image);
@@ -256,7 +256,9 @@ async function loadTexture(
   gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_WRAP_T, wrap);
   gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.LINEAR);
   gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, isPattern ? gl.LINEAR : gl.LINEAR_MIPMAP_LINEAR);
-  if (!isPattern) gl.generateMipmap(gl.TEXTURE_2D);
+  if (levels) gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAX_LEVEL, levels.length);
+  else if (!isPattern) gl.generateMipmap(gl.TEXTURE_2D);
+  smaller.forEach((level, i) => gl.texImage2D(gl.TEXTURE_2D, i + 1, gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE, level));
   image.close();
   return texture;
 }

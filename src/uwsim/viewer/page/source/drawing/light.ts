@@ -4,7 +4,8 @@ import {
   clipFromCamera, columns, inverse, origin, product, type Intrinsics, type Matrix, matrix,
 } from "../geometry";
 import type { Piece } from "../models";
-import { Programs } from "./shaders";
+import { maskSwitches } from "./material";
+import { Programs, UNITS } from "./shaders";
 import type { InstanceBlocks } from "./instance_blocks";
 import { findVisible, fitSunView, TEXTURE_FROM_CLIP } from "./visibility";
 
@@ -141,9 +142,17 @@ export class Shadows {
     gl.depthFunc(gl.LEQUAL);
     gl.enable(gl.POLYGON_OFFSET_FILL);
     gl.polygonOffset(1.5, 2);
-    gl.useProgram(this.programs.get("shadow", {}));
     this.instanceBlocks.fill(clipFromWorld);
-    for (const piece of casters) this.instanceBlocks.drawPiece(piece, isFlipped);
+    for (const piece of casters) {
+      const { texture, visual } = piece.instance;
+      const mask = texture ? maskSwitches(visual.material) : {};
+      gl.useProgram(this.programs.get("shadow", mask));
+      if (mask.ALPHA_TEST) {
+        gl.activeTexture(gl.TEXTURE0 + UNITS.base_map);
+        gl.bindTexture(gl.TEXTURE_2D, texture);
+      }
+      this.instanceBlocks.drawPiece(piece, isFlipped);
+    }
     gl.disable(gl.POLYGON_OFFSET_FILL);
   }
 }

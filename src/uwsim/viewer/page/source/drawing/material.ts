@@ -29,9 +29,14 @@ function materialSwitches(material: Material, isPhysical: boolean, isTextured: b
     if (material.emits) switches.EMISSION = 1;
     if (material.emits && "emission_map" in material.maps) switches.EMISSION_MAP = 1;
   }
-  if (isTextured && material.cutoff !== null)
-    switches.ALPHA_TEST = Math.max(1, Math.min(255, Math.round(255 * material.cutoff)));
+  if (isTextured) Object.assign(switches, maskSwitches(material));
   return switches;
+}
+
+/** Return the switches of the shaders for the holes of a textured surface. */
+export function maskSwitches(material: Material | undefined): Switches {
+  if (!material || material.cutoff === null) return {};
+  return { ALPHA_TEST: Math.max(1, Math.min(255, Math.round(255 * material.cutoff))) };
 }
 
 /** Call a function for each attribute of a mesh that only materials need. */
@@ -81,6 +86,12 @@ export class MaterialMaps {
     }
     if (switches.MICROFACET && this.table) this.bindTexture(UNITS.reflectance_table, this.table);
     return switches;
+  }
+
+  /** Return the samplers of base colours, or null for their own: in UWSim's image model, normals hide where levels change. */
+  baseSamplers(surface: Switches): readonly WebGLSampler[] | null {
+    const hidesLevels = "NORMAL_MAP" in surface && !("PHYSICAL" in surface || "ALPHA_TEST" in surface);
+    return hidesLevels ? this.samplers : null;
   }
 
   /** Unbind the samplers of all maps, whose units other passes use. */

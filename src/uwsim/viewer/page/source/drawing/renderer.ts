@@ -230,11 +230,12 @@ export class Renderer {
   private drawPiece(piece: Piece, eye: Eye, switches: Switches, isFlipped: boolean): void {
     const [{ gl }, { texture, repeats, visual }] = [this, piece.instance];
     const plainSamplers = canSkipMipmaps(piece, eye) ? this.samplers : null;
-    if (texture) {
-      this.bind(UNITS.base_map, texture);
-      gl.bindSampler(UNITS.base_map, plainSamplers && plainSamplers[Number(repeats)]);
-    }
     const surface = this.models.maps!.use(visual.material, texture ? { ...switches, TEXTURED: 1 } : switches, plainSamplers);
+    if (texture) {
+      const samplers = plainSamplers ?? this.models.maps!.baseSamplers(surface);
+      this.bind(UNITS.base_map, texture);
+      gl.bindSampler(UNITS.base_map, samplers && samplers[Number(repeats)]);
+    }
     gl.useProgram(this.programs.get("surface", surface));
     this.instanceBlocks.drawPiece(piece, isFlipped);
   }
