@@ -77,7 +77,7 @@ def test_waves_shift_caustics_and_light_shafts(tab: Any, tmp_path: Path, part: s
     cases, blob = [(0, 0.0), (0, 4.5), (1, 2.25)], Blob()
     with uwsim.load(PIER) as first, uwsim.load(PIER, seed=SEED) as second:
         for simulation in (first, second):
-            change_water(simulation, **{other: False}, has_mirror=False)
+            change_water(simulation, **{other: False})
             if part == "has_caustics":
                 change_water(simulation, medium=find_water("jerlov-I"))
             simulation.world.water.state.wave_scale[0] = SCALE

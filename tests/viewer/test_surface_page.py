@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import base64
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -44,14 +43,6 @@ def look_at(eye: tuple[float, ...], point: tuple[float, ...]) -> Pose:
     return Pose(np.array(eye), np.stack([right, np.cross(back, right), back], axis=1))
 
 
-def leave_out_mirror(simulation: Simulation) -> None:
-    """Switch off what the page does not draw."""
-    state = simulation.world.scenery.state
-    assert state.water.physical_water is not None
-    water = replace(state.water.physical_water, has_mirror=False)
-    state.water = replace(state.water, physical_water=water)
-
-
 def draw_scene(simulation: Simulation, pose: Pose, time: float) -> npt.NDArray[np.uint8]:
     """Return the image of the renderer with the surface at a time."""
     world = simulation.world
@@ -87,7 +78,6 @@ def test_the_page_shows_the_surface_of_the_renderer(tab: Any, tmp_path: Path) ->
     cases += [(1, "above", 2.25), (1, "below", 2.25)]
     with uwsim.load(SCENE) as first, uwsim.load(SCENE, seed=SEED) as second:
         for simulation in (first, second):
-            leave_out_mirror(simulation)
             simulation.world.water.state.wave_scale[0] = SCALE
         head = scene_head(first, SCENE, blob)
         entries = {

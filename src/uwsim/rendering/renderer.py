@@ -311,7 +311,10 @@ class Renderer:
             return None
         switches: Switches = (("MIRROR", 1 if is_above else 2),)
         if view.surface is None or view.surface.waves is None:
-            switches += self._focused_light.prepare(water, view.surface, pose, surface_height)
+            floor_depth = surface_height - self._instances.find_lowest_point(MAX_CASTER_RADIUS)
+            switches += self._focused_light.prepare(
+                water, view.surface, pose, surface_height, floor_depth
+            )
         mirror_view = replace(
             view,
             intrinsics=lens,

@@ -9,6 +9,7 @@ The entry is null if images do not show the surface, or::
      ripples: null or ref f4,      the same of the tile of ripples
                                    (`uwsim.rendering.surface.ripples`)
      slope_variance,               the variance of the slopes of waves and ripples along an axis [1]
+     mirror,                       true if it mirrors bodies on the side of the camera
      air,                          the attenuation of air [1/m]
      sky: {sun: 3, sunlight: 3, light: 3, clear, overcast}}
                                    `uwsim.rendering.surface.sky`: the unit vector towards the sun;
@@ -51,6 +52,7 @@ def describe_surface(world: LiveScene, blob: Blob) -> Json | None:
         **describe_moving_surface(world, blob),
         "scale": float(world.water.state.wave_scale[0]),
         "slope_variance": 0.0 if ripples is None else 0.5 * math.fsum(ripples.slope_variances),
+        "mirror": water.has_mirror,
         "air": CONTRAST_LOSS / water.visibility,
         "sky": {
             "sun": sky.towards_sun.tolist(),

@@ -193,3 +193,9 @@ export function widenIntrinsics(intrinsics: Intrinsics, columns: number, rows: n
   const { width, height, cx, cy } = intrinsics;
   return { ...intrinsics, width: width + 2 * columns, height: height + 2 * rows, cx: cx + columns, cy: cy + rows };
 }
+
+/** Return the rotation from W to the camera's frame, as a 4 x 4 matrix. */
+export function rotationOf(worldFromCamera: Matrix): Matrix {
+  const m = worldFromCamera;
+  return matrix([m[0], m[4], m[8], 0, m[1], m[5], m[9], 0, m[2], m[6], m[10], 0, 0, 0, 0, 1]);
+}

@@ -12,8 +12,8 @@ import type { Player } from "./player";
 import type { Snapshot } from "./snapshot";
 import { drawCompass } from "./display/compass";
 import type { RenderState } from "./drawing/frame";
-import { SoftwarePacing } from "./drawing/pacing";
-import { isSoftware, Renderer } from "./drawing/renderer";
+import { isSoftware, SoftwarePacing } from "./drawing/pacing";
+import { Renderer } from "./drawing/renderer";
 import { fitIntrinsics, type ViewCamera, type Views } from "./views";
 import { scaleIntrinsics, type Intrinsics } from "./geometry";
 

@@ -4,6 +4,13 @@ const MAX_DRAWING_TIME = 2000; // time after which an image that is not complete
 const RESPONSIVE_TIME = 300; // time after a pilot's input in which images are drawn without pauses [ms]
 const MAX_PAUSE = 100; // longest pause between two images of a software renderer [ms]
 
+/** Return true if WebGL is drawn by software on the CPU. */
+export function isSoftware(gl: WebGL2RenderingContext): boolean {
+  const name = gl.getExtension("WEBGL_debug_renderer_info");
+  const renderer = name ? String(gl.getParameter(name.UNMASKED_RENDERER_WEBGL)) : "";
+  return /swiftshader|llvmpipe|software|softpipe/i.test(renderer);
+}
+
 /** The pacing of a software renderer: an image begins after the last one is complete and other processes had a pause. */
 export class SoftwarePacing {
   private fence: WebGLSync | null = null;

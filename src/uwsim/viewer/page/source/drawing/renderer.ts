@@ -1,33 +1,22 @@
 // The renderer: it draws a scene through its water with the shaders of uwsim.rendering.renderer.
 import type { Head } from "../head";
-import {
-  clipFromCamera, inverse, matrix, origin, scaleIntrinsics, unit, widenIntrinsics, type Matrix,
-} from "../geometry";
-import {
-  isOpaque, lampBlockValues, projectorBlockValues, projectorIntrinsics, Shadows,
-} from "./light";
+import { clipFromCamera, inverse, origin, rotationOf, scaleIntrinsics, unit, widenIntrinsics, type Intrinsics } from "../geometry";
+import { isOpaque, lampBlockValues, projectorBlockValues, projectorIntrinsics, Shadows } from "./light";
 import type { Optics } from "../water/medium";
 import type { Models, Piece } from "../models";
 import { opticsBlockValues } from "../water/optics";
 import { Development } from "../water/development";
 import { findVisibleClouds, findVisibleParticles } from "../water/visible_particles";
-import { FocusedLight } from "../water/caustics/focused_light";
+import { FocusedLight, type FocusedImage } from "../water/caustics/focused_light";
 import { SurfacePass } from "../water/surface/surface_pass";
 import { frameBlockValues, type RenderState } from "./frame";
 import { BLOCKS, Programs, UNITS, type Switches } from "./shaders";
+import { isSoftware } from "./pacing";
 import { InstanceBlocks } from "./instance_blocks";
-import { findLowestPoint, findVisible, canSkipMipmaps, castersInView, type Eye } from "./visibility";
+import { canSkipMipmaps, findCasters, findLowestPoint, findVisible, type Eye } from "./visibility";
 
-const MAX_CASTER_RADIUS = 5; // radius above which a model casts no shadow of the sun [m]
 const MAX_BLURRED_PIXELS = 320 * 240; // greatest size of an image that a software renderer blurs [px]
 const MAX_LAMPS = 4; // number of lamps that the shaders can light a scene with
-
-/** Return true if WebGL is drawn by software on the CPU. */
-export function isSoftware(gl: WebGL2RenderingContext): boolean {
-  const name = gl.getExtension("WEBGL_debug_renderer_info");
-  const renderer = name ? String(gl.getParameter(name.UNMASKED_RENDERER_WEBGL)) : "";
-  return /swiftshader|llvmpipe|software|softpipe/i.test(renderer);
-}
 
 export class Renderer {
   private readonly isSoftware: boolean;
@@ -38,6 +27,7 @@ export class Renderer {
   private readonly samplers: WebGLSampler[];
   private readonly development: Development | null; // the passes of physical water, if the scene has it
   private readonly surfacePass: SurfacePass | null; // the passes of the water's surface, if images show it
+  private surfaceValues = new Float32Array(0); // of the uniform block Surface
   private readonly focusedLight: FocusedLight | null; // caustics and light shafts, if the surface focuses light
 
   constructor(
@@ -89,31 +79,31 @@ export class Renderer {
     const samples = this.isSoftware || state.isExact || devicePixelRatio >= 2 ? 1 : 2;
     const { width, height } = state.intrinsics;
     const hasBlur = optics.blur && !(isFast && width * height > MAX_BLURRED_PIXELS);
-    const share = hasBlur ? optics.blur_margin : 0;
-    const margin: [number, number] = [Math.round(share * width), Math.round(share * height)];
+    const margin = [width, height].map((n) => Math.round(hasBlur ? optics.blur_margin * n : 0)) as [number, number];
     const intrinsics = scaleIntrinsics(widenIntrinsics(state.intrinsics, ...margin), samples);
     const plan = development.plan(intrinsics, hasBlur);
     const lamps = state.lamps.slice(0, MAX_LAMPS);
     const depth = water.surface_height - origin(worldFromCamera)[2];
     const surfacePass = state.surface ? this.surfacePass : null;
     if (surfacePass) {
-      const values = surfacePass.prepare(
+      this.surfaceValues = surfacePass.prepare(
         state.surface!, optics, water.surface_height, worldFromCamera, intrinsics, water.light_rate,
       );
-      this.fill("Surface", values);
+      this.fill("Surface", this.surfaceValues);
     }
     const surfaces = development.prepare(
       optics, worldFromCamera, intrinsics, plan, depth, water.light_rate, surfacePass !== null,
     );
     this.fill("Optics", opticsBlockValues(optics, intrinsics, lamps, water.light_rate, plan.reach));
     const isDirect = surfacePass?.isDirect;
-    const focusing = this.focusedLight?.prepare(state, optics, findLowestPoint(this.models, MAX_CASTER_RADIUS)) ?? null;
-    if (focusing) this.fill("Caustics", focusing.values);
-    const law = { PHYSICAL: 1, ...(surfacePass ? { SKY: 1 } : {}), ...development.switches, ...focusing?.surfaces };
+    const plainLaw = { PHYSICAL: 1, ...(surfacePass ? { SKY: 1 } : {}), ...development.switches };
+    if (surfacePass) this.drawMirror(state, optics, surfacePass, intrinsics, plainLaw);
+    const focusing = this.focusLight(state, optics);
+    const law = { ...plainLaw, ...focusing?.surfaces };
     this.drawSurfaces(
       { ...state, intrinsics, grey: false }, surfaces, [0, 0], true, law, () => isDirect && surfacePass!.drawAmong(),
     );
-    if (lamps.length) this.drawLampPoints(lamps.length, development.switches);
+    if (lamps.length) development.drawLampPoints(lamps.length);
     if (surfacePass && !isDirect) {
       const isAbove = ({ corners }: Piece) => corners.some((corner) => corner[2] > water.surface_height);
       development.drawOver(() => surfacePass.draw(this.shownPieces(state).some(isAbove)));
@@ -121,21 +111,35 @@ export class Renderer {
     this.gl.disable(this.gl.DEPTH_TEST);
     const particles = findVisibleParticles(this.head.particles, state, intrinsics);
     const clouds = findVisibleClouds(this.head.particles, state);
-    const [isGrey, shafts] = [state.grey === true, focusing?.shafts ?? null];
-    const image = development.develop(optics, intrinsics, plan, lamps.length, isGrey, particles, clouds, shafts);
+    const image = development.develop(
+      optics, intrinsics, plan, lamps.length, state.grey === true, particles, clouds, focusing?.shafts ?? null,
+    );
     development.present(image, target, corner, state.intrinsics, margin, isFlipped);
   }
 
-  /** Add the lamps that the camera sees to the surfaces in the current framebuffer. */
-  private drawLampPoints(nLamps: number, switches: Switches): void {
-    const { gl } = this;
-    gl.useProgram(this.programs.get("lamp_point", { COLOUR: 0, LAMPS: nLamps, ...switches }));
-    gl.depthMask(false);
-    gl.enable(gl.BLEND);
-    gl.blendFuncSeparate(gl.ONE, gl.ONE, gl.ONE, gl.ZERO);
-    gl.drawArrays(gl.POINTS, 0, nLamps);
-    gl.disable(gl.BLEND);
-    gl.depthMask(true);
+  /** Draw the bodies that the water's surface mirrors, if there are any. */
+  private drawMirror(state: RenderState, optics: Optics, surfacePass: SurfacePass, lens: Intrinsics, law: Switches): void {
+    const { surface_height } = state.water;
+    const mirror = surfacePass.mirrorView(optics, surface_height, state.worldFromCamera, lens);
+    if (!mirror) return;
+    const { pose, intrinsics, values, isMirrored } = mirror;
+    const eye: Eye = { worldFromCamera: pose, clip: clipFromCamera(intrinsics, true), intrinsics };
+    const pieces = this.shownPieces(state).filter(({ corners }) => corners.some(isMirrored));
+    if (!findVisible(pieces, eye).length) return;
+    const view = { ...state, worldFromCamera: pose, intrinsics, grey: false };
+    const focusing = state.surface!.waves ? null : this.focusLight(view, optics);
+    const target = this.development!.mirrorTarget(intrinsics);
+    this.fill("Surface", values);
+    this.drawSurfaces(view, target.buffer, [0, 0], true, { ...law, ...mirror.switches, ...focusing?.surfaces });
+    this.fill("Surface", this.surfaceValues);
+    surfacePass.setMirror(target.textures[0]);
+  }
+
+  /** Prepare caustics and light shafts; return what the image needs of them (null: nothing). */
+  private focusLight(state: RenderState, optics: Optics): FocusedImage | null {
+    const focusing = this.focusedLight?.prepare(state, optics, findLowestPoint(this.models)) ?? null;
+    if (focusing) this.fill("Caustics", focusing.values);
+    return focusing;
   }
 
   /**
@@ -161,8 +165,14 @@ export class Renderer {
     if (state.isExternal) Object.assign(switches, law.SKY ? { POLISHED: 1 } : { AIR: 1, POLISHED: 1 });
     if (state.isExternal && !this.isSoftware) switches.SOFT = 1;
     const sun = law.PHYSICAL ? state.optics!.sun : unit(this.head.suns[water.sun].direction);
-    const hasShadows = water.shadows && this.updateSunShadows(pieces, visiblePieces, sun, eye);
-    if (hasShadows) switches.SHADOWS = 1;
+    const maxHullHeight = law.PHYSICAL ? water.surface_height : -Infinity;
+    const shadows = water.shadows ? findCasters(this.models, pieces, visiblePieces, sun, eye, maxHullHeight) : null;
+    if (shadows?.casters.length) {
+      this.shadows.updateSunShadows(shadows.casters, sun, this.models.version);
+      switches.SHADOWS = 1;
+    }
+    if (shadows?.hasHulls) switches.HULLS = 1;
+    this.bind(UNITS.shadow_map, this.shadows.sunMap.texture);
     this.lightScene(state, pieces, switches);
     this.fill("Frame", frameBlockValues(state, this.head, clip, sun, this.shadows));
     this.instanceBlocks.fill(inverse(worldFromCamera), rotationOf(worldFromCamera));
@@ -194,17 +204,6 @@ export class Renderer {
 
   private shownPieces({ isExternal }: RenderState): Piece[] {
     return this.models.instances.filter(({ visual }) => isExternal || !visual.hidden).flatMap(({ pieces }) => pieces);
-  }
-
-  /** Update the sun's shadow map; return true if a piece casts a shadow into the image. */
-  private updateSunShadows(pieces: Piece[], visiblePieces: Piece[], sun: number[], eye: Eye): boolean {
-    const candidates = pieces.filter(
-      (piece) => isOpaque(piece) && this.models.radius(piece.instance) <= MAX_CASTER_RADIUS,
-    );
-    const casters = castersInView(candidates, visiblePieces, sun, eye);
-    if (casters.length) this.shadows.updateSunShadows(casters, sun, this.models.version);
-    this.bind(UNITS.shadow_map, this.shadows.sunMap.texture);
-    return casters.length > 0;
   }
 
   private lightScene(state: RenderState, pieces: Piece[], switches: Switches): void {
@@ -262,10 +261,4 @@ export class Renderer {
     this.gl.bindTexture(this.gl.TEXTURE_2D, texture);
     this.gl.activeTexture(this.gl.TEXTURE0);
   }
-}
-
-/** Return the rotation from W to the camera's frame, as a 4 x 4 matrix. */
-function rotationOf(worldFromCamera: Matrix): Matrix {
-  const m = worldFromCamera;
-  return matrix([m[0], m[4], m[8], 0, m[1], m[5], m[9], 0, m[2], m[6], m[10], 0, 0, 0, 0, 1]);
 }

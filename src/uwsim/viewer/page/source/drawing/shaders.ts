@@ -168,6 +168,7 @@ export const UNITS: Record<string, number> = {
   caustic_maps: 28,
   swell_map: 29,
   shaft_image: 30,
+  mirror_image: 31,
 };
 /** The location of each attribute. */
 export const ATTRIBUTES: Record<string, number> = {

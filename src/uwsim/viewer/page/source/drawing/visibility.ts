@@ -14,7 +14,9 @@ export interface Eye {
 }
 
 const LOW_SUN = 0.3; // sine of the sun's elevation below which shadow axes are perpendicular to the sunbeams [1]
-const MARGIN = 0.05; // distance by which a shadow may reach beyond the bounding box of its caster [m]
+const MAX_CASTER_RADIUS = 5; // radius above which a model casts no shadow of the sun [m]
+const MAX_HULL_RADIUS = 20; // radius up to which a hull casts one in physical water [m]
+const [MARGIN, HULL_MARGIN] = [0.05, 2.05]; // distances by which a shadow may reach beyond the box of its caster, and with hulls [m]
 const MAX_TEXELS = Math.SQRT2; // greatest number of texels along a pixel for which mipmaps can be skipped
 /** The transform from clip space (-1 .. 1) to texture coordinates and depth (0 .. 1). */
 export const TEXTURE_FROM_CLIP = matrix([0.5, 0, 0, 0.5, 0, 0.5, 0, 0.5, 0, 0, 0.5, 0.5, 0, 0, 0, 1]);
@@ -51,7 +53,7 @@ export function findVisible(pieces: Piece[], eye: Eye): Piece[] {
  *
  * `sun` is the unit vector towards the sun in W.
  */
-export function castersInView(casters: Piece[], receivers: Piece[], sun: number[], eye: Eye): Piece[] {
+function castersInView(casters: Piece[], receivers: Piece[], sun: number[], eye: Eye, margin: number): Piece[] {
   const frame = shadowAxes(sun);
   const position = origin(eye.worldFromCamera);
   const back = [eye.worldFromCamera[2], eye.worldFromCamera[6], eye.worldFromCamera[10]];
@@ -67,8 +69,8 @@ export function castersInView(casters: Piece[], receivers: Piece[], sun: number[
     const casterBox = bounds(caster.corners, frame);
     return litBoxes.some(
       (box) =>
-        [0, 1].every((i) => casterBox[i][0] <= box[i][1] + MARGIN && casterBox[i][1] >= box[i][0] - MARGIN) &&
-        casterBox[2][1] >= box[2][0] - MARGIN,
+        [0, 1].every((i) => casterBox[i][0] <= box[i][1] + margin && casterBox[i][1] >= box[i][0] - margin) &&
+        casterBox[2][1] >= box[2][0] - margin,
     );
   });
 }
@@ -140,9 +142,40 @@ export function canSkipMipmaps(piece: Piece, eye: Eye): boolean {
   return piece.density * footprint <= MAX_TEXELS;
 }
 
-/** Return the height of the lowest point of models above a radius [m], which count as the ground; -infinity without any. */
-export function findLowestPoint(models: Models, minRadius: number): number {
-  const largeModels = models.instances.filter((instance) => models.radius(instance) > minRadius);
+/**
+ * Return the opaque pieces that shade the sun in an image, and whether hulls are among them.
+ *
+ * `maxHullHeight` is the height in W below which hulls shade, in physical water [m]; -infinity: none do.
+ */
+export function findCasters(
+  models: Models, pieces: Piece[], receivers: Piece[], sun: number[], eye: Eye, maxHullHeight: number,
+): { casters: Piece[]; hasHulls: boolean } {
+  const hullParts = findHulls(models, pieces, maxHullHeight);
+  const isHull = ({ instance }: Piece) => hullParts.has(instance.visual.part);
+  const isCaster = (piece: Piece) => models.radius(piece.instance) <= MAX_CASTER_RADIUS || isHull(piece);
+  const candidates = pieces.filter((piece) => piece.instance.visual.opacity >= 1 && isCaster(piece));
+  const casters = castersInView(candidates, receivers, sun, eye, candidates.some(isHull) ? HULL_MARGIN : MARGIN);
+  return { casters, hasHulls: casters.some(isHull) };
+}
+
+/** Return the numbers of large models that are no ground: below a height, and at least a fifth as high as they are long. */
+function findHulls(models: Models, pieces: Piece[], maxHeight: number): Set<number> {
+  const limits = new Map<number, [number, number]>();
+  for (const { instance, corners } of pieces) {
+    const radius = models.radius(instance);
+    if (radius <= MAX_CASTER_RADIUS || radius > MAX_HULL_RADIUS) continue;
+    const heights = corners.map((corner) => corner[2]);
+    const [low, high] = limits.get(instance.visual.part) ?? [Infinity, -Infinity];
+    limits.set(instance.visual.part, [Math.min(low, ...heights), Math.max(high, ...heights)]);
+  }
+  const radii = new Map(pieces.map(({ instance }) => [instance.visual.part, models.radius(instance)]));
+  const hulls = [...limits].filter(([part, [low, high]]) => high < maxHeight && high - low > 0.4 * radii.get(part)!);
+  return new Set(hulls.map(([part]) => part));
+}
+
+/** Return the height of the lowest point of large models, which count as the ground [m]; -infinity without any. */
+export function findLowestPoint(models: Models): number {
+  const largeModels = models.instances.filter((instance) => models.radius(instance) > MAX_CASTER_RADIUS);
   const heights = largeModels.flatMap(({ pieces }) => pieces.flatMap(({ corners }) => corners.map((corner) => corner[2])));
   return heights.length ? heights.reduce((a, b) => Math.min(a, b)) : -Infinity;
 }

@@ -70,6 +70,31 @@ export class Development {
     return this.currentTargets.surfaces.buffer;
   }
 
+  /** Return the target of the bodies that the surface mirrors in the prepared image. */
+  mirrorTarget({ width, height }: Intrinsics): Target {
+    const targets = this.currentTargets!;
+    if (!targets.mirror) {
+      const { gl } = this;
+      targets.mirror = this.pool.depthTarget(width, height);
+      gl.bindTexture(gl.TEXTURE_2D, targets.mirror.textures[0]);
+      // ranges are not to be mixed
+      for (const name of [gl.TEXTURE_MIN_FILTER, gl.TEXTURE_MAG_FILTER]) gl.texParameteri(gl.TEXTURE_2D, name, gl.NEAREST);
+    }
+    return targets.mirror;
+  }
+
+  /** Add the lamps that the camera sees to the surfaces in the current framebuffer. */
+  drawLampPoints(nLamps: number): void {
+    const { gl } = this;
+    gl.useProgram(this.programs.get("lamp_point", { COLOUR: 0, LAMPS: nLamps, ...this.switches }));
+    gl.depthMask(false);
+    gl.enable(gl.BLEND);
+    gl.blendFuncSeparate(gl.ONE, gl.ONE, gl.ONE, gl.ZERO);
+    gl.drawArrays(gl.POINTS, 0, nLamps);
+    gl.disable(gl.BLEND);
+    gl.depthMask(true);
+  }
+
   /** Draw into a second image, of which the image of surfaces is the source; it is developed instead. */
   drawOver(draw: () => void): void {
     const { gl } = this;

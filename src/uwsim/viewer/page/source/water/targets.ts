@@ -21,6 +21,8 @@ export interface Targets {
   particles: Target | null;
   /** The layers, the lamplight and the daylight of clouds of sediment; null until there are any. */
   clouds: Target | null;
+  /** The bodies that the surface mirrors; null until there are any. */
+  mirror: Target | null;
   /** The light shafts; null until there are any. */
   shafts: Target | null;
   /** The scattered light of the coarse levels: of the first one with the mean light; of all others; of these without the narrowest ... */
@@ -48,7 +50,7 @@ export class TargetPool {
     if (this.entries.size > 7) this.deleteAll(); // after changes of the window's size
     targets = {
       surfaces: this.depthTarget(width, height), wateredSurfaces: null,
-      colours: this.target(width, height, 1, gl.RGBA8), particles: null, clouds: null, shafts: null, sources: [], levels: [],
+      colours: this.target(width, height, 1, gl.RGBA8), particles: null, clouds: null, shafts: null, mirror: null, sources: [], levels: [],
     };
     let [w, h] = [width, height];
     for (let level = 0; level < Math.max(nLevels, 1); ++level) {
@@ -105,9 +107,9 @@ export class TargetPool {
 
   private deleteAll(): void {
     const { gl } = this;
-    for (const { surfaces, wateredSurfaces, colours, particles, clouds, shafts, sources, levels } of this.entries.values())
+    for (const { surfaces, wateredSurfaces, colours, particles, clouds, shafts, mirror, sources, levels } of this.entries.values())
       for (const target of [
-        surfaces, colours, ...[wateredSurfaces, particles, clouds, shafts].filter((target) => target !== null), ...sources,
+        surfaces, colours, ...[wateredSurfaces, particles, clouds, shafts, mirror].filter((target) => target !== null), ...sources,
         ...levels.flatMap(({ rows, total }) => [rows, total]),
       ]) {
         for (const texture of target.textures) gl.deleteTexture(texture);

@@ -11,6 +11,7 @@ const [RIPPLE_ANGLE, RIPPLE_SCALE] = [0.55, 0.43]; // turn [rad] and relative si
 const SUN_RADIUS = 0.00465; // angular radius of the sun [rad]
 const REFRACTIVE_INDEX = 1.34;
 const N_NUMBERS = 96; // numbers in the block
+const ROTATION_OFFSET = 16; // index of the rotation to W among them
 
 /** Return the values of the uniform block Surface (surface_block.glsl). */
 export function surfaceBlockValues(
@@ -18,7 +19,7 @@ export function surfaceBlockValues(
   intrinsics: Intrinsics, lightRate: number,
 ): Float32Array<ArrayBuffer> {
   const eye = origin(m);
-  const rotation = matrix([m[0], m[1], m[2], 0, m[4], m[5], m[6], 0, m[8], m[9], m[10], 0, 0, 0, 0, 1]);
+  const rotation = rotationOnly(m);
   const cameraFromWorld = matrix([m[0], m[4], m[8], 0, m[1], m[5], m[9], 0, m[2], m[6], m[10], 0, 0, 0, 0, 1]);
   const scaleLight = (values: number[]) => values.map((value) => lightRate * value);
   const places = [0, 1, 2, 3].map((level) => {
@@ -49,6 +50,17 @@ export function surfaceBlockValues(
     spec.air, REFRACTIVE_INDEX, 1 / Math.sqrt(intrinsics.fx * intrinsics.fy), 0,
   ]);
   return block;
+}
+
+/** Return the values of the block with the rotation of another camera to W, for bodies of another view. */
+export function turnBlock(values: Float32Array, m: Matrix): Float32Array<ArrayBuffer> {
+  const block = Float32Array.from(values);
+  block.set(columns(rotationOnly(m)), ROTATION_OFFSET);
+  return block;
+}
+
+function rotationOnly(m: Matrix): Matrix {
+  return matrix([m[0], m[1], m[2], 0, m[4], m[5], m[6], 0, m[8], m[9], m[10], 0, 0, 0, 0, 1]);
 }
 
 /** Return the remainder of a division, from 0 to the divisor. */

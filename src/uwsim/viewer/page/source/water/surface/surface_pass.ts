@@ -4,11 +4,23 @@ import { origin, type Intrinsics, type Matrix } from "../../geometry";
 import type { Optics } from "../medium";
 import type { MovingSurface, SurfaceSpec } from "./spec";
 import { HEMISPHERE_SIZE, hemispheres } from "./sky";
-import { surfaceBlockValues, TILE_SIZE } from "./surface_block";
+import { findMirrorView } from "./mirror";
+import { surfaceBlockValues, TILE_SIZE, turnBlock } from "./surface_block";
 import { findSurfaceView, SurfaceMesh, type SurfaceView } from "./surface_mesh";
 import { GridSums, N_POINTS, WaveGrids, type GridTexture } from "./wave_grids";
 
 const MIN_VISIBLE_SHARE = 0.01; // share of light from the surface below which a camera under water does not see it
+
+/** The view of the bodies that the surface mirrors. */
+export interface MirrorView {
+  pose: Matrix;
+  intrinsics: Intrinsics;
+  /** The values of the uniform block Surface for this view. */
+  values: Float32Array<ArrayBuffer>;
+  /** Returns true for points of W on the side that is mirrored. */
+  isMirrored: (point: number[]) => boolean;
+  switches: Switches;
+}
 
 /** The passes of the water's surface. */
 export class SurfacePass {
@@ -21,6 +33,9 @@ export class SurfacePass {
   private hemispheresKey: unknown[] = []; // the medium and the light rate of the hemispheres
   private switches: Switches = {};
   private sides: boolean[] = []; // the sides of the surface that are drawn: true is from above
+  private isAbove = false; // true if the camera is above the still surface
+  private blockValues = new Float32Array(0); // of the uniform block Surface
+  private mirror: WebGLTexture | null = null; // the image of mirrored bodies; null: there are none
   private view: SurfaceView = { sectors: [], minRadius: 0, maxRadius: 0 };
 
   constructor(
@@ -54,6 +69,8 @@ export class SurfacePass {
     const eye = origin(worldFromCamera);
     const height = eye[2] - surfaceHeight;
     const bound = grids.maxElevation + 2 * intrinsics.near;
+    this.mirror = null;
+    this.isAbove = height > 0;
     this.sides = [...(height > -bound ? [true] : []), ...(height < bound ? [false] : [])];
     this.view = findSurfaceView(worldFromCamera, intrinsics, height, bound);
     if (this.isDirect) this.view.maxRadius = Math.min(this.view.maxRadius, visibleRange(optics));
@@ -75,7 +92,25 @@ export class SurfacePass {
       this.switches.RIPPLES = 1;
     }
     this.updateHemispheres(optics, lightRate);
-    return surfaceBlockValues(spec, optics, grids, height, rippleVariance, worldFromCamera, intrinsics, lightRate);
+    this.blockValues = surfaceBlockValues(
+      spec, optics, grids, height, rippleVariance, worldFromCamera, intrinsics, lightRate,
+    );
+    return this.blockValues;
+  }
+
+  /** Return the view of bodies that the surface mirrors; null: it mirrors none, or is not visible. */
+  mirrorView(optics: Optics, surfaceHeight: number, worldFromCamera: Matrix, lens: Intrinsics): MirrorView | null {
+    if (!this.spec.mirror || !this.view.sectors.length) return null;
+    const maxRange = this.isAbove ? lens.far : visibleRange(optics);
+    const { pose, intrinsics } = findMirrorView(worldFromCamera, lens, surfaceHeight, maxRange);
+    const values = turnBlock(this.blockValues, pose);
+    const isMirrored = ([, , z]: number[]) => (this.isAbove ? z > surfaceHeight : z < surfaceHeight);
+    return { pose, intrinsics, values, isMirrored, switches: { MIRROR: this.isAbove ? 1 : 2 } };
+  }
+
+  /** Set the image of mirrored bodies. */
+  setMirror(mirror: WebGLTexture): void {
+    this.mirror = mirror;
   }
 
   /** True if the whole camera is under water: the surface is drawn among the bodies. */
@@ -105,7 +140,7 @@ export class SurfacePass {
     gl.drawArrays(gl.TRIANGLES, 0, 3);
     gl.enable(gl.DEPTH_TEST);
     gl.depthFunc(gl.LESS);
-    this.drawSides(hasBodiesAbove ? { BODIES_ABOVE: 1 } : {});
+    this.drawSides(hasBodiesAbove && !this.spec.mirror ? { BODIES_ABOVE: 1 } : {});
     gl.depthFunc(gl.LEQUAL);
   }
 
@@ -117,6 +152,7 @@ export class SurfacePass {
     for (const isAbove of this.sides) {
       gl.cullFace(isAbove ? gl.BACK : gl.FRONT);
       const side: Switches = isAbove ? { ABOVE: 1 } : {};
+      if (this.mirror && isAbove === this.isAbove) side.MIRROR = 1;
       gl.useProgram(this.programs.get("water_surface", { ...this.switches, ...switches, ...side }));
       this.mesh.draw(this.view);
     }
@@ -131,6 +167,7 @@ export class SurfacePass {
       [UNITS.wave_grid, gl.TEXTURE_2D, this.grids.nearGrid.texture],
       [UNITS.ripple_tile, gl.TEXTURE_2D, this.ripples.texture],
       [UNITS.hemispheres, gl.TEXTURE_2D_ARRAY, this.hemispheres],
+      [UNITS.mirror_image, gl.TEXTURE_2D, this.mirror],
     ] as const) {
       gl.activeTexture(gl.TEXTURE0 + unit);
       gl.bindTexture(target, texture);
