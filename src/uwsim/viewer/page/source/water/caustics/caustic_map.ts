@@ -98,15 +98,15 @@ export class CausticMapper {
     const n = this.spec.n_nodes;
     const mask = n - 1;
     for (let row = 0, i = 0; row < n; ++row) {
-      const before = ((row - 1) & mask) * n;
-      const after = ((row + 1) & mask) * n;
+      const rowBefore = ((row - 1) & mask) * n;
+      const rowAfter = ((row + 1) & mask) * n;
       for (let column = 0; column < n; ++column, ++i) {
         const left = row * n + ((column - 1) & mask);
         const right = row * n + ((column + 1) & mask);
         const xx = 0.5 * (xs[right] - xs[left]);
         const yx = 0.5 * (ys[right] - ys[left]);
-        const xy = 0.5 * (xs[after + column] - xs[before + column]);
-        const yy = 0.5 * (ys[after + column] - ys[before + column]);
+        const xy = 0.5 * (xs[rowAfter + column] - xs[rowBefore + column]);
+        const yy = 0.5 * (ys[rowAfter + column] - ys[rowBefore + column]);
         traces[i] = xx + yy;
         squares[i] = xx * xx + yx * yx + xy * xy + yy * yy;
       }
