@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -30,8 +31,10 @@ CURRENT = """
 def load(
     folder: Path, particles: str, *, current: str = "", start: str = START
 ) -> uwsim.Simulation:
-    """Load the scene of the wreck with particles."""
+    """Load the scene of the wreck with particles; without the wreck, which takes a second."""
     text = bundled_files("scenes")["wreck-physical-scene"].read_text()
+    text, n_wrecks = re.subn(r"<object>\s*<name>wreck<.*?</object>", "", text, flags=re.DOTALL)
+    assert n_wrecks == 1
     begin, end = text.find("<u:particles>"), text.find("</u:particles>")
     if begin >= 0:
         text = text[:begin] + text[end + len("</u:particles>") :]
