@@ -36,6 +36,7 @@ def test_the_control_waits_for_images_of_the_camera_of_the_truth(
     assert control_run_of(run).plan.algorithm.parameters == parameters
 
 
+@pytest.mark.slow
 def test_a_control_that_fails_is_a_warning_and_the_run_is_whole(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -56,9 +57,8 @@ def test_a_control_that_fails_is_a_warning_and_the_run_is_whole(
     assert (tmp_path / "python" / "report.html").is_file()
 
 
-@pytest.mark.parametrize(
-    ("workers", "jobs"), [("1", [Path]), pytest.param("2", [Run, Path], marks=pytest.mark.slow)]
-)
+@pytest.mark.slow
+@pytest.mark.parametrize(("workers", "jobs"), [("1", [Path]), ("2", [Run, Path])])
 def test_the_background_process_runs_the_control_of_trials_of_workers_alone(
     workers: str, jobs: list[type], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -77,6 +77,7 @@ def test_connections_that_say_nothing_take_few_open_files(kind: str) -> None:
             assert client.ping().wait(60.0)
 
 
+@pytest.mark.slow
 def test_pings_beyond_the_share_wait(impatient: WebBridge, monkeypatch: pytest.MonkeyPatch) -> None:
     """The library answers them itself, before anything of ours sees them."""
     pauses: list[float] = []

@@ -32,6 +32,7 @@ def pack_of(page: str) -> tuple[dict[str, Any], bytes]:
     return unpack(decode_text(found[1]))
 
 
+@pytest.mark.slow
 def test_the_same_result_gives_the_same_bytes(stored: Path, page: str, tmp_path: Path) -> None:
     saved = Replay(stored).save(tmp_path / "a.html")
     assert saved.read_bytes() == page.encode()

@@ -77,6 +77,7 @@ def test_a_vehicle_turns_to_starboard_whichever_way_its_z_axis_points(scene: Pat
     assert ahead[1] < -0.2
 
 
+@pytest.mark.slow
 def test_a_pilots_benchmark_of_a_vehicle_with_z_up_is_sent_again_with_the_same_bytes(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
