@@ -29,10 +29,13 @@ out vec3 v_fades;  // xy: factors on the slopes of ripples; z: variance of the s
 void main() {
     pass_on_surface();
     float variance;
-    v_offset = vec3(vertex, waves_at(vertex, 0.0, variance).x - eye.x);
+    vec4 wave = waves_at(vertex, 0.0, variance);
+    v_offset = vec3(vertex, wave.x - eye.x);
     gl_Position = clip_from_offset * vec4(v_offset, 1.0);
     vec3 towards = normalize(v_offset);
-    float footprint = length(v_offset) * air.z / clamp(abs(towards.z), 0.02, 1.0);
+    // the face of a wave may be seen at a smaller angle than the still surface
+    float incidence = min(abs(dot(towards, normalize(vec3(-wave.yz, 1.0)))), max(abs(towards.z), 0.02));
+    float footprint = length(v_offset) * air.z / clamp(incidence, 0.02, 1.0);
 #if defined(WAVES) && WAVES > 1
     v_level = grid_level(vertex, footprint);
     int finer = int(v_level);

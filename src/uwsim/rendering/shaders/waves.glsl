@@ -63,7 +63,7 @@ vec4 waves_at(vec2 offset, float footprint, out float variance) {
 
 #ifdef RIPPLES
 float tile_fade(float footprint, inout float variance) {
-    float fade = 1.0 - smoothstep(3.0, 12.0, footprint / ripples.w);
+    float fade = 1.0 - smoothstep(2.0, 10.0, footprint / ripples.w);
     variance += ripples.y * (1.0 - fade * fade);
     return ripples.x * fade;
 }

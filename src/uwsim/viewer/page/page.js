@@ -2196,10 +2196,13 @@ out vec3 v_fades;  // xy: factors on the slopes of ripples; z: variance of the s
 void main() {
     pass_on_surface();
     float variance;
-    v_offset = vec3(vertex, waves_at(vertex, 0.0, variance).x - eye.x);
+    vec4 wave = waves_at(vertex, 0.0, variance);
+    v_offset = vec3(vertex, wave.x - eye.x);
     gl_Position = clip_from_offset * vec4(v_offset, 1.0);
     vec3 towards = normalize(v_offset);
-    float footprint = length(v_offset) * air.z / clamp(abs(towards.z), 0.02, 1.0);
+    // the face of a wave may be seen at a smaller angle than the still surface
+    float incidence = min(abs(dot(towards, normalize(vec3(-wave.yz, 1.0)))), max(abs(towards.z), 0.02));
+    float footprint = length(v_offset) * air.z / clamp(incidence, 0.02, 1.0);
 #if defined(WAVES) && WAVES > 1
     v_level = grid_level(vertex, footprint);
     int finer = int(v_level);
@@ -2287,7 +2290,7 @@ vec4 waves_at(vec2 offset, float footprint, out float variance) {
 
 #ifdef RIPPLES
 float tile_fade(float footprint, inout float variance) {
-    float fade = 1.0 - smoothstep(3.0, 12.0, footprint / ripples.w);
+    float fade = 1.0 - smoothstep(2.0, 10.0, footprint / ripples.w);
     variance += ripples.y * (1.0 - fade * fade);
     return ripples.x * fade;
 }
