@@ -326,6 +326,7 @@ class Renderer:
             self._issue_draw_calls(mirror_view, pose)
         radiance = self._find_targets(mirror_view).radiance
         radiance.filter = (moderngl.NEAREST, moderngl.NEAREST)  # ranges are not to be mixed
+        radiance.repeat_x = radiance.repeat_y = False  # beyond the image is what is at its edge
         return radiance
 
     def _issue_draw_calls(self, view: View, world_from_camera: Pose) -> Colours | None:
