@@ -247,7 +247,7 @@ async function loadTexture(
       colorSpaceConversion: "none",
     });
   const image = await decode(bytes, type);
-  const smaller = await Promise.all((levels ?? []).map((level) => decode(level, "image/webp")));
+  const mipmaps = await Promise.all((levels ?? []).map((level) => decode(level, "image/webp")));
   const texture = gl.createTexture();
   gl.bindTexture(gl.TEXTURE_2D, texture);
   gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE, image);
@@ -258,7 +258,7 @@ async function loadTexture(
   gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, isPattern ? gl.LINEAR : gl.LINEAR_MIPMAP_LINEAR);
   if (levels) gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAX_LEVEL, levels.length);
   else if (!isPattern) gl.generateMipmap(gl.TEXTURE_2D);
-  smaller.forEach((level, i) => gl.texImage2D(gl.TEXTURE_2D, i + 1, gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE, level));
+  mipmaps.forEach((level, i) => gl.texImage2D(gl.TEXTURE_2D, i + 1, gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE, level));
   image.close();
   return texture;
 }
