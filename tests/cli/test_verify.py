@@ -15,6 +15,7 @@ import pytest
 
 from tests.support.short_benchmark import write_benchmark
 from uwsim.assets.bundled import bundled_files
+from uwsim.base.files.image_record import remove_record
 from uwsim.cli import main
 from uwsim.results.leaves import leaves
 from uwsim.results.provenance import save_provenance
@@ -270,6 +271,21 @@ def test_a_journal_too_many_is_a_difference(
     status, said = verify(capsys)
     assert status == 3
     assert "units/00007.jsonl: this run has no such trial" in said
+
+
+@pytest.mark.parametrize("is_older", [True, False])
+def test_pictures_of_older_versions_have_no_record(
+    folder: Path, capsys: pytest.CaptureFixture[str], *, is_older: bool
+) -> None:
+    path = next((folder / "out" / "pictures").glob("*.png"))
+    image = path.read_bytes()
+    plain_image = remove_record(image)
+    assert plain_image != image
+    path.write_bytes(plain_image if is_older else image[:-20] + image[-19:])
+    status, said = verify(capsys)
+    assert (status, f"pictures/{path.name}: differs" in said) == (
+        (0, False) if is_older else (3, True)
+    )
 
 
 def result_json_alone(folder: Path) -> Path:

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from uwsim.base.files.image_record import ImageRecord, add_record, fill_sixteen_bits
+from uwsim.base.files.image_record import ImageRecord, add_record, fill_sixteen_bits, remove_record
 
 RECORD = ImageRecord(
     scene="tank.xml",
@@ -48,6 +48,13 @@ def test_a_png_has_its_record_as_text() -> None:
     }
     np.testing.assert_array_equal(np.asarray(image)[..., ::-1], PIXELS)
     np.testing.assert_array_equal(decode(file), PIXELS)
+
+
+def test_a_record_is_removed_without_a_trace() -> None:
+    plain_file = encode(".png", PIXELS)
+    assert remove_record(add_record(plain_file, RECORD)) == plain_file
+    assert remove_record(plain_file) == plain_file
+    assert remove_record(b"no image") == b"no image"
 
 
 def test_a_jpeg_has_its_record_as_a_comment() -> None:

@@ -93,6 +93,16 @@ def add_record(image: bytes, record: ImageRecord, *, n_bits: int = 0) -> bytes:
     return image
 
 
+def remove_record(png: bytes) -> bytes:
+    """Return a PNG file of 8 bit without its record; other files are returned as they are."""
+    record = b"iTXt" + KEYWORD.encode() + b"\0"
+    start = HEADER_SIZE
+    if not png.startswith(SIGNATURE) or png[start + 4 : start + 4 + len(record)] != record:
+        return png
+    (length,) = struct.unpack(">I", png[start : start + 4])
+    return png[:start] + png[start + length + 12 :]
+
+
 def fill_sixteen_bits(numbers: npt.NDArray[np.uint16]) -> npt.NDArray[np.uint16]:
     """Return numbers of 12 bit, 0 to 4095, over the whole range of 16 bit, 0 to 65535."""
     return ((numbers << 4) | (numbers >> 8)).astype(np.uint16)
