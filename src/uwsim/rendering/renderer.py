@@ -297,11 +297,13 @@ class Renderer:
         assert water is not None
         assert self._surface_pass is not None
         is_above = world_from_camera.position[2] > surface_height
+        has_waves = view.surface is not None and view.surface.waves is not None
         pose, lens = find_mirror_view(
             world_from_camera,
             view.intrinsics,
             surface_height,
             view.intrinsics.far if is_above else find_visible_range(water),
+            has_waves=has_waves,
         )
         indices = self._instances.find_shown(view.hidden_ids)
         heights = self._instances.corners[indices, :, 2] - surface_height
@@ -310,7 +312,7 @@ class Renderer:
         if not len(find_visible(self._instances, indices[is_mirrored], pose, planes)):
             return None
         switches: Switches = (("MIRROR", 1 if is_above else 2),)
-        if view.surface is None or view.surface.waves is None:
+        if not has_waves:
             floor_depth = surface_height - self._instances.find_lowest_point(MAX_CASTER_RADIUS)
             switches += self._focused_light.prepare(
                 water, view.surface, pose, surface_height, floor_depth
@@ -338,10 +340,11 @@ class Renderer:
         switches: Switches = water.switches + light.switches + view.switches
         casters, may_cast = candidates[:0], np.zeros((len(indices), 0), dtype=bool)
         if "colour" in view.targets and light.shadows:
+            hulls = self._find_hulls(candidates, view)
             casters, may_cast = self._update_sun_shadow(
-                candidates, indices, view, world_from_camera, pinhole
+                candidates, hulls, indices, view, world_from_camera, pinhole
             )
-            if len(np.intersect1d(casters, self._find_hulls(candidates, view))) > 0:
+            if len(np.intersect1d(casters, hulls)) > 0:
                 switches += (("HULLS", 1),)
         if "colour" in view.targets:
             switches += self._artificial_light.prepare(
@@ -431,6 +434,7 @@ class Renderer:
     def _update_sun_shadow(
         self,
         candidates: Indices,
+        hulls: Indices,
         receivers: Indices,
         view: View,
         world_from_camera: Pose,
@@ -439,7 +443,6 @@ class Renderer:
         """Update the shadow map; return k casters, and for n receivers which may shade them."""
         instances, sun = self._instances, find_sun_direction(view.water, view.light)
         casters = instances.find_casters(candidates, MAX_CASTER_RADIUS)
-        hulls = self._find_hulls(candidates, view)
         casters = np.union1d(casters, hulls)
         margin = HULL_MARGIN if len(hulls) > 0 else SHADOW_MARGIN
         may_cast = find_shadow_pairs(

@@ -17,11 +17,15 @@ from uwsim.rendering.renderer import Renderer
 from uwsim.rendering.surface.mirror_view import find_mirror_view
 
 
-def test_the_mirror_sees_a_point_where_the_camera_sees_its_image() -> None:
+@pytest.mark.parametrize("has_waves", [False, True])
+def test_the_mirror_sees_a_point_where_the_camera_sees_its_image(has_waves: bool) -> None:
     pose = Pose.from_rpy((1.0, -2.0, -1.5), (1.9, 0.2, 0.7))
     lens = Intrinsics(width=641, height=479, fx=400.0, fy=410.0, cx=300.0, cy=250.0, skew=3.0)
     surface_height = 0.3
-    mirror_pose, mirror_lens = find_mirror_view(pose, lens, surface_height, 100.0)
+    mirror_pose, mirror_lens = find_mirror_view(
+        pose, lens, surface_height, 100.0, has_waves=has_waves
+    )
+    assert mirror_lens.width == (161 if has_waves else 321)
     assert np.linalg.det(mirror_pose.rotation) == pytest.approx(1.0)
     inside = np.array([[0.5, -0.3, -6.0], [-1.0, 0.8, -4.0]])  # of the image, camera frame
     images = pose.transform(inside)

@@ -51,15 +51,20 @@ vec2 place_of(vec3 clip) {
 #ifdef MIRROR
 uniform sampler2D mirror_image;
 
+vec4 mirror_texel(vec2 place) {
+    vec2 size = vec2(textureSize(mirror_image, 0));
+    return texelFetch(mirror_image, ivec2(clamp(vec2(place.x, 1.0 - place.y) * size, vec2(0.0), size - 1.0)), 0);
+}
+
 // The body that a reflected ray meets, or FAR: its radiance and the way to it. The image is that of a still surface
 // (surface/mirror_view.py); the way to the body there, or to one near by, is that along the ray.
 vec4 mirrored_body(vec3 direction, float range) {
     vec2 here = gl_FragCoord.xy / v_numbers.yz;
-    float way = textureLod(mirror_image, vec2(here.x, 1.0 - here.y), 0.0).a - range;
+    float way = mirror_texel(here).a - range;
     way = way < 0.5 * FAR ? max(way, 0.1) : 6.0;
     vec3 point = v_offset + way * direction;
     vec2 place = place_of(clip_of(vec3(point.xy, -2.0 * v_numbers.x - point.z)));
-    vec4 seen = textureLod(mirror_image, vec2(place.x, 1.0 - place.y), 0.0);
+    vec4 seen = mirror_texel(place);
     seen.a = seen.a < 0.5 * FAR ? max(seen.a - range, 0.1) : FAR;
     return seen;
 }

@@ -17,12 +17,18 @@ import numpy as np
 
 from ...base.geometry import Intrinsics, Pose
 
-MIRROR_RATIO = 2
-"""The edge of a pixel of the mirror in pixels of the image."""
+MIRROR_RATIO, WAVY_MIRROR_RATIO = 2, 4
+"""The edges of a pixel of the mirror in pixels of the image, of a surface without and with waves,
+which break up the image."""
 
 
 def find_mirror_view(
-    world_from_camera: Pose, intrinsics: Intrinsics, surface_height: float, max_range: float
+    world_from_camera: Pose,
+    intrinsics: Intrinsics,
+    surface_height: float,
+    max_range: float,
+    *,
+    has_waves: bool = False,
 ) -> tuple[Pose, Intrinsics]:
     """Return the pose and the pinhole of the camera of the mirror.
 
@@ -31,6 +37,7 @@ def find_mirror_view(
         intrinsics: the pinhole of the camera.
         surface_height: the height of the still surface in W [m].
         max_range: the range beyond which nothing is visible in the mirror [m].
+        has_waves: True if the surface has waves.
     """
     position, rotation = world_from_camera.position, world_from_camera.rotation
     mirrored_position = np.array(
@@ -38,8 +45,9 @@ def find_mirror_view(
     )
     mirrored_rotation = rotation * np.array([[1.0, -1.0, 1.0]])
     mirrored_rotation[2] *= -1.0
-    width = -(-intrinsics.width // MIRROR_RATIO)
-    height = -(-intrinsics.height // MIRROR_RATIO)
+    ratio = WAVY_MIRROR_RATIO if has_waves else MIRROR_RATIO
+    width = -(-intrinsics.width // ratio)
+    height = -(-intrinsics.height // ratio)
     # The first pixel's corner stays; the last pixel may reach beyond the image.
     scale_x, scale_y = width / intrinsics.width, height / intrinsics.height
     cx = (intrinsics.cx + 0.5) * scale_x - 0.5

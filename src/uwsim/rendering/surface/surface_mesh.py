@@ -27,6 +27,9 @@ FINE_RADIUS, WAVE_RADIUS = 12.0, 1500.0
 N_FINE_RINGS, N_RINGS, N_FAR_RINGS = 80, 48, 15
 """The number of rings up to each of these radii, and beyond. Rings that are closer to each other
 have triangles of a few pixels, which take most of the time."""
+COARSE_STEP = 2
+"""The rings and edges of the mesh in one of the coarse mesh for a camera under water. It sees no
+crests against the sky, and slopes are those of each pixel."""
 N_BORDER_POINTS = 12
 """The number of rays along each side of an image that find the sectors in view."""
 
@@ -36,12 +39,14 @@ class SurfaceMesh:
 
     Args:
         context: the context of the renderer.
+        step: the number of rings and edges that are joined to one, 1 or `COARSE_STEP`.
     """
 
-    def __init__(self, context: moderngl.Context) -> None:
-        radii = _compute_radii()
+    def __init__(self, context: moderngl.Context, step: int = 1) -> None:
+        radii = _compute_radii()[::step]
         self._radii = radii
-        n_angles = N_SECTORS * SECTOR_EDGES
+        n_edges = SECTOR_EDGES // step
+        n_angles = N_SECTORS * n_edges
         angles = 2.0 * math.pi * np.arange(n_angles + 1) / n_angles
         vertices = np.stack(
             [radii[:, None] * np.cos(angles), radii[:, None] * np.sin(angles)], axis=-1
@@ -52,13 +57,14 @@ class SurfaceMesh:
         corners = np.stack(
             [first, next_ring, next_ring + 1, first, next_ring + 1, first + 1], axis=-1
         )  # (rings, edges, 6)
-        shape = len(radii) - 1, N_SECTORS, SECTOR_EDGES * 6
+        self._ring_size = n_edges * 6
+        shape = len(radii) - 1, N_SECTORS, self._ring_size
         triangles = corners.reshape(shape).transpose(1, 0, 2)
         self.vertices = context.buffer(vertices.astype(np.float32).tobytes())
         """The offsets of the vertices from the camera, two floats each [m]."""
         self.indices = context.buffer(np.ascontiguousarray(triangles, np.uint32).tobytes())
         """The vertices of the triangles, sector by sector, from the camera outwards."""
-        self._sector_size = (len(radii) - 1) * SECTOR_EDGES * 6
+        self._sector_size = (len(radii) - 1) * self._ring_size
 
     def find_ranges(self, view: SurfaceView) -> tuple[tuple[int, int], ...]:
         """Return the first index and the number of indices of each visible sector."""
@@ -66,7 +72,7 @@ class SurfaceMesh:
         last_index = min(
             int(np.searchsorted(self._radii, view.max_radius)) + 1, len(self._radii) - 1
         )
-        ring_size, n_rings = SECTOR_EDGES * 6, max(last_index - first, 0)
+        ring_size, n_rings = self._ring_size, max(last_index - first, 0)
         return tuple(
             (sector * self._sector_size + first * ring_size, n_rings * ring_size)
             for sector in view.sectors

@@ -44,7 +44,7 @@ from .hemispheres import Hemispheres
 from .ripples import RippleTile
 from .sky import compute_sky
 from .surface_block import SURFACE, SurfaceBlock
-from .surface_mesh import SurfaceMesh, find_view
+from .surface_mesh import COARSE_STEP, SurfaceMesh, find_view
 from .wave_grids import WaveGrids
 
 SAMPLERS = {
@@ -95,7 +95,10 @@ class SurfacePass:
         self._grids = WaveGrids(context)
         self._ripples = RippleTile(context)
         self._hemispheres = Hemispheres(context)
-        self._mesh = SurfaceMesh(context)
+        self._fine_mesh, self._coarse_mesh = (
+            SurfaceMesh(context),
+            SurfaceMesh(context, COARSE_STEP),
+        )
         self._targets: dict[tuple[int, int], Targets] = {}
         self._drawing = Drawing(switches=(), sides=(), is_above=True, sectors=())
         self._mirror: moderngl.Texture | None = None
@@ -164,7 +167,7 @@ class SurfacePass:
             switches=switches,
             sides=sides,
             is_above=height > 0.0,
-            sectors=self._mesh.find_ranges(view),
+            sectors=self._find_mesh(sides).find_ranges(view),
         )
 
     @contextmanager
@@ -266,9 +269,14 @@ class SurfacePass:
         if self._mirror is not None:
             self._mirror.use(SAMPLERS["mirror_image"])
 
+    def _find_mesh(self, sides: tuple[bool, ...]) -> SurfaceMesh:
+        """Return the mesh for the visible sides of the surface."""
+        return self._coarse_mesh if sides == (False,) else self._fine_mesh
+
     def _array(self, effect: str, vertex: str, switches: Switches) -> moderngl.VertexArray:
         switches += self._drawing.switches
-        key = effect, switches
+        mesh = self._find_mesh(self._drawing.sides)
+        key = effect, switches, mesh is self._fine_mesh
         if key not in self._programs:
             program = build(
                 self._context,
@@ -278,8 +286,8 @@ class SurfacePass:
                 samplers=SAMPLERS,
                 vertex=vertex,
             )
-            content = [] if vertex == "screen" else [(self._mesh.vertices, "2f", "vertex")]
-            indices = None if vertex == "screen" else self._mesh.indices
+            content = [] if vertex == "screen" else [(mesh.vertices, "2f", "vertex")]
+            indices = None if vertex == "screen" else mesh.indices
             self._programs[key] = program, self._context.vertex_array(program, content, indices)
         return self._programs[key][1]
 

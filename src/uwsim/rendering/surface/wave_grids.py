@@ -248,6 +248,9 @@ def compute_grid(
     grid = np.empty((n_points, n_points, 4), np.float32)
     rows = np.empty((4, n_points), np.float32)
     turn_c, turn_s = np.ones(n), np.zeros(n)
+    row_c, row_s = np.empty(n), np.empty(n)
+    for i in range(n):
+        row_c[i], row_s[i] = math.cos(ky[i] * spacing), math.sin(ky[i] * spacing)
     for row in range(n_points):
         rows[:] = np.float32(0.0)
         for i in range(n):
@@ -256,7 +259,7 @@ def compute_grid(
             slope_x, slope_y = np.float32(kx[i]), np.float32(ky[i])
             curvature = np.float32(omega[i] * omega[i] / GRAVITY)
             _add_component(rows, cosine_x[i], sine_x[i], (a, b, slope_x, slope_y, curvature))
-            c, s = math.cos(ky[i] * spacing), math.sin(ky[i] * spacing)
+            c, s = row_c[i], row_s[i]
             turn_c[i], turn_s[i] = turn_c[i] * c - turn_s[i] * s, turn_s[i] * c + turn_c[i] * s
         for column in range(n_points):
             for k in range(4):

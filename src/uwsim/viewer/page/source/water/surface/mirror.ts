@@ -1,16 +1,18 @@
 // The view of bodies that the still surface mirrors, as in uwsim.rendering.surface.mirror_view.
 import { matrix, type Intrinsics, type Matrix } from "../../geometry";
 
-const MIRROR_RATIO = 2; // edge of a pixel of the mirror in pixels of the image
+// edges of a pixel of the mirror in pixels of the image, of a surface without and with waves
+const [MIRROR_RATIO, WAVY_MIRROR_RATIO] = [2, 4];
 
 /** Return the pose and the pinhole of the camera of the mirror, which sees up to a range [m]. */
 export function findMirrorView(
-  m: Matrix, lens: Intrinsics, surfaceHeight: number, maxRange: number,
+  m: Matrix, lens: Intrinsics, surfaceHeight: number, maxRange: number, hasWaves: boolean,
 ): { pose: Matrix; intrinsics: Intrinsics } {
   const pose = matrix([
     m[0], -m[1], m[2], m[3], m[4], -m[5], m[6], m[7], -m[8], m[9], -m[10], 2 * surfaceHeight - m[11], 0, 0, 0, 1,
   ]);
-  const [width, height] = [Math.ceil(lens.width / MIRROR_RATIO), Math.ceil(lens.height / MIRROR_RATIO)];
+  const ratio = hasWaves ? WAVY_MIRROR_RATIO : MIRROR_RATIO;
+  const [width, height] = [Math.ceil(lens.width / ratio), Math.ceil(lens.height / ratio)];
   // the first pixel's corner stays; the last pixel may reach beyond the image
   const [scaleX, scaleY] = [width / lens.width, height / lens.height];
   const cy = (lens.cy + 0.5) * scaleY - 0.5;

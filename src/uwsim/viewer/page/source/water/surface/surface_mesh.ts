@@ -6,6 +6,7 @@ const N_SECTORS = 32; // number of sectors, which are drawn or left out
 const SECTOR_EDGES = 8; // number of edges of a ring in a sector
 const RADII = [0.2, 12, 1500, 2e5]; // of the first ring, up to which short and long waves are shown, and of the last ring [m]
 const N_RINGS = [80, 48, 15]; // numbers of rings between these radii
+export const COARSE_STEP = 2; // rings and edges of the mesh in one of the mesh for a camera under water
 const N_BORDER_POINTS = 12;
 
 /** The part of the surface that a camera may see. */
@@ -21,10 +22,13 @@ export interface SurfaceView {
 export class SurfaceMesh {
   private readonly vertexArray: WebGLVertexArrayObject;
   private readonly radii: number[];
+  private readonly nEdges: number;
 
-  constructor(private readonly gl: WebGL2RenderingContext) {
-    const radii = (this.radii = ringRadii());
-    const nAngles = N_SECTORS * SECTOR_EDGES;
+  /** `step`: the number of rings and edges that are joined to one, 1 or `COARSE_STEP`. */
+  constructor(private readonly gl: WebGL2RenderingContext, step = 1) {
+    const radii = (this.radii = ringRadii().filter((_, i) => i % step === 0));
+    const nEdges = (this.nEdges = SECTOR_EDGES / step);
+    const nAngles = N_SECTORS * nEdges;
     const row = nAngles + 1;
     const vertices = radii.flatMap((radius) =>
       Array.from({ length: row }, (_, i) => (2 * Math.PI * i) / nAngles).flatMap((angle) => [
@@ -34,8 +38,8 @@ export class SurfaceMesh {
     const triangles: number[] = [];
     for (let sector = 0; sector < N_SECTORS; ++sector)
       for (let ring = 0; ring < radii.length - 1; ++ring)
-        for (let edge = 0; edge < SECTOR_EDGES; ++edge) {
-          const first = row * ring + SECTOR_EDGES * sector + edge;
+        for (let edge = 0; edge < nEdges; ++edge) {
+          const first = row * ring + nEdges * sector + edge;
           const outerVertex = first + row;
           triangles.push(first, outerVertex, outerVertex + 1, first, outerVertex + 1, first + 1);
         }
@@ -53,7 +57,7 @@ export class SurfaceMesh {
   /** Draw the visible part with the current program. */
   draw({ sectors, minRadius, maxRadius }: SurfaceView): void {
     const { gl, radii } = this;
-    const ringSize = 6 * SECTOR_EDGES;
+    const ringSize = 6 * this.nEdges;
     const first = Math.max(indexOf(radii, minRadius) - 2, 0);
     const nRings = Math.min(indexOf(radii, maxRadius) + 1, radii.length - 1) - first;
     if (nRings <= 0) return;

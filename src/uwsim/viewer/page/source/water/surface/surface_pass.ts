@@ -6,7 +6,7 @@ import type { MovingSurface, SurfaceSpec } from "./spec";
 import { HEMISPHERE_SIZE, hemispheres } from "./sky";
 import { findMirrorView } from "./mirror";
 import { surfaceBlockValues, TILE_SIZE, turnBlock } from "./surface_block";
-import { findSurfaceView, SurfaceMesh, type SurfaceView } from "./surface_mesh";
+import { COARSE_STEP, findSurfaceView, SurfaceMesh, type SurfaceView } from "./surface_mesh";
 import { GridSums, N_POINTS, WaveGrids, type GridTexture } from "./wave_grids";
 
 const MIN_VISIBLE_SHARE = 0.01; // share of light from the surface below which a camera under water does not see it
@@ -28,7 +28,8 @@ export class SurfacePass {
   private readonly grids: WaveGrids;
   private readonly ripples: GridTexture;
   private readonly hemispheres: WebGLTexture;
-  private readonly mesh: SurfaceMesh;
+  private readonly fineMesh: SurfaceMesh;
+  private readonly coarseMesh: SurfaceMesh; // for a camera under water
   private ripplesKey: unknown[] = []; // the ripples and the time of the tile
   private hemispheresKey: unknown[] = []; // the medium and the light rate of the hemispheres
   private switches: Switches = {};
@@ -56,7 +57,8 @@ export class SurfacePass {
       [gl.TEXTURE_WRAP_S, gl.CLAMP_TO_EDGE], [gl.TEXTURE_WRAP_T, gl.CLAMP_TO_EDGE],
     ])
       gl.texParameteri(gl.TEXTURE_2D_ARRAY, name, value);
-    this.mesh = new SurfaceMesh(gl);
+    this.fineMesh = new SurfaceMesh(gl);
+    this.coarseMesh = new SurfaceMesh(gl, COARSE_STEP);
   }
 
   /** Fill the textures before bodies are drawn, and return the values of the uniform block Surface. */
@@ -102,7 +104,8 @@ export class SurfacePass {
   mirrorView(optics: Optics, surfaceHeight: number, worldFromCamera: Matrix, lens: Intrinsics): MirrorView | null {
     if (!this.spec.mirror || !this.view.sectors.length) return null;
     const maxRange = this.isAbove ? lens.far : visibleRange(optics);
-    const { pose, intrinsics } = findMirrorView(worldFromCamera, lens, surfaceHeight, maxRange);
+    const hasWaves = this.switches.WAVES !== undefined;
+    const { pose, intrinsics } = findMirrorView(worldFromCamera, lens, surfaceHeight, maxRange, hasWaves);
     const values = turnBlock(this.blockValues, pose);
     const isMirrored = ([, , z]: number[]) => (this.isAbove ? z > surfaceHeight : z < surfaceHeight);
     return { pose, intrinsics, values, isMirrored, switches: { MIRROR: this.isAbove ? 1 : 2 } };
@@ -154,7 +157,7 @@ export class SurfacePass {
       const side: Switches = isAbove ? { ABOVE: 1 } : {};
       if (this.mirror && isAbove === this.isAbove) side.MIRROR = 1;
       gl.useProgram(this.programs.get("water_surface", { ...this.switches, ...switches, ...side }));
-      this.mesh.draw(this.view);
+      (this.isDirect ? this.coarseMesh : this.fineMesh).draw(this.view);
     }
     gl.cullFace(gl.BACK);
     gl.disable(gl.CULL_FACE);
