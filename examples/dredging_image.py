@@ -17,7 +17,8 @@ from uwsim.simulation import Simulation
 from uwsim.simulation.views import view_from
 
 SCENE, VEHICLE = "dredging-scene", "g500"
-EYE, TARGET = (1.1, 0.9, 12.8), (0.25, -0.05, 13.75)  # of the view, in L [m]
+EYE, TARGET = (0.9, 0.62, 13.05), (0.28, -0.04, 13.72)  # of the view, in L [m]
+SETTINGS = {"oceanState.water.type": "clear", "oceanState.water.exposure": "1.5"}
 SIZE, GAP, SUPERSAMPLING = (480, 360), 6, 2  # of each half, between them [px], supersampling factor
 ROUNDS, REACH = 40, 0.3  # of the tool around the amphora, and its largest distance [m]
 
@@ -26,7 +27,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description="Draw the image of the dredge.")
     parser.add_argument("path", type=Path)
     options = parser.parse_args()
-    with uwsim.load(SCENE) as simulation:
+    with uwsim.load(SCENE, settings=SETTINGS) as simulation:
         image_before = render_heap(simulation)
         (heap,) = simulation.world.scenery.heaps
         middle = heap.corner[:2] + 0.5 * heap.cell * np.array(heap.heights.shape)

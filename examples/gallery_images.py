@@ -33,7 +33,8 @@ DAY = {"jerlov-I": 4.5, "jerlov-IB": 4.0, "jerlov-II": 2.0, "jerlov-1C": 3.2}
 NIGHT = {"jerlov-I": 14.0, "jerlov-IB": 8.0, "jerlov-II": 4.5, "jerlov-1C": 4.5}
 START = {"position.x": 4.0, "position.y": 9.0, "position.z": 13.3}  # of the climb, in L [m]
 CLIMB, SECONDS, PERIOD = -0.35, 2.5, 0.1  # speed along z of the vehicle [m/s], [s], [s]
-EYE, TARGET = (0.4, 11.4, 13.2), (3.5, 8.6, 12.9)  # of the picture of sand, in L [m]
+SAND_EXPOSURE = 3.3
+EYE, TARGET = (7.6, 7.9, 12.8), (3.8, 8.9, 13.0)  # of the picture of sand, in L [m]
 
 
 def main() -> None:
@@ -88,6 +89,7 @@ def render_waters(command: str, exposures: dict[str, float]) -> Image.Image:
 def render_sand() -> Image.Image:
     """Let the vehicle climb from near the floor, and render the sand that its jets stir up."""
     settings = {f"vehicle[g500].{path}": value for path, value in START.items()}
+    settings["oceanState.water.exposure"] = SAND_EXPOSURE
     climb = TwistStamped(twist=Twist(linear=Vector3(0.0, 0.0, CLIMB), angular=Vector3(0, 0, 0)))
     with uwsim.load("wreck-physical-scene", settings=settings) as simulation:
         for _ in range(round(SECONDS / PERIOD)):

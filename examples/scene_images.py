@@ -15,6 +15,16 @@ from uwsim.assets.bundled import bundled_files
 from uwsim.cli import main as uwsim
 
 SIZE, SUPERSAMPLING = (800, 450), 2  # of the images [px], factor of each axis
+EXPOSURES = {
+    "dredging-scene": 2.0,
+    "remus-scene": 1.8,
+    "shipwreck-scene": 1.8,
+    "stereo-scene": 2.0,
+    "structured-light-scene": 1.8,
+    "survey-scene": 2.0,
+    "two-vehicles-scene": 5.0,
+}
+"""The exposures of images that are dark with the automatic one, which is that of a white board."""
 
 
 def main() -> None:
@@ -27,10 +37,10 @@ def main() -> None:
     for name in options.scene:
         with TemporaryDirectory() as scratch:
             image_file = Path(scratch) / "scene.png"
-            if (
-                uwsim(["render", name, "--view", "viewer", "--size", size, "-o", str(image_file)])
-                != 0
-            ):
+            words = ["render", name, "--view", "viewer", "--size", size, "-o", str(image_file)]
+            if name in EXPOSURES:
+                words += ["--set", f"oceanState.water.exposure={EXPOSURES[name]}"]
+            if uwsim(words) != 0:
                 raise SystemExit(f"{name} was not drawn")
             image = Image.open(image_file).convert("RGB").resize(SIZE, Image.Resampling.LANCZOS)
         image.save(options.folder / f"{name}.jpg", quality=88, optimize=True)

@@ -101,3 +101,11 @@ def test_the_first_view_of_a_bundled_scene_has_the_whole_vehicle_and_what_it_is_
             places = view.intrinsics.project(corners)
             assert (places > 0.0).all(), part.name
             assert (places < np.array(shape)).all(), part.name
+
+
+def test_the_wreck_in_physical_water_rests_on_the_sand() -> None:
+    with open_scene(read_scene(SCENES["wreck-physical-scene"])) as scene:
+        wreck = scene.world.stage_view.world.body("wreck")
+        start = wreck.world_from_body.position
+        scene.advance(0.2)
+        assert wreck.world_from_body.position == pytest.approx(start, abs=1e-9)
