@@ -310,8 +310,8 @@ def _check_images(report: Verification, directory: Path, replay_directory: Path)
             report.not_compared.append(f"{IMAGES}/{path.name}: is absent")
             continue
         # The record names the scene's file, which may have another name; older images have none.
-        stored, replayed = (remove_record(file.read_bytes()) for file in (stored_path, path))
-        if stored != replayed:
+        stored_image, new_image = (remove_record(file.read_bytes()) for file in (stored_path, path))
+        if stored_image != new_image:
             report.add(f"{IMAGES}/{path.name}", "differs from the image of the replay")
 
 
