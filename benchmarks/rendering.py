@@ -230,19 +230,23 @@ def measure() -> dict[str, object]:
     dry_pose = view_pose((2.0, 1.5, -2.0), (2.0, -4.0, 0.0))
     waves = make_waves()
 
-    def draw_surface(pose: Pose, **settings: bool) -> None:
+    def draw_surface(pose: Pose, *, has_snow: bool = False, **settings: bool) -> None:
         nonlocal time_of_image
         time_of_image += 0.05
+        eye = move_camera(pose)
         optics = replace(
             PHYSICAL_WATER.physical_water, ripples=Ripples(), has_surface=True, **settings
         )
         renderer.draw(
-            move_camera(pose),
+            eye,
             large_camera,
             replace(PHYSICAL_WATER, physical_water=optics),
             Light(),
             targets=COLOUR,
-            contents=ViewContents(surface=MovingSurface(time=time_of_image, waves=waves)),
+            contents=ViewContents(
+                surface=MovingSurface(time=time_of_image, waves=waves),
+                particles=find_snow(eye) if has_snow else None,
+            ),
         )
 
     figures: dict[str, object] = {
@@ -296,7 +300,10 @@ def measure() -> dict[str, object]:
             calls=15,
         ),
         "640x480 physical, sun, surface from below, caustics": milliseconds(
-            lambda: draw_surface(surface_pose, has_light_shafts=False), target=40.0, calls=15
+            lambda: draw_surface(surface_pose, has_light_shafts=False), calls=15
+        ),
+        "640x480 physical, sun, surface from below, caustics + shafts, snow": milliseconds(
+            lambda: draw_surface(surface_pose, has_snow=True), target=40.0, calls=15
         ),
         "640x480 physical, sun, surface from above": milliseconds(
             lambda: draw_surface(dry_pose, has_caustics=False, has_light_shafts=False), calls=15
