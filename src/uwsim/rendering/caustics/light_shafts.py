@@ -13,7 +13,7 @@ with :math:`m` the contrast that scattering leaves (`caustic_light.find_contrast
 keeps the sum from being negative: 3, but 15 on rays to a surface with the image of the sun, whose
 aureole is the mean of these shafts.
 
-The integral has up to 24 steps in an image of a sixth of the resolution. They end on cylinders
+The integral has up to 24 steps in an image of an eighth of the resolution. They end on cylinders
 around the beam through the camera, whose radii grow as squares: so the points of one step lie along
 beams, and few steps make straight shafts. Points on spheres make clouds. Each step reads the mean
 of the map over a square from the maps' mipmaps. A square of the step's length would be as wide as
@@ -33,7 +33,7 @@ from ..physical.optics_block import OPTICS
 from ..program import build
 from .caustic_light import CAUSTICS
 
-RATIO = 6
+RATIO = 8
 """The edge of a texel of the image of shafts [px]."""
 N_STEPS = 24
 """The greatest number of steps along a ray."""

@@ -63,7 +63,7 @@ void main() {
     float blur = particle_lens.x * focal * abs(1.0 / depth - particle_lens.y);
     float drawn = max(1.7320508 * sqrt(radius * radius + blur * blur), particle_lens.z);
     float coverage = extent.w * radius * radius / (drawn * (drawn + 0.5 * streak_length));
-    vec2 corner = vec2(gl_VertexID % 2 == 0 ? -1.0 : 1.0, gl_VertexID < 2 ? -1.0 : 1.0);
+    vec2 corner = vec2(gl_VertexID % 2 == 0 ? -1.0 : 1.0, gl_VertexID % 4 < 2 ? -1.0 : 1.0);
     v_offset = corner * vec2(0.5 * streak_length + drawn, drawn);
     vec3 direct = exp((absorption.rgb + scattering.rgb) * -range);
     vec3 water = open_water(0.5 * (first + last), size);
