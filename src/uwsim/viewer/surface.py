@@ -52,6 +52,7 @@ def describe_surface(world: LiveScene, blob: Blob) -> Json | None:
         **describe_moving_surface(world, blob),
         "scale": float(world.water.state.wave_scale[0]),
         "slope_variance": 0.0 if ripples is None else 0.5 * math.fsum(ripples.slope_variances),
+        "short_wave_variance": 0.0 if ripples is None else ripples.short_wave_variance,
         "mirror": water.has_mirror,
         "air": CONTRAST_LOSS / water.visibility,
         "sky": {

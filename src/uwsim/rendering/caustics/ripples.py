@@ -65,6 +65,12 @@ class Ripples:
         share = find_slope_share(self.wind_speed, 0.0, MIN_WAVE_LENGTH)
         return math.sqrt(0.5 * sum(self.slope_variances) * share)
 
+    @property
+    def short_wave_variance(self) -> float:
+        """The variance of the slope along one axis by the waves that ripples have [1]."""
+        share = find_slope_share(self.wind_speed, 0.0, MAX_WAVE_LENGTH)
+        return 0.5 * sum(self.slope_variances) * share
+
     def draw(self, seed: int) -> TileWaves:
         """Draw the waves of a tile.
 

@@ -125,7 +125,10 @@ vec4 refracted_body(vec3 direction, vec3 towards, float range, vec4 straight) {
         float height = point.z / distance;
         if (body.a < range || body.a > 0.5 * FAR || v_numbers.x + height * body.a > 0.0) break;
         way = max(way + (body.a - distance) * max(-height, 0.05) / steep, 0.0);
-        seen = vec4(body.rgb, way);
+        // Towards the edges of the picture, outside of which nothing is known, the body behind the surface replaces it.
+        vec2 inside = min(place, 1.0 - place);
+        float known = has_straight ? clamp(12.0 * min(inside.x, inside.y), 0.0, 1.0) : 1.0;
+        seen = vec4(mix(straight.rgb, body.rgb, known), way);
     }
     return seen;
 }
@@ -219,12 +222,12 @@ void main() {
     vec2 foam_place = v_offset.xy;
 #endif
     float foam = 0.9 * foam_cover(wave.w, foam_place, range * air.z / clamp(abs(towards.z), 0.02, 1.0));
-    vec3 lit = sky_light.rgb + sky_sun_light.rgb * sky_sun.z;
+    vec3 lit = sky_light.rgb + sky_sun_light.rgb * max(dot(normal, sky_sun.xyz), 0.0);
 #endif
 #ifdef ABOVE
     vec3 light = light_above(towards, range, normal, variance, texel);
 #ifdef FOAM
-    light = mix(light, 0.5 * lit, foam);
+    light = mix(light, (0.3 + 0.25 * foam) * lit, foam);  // thick foam is whiter than thin foam
 #endif
     light_out = vec4(mix(v_haze.rgb, light, v_haze.a), 0.0);
 #else

@@ -1,10 +1,11 @@
 r"""Ripples: short waves that the wave systems of a scene leave out, as a texture that repeats.
 
 The slopes of the sea have the variance of C. Cox and W. Munk in the wind of the scene
-(`caustics.ripples`). What the waves of the scene lack of it, ripples have, with equal variance in
-equal steps of the logarithm of the wave length. Each obeys the dispersion of gravity and surface
-tension, :math:`\omega^2 = g k + (\tau / \rho) k^3`. A tile of 5.3 m has waves of 0.13 to 2 m; it
-is used twice, the second time turned and at 0.43 of its size, so the sum does not repeat.
+(`caustics.ripples`). What the waves of the scene lack of it, ripples have, and at least the share
+of waves shorter than 2 m, also in steep seas. It is equal in equal steps of the logarithm of the
+wave length. Each ripple obeys the dispersion of gravity and surface tension,
+:math:`\omega^2 = g k + (\tau / \rho) k^3`. A tile of 5.3 m has waves of 0.13 to 2 m; it is used
+twice, the second time turned and at 0.43 of its size, so the sum does not repeat.
 
 They have the statistics of the ripples of caustics, but are others: those repeat after 2 m.
 Ripples change images alone: they have no elevation and move no bodies. Not modelled: that ripples

@@ -26,6 +26,8 @@ export interface SurfaceSpec extends WavesSpec {
   scale: number;
   /** The variance of the slopes of waves and ripples along an axis [1]. */
   slope_variance: number;
+  /** The least variance of the slopes of ripples along an axis [1]. */
+  short_wave_variance: number;
   /** True if the surface mirrors bodies on the side of the camera. */
   mirror: boolean;
   /** The attenuation of air [1/m]. */

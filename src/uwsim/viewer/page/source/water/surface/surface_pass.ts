@@ -85,7 +85,7 @@ export class SurfacePass {
       this.switches.WAVES = grids.frames.length;
       if (grids.hasFoam) this.switches.FOAM = 1;
     }
-    const rippleVariance = ripples ? Math.max(spec.slope_variance - variance, 0) : 0;
+    const rippleVariance = ripples ? Math.max(spec.slope_variance - variance, spec.short_wave_variance) : 0;
     if (ripples && rippleVariance > 0) {
       if (this.ripplesKey[0] !== ripples || this.ripplesKey[1] !== time) {
         this.ripplesKey = [ripples, time];
