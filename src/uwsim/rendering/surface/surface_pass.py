@@ -146,8 +146,8 @@ class SurfacePass:
                 switches += (("FOAM", 1),)
         ripples, ripple_variance = water.ripples, 0.0
         if surface is not None and ripples is not None:
-            lacking = 0.5 * sum(ripples.slope_variances) - variance
-            ripple_variance = max(lacking, ripples.short_wave_variance)
+            missing_variance = 0.5 * sum(ripples.slope_variances) - variance
+            ripple_variance = max(missing_variance, ripples.short_wave_variance)
         if surface is not None and ripples is not None and ripple_variance > 0.0:
             self._ripples.update(surface.seed, surface.time, ripples.direction)
             switches += (("RIPPLES", 1),)
