@@ -186,6 +186,14 @@ def test_a_checker_is_not_found_in_a_smaller_or_larger_one() -> None:
             find_checkers(picture, (*LAYOUT.sides, side), 1000.0)
 
 
+@pytest.mark.parametrize("focal_length", [752.0, 900.0, 1100.0, 1250.0])
+def test_a_wrong_focal_length_is_seen_by_the_size_of_squares(focal_length: float) -> None:
+    picture = make_picture(draw_clear_board())
+    find_checkers(picture, (0.15,), 960.0, is_clear=True)
+    with pytest.raises(BadSetting, match="<focalLength> give"):
+        find_checkers(picture, (0.15,), focal_length, is_clear=True)
+
+
 def test_a_tilted_checker_is_read_by_its_corners() -> None:
     board = draw_clear_board()
     x0, y0 = SyntheticCamera().middle

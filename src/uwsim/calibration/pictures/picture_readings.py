@@ -49,6 +49,7 @@ class _Signals:
     centres: dict[str, Sum] = field(default_factory=dict)
     """The radiance at the centre of the picture of open water, by channel."""
     checkers: CheckerTable = field(default_factory=dict)
+    is_reference: bool = False
     shape: tuple[int, ...] = (0, 0)
     remarks: list[str] = field(default_factory=list)
 
@@ -67,7 +68,7 @@ def read_pictures(setup: SetupSpec, folder: Path) -> tuple[WaterReadings, ...]:
     pictures = _PictureReader(setup, folder, diagnostics)
     reference = None
     if setup.reference is not None:
-        reference = pictures.read_all(setup.reference.pictures, {})
+        reference = pictures.read_all(setup.reference.pictures, {}, is_reference=True)
     checkers = reference.checkers if reference else {}
     signals = [pictures.read_all(water.pictures, checkers) for water in setup.waters]
     diagnostics.check(SetupError)
@@ -85,8 +86,14 @@ class _PictureReader:
         self._folder = folder
         self._diagnostics = diagnostics
 
-    def read_all(self, pictures: Sequence[PictureSpec], checkers: CheckerTable) -> _Signals:
-        signals = _Signals(checkers=dict(checkers))
+    def read_all(
+        self,
+        pictures: Sequence[PictureSpec],
+        checkers: CheckerTable,
+        *,
+        is_reference: bool = False,
+    ) -> _Signals:
+        signals = _Signals(checkers=dict(checkers), is_reference=is_reference)
         for picture in pictures:
             try:
                 self._read_picture(picture, signals)
@@ -161,7 +168,9 @@ class _PictureReader:
         elif key not in signals.checkers:
             scale = self._setup.camera.focal_length / distance
             brightest_channel = max(linear.values(), key=lambda values: float(values.values.mean()))
-            signals.checkers[key] = find_checkers(brightest_channel, source.squares, scale)
+            signals.checkers[key] = find_checkers(
+                brightest_channel, source.squares, scale, is_clear=signals.is_reference
+            )
         for name, values in linear.items():
             for side, checker in signals.checkers[key].items():
                 words = f"{source.name}, {name}, squares of {side * 100:g} cm"
