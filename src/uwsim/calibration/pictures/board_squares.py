@@ -107,8 +107,8 @@ def _check_scale(integral: FloatArray, centre: FloatArray, side: float, size: in
     def sum_squares(half: int) -> float:
         return float(abs(_compute_quadrants(integral, half)[row - half, column - half]))
 
-    inner, outer = max(size // 2, 1), round(SURROUND * size)
-    true_size = math.sqrt(sum_squares(outer) / (sum_squares(inner) / inner**2))
+    inner_size, outer_size = max(size // 2, 1), round(SURROUND * size)
+    true_size = math.sqrt(sum_squares(outer_size) / (sum_squares(inner_size) / inner_size**2))
     if abs(true_size / size - 1.0) > MAX_SCALE_ERROR:
         words = "at least " if true_size > size else ""
         raise BadSetting(
